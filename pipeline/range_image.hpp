@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// Size of a range image.
+struct ImageShape {
+  int rows = 64;       ///< Lasers; row 0 is the lowest elevation.
+  int columns = 2083;  ///< Per turn of 360 degrees; column 0 starts straight ahead, then clockwise.
+
+  /// Cells from one row to the next: columns rounded up to a multiple of 16, for SIMD loads.
+  [[nodiscard]] constexpr int stride() const noexcept { return (columns + 15) / 16 * 16; }
+  [[nodiscard]] constexpr std::size_t cells() const noexcept {
+    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride());
+  }
+  /// Degrees of azimuth a column covers.
+  [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
+};
+
+/// One echo in the vehicle frame (calib/mount.hpp).
+struct Return {
+  float x_m = 0, y_m = 0;
+  float z_m = 0;        ///< Height above the mount's ground plane.
+  float ground_range_m = 0;  ///< Horizontal distance from the sensor, sqrt(x^2 + y^2).
+  std::uint8_t intensity = 0;
+};
+
+/// A return that found its cell taken (dual return, two firings in one column).
+struct OverflowReturn {
+  Return echo;
+  std::uint32_t cell = 0;          ///< The taken cell, row * stride + column.
+  std::uint32_t return_index = 0;  ///< As in RangeImage::return_index().
+};
+
+/// One turn of returns as an image: structure of arrays, rows x columns, row-major with stride
+/// `shape().stride()`, cyclic in columns. Fixed memory; no operation here allocates.
+///
+/// A cell holds a return only where `stamp()[cell] == generation()`; all planes of other cells hold
+/// left-overs of earlier turns. Stamps make clearing unnecessary. The padding cells
+/// (column >= columns) never hold a return.
+///
+/// Thread contract: one writer until the frame is handed over, then readers only.
+class RangeImage {
+ public:
+  /// `overflow_capacity`: how many returns beyond one a cell a turn may have.
+  RangeImage(ImageShape shape, std::size_t overflow_capacity, rt::FixedMemory& memory);
+
+  /// Forgets all returns. Real-time safe, O(1) but for one turn in 2^32.
+  void clear() noexcept;
+
+  /// Puts a return into its cell or, where that is taken, on the overflow list. Returns are numbered
+  /// in the order of these calls. False when the overflow list is full: the return is not kept and
+  /// the caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
+  bool place(int row, int column, const Return& echo) noexcept {
+    const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
+                             static_cast<std::size_t>(column);
+    if (stamp_[cell] == generation_) [[unlikely]] return place_overflow(cell, echo);
+    stamp_[cell] = generation_;
+    x_m_[cell] = echo.x_m;
+    y_m_[cell] = echo.y_m;
+    z_m_[cell] = echo.z_m;
+    ground_range_m_[cell] = echo.ground_range_m;
+    intensity_[cell] = echo.intensity;
+    return_index_[cell] = returns_++;
+    return true;
+  }
+
+  [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
+  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
+  [[nodiscard]] bool has_return(std::size_t cell) const noexcept {
+    return stamp_[cell] == generation_;
+  }
+  /// Returns placed since clear(), those on the overflow list included.
+  [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
+  /// The most returns a turn may have: cells + overflow capacity.
+  [[nodiscard]] std::size_t return_capacity() const noexcept {
+    return shape_.cells() + overflow_.size();
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> stamp() const noexcept { return stamp_; }
+  [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
+  [[nodiscard]] std::span<const float> y_m() const noexcept { return y_m_; }
+  [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
+  [[nodiscard]] std::span<const float> ground_range_m() const noexcept { return ground_range_m_; }
+  [[nodiscard]] std::span<const std::uint8_t> intensity() const noexcept { return intensity_; }
+  /// Number of the cell's return in the turn, 0.. in order of arrival.
+  [[nodiscard]] std::span<const std::uint32_t> return_index() const noexcept {
+    return return_index_;
+  }
+  [[nodiscard]] std::span<const OverflowReturn> overflow() const noexcept {
+    return overflow_.first(overflow_used_);
+  }
+
+ private:
+  bool place_overflow(std::size_t cell, const Return& echo) noexcept;
+
+  ImageShape shape_;
+  int stride_;
+  std::uint32_t generation_ = 1;
+  std::uint32_t returns_ = 0;
+  std::size_t overflow_used_ = 0;
+  std::span<std::uint32_t> stamp_;
+  std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
+  std::span<std::uint8_t> intensity_;
+  std::span<std::uint32_t> return_index_;
+  std::span<OverflowReturn> overflow_;
+};
+
+}  // namespace terracut::pipeline

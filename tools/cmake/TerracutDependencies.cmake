@@ -1,0 +1,55 @@
+# Every dependency, found here and nowhere else. Messages name the Debian package to install.
+function(terracut_require found what package)
+  if(NOT ${found})
+    message(FATAL_ERROR "terracut needs ${what}, which was not found. "
+                        "Install it with: apt-get install ${package} (or run ./tools/setup)")
+  endif()
+endfunction()
+
+find_package(Threads REQUIRED)
+
+find_package(Eigen3 3.3 QUIET NO_MODULE)
+terracut_require(Eigen3_FOUND "Eigen" libeigen3-dev)
+
+find_package(tl-expected QUIET)
+terracut_require(tl-expected_FOUND "tl::expected" libexpected-dev)
+
+find_package(pugixml QUIET)
+terracut_require(pugixml_FOUND "pugixml" libpugixml-dev)
+
+find_package(yaml-cpp QUIET)
+terracut_require(yaml-cpp_FOUND "yaml-cpp" libyaml-cpp-dev)
+if(NOT TARGET yaml-cpp::yaml-cpp)  # 0.7 exports the bare name
+  add_library(yaml-cpp::yaml-cpp ALIAS yaml-cpp)
+endif()
+
+find_package(fmt QUIET)
+terracut_require(fmt_FOUND "fmt" libfmt-dev)
+
+find_package(nlohmann_json QUIET)
+terracut_require(nlohmann_json_FOUND "nlohmann::json" nlohmann-json3-dev)
+
+find_package(CLI11 QUIET)
+terracut_require(CLI11_FOUND "CLI11" libcli11-dev)
+
+find_package(PNG QUIET)
+terracut_require(PNG_FOUND "libpng" libpng-dev)
+
+find_path(PCAP_INCLUDE_DIR pcap/pcap.h)
+find_library(PCAP_LIBRARY pcap)
+if(PCAP_INCLUDE_DIR AND PCAP_LIBRARY)
+  set(PCAP_FOUND ON)
+  add_library(pcap::pcap UNKNOWN IMPORTED)
+  set_target_properties(pcap::pcap PROPERTIES
+    IMPORTED_LOCATION "${PCAP_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${PCAP_INCLUDE_DIR}")
+endif()
+terracut_require(PCAP_FOUND "libpcap" libpcap-dev)
+
+if(TERRACUT_BUILD_TESTS)
+  find_package(GTest QUIET)
+  terracut_require(GTest_FOUND "GoogleTest" "libgtest-dev libgmock-dev")
+  find_package(benchmark QUIET)
+  terracut_require(benchmark_FOUND "Google Benchmark" libbenchmark-dev)
+  find_package(Boost QUIET)  # Boost.Graph is the independent min-cut solver of the tests
+  terracut_require(Boost_FOUND "Boost headers" libboost-dev)
+endif()

@@ -1,0 +1,24 @@
+# terracut_flags: how every target of the project is compiled. Never exported to consumers.
+add_library(terracut_flags INTERFACE)
+target_compile_options(terracut_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wconversion -Wshadow -Wcast-align -Wold-style-cast -Wnon-virtual-dtor
+  -Woverloaded-virtual
+  # Promise 5 of docs/design.md: the same packets give the same labels on every machine, so no
+  # compiler may fuse a multiply and an add.
+  -ffp-contract=off)
+# Per-point loops are written to be vectorised; GCC 12 does that at -O3 only.
+target_compile_options(terracut_flags INTERFACE
+  $<$<CONFIG:Release,RelWithDebInfo>:-O3> $<$<CXX_COMPILER_ID:GNU>:-fno-math-errno>
+  $<$<CXX_COMPILER_ID:Clang>:-fno-math-errno>)
+if(TERRACUT_DEVELOPER_MODE)
+  target_compile_options(terracut_flags INTERFACE -Werror)
+endif()
+if(TERRACUT_SANITIZE)
+  target_compile_options(terracut_flags INTERFACE
+    -fsanitize=${TERRACUT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  target_link_options(terracut_flags INTERFACE -fsanitize=${TERRACUT_SANITIZE})
+endif()
+if(TERRACUT_LIBFUZZER)
+  # Coverage feedback in the libraries too; the fuzzer's own main is linked per target.
+  target_compile_options(terracut_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()

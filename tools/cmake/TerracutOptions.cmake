@@ -1,0 +1,16 @@
+# Choices a builder can make; everything else is fixed.
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+# Consumers get a plain library; the project's own scripts and CI turn developer mode on.
+if(DEFINED ENV{CI} OR PROJECT_IS_TOP_LEVEL)
+  set(terracut_is_developed_here ON)
+else()
+  set(terracut_is_developed_here OFF)
+endif()
+
+option(TERRACUT_DEVELOPER_MODE "Warnings are errors" OFF)
+option(TERRACUT_BUILD_TESTS "Build tests, benchmarks and fuzz reproducers" ${terracut_is_developed_here})
+set(TERRACUT_SANITIZE "" CACHE STRING "Sanitizers for every target: 'address,undefined', 'thread' or empty")
+option(TERRACUT_LIBFUZZER "Link fuzz targets with libFuzzer (clang) instead of the reproducer main" OFF)

@@ -1,0 +1,44 @@
+# terracut_add_room(NAME SOURCES... [PUBLIC libs...] [PRIVATE libs...])
+#   one static library per top-level folder: terracut_<name>, alias terracut::<name>.
+function(terracut_add_room name)
+  cmake_parse_arguments(arg "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  add_library(terracut_${name} STATIC ${arg_SOURCES})
+  add_library(terracut::${name} ALIAS terracut_${name})
+  set_target_properties(terracut_${name} PROPERTIES EXPORT_NAME ${name} POSITION_INDEPENDENT_CODE ON)
+  target_compile_features(terracut_${name} PUBLIC cxx_std_20)
+  target_include_directories(terracut_${name} PUBLIC
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}>
+    # <terracut/pipeline/x.hpp> for consumers, "pipeline/x.hpp" between the installed headers.
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>
+    $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}/terracut>)
+  target_link_libraries(terracut_${name} PUBLIC ${arg_PUBLIC} PRIVATE $<BUILD_INTERFACE:terracut_flags> ${arg_PRIVATE})
+endfunction()
+
+# terracut_add_test(NAME SOURCES... LIBS... [LABELS ...] [TIMEOUT seconds])
+#   a GoogleTest program, every case its own ctest entry.
+function(terracut_add_test name)
+  cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} terracut_flags GTest::gtest GTest::gmock GTest::gtest_main)
+  target_compile_definitions(${name} PRIVATE
+    TERRACUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TERRACUT_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+endfunction()
+
+# terracut_add_fuzzer(NAME SOURCES... LIBS...)
+#   built in every build: with libFuzzer when TERRACUT_LIBFUZZER, else with a main that replays
+#   files given on the command line (and so keeps the target from rotting).
+function(terracut_add_fuzzer name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LIBS" ${ARGN})
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} terracut_flags)
+  if(TERRACUT_LIBFUZZER)
+    target_link_options(${name} PRIVATE -fsanitize=fuzzer)
+  else()
+    target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/fuzz/replay_main.cpp)
+  endif()
+  set_property(GLOBAL APPEND PROPERTY TERRACUT_FUZZERS ${name})
+endfunction()

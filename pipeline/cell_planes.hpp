@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "pipeline/label.hpp"
+#include "pipeline/range_image.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// What the stages hand on to each other: planes over the range image's cells, row-major with the
+/// image's stride. Written by one stage after the other, on one thread.
+struct CellPlanes {
+  /// Height above the ground reference of the elevation map, metres; NaN in cells without a return,
+  /// so that every comparison with such a cell is false.
+  std::span<float> height_m;
+  /// The label so far; kNone in cells without a return.
+  std::span<Label> label;
+  /// 1 where the adjacent points test found a steep step at this return, else 0.
+  std::span<std::uint8_t> steep;
+
+  CellPlanes(ImageShape shape, rt::FixedMemory& memory)
+      : height_m(memory.take<float>("cell planes", shape.cells())),
+        label(memory.take<Label>("cell planes", shape.cells())),
+        steep(memory.take<std::uint8_t>("cell planes", shape.cells())) {}
+};
+
+}  // namespace terracut::pipeline

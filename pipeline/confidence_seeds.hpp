@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "pipeline/cell_planes.hpp"
+#include "pipeline/min_cut/grid_problem.hpp"
+#include "pipeline/range_image.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// Stage 3a: which returns initialise the MRF as "object" and "background", and which stay unknown
+/// (paper, section III-D). Obstacles of the stages before are trusted where they are high or steep;
+/// ground is trusted where the share of ground in a window around it exceeds k.
+class ConfidenceSeeds {
+ public:
+  struct Config {
+    float ground_share = 0.8F;   ///< k: share of ground among the window's returns, [0, 1].
+    int window_rows = 2;         ///< Window reach up and down, rows; [0, 8].
+    int window_columns = 3;      ///< Window reach to each side, columns; [0, 16].
+    float max_ground_height_m = 0.10F;    ///< Ground seeds lie no higher above the reference.
+    float min_obstacle_height_m = 0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
+    bool trust_all_obstacles = false;     ///< Every obstacle of the stages before is a seed, as printed.
+  };
+
+  ConfidenceSeeds(const Config& config, ImageShape shape, rt::FixedMemory& memory);
+
+  /// Seeds of every cell from `planes`. Real-time safe.
+  void select(const CellPlanes& planes) noexcept;
+
+  [[nodiscard]] std::span<const Seed> seeds() const noexcept { return seeds_; }
+
+ private:
+  void count_in_row(const CellPlanes& planes, int row) noexcept;
+  [[nodiscard]] Seed seed_of(const CellPlanes& planes, std::size_t cell, int ground,
+                             int returns) const noexcept;
+
+  Config config_;
+  ImageShape shape_;
+  std::span<Seed> seeds_;
+  // Sums over the window's rows, one per column, with the seam's columns repeated at both ends.
+  std::span<std::uint8_t> ground_in_column_;
+  std::span<std::uint8_t> returns_in_column_;
+};
+
+}  // namespace terracut::pipeline

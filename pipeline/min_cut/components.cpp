@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/min_cut/components.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <tuple>
+
+namespace terracut::pipeline {
+namespace {
+
+/// Non-negative floats order like their bits; NaN comes last.
+std::uint32_t ordered_bits(float range_m) noexcept {
+  return range_m < 0 ? 0U : std::bit_cast<std::uint32_t>(range_m + 0.0F) & 0x7FFFFFFFU;
+}
+
+}  // namespace
+
+Components::Components(std::size_t max_nodes, rt::FixedMemory& memory)
+    : nodes_(memory.take<std::uint32_t>("min-cut: components", max_nodes)),
+      extents_(memory.take<Extent>("min-cut: components", max_nodes)) {}
+
+std::span<const std::uint32_t> Components::operator[](std::uint32_t i) const noexcept {
+  return nodes_.subspan(extents_[i].begin, extents_[i].end - extents_[i].begin);
+}
+
+void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
+                      std::span<const float> ground_range_m) noexcept {
+  for (CutNode& node : graph.nodes) node.queued = node.side != Side::kFree;  // here: reached
+  count_ = 0;
+  std::uint32_t end = 0;
+  for (std::uint32_t seed = 0; seed < graph.nodes.size(); ++seed) {
+    if (graph.nodes[seed].queued) continue;
+    Extent extent{0xFFFFFFFFU, end, end};
+    const auto reach = [&](std::uint32_t index) {
+      graph.nodes[index].queued = true;
+      nodes_[end++] = index;
+    };
+    reach(seed);
+    for (std::uint32_t next = extent.begin; next < end; ++next) {
+      const CutNode& node = graph.nodes[nodes_[next]];
+      extent.range_bits =
+          std::min(extent.range_bits, ordered_bits(ground_range_m[cells[nodes_[next]]]));
+      for_each_edge(node.edges, [&](int direction) {
+        const std::uint32_t neighbour = node.neighbour[static_cast<std::size_t>(direction)];
+        if (!graph.nodes[neighbour].queued) reach(neighbour);
+      });
+    }
+    extent.end = end;
+    extents_[count_++] = extent;
+  }
+  std::sort(extents_.begin(), extents_.begin() + count_, [](const Extent& a, const Extent& b) {
+    return std::tie(a.range_bits, a.begin) < std::tie(b.range_bits, b.begin);
+  });
+}
+
+}  // namespace terracut::pipeline

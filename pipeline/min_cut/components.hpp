@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "pipeline/min_cut/cut_graph.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// Connected components of the nodes persistency left open. Each is solved by itself and exact by
+/// itself, so that solving the nearest first makes the whole an anytime algorithm.
+class Components {
+ public:
+  Components(std::size_t max_nodes, rt::FixedMemory& memory);
+
+  /// Real-time safe. `ground_range_m` is read at `cells[node]`.
+  void find(CutGraph& graph, std::span<const std::uint32_t> cells,
+            std::span<const float> ground_range_m) noexcept;
+
+  [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
+  /// Nodes of the i-th component; ordered by the ground range of their nearest cell, ties by their
+  /// first node.
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t i) const noexcept;
+
+ private:
+  struct Extent {
+    std::uint32_t range_bits;  ///< Range of the nearest cell, as bits: these order like the floats.
+    std::uint32_t begin, end;  ///< In nodes_; begin grows with the first node.
+  };
+
+  std::span<std::uint32_t> nodes_;
+  std::span<Extent> extents_;
+  std::uint32_t count_ = 0;
+};
+
+}  // namespace terracut::pipeline

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace terracut::pipeline {
+
+/// How much work one min-cut may do. An operation is one visit of an arc (6-13 ns on a 3 GHz core).
+///
+/// Without `expired` the result depends on the input alone: the deterministic mode, for replays and
+/// tests. With it the solver also stops when the caller's clock says so: live mode.
+struct CutBudget {
+  static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
+  /// About 25 ms; four hundred times what a typical street frame takes.
+  static constexpr std::int64_t kDefaultOps = 2'500'000;
+  /// Operations between two looks at the clock: some 40 microseconds.
+  static constexpr std::int64_t kOpsPerClockLook = 4096;
+
+  std::int64_t ops = kDefaultOps;
+  bool (*expired)(void* context) noexcept = nullptr;  ///< True when the deadline has passed.
+  void* context = nullptr;                            ///< Handed to `expired`.
+};
+
+/// Counts operations against a CutBudget. Once exhausted it stays so.
+class OpClock {
+ public:
+  explicit OpClock(const CutBudget& budget) noexcept : budget_(budget), limit_(budget.ops) {}
+
+  void spend(std::int64_t ops) noexcept { ops_ += ops; }
+  [[nodiscard]] std::int64_t ops() const noexcept { return ops_; }
+
+  /// True when the whole budget is gone.
+  [[nodiscard]] bool exhausted() noexcept {
+    if (ops_ >= limit_) return true;
+    if (budget_.expired != nullptr && ops_ >= next_look_) {
+      next_look_ = ops_ + CutBudget::kOpsPerClockLook;
+      if (budget_.expired(budget_.context)) limit_ = ops_;
+    }
+    return ops_ >= limit_;
+  }
+
+ private:
+  CutBudget budget_;
+  std::int64_t limit_;
+  std::int64_t ops_ = 0;
+  std::int64_t next_look_ = 0;
+};
+
+}  // namespace terracut::pipeline

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "pipeline/min_cut/direction.hpp"
+
+namespace terracut::pipeline {
+
+/// Which terminal a node goes with. The source is "object", the sink "background".
+enum class Side : std::uint8_t {
+  kFree = 0,
+  kObstacle = 1,  ///< Source side.
+  kGround = 2,    ///< Sink side.
+};
+
+/// An unknown cell as a node of the residual graph; one cache line.
+///
+/// Everything the solvers do keeps one sum constant for every labelling: flow + cut of what is left.
+/// So each may stop at any time, and the next one goes on from the graph as it stands.
+struct alignas(64) CutNode {
+  std::array<std::uint32_t, kDirections> neighbour;  ///< Node index; valid where `edges` has the bit.
+  std::array<std::int16_t, kDirections> residual;    ///< Capacity left towards it; 0 without edge.
+  std::int32_t excess;     ///< > 0: capacity left from the source; < 0: capacity left to the sink.
+  std::uint32_t distance;  ///< Boykov-Kolmogorov: to the tree's root. Push-relabel: to the sink.
+  std::uint32_t stamp;     ///< Boykov-Kolmogorov: the augmentation at which `distance` held.
+  std::uint8_t edges;      ///< Bit d: there is an edge in direction d to an open node.
+  std::uint8_t parent;     ///< Boykov-Kolmogorov: direction of the parent, or a kParent... value.
+  Side side;               ///< Tree while solving, answer afterwards.
+  bool queued;             ///< In the queue of active nodes.
+};
+static_assert(sizeof(CutNode) == 64);
+
+/// The graph left when the seeds are folded into the terminals.
+struct CutGraph {
+  std::span<CutNode> nodes;
+  std::int64_t flow = 0;  ///< Found so far: the part of the energy no labelling can avoid.
+};
+
+/// Calls visit(direction) for each bit of `edges`, lowest first.
+template <class Visit>
+inline void for_each_edge(std::uint8_t edges, Visit&& visit) noexcept {
+  for (unsigned left = edges; left != 0; left &= left - 1) visit(std::countr_zero(left));
+}
+
+/// Moves `amount` along the arc of `from` in `direction`, which leads to `to`.
+inline void push_along(CutNode& from, CutNode& to, int direction, int amount) noexcept {
+  std::int16_t& forth = from.residual[static_cast<std::size_t>(direction)];
+  std::int16_t& back = to.residual[static_cast<std::size_t>(opposite(direction))];
+  forth = static_cast<std::int16_t>(forth - amount);
+  back = static_cast<std::int16_t>(back + amount);
+}
+
+/// Adds terminal capacity (> 0: from the source, < 0: to the sink) to a node. What meets the opposite
+/// terminal's capacity is flow at once; returns it.
+[[nodiscard]] inline int add_excess(CutNode& node, int amount) noexcept {
+  const bool meets = (node.excess > 0) != (amount > 0);
+  const int flow = meets ? std::min(std::abs(node.excess), std::abs(amount)) : 0;
+  node.excess += amount;
+  return flow;
+}
+
+}  // namespace terracut::pipeline

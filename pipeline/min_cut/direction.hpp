@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "pipeline/range_image.hpp"
+
+namespace terracut::pipeline {
+
+/// The 8 neighbours of a cell are numbered in row-major order around it:
+///
+///     5 6 7   row + 1 (the next higher laser)
+///     3 . 4
+///     0 1 2   row - 1
+///
+/// Columns are cyclic, rows are not.
+inline constexpr int kDirections = 8;
+
+struct CellStep {
+  int rows, columns;
+};
+inline constexpr std::array<CellStep, kDirections> kCellSteps{
+    {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
+
+/// Direction from the neighbour back to the cell.
+[[nodiscard]] constexpr int opposite(int direction) noexcept { return kDirections - 1 - direction; }
+
+/// Cells (row * stride + column) of the 8 neighbours, indexed by direction.
+using NeighbourCells = std::array<std::uint32_t, kDirections>;
+
+/// Bits of the directions that lead outside the rows of the image.
+[[nodiscard]] constexpr unsigned outside_rows(const ImageShape& shape, int row) noexcept {
+  return (row == 0 ? 0x07U : 0U) | (row + 1 == shape.rows ? 0xE0U : 0U);
+}
+
+/// Neighbours of the cell in `row` [0, rows) and `column` [0, columns). A direction that leads
+/// outside the rows yields the cell itself, so that every entry may be read from.
+[[nodiscard]] constexpr NeighbourCells neighbour_cells(const ImageShape& shape, int row,
+                                                       int column) noexcept {
+  const auto at = [stride = shape.stride()](int r, int c) {
+    return static_cast<std::uint32_t>(r * stride + c);
+  };
+  const int left = column == 0 ? shape.columns - 1 : column - 1;
+  const int right = column + 1 == shape.columns ? 0 : column + 1;
+  NeighbourCells cells{at(row - 1, left), at(row - 1, column), at(row - 1, right), at(row, left),
+                       at(row, right),    at(row + 1, left),   at(row + 1, column),
+                       at(row + 1, right)};
+  if (row == 0) cells[0] = cells[1] = cells[2] = at(row, column);
+  if (row + 1 == shape.rows) cells[5] = cells[6] = cells[7] = at(row, column);
+  return cells;
+}
+
+}  // namespace terracut::pipeline

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+#include "pipeline/min_cut/cut_graph.hpp"
+
+namespace terracut::pipeline {
+
+/// Sends flow along all paths of one edge, source - p - q - sink, before any search: it leaves a third
+/// of the augmentations to Boykov-Kolmogorov. One pass in node order; returns the arcs visited.
+/// Real-time safe.
+std::int64_t push_one_hop(CutGraph& graph) noexcept;
+
+}  // namespace terracut::pipeline

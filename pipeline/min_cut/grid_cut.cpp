@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/min_cut/grid_cut.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <stdexcept>
+
+#include "pipeline/min_cut/greedy_push.hpp"
+#include "pipeline/min_cut/residual_reach.hpp"
+
+namespace terracut::pipeline {
+namespace {
+
+/// More nodes than cells are never needed.
+GridCut::Config checked(const ImageShape& shape, GridCut::Config config) {
+  if (shape.columns < 3 || shape.rows < 1) {
+    throw std::invalid_argument("GridCut expects at least 3 columns (they are cyclic) and 1 row");
+  }
+  config.max_unknown = static_cast<std::uint32_t>(
+      std::min<std::size_t>(config.max_unknown, shape.cells()));
+  return config;
+}
+
+/// What the labels in `side` cost in the residual graph: terminal capacities and arcs they cut.
+std::int64_t residual_cost(const CutGraph& graph, std::span<const std::uint32_t> component) noexcept {
+  std::int64_t cost = 0;
+  for (const std::uint32_t index : component) {
+    const CutNode& node = graph.nodes[index];
+    if (node.side == Side::kGround) {
+      cost += std::max(node.excess, 0);
+      continue;
+    }
+    cost += std::max(-node.excess, 0);
+    for_each_edge(node.edges, [&](int direction) {
+      const auto d = static_cast<std::size_t>(direction);
+      if (graph.nodes[node.neighbour[d]].side == Side::kGround) cost += node.residual[d];
+    });
+  }
+  return cost;
+}
+
+}  // namespace
+
+GridCut::GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory& memory)
+    : config_(checked(shape, config)),
+      unknown_(shape, config_.max_unknown, memory),
+      coarse_{memory.take<std::uint32_t>("min-cut: cell lists", shape.cells())},
+      node_storage_(memory.take<CutNode>("min-cut: nodes", config_.max_unknown)),
+      queue_(memory.take<std::uint32_t>("min-cut: work lists", config_.max_unknown)),
+      persistency_(config_.max_unknown, memory),
+      components_(config_.max_unknown, memory),
+      boykov_kolmogorov_(config_.max_unknown, memory),
+      push_relabel_(config_.max_unknown, memory) {}
+
+void GridCut::find_unknown(const GridProblem& problem, std::span<const Label> labels) noexcept {
+  assert(problem.seeds.size() >= problem.shape.cells() && labels.size() >= problem.shape.cells());
+  coarse_.size = 0;
+  unknown_.find(problem, labels, coarse_);
+  graph_.nodes = node_storage_.first(unknown_.cells().size());
+}
+
+CutReport GridCut::solve_contracted(const GridProblem& problem, const CutBudget& budget,
+                                    std::span<Label> labels) noexcept {
+  CutReport report;
+  report.coarse_by_cap = coarse_.size;
+  report.unknown = coarse_.size + static_cast<std::uint32_t>(graph_.nodes.size());
+
+  const Persistency::Result persistency = persistency_.fix(graph_);
+  report.fixed_by_persistency = persistency.fixed;
+  report.persistency_ops = persistency.ops;
+  report.greedy_push_ops = push_one_hop(graph_);
+  components_.find(graph_, unknown_.cells(), problem.ground_range_m);
+  report.components = components_.count();
+
+  OpClock clock(budget);
+  std::int64_t cost_beyond_flow = 0;
+  for (std::uint32_t i = 0; i < components_.count(); ++i) {
+    const std::span<const std::uint32_t> component = components_[i];
+    const auto cells = static_cast<std::uint32_t>(component.size());
+    report.largest_component = std::max(report.largest_component, cells);
+    const bool started = !report.budget_hit && !clock.exhausted();
+    if (started && solve_component(component, clock, report)) {
+      ++report.components_solved;
+      report.solved += cells;
+    } else {
+      report.budget_hit = true;
+      cost_beyond_flow += settle_unfinished(component, started, labels, report);
+    }
+  }
+
+  for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
+    const bool obstacle = graph_.nodes[i].side == Side::kObstacle;
+    labels[unknown_.cells()[i]] = obstacle ? Label::kObstacle : Label::kGround;
+  }
+  report.flow = graph_.flow;
+  report.energy = graph_.flow + cost_beyond_flow;
+  return report;
+}
+
+bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock& clock,
+                              CutReport& report) noexcept {
+  const std::int64_t before = clock.ops();
+  const std::int64_t bk_budget = config_.bk_ops_base + config_.bk_ops_per_node *
+                                                           static_cast<std::int64_t>(component.size());
+  const bool bk_finished = boykov_kolmogorov_.solve(graph_, component, clock, before + bk_budget);
+  report.boykov_kolmogorov_ops += clock.ops() - before;
+  if (bk_finished) return true;
+  if (clock.exhausted()) return false;
+
+  const std::int64_t handed_over = clock.ops();
+  ++report.push_relabel_runs;
+  const bool finished = push_relabel_.solve(graph_, component, clock);
+  report.push_relabel_ops += clock.ops() - handed_over;
+  return finished;
+}
+
+std::int64_t GridCut::settle_unfinished(std::span<const std::uint32_t> component, bool started,
+                                        std::span<const Label> labels, CutReport& report) noexcept {
+  std::uint32_t certified = 0;
+  if (started) {
+    certified = certify(graph_, component, queue_);
+  } else {
+    for (const std::uint32_t index : component) graph_.nodes[index].side = Side::kFree;
+  }
+  for (const std::uint32_t index : component) {
+    CutNode& node = graph_.nodes[index];
+    if (node.side != Side::kFree) continue;
+    const std::uint32_t cell = unknown_.cells()[index];
+    node.side = labels[cell] == Label::kObstacle ? Side::kObstacle : Side::kGround;
+    coarse_.push_back(cell);
+  }
+  report.certified += certified;
+  report.coarse_by_budget += static_cast<std::uint32_t>(component.size()) - certified;
+  return residual_cost(graph_, component);
+}
+
+}  // namespace terracut::pipeline

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/profile.hpp"
+
+namespace terracut::pipeline {
+
+RingElevationMap::Config SegmenterConfig::terracut_elevation_map() noexcept {
+  RingElevationMap::Config config;
+  config.grid.min_band_m = 0.4F;
+  config.grid.max_band_m = 2.0F;
+  return config;
+}
+
+SegmenterConfig terracut_profile() noexcept { return {}; }
+
+SegmenterConfig paper_profile() noexcept {
+  SegmenterConfig config;
+  config.elevation_map = {};
+  config.elevation_map.reference = GroundReference::kCellMinimum;
+  config.elevation_map.obstacle_height_m = 0.30F;
+
+  config.adjacent_points.rule = AdjacentRule::kRingSpacing;
+  config.adjacent_points.max_slope_rad = 0.25F;
+  config.adjacent_points.first_row_step = 2;
+  config.adjacent_points.last_row_step = 2;
+  config.adjacent_points.column_reach = 3;
+
+  config.seeds.trust_all_obstacles = true;
+  config.seeds.ground_share = 0.9F;
+  config.seeds.max_ground_height_m = 1e9F;
+
+  config.region.rule = RegionRule::kHistogram;
+  config.region.lambda = 0.1F;
+  config.boundary.rule = BoundaryRule::kHeightGradient;
+  config.returns.obstacle_height_m = config.elevation_map.obstacle_height_m;
+  return config;
+}
+
+}  // namespace terracut::pipeline

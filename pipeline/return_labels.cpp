@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/return_labels.hpp"
+
+#include <cmath>
+
+namespace terracut::pipeline {
+
+ReturnLabels::ReturnLabels(const Config& config, std::size_t return_capacity,
+                           rt::FixedMemory& memory)
+    : config_(config), labels_(memory.take<Label>("return labels", return_capacity)) {}
+
+void ReturnLabels::assign(const RangeImage& image, const CellPlanes& planes) noexcept {
+  returns_ = image.returns();
+  const auto index = image.return_index();
+  for (std::size_t cell = 0; cell < planes.label.size(); ++cell) {
+    if (planes.label[cell] != Label::kNone) labels_[index[cell]] = planes.label[cell];
+  }
+  for (const OverflowReturn& extra : image.overflow()) {
+    const float above_owner_m = extra.echo.z_m - image.z_m()[extra.cell];
+    const float behind_owner_m = extra.echo.ground_range_m - image.ground_range_m()[extra.cell];
+    const bool same_surface = std::fabs(behind_owner_m) < config_.same_surface_range_m &&
+                              std::fabs(above_owner_m) < config_.same_surface_height_m;
+    const float height_m = planes.height_m[extra.cell] + above_owner_m;
+    const Label by_height =
+        height_m < config_.obstacle_height_m ? Label::kGround : Label::kObstacle;
+    labels_[extra.return_index] = same_surface ? planes.label[extra.cell] : by_height;
+  }
+}
+
+}  // namespace terracut::pipeline

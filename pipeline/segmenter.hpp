@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "calib/ring_profile.hpp"
+#include "pipeline/cell_planes.hpp"
+#include "pipeline/label.hpp"
+#include "pipeline/min_cut/cut_report.hpp"
+#include "pipeline/profile.hpp"
+#include "pipeline/range_image.hpp"
+#include "pipeline/stage.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// What became of one frame.
+struct SegmentationReport {
+  std::uint32_t returns = 0;    ///< In the image, all of them labelled.
+  std::uint32_t ground = 0;     ///< Of them, labelled ground.
+  std::uint32_t obstacles = 0;  ///< Of them, labelled obstacle.
+  CutReport cut;                ///< All zero when the min-cut was not asked for.
+};
+
+/// The coarse-to-fine method: a range image goes in, a label for every return comes out.
+///
+/// Memory is taken in the constructor and never again; segment() does not allocate, lock, throw or
+/// look at a clock, and the same image gives the same labels on every machine (unless a budget with
+/// a clock cuts the min-cut short). One thread at a time.
+class Segmenter {
+ public:
+  /// `profile` must have shape.rows rings. `return_capacity`: of the images to come.
+  Segmenter(const SegmenterConfig& config, const calib::RingProfile& profile, ImageShape shape,
+            std::size_t return_capacity, rt::FixedMemory& memory);
+
+  /// Labels one turn; `image` has the shape given at construction. The result of the turn before is
+  /// overwritten. Real-time safe if the observer is.
+  [[nodiscard]] SegmentationReport segment(const RangeImage& image, const CutBudget& budget = {},
+                                           StageObserver* observer = nullptr) noexcept;
+
+  /// One label a return, in order of arrival (RangeImage::return_index()).
+  [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
+  /// The same by cell, with the heights they were judged by; for pictures and measurements.
+  [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
+
+ private:
+  [[nodiscard]] CutReport cut(const RangeImage& image, const CutBudget& budget) noexcept;
+
+  SegmenterConfig config_;
+  ImageShape shape_;
+  NegativeExp negative_exp_;
+  CellPlanes planes_;
+  RingElevationMap elevation_map_;
+  AdjacentPoints adjacent_points_;
+  ConfidenceSeeds seeds_;
+  RegionTerm region_;
+  GridCut min_cut_;
+  ReturnLabels return_labels_;
+};
+
+}  // namespace terracut::pipeline

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace terracut::pipeline {
@@ -27,27 +28,35 @@ struct Run {
 };
 
 // The two loops below are the stage. They have no branches, so that the compiler turns them into
-// vector code; comparisons with the NaN heights of empty cells are false.
+// vector code; comparisons with the NaN heights of empty cells are false. Everything they use is
+// copied first: a store through a byte pointer could change it, for all the compiler knows.
 
-void mark_by_slope(const Run& run, const AdjacentPoints::Config& config,
+void mark_by_slope(const Run run, const AdjacentPoints::Config& config,
                    float tan_max_slope_squared) noexcept {
-  for (int i = 0; i < run.count; ++i) {
-    const float dx = run.upper_x[i] - run.lower_x[i];
-    const float dy = run.upper_y[i] - run.lower_y[i];
-    const float rise = run.upper_z[i] - run.lower_z[i];
-    const bool steep = (rise >= config.min_rise_m) &
-                       ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
-                       (run.upper_height[i] >= config.min_upper_height_m) &
-                       (run.lower_height[i] == run.lower_height[i]);
-    const bool lower_too = steep & (run.lower_height[i] > config.min_lower_height_m);
-    run.upper_steep[i] = static_cast<std::uint8_t>(run.upper_steep[i] | std::uint8_t{steep});
-    run.lower_steep[i] = static_cast<std::uint8_t>(run.lower_steep[i] | std::uint8_t{lower_too});
-  }
+  const float min_rise_m = config.min_rise_m;
+  const float min_upper_height_m = config.min_upper_height_m;
+  const float min_lower_height_m = config.min_lower_height_m;
+  const int count = run.count;
+  const auto mark = [&](std::uint8_t* steep_plane, const float* height, float min_height_m) {
+    for (int i = 0; i < count; ++i) {
+      const float dx = run.upper_x[i] - run.lower_x[i];
+      const float dy = run.upper_y[i] - run.lower_y[i];
+      const float rise = run.upper_z[i] - run.lower_z[i];
+      const bool steep = (rise >= min_rise_m) &
+                         ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
+                         (run.upper_height[i] >= min_upper_height_m) & (height[i] >= min_height_m);
+      steep_plane[i] = static_cast<std::uint8_t>(steep_plane[i] | std::uint8_t{steep});
+    }
+  };
+  constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
+  mark(run.upper_steep, run.lower_height, kAnyHeight);
+  mark(run.lower_steep, run.lower_height, min_lower_height_m);
 }
 
-void mark_by_ring_spacing(const Run& run, float bound_m) noexcept {
+void mark_by_ring_spacing(const Run run, float bound_m) noexcept {
   const float bound_squared = bound_m * bound_m;
-  for (int i = 0; i < run.count; ++i) {
+  const int count = run.count;
+  for (int i = 0; i < count; ++i) {
     const float dx = run.upper_x[i] - run.lower_x[i];
     const float dy = run.upper_y[i] - run.lower_y[i];
     const bool steep = (dx * dx + dy * dy < bound_squared) &

@@ -18,13 +18,13 @@ namespace terracut::pipeline {
 class GroundSurface {
  public:
   struct Config {
-    float step_up_m = 0.10F;       ///< Rise accepted at no distance at all (noise, bumps).
-    float slope_tolerance = 0.07F; ///< Further rise or fall accepted per metre walked.
-    float step_up_limit_m = 0.40F; ///< Never accept a rise above this, however far the last ground.
+    float step_up_m = 0.08F;       ///< Rise accepted at no distance at all (noise, bumps).
+    float slope_tolerance = 0.12F; ///< Further rise or fall accepted per metre walked.
+    float step_up_limit_m = 0.31F; ///< Never accept a rise above this, however far the last ground.
     float extra_fall = 0.30F;      ///< Further fall accepted per metre walked (ground may drop away).
     float slope_gain = 0.30F;      ///< Share of a new step in the running slope, (0, 1].
     float max_slope = 0.20F;       ///< Largest running slope, rise over run.
-    float slope_memory_m = 3.0F;   ///< How far the running slope is carried on over missing ground.
+    float slope_memory_m = 2.0F;   ///< How far the running slope is carried on over missing ground.
     float first_slope_run_m = 1.0F;///< A shorter step than this counts as this long for the slope.
     int borrow_sectors = 10;       ///< How many sectors to each side a cell may borrow from.
     float walked_weight = 0.30F;   ///< Weight of the walked prediction against a neighbour's 1/distance.

@@ -20,17 +20,17 @@ SegmenterConfig paper_profile() noexcept {
   config.elevation_map.obstacle_height_m = 0.30F;
 
   config.adjacent_points.rule = AdjacentRule::kRingSpacing;
-  config.adjacent_points.max_slope_rad = 0.25F;
+  config.adjacent_points.max_slope_rad = 0.50F;
   config.adjacent_points.first_row_step = 2;
   config.adjacent_points.last_row_step = 2;
   config.adjacent_points.column_reach = 3;
 
   config.seeds.trust_all_obstacles = true;
-  config.seeds.ground_share = 0.9F;
+  config.seeds.ground_share = 0.8F;
   config.seeds.max_ground_height_m = 1e9F;
 
   config.region.rule = RegionRule::kHistogram;
-  config.region.lambda = 0.1F;
+  config.region.lambda = 1.0F;
   config.boundary.rule = BoundaryRule::kHeightGradient;
   config.returns.obstacle_height_m = config.elevation_map.obstacle_height_m;
   return config;

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/confidence_seeds.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace terracut::pipeline {
+namespace {
+
+const ImageShape kShape{8, 40};
+
+struct LabelledPlanes : testing::Test {
+  LabelledPlanes() : planes(kShape, memory) {
+    for (int row = 0; row < kShape.rows; ++row) {
+      for (int column = 0; column < kShape.columns; ++column) planes.label[at(row, column)] = Label::kGround;
+    }
+  }
+  static std::size_t at(int row, int column) {
+    return static_cast<std::size_t>(row * kShape.stride() + column);
+  }
+  std::span<const Seed> select(const ConfidenceSeeds::Config& config = {}) {
+    stage = std::make_unique<ConfidenceSeeds>(config, kShape, memory);
+    stage->select(planes);
+    return stage->seeds();
+  }
+  rt::FixedMemory memory;
+  CellPlanes planes;
+  std::unique_ptr<ConfidenceSeeds> stage;
+};
+
+TEST_F(LabelledPlanes, GroundAmidGroundIsASeed) {
+  const auto seeds = select();
+  EXPECT_EQ(seeds[at(4, 20)], Seed::kGround);
+  EXPECT_EQ(seeds[at(0, 0)], Seed::kGround);
+}
+
+TEST_F(LabelledPlanes, PaddingIsNoSeed) { EXPECT_EQ(select()[at(4, 40)], Seed::kNone); }
+
+TEST_F(LabelledPlanes, GroundBesideObstaclesIsUnknownAlsoAcrossTheSeam) {
+  for (int row = 0; row < kShape.rows; ++row) {
+    planes.label[at(row, 0)] = planes.label[at(row, 1)] = Label::kObstacle;
+    planes.height_m[at(row, 0)] = planes.height_m[at(row, 1)] = 1.0F;
+  }
+  const auto seeds = select();
+  EXPECT_EQ(seeds[at(4, 2)], Seed::kUnknown);
+  EXPECT_EQ(seeds[at(4, 39)], Seed::kUnknown);
+  EXPECT_EQ(seeds[at(4, 20)], Seed::kGround);
+  EXPECT_EQ(seeds[at(4, 0)], Seed::kObstacle);
+}
+
+TEST_F(LabelledPlanes, LowObstaclesAreSeedsOnlyWhenSteep) {
+  planes.label[at(3, 9)] = planes.label[at(3, 10)] = Label::kObstacle;
+  planes.height_m[at(3, 9)] = planes.height_m[at(3, 10)] = 0.2F;
+  planes.steep[at(3, 10)] = 1;
+  const auto seeds = select();
+  EXPECT_EQ(seeds[at(3, 9)], Seed::kUnknown);
+  EXPECT_EQ(seeds[at(3, 10)], Seed::kObstacle);
+  ConfidenceSeeds::Config as_printed;
+  as_printed.trust_all_obstacles = true;
+  EXPECT_EQ(select(as_printed)[at(3, 9)], Seed::kObstacle);
+}
+
+TEST_F(LabelledPlanes, HighGroundIsNotTrusted) {
+  planes.height_m[at(5, 5)] = 0.12F;
+  EXPECT_EQ(select()[at(5, 5)], Seed::kUnknown);
+}
+
+TEST_F(LabelledPlanes, SlidingWindowAgreesWithCountingEveryWindow) {
+  std::mt19937 random(3);
+  for (int row = 0; row < kShape.rows; ++row) {
+    for (int column = 0; column < kShape.columns; ++column) {
+      planes.label[at(row, column)] = static_cast<Label>(random() % 3);
+    }
+  }
+  const ConfidenceSeeds::Config config;
+  const auto seeds = select(config);
+  for (int row = 0; row < kShape.rows; ++row) {
+    for (int column = 0; column < kShape.columns; ++column) {
+      if (planes.label[at(row, column)] != Label::kGround) continue;
+      int ground = 0, returns = 0;
+      for (int r = std::max(0, row - 2); r <= std::min(kShape.rows - 1, row + 2); ++r) {
+        for (int c = column - 3; c <= column + 3; ++c) {
+          const Label label = planes.label[at(r, (c + kShape.columns) % kShape.columns)];
+          ground += label == Label::kGround;
+          returns += label != Label::kNone;
+        }
+      }
+      const bool trusted = static_cast<float>(ground) > 0.8F * static_cast<float>(returns);
+      EXPECT_EQ(seeds[at(row, column)], trusted ? Seed::kGround : Seed::kUnknown);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace terracut::pipeline

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::pipeline {
+namespace {
+
+struct SurfaceOverGrid : testing::Test {
+  SurfaceOverGrid() : grid(config(), test::even_profile(), {64, 2083}, memory), surface({}, grid, memory) {
+    lowest_m.assign(grid.cells(), 0.0F);
+  }
+  static RingGrid::Config config() {
+    RingGrid::Config c;
+    c.min_band_m = 0.4F;
+    c.max_band_m = 2.0F;
+    return c;
+  }
+  /// Sets the lowest return of every cell from its range.
+  template <class F>
+  void fill(F height_of_range) {
+    for (int s = 0; s < grid.sectors(); ++s)
+      for (int b = 0; b < grid.bands(); ++b) lowest_m[grid.cell(s, b)] = height_of_range(grid.center_m(b));
+  }
+  float at(int sector, float range_m) {
+    return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
+  }
+  rt::FixedMemory memory;
+  RingGrid grid;
+  GroundSurface surface;
+  std::vector<float> lowest_m;
+};
+
+TEST_F(SurfaceOverGrid, FollowsAFifteenPercentSlopeThatBeginsNearOrFar) {
+  for (const float foot_m : {6.0F, 30.0F}) {
+    const auto hill = [foot_m](float range_m) { return 0.15F * std::max(0.0F, range_m - foot_m); };
+    fill(hill);
+    surface.estimate(grid, lowest_m);
+    for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
+      EXPECT_NEAR(at(3, range_m), hill(grid.center_m(grid.band_of(range_m))), 0.05F) << range_m;
+    }
+  }
+}
+
+TEST_F(SurfaceOverGrid, FollowsASensorPitchedByFiveDegrees) {
+  for (const float slope : {0.087F, -0.087F}) {
+    fill([slope](float range_m) { return slope * range_m; });
+    surface.estimate(grid, lowest_m);
+    for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
+      EXPECT_NEAR(at(3, range_m), slope * grid.center_m(grid.band_of(range_m)), 0.05F) << range_m;
+    }
+  }
+}
+
+TEST_F(SurfaceOverGrid, DoesNotClimbOntoAWall) {
+  fill([](float range_m) { return range_m < 12 ? 0.0F : 1.5F; });
+  surface.estimate(grid, lowest_m);
+  EXPECT_NEAR(at(0, 13.0F), 0.0F, 0.01F);
+  EXPECT_NEAR(at(0, 30.0F), 0.0F, 0.01F);
+}
+
+TEST_F(SurfaceOverGrid, FindsTheGroundAgainBehindAHiddenStretch) {
+  fill([](float range_m) { return range_m > 10 && range_m < 16 ? GroundSurface::kEmpty : 0.05F; });
+  surface.estimate(grid, lowest_m);
+  EXPECT_NEAR(at(0, 20.0F), 0.05F, 0.001F);
+  EXPECT_NEAR(at(0, 13.0F), 0.05F, 0.06F);
+}
+
+TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
+  fill([](float) { return 0.0F; });
+  const int band = grid.band_of(15.0F);
+  lowest_m[grid.cell(7, band)] = -4.0F;
+  surface.estimate(grid, lowest_m);
+  EXPECT_NEAR(at(7, 15.0F), 0.0F, 0.01F);
+}
+
+TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam) {
+  // Ground that rises slowly with range, hidden behind a car in the sectors around the seam.
+  fill([](float range_m) { return 0.03F * range_m; });
+  for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
+    lowest_m[grid.cell(0, band)] = 3.0F;
+    lowest_m[grid.cell(grid.sectors() - 1, band)] = 3.0F;
+  }
+  surface.estimate(grid, lowest_m);
+  const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
+  EXPECT_NEAR(at(0, 40.0F), true_m, 0.25F);
+  EXPECT_NEAR(at(grid.sectors() - 1, 40.0F), true_m, 0.25F);
+}
+
+}  // namespace
+}  // namespace terracut::pipeline

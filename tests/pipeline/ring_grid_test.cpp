@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ring_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::pipeline {
+namespace {
+
+const ImageShape kShape{64, 2083};
+
+TEST(RingGrid, WithoutMergingOrCuttingEveryRingThatReachesTheGroundHasABandOfItsOwn) {
+  rt::FixedMemory memory;
+  const calib::RingProfile profile = test::even_profile();
+  const RingGrid grid({}, profile, kShape, memory);
+  std::set<int> bands;
+  int rings = 0;
+  for (const calib::Ring& ring : profile.rings) {
+    if (ring.ground_distance_m >= 100) continue;
+    ++rings;
+    bands.insert(grid.band_of(static_cast<float>(ring.ground_distance_m)));
+  }
+  EXPECT_EQ(static_cast<int>(bands.size()), rings);
+}
+
+TEST(RingGrid, BandsGrowOutwardsAndCoverEveryRange) {
+  rt::FixedMemory memory;
+  RingGrid::Config config;
+  config.min_band_m = 0.4F;
+  config.max_band_m = 2.0F;
+  const RingGrid grid(config, test::even_profile(), kShape, memory);
+  int last = 0;
+  for (float range_m = 0; range_m < 300; range_m += 0.01F) {
+    const int band = grid.band_of(range_m);
+    ASSERT_GE(band, last);
+    ASSERT_LE(band, last + 1) << "no band is left out at " << range_m;
+    last = band;
+  }
+  EXPECT_EQ(last, grid.bands() - 1);
+  EXPECT_EQ(grid.band_of(NAN), grid.bands() - 1);
+  EXPECT_EQ(grid.band_of(INFINITY), grid.bands() - 1);
+}
+
+TEST(RingGrid, KeepsBandsWithinTheirLimits) {
+  rt::FixedMemory memory;
+  RingGrid::Config config;
+  config.min_band_m = 0.4F;
+  config.max_band_m = 2.0F;
+  const RingGrid grid(config, test::even_profile(), kShape, memory);
+  for (int band = 2; band < grid.bands(); ++band) {
+    const float pitch_m = grid.center_m(band) - grid.center_m(band - 1);
+    EXPECT_GT(pitch_m, 0.19F) << band;
+    EXPECT_LT(pitch_m, 2.4F) << band;
+  }
+}
+
+TEST(RingGrid, MixesTheTwoBandsARangeLiesBetween) {
+  rt::FixedMemory memory;
+  RingGrid::Config config;
+  config.max_band_m = 2.0F;
+  const RingGrid grid(config, test::even_profile(), kShape, memory);
+  for (float range_m = 4; range_m < 99; range_m += 0.37F) {
+    const RingGrid::BandMix mix = grid.mix_of(range_m);
+    ASSERT_GE(mix.outer_share, 0.0F);
+    ASSERT_LE(mix.outer_share, 1.0F);
+    const float mixed_m = grid.center_m(mix.inner) +
+                          mix.outer_share * (grid.center_m(mix.outer) - grid.center_m(mix.inner));
+    if (mix.inner == mix.outer) continue;  // at the ends there is nothing to mix with
+    EXPECT_NEAR(mixed_m, range_m, 0.04F);
+  }
+}
+
+TEST(RingGrid, SectorsShareTheColumnsEvenly) {
+  rt::FixedMemory memory;
+  const RingGrid grid({}, test::even_profile(), kShape, memory);
+  std::vector<int> columns(static_cast<std::size_t>(grid.sectors()));
+  for (int column = 0; column < kShape.columns; ++column) {
+    ++columns[static_cast<std::size_t>(grid.sector_of(column))];
+  }
+  for (const int count : columns) {
+    EXPECT_GE(count, 9);
+    EXPECT_LE(count, 10);
+  }
+}
+
+TEST(RingGrid, SurvivesAProfileWhoseBeamsNeverReachTheGround) {
+  rt::FixedMemory memory;
+  const RingGrid grid({}, test::even_profile(64, 1.0, 10.0), kShape, memory);
+  EXPECT_GE(grid.bands(), 1);
+  EXPECT_EQ(grid.band_of(50.0F), grid.bands() - 1);
+}
+
+}  // namespace
+}  // namespace terracut::pipeline

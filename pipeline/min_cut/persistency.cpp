@@ -2,14 +2,15 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/min_cut/persistency.hpp"
 
+#include "pipeline/min_cut/eight_lanes.hpp"
+
 namespace terracut::pipeline {
 
 Persistency::Persistency(std::size_t max_nodes, rt::FixedMemory& memory)
     : worklist_(memory.take<std::uint32_t>("min-cut: work lists", max_nodes)) {}
 
 void Persistency::decide(CutNode& node, std::uint32_t index) noexcept {
-  int capacity = 0;
-  for (const std::int16_t residual : node.residual) capacity += residual;
+  const int capacity = EightLanes::load(node.residual).sum();
   if (node.excess >= capacity) {
     node.side = Side::kObstacle;
   } else if (-node.excess > capacity) {

@@ -102,10 +102,12 @@ void PushRelabel::discharge(std::uint32_t index) noexcept {
   CutNode& p = nodes_[index];
   while (p.distance != kNoWayToSink) {
     std::uint32_t lowest = kNoWayToSink;
+    std::int64_t arcs = 0;
     for (unsigned left = p.edges; left != 0; left &= left - 1) {
       const int direction = std::countr_zero(left);
       const auto d = static_cast<std::size_t>(direction);
       ++ops_;
+      ++arcs;
       if (p.residual[d] == 0) continue;
       CutNode& q = nodes_[p.neighbour[d]];
       if (q.distance == kNoWayToSink) continue;
@@ -121,8 +123,6 @@ void PushRelabel::discharge(std::uint32_t index) noexcept {
         lowest = std::min(lowest, q.distance);
       }
     }
-    const std::int64_t arcs = std::popcount(p.edges);
-    ops_ += arcs;
     lift_work_ += arcs;
     lift(index, lowest == kNoWayToSink ? kNoWayToSink : lowest + 1);
   }

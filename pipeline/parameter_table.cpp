@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/parameter_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace terracut::pipeline {
+namespace {
+
+constexpr std::array<std::string_view, 2> kOffOn{"no", "yes"};
+constexpr std::array<std::string_view, 2> kReferences{"cell_minimum", "local_surface"};
+constexpr std::array<std::string_view, 2> kAdjacentRules{"ring_spacing", "slope"};
+constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
+constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
+
+// The pair of functions that read and write one field of the configuration.
+#define TERRACUT_FIELD(path)                                                              \
+  [](const SegmenterConfig& c) noexcept { return static_cast<double>(c.path); },          \
+      [](SegmenterConfig& c, double value) noexcept {                                     \
+        c.path = static_cast<std::remove_reference_t<decltype(c.path)>>(value);           \
+      }
+
+constexpr double kFar = 1e9;  // "no limit"
+
+constexpr std::array kParameters{
+    Parameter{"grid.columns_per_sector", "columns", "Image columns a sector of the ring grid covers", 1, 64, {},
+              TERRACUT_FIELD(elevation_map.grid.columns_per_sector)},
+    Parameter{"grid.min_band_m", "m", "Bands narrower than this are merged", 0, 10, {},
+              TERRACUT_FIELD(elevation_map.grid.min_band_m)},
+    Parameter{"grid.max_band_m", "m", "Bands wider than this are cut", 0.5, kFar, {},
+              TERRACUT_FIELD(elevation_map.grid.max_band_m)},
+    Parameter{"grid.range_limit_m", "m", "Everything farther belongs to the last band", 10, 250, {},
+              TERRACUT_FIELD(elevation_map.grid.range_limit_m)},
+
+    Parameter{"elevation_map.reference", "", "What heights are measured from", 0, 1, kReferences,
+              TERRACUT_FIELD(elevation_map.reference)},
+    Parameter{"elevation_map.obstacle_height_m", "m", "Obstacle from this height above the reference on", 0.01, 2, {},
+              TERRACUT_FIELD(elevation_map.obstacle_height_m)},
+
+    Parameter{"surface.step_up_m", "m", "Rise accepted as ground at no distance", 0, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.step_up_m)},
+    Parameter{"surface.slope_tolerance", "m/m", "Further rise or fall accepted per metre walked", 0, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.slope_tolerance)},
+    Parameter{"surface.step_up_limit_m", "m", "Largest rise ever accepted in one step", 0, 5, {},
+              TERRACUT_FIELD(elevation_map.surface.step_up_limit_m)},
+    Parameter{"surface.extra_fall", "m/m", "Further fall accepted per metre walked", 0, 2, {},
+              TERRACUT_FIELD(elevation_map.surface.extra_fall)},
+    Parameter{"surface.slope_gain", "", "Share of a new step in the running slope", 0.01, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.slope_gain)},
+    Parameter{"surface.max_slope", "m/m", "Largest running slope", 0, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.max_slope)},
+    Parameter{"surface.slope_memory_m", "m", "How far the running slope is carried over missing ground", 0, 50, {},
+              TERRACUT_FIELD(elevation_map.surface.slope_memory_m)},
+    Parameter{"surface.first_slope_run_m", "m", "Shorter steps count as this long for the slope", 0.1, 10, {},
+              TERRACUT_FIELD(elevation_map.surface.first_slope_run_m)},
+    Parameter{"surface.borrow_sectors", "sectors", "How far to each side a cell without ground borrows", 0, 100, {},
+              TERRACUT_FIELD(elevation_map.surface.borrow_sectors)},
+    Parameter{"surface.walked_weight", "", "Weight of the walked prediction when borrowing", 0.01, 10, {},
+              TERRACUT_FIELD(elevation_map.surface.walked_weight)},
+
+    Parameter{"adjacent.rule", "", "How a step too steep for ground is told", 0, 1, kAdjacentRules,
+              TERRACUT_FIELD(adjacent_points.rule)},
+    Parameter{"adjacent.max_slope_rad", "rad", "K: the steepest ground", 0.05, 1.5, {},
+              TERRACUT_FIELD(adjacent_points.max_slope_rad)},
+    Parameter{"adjacent.first_row_step", "rows", "Nearest row compared", 1, 4, {},
+              TERRACUT_FIELD(adjacent_points.first_row_step)},
+    Parameter{"adjacent.last_row_step", "rows", "Farthest row compared, not below first_row_step", 1, 4, {},
+              TERRACUT_FIELD(adjacent_points.last_row_step)},
+    Parameter{"adjacent.column_reach", "columns", "Columns compared to each side", 0, 8, {},
+              TERRACUT_FIELD(adjacent_points.column_reach)},
+    Parameter{"adjacent.min_rise_m", "m", "slope: smaller rises are noise", 0, 1, {},
+              TERRACUT_FIELD(adjacent_points.min_rise_m)},
+    Parameter{"adjacent.min_upper_height_m", "m", "slope: least height of the upper return above the reference", -1, 1, {},
+              TERRACUT_FIELD(adjacent_points.min_upper_height_m)},
+    Parameter{"adjacent.min_lower_height_m", "m", "slope: above this the lower return is marked too", -1, kFar, {},
+              TERRACUT_FIELD(adjacent_points.min_lower_height_m)},
+
+    Parameter{"seeds.ground_share", "", "k: share of ground around a ground seed", 0, 1, {},
+              TERRACUT_FIELD(seeds.ground_share)},
+    Parameter{"seeds.window_rows", "rows", "Window reach up and down", 0, 8, {},
+              TERRACUT_FIELD(seeds.window_rows)},
+    Parameter{"seeds.window_columns", "columns", "Window reach to each side", 0, 16, {},
+              TERRACUT_FIELD(seeds.window_columns)},
+    Parameter{"seeds.max_ground_height_m", "m", "Ground seeds lie no higher above the reference", 0, kFar, {},
+              TERRACUT_FIELD(seeds.max_ground_height_m)},
+    Parameter{"seeds.min_obstacle_height_m", "m", "Obstacles from this height on are seeds without being steep", 0, kFar, {},
+              TERRACUT_FIELD(seeds.min_obstacle_height_m)},
+    Parameter{"seeds.trust_all_obstacles", "", "Every obstacle of the stages before is a seed", 0, 1, kOffOn,
+              TERRACUT_FIELD(seeds.trust_all_obstacles)},
+
+    Parameter{"region.rule", "", "Where the costs of unknown returns come from", 0, 1, kRegionRules,
+              TERRACUT_FIELD(region.rule)},
+    Parameter{"region.lambda", "", "Weight of the region term against the boundary term", 1e-4, 1000, {},
+              TERRACUT_FIELD(region.lambda)},
+    Parameter{"region.bins_per_metre", "1/m", "histogram: k of Eq. 10", 0.1, 100, {},
+              TERRACUT_FIELD(region.bins_per_metre)},
+    Parameter{"region.empty_bin_count", "returns", "histogram: floor of every bin", 1e-6, 1000, {},
+              TERRACUT_FIELD(region.empty_bin_count)},
+    Parameter{"region.even_height_m", "m", "height_ramp: ground and obstacle cost the same here", -1, 2, {},
+              TERRACUT_FIELD(region.even_height_m)},
+    Parameter{"region.ramp_m", "m", "height_ramp: from there to full cost", 0.001, 5, {},
+              TERRACUT_FIELD(region.ramp_m)},
+
+    Parameter{"boundary.rule", "", "What ties neighbours to the same label", 0, 1, kBoundaryRules,
+              TERRACUT_FIELD(boundary.rule)},
+    Parameter{"boundary.sigma", "1/m", "height_gradient: sigma of Eq. 14", 0, 1000, {},
+              TERRACUT_FIELD(boundary.sigma)},
+    Parameter{"boundary.min_distance_m", "m", "height_gradient: floor of d in Eq. 14", 0.001, 1, {},
+              TERRACUT_FIELD(boundary.min_distance_m)},
+    Parameter{"boundary.scale_m", "m", "nearness: distance of weight 1/e at range 0", 0.001, 10, {},
+              TERRACUT_FIELD(boundary.scale_m)},
+    Parameter{"boundary.scale_per_metre", "m/m", "nearness: its growth with range", 0, 1, {},
+              TERRACUT_FIELD(boundary.scale_per_metre)},
+
+    Parameter{"min_cut.max_unknown", "cells", "Unknown cells solved at most; the farthest stay coarse", 0, 262144, {},
+              TERRACUT_FIELD(min_cut.max_unknown)},
+
+    Parameter{"returns.same_surface_range_m", "m", "A second return this near in range shares its cell's label", 0, 10, {},
+              TERRACUT_FIELD(returns.same_surface_range_m)},
+    Parameter{"returns.same_surface_height_m", "m", "... and this near in height", 0, 10, {},
+              TERRACUT_FIELD(returns.same_surface_height_m)},
+    Parameter{"returns.obstacle_height_m", "m", "Else it is an obstacle from this height on", 0.01, 2, {},
+              TERRACUT_FIELD(returns.obstacle_height_m)},
+};
+#undef TERRACUT_FIELD
+
+std::string number_text(double value) {
+  // Fields are float: the shortest text that reads back as the same float.
+  return fmt::format("{}", static_cast<float>(value));
+}
+
+Expected<double> parse_value(const Parameter& parameter, std::string_view value) {
+  if (!parameter.choices.empty()) {
+    const auto choice = std::find(parameter.choices.begin(), parameter.choices.end(), value);
+    if (choice != parameter.choices.end()) return static_cast<double>(choice - parameter.choices.begin());
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: expected one of {}, found '{}'", parameter.key,
+                            fmt::join(parameter.choices, ", "), value));
+  }
+  double number = 0;
+  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
+  const bool whole = error == std::errc{} && end == value.data() + value.size() && std::isfinite(number);
+  if (whole && number >= parameter.least && number <= parameter.most) return number;
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{}: expected a number from {} to {}{}{}, found '{}'", parameter.key,
+                          number_text(parameter.least), number_text(parameter.most),
+                          parameter.unit.empty() ? "" : " ", parameter.unit, value));
+}
+
+std::vector<std::string_view> keys_of_same_stage(std::string_view key) {
+  const std::string_view stage = key.substr(0, key.find('.') + 1);
+  std::vector<std::string_view> keys;
+  for (const Parameter& p : kParameters) {
+    if (!stage.empty() && p.key.starts_with(stage)) keys.push_back(p.key);
+  }
+  return keys;
+}
+
+}  // namespace
+
+std::span<const Parameter> parameters() noexcept { return kParameters; }
+
+Status set_parameter(SegmenterConfig& config, std::string_view key, std::string_view value) {
+  const auto parameter = std::find_if(kParameters.begin(), kParameters.end(),
+                                      [&](const Parameter& p) { return p.key == key; });
+  if (parameter == kParameters.end()) {
+    const std::vector<std::string_view> alike = keys_of_same_stage(key);
+    return fail(ErrorCode::kInvalidArgument,
+                alike.empty()
+                    ? fmt::format("no parameter is called '{}'; docs/parameters.md lists them all", key)
+                    : fmt::format("no parameter is called '{}'; there are {}", key, fmt::join(alike, ", ")));
+  }
+  const Expected<double> number = parse_value(*parameter, value);
+  if (!number) return tl::unexpected<Error>(number.error());
+  parameter->set(config, *number);
+  return {};
+}
+
+std::string value_text(const Parameter& parameter, const SegmenterConfig& config) {
+  const double value = parameter.get(config);
+  return parameter.choices.empty() ? number_text(value)
+                                   : std::string(parameter.choices[static_cast<std::size_t>(value)]);
+}
+
+}  // namespace terracut::pipeline

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "pipeline/profile.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::pipeline {
+
+/// One parameter of the method, as users name it (docs/parameters.md is printed from this table).
+struct Parameter {
+  std::string_view key;   ///< "stage.name_unit"
+  std::string_view unit;  ///< "m", "rad", "1/m", ... or empty
+  std::string_view help;
+  double least = 0, most = 0;                 ///< Valid range, ends included.
+  std::span<const std::string_view> choices;  ///< Names of the values 0, 1, ..; empty for a number.
+  double (*get)(const SegmenterConfig&) noexcept = nullptr;
+  void (*set)(SegmenterConfig&, double) noexcept = nullptr;
+};
+
+/// Every parameter, grouped by stage in the order the stages run.
+[[nodiscard]] std::span<const Parameter> parameters() noexcept;
+
+/// Sets one parameter from text ("0.2", "local_surface"). The error names the key, the value and
+/// what would have been valid; for an unknown key, the keys of the same stage.
+[[nodiscard]] Status set_parameter(SegmenterConfig& config, std::string_view key,
+                                   std::string_view value);
+
+/// A parameter's value as set_parameter() takes it.
+[[nodiscard]] std::string value_text(const Parameter& parameter, const SegmenterConfig& config);
+
+}  // namespace terracut::pipeline

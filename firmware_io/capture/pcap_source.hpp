@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "firmware_io/capture/udp_frame.hpp"
+#include "firmware_io/datagram.hpp"
+#include "rt/error.hpp"
+
+struct pcap;  // libpcap's handle, pcap_t
+
+namespace terracut::firmware_io {
+
+/// Which datagrams of a capture are wanted; an empty filter lets all pass.
+struct PcapFilter {
+  std::optional<std::uint16_t> port{};            ///< UDP destination port.
+  std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
+};
+
+/// frames == delivered + refused_total() + other_port + other_source.
+struct PcapCounters {
+  std::uint64_t frames = 0;                            ///< Records read from the file.
+  std::uint64_t delivered = 0;                         ///< Datagrams returned by next().
+  std::array<std::uint64_t, kFrameRejects> refused{};  ///< Frames, by FrameReject.
+  std::uint64_t other_port = 0;                        ///< Datagrams the filter's port kept out.
+  std::uint64_t other_source = 0;  ///< Datagrams of the right port from another sender.
+
+  [[nodiscard]] std::uint64_t refused_total() const noexcept;
+};
+
+/// How reading ended.
+enum class CaptureEnd : std::uint8_t {
+  kNotReached,
+  kClean,     ///< After the last whole record.
+  kBrokeOff,  ///< Inside a record, or at one that cannot be read on from. What came before is good.
+};
+
+/// UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte order, or
+/// pcapng), in file order. Stamps always come as nanoseconds. Not thread-safe.
+class PcapSource {
+ public:
+  /// kNotFound, kUnreadable, kMalformed (empty, or no capture: the message names what it looks
+  /// like) or kUnsupported (a link layer without IP).
+  [[nodiscard]] static Expected<PcapSource> open(std::filesystem::path path,
+                                                 PcapFilter filter = {});
+
+  /// The same from memory, which must outlive the source; `name` stands for the path in messages.
+  [[nodiscard]] static Expected<PcapSource> open_memory(std::span<const std::uint8_t> capture,
+                                                        std::string name, PcapFilter filter = {});
+
+  /// The next datagram that the filter lets pass; nothing at the end. Frames without a UDP datagram
+  /// are counted and stepped over. The payload is valid until the next call.
+  ///
+  /// An error (kMalformed or kUnsupported: interfaces of different link types in one pcapng) means
+  /// that the file breaks off: end() is then kBrokeOff, the message says after which packet and at
+  /// which byte, and every further call returns the same error. Everything returned before stays
+  /// valid, so a replay may finish with a warning. Reading whole files allocates nothing a packet.
+  [[nodiscard]] Expected<std::optional<Datagram>> next();
+
+  /// Back to the first packet (a file is opened anew). Counters go on.
+  [[nodiscard]] Status rewind();
+
+  [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] CaptureEnd end() const noexcept { return end_; }
+  [[nodiscard]] int link_type() const noexcept { return link_type_; }  ///< libpcap's DLT_ number.
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+ private:
+  struct Close {
+    void operator()(::pcap* handle) const noexcept;
+  };
+
+  PcapSource() = default;
+  [[nodiscard]] Status reopen();
+  [[nodiscard]] Error broken_off(const char* reason);
+
+  std::string name_;
+  std::filesystem::path path_;  ///< Empty when reading from memory.
+  std::span<const std::uint8_t> memory_;
+  PcapFilter filter_;
+  std::unique_ptr<::pcap, Close> handle_;
+  int link_type_ = 0;
+  PcapCounters counters_;
+  std::uint64_t frames_this_pass_ = 0;
+  CaptureEnd end_ = CaptureEnd::kNotReached;
+  std::optional<Error> break_off_;
+};
+
+}  // namespace terracut::firmware_io

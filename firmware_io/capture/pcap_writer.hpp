@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "firmware_io/datagram.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// Writes UDP datagrams to a pcap file with nanosecond stamps, as Ethernet / IPv4 / UDP frames that
+/// tcpdump, Wireshark and every driver read: IP and UDP checksums are right, hardware addresses are
+/// locally administered ones made from the IPv4 addresses.
+///
+/// Whole or not at all: the bytes go to a temporary name in the same folder; finish() renames it.
+/// Without a successful finish() nothing is left behind, and a file that stood at the path stays.
+/// Not thread-safe; blocks on the disk, so never for a real-time thread.
+class PcapWriter {
+ public:
+  static constexpr std::size_t kMaxPayloadBytes = 65507;  ///< The largest UDP payload over IPv4.
+
+  /// Makes missing parent folders. kInvalidArgument when `path` is something other than a file;
+  /// kWriteFailed when the temporary file cannot be made.
+  [[nodiscard]] static Expected<PcapWriter> create(std::filesystem::path path);
+
+  PcapWriter(PcapWriter&& other) noexcept;
+  PcapWriter& operator=(PcapWriter&& other) noexcept;
+  ~PcapWriter();
+
+  /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970.
+  /// kInvalidArgument for a stamp or payload out of range (the datagram is left out, the capture
+  /// stays good); kWriteFailed when the disk refuses, after which every call fails and nothing is
+  /// left.
+  [[nodiscard]] Status write(const Datagram& datagram);
+
+  /// Writes what is still buffered and gives the file its name. Call once; later calls fail.
+  [[nodiscard]] Status finish();
+
+  [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  PcapWriter() = default;
+  [[nodiscard]] Status flush();
+  [[nodiscard]] Status failed(const char* step, int error_number);
+  [[nodiscard]] Error closed() const;
+  void discard() noexcept;
+
+  std::filesystem::path path_;
+  std::filesystem::path temporary_;
+  int file_ = -1;
+  std::vector<std::uint8_t> buffer_;
+  std::uint64_t packets_ = 0;
+};
+
+}  // namespace terracut::firmware_io

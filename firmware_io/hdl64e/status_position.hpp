@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+namespace terracut::firmware_io {
+
+/// Counts the packets of a status stream through losses, repeats and reordering.
+///
+/// The device stamp tells how many packet periods have passed since the newest packet, the type
+/// letter which of the 16 places of the cycle it is; together they number every packet exactly
+/// across gaps of several hundred packets. The period is measured from neighbouring packets, so
+/// every return mode works. Nothing allocates or throws.
+class StatusPosition {
+ public:
+  struct Located {
+    std::int64_t packet = 0;  ///< Modulo 16: the place in the cycle; divided by 16: the cycle.
+    bool restarted = false;   ///< Counting began anew: numbers given before mean nothing any more.
+  };
+
+  /// `place` as status_place(), nothing where the type does not tell. Nothing is returned for a
+  /// repeated packet and for one that cannot be placed yet.
+  [[nodiscard]] std::optional<Located> locate(std::optional<int> place,
+                                              std::uint32_t stamp_us) noexcept;
+
+  void reset() noexcept { *this = StatusPosition{}; }
+
+  /// Mean device time between packets; 0 while unknown.
+  [[nodiscard]] double period_us() const noexcept;
+
+ private:
+  [[nodiscard]] std::optional<Located> restart(std::optional<int> place,
+                                               std::uint32_t stamp_us) noexcept;
+  [[nodiscard]] std::int64_t periods_in(std::int64_t step_us) const noexcept;
+  /// False when the period has changed for good (another return mode).
+  [[nodiscard]] bool learn_period(std::int64_t step_us) noexcept;
+
+  bool locked_ = false;
+  std::int64_t newest_packet_ = 0;
+  std::uint32_t newest_stamp_us_ = 0;
+  std::int64_t period_sum_us_ = 0;
+  std::int64_t period_count_ = 0;
+  int strays_in_a_row_ = 0;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "firmware_io/hdl64e/firing_times.hpp"
+
+/// The data packet of the HDL-64E (S2, S2.1, S3) as it lies in the UDP payload; little endian
+/// (HDL-64E S3 user manual, appendix "data packet format"; docs/sensors.md).
+/// Nothing here allocates or throws; everything is callable from the packet path.
+namespace terracut::firmware_io {
+
+// --- Numbers of the format ---
+
+inline constexpr std::uint16_t kHdl64eDataPort = 2368;   ///< UDP destination; factory setting.
+inline constexpr std::uint16_t kHdl64eSourcePort = 443;  ///< UDP source of factory units.
+/// NMEA packets of the smaller models.
+inline constexpr std::uint16_t kVelodynePositionPort = 8308;
+
+inline constexpr std::uint16_t kUpperBlockId = 0xEEFF;  ///< Lasers 0..31 (bytes FF EE).
+inline constexpr std::uint16_t kLowerBlockId = 0xDDFF;  ///< Lasers 32..63 (bytes FF DD).
+
+inline constexpr std::size_t kHdl64ePacketBytes = 1206;
+inline constexpr int kBlocksPerPacket = 12;
+inline constexpr int kLasersPerBlock = 32;
+
+inline constexpr double kHdl64eMetresPerCount = 0.002;
+/// The device clock counts microseconds since the top of the hour: 0 .. kDeviceHour_us - 1.
+inline constexpr std::uint32_t kDeviceHour_us = 3'600'000'000U;
+
+// --- The bytes ---
+
+namespace wire {
+
+/// Little-endian integers made of bytes: alignment 1, so the structs below have no padding and may
+/// be copied to and from any address.
+struct U16 {
+  std::array<std::uint8_t, 2> bytes;
+  [[nodiscard]] constexpr std::uint16_t value() const noexcept {
+    return static_cast<std::uint16_t>(bytes[0] | (bytes[1] << 8));
+  }
+  [[nodiscard]] static constexpr U16 of(std::uint16_t value) noexcept {
+    return {{static_cast<std::uint8_t>(value & 0xFF), static_cast<std::uint8_t>(value >> 8)}};
+  }
+};
+
+struct U32 {
+  std::array<std::uint8_t, 4> bytes;
+  [[nodiscard]] constexpr std::uint32_t value() const noexcept {
+    return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
+           std::uint32_t{bytes[3]} << 24;
+  }
+  [[nodiscard]] static constexpr U32 of(std::uint32_t value) noexcept {
+    return {{static_cast<std::uint8_t>(value & 0xFF), static_cast<std::uint8_t>(value >> 8 & 0xFF),
+             static_cast<std::uint8_t>(value >> 16 & 0xFF),
+             static_cast<std::uint8_t>(value >> 24)}};
+  }
+};
+
+struct Return {
+  U16 distance;            ///< Counts of 2 mm; 0 = no return.
+  std::uint8_t intensity;  ///< Uncorrected.
+};
+
+struct Block {
+  U16 id;            ///< kUpperBlockId or kLowerBlockId.
+  U16 azimuth_cdeg;  ///< 0..35999, clockwise seen from above.
+  std::array<Return, kLasersPerBlock> returns;
+};
+
+struct Packet {
+  std::array<Block, kBlocksPerPacket> blocks;
+  U32 stamp_us;              ///< Device clock at the end of the packet (see firing_times.hpp).
+  std::uint8_t status_type;  ///< The status stream: one (type, value) pair a packet.
+  std::uint8_t status_value;
+};
+
+static_assert(sizeof(Return) == 3 && alignof(Return) == 1);
+static_assert(sizeof(Block) == 100 && alignof(Block) == 1);
+static_assert(sizeof(Packet) == kHdl64ePacketBytes && alignof(Packet) == 1);
+static_assert(offsetof(Packet, stamp_us) == 1200);
+static_assert(offsetof(Packet, status_type) == 1204 && offsetof(Packet, status_value) == 1205);
+static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<Packet>);
+
+}  // namespace wire
+
+// --- Reading ---
+
+/// Reads fields of one packet where it lies, without copying it. Checks only the length: block ids
+/// and azimuths are whatever the sender wrote. Valid as long as the payload is.
+class Hdl64ePacketView {
+ public:
+  /// Nothing when the payload is not exactly 1206 bytes long.
+  [[nodiscard]] static constexpr std::optional<Hdl64ePacketView> of(
+      std::span<const std::uint8_t> payload) noexcept {
+    if (payload.size() != kHdl64ePacketBytes) {
+      return std::nullopt;
+    }
+    return Hdl64ePacketView(payload.data());
+  }
+
+  [[nodiscard]] constexpr std::uint16_t block_id(int block) const noexcept {
+    return u16(block_offset(block));
+  }
+  [[nodiscard]] constexpr std::uint16_t azimuth_cdeg(int block) const noexcept {
+    return u16(block_offset(block) + offsetof(wire::Block, azimuth_cdeg));
+  }
+  /// The 32 returns of a block as they lie: distance low byte, high byte, intensity, 96 bytes.
+  [[nodiscard]] constexpr std::span<const std::uint8_t, 3 * kLasersPerBlock> returns(
+      int block) const noexcept {
+    return std::span<const std::uint8_t, 3 * kLasersPerBlock>(
+        bytes_ + block_offset(block) + offsetof(wire::Block, returns), 3 * kLasersPerBlock);
+  }
+  /// `laser` is the index inside the block, 0..31.
+  [[nodiscard]] constexpr std::uint16_t distance(int block, int laser) const noexcept {
+    return u16(return_offset(block, laser));
+  }
+  [[nodiscard]] constexpr std::uint8_t intensity(int block, int laser) const noexcept {
+    return bytes_[return_offset(block, laser) + offsetof(wire::Return, intensity)];
+  }
+  [[nodiscard]] constexpr std::uint32_t stamp_us() const noexcept {
+    return u16(offsetof(wire::Packet, stamp_us)) |
+           std::uint32_t{u16(offsetof(wire::Packet, stamp_us) + 2)} << 16;
+  }
+  [[nodiscard]] constexpr std::uint8_t status_type() const noexcept {
+    return bytes_[offsetof(wire::Packet, status_type)];
+  }
+  [[nodiscard]] constexpr std::uint8_t status_value() const noexcept {
+    return bytes_[offsetof(wire::Packet, status_value)];
+  }
+
+  /// Block 1 is a lower block and block 2 an upper one: true for the HDL-64E S2/S3 in either return
+  /// mode and for no other Velodyne model. The smaller models send upper blocks only, the VLS-128
+  /// goes on with other ids in block 2, and the S1 sends about three upper blocks for each lower
+  /// one.
+  [[nodiscard]] constexpr bool is_hdl64e() const noexcept {
+    return block_id(1) == kLowerBlockId && block_id(2) == kUpperBlockId;
+  }
+  /// Blocks 0 and 2 carry the same azimuth: dual return, or a head that stands still. Only several
+  /// packets of a turning head, or the packet period, tell which.
+  [[nodiscard]] constexpr bool repeats_azimuth() const noexcept {
+    return azimuth_cdeg(2) == azimuth_cdeg(0);
+  }
+
+ private:
+  explicit constexpr Hdl64ePacketView(const std::uint8_t* bytes) noexcept : bytes_(bytes) {}
+
+  [[nodiscard]] static constexpr std::size_t block_offset(int block) noexcept {
+    assert(block >= 0 && block < kBlocksPerPacket);
+    return static_cast<std::size_t>(block) * sizeof(wire::Block);
+  }
+  [[nodiscard]] static constexpr std::size_t return_offset(int block, int laser) noexcept {
+    assert(laser >= 0 && laser < kLasersPerBlock);
+    return block_offset(block) + offsetof(wire::Block, returns) +
+           static_cast<std::size_t>(laser) * sizeof(wire::Return);
+  }
+  [[nodiscard]] constexpr std::uint16_t u16(std::size_t offset) const noexcept {
+    return static_cast<std::uint16_t>(bytes_[offset] | (bytes_[offset + 1] << 8));
+  }
+
+  const std::uint8_t* bytes_;
+};
+
+// --- Writing ---
+
+/// One packet being made; starts as 12 blocks without any return, at azimuth 0, with the block ids
+/// of the HDL-64E in place. Indices as in Hdl64ePacketView.
+class Hdl64ePacketBuffer {
+ public:
+  Hdl64ePacketBuffer() noexcept { clear(); }
+
+  void clear() noexcept {
+    packet_ = wire::Packet{};
+    for (std::size_t block = 0; block < packet_.blocks.size(); ++block) {
+      packet_.blocks[block].id = wire::U16::of(block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
+    }
+  }
+  void set_block_id(int block, std::uint16_t id) noexcept { at(block).id = wire::U16::of(id); }
+  void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
+    at(block).azimuth_cdeg = wire::U16::of(azimuth_cdeg);
+  }
+  void set_return(int block, int laser, std::uint16_t distance, std::uint8_t intensity) noexcept {
+    assert(laser >= 0 && laser < kLasersPerBlock);
+    at(block).returns[static_cast<std::size_t>(laser)] = {wire::U16::of(distance), intensity};
+  }
+  void set_stamp_us(std::uint32_t stamp_us) noexcept { packet_.stamp_us = wire::U32::of(stamp_us); }
+  void set_status(std::uint8_t type, std::uint8_t value) noexcept {
+    packet_.status_type = type;
+    packet_.status_value = value;
+  }
+
+  /// The payload to send; valid, and following later changes, as long as this object lives.
+  [[nodiscard]] std::span<const std::uint8_t, kHdl64ePacketBytes> payload() const noexcept {
+    return std::span<const std::uint8_t, kHdl64ePacketBytes>(
+        reinterpret_cast<const std::uint8_t*>(&packet_), kHdl64ePacketBytes);
+  }
+
+ private:
+  [[nodiscard]] wire::Block& at(int block) noexcept {
+    assert(block >= 0 && block < kBlocksPerPacket);
+    return packet_.blocks[static_cast<std::size_t>(block)];
+  }
+
+  wire::Packet packet_;
+};
+
+// --- The device clock ---
+
+/// Device time from `earlier_us` to `later_us` the short way round the hour: [-30 min, 30 min).
+[[nodiscard]] constexpr std::int64_t device_step_us(std::uint32_t earlier_us,
+                                                    std::uint32_t later_us) noexcept {
+  constexpr std::int64_t kHour = kDeviceHour_us;
+  std::int64_t step = (std::int64_t{later_us} - std::int64_t{earlier_us}) % kHour;
+  if (step >= kHour / 2) {
+    step -= kHour;
+  } else if (step < -kHour / 2) {
+    step += kHour;
+  }
+  return step;
+}
+static_assert(device_step_us(kDeviceHour_us - 88, 200) == 288);
+static_assert(device_step_us(200, kDeviceHour_us - 88) == -288);
+
+}  // namespace terracut::firmware_io

@@ -11,7 +11,8 @@ namespace terracut::calib {
 /// Vehicle frame (REP-103): x forward, y left, z up, metres; its origin lies on the ground plane
 /// straight below the sensor, so z is the height above that plane. Sensor frame: x forward, y left,
 /// z up of the sensor itself, origin at the sensor. T_vehicle_lidar = translate(0, 0, height) *
-/// rotate_y(pitch) * rotate_x(roll): positive pitch looks down in front, positive roll is left side up.
+/// rotate_y(pitch) * rotate_x(roll): positive pitch looks down in front, positive roll lifts the
+/// left side.
 struct Mount {
   double height_m = 1.73;  ///< Sensor origin above the ground plane; (0.2, 6).
   double roll_rad = 0;     ///< (-0.5, 0.5)

@@ -11,8 +11,8 @@ namespace terracut::calib {
 
 /// One row of the range image as the pipeline needs to know it: one laser, rows sorted upwards.
 struct Ring {
-  double elevation_rad = 0;     ///< Of the beam, in the sensor frame; rows ascend in it.
-  double origin_height_m = 0;   ///< Of the beam's start above the sensor's origin (vertical offset).
+  double elevation_rad = 0;    ///< Of the beam, in the sensor frame; rows ascend in it.
+  double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin (vertical offset).
   /// Mean horizontal distance at which this beam meets the mount's ground plane; infinity where it
   /// never does (elevation at or above the horizon) or only beyond the range limit.
   double ground_distance_m = 0;

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Any bytes at all: an error or a table that validates, never a crash or a hang.
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+
+#include "calib/hdl64e_yaml.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string text(data, data + size);
+  const auto parsed = terracut::calib::parse_hdl64e_yaml(text, "fuzz");
+  if (parsed && !terracut::calib::validate(*parsed)) std::abort();
+  if (!parsed && parsed.error().message.find("fuzz") == std::string::npos) std::abort();
+  return 0;
+}

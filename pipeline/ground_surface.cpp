@@ -3,6 +3,8 @@
 #include "pipeline/ground_surface.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 
 namespace terracut::pipeline {
 
@@ -10,38 +12,120 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid, rt::Fix
     : config_(config),
       walked_m_(memory.take<float>("ground surface", grid.cells())),
       height_m_(memory.take<float>("ground surface", grid.cells())),
-      measured_(memory.take<std::uint8_t>("ground surface", grid.cells())) {}
+      origin_(memory.take<Origin>("ground surface", grid.cells())) {}
 
 void GroundSurface::estimate(const RingGrid& grid, std::span<const float> lowest_m) noexcept {
   for (int sector = 0; sector < grid.sectors(); ++sector) walk_outwards(grid, sector, lowest_m);
+  drop_narrow_strips(grid);
   borrow_from_neighbours(grid);
+}
+
+float GroundSurface::Walk::predict_m(float to_range_m, const Config& config) const noexcept {
+  return height_m + slope * std::min(to_range_m - range_m, config.slope_memory_m);
+}
+
+bool GroundSurface::Walk::reaches(float to_range_m, float to_height_m,
+                                  const Config& config) const noexcept {
+  const float run_m = to_range_m - range_m;
+  const float rise_m = to_height_m - predict_m(to_range_m, config);
+  const float accepted_m =
+      std::min(config.step_up_m + config.slope_tolerance * run_m, config.step_up_limit_m);
+  return rise_m < accepted_m && rise_m > -(accepted_m + config.extra_fall * run_m);
+}
+
+void GroundSurface::Walk::step(float to_range_m, float to_height_m, const Config& config) noexcept {
+  const float run_m = std::max(to_range_m - range_m, config.first_slope_run_m);
+  const float step_slope = (to_height_m - height_m) / run_m;
+  slope = std::clamp((1.0F - config.slope_gain) * slope + config.slope_gain * step_slope,
+                     -config.max_slope, config.max_slope);
+  height_m = to_height_m;
+  range_m = to_range_m;
 }
 
 void GroundSurface::walk_outwards(const RingGrid& grid, int sector,
                                   std::span<const float> lowest_m) noexcept {
-  float last_m = 0;        // the walk starts on the mount's plane, under the sensor
-  float last_range_m = 0;
-  float slope = 0;
-  for (int band = 0; band < grid.bands(); ++band) {
+  Walk ground;
+  int lost_band = walk_on(grid, sector, 0, kMeasured, ground, lowest_m);
+  for (;;) {
+    const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest_m);
+    if (detour.band < 0) return;
+    ground = {lowest_m[grid.cell(sector, detour.band)], grid.center_m(detour.band), detour.slope};
+    lost_band = std::max(detour.band,
+                         walk_on(grid, sector, detour.band, kRegained, ground, lowest_m));
+  }
+}
+
+int GroundSurface::walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
+                           std::span<const float> lowest_m) noexcept {
+  int last_band = -1;
+  for (; band < grid.bands(); ++band) {
     const std::size_t cell = grid.cell(sector, band);
-    const float run_m = grid.center_m(band) - last_range_m;
-    const float predicted_m = last_m + slope * std::min(run_m, config_.slope_memory_m);
-    const float rise_m = lowest_m[cell] - predicted_m;
-    const float accepted_rise_m = std::min(config_.step_up_m + config_.slope_tolerance * run_m,
-                                           config_.step_up_limit_m);
-    const bool is_ground =
-        rise_m < accepted_rise_m && rise_m > -(accepted_rise_m + config_.extra_fall * run_m);
-    measured_[cell] = is_ground ? 1 : 0;
-    if (!is_ground) {
-      walked_m_[cell] = predicted_m;
-      continue;
+    const float range_m = grid.center_m(band);
+    const float lowest = lowest_m[cell];
+    const bool is_ground = lowest != kEmpty && ground.reaches(range_m, lowest, config_);
+    origin_[cell] = is_ground ? origin : kPredicted;
+    if (is_ground) {
+      ground.step(range_m, lowest, config_);
+      last_band = band;
     }
-    const float step_slope =
-        (lowest_m[cell] - last_m) / std::max(run_m, config_.first_slope_run_m);
-    slope = std::clamp((1.0F - config_.slope_gain) * slope + config_.slope_gain * step_slope,
-                       -config_.max_slope, config_.max_slope);
-    last_m = walked_m_[cell] = lowest_m[cell];
-    last_range_m = grid.center_m(band);
+    walked_m_[cell] = ground.predict_m(range_m, config_);
+  }
+  return last_band;
+}
+
+GroundSurface::Detour GroundSurface::find_ground_again(
+    const RingGrid& grid, int sector, int lost_band, const Walk& ground,
+    std::span<const float> lowest_m) const noexcept {
+  struct Place {
+    float range_m, height_m;
+  };
+  // No steeper than regain_slope from one place to the next.
+  const auto passable = [this](const Place& from, const Place& to) {
+    return std::fabs(to.height_m - from.height_m) <=
+           config_.regain_slope * (to.range_m - from.range_m);
+  };
+  const Place lost{ground.range_m, ground.height_m};
+  Place start{}, last{};
+  int start_band = -1;  // of the places that lead on passably from one to the next
+  bool connected = false;  // ... and whether they do so from the lost ground
+  for (int band = lost_band + 1; band < grid.bands(); ++band) {
+    const Place here{grid.center_m(band), lowest_m[grid.cell(sector, band)]};
+    if (here.height_m == kEmpty) continue;
+    if (start_band < 0 || !passable(last, here)) {
+      start = here;
+      start_band = band;
+      connected = passable(lost, here);
+    }
+    last = here;
+    const float length_m = here.range_m - start.range_m;
+    if (connected && length_m >= config_.regain_length_m) {
+      return {start_band, std::clamp((here.height_m - start.height_m) / length_m,
+                                     -config_.max_slope, config_.max_slope)};
+    }
+  }
+  return {};
+}
+
+void GroundSurface::drop_narrow_strips(const RingGrid& grid) noexcept {
+  const float sector_rad = 2 * std::numbers::pi_v<float> / static_cast<float>(grid.sectors());
+  for (int band = 0; band < grid.bands(); ++band) {
+    const float sector_width_m = sector_rad * grid.center_m(band);
+    const int needed = static_cast<int>(config_.regain_width_m / sector_width_m);
+    // Runs of regained cells along the band, around the circle; ground to either side counts too.
+    const auto origin = [&](int sector) -> Origin& {
+      return origin_[grid.cell(sector % grid.sectors(), band)];
+    };
+    int first = 0;
+    while (first < grid.sectors() && origin(first) != kPredicted) ++first;
+    if (first == grid.sectors()) continue;
+    for (int sector = first; sector < first + grid.sectors(); ++sector) {
+      int length = 0;
+      while (origin(sector + length) != kPredicted) ++length;
+      for (int i = 0; i < length && length < needed; ++i) {
+        if (origin(sector + i) == kRegained) origin(sector + i) = kPredicted;
+      }
+      sector += length;
+    }
   }
 }
 
@@ -52,7 +136,7 @@ void GroundSurface::borrow_from_neighbours(const RingGrid& grid) noexcept {
     for (int band = 0; band < grid.bands(); ++band) {
       const std::size_t cell = grid.cell(sector, band);
       float sum_m = walked_m_[cell];
-      if (measured_[cell] == 0) {
+      if (origin_[cell] == kPredicted) {
         float weights = config_.walked_weight;
         sum_m *= weights;
         for (int distance = 1; distance <= reach; ++distance) {
@@ -61,7 +145,7 @@ void GroundSurface::borrow_from_neighbours(const RingGrid& grid) noexcept {
           const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;
           for (const int neighbour : {left, right}) {
             const std::size_t lender = grid.cell(neighbour, band);
-            if (measured_[lender] == 0) continue;
+            if (origin_[lender] == kPredicted) continue;
             sum_m += weight * walked_m_[lender];
             weights += weight;
           }

@@ -14,20 +14,25 @@ namespace terracut::pipeline {
 /// Departs from the paper, which takes the lowest return of a cell for the ground whatever it is:
 /// there a car that hides the ground becomes ground. Here each sector is walked from the vehicle
 /// outwards; the lowest return of a cell is ground only if a passable slope leads to it from the
-/// ground before, and cells without ground of their own borrow from the nearest sectors that have it.
+/// ground before. Where none does, but the lowest returns go on passably among themselves for some
+/// metres (a bank behind a ditch, a hillside behind a hedge), the walk goes on there. Cells without
+/// ground of their own borrow from the nearest sectors that have it.
 class GroundSurface {
  public:
   struct Config {
-    float step_up_m = 0.08F;       ///< Rise accepted at no distance at all (noise, bumps).
-    float slope_tolerance = 0.12F; ///< Further rise or fall accepted per metre walked.
-    float step_up_limit_m = 0.31F; ///< Never accept a rise above this, however far the last ground.
-    float extra_fall = 0.30F;      ///< Further fall accepted per metre walked (ground may drop away).
-    float slope_gain = 0.30F;      ///< Share of a new step in the running slope, (0, 1].
-    float max_slope = 0.20F;       ///< Largest running slope, rise over run.
-    float slope_memory_m = 2.0F;   ///< How far the running slope is carried on over missing ground.
-    float first_slope_run_m = 1.0F;///< A shorter step than this counts as this long for the slope.
-    int borrow_sectors = 10;       ///< How many sectors to each side a cell may borrow from.
-    float walked_weight = 0.30F;   ///< Weight of the walked prediction against a neighbour's 1/distance.
+    float step_up_m = 0.04F;        ///< Rise accepted at no distance at all (noise, bumps).
+    float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre walked.
+    float step_up_limit_m = 0.31F;  ///< Never accept a rise above this, however far the last ground.
+    float extra_fall = 0.30F;       ///< Further fall accepted per metre walked (ground may drop away).
+    float slope_gain = 0.30F;       ///< Share of a new step in the running slope, (0, 1].
+    float max_slope = 0.40F;        ///< Largest running slope, rise over run.
+    float slope_memory_m = 2.0F;    ///< How far the running slope is carried on over missing ground.
+    float first_slope_run_m = 0.4F; ///< A shorter step than this counts as this long for the slope.
+    float regain_length_m = 4.0F;   ///< Lost ground is found again after so many metres of passable steps ...
+    float regain_slope = 0.40F;     ///< ... that begin no steeper than this from the last ground ...
+    float regain_width_m = 4.0F;    ///< ... on a strip at least so wide.
+    int borrow_sectors = 10;        ///< How many sectors to each side a cell may borrow from.
+    float walked_weight = 0.30F;    ///< Weight of the walked prediction against a neighbour's 1/distance.
   };
 
   GroundSurface(const Config& config, const RingGrid& grid, rt::FixedMemory& memory);
@@ -42,13 +47,45 @@ class GroundSurface {
   static constexpr float kEmpty = 1e9F;
 
  private:
+  enum Origin : std::uint8_t {
+    kPredicted,  // the cell had no return, or none on the ground
+    kMeasured,   // the cell's own lowest return is the ground
+    kRegained,   // the same, but the walk lost the ground on its way here
+  };
+
+  /// Where a walk stands: its last step and the slope it has been going at.
+  struct Walk {
+    float height_m = 0;  // at first on the mount's plane, under the sensor
+    float range_m = 0;
+    float slope = 0;
+
+    [[nodiscard]] float predict_m(float to_range_m, const Config& config) const noexcept;
+    [[nodiscard]] bool reaches(float to_range_m, float to_height_m, const Config& config) const noexcept;
+    void step(float to_range_m, float to_height_m, const Config& config) noexcept;
+  };
+
   void walk_outwards(const RingGrid& grid, int sector, std::span<const float> lowest_m) noexcept;
+  /// Walks from `band` to the end of the sector; returns the last band that was ground, or -1.
+  int walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
+              std::span<const float> lowest_m) noexcept;
+  /// Where ground begins again, and the slope it goes on at.
+  struct Detour {
+    int band = -1;  // -1: nowhere
+    float slope = 0;
+  };
+  /// The first band after `lost_band` that is passable from where the ground was lost and leads on
+  /// passably for `regain_length_m`.
+  [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
+                                         const Walk& ground,
+                                         std::span<const float> lowest_m) const noexcept;
+  /// Takes back what was found again on a strip too narrow to be ground: car roofs in a row, say.
+  void drop_narrow_strips(const RingGrid& grid) noexcept;
   void borrow_from_neighbours(const RingGrid& grid) noexcept;
 
   Config config_;
   std::span<float> walked_m_;
   std::span<float> height_m_;
-  std::span<std::uint8_t> measured_;  // 1 where the cell's own lowest return is the ground
+  std::span<Origin> origin_;
 };
 
 }  // namespace terracut::pipeline

@@ -72,6 +72,30 @@ TEST_F(SurfaceOverGrid, FindsTheGroundAgainBehindAHiddenStretch) {
   EXPECT_NEAR(at(0, 13.0F), 0.05F, 0.06F);
 }
 
+TEST_F(SurfaceOverGrid, FindsABankBehindADitchThatHidesItsFoot) {
+  const auto bank = [](float range_m) { return 1.5F + 0.3F * (range_m - 16.0F); };
+  fill([&](float range_m) {
+    return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : bank(range_m);
+  });
+  surface.estimate(grid, lowest_m);
+  EXPECT_NEAR(at(5, 25.0F), bank(grid.center_m(grid.band_of(25.0F))), 0.1F);
+}
+
+TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
+  fill([](float range_m) { return range_m > 12 && range_m < 20 ? 1.5F : 0.0F; });
+  surface.estimate(grid, lowest_m);
+  EXPECT_NEAR(at(5, 16.0F), 0.0F, 0.01F);
+}
+
+TEST_F(SurfaceOverGrid, DoesNotTakeARowOfRoofsForGroundThoughNothingShowsBehindIt) {
+  fill([](float) { return 0.0F; });
+  for (int band = grid.band_of(12.0F); band < grid.bands(); ++band) {
+    for (const int sector : {7, 8, 9}) lowest_m[grid.cell(sector, band)] = 1.5F;  // 1.1 m wide at 12 m
+  }
+  surface.estimate(grid, lowest_m);
+  EXPECT_NEAR(at(8, 16.0F), 0.0F, 0.1F);
+}
+
 TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
   fill([](float) { return 0.0F; });
   const int band = grid.band_of(15.0F);
@@ -81,11 +105,11 @@ TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
 }
 
 TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam) {
-  // Ground that rises slowly with range, hidden behind a car in the sectors around the seam.
+  // Ground that rises slowly with range, hidden behind a wall in the sectors around the seam.
   fill([](float range_m) { return 0.03F * range_m; });
   for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
-    lowest_m[grid.cell(0, band)] = 3.0F;
-    lowest_m[grid.cell(grid.sectors() - 1, band)] = 3.0F;
+    lowest_m[grid.cell(0, band)] = 9.0F;
+    lowest_m[grid.cell(grid.sectors() - 1, band)] = 9.0F;
   }
   surface.estimate(grid, lowest_m);
   const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));

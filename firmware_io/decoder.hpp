@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "calib/mount.hpp"
+#include "firmware_io/column_returns.hpp"
+#include "firmware_io/datagram.hpp"
+#include "firmware_io/frame_builder.hpp"
+#include "firmware_io/frame_info.hpp"
+#include "firmware_io/packet_heads.hpp"
+#include "firmware_io/stream_tracker.hpp"
+#include "pipeline/range_image.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::firmware_io {
+
+/// Data packets of one spinning sensor in, turns of returns out. A return goes straight into its
+/// cell while its packet is read.
+///
+/// `Sensor` is a trait: all that differs from model to model, resolved at compile time.
+///   using Calibration, Config;  static constexpr int kRows;  static constexpr int64_t kClockWrap_us;
+///   Sensor(const Calibration&, const calib::Mount&, const Config&, int columns, rt::FixedMemory&);
+///   std::optional<Reject> check(std::span<const uint8_t> payload, PacketHeads&) const noexcept;
+///   BeamSpread spread(int32_t step_ticks) const noexcept;         // beam minus head azimuth
+///   void begin_packet(const PacketHeads&) noexcept;
+///   const ColumnReturns<kRows>& read_column(payload, const PacketHeads&, int column) noexcept;
+///   std::span<const int32_t, kRows> rows() const noexcept;        // range image row of each laser
+///
+/// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
+/// decoded packet is placed or counted (overflow_full_returns); a packet is decoded whole or
+/// rejected whole, for a named reason. Whatever arrives, memory stays fixed and a call takes a
+/// bounded time: frames are handed over by azimuth progress only.
+///
+/// Hand-over: on_frame(const FrameInfo&, const pipeline::RangeImage&), called inside decode() and
+/// flush(), noexcept; how long the image stays valid: frame_builder.hpp.
+///
+/// One thread. The constructor takes all memory (throws std::invalid_argument on a bad setting);
+/// decode() and flush() allocate nothing, lock nothing and throw nothing.
+template <class Sensor>
+class Decoder {
+ public:
+  struct Config {
+    int columns = 2083;  ///< Firings per turn at the sensor's spin rate: HDL-64E single return 10 Hz.
+    int returns_per_cell = 2;  ///< Room for so many on average; beyond, returns are counted and lost.
+    int images = 3;            ///< FrameBuilder::Config::images
+    /// A frame is handed over when the hindmost beam is so many packets past the seam, so that
+    /// packets reordered by as many still find their frame. Costs their time as latency.
+    int reorder_packets = 2;
+    typename Sensor::Config sensor;
+  };
+
+  Decoder(const typename Sensor::Calibration& calibration, const calib::Mount& mount,
+          const Config& config, rt::FixedMemory& memory)
+      : reorder_packets_(config.reorder_packets),
+        sensor_(calibration, mount, config.sensor, config.columns, memory),
+        tracker_(Sensor::kClockWrap_us, memory),
+        frames_(frame_config(config), memory) {}
+
+  /// One datagram. Nothing when it was decoded, else why it was rejected (and counted).
+  template <class OnFrame>
+  std::optional<Reject> decode(const Datagram& datagram, OnFrame&& on_frame) noexcept;
+
+  /// The stream ends, or the source will jump (a replay loop): hands over the open turns, marked
+  /// incomplete unless they were seen whole, and forgets the stream's state but not its counters.
+  template <class OnFrame>
+  void flush(OnFrame&& on_frame) noexcept {
+    tracker_.end_of_stream(frames_.losses());
+    frames_.flush(on_frame);
+  }
+
+  /// Since construction. Packets still expected out of order become losses a few packets later.
+  [[nodiscard]] LossCounters losses() const noexcept { return frames_.total_losses(); }
+  [[nodiscard]] std::uint64_t packets_decoded() const noexcept { return packets_; }
+  [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
+  [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
+  [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return frames_.shape(); }
+  /// Device time between packets, measured; 0 until about 15 packets have been decoded.
+  [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
+  /// The last packet decoded carried two returns per firing.
+  [[nodiscard]] bool dual_return() const noexcept { return heads_.dual_return; }
+
+ private:
+  static constexpr int kRows = Sensor::kRows;
+  static constexpr auto kLasers = static_cast<std::size_t>(kRows);
+
+  [[nodiscard]] static FrameBuilder::Config frame_config(const Config& config) {
+    const pipeline::ImageShape shape{kRows, config.columns};
+    const auto spare = static_cast<std::size_t>(std::max(0, config.returns_per_cell - 1));
+    return {shape, spare * static_cast<std::size_t>(kRows * config.columns), config.images,
+            kTurn_ticks};
+  }
+
+  [[nodiscard]] static std::int64_t turn_of(std::int64_t ticks) noexcept {
+    const std::int64_t turn = ticks / kTurn_ticks;
+    return ticks % kTurn_ticks < 0 ? turn - 1 : turn;
+  }
+
+  /// From firing to firing, over some hundred packets: one packet's own step is rounded to the wire's
+  /// hundredths, too coarse to count the firings of a wide gap.
+  [[nodiscard]] std::int64_t mean_step(std::int32_t step_ticks) noexcept {
+    constexpr std::int64_t kMost_packets = 512;
+    steps_ticks_ += step_ticks;
+    if (++steps_ == kMost_packets) {
+      steps_ticks_ /= 2;
+      steps_ /= 2;
+    }
+    return steps_ticks_ / steps_;
+  }
+
+  std::optional<Reject> reject(Reject reason) noexcept {
+    ++frames_.losses().rejected[static_cast<std::size_t>(reason)];
+    return reason;
+  }
+  void place_columns(std::span<const std::uint8_t> payload, std::int64_t head_cdeg) noexcept;
+
+  int reorder_packets_;
+  Sensor sensor_;
+  StreamTracker tracker_;
+  FrameBuilder frames_;
+  PacketHeads heads_;
+  std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to here.
+  std::int64_t steps_ticks_ = 0, steps_ = 0;
+  std::uint64_t packets_ = 0, columns_ = 0;
+};
+
+template <class Sensor>
+template <class OnFrame>
+std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
+                                              OnFrame&& on_frame) noexcept {
+  if (const auto reason = sensor_.check(datagram.payload, heads_)) {
+    if (*reason == Reject::kStationary) {
+      tracker_.note_stationary(heads_.device_stamp_us, heads_.first_cdeg());
+    } else if (*reason == Reject::kAzimuthOutOfRange || *reason == Reject::kAzimuthMismatch ||
+               *reason == Reject::kAzimuthJump) {
+      tracker_.note_rejected(heads_.device_stamp_us);
+    }
+    return reject(*reason);
+  }
+  const Placement placed = tracker_.place(heads_, datagram.stamp_ns, frames_.losses());
+  if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
+
+  // Where the head is while this packet fires, and which turns its beams may touch.
+  const std::int64_t first_ticks = placed.head_cdeg * kTicksPerCdeg;
+  std::int64_t least_ticks = first_ticks, most_ticks = first_ticks;
+  for (int column = 1; column < heads_.columns; ++column) {
+    const std::int64_t ticks = first_ticks + heads_.advance_cdeg(column) * kTicksPerCdeg;
+    least_ticks = std::min(least_ticks, ticks);
+    most_ticks = std::max(most_ticks, ticks);
+  }
+  const HeadInterval swept{first_ticks, first_ticks + heads_.sweep_ticks};
+  const BeamSpread spread = sensor_.spread(heads_.step_ticks);
+  const std::int64_t first_turn = turn_of(least_ticks + spread.hindmost_ticks);
+  const std::int64_t last_turn = turn_of(most_ticks + spread.foremost_ticks);
+
+  if (placed.arrival == Arrival::kRestart) {
+    frames_.flush(on_frame);
+    frames_.start(first_turn, first_ticks);
+    frontier_ticks_ = first_ticks;
+    steps_ticks_ = steps_ = 0;
+  }
+  if (first_turn < frames_.oldest()) return reject(Reject::kLate);
+
+  const std::int64_t step_ticks = mean_step(heads_.step_ticks);
+  if (placed.arrival == Arrival::kReordered) {
+    frames_.regain(swept, spread);
+  } else if (first_ticks - frontier_ticks_ > step_ticks * 3 / 4) {
+    frames_.lose({frontier_ticks_, first_ticks}, spread, step_ticks);
+  }
+  frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
+
+  while (last_turn > frames_.oldest() + 1) frames_.roll(on_frame);
+  frames_.note_packet(datagram.stamp_ns, first_turn, last_turn, frontier_ticks_, step_ticks,
+                      spread);
+  place_columns(datagram.payload, placed.head_cdeg);
+
+  const std::int64_t settled_ticks = std::max(most_ticks, frontier_ticks_ - heads_.step_ticks) +
+                                     spread.hindmost_ticks -
+                                     std::int64_t{reorder_packets_} * heads_.sweep_ticks;
+  while (turn_of(settled_ticks) > frames_.oldest()) frames_.roll(on_frame);
+  return std::nullopt;
+}
+
+template <class Sensor>
+void Decoder<Sensor>::place_columns(std::span<const std::uint8_t> payload,
+                                    std::int64_t head_cdeg) noexcept {
+  sensor_.begin_packet(heads_);
+  const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
+  for (int column = 0; column < heads_.columns; ++column) {
+    const ColumnReturns<kLasers>& found = sensor_.read_column(payload, heads_, column);
+    const std::int64_t column_cdeg = head_cdeg + heads_.advance_cdeg(column);
+    const std::int64_t head_turn = (column_cdeg - calib::wrap_cdeg(column_cdeg)) / calib::kTurn_cdeg;
+    for (std::size_t i = 0; i < kLasers; ++i) {
+      if (found.raw[i] == 0) continue;
+      frames_.place(head_turn + found.turn_offset[i], rows[i], found.column[i],
+                    {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i],
+                     found.intensity[i]});
+    }
+  }
+  ++packets_;
+  columns_ += static_cast<std::uint64_t>(heads_.columns);
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "firmware_io/frame_info.hpp"
+#include "pipeline/range_image.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::firmware_io {
+
+/// Head azimuth, unwrapped (it grows by one turn a turn), in the ticks of the sensor's decoder.
+/// An interval of it: [from, to).
+struct HeadInterval {
+  std::int64_t from_ticks = 0, to_ticks = 0;
+};
+
+/// How far the beams point away from the head: every beam's azimuth minus the head's lies in
+/// [hindmost, foremost].
+struct BeamSpread {
+  std::int64_t hindmost_ticks = 0, foremost_ticks = 0;
+};
+
+/// Sorts returns into turns. Knows nothing of any sensor.
+///
+/// Beams point some degrees before and behind the head, so around the seam (azimuth 0) returns of
+/// turn k and of turn k + 1 arrive mixed. Two images are open at any time, of the `oldest()` turn
+/// and the next; a laser that passes the seam late still lands in the right one. The oldest turn is
+/// handed over by roll(), when the decoder has seen the hindmost beam pass the seam. A turn without
+/// a single return is no frame; one that misses firings is, with complete = false.
+///
+///   head turns on -->        seam k             seam k+1
+///   foremost beam     .......|------- turn k ---|=== turn k+1 ===
+///   hindmost beam     ............|------- turn k ---|=== turn k+1
+///
+/// Hand-over is a call on_frame(const FrameInfo&, const pipeline::RangeImage&), noexcept. With n
+/// images the one handed over stays untouched until the (n - 2)th hand-over after it.
+///
+/// Memory is taken in the constructor; nothing else allocates, locks or throws. One thread.
+class FrameBuilder {
+ public:
+  struct Config {
+    pipeline::ImageShape shape;
+    std::size_t overflow_capacity = 0;  ///< Returns of a turn that find their cell taken.
+    int images = 3;                     ///< >= 3: two open, one with whoever it was handed to.
+    std::int64_t turn_ticks = 0;        ///< Ticks in 360 degrees.
+  };
+
+  /// Throws std::invalid_argument on a setting outside its range.
+  FrameBuilder(const Config& config, rt::FixedMemory& memory);
+  FrameBuilder(const FrameBuilder&) = delete;
+  FrameBuilder& operator=(const FrameBuilder&) = delete;
+
+  /// A stream begins: the first firing is at head azimuth `head_ticks`, its hindmost beam in
+  /// `oldest_turn`. Nothing may be open with returns in it (see flush()).
+  void start(std::int64_t oldest_turn, std::int64_t head_ticks) noexcept;
+
+  [[nodiscard]] bool started() const noexcept { return started_; }
+  [[nodiscard]] std::int64_t oldest() const noexcept { return oldest_; }
+  [[nodiscard]] bool is_open(std::int64_t turn) const noexcept {
+    return started_ && turn - oldest_ >= 0 && turn - oldest_ <= 1;
+  }
+
+  /// Puts a return into an open turn. False, and counted, when its overflow list is full.
+  bool place(std::int64_t turn, int row, int column, const pipeline::Return& echo) noexcept {
+    if (open_[static_cast<std::size_t>(turn - oldest_)].image->place(row, column, echo)) return true;
+    ++losses_.overflow_full_returns;
+    return false;
+  }
+
+  /// Firings were lost in this interval / arrived after all (reordered). `step_ticks`: from firing
+  /// to firing.
+  void lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks) noexcept;
+  void regain(HeadInterval found, const BeamSpread& spread) noexcept;
+
+  /// A packet with this datagram stamp was decoded; its beams touch turns [first, last]. `step_ticks`
+  /// and `spread` as they are now; the head has been seen up to `frontier_ticks`.
+  void note_packet(std::int64_t stamp_ns, std::int64_t first_turn, std::int64_t last_turn,
+                   std::int64_t frontier_ticks, std::int64_t step_ticks,
+                   const BeamSpread& spread) noexcept;
+
+  /// Hands the oldest turn over, if it has returns, and opens the one after the next.
+  template <class OnFrame>
+  void roll(OnFrame&& on_frame) noexcept {
+    if (close_oldest()) on_frame(info_, *closed_);
+  }
+
+  /// The stream ends here: hands over what is open, oldest first. start() must follow.
+  template <class OnFrame>
+  void flush(OnFrame&& on_frame) noexcept {
+    if (!started_) return;
+    roll(on_frame);
+    roll(on_frame);
+    started_ = false;
+  }
+
+  /// What was lost since the last frame was handed over; the decoder adds its own causes here.
+  [[nodiscard]] LossCounters& losses() noexcept { return losses_; }
+  /// Everything lost since construction.
+  [[nodiscard]] LossCounters total_losses() const noexcept;
+  [[nodiscard]] std::uint32_t frames() const noexcept { return frames_; }
+  [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return shape_; }
+
+ private:
+  struct OpenTurn {
+    pipeline::RangeImage* image = nullptr;
+    std::int64_t first_packet_ns = 0, last_packet_ns = 0;
+    std::int64_t missing_ticks = 0;  ///< Lost where any beam of the turn fires.
+    std::int64_t hole_ticks = 0;     ///< Lost in the head's own turn; these tile the stream.
+    bool touched = false;
+  };
+
+  /// The image that nobody has written to for the longest, for the one just handed over.
+  [[nodiscard]] pipeline::RangeImage& exchange(pipeline::RangeImage& handed_over) noexcept;
+  void open(std::size_t slot, std::int64_t turn, pipeline::RangeImage& image) noexcept;
+  void add_missing(OpenTurn& turn, std::int64_t number, const HeadInterval& interval, int sign,
+                   const BeamSpread& spread) noexcept;
+  [[nodiscard]] bool seen_whole(const OpenTurn& turn) const noexcept;
+  /// Fills info_ and closed_, or answers false when the turn has no returns.
+  [[nodiscard]] bool close_oldest() noexcept;
+
+  pipeline::ImageShape shape_;
+  std::int64_t turn_ticks_;
+  std::vector<pipeline::RangeImage> images_;
+  std::vector<pipeline::RangeImage*> free_;  ///< Not open; a ring, the longest so at next_free_.
+  std::size_t next_free_ = 0;
+
+  bool started_ = false;
+  std::int64_t oldest_ = 0;
+  std::array<OpenTurn, 2> open_;  ///< Of oldest_ and oldest_ + 1.
+  std::int64_t start_ticks_ = 0, frontier_ticks_ = 0, step_ticks_ = 1;
+  BeamSpread spread_;
+  HeadInterval last_gap_;  ///< A turn that opens later may begin inside it.
+
+  std::uint32_t frames_ = 0;
+  std::uint32_t packets_ = 0;
+  LossCounters losses_, losses_handed_over_;
+  FrameInfo info_;
+  const pipeline::RangeImage* closed_ = nullptr;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "calib/angle.hpp"
+#include "calib/hdl64e_calibration.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet_heads.hpp"
+
+/// Where a beam points when its laser fires, in whole numbers, so that the decoder, the encoder and
+/// the truth beside a capture agree on the turn and the order of every return, bit for bit.
+///
+/// A packet's column carries one azimuth for 64 lasers, that of the head at the column's first
+/// firing. While the lasers fire one group after another the head turns on by almost a column:
+///
+///   head at the firing of laser i = azimuth of its column + advance(i)
+///   beam of laser i               = head at its firing    - rotational correction(i)
+///
+/// both clockwise from straight ahead. `offset` below is beam minus column azimuth. The step from
+/// column to column is taken from the packet's own first and last azimuth, so nothing depends on a
+/// nominal spin rate. Angles are in ticks (packet_heads.hpp). Everything here is allocation-free and noexcept; any thread.
+namespace terracut::firmware_io {
+
+/// Which head azimuth a laser's return is given.
+enum class AzimuthAt : std::uint8_t {
+  kFiring,  ///< The head's azimuth at that laser's own firing time.
+  kBlock,   ///< The azimuth written in the block, for comparison with drivers that use it for all.
+};
+
+/// How far the head turns from column to column, ticks, given the packet's first and last azimuth
+/// (wire values, [0, 36000)). Exact: both divisors divide kTicksPerCdeg.
+[[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
+                                                       bool dual_return = false) noexcept {
+  const int columns = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
+  return calib::step_cdeg(first_cdeg, last_cdeg) * (kTicksPerCdeg / (columns - 1));
+}
+
+/// The share of the column period after which laser 0..31 of a block fires, in 1 / 2^20.
+inline constexpr int kFiringShareBits = 20;
+[[nodiscard]] constexpr std::array<std::int64_t, kLasersPerBlock> firing_shares(
+    const FiringTimes& times) noexcept {
+  std::array<std::int64_t, kLasersPerBlock> shares{};
+  for (int j = 0; j < kLasersPerBlock; ++j) {
+    shares[static_cast<std::size_t>(j)] =
+        (std::int64_t{times.laser_ns(j)} << kFiringShareBits) / times.column_ns;
+  }
+  return shares;
+}
+/// Single return always uses the 48 us table: the shares of the 57.6 us cycle differ by at most
+/// 0.013 of a step (0.002 degrees at 10 Hz), and which cycle a unit runs is known only after some
+/// packets, while the first packet needs an answer.
+inline constexpr auto kFiringSharesSingle = firing_shares(kFiringTimesSingle48);
+inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
+
+/// How far the head has turned since its column's azimuth when `laser` (0..63) fires, ticks.
+/// `step_ticks` as of column_step_ticks(), >= 0.
+[[nodiscard]] constexpr std::int32_t firing_advance_ticks(
+    std::int32_t step_ticks, int laser, bool dual_return = false,
+    AzimuthAt azimuth_at = AzimuthAt::kFiring) noexcept {
+  if (azimuth_at == AzimuthAt::kBlock) return 0;
+  const auto& shares = dual_return ? kFiringSharesDual : kFiringSharesSingle;
+  const std::int64_t share = shares[static_cast<std::size_t>(laser % kLasersPerBlock)];
+  return static_cast<std::int32_t>((step_ticks * share) >> kFiringShareBits);
+}
+
+/// Head azimuth at a firing for calib::Hdl64eGeometry: radians, clockwise from straight ahead,
+/// [0, 2 pi + a step). `column_cdeg` may be unwrapped (any turn).
+[[nodiscard]] constexpr double firing_azimuth_rad(std::int64_t column_cdeg,
+                                                  std::int32_t advance_ticks) noexcept {
+  return (calib::wrap_cdeg(column_cdeg) * kTicksPerCdeg + advance_ticks) * kRadPerTick;
+}
+
+/// A laser's rotational correction in ticks, as all whole-number azimuths take it.
+[[nodiscard]] inline std::int32_t rot_correction_ticks(const calib::Hdl64eLaser& laser) noexcept {
+  return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / kRadPerTick));
+}
+
+/// A beam's azimuth: which turn, and where in it.
+struct BeamAzimuth {
+  std::int64_t turn = 0;
+  std::int32_t in_turn_ticks = 0;  ///< [0, kTurn_ticks)
+};
+
+/// The beam `offset_ticks` (advance - rotational correction) away from a column's azimuth.
+/// `column_cdeg` is unwrapped: it grows by 36000 each turn of the head. |offset| < one turn.
+[[nodiscard]] constexpr BeamAzimuth beam_azimuth(std::int64_t column_cdeg,
+                                                 std::int32_t offset_ticks) noexcept {
+  const std::int32_t head_cdeg = calib::wrap_cdeg(column_cdeg);
+  BeamAzimuth beam{(column_cdeg - head_cdeg) / calib::kTurn_cdeg,
+                   head_cdeg * kTicksPerCdeg + offset_ticks};
+  if (beam.in_turn_ticks < 0) {
+    beam.in_turn_ticks += kTurn_ticks;
+    --beam.turn;
+  } else if (beam.in_turn_ticks >= kTurn_ticks) {
+    beam.in_turn_ticks -= kTurn_ticks;
+    ++beam.turn;
+  }
+  return beam;
+}
+
+/// Range image column of a beam: floor(in_turn / pitch), [0, columns). columns in [1, 36000].
+[[nodiscard]] constexpr int column_of(std::int32_t in_turn_ticks, int columns) noexcept {
+  return static_cast<int>(std::int64_t{in_turn_ticks} * columns / kTurn_ticks);
+}
+
+/// Offsets of all 64 beams for one unit.
+class BeamOffsets {
+ public:
+  explicit BeamOffsets(const calib::Hdl64eCalibration& calibration,
+                       AzimuthAt azimuth_at = AzimuthAt::kFiring) noexcept
+      : azimuth_at_(azimuth_at) {
+    for (std::size_t i = 0; i < rot_ticks_.size(); ++i) {
+      rot_ticks_[i] = rot_correction_ticks(calibration.lasers[i]);
+    }
+    const auto [least, most] = std::minmax_element(rot_ticks_.begin(), rot_ticks_.end());
+    least_rot_ticks_ = *least;
+    most_rot_ticks_ = *most;
+  }
+
+  [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int laser,
+                                          bool dual_return = false) const noexcept {
+    return firing_advance_ticks(step_ticks, laser, dual_return, azimuth_at_) -
+           rot_ticks_[static_cast<std::size_t>(laser)];
+  }
+  /// No beam's offset is below hindmost_ticks(), nor above foremost_ticks() for that step.
+  [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return -most_rot_ticks_; }
+  [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
+    return step_ticks - least_rot_ticks_;
+  }
+  [[nodiscard]] AzimuthAt azimuth_at() const noexcept { return azimuth_at_; }
+
+ private:
+  AzimuthAt azimuth_at_;
+  std::array<std::int32_t, calib::kHdl64eLasers> rot_ticks_{};
+  std::int32_t least_rot_ticks_ = 0, most_rot_ticks_ = 0;
+};
+
+}  // namespace terracut::firmware_io

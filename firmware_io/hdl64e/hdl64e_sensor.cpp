@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/hdl64e/hdl64e_sensor.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace terracut::firmware_io {
+namespace {
+
+int checked_columns(int columns) {
+  if (columns < 16 || columns > calib::kTurn_cdeg) {
+    throw std::invalid_argument("HDL-64E: columns per turn must be in [16, 36000]");
+  }
+  return columns;
+}
+
+}  // namespace
+
+Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const calib::Mount& mount,
+                           const Config& config, int columns, rt::FixedMemory& memory)
+    : offsets_(calibration, config.azimuth_at),
+      kernel_(calibration, config.geometry, mount, checked_columns(columns), memory),
+      rows_(calib::rows_by_elevation(calibration)) {}
+
+void Hdl64eSensor::begin_packet(const PacketHeads& heads) noexcept {
+  std::array<std::int32_t, kLasersPerBlock> advance_ticks;
+  std::array<std::int32_t, calib::kHdl64eLasers> offset_ticks;
+  for (int j = 0; j < kLasersPerBlock; ++j) {
+    advance_ticks[static_cast<std::size_t>(j)] =
+        firing_advance_ticks(heads.step_ticks, j, heads.dual_return, offsets_.azimuth_at());
+  }
+  for (int i = 0; i < kRows; ++i) {
+    offset_ticks[static_cast<std::size_t>(i)] =
+        offsets_.offset_ticks(heads.step_ticks, i, heads.dual_return);
+  }
+  kernel_.begin_packet(advance_ticks, offset_ticks);
+}
+
+const Hdl64eSensor::Column& Hdl64eSensor::read_column(std::span<const std::uint8_t> payload,
+                                                      const PacketHeads& heads,
+                                                      int column) noexcept {
+  const auto packet = Hdl64ePacketView::of(payload);
+  if (packet) {  // check() has seen to it
+    for (int half = 0; half < 2; ++half) {
+      const auto bytes = packet->returns(2 * column + half);
+      const auto first = static_cast<std::size_t>(half) * kLasersPerBlock;
+      for (std::size_t j = 0; j < kLasersPerBlock; ++j) {
+        returns_.raw[first + j] =
+            static_cast<std::uint16_t>(bytes[3 * j] | bytes[3 * j + 1] << 8);
+        returns_.intensity[first + j] = bytes[3 * j + 2];
+      }
+    }
+  }
+  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], returns_);
+  return returns_;
+}
+
+}  // namespace terracut::firmware_io

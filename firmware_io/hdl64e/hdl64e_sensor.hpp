@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "calib/hdl64e_calibration.hpp"
+#include "calib/hdl64e_geometry.hpp"
+#include "calib/mount.hpp"
+#include "firmware_io/column_returns.hpp"
+#include "firmware_io/frame_builder.hpp"
+#include "firmware_io/hdl64e/firing_azimuth.hpp"
+#include "firmware_io/hdl64e/packet_check.hpp"
+#include "firmware_io/hdl64e/point_kernel.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
+
+namespace terracut::firmware_io {
+
+/// What Decoder needs to know of the HDL-64E (see there).
+///
+/// Single and dual return packets are told apart by their azimuths (formats: in dual return every
+/// azimuth comes twice). Both returns of a firing are placed, the second one on the overflow list
+/// where it shares the cell of the first.
+class Hdl64eSensor {
+ public:
+  using Calibration = calib::Hdl64eCalibration;
+  struct Config {
+    calib::GeometryModel geometry = calib::GeometryModel::kManual;
+    AzimuthAt azimuth_at = AzimuthAt::kFiring;
+  };
+  static constexpr int kRows = calib::kHdl64eLasers;
+  using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
+  static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
+
+  /// columns: in [16, 36000], else std::invalid_argument.
+  Hdl64eSensor(const Calibration& calibration, const calib::Mount& mount, const Config& config,
+               int columns, rt::FixedMemory& memory);
+
+  [[nodiscard]] std::optional<Reject> check(std::span<const std::uint8_t> payload,
+                                            PacketHeads& heads) const noexcept {
+    return check_hdl64e_packet(payload, heads);
+  }
+  [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
+    return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
+  }
+  void begin_packet(const PacketHeads& heads) noexcept;
+  [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
+                                          const PacketHeads& heads, int column) noexcept;
+  [[nodiscard]] std::span<const std::int32_t, calib::kHdl64eLasers> rows() const noexcept { return rows_; }
+
+ private:
+  BeamOffsets offsets_;
+  PointKernel kernel_;
+  std::array<std::int32_t, calib::kHdl64eLasers> rows_;
+  Column returns_{};
+};
+
+}  // namespace terracut::firmware_io

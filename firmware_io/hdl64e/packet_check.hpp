@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "firmware_io/loss_counters.hpp"
+#include "firmware_io/packet_heads.hpp"
+
+namespace terracut::firmware_io {
+
+/// What the head of an HDL-64E may do inside a packet. The steps cover 69 to 3400 rpm at the 48 us
+/// cycle (the sensor spins at 300 to 1200); a jitter backwards is not a step back.
+inline constexpr int kMinSweep_cdeg = 10;      ///< First to last column; below, the head stands still.
+inline constexpr int kMaxColumnStep_cdeg = 100;
+inline constexpr int kMaxJitter_cdeg = 5;      ///< Backwards, from column to column.
+
+/// Checks that a payload is an HDL-64E S2, S2.1 or S3 data packet of a turning head and reads its
+/// azimuths and stamp into `heads`; otherwise the reason to reject it. The checks, in this order:
+///
+///   kWrongModel        another Velodyne's or a RoboSense's data packet, told by its block ids or
+///                      size and leader (VLP-16, HDL-32E, VLP-32C: upper blocks only; VLS-128: four
+///                      ids in turn; HDL-64E S1: several upper blocks to a lower one; RS-Ruby)
+///   kWrongSize         not 1206 bytes
+///   kWrongMagic        block ids that do not alternate upper, lower
+///   kAzimuthOutOfRange, kAzimuthMismatch (of a pair), kAzimuthJump (steps beyond those above)
+///   kStationary
+///
+/// `heads` holds stamp and azimuths, as far as they exist, for the azimuth reasons and kStationary
+/// too. Real-time safe; any thread.
+[[nodiscard]] std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
+                                                        PacketHeads& heads) noexcept;
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/hdl64e/status_cycle.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
+
+namespace terracut::firmware_io {
+
+/// Writes six firings as one single-return data packet. The device stamp marks the packet's end
+/// (docs/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
+void encode_hdl64e_packet(std::span<const FiringColumn, kColumnsPerPacketSingle> columns,
+                          std::int64_t end_stamp_ns, StatusPair status,
+                          Hdl64ePacketBuffer& packet) noexcept;
+
+/// When the packet of these firings ends: one column period, taken from the firings themselves,
+/// after the last one.
+[[nodiscard]] std::int64_t packet_end_ns(
+    std::span<const FiringColumn, kColumnsPerPacketSingle> columns) noexcept;
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "firmware_io/hdl64e/firing_azimuth.hpp"
+#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
+
+namespace terracut::firmware_io {
+
+/// Sorts the truth of a drive's returns into turns as the decoder sorts the returns: by each beam's
+/// own azimuth, in order of arrival. Not real-time safe (allocates).
+class TruthTurns {
+ public:
+  explicit TruthTurns(const BeamOffsets& offsets) : offsets_(offsets) {}
+
+  /// The firings of one packet.
+  void add(std::span<const FiringColumn, kColumnsPerPacketSingle> columns);
+
+  /// The oldest turn that no further beam can reach, if any; its labels move to `labels`, which has
+  /// at least one. Empty turns are dropped.
+  [[nodiscard]] bool take_finished(std::vector<std::uint32_t>& labels);
+  /// The same for the oldest turn of all, at the end of the drive.
+  [[nodiscard]] bool take_any(std::vector<std::uint32_t>& labels);
+
+ private:
+  BeamOffsets offsets_;
+  std::map<std::int64_t, std::vector<std::uint32_t>> by_turn_;
+  std::int64_t oldest_reachable_ = 0;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "calib/angle.hpp"
+
+namespace terracut::firmware_io {
+
+/// The unit of head and beam azimuths in all decoders: a thousandth of the wire's hundredth of a
+/// degree, 1e-5 degrees (0.02 mm at 120 m). Whole numbers, so that every program agrees on them.
+inline constexpr std::int32_t kTicksPerCdeg = 1000;
+inline constexpr std::int32_t kTurn_ticks = calib::kTurn_cdeg * kTicksPerCdeg;
+inline constexpr double kRadPerTick = calib::deg_to_rad(1e-5);
+
+/// Where the head stood, and when, in one data packet of a spinning sensor: all that ordering
+/// packets and cutting turns needs to know of it. Made by a sensor trait, which vouches for it:
+/// azimuths in range, advancing, and not those of a head that stands still.
+struct PacketHeads {
+  static constexpr int kMaxColumns = 6;
+
+  std::int64_t device_stamp_us = 0;  ///< Device clock, [0, Sensor::kClockWrap_us).
+  std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Of each column, [0, 36000).
+  int columns = 0;
+  std::int32_t step_ticks = 0;   ///< From firing to firing, > 0.
+  std::int32_t sweep_ticks = 0;  ///< From the first firing to that of the next packet, > 0.
+  bool dual_return = false;      ///< Successive columns are two returns of one firing.
+
+  [[nodiscard]] std::int32_t first_cdeg() const noexcept { return azimuth_cdeg[0]; }
+  [[nodiscard]] std::int32_t last_cdeg() const noexcept {
+    return azimuth_cdeg[static_cast<std::size_t>(columns - 1)];
+  }
+  /// From the first column to `column`, hundredths of a degree; a jitter may make it negative.
+  [[nodiscard]] std::int32_t advance_cdeg(int column) const noexcept {
+    return calib::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[static_cast<std::size_t>(column)]);
+  }
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/stream_tracker.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace terracut::firmware_io {
+namespace {
+
+/// A packet this much older than the newest is out of order; still older, the clock has jumped.
+constexpr std::int64_t kReorder_us = 20'000;
+/// Up to here a step of the device clock is a gap; beyond, only if the host's clock agrees.
+constexpr std::int64_t kOutage_us = 1'000'000;
+/// The head may be this far from where time and speed put it, plus an eighth of what it has turned.
+constexpr std::int64_t kHeadSlack_cdeg = 2'000;
+/// So many contradicting packets in a row are the truth, and the stream before them is not.
+constexpr int kMisfitsBeforeRestart = 8;
+/// A missing packet may arrive out of order for so many packets more.
+constexpr int kMissingGrace_packets = 16;
+/// Steps that do not fit the measured period, in a row, until it is measured anew (a mode switch).
+constexpr int kOffPeriodBeforeRemeasure = 64;
+/// The period is the mean over some thousand packets.
+constexpr std::int64_t kPeriodMean_packets = 8'192;
+/// A packet can be told to be a repeat of one within this many packets. Slots are direct-mapped by
+/// time; the width is below the shortest packet period, so neighbours never share one.
+constexpr std::uint32_t kRepeatWindow_packets = 1'024;
+constexpr std::size_t kSeenSlots = 4'096;
+constexpr std::int64_t kSeenSlot_us = 128;
+/// The speed of a packet stream until its period is measured: the HDL-64E's.
+constexpr std::int64_t kAssumedPeriod_ns = 288'000;
+
+}  // namespace
+
+StreamTracker::StreamTracker(std::int64_t clock_wrap_us, rt::FixedMemory& memory)
+    : clock_wrap_us_(clock_wrap_us), seen_(memory.take<Seen>("stream tracker", kSeenSlots)) {}
+
+std::int64_t StreamTracker::device_step_us(std::int64_t from_us, std::int64_t to_us) const noexcept {
+  std::int64_t step = (to_us - from_us) % clock_wrap_us_;
+  if (step >= clock_wrap_us_ / 2) step -= clock_wrap_us_;
+  if (step < -(clock_wrap_us_ / 2)) step += clock_wrap_us_;
+  return step;
+}
+
+bool StreamTracker::is_repeat(const PacketHeads& heads) noexcept {
+  ++packets_;
+  Seen& slot = seen_[static_cast<std::size_t>(heads.device_stamp_us / kSeenSlot_us) % kSeenSlots];
+  const Seen now{static_cast<std::uint32_t>(heads.device_stamp_us),
+                 static_cast<std::uint16_t>(heads.first_cdeg()),
+                 static_cast<std::uint16_t>(heads.last_cdeg()), packets_};
+  const bool repeat = slot.packet != 0 && slot.stamp_us == now.stamp_us &&
+                      slot.first_cdeg == now.first_cdeg && slot.last_cdeg == now.last_cdeg &&
+                      packets_ - slot.packet <= kRepeatWindow_packets;
+  if (!repeat) slot = now;
+  return repeat;
+}
+
+Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                               LossCounters& losses) noexcept {
+  if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated};
+  if (!started_) return restart(heads, host_stamp_ns, losses);
+
+  const std::int64_t step_us = device_step_us(newest_stamp_us_, heads.device_stamp_us);
+  const std::int64_t step_cdeg =
+      calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), heads.first_cdeg());
+
+  if (step_us < -kReorder_us || step_us > kOutage_us) {
+    const std::int64_t host_step_us = (host_stamp_ns - newest_host_ns_) / 1000;
+    const bool is_outage =
+        step_us > 0 && std::abs(host_step_us - step_us) < std::max(step_us / 16, kReorder_us);
+    if (is_outage) {
+      count_missing(step_us, losses);
+      return restart(heads, host_stamp_ns, losses);
+    }
+    ++losses.clock_jumps;
+    const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_sweep_ticks_;
+    if (!turns_on) return restart(heads, host_stamp_ns, losses);
+    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg);  // only the clock was set
+    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
+  }
+
+  const std::int64_t period_ns = period_ns_ != 0 ? period_ns_ : kAssumedPeriod_ns;
+  const std::int64_t turned_cdeg =
+      newest_sweep_ticks_ * (step_us * 1000) / period_ns / kTicksPerCdeg;
+  const std::int64_t expected_cdeg = newest_head_cdeg_ + turned_cdeg;
+  const std::int64_t off_cdeg =
+      calib::step_cdeg(calib::wrap_cdeg(expected_cdeg), heads.first_cdeg());
+  if (std::abs(off_cdeg) > kHeadSlack_cdeg + std::abs(turned_cdeg) / 8) {
+    if (++misfits_ >= kMisfitsBeforeRestart) return restart(heads, host_stamp_ns, losses);
+    note_rejected(heads.device_stamp_us);
+    return {Arrival::kRejected, Reject::kAzimuthJump};
+  }
+  misfits_ = 0;
+  const std::int64_t head_cdeg = expected_cdeg + off_cdeg;
+  if (step_us < 0) {
+    missing_ = std::max<std::int64_t>(0, missing_ - 1);
+    return {Arrival::kReordered, Reject::kCount, head_cdeg};
+  }
+  if (step_us == 0) {
+    ++losses.clock_jumps;  // the clock stands still while the head turns
+  } else {
+    count_missing(step_us, losses);
+    measure_period(step_us, losses);
+  }
+  take_as_newest(heads, host_stamp_ns, head_cdeg);
+  return {Arrival::kNext, Reject::kCount, head_cdeg};
+}
+
+void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                   std::int64_t head_cdeg) noexcept {
+  newest_stamp_us_ = heads.device_stamp_us;
+  newest_host_ns_ = host_stamp_ns;
+  newest_head_cdeg_ = head_cdeg;
+  newest_sweep_ticks_ = heads.sweep_ticks;
+  explained_ = 0;
+}
+
+Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                 LossCounters& losses) noexcept {
+  commit_missing(losses);
+  started_ = true;
+  misfits_ = 0;
+  take_as_newest(heads, host_stamp_ns, heads.first_cdeg());
+  return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_};
+}
+
+// --- Missing packets, by the device's own stamps ---------------------------------------------------
+
+void StreamTracker::count_missing(std::int64_t step_us, LossCounters& losses) noexcept {
+  if (period_ns_ == 0) return;  // settle_period() will look back
+  const std::int64_t periods = (step_us * 1000 + period_ns_ / 2) / period_ns_;
+  const std::int64_t missing = periods - 1 - explained_;
+  if (missing > 0) {
+    missing_ += missing;
+    packets_since_missing_ = 0;
+  } else if (missing_ > 0 && ++packets_since_missing_ >= kMissingGrace_packets) {
+    commit_missing(losses);
+  }
+}
+
+void StreamTracker::commit_missing(LossCounters& losses) noexcept {
+  losses.network_gap_packets += static_cast<std::uint64_t>(missing_);
+  missing_ = 0;
+  packets_since_missing_ = 0;
+}
+
+void StreamTracker::measure_period(std::int64_t step_us, LossCounters& losses) noexcept {
+  if (period_ns_ == 0) {
+    // A rejected packet in between is an arrival like any other.
+    steps_us_[steps_++] = step_us / (explained_ + 1);
+    if (steps_ == steps_us_.size()) settle_period(losses);
+    return;
+  }
+  if (std::abs(step_us * 1000 - period_ns_) < period_ns_ / 8) {
+    average_in(step_us);
+    off_period_ = 0;
+  } else if (++off_period_ >= kOffPeriodBeforeRemeasure) {
+    period_ns_ = 0;
+    steps_ = 0;
+    off_period_ = 0;
+  }
+}
+
+void StreamTracker::average_in(std::int64_t step_us) noexcept {
+  // Stamps are whole microseconds, gaps up to thousands of periods: only a long mean is exact
+  // enough. Halving it now and then lets it follow the unit's drift.
+  averaged_us_ += step_us;
+  if (++averaged_steps_ == kPeriodMean_packets) {
+    averaged_us_ /= 2;
+    averaged_steps_ /= 2;
+  }
+  period_ns_ = averaged_us_ * 1000 / averaged_steps_;
+}
+
+void StreamTracker::settle_period(LossCounters& losses) noexcept {
+  auto sorted = steps_us_;
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(steps_ / 2);
+  std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(steps_));
+  const std::int64_t median_us = *middle;
+  averaged_us_ = 0;
+  averaged_steps_ = 0;
+  for (std::size_t i = 0; i < steps_; ++i) {
+    if (std::abs(steps_us_[i] - median_us) <= 1 + median_us / 8) average_in(steps_us_[i]);
+  }
+  for (std::size_t i = 0; i < steps_; ++i) {
+    const std::int64_t periods = (steps_us_[i] * 1000 + period_ns_ / 2) / period_ns_;
+    if (periods > 1) losses.network_gap_packets += static_cast<std::uint64_t>(periods - 1);
+  }
+  steps_ = 0;
+}
+
+// --- Packets that are not placed ------------------------------------------------------------------
+
+void StreamTracker::note_rejected(std::int64_t device_stamp_us) noexcept {
+  if (!started_) return;
+  const std::int64_t step_us = device_step_us(newest_stamp_us_, device_stamp_us);
+  if (step_us > 0 && step_us <= kReorder_us) ++explained_;
+}
+
+void StreamTracker::note_stationary(std::int64_t device_stamp_us,
+                                    std::int32_t azimuth_cdeg) noexcept {
+  if (!started_) return;
+  const std::int64_t step_us = device_step_us(newest_stamp_us_, device_stamp_us);
+  if (step_us <= 0 || step_us > kOutage_us) return;
+  newest_stamp_us_ = device_stamp_us;
+  newest_head_cdeg_ += calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), azimuth_cdeg);
+  newest_sweep_ticks_ = 0;
+}
+
+void StreamTracker::end_of_stream(LossCounters& losses) noexcept {
+  if (period_ns_ == 0 && steps_ >= 3) settle_period(losses);
+  commit_missing(losses);
+  std::fill(seen_.begin(), seen_.end(), Seen{});
+  started_ = false;
+  steps_ = 0;
+  explained_ = 0;
+  misfits_ = 0;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/loss_counters.hpp"
+#include "firmware_io/packet_heads.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::firmware_io {
+
+/// What a packet is to the stream it arrived in.
+enum class Arrival : std::uint8_t {
+  kNext,       ///< It goes on where the stream stands, perhaps behind a gap.
+  kReordered,  ///< An older packet than the newest seen.
+  kRestart,    ///< Nothing before it belongs with it: the first one, a loop, a long outage.
+  kRejected,   ///< Not to be decoded.
+};
+
+struct Placement {
+  Arrival arrival = Arrival::kRejected;
+  Reject reject = Reject::kCount;  ///< The reason when kRejected.
+  std::int64_t head_cdeg = 0;      ///< Unwrapped azimuth of the first column.
+};
+
+/// Puts the packets of one spinning sensor into order by their device stamps and azimuths, and
+/// counts those that are missing. Sensor independent.
+///
+/// The device's clock and the head's angle check each other: from the newest packet's angle, its
+/// speed and the time since, the tracker knows within some degrees where the head must be, and
+/// unwraps the azimuth to the turn nearest to that. So neither a lost half turn nor a step back
+/// starts a false turn. Missing packets follow from the device stamps, which advance by a constant
+/// period (measured from the stream itself). Fixed memory; every call O(1), noexcept. One thread.
+class StreamTracker {
+ public:
+  /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
+  StreamTracker(std::int64_t clock_wrap_us, rt::FixedMemory& memory);
+
+  /// Where this packet belongs. Missing packets and clock jumps go to `losses`; the caller counts
+  /// the rejection. `host_stamp_ns` is the datagram's, used only to tell an outage from a jump.
+  [[nodiscard]] Placement place(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                LossCounters& losses) noexcept;
+
+  /// A packet with this stamp arrived but was rejected before place(): it is not missing.
+  void note_rejected(std::int64_t device_stamp_us) noexcept;
+  /// The head stands still at this azimuth.
+  void note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg) noexcept;
+
+  /// Counts what is still thought to be on its way, and forgets the stream (but not its period).
+  void end_of_stream(LossCounters& losses) noexcept;
+
+  /// Device time from packet to packet, nanoseconds; 0 until enough packets have been seen.
+  [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
+
+ private:
+  struct Seen {
+    std::uint32_t stamp_us = 0;
+    std::uint16_t first_cdeg = 0, last_cdeg = 0;
+    std::uint32_t packet = 0;  ///< Number of the packet, from 1; 0 = never used.
+  };
+
+  static constexpr std::size_t kPeriodSamples = 15;
+
+  [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us, std::int64_t to_us) const noexcept;
+  [[nodiscard]] bool is_repeat(const PacketHeads& heads) noexcept;
+  void measure_period(std::int64_t step_us, LossCounters& losses) noexcept;
+  void average_in(std::int64_t step_us) noexcept;
+  void settle_period(LossCounters& losses) noexcept;
+  void count_missing(std::int64_t step_us, LossCounters& losses) noexcept;
+  void commit_missing(LossCounters& losses) noexcept;
+  [[nodiscard]] Placement restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                  LossCounters& losses) noexcept;
+  void take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                      std::int64_t head_cdeg) noexcept;
+
+  std::int64_t clock_wrap_us_;
+  std::span<Seen> seen_;
+  std::uint32_t packets_ = 0;
+
+  bool started_ = false;
+  std::int64_t newest_stamp_us_ = 0, newest_host_ns_ = 0, newest_head_cdeg_ = 0;
+  std::int32_t newest_sweep_ticks_ = 0;
+  int misfits_ = 0;  ///< Packets in a row whose azimuth contradicts their stamp.
+
+  std::int64_t period_ns_ = 0;
+  std::int64_t averaged_us_ = 0, averaged_steps_ = 0;
+  std::array<std::int64_t, kPeriodSamples> steps_us_{};
+  std::size_t steps_ = 0;
+  std::int64_t explained_ = 0;  ///< Packets since the newest that arrived but were rejected.
+  std::int64_t missing_ = 0;    ///< Not here, but may still come out of order.
+  int packets_since_missing_ = 0;
+  int off_period_ = 0;  ///< Steps in a row that are no multiple of the period.
+};
+
+}  // namespace terracut::firmware_io

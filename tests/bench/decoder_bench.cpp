@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// The HDL-64E decoder by itself: nanoseconds per packet column (64 lasers). Reports, asserts nothing.
+#include <benchmark/benchmark.h>
+
+#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "tests/firmware_io/hdl64e/random_drive.hpp"
+
+namespace terracut {
+namespace {
+
+/// Ten turns at 10 Hz in which nine of ten firings find something, as on a street.
+std::vector<test::Packet> street_like() {
+  auto firings = test::random_firings({.last_cdeg = 35'000 + 10 * 36'000});
+  // Distances that change slowly from firing to firing, so that branches behave as on real data.
+  for (std::size_t n = 0; n < firings.size(); ++n) {
+    for (std::size_t i = 0; i < 64; ++i) {
+      auto& echo = firings[n].by_laser[i];
+      const auto phase = static_cast<unsigned>(n / 40 + 7 * i);
+      echo.raw = phase % 10 == 0 ? std::uint16_t{0}
+                                 : static_cast<std::uint16_t>(1'000 + 300 * i + phase % 97);
+    }
+  }
+  return test::to_packets(firings);
+}
+
+void report(benchmark::State& state, std::size_t packets) {
+  const auto columns = static_cast<double>(state.iterations()) * static_cast<double>(6 * packets);
+  state.counters["per_column"] = benchmark::Counter(
+      columns, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+void decode_turns(benchmark::State& state) {
+  const auto packets = street_like();
+  rt::FixedMemory memory;
+  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, {}, memory);
+  std::uint64_t returns = 0;
+  const auto on_frame = [&](const firmware_io::FrameInfo& info,
+                            const pipeline::RangeImage&) noexcept { returns += info.returns; };
+  for (auto _ : state) {
+    for (const test::Packet& packet : packets) decoder.decode(packet.datagram(), on_frame);
+    decoder.flush(on_frame);
+  }
+  benchmark::DoNotOptimize(returns);
+  report(state, packets.size());
+}
+BENCHMARK(decode_turns)->Unit(benchmark::kMillisecond);
+
+/// Points only, nothing placed.
+void compute_points(benchmark::State& state) {
+  const auto packets = street_like();
+  rt::FixedMemory memory;
+  firmware_io::Hdl64eSensor sensor(calib::nominal_hdl64e(), {}, {}, 2083, memory);
+  firmware_io::PacketHeads heads;
+  float sum = 0;
+  for (auto _ : state) {
+    for (const test::Packet& packet : packets) {
+      if (sensor.check(packet.bytes, heads)) continue;
+      sensor.begin_packet(heads);
+      for (int column = 0; column < heads.columns; ++column) {
+        sum += sensor.read_column(packet.bytes, heads, column).x_m[5];
+      }
+    }
+  }
+  benchmark::DoNotOptimize(sum);
+  report(state, packets.size());
+}
+BENCHMARK(compute_points)->Unit(benchmark::kMillisecond);
+
+void check_packets(benchmark::State& state) {
+  const auto packets = street_like();
+  firmware_io::PacketHeads heads;
+  for (auto _ : state) {
+    for (const test::Packet& packet : packets) {
+      benchmark::DoNotOptimize(firmware_io::check_hdl64e_packet(packet.bytes, heads));
+    }
+  }
+  report(state, packets.size());
+}
+BENCHMARK(check_packets)->Unit(benchmark::kMillisecond);
+
+}  // namespace
+}  // namespace terracut

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <gtest/gtest.h>
+
+#include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace terracut::test {
+namespace {
+
+TEST(Hdl64eDecoderMemory, DecodingAllocatesNothing) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  auto packets = random_packets({.last_cdeg = 37'100 + 3 * 36'000});
+  packets.erase(packets.begin() + 200, packets.begin() + 210);
+  std::swap(packets[300], packets[301]);
+  packets[400].set_u16(2, 36'000);
+
+  rt::FixedMemory memory;
+  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, {}, memory);
+  std::uint64_t frames = 0, returns = 0;
+  const auto on_frame = [&](const firmware_io::FrameInfo& info,
+                            const pipeline::RangeImage&) noexcept {
+    ++frames;
+    returns += info.returns;
+  };
+  const std::size_t planned = memory.total_bytes();
+  const std::uint64_t before = allocations_of_this_thread();
+  for (int loop = 0; loop < 3; ++loop) {
+    for (const Packet& packet : packets) decoder.decode(packet.datagram(), on_frame);
+  }
+  decoder.flush(on_frame);
+  EXPECT_EQ(allocations_of_this_thread() - before, 0U);
+  EXPECT_EQ(memory.total_bytes(), planned);
+  EXPECT_GT(frames, 12U);
+  EXPECT_GT(returns, 700'000U);
+}
+
+TEST(Hdl64eDecoderMemory, TheCounterCounts) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  const std::uint64_t before = allocations_of_this_thread();
+  const auto block = std::make_unique<std::array<char, 64>>();
+  EXPECT_NE(block, nullptr);
+  EXPECT_GT(allocations_of_this_thread(), before);
+}
+
+}  // namespace
+}  // namespace terracut::test

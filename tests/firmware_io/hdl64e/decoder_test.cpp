@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "calib/hdl64e_file.hpp"
+#include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "tests/firmware_io/hdl64e/reference_decoder.hpp"
+
+namespace terracut::test {
+namespace {
+
+using firmware_io::Reject;
+
+/// Decodes the packets both ways and compares return by return, in order of arrival.
+void expect_same_returns(std::span<const Packet> packets,
+                         const calib::Hdl64eCalibration& calibration,
+                         const Recorder::Config& config = {}) {
+  const calib::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
+  Recorder recorder(config, calibration, mount);
+  recorder.decode_all(packets);
+  recorder.flush();
+
+  const bool ros_like = config.sensor.geometry == calib::GeometryModel::kRosLike;
+  ReferenceDecoder reference(calibration, ros_like);
+  std::map<std::int64_t, std::vector<ReferenceReturn>> by_turn;
+  std::size_t total = 0;
+  for (const Packet& packet : packets) {
+    for (const ReferenceReturn& echo : reference.decode(packet.bytes)) {
+      // The product's azimuths are whole ticks of 1e-5 degrees.
+      const double nearest_seam_deg = 360.0 * std::round(echo.beam_deg / 360.0);
+      ASSERT_GT(std::abs(echo.beam_deg - nearest_seam_deg), 3e-5) << "choose another seed";
+      by_turn[static_cast<std::int64_t>(std::floor(echo.beam_deg / 360.0))].push_back(echo);
+      ++total;
+    }
+  }
+
+  ASSERT_EQ(recorder.frames.size(), by_turn.size());
+  EXPECT_EQ(recorder.returns(), total);
+  const auto rows = calib::rows_by_elevation(calibration);
+  const auto T = calib::T_vehicle_lidar(mount);
+  std::size_t n = 0;
+  double worst_m = 0;
+  for (const auto& [turn, expected] : by_turn) {
+    const Frame& frame = recorder.frames[n];
+    ASSERT_EQ(frame.info.number, n++);
+    ASSERT_EQ(frame.echoes.size(), expected.size());
+    ASSERT_EQ(frame.info.returns, expected.size());
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      const ReferenceReturn& truth = expected[i];
+      const Frame::Echo& echo = frame.echoes[i];
+      const auto v = calib::apply(T, truth.x_m, truth.y_m, truth.z_m);
+      const double range_m = std::hypot(truth.x_m, truth.y_m, truth.z_m);
+      worst_m = std::max(worst_m, std::hypot(echo.point.x_m - v[0], echo.point.y_m - v[1],
+                                             echo.point.z_m - v[2]) - 1e-6 * range_m);
+      ASSERT_EQ(echo.point.intensity, truth.intensity);
+      ASSERT_EQ(echo.row, static_cast<std::uint32_t>(rows[static_cast<std::size_t>(truth.laser)]));
+      const double column = (truth.beam_deg - 360.0 * static_cast<double>(turn)) *
+                            config.columns / 360.0;
+      ASSERT_NEAR(echo.column + 0.5, column, 0.5 + 1e-3);
+    }
+  }
+  EXPECT_LT(worst_m, 0.001);
+}
+
+TEST(Hdl64eDecoder, AgreesWithAPlainSlowDecoder) {
+  expect_same_returns(random_packets(), calib::nominal_hdl64e());
+}
+
+TEST(Hdl64eDecoder, AgreesWithAPlainSlowDecoderInTheRosLikeGeometry) {
+  Recorder::Config config;
+  config.sensor.geometry = calib::GeometryModel::kRosLike;
+  expect_same_returns(random_packets({.seed = 2}), calib::nominal_hdl64e(), config);
+}
+
+class SpinRate : public testing::TestWithParam<double> {};
+
+TEST_P(SpinRate, AgreesWithAPlainSlowDecoder) {
+  const double hertz = GetParam();
+  Recorder::Config config;
+  config.columns = static_cast<int>(std::lround(1e6 / 48.0 / hertz));
+  expect_same_returns(random_packets({.step_deg = 360.0 * hertz * 48e-6, .seed = 11}),
+                      calib::nominal_hdl64e(), config);
+}
+
+INSTANTIATE_TEST_SUITE_P(Hertz, SpinRate, testing::Values(5.0, 7.3, 10.0, 15.0, 20.0));
+
+TEST(Hdl64eDecoder, KeepsEveryReturnWhenTheImageIsTooNarrow) {
+  // 5 Hz: 4167 firings into 2083 columns; each cell gets two returns.
+  expect_same_returns(random_packets({.last_cdeg = 80'000, .step_deg = 0.0864, .seed = 4}),
+                      calib::nominal_hdl64e());
+}
+
+TEST(Hdl64eDecoder, TakesWideRotationalCorrections) {
+  calib::Hdl64eCalibration calibration = calib::nominal_hdl64e();
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> any_deg(-10, 10);
+  for (auto& laser : calibration.lasers) {
+    laser.rot_correction_rad = calib::deg_to_rad(any_deg(random));
+  }
+  calibration.lasers[0].rot_correction_rad = calib::deg_to_rad(10.0);
+  calibration.lasers[1].rot_correction_rad = calib::deg_to_rad(-10.0);
+  expect_same_returns(random_packets({.seed = 12}), calibration);
+}
+
+class RealUnits : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealUnits, AgreeWithAPlainSlowDecoder) {
+  const auto path = std::filesystem::path(TERRACUT_SOURCE_DIR "/../shared/data/calib") / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  const auto calibration = calib::load_hdl64e_calibration(path);
+  ASSERT_TRUE(calibration) << calibration.error().message;
+  expect_same_returns(random_packets({.seed = 21}), *calibration);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, RealUnits,
+                         testing::Values("64e_s2.1-sztaki.xml", "64e_s3-xiesc.yaml",
+                                         "64e_utexas.yaml"),
+                         [](const auto& case_info) {
+                           std::string name = case_info.param;
+                           for (char& c : name) {
+                             if (c == '.' || c == '-') c = '_';
+                           }
+                           return name;
+                         });
+
+TEST(Hdl64eDecoder, ReadsTheBytesOfTheFormatsDescription) {
+  // Distance bytes 10 27 are 20.000 m, azimuth bytes 9F 8C are 359.99 degrees.
+  std::vector<FiringColumn> firings(6);
+  for (std::size_t c = 0; c < 6; ++c) {
+    firings[c].unwrapped_azimuth_cdeg = 35'999 - 85 + 17 * static_cast<std::int64_t>(c);
+    firings[c].stamp_ns = 48'000 * static_cast<std::int64_t>(c);
+  }
+  firings[5].by_laser[0] = {10'000, 77, 0};
+  const std::vector<Packet> packets = to_packets(firings);
+  EXPECT_EQ(packets[0].bytes[1000], 0xFF);
+  EXPECT_EQ(packets[0].bytes[1001], 0xEE);
+  EXPECT_EQ(packets[0].bytes[1002], 0x9F);
+  EXPECT_EQ(packets[0].bytes[1003], 0x8C);
+  EXPECT_EQ(packets[0].bytes[1004], 0x10);
+  EXPECT_EQ(packets[0].bytes[1005], 0x27);
+  EXPECT_EQ(packets[0].bytes[1100], 0xFF);
+  EXPECT_EQ(packets[0].bytes[1101], 0xDD);
+
+  calib::Hdl64eCalibration flat;  // all corrections 0
+  Recorder recorder({}, flat, {.height_m = 1.0});
+  recorder.decode_all(packets);
+  recorder.flush();
+  ASSERT_EQ(recorder.frames.size(), 1U);
+  ASSERT_EQ(recorder.frames[0].echoes.size(), 1U);
+  const Frame::Echo& echo = recorder.frames[0].echoes[0];
+  EXPECT_NEAR(echo.point.x_m, 20.0 * std::cos(calib::deg_to_rad(0.01)), 1e-5);
+  EXPECT_NEAR(echo.point.y_m, 20.0 * std::sin(calib::deg_to_rad(0.01)), 1e-5);
+  EXPECT_NEAR(echo.point.z_m, 1.0, 1e-6);
+  EXPECT_NEAR(echo.point.ground_range_m, 20.0, 1e-5);
+  EXPECT_EQ(echo.point.intensity, 77);
+  EXPECT_EQ(echo.column, 2082U);
+}
+
+TEST(Hdl64eDecoder, HandsOverEachTurnOnceInOrderAndWhole) {
+  const auto packets = random_packets();  // from 11 degrees before a seam to 11 after the third
+  Recorder recorder;
+  recorder.decode_all(packets);
+  // The frame of the last turn is handed over in the stream, not only by flush().
+  EXPECT_EQ(recorder.frames.size(), 3U);
+  recorder.flush();
+  ASSERT_EQ(recorder.frames.size(), 4U);
+  for (std::uint32_t n = 0; n < 4; ++n) EXPECT_EQ(recorder.frames[n].info.number, n);
+  // Lasers point both ways, so a little of the turns before and after was seen, too.
+  EXPECT_FALSE(recorder.frames[0].info.complete);
+  EXPECT_TRUE(recorder.frames[1].info.complete);
+  EXPECT_TRUE(recorder.frames[2].info.complete);
+  EXPECT_FALSE(recorder.frames[3].info.complete);
+  for (const Frame& frame : recorder.frames) {
+    EXPECT_EQ(frame.info.losses.network_gap_packets, 0U);
+    EXPECT_EQ(frame.info.losses.azimuth_hole_columns, 0U);
+    EXPECT_EQ(frame.info.losses.rejected_total(), 0U);
+  }
+  EXPECT_EQ(recorder.decoder.packets_decoded(), packets.size());
+  EXPECT_NEAR(static_cast<double>(recorder.decoder.packet_period_ns()), 288'000, 100);
+}
+
+TEST(Hdl64eDecoder, TurnsWithoutReturnsAreNoFrames) {
+  auto firings = random_firings({});
+  for (auto& firing : firings) {
+    if (firing.unwrapped_azimuth_cdeg < 72'000) firing.by_laser = {};
+  }
+  Recorder recorder;
+  recorder.decode_all(to_packets(firings));
+  recorder.flush();
+  // The head's third turn from the start, what of it leads and trails, and no empty ones.
+  ASSERT_EQ(recorder.frames.size(), 3U);
+  EXPECT_EQ(recorder.frames[0].info.number, 0U);
+  EXPECT_EQ(recorder.returns(), [&] {
+    std::uint64_t sum = 0;
+    for (const auto& firing : firings) {
+      for (const auto& echo : firing.by_laser) sum += echo.raw != 0;
+    }
+    return sum;
+  }());
+}
+
+TEST(Hdl64eDecoder, BlockAzimuthsShiftTheLaterLasersBack) {
+  const auto packets = random_packets({.seed = 9});
+  Recorder at_firing;
+  Recorder::Config config;
+  config.sensor.azimuth_at = firmware_io::AzimuthAt::kBlock;
+  Recorder at_block(config);
+  at_firing.decode_all(packets);
+  at_block.decode_all(packets);
+  at_firing.flush();
+  at_block.flush();
+  EXPECT_EQ(at_firing.returns(), at_block.returns());
+  const auto mean_column = [](const Frame& frame) {
+    double sum = 0;
+    for (const auto& echo : frame.echoes) sum += echo.column;
+    return sum / static_cast<double>(frame.echoes.size());
+  };
+  // On average half a column later (45.66 / 48 / 2).
+  EXPECT_NEAR(mean_column(at_firing.frames[1]) - mean_column(at_block.frames[1]), 0.0, 1.5);
+  int moved = 0;
+  for (std::size_t i = 0; i < at_block.frames[1].echoes.size(); ++i) {
+    const auto& a = at_firing.frames[1].echoes[i];
+    const auto& b = at_block.frames[1].echoes[i];
+    moved += a.point.x_m != b.point.x_m;
+  }
+  EXPECT_GT(moved, 50'000);
+}
+
+TEST(Hdl64eDecoder, PlacesBothReturnsOfADualReturnPacket) {
+  // Three firings a packet, each twice: strongest, then last.
+  std::vector<FiringColumn> firings;
+  for (int n = 0; n < 900; ++n) {
+    for (int echo = 0; echo < 2; ++echo) {
+      FiringColumn& firing = firings.emplace_back();
+      firing.unwrapped_azimuth_cdeg = 18'000 + 20 * n;
+      firing.stamp_ns = 57'600 * n + echo * 28'800;
+      firing.by_laser.fill({static_cast<std::uint16_t>(5'000 + 1'000 * echo), 1, 0});
+    }
+  }
+  Recorder::Config config;
+  config.columns = 1736;
+  Recorder recorder(config);
+  recorder.decode_all(to_packets(firings));
+  EXPECT_TRUE(recorder.decoder.dual_return());
+  EXPECT_NEAR(static_cast<double>(recorder.decoder.packet_period_ns()), 172'800, 1'000);
+  recorder.flush();
+  EXPECT_EQ(recorder.returns(), 900U * 128U);
+  const auto losses = recorder.decoder.losses();
+  EXPECT_EQ(losses.rejected_total() + losses.overflow_full_returns + losses.azimuth_hole_columns +
+                losses.network_gap_packets, 0U);
+}
+
+TEST(Hdl64eDecoder, RefusesSettingsOutsideTheirRange) {
+  Recorder::Config config;
+  config.columns = 0;
+  EXPECT_THROW(Recorder{config}, std::invalid_argument);
+  config.columns = 2083;
+  config.images = 2;
+  EXPECT_THROW(Recorder{config}, std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace terracut::test

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/hdl64e/firing_azimuth.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "calib/nominal_hdl64e.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+TEST(FiringAzimuth, StepIsExactAcrossTheSeam) {
+  EXPECT_EQ(column_step_ticks(1000, 1086), 17'200);
+  EXPECT_EQ(column_step_ticks(35'950, 36), 17'200);
+  EXPECT_EQ(column_step_ticks(100, 142, true), 21'000);
+}
+
+TEST(FiringAzimuth, LaterLasersOfAColumnPointFurther) {
+  // 17.28 hundredths of a degree a column; laser 31 fires 45.66 us after laser 0, of 48 us.
+  EXPECT_EQ(firing_advance_ticks(17'280, 0), 0);
+  EXPECT_EQ(firing_advance_ticks(17'280, 32), 0);
+  EXPECT_NEAR(firing_advance_ticks(17'280, 31), 17'280 * 45.66 / 48.0, 1.0);
+  EXPECT_EQ(firing_advance_ticks(17'280, 31), firing_advance_ticks(17'280, 63));
+  EXPECT_NEAR(firing_advance_ticks(17'280, 5), 17'280 * (6.0 + 1.26) / 48.0, 1.0);
+  EXPECT_NEAR(firing_advance_ticks(20'736, 31, true), 20'736 * (50.4 + 3.7) / 57.6, 1.0);
+  for (int laser = 0; laser < 64; ++laser) {
+    EXPECT_EQ(firing_advance_ticks(17'280, laser, false, AzimuthAt::kBlock), 0);
+  }
+}
+
+TEST(FiringAzimuth, BothSingleReturnCyclesAgreeToAHundredthOfAStep) {
+  const auto other = firing_shares(kFiringTimesSingle57);
+  for (std::size_t j = 0; j < other.size(); ++j) {
+    EXPECT_LT(std::abs(static_cast<double>(other[j] - kFiringSharesSingle[j])) / (1 << 20), 0.013);
+  }
+}
+
+TEST(FiringAzimuth, BeamsPassTheSeamIntoTheRightTurn) {
+  EXPECT_EQ(beam_azimuth(0, 0).turn, 0);
+  EXPECT_EQ(beam_azimuth(0, -1).turn, -1);
+  EXPECT_EQ(beam_azimuth(0, -1).in_turn_ticks, kTurn_ticks - 1);
+  EXPECT_EQ(beam_azimuth(35'999, 999).turn, 0);
+  EXPECT_EQ(beam_azimuth(35'999, 1000).turn, 1);
+  EXPECT_EQ(beam_azimuth(35'999, 1000).in_turn_ticks, 0);
+  EXPECT_EQ(beam_azimuth(36'000, 0).turn, 1);
+  EXPECT_EQ(beam_azimuth(-1, 0).turn, -1);
+  EXPECT_EQ(beam_azimuth(-36'000, -1).turn, -2);
+}
+
+TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
+  std::mt19937 random(7);
+  std::uniform_int_distribution<std::int64_t> head(-1'000'000, 1'000'000);
+  std::uniform_int_distribution<std::int32_t> offset(-1'100'000, 1'100'000);
+  for (int n = 0; n < 100'000; ++n) {
+    const std::int64_t head_cdeg = head(random);
+    const std::int32_t offset_ticks = offset(random);
+    const BeamAzimuth beam = beam_azimuth(head_cdeg, offset_ticks);
+    ASSERT_GE(beam.in_turn_ticks, 0);
+    ASSERT_LT(beam.in_turn_ticks, kTurn_ticks);
+    ASSERT_EQ(beam.turn * kTurn_ticks + beam.in_turn_ticks,
+              head_cdeg * kTicksPerCdeg + offset_ticks);
+  }
+}
+
+TEST(FiringAzimuth, ColumnsCoverTheTurn) {
+  EXPECT_EQ(column_of(0, 2083), 0);
+  EXPECT_EQ(column_of(kTurn_ticks - 1, 2083), 2082);
+  EXPECT_EQ(column_of(kTurn_ticks / 2, 2083), 1041);
+  EXPECT_EQ(column_of(kTurn_ticks / 2 - 1, 2000), 999);
+  EXPECT_EQ(column_of(kTurn_ticks / 2, 2000), 1000);
+}
+
+TEST(FiringAzimuth, NoBeamLeavesTheSpread) {
+  const BeamOffsets offsets(calib::nominal_hdl64e());
+  for (const std::int32_t step_ticks : {2'000, 17'280, 100'000}) {
+    for (int laser = 0; laser < 64; ++laser) {
+      EXPECT_GE(offsets.offset_ticks(step_ticks, laser), offsets.hindmost_ticks());
+      EXPECT_LE(offsets.offset_ticks(step_ticks, laser), offsets.foremost_ticks(step_ticks));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace terracut::firmware_io

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "calib/nominal_hdl64e.hpp"
+#include "firmware_io/datagram.hpp"
+#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/hdl64e/packet_encoder.hpp"
+
+namespace terracut::test {
+
+using firmware_io::FiringColumn;
+
+/// One packet as it would be captured.
+struct Packet {
+  std::array<std::uint8_t, firmware_io::kHdl64ePacketBytes> bytes{};
+  std::int64_t stamp_ns = 0;
+
+  [[nodiscard]] firmware_io::Datagram datagram() const {
+    return {.payload = bytes, .stamp_ns = stamp_ns};
+  }
+  void set_u16(std::size_t offset, unsigned value) {
+    bytes[offset] = static_cast<std::uint8_t>(value & 0xFF);
+    bytes[offset + 1] = static_cast<std::uint8_t>(value >> 8);
+  }
+  void set_device_stamp_us(std::uint32_t stamp_us) {
+    set_u16(1200, stamp_us & 0xFFFF);
+    set_u16(1202, stamp_us >> 16);
+  }
+};
+
+struct DriveSettings {
+  std::int64_t first_cdeg = 34'900;   ///< Head azimuth of the first firing.
+  std::int64_t last_cdeg = 37'100 + 2 * 36'000;  ///< No firing beyond.
+  double step_deg = 0.1728;
+  std::int64_t first_stamp_ns = 1'700'000'000'000'000'000;
+  std::int64_t column_ns = 48'000;
+  double share_of_returns = 0.9;
+  unsigned seed = 1;
+};
+
+/// Firings of a steadily turning head with random returns, a multiple of six.
+inline std::vector<FiringColumn> random_firings(const DriveSettings& settings) {
+  std::mt19937 random(settings.seed);
+  std::uniform_real_distribution<double> chance(0, 1);
+  std::uniform_int_distribution<int> distance(1, 65'535), byte(0, 255);
+  std::vector<FiringColumn> firings;
+  for (std::int64_t n = 0;; ++n) {
+    const auto azimuth_cdeg =
+        settings.first_cdeg +
+        static_cast<std::int64_t>(static_cast<double>(n) * settings.step_deg * 100.0);
+    if (azimuth_cdeg > settings.last_cdeg && n % 6 == 0) break;
+    FiringColumn& firing = firings.emplace_back();
+    firing.stamp_ns = settings.first_stamp_ns + n * settings.column_ns;
+    firing.unwrapped_azimuth_cdeg = azimuth_cdeg;
+    for (auto& echo : firing.by_laser) {
+      if (chance(random) < settings.share_of_returns) {
+        echo = {static_cast<std::uint16_t>(distance(random)),
+                static_cast<std::uint8_t>(byte(random)), 0};
+      }
+    }
+  }
+  return firings;
+}
+
+inline std::vector<Packet> to_packets(std::span<const FiringColumn> firings) {
+  std::vector<Packet> packets;
+  for (std::size_t n = 0; n + 6 <= firings.size(); n += 6) {
+    const auto six = firings.subspan(n).first<6>();
+    firmware_io::Hdl64ePacketBuffer buffer;
+    Packet& packet = packets.emplace_back();
+    packet.stamp_ns = firmware_io::packet_end_ns(six);
+    firmware_io::encode_hdl64e_packet(six, packet.stamp_ns, {'T', 35}, buffer);
+    std::copy(buffer.payload().begin(), buffer.payload().end(), packet.bytes.begin());
+  }
+  return packets;
+}
+
+inline std::vector<Packet> random_packets(const DriveSettings& settings = {}) {
+  return to_packets(random_firings(settings));
+}
+
+/// A frame as the decoder handed it over, copied: its returns in order of arrival.
+struct Frame {
+  struct Echo {
+    pipeline::Return point;
+    std::uint32_t row = 0, column = 0;
+    bool overflow = false;
+  };
+  firmware_io::FrameInfo info;
+  std::vector<Echo> echoes;
+};
+
+inline Frame copy_of(const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) {
+  Frame frame{info, std::vector<Frame::Echo>(image.returns())};
+  const auto stride = static_cast<std::uint32_t>(image.shape().stride());
+  for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
+    if (!image.has_return(cell)) continue;
+    auto& echo = frame.echoes.at(image.return_index()[cell]);
+    echo.point = {image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
+                  image.ground_range_m()[cell], image.intensity()[cell]};
+    echo.row = static_cast<std::uint32_t>(cell) / stride;
+    echo.column = static_cast<std::uint32_t>(cell) % stride;
+  }
+  for (const auto& spare : image.overflow()) {
+    frame.echoes.at(spare.return_index) = {spare.echo, spare.cell / stride, spare.cell % stride,
+                                           true};
+  }
+  return frame;
+}
+
+/// A decoder of the nominal unit that keeps every frame.
+class Recorder {
+ public:
+  using Config = firmware_io::Hdl64eDecoder::Config;
+  explicit Recorder(const Config& config = {},
+                    const calib::Hdl64eCalibration& calibration = calib::nominal_hdl64e(),
+                    const calib::Mount& mount = {})
+      : decoder(calibration, mount, config, memory) {}
+
+  /// The callable to hand frames over to.
+  [[nodiscard]] auto keep() {
+    return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+      frames.push_back(copy_of(info, image));
+    };
+  }
+  std::optional<firmware_io::Reject> decode(const Packet& packet) {
+    return decoder.decode(packet.datagram(), keep());
+  }
+  void decode_all(std::span<const Packet> packets) {
+    for (const Packet& packet : packets) decode(packet);
+  }
+  void flush() { decoder.flush(keep()); }
+
+  [[nodiscard]] std::uint64_t rejected(firmware_io::Reject reason) const {
+    return decoder.losses().rejected[static_cast<std::size_t>(reason)];
+  }
+  [[nodiscard]] std::uint64_t returns() const {
+    std::uint64_t sum = 0;
+    for (const Frame& frame : frames) sum += frame.echoes.size();
+    return sum;
+  }
+
+  rt::FixedMemory memory;
+  firmware_io::Hdl64eDecoder decoder;
+  std::vector<Frame> frames;
+};
+
+}  // namespace terracut::test

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// More points than any HDL-64E turn can hold (64 lasers x 4167 firings at 5 Hz, two echoes).
+inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
+
+/// One point of a KITTI `.bin` file, in the sensor frame: x forward, y left, z up.
+struct ScanPoint {
+  float x_m = 0, y_m = 0, z_m = 0;
+  float remission = 0;  ///< 0..1
+};
+
+/// False for points that are no place: NaN, infinite, or farther than any return can be (10 km).
+[[nodiscard]] inline bool is_place(const ScanPoint& point) noexcept {
+  constexpr float kFarthest_m = 1e4F;
+  return std::abs(point.x_m) <= kFarthest_m && std::abs(point.y_m) <= kFarthest_m &&
+         std::abs(point.z_m) <= kFarthest_m;
+}
+
+/// Azimuth of a point in [0, 2 pi) radians, clockwise from straight ahead seen from above, as the
+/// sensor turns and as the range image counts its columns. -0.0 counts as 0.
+[[nodiscard]] inline double azimuth_rad(double x_m, double y_m) noexcept {
+  constexpr double kTurn_rad = 6.283185307179586476925286766559;
+  const double azimuth = std::atan2(0.0 - y_m, x_m);  // 0 - y has no negative zero
+  if (azimuth >= 0) return azimuth;
+  const double wrapped = azimuth + kTurn_rad;
+  return wrapped < kTurn_rad ? wrapped : 0.0;  // the sum may round up to a whole turn
+}
+
+/// Intensity as the sensor sends it, 0..255, from a remission of 0..1; anything else is clamped.
+[[nodiscard]] std::uint8_t intensity_of(float remission) noexcept;
+
+/// One recorded turn. Buffers are kept from scan to scan.
+struct KittiScan {
+  std::vector<ScanPoint> points;      ///< In the file's order: ring after ring from the top.
+  std::vector<std::uint32_t> labels;  ///< SemanticKITTI labels of the points; empty without a file.
+  std::size_t non_finite = 0;         ///< Points with is_place() false; they stay in the list.
+};
+
+/// Reads a KITTI `.bin` (little-endian float32 x y z remission a point, no header) into `scan`; its
+/// labels are emptied. Errors: kNotFound, kUnreadable, kMalformed (empty, truncated, too large, no
+/// finite point), naming the file.
+[[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan);
+
+/// The same with the labels of `label_file`, one for every point; a differing count is kMalformed.
+[[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file,
+                                     const std::filesystem::path& label_file, KittiScan& scan);
+
+}  // namespace terracut::firmware_io

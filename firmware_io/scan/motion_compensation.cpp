@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/motion_compensation.hpp"
+
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace terracut::firmware_io {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// exp(-seconds * twist) applied to p, to second order in the angle (under 0.1 rad in half a turn).
+Vector moved_back(const SensorTwist& twist, double seconds, const Vector& p) {
+  Vector w = twist.turning_rad_s, v = twist.velocity_m_s;
+  for (std::size_t i = 0; i < 3; ++i) {
+    w[i] *= -seconds;
+    v[i] *= -seconds;
+  }
+  const Vector wp = cross(w, p), wwp = cross(w, wp), wv = cross(w, v);
+  Vector q{};
+  for (std::size_t i = 0; i < 3; ++i) q[i] = p[i] + wp[i] + wwp[i] / 2 + v[i] + wv[i] / 2;
+  return q;
+}
+
+/// Azimuth as a share of the turn, clockwise, on the same side of the seam behind as `near`.
+double share_of_turn(const Vector& p, double near) {
+  const double share = std::atan2(-p[1], p[0]) / (2 * std::numbers::pi);
+  return share - std::floor(share - near + 0.5);
+}
+
+}  // namespace
+
+void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> points) noexcept {
+  constexpr int kIterations = 4;  // the correction shrinks by v t / r, below 1/5 a time
+  for (ScanPoint& point : points) {
+    if (!is_place(point)) continue;
+    const Vector in_file{point.x_m, point.y_m, point.z_m};
+    Vector p = in_file;
+    double share = share_of_turn(p, 0.0);
+    for (int i = 0; i < kIterations; ++i) {
+      p = moved_back(twist, share * twist.turn_duration_s, in_file);
+      share = share_of_turn(p, share);
+    }
+    point.x_m = static_cast<float>(p[0]);
+    point.y_m = static_cast<float>(p[1]);
+    point.z_m = static_cast<float>(p[2]);
+  }
+}
+
+}  // namespace terracut::firmware_io

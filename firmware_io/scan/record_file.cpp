@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/record_file.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <system_error>
+
+namespace terracut::firmware_io {
+
+Expected<std::size_t> count_records(const std::filesystem::path& path, const RecordLayout& layout) {
+  std::error_code error;
+  const auto status = std::filesystem::status(path, error);
+  if (!std::filesystem::exists(status)) {
+    return fail(ErrorCode::kNotFound, fmt::format("{}: no such file", path.string()));
+  }
+  if (!std::filesystem::is_regular_file(status)) {
+    return fail(ErrorCode::kUnreadable,
+                fmt::format("{}: expected a file, found a folder or device", path.string()));
+  }
+  const std::uintmax_t bytes = std::filesystem::file_size(path, error);
+  if (error) {
+    return fail(ErrorCode::kUnreadable, fmt::format("{}: {}", path.string(), error.message()));
+  }
+  if (bytes == 0) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{}: empty; expected at least one {}", path.string(), layout.record));
+  }
+  if (bytes % layout.record_bytes != 0) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{}: truncated: {} bytes are not a whole number of {} bytes a {}; the "
+                            "last whole one ends at byte {}",
+                            path.string(), bytes, layout.record_bytes, layout.record,
+                            bytes - bytes % layout.record_bytes));
+  }
+  if (bytes / layout.record_bytes > layout.max_records) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("{}: {} records, expected at most {}, one turn; one record is a {}",
+                    path.string(), bytes / layout.record_bytes, layout.max_records, layout.record));
+  }
+  return static_cast<std::size_t>(bytes / layout.record_bytes);
+}
+
+Status read_bytes(const std::filesystem::path& path, void* to, std::size_t bytes) {
+  std::ifstream file(path, std::ios::binary);
+  if (!file) {
+    return fail(
+        ErrorCode::kUnreadable,
+        fmt::format("{}: cannot be opened for reading; check its permissions", path.string()));
+  }
+  file.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
+  if (static_cast<std::size_t>(file.gcount()) != bytes) {
+    return fail(ErrorCode::kUnreadable,
+                fmt::format("{}: expected {} bytes, the system delivered {}", path.string(), bytes,
+                            file.gcount()));
+  }
+  return {};
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/ring_recovery.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numbers>
+
+namespace terracut::firmware_io {
+namespace {
+
+constexpr double kHalfTurn_rad = std::numbers::pi;
+constexpr double kJitter_rad = std::numbers::pi / 18;  // steps back over the seam, see the header
+constexpr int kMaxSegments = 4 * kScanRings;
+constexpr std::size_t kMinFirstRingPoints = 8;  // fewer before the first crossing are its jitter
+
+/// Follows the azimuth of a file and counts how often it passed straight ahead.
+class CrossingCounter {
+ public:
+  int ring_at(const ScanPoint& point) {
+    const double azimuth = 2 * kHalfTurn_rad - azimuth_rad(point.x_m, point.y_m);
+    const double counter_clockwise = azimuth < 2 * kHalfTurn_rad ? azimuth : 0.0;
+    if (started_) {
+      const double step = counter_clockwise - last_rad_;
+      if (step < -kHalfTurn_rad) ++ring_;
+      const bool back_over_the_seam =
+          last_rad_ < kJitter_rad && counter_clockwise > 2 * kHalfTurn_rad - kJitter_rad;
+      if (back_over_the_seam && ring_ > 0) --ring_;
+    }
+    started_ = true;
+    last_rad_ = counter_clockwise;
+    return ring_;
+  }
+
+ private:
+  bool started_ = false;
+  double last_rad_ = 0;
+  int ring_ = 0;
+};
+
+/// Cost of calling a segment a ring: how far the middle one of its points is off the ring's line,
+/// as an angle. Motion compensation moves near points off by degrees, but to both sides alike.
+class AlignmentCost {
+ public:
+  static constexpr double kCap_rad = 0.02;
+  static constexpr double kSharing_rad = 0.001;  // two segments of one laser: possible, but rare
+
+  AlignmentCost(std::span<const ScanPoint> points, const RingRecovery& split)
+      : cost_(static_cast<std::size_t>(split.rings)),
+        points_(cost_.size()),
+        samples_(cost_.size()) {
+    for (const std::int16_t ring : split.ring_of_point) {
+      if (ring != kNoRing) ++points_[static_cast<std::size_t>(ring)];
+    }
+    std::vector<std::size_t> seen(cost_.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (split.ring_of_point[i] == kNoRing) continue;
+      const auto segment = static_cast<std::size_t>(split.ring_of_point[i]);
+      if (seen[segment]++ % (points_[segment] / kSamples + 1) == 0) {
+        samples_[segment].push_back(points[i]);
+      }
+    }
+  }
+
+  void measure(const RingTable& table) {
+    std::vector<double> angles;
+    for (std::size_t segment = 0; segment < cost_.size(); ++segment) {
+      for (std::size_t ring = 0; ring < table.size(); ++ring) {
+        angles.clear();
+        for (const ScanPoint& p : samples_[segment]) {
+          const double distance_m = std::hypot(double{p.x_m}, double{p.y_m}) + 1e-3;
+          angles.push_back(table[ring].height_above_m(p) / distance_m);
+        }
+        if (angles.empty()) continue;
+        const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
+        std::nth_element(angles.begin(), middle, angles.end());
+        cost_[segment][ring] = std::min(std::abs(*middle), kCap_rad);
+      }
+    }
+  }
+
+  [[nodiscard]] double off_rad(std::size_t segment, std::size_t ring) const {
+    return cost_[segment][ring];
+  }
+  [[nodiscard]] double points(std::size_t segment) const {
+    return static_cast<double>(points_[segment]);
+  }
+  [[nodiscard]] std::size_t segments() const { return cost_.size(); }
+
+ private:
+  static constexpr std::size_t kSamples = 200;
+
+  std::vector<std::array<double, kScanRings>> cost_;
+  std::vector<std::size_t> points_;
+  std::vector<std::vector<ScanPoint>> samples_;
+};
+
+/// The non-decreasing assignment of segments to rings with the least sum of angles over all points.
+std::vector<int> cheapest_order(const AlignmentCost& cost) {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  using Row = std::array<double, kScanRings>;
+  using Choice = std::array<std::int16_t, kScanRings>;
+  std::vector<Choice> came_from(cost.segments());
+  Row best{};
+  for (std::size_t segment = 0; segment < cost.segments(); ++segment) {
+    Row next{};
+    double lowest = segment == 0 ? 0.0 : kNever;  // the best that ends on an earlier ring
+    std::int16_t lowest_ring = 0;
+    for (std::size_t ring = 0; ring < next.size(); ++ring) {
+      const double shared =
+          segment == 0 ? kNever : best[ring] + AlignmentCost::kSharing_rad * cost.points(segment);
+      const bool shares = shared < lowest;
+      came_from[segment][ring] = shares ? static_cast<std::int16_t>(ring) : lowest_ring;
+      next[ring] = std::min(shared, lowest) + cost.off_rad(segment, ring) * cost.points(segment);
+      if (segment != 0 && best[ring] < lowest) {
+        lowest = best[ring];
+        lowest_ring = static_cast<std::int16_t>(ring);
+      }
+    }
+    best = next;
+  }
+  std::vector<int> ring_of_segment(cost.segments());
+  auto ring = static_cast<std::size_t>(std::min_element(best.begin(), best.end()) - best.begin());
+  for (std::size_t segment = cost.segments(); segment-- > 0;) {
+    ring_of_segment[segment] = static_cast<int>(ring);
+    ring = static_cast<std::size_t>(came_from[segment][ring]);
+  }
+  return ring_of_segment;
+}
+
+}  // namespace
+
+Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery) {
+  recovery.ring_of_point.resize(points.size());
+  recovery.no_ring = 0;
+  recovery.rings = 0;
+  CrossingCounter counter;
+  std::size_t in_first = 0;
+  int last = -1;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (!is_place(points[i])) {
+      recovery.ring_of_point[i] = kNoRing;
+      ++recovery.no_ring;
+      continue;
+    }
+    const int ring = counter.ring_at(points[i]);
+    if (ring >= kMaxSegments) {
+      return fail(ErrorCode::kMalformed,
+                  fmt::format("more than {} rings by the order of the points, at point {} of {}; "
+                              "expected {} rings, one after the other from the top, each counter-"
+                              "clockwise from straight ahead, as the original KITTI files are",
+                              kMaxSegments, i, points.size(), kScanRings));
+    }
+    in_first += ring == 0 ? 1U : 0U;
+    last = std::max(last, ring);
+    recovery.ring_of_point[i] = static_cast<std::int16_t>(ring);
+  }
+  if (last < 0) {
+    return fail(ErrorCode::kMalformed, "no finite point, so no ring; expected a KITTI scan");
+  }
+  if (last > 0 && in_first < kMinFirstRingPoints) {  // the file starts just before straight ahead
+    for (std::int16_t& ring : recovery.ring_of_point) {
+      if (ring > 0) --ring;
+    }
+    --last;
+  }
+  recovery.rings = last + 1;
+  return {};
+}
+
+Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
+                   RingRecovery& recovery) {
+  AlignmentCost cost(points, recovery);
+  cost.measure(table);
+  const std::vector<int> ring_of_segment = cheapest_order(cost);
+  recovery.no_ring = 0;
+  for (std::int16_t& ring : recovery.ring_of_point) {
+    if (ring != kNoRing) {
+      const auto segment = static_cast<std::size_t>(ring);
+      const int aligned = ring_of_segment[segment];
+      const bool fits =
+          cost.off_rad(segment, static_cast<std::size_t>(aligned)) < 0.9 * AlignmentCost::kCap_rad;
+      ring = fits ? static_cast<std::int16_t>(aligned) : kNoRing;
+    }
+    if (ring == kNoRing) ++recovery.no_ring;
+  }
+  recovery.rings = kScanRings;
+  return {};
+}
+
+Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
+                     RingRecovery& recovery) {
+  if (const Status status = split_into_rings(points, recovery); !status) return status;
+  if (recovery.rings == kScanRings) return {};
+  if (table != nullptr) return align_rings(points, *table, recovery);
+  return fail(
+      ErrorCode::kUnsupported,
+      fmt::format("{} rings by the order of the points, expected {}; a scan with missing or "
+                  "torn rings needs a table to align them by: give a calibration, or at "
+                  "least one scan of the same sensor with all {} rings",
+                  recovery.rings, kScanRings, kScanRings));
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/ring_table.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// The ring of every point of a scan, from the order of the file. Buffers are kept from scan to
+/// scan.
+struct RingRecovery {
+  std::vector<std::int16_t> ring_of_point;  ///< 0 (top) .. rings - 1; kNoRing for points without.
+  int rings = 0;                            ///< Rings found in the file's order.
+  std::size_t no_ring = 0;                  ///< Points with kNoRing, the not finite ones included.
+};
+
+/// What the paper calls backtracking: KITTI files hold ring after ring from the top, each counter-
+/// clockwise from straight ahead, so a new ring starts where the azimuth falls back past straight
+/// ahead (with x > 0, y goes from negative to >= 0; -0.0 is 0). Steps back over that line by less
+/// than ten degrees, as motion compensation makes them, stay in their ring. Points that are not
+/// finite get kNoRing. Errors: kMalformed when no point is finite or when there are many more
+/// crossings than any scan in ring order has (a shuffled or otherwise sorted file).
+[[nodiscard]] Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery);
+
+/// Renumbers the rings of a split whose count is not 64 (a laser without any return, a ring torn in
+/// two) by the known elevations: the assignment that keeps the order and has the least angular
+/// error; rings that fit no laser get kNoRing. After it, rings is 64.
+[[nodiscard]] Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
+                                 RingRecovery& recovery);
+
+/// split_into_rings(), then align_rings() where the count is not 64. Without a table (nullptr) such
+/// a scan is an error (kUnsupported) that says how to get one.
+[[nodiscard]] Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
+                                   RingRecovery& recovery);
+
+}  // namespace terracut::firmware_io

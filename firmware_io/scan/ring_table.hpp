@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "calib/hdl64e_calibration.hpp"
+#include "firmware_io/scan/kitti_scan.hpp"
+
+namespace terracut::firmware_io {
+
+/// Rings of an HDL-64E in the order of KITTI files: ring 0 is the highest elevation, 63 the lowest.
+inline constexpr int kScanRings = calib::kHdl64eLasers;
+
+/// The ring of a point that has none: it is not finite, or no ring fits it.
+inline constexpr std::int16_t kNoRing = -1;
+
+/// One ring as a line of the vertical plane: z = vert_offset + tan(elevation) * horizontal
+/// distance.
+struct RingLine {
+  double elevation_rad = 0;
+  double vert_offset_m = 0;  ///< Height of the beam's start above the sensor's origin.
+
+  /// How far above the line the point lies, metres.
+  [[nodiscard]] double height_above_m(const ScanPoint& p) const noexcept {
+    const double distance_m = std::hypot(double{p.x_m}, double{p.y_m});
+    return p.z_m - vert_offset_m - std::tan(elevation_rad) * distance_m;
+  }
+};
+
+/// The rings of one unit; elevations fall strictly from ring to ring.
+using RingTable = std::array<RingLine, kScanRings>;
+
+/// Laser number of a ring in the numbering most units have (docs/sensors.md): rings 0..31 are the
+/// upper block, lasers 0..31, rings 32..63 the lower one, lasers 32..63, each in interleaved
+/// groups.
+[[nodiscard]] int usual_laser_of_ring(int ring) noexcept;
+
+/// The rings of a calibration, sorted by elevation; distance corrections play no part in them.
+[[nodiscard]] RingTable ring_table(const calib::Hdl64eCalibration& calibration);
+
+/// Laser of every ring of a calibration: the inverse of calib::rows_by_elevation, from the top.
+[[nodiscard]] std::array<int, kScanRings> lasers_by_ring(
+    const calib::Hdl64eCalibration& calibration);
+
+/// A calibration whose lasers have the rings' elevations and vertical offsets and no other
+/// correction, numbered by usual_laser_of_ring().
+[[nodiscard]] calib::Hdl64eCalibration hdl64e_calibration(const RingTable& table);
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/ring_table_fit.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "calib/angle.hpp"
+#include "firmware_io/scan/line_fit.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+// Spread of a compensated point's horizontal distance and of its height about the true line,
+// metres, as measured on moving cars (docs/method.md).
+constexpr double kDistanceError_m = 0.2;
+constexpr double kHeightError_m = 0.01;
+
+// Returns beyond the sensor's reach are no returns; one of them would outweigh a whole ring.
+constexpr float kReach_m = 150;
+
+constexpr double kMinStep_rad = calib::deg_to_rad(0.02);  // rings never cross or coincide
+
+HeightResidual summarise(std::vector<double>& sizes) {
+  HeightResidual residual;
+  residual.points = sizes.size();
+  if (sizes.empty()) return residual;
+  double squares = 0;
+  for (const double r : sizes) squares += r * r;
+  residual.rms_m = std::sqrt(squares / static_cast<double>(sizes.size()));
+  const auto p95 = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 95 / 100);
+  std::nth_element(sizes.begin(), p95, sizes.end());
+  residual.p95_m = *p95;
+  return residual;
+}
+
+/// Puts rings without a fit between, or beyond, those that have one.
+void fill_gaps(std::array<std::optional<RingLine>, kScanRings>& lines) {
+  for (int ring = 0; ring < kScanRings; ++ring) {
+    if (lines[static_cast<std::size_t>(ring)]) continue;
+    int above = ring, below = ring;
+    while (above >= 0 && !lines[static_cast<std::size_t>(above)]) --above;
+    while (below < kScanRings && !lines[static_cast<std::size_t>(below)]) ++below;
+    if (above < 0 || below >= kScanRings) {  // beyond the last fitted ring: go on at its pitch
+      const int step = above < 0 ? 1 : -1;
+      int near = ring, far;
+      while (!lines[static_cast<std::size_t>(near)]) near += step;
+      far = near + step;
+      while (!lines[static_cast<std::size_t>(far)]) far += step;
+      above = near;
+      below = far;
+    }
+    const RingLine a = *lines[static_cast<std::size_t>(above)];
+    const RingLine b = *lines[static_cast<std::size_t>(below)];
+    const double share = static_cast<double>(ring - above) / (below - above);
+    lines[static_cast<std::size_t>(ring)] =
+        RingLine{a.elevation_rad + share * (b.elevation_rad - a.elevation_rad), a.vert_offset_m};
+  }
+}
+
+}  // namespace
+
+void RingTableFit::add(std::span<const ScanPoint> points,
+                       std::span<const std::int16_t> ring_of_point) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const float distance_m = std::hypot(points[i].x_m, points[i].y_m);
+    if (ring_of_point[i] == kNoRing || !(std::hypot(distance_m, points[i].z_m) < kReach_m))
+      continue;
+    Ring& ring = rings_[static_cast<std::size_t>(ring_of_point[i])];
+    if (ring.seen++ % ring.stride != 0) continue;
+    if (ring.samples.size() == kPointsPerRing) {  // thin out: keep every other one from here on
+      std::size_t kept = 0;
+      for (std::size_t from = 0; from < ring.samples.size(); from += 2) {
+        ring.samples[kept++] = ring.samples[from];
+      }
+      ring.samples.resize(kept);
+      ring.stride *= 2;
+    }
+    ring.samples.push_back({distance_m, points[i].z_m});
+  }
+}
+
+HeightResidual RingTableFit::residual(const RingLine& line, const Ring& ring,
+                                      std::vector<double>& all) {
+  const double slope = std::tan(line.elevation_rad);
+  std::vector<double> sizes;
+  sizes.reserve(ring.samples.size());
+  for (const Sample& s : ring.samples) {
+    sizes.push_back(std::abs(s.z_m - line.vert_offset_m - slope * s.distance_m));
+  }
+  all.insert(all.end(), sizes.begin(), sizes.end());
+  return summarise(sizes);
+}
+
+Expected<FittedRings> RingTableFit::fit() const {
+  std::array<std::optional<RingLine>, kScanRings> lines;
+  FittedRings fitted;
+  std::vector<LinePoint> points;
+  for (std::size_t ring = 0; ring < lines.size(); ++ring) {
+    if (rings_[ring].samples.size() < kMinPointsPerRing) {
+      ++fitted.interpolated_rings;
+      continue;
+    }
+    points.clear();
+    for (const Sample& s : rings_[ring].samples) points.push_back({s.distance_m, s.z_m});
+    const FittedLine line = fit_line(points, kHeightError_m / kDistanceError_m);
+    if (std::isfinite(line.slope)) lines[ring] = RingLine{std::atan(line.slope), line.offset};
+  }
+  const auto found = std::count_if(lines.begin(), lines.end(), [](const auto& l) { return !!l; });
+  if (found < kScanRings / 2) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("only {} of {} rings have the {} points a fit needs; add more scans, or "
+                    "give the unit's calibration",
+                    found, kScanRings, kMinPointsPerRing));
+  }
+  fill_gaps(lines);
+
+  std::vector<double> all;
+  for (std::size_t ring = 0; ring < lines.size(); ++ring) {
+    RingLine line = *lines[ring];
+    if (ring > 0) {
+      line.elevation_rad =
+          std::min(line.elevation_rad, fitted.table[ring - 1].elevation_rad - kMinStep_rad);
+    }
+    fitted.table[ring] = line;
+    fitted.by_ring[ring] = residual(line, rings_[ring], all);
+  }
+  fitted.residual = summarise(all);
+  return fitted;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/ring_table.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// How far points lie above or below their ring's line (vertical distance, metres).
+struct HeightResidual {
+  std::size_t points = 0;
+  double rms_m = 0;
+  double p95_m = 0;  ///< 95 % of the points lie nearer to the line than this.
+};
+
+/// A unit's ring table found in its recordings, and how well it explains them.
+struct FittedRings {
+  RingTable table{};
+  HeightResidual residual;  ///< Over all rings.
+  std::array<HeightResidual, kScanRings> by_ring{};
+  int interpolated_rings = 0;  ///< Rings with too few points, put between their neighbours.
+};
+
+/// Finds elevation and vertical offset of every ring of a unit from scans whose rings are known.
+///
+/// The points of one laser lie on a line over horizontal distance. Ranging noise moves them along
+/// it; motion compensation moves them beside it, horizontally by up to decimetres. So the line is
+/// fitted with an error in both coordinates (Deming), far more of it in the distance, and robustly
+/// (Cauchy weights, iterated): without this the steep rings come out too flat by degrees.
+///
+/// Memory: at most kPointsPerRing points a ring are kept, evenly spaced over everything added.
+/// Start-up code: allocates, not thread-safe. Deterministic.
+class RingTableFit {
+ public:
+  static constexpr std::size_t kPointsPerRing = 60000;
+  static constexpr std::size_t kMinPointsPerRing = 100;
+
+  /// Adds a scan. `ring_of_point`: a ring 0..63 or kNoRing for each point. Points beyond 150 m, the
+  /// not finite ones among them, are left out.
+  void add(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point);
+
+  /// The table of everything added so far. Error kMalformed when fewer than half the rings have
+  /// enough points.
+  [[nodiscard]] Expected<FittedRings> fit() const;
+
+ private:
+  struct Sample {
+    float distance_m, z_m;
+  };
+  struct Ring {
+    std::vector<Sample> samples;
+    std::size_t seen = 0;
+    std::size_t stride = 1;  ///< Every stride-th point is kept.
+  };
+
+  [[nodiscard]] static HeightResidual residual(const RingLine& line, const Ring& ring,
+                                               std::vector<double>& all);
+
+  std::array<Ring, kScanRings> rings_;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/scan_drive.hpp"
+
+#include <utility>
+
+#include "firmware_io/scan/scan_reader.hpp"
+
+namespace terracut::firmware_io {
+
+Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
+                                             const std::filesystem::path& pcap_path,
+                                             const ScanDriveOptions& options) {
+  auto reader = ScanReader::open(folder, options.undo_compensation);
+  if (!reader) return tl::unexpected(std::move(reader.error()));
+
+  ScanDriveReport report;
+  if (options.calibration) {
+    report.calibration = *options.calibration;
+    reader->use_rings(ring_table(report.calibration));
+  } else {
+    auto fitted = reader->fit_rings();
+    if (!fitted) return tl::unexpected(std::move(fitted.error()));
+    report.fitted = *fitted;
+    report.calibration = hdl64e_calibration(fitted->table);
+    report.calibration.origin = "fitted from " + folder.string();
+  }
+
+  auto writer = DriveWriter::create(pcap_path, report.calibration);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+  ScanEncoder encoder(report.calibration, options.first_stamp_ns, [&](const EncodedFiring& firing) {
+    return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
+                              firing.column.by_laser);
+  });
+  KittiScan scan;
+  RingRecovery rings;
+  for (std::size_t i = 0; i < reader->size(); ++i) {
+    if (const Status status = reader->read(i, scan, rings); !status) {
+      return tl::unexpected(status.error());
+    }
+    const Status status = encoder.add_turn(scan.points, rings.ring_of_point, scan.labels);
+    if (!status) return tl::unexpected(status.error());
+    if (options.on_scan) options.on_scan(i + 1, reader->size());
+  }
+  auto encoded = encoder.finish();
+  if (!encoded) return tl::unexpected(std::move(encoded.error()));
+  report.encoded = std::move(*encoded);
+  const auto drive = writer->finish();
+  if (!drive) return tl::unexpected(drive.error());
+  report.drive = *drive;
+  return report;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// One recorded turn on disk.
+struct ScanFile {
+  std::filesystem::path points;  ///< The `.bin`.
+  std::optional<std::filesystem::path>
+      labels;        ///< The `.label` of the same name, where there is one.
+  std::string name;  ///< "000009" of 000009.bin.
+  /// The frame number the name spells, for poses and times; none when the name is not a number.
+  std::optional<std::uint32_t> frame;
+};
+
+/// Recorded scans in order of their names.
+struct ScanFolder {
+  std::vector<ScanFile> scans;                 ///< Never empty.
+  std::optional<std::filesystem::path> poses;  ///< poses.txt of a sequence folder.
+  std::optional<std::filesystem::path> times;  ///< times.txt
+  std::optional<std::filesystem::path> calib;  ///< calib.txt
+};
+
+/// Lists a SemanticKITTI sequence folder (velodyne/ with .bin, labels/ with .label, poses.txt,
+/// times.txt, calib.txt; all but velodyne/ optional) or a plain folder of .bin with .label files
+/// beside them. Labels are taken for the scans that have them.
+/// Errors: kNotFound (no such folder, no .bin in it), kUnreadable.
+[[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder);
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/scan_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "firmware_io/scan/motion_compensation.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+Error in_file(const std::filesystem::path& path, Error error) {
+  error.message = path.string() + ": " + error.message;
+  return error;
+}
+
+}  // namespace
+
+Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, bool undo_compensation) {
+  auto listed = list_scan_folder(folder);
+  if (!listed) return tl::unexpected(std::move(listed.error()));
+  ScanReader reader;
+  reader.folder_ = std::move(*listed);
+  if (!undo_compensation) return reader;
+
+  const ScanFolder& found = reader.folder_;
+  if (!found.poses || !found.times) {
+    return fail(
+        ErrorCode::kNotFound,
+        fmt::format("{}: undoing the motion compensation needs poses.txt and times.txt beside "
+                    "velodyne/; {} is missing",
+                    folder.string(), found.poses ? "times.txt" : "poses.txt"));
+  }
+  auto motion = SensorMotion::read(*found.poses, *found.times, found.calib);
+  if (!motion) return tl::unexpected(std::move(motion.error()));
+  reader.motion_ = std::move(*motion);
+  return reader;
+}
+
+Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings) const {
+  const ScanFile& file = folder_.scans[index];
+  const Status status = file.labels ? read_kitti_scan(file.points, *file.labels, scan)
+                                    : read_kitti_scan(file.points, scan);
+  if (!status) return status;
+  // Rings first: putting the motion back moves points over the line that separates them.
+  Status recovered = recover_rings(scan.points, table_ ? &*table_ : nullptr, rings);
+  if (!recovered) return tl::unexpected(in_file(file.points, std::move(recovered.error())));
+  if (!motion_) return {};
+  if (!file.frame) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: undoing the motion compensation needs scans named by their frame "
+                            "number, like 000042.bin, to find their pose",
+                            file.points.string()));
+  }
+  const auto twist = motion_->twist(*file.frame);
+  if (!twist) return tl::unexpected(twist.error());
+  undo_motion_compensation(*twist, scan.points);
+  return {};
+}
+
+Expected<FittedRings> ScanReader::fit_rings() {
+  RingTableFit fit;
+  KittiScan scan;
+  RingRecovery rings;
+  const std::size_t count = std::min(size(), kScansToFit);
+  Error last{ErrorCode::kMalformed, ""};
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const Status status = read(i * size() / count, scan, rings);
+    if (!status && status.error().code != ErrorCode::kUnsupported) {
+      return tl::unexpected(status.error());
+    }
+    if (!status) {  // not all rings: of no use for fitting, and aligned with the table later
+      last = status.error();
+      continue;
+    }
+    fit.add(scan.points, rings.ring_of_point);
+    ++used;
+  }
+  if (used == 0) return tl::unexpected(std::move(last));
+  auto fitted = fit.fit();
+  if (fitted) table_ = fitted->table;
+  return fitted;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/ring_recovery.hpp"
+#include "firmware_io/scan/ring_table_fit.hpp"
+#include "firmware_io/scan/scan_folder.hpp"
+#include "firmware_io/scan/sensor_motion.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// Reads the scans of a folder one by one, with the ring of every point.
+class ScanReader {
+ public:
+  /// At most this many scans, evenly spread over the folder, are read for fit_rings().
+  static constexpr std::size_t kScansToFit = 40;
+
+  /// Lists the folder (scan_folder.hpp). With `undo_compensation` every scan that is read gets its
+  /// sensor's motion put back (motion_compensation.hpp); that needs poses.txt and times.txt and
+  /// scans named by their frame number, else kNotFound or kInvalidArgument.
+  [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
+                                                 bool undo_compensation = false);
+
+  [[nodiscard]] std::size_t size() const noexcept { return folder_.scans.size(); }
+  [[nodiscard]] const ScanFile& file(std::size_t index) const { return folder_.scans[index]; }
+
+  /// Reads scan `index` into `scan`, labels included where it has them, and the rings of its
+  /// points. Scans with other than 64 rings need a table: fit_rings() or use_rings() first.
+  [[nodiscard]] Status read(std::size_t index, KittiScan& scan, RingRecovery& rings) const;
+
+  /// Fits the unit's ring table from the scans that have all 64 rings and uses it from then on.
+  [[nodiscard]] Expected<FittedRings> fit_rings();
+  void use_rings(const RingTable& table) { table_ = table; }
+
+ private:
+  ScanFolder folder_;
+  std::optional<SensorMotion> motion_;  ///< Only where it is to be put back.
+  std::optional<RingTable> table_;
+};
+
+}  // namespace terracut::firmware_io

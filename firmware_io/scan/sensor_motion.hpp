@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// Constant motion of the sensor, in its own frame (x forward, y left, z up).
+struct SensorTwist {
+  std::array<double, 3> turning_rad_s{};
+  std::array<double, 3> velocity_m_s{};
+  double turn_duration_s = 0.1;  ///< Of one turn of the head.
+};
+
+/// How the sensor moved during a recorded KITTI / SemanticKITTI sequence.
+class SensorMotion {
+ public:
+  /// Reads poses.txt (a line a frame: 3x4 row-major pose of the left camera in that of frame 0),
+  /// times.txt (a line a frame: seconds) and the sensor's place from the line "Tr:" of calib.txt
+  /// (3x4, sensor to camera). Without calib.txt or that line the place of the KITTI car's drawing
+  /// is taken: axes parallel, camera 0.27 m in front of the sensor and 0.08 m below. Line n is
+  /// frame n. Errors: kNotFound, kUnreadable, kMalformed with file and line (wrong count of
+  /// numbers, not finite, times that do not rise, unequal lengths, faster than any car).
+  [[nodiscard]] static Expected<SensorMotion> read(
+      const std::filesystem::path& poses, const std::filesystem::path& times,
+      const std::optional<std::filesystem::path>& calib);
+
+  [[nodiscard]] std::size_t frames() const noexcept { return times_s_.size(); }
+  /// True when the sensor's place came from the "Tr:" line.
+  [[nodiscard]] bool has_own_extrinsics() const noexcept { return has_own_extrinsics_; }
+
+  /// Mean motion from the frame before to the frame after (at the ends: to the one neighbour).
+  /// Error kInvalidArgument for a frame that the files do not have.
+  [[nodiscard]] Expected<SensorTwist> twist(std::uint32_t frame) const;
+
+ private:
+  using Pose = std::array<double, 12>;  // row-major 3x4
+
+  std::vector<Pose> camera_poses_;
+  std::vector<double> times_s_;
+  Pose T_camera_lidar_{};
+  bool has_own_extrinsics_ = false;
+  std::filesystem::path poses_path_;
+};
+
+}  // namespace terracut::firmware_io

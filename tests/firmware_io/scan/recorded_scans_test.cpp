@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Behaviour on the labelled scans beside the repository (shared/data/semantickitti).
+#include <gtest/gtest.h>
+
+#include "firmware_io/scan/scan_encoder.hpp"
+#include "firmware_io/scan/scan_reader.hpp"
+#include "recorded_sequences.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+ScanReader reader_of(const std::filesystem::path& sequence, bool undo) {
+  auto reader = ScanReader::open(sequence, undo);
+  EXPECT_TRUE(reader) << reader.error().message;
+  return std::move(*reader);
+}
+
+TEST(RecordedScans, HaveSixtyFourRingsEachByTheOrderOfTheFile) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  std::size_t scans = 0;
+  for (const auto& sequence : sequences) {
+    const ScanReader reader = reader_of(sequence, false);
+    KittiScan scan;
+    RingRecovery rings;
+    for (std::size_t i = 0; i < reader.size(); ++i, ++scans) {
+      const Status status = reader.read(i, scan, rings);
+      ASSERT_TRUE(status) << status.error().message;
+      EXPECT_EQ(rings.rings, 64) << reader.file(i).points;
+      EXPECT_EQ(rings.no_ring, 0U);
+      EXPECT_EQ(scan.labels.size(), scan.points.size());
+    }
+  }
+  EXPECT_GE(scans, 18U);
+}
+
+TEST(RecordedScans, KeepTheirRingsWhenOnesAreMissing) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    ScanReader reader = reader_of(sequence, false);
+    const auto fitted = reader.fit_rings();
+    ASSERT_TRUE(fitted);
+    KittiScan scan;
+    RingRecovery whole;
+    ASSERT_TRUE(reader.read(0, scan, whole));
+    std::vector<ScanPoint> points;
+    std::vector<std::int16_t> truth;
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {
+      const int ring = whole.ring_of_point[i];
+      if (ring == 0 || ring == 13 || ring == 40 || ring == 62) continue;
+      points.push_back(scan.points[i]);
+      truth.push_back(whole.ring_of_point[i]);
+    }
+    RingRecovery aligned;
+    ASSERT_TRUE(recover_rings(points, &fitted->table, aligned));
+    std::size_t wrong = 0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+      const int off = std::abs(aligned.ring_of_point[i] - truth[i]);
+      EXPECT_LE(off, 1);
+      wrong += off != 0 ? 1U : 0U;
+    }
+    // Near rings of a moving scan lie half a degree apart, and compensation moved them by more.
+    EXPECT_LE(wrong * 33, truth.size()) << sequence << ": " << wrong << " points in the next ring";
+  }
+}
+
+TEST(RecordedScans, FitOneUnitsTableWithinTheMeasuredResidual) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    const auto fitted = reader_of(sequence, false).fit_rings();
+    ASSERT_TRUE(fitted);
+    EXPECT_NEAR(calib::rad_to_deg(fitted->table.front().elevation_rad), 1.93, 0.1) << sequence;
+    EXPECT_NEAR(calib::rad_to_deg(fitted->table.back().elevation_rad), -25.2, 1.5) << sequence;
+    EXPECT_NEAR(fitted->table[10].vert_offset_m, 0.205, 0.01) << sequence;
+    EXPECT_LT(fitted->residual.p95_m, 0.12) << sequence;
+    EXPECT_TRUE(calib::validate(hdl64e_calibration(fitted->table)));
+  }
+}
+
+TEST(RecordedScans, FitToAboutACentimetreOnceTheMotionIsPutBack) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    const auto fitted = reader_of(sequence, true).fit_rings();
+    ASSERT_TRUE(fitted);
+    EXPECT_NEAR(calib::rad_to_deg(fitted->table.back().elevation_rad), -25.2, 0.8) << sequence;
+    EXPECT_NEAR(fitted->table[40].vert_offset_m, 0.122, 0.02) << sequence;
+    EXPECT_LT(fitted->residual.p95_m, 0.025) << sequence;
+  }
+}
+
+class RecordedScansEncoded : public testing::TestWithParam<bool> {};
+
+TEST_P(RecordedScansEncoded, KeepRangeAzimuthAndNearlyAllPoints) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    ScanReader reader = reader_of(sequence, GetParam());
+    const auto fitted = reader.fit_rings();
+    ASSERT_TRUE(fitted);
+    std::size_t returns = 0;
+    ScanEncoder encoder(hdl64e_calibration(fitted->table), 0,
+                        [&](const EncodedFiring& f) -> Status {
+                          for (const auto& echo : f.column.by_laser)
+                            returns += echo.raw != 0 ? 1U : 0U;
+                          return {};
+                        });
+    KittiScan scan;
+    RingRecovery rings;
+    for (std::size_t i = 0; i < reader.size(); ++i) {
+      ASSERT_TRUE(reader.read(i, scan, rings));
+      ASSERT_TRUE(encoder.add_turn(scan.points, rings.ring_of_point, scan.labels));
+    }
+    const auto summary = encoder.finish();
+    ASSERT_TRUE(summary);
+    EXPECT_EQ(returns, summary->encoded);
+    EXPECT_GE(static_cast<double>(summary->encoded), 0.998 * static_cast<double>(summary->points))
+        << sequence;
+    EXPECT_LE(summary->max_range_error_m, 0.003) << sequence;
+    for (const EncodedTurn& turn : summary->turns) {
+      EXPECT_LE(turn.max_azimuth_error_deg, 180.0 / static_cast<double>(turn.firings) + 0.01)
+          << sequence;
+      EXPECT_LE(turn.firings, 4167U) << "slower than the 5 Hz an HDL-64E can turn at";
+    }
+    EXPECT_LT(summary->height.p95_m, GetParam() ? 0.025 : 0.12) << sequence;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Compensation, RecordedScansEncoded, testing::Bool(),
+                         [](const auto& param) { return param.param ? "Undone" : "Kept"; });
+
+}  // namespace
+}  // namespace terracut::firmware_io

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <vector>
+
+namespace terracut::firmware_io {
+
+/// Sequence folders of the labelled scans beside the repository; none where they are absent.
+inline std::vector<std::filesystem::path> recorded_sequences() {
+  const char* const shared = std::getenv("TERRACUT_SHARED");
+  const std::filesystem::path root =
+      std::filesystem::path(shared != nullptr ? shared : TERRACUT_SOURCE_DIR "/../shared") /
+      "data/semantickitti/sequences";
+  std::vector<std::filesystem::path> sequences;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(root, error)) {
+    sequences.push_back(entry.path());
+  }
+  std::sort(sequences.begin(), sequences.end());
+  return sequences;
+}
+
+/// Names the sequences for a test's loop, or skips it.
+#define TERRACUT_RECORDED_SEQUENCES(name) \
+  const auto name = recorded_sequences(); \
+  if (name.empty()) GTEST_SKIP() << "no recorded scans: shared/data/semantickitti is not there"
+
+}  // namespace terracut::firmware_io

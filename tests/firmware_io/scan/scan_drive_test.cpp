@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/scan_drive.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "calib/hdl64e_xml.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "firmware_io/scan/scan_reader.hpp"
+#include "scratch_folder.hpp"
+#include "synthetic_scan.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+using testing::HasSubstr;
+
+void write_sequence(const ScratchFolder& folder, int scans) {
+  for (int i = 0; i < scans; ++i) {
+    synthetic::World world;
+    world.ground_m = -1.73 + 0.01 * i;
+    const auto points = synthetic::scan(synthetic::table(), world);
+    const std::string name = "00000" + std::to_string(i);
+    folder.write_records("scans/velodyne/" + name + ".bin", points);
+    folder.write_records("scans/labels/" + name + ".label",
+                         std::vector<std::uint32_t>(points.size(), 40U + static_cast<unsigned>(i)));
+  }
+}
+
+TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
+  const ScratchFolder folder;
+  write_sequence(folder, 2);
+  std::size_t progress = 0;
+  ScanDriveOptions options;
+  options.on_scan = [&](std::size_t done, std::size_t of) {
+    progress = done;
+    EXPECT_EQ(of, 2U);
+  };
+  const auto pcap = folder.path() / "drive.pcap";
+  const auto report = encode_scan_folder(folder.path() / "scans", pcap, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(progress, 2U);
+  EXPECT_EQ(report->drive.frames, 2U);
+  EXPECT_EQ(report->drive.returns, report->encoded.encoded);
+  EXPECT_TRUE(report->fitted.has_value());
+  EXPECT_GT(std::filesystem::file_size(pcap), report->drive.packets * 1206);
+
+  const auto calibration = calib::read_hdl64e_xml(calibration_path_of(pcap));
+  ASSERT_TRUE(calibration) << calibration.error().message;
+  EXPECT_EQ(calib::fingerprint(*calibration), calib::fingerprint(report->calibration));
+  for (std::uint32_t turn = 0; turn < 2; ++turn) {
+    std::vector<std::uint32_t> truth;
+    const auto path = truth_folder_of(pcap) / ("00000" + std::to_string(turn) + ".label");
+    ASSERT_TRUE(read_label_file(path, report->encoded.turns[turn].encoded, truth));
+    EXPECT_THAT(truth, testing::Each(40 + turn));
+  }
+}
+
+TEST(ScanDrive, UsesAGivenCalibration) {
+  const ScratchFolder folder;
+  write_sequence(folder, 1);
+  ScanDriveOptions options;
+  options.calibration = hdl64e_calibration(synthetic::table());
+  const auto report =
+      encode_scan_folder(folder.path() / "scans", folder.path() / "drive.pcap", options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_FALSE(report->fitted.has_value());
+  EXPECT_LT(report->encoded.height.p95_m, 0.003);
+}
+
+TEST(ScanDrive, LeavesNothingWhenAScanIsRefused) {
+  const ScratchFolder folder;
+  write_sequence(folder, 1);
+  folder.write("scans/velodyne/000001.bin", "seven b");
+  const auto report = encode_scan_folder(folder.path() / "scans", folder.path() / "drive.pcap", {});
+  ASSERT_FALSE(report);
+  EXPECT_THAT(report.error().message, HasSubstr("000001.bin"));
+  std::size_t entries = 0;
+  for ([[maybe_unused]] const auto& e : std::filesystem::directory_iterator(folder.path()))
+    ++entries;
+  EXPECT_EQ(entries, 1U);
+}
+
+TEST(ScanReader, NamesWhatUndoingTheCompensationNeeds) {
+  const ScratchFolder folder;
+  write_sequence(folder, 1);
+  const auto reader = ScanReader::open(folder.path() / "scans", true);
+  ASSERT_FALSE(reader);
+  EXPECT_EQ(reader.error().code, ErrorCode::kNotFound);
+  EXPECT_THAT(reader.error().message, HasSubstr("poses.txt is missing"));
+}
+
+TEST(ScanReader, UndoesTheCompensationOnlyOfScansNamedByTheirFrame) {
+  const ScratchFolder folder;
+  folder.write_records("velodyne/first.bin", synthetic::scan(synthetic::table()));
+  folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
+  folder.write("times.txt", "0\n0.1\n");
+  const auto reader = ScanReader::open(folder.path(), true);
+  ASSERT_TRUE(reader) << reader.error().message;
+  KittiScan scan;
+  RingRecovery rings;
+  const Status status = reader->read(0, scan, rings);
+  ASSERT_FALSE(status);
+  EXPECT_THAT(status.error().message, HasSubstr("named by their frame number"));
+}
+
+TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
+  const ScratchFolder folder;
+  write_sequence(folder, 1);
+  auto points = synthetic::scan(synthetic::table());
+  synthetic::erase_ring(points, 30);
+  folder.write_records("scans/velodyne/000001.bin", points);
+  auto reader = ScanReader::open(folder.path() / "scans");
+  ASSERT_TRUE(reader);
+  KittiScan scan;
+  RingRecovery rings;
+  EXPECT_FALSE(reader->read(1, scan, rings));  // nothing to align by yet
+  ASSERT_TRUE(reader->fit_rings());
+  ASSERT_TRUE(reader->read(1, scan, rings));
+  EXPECT_EQ(rings.no_ring, 0U);
+  EXPECT_EQ(rings.ring_of_point.back(), 63);
+}
+
+}  // namespace
+}  // namespace terracut::firmware_io

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/simulator/drive.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <thread>
+#include <vector>
+
+#include "calib/angle.hpp"
+#include "firmware_io/simulator/ego_motion.hpp"
+#include "firmware_io/simulator/firing_plan.hpp"
+#include "firmware_io/simulator/object_index.hpp"
+#include "firmware_io/simulator/scan_head.hpp"
+#include "firmware_io/simulator/scene.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+// Objects are sorted anew after so many firings (9 ms): nothing moves far in that time.
+constexpr std::int64_t kBatch = 32 * kColumnsPerPacketSingle;
+// From the sensor's origin to where its beams start.
+constexpr double kBeamStarts_m = 0.5;
+
+Status in_range(const char* what, double value, double least, double most) {
+  if (value >= least && value <= most) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("simulation: {} is {}, expected {} to {}", what, value, least, most));
+}
+
+Status check(const SimulationConfig& config) {
+  const SensorEffects& effects = config.effects;
+  const Status checks[] = {
+      calib::validate(config.calibration),
+      in_range("duration_s", config.duration_s, 1e-3, 3600),
+      in_range("spin_hz", config.spin_hz, 5, 20),
+      in_range("speed_mps", config.speed_mps, -1, 60),
+      in_range("mount.height_m", config.mount.height_m, 0.2, 6),
+      in_range("mount.roll_rad", config.mount.roll_rad, -0.5, 0.5),
+      in_range("mount.pitch_rad", config.mount.pitch_rad, -0.5, 0.5),
+      in_range("effects.range_noise_m", effects.range_noise_m, 0, 1),
+      in_range("effects.random_drop_share", effects.random_drop_share, 0, 1),
+      in_range("effects.min_range_m", effects.min_range_m, 0, effects.max_range_m),
+      in_range("effects.max_range_m", effects.max_range_m, effects.min_range_m, 130),
+      in_range("threads", config.threads, 1, 64),
+  };
+  for (const Status& status : checks) {
+    if (!status) return status;
+  }
+  return {};
+}
+
+/// A drive under way: the world at the current batch of firings.
+class Drive {
+ public:
+  Drive(const SimulationConfig& config, const Scene& scene, std::int64_t turns)
+      : config_(config),
+        scene_(scene),
+        T_vehicle_lidar_(mount_pose(config.mount)),
+        plan_(config.calibration, config.spin_hz, turns),
+        head_(config, scene.terrain, plan_),
+        objects_{ObjectIndex(scene), ObjectIndex(scene)},
+        columns_(static_cast<std::size_t>(kBatch)) {}
+
+  Expected<SimulationSummary> run(const ColumnSink& sink) {
+    SimulationSummary summary;
+    summary.turns = static_cast<std::uint64_t>(plan_.turns());
+    for (std::int64_t first = 0; first < plan_.firings(); first += kBatch) {
+      const std::int64_t count = std::min(kBatch, plan_.firings() - first);
+      move_world(first, count);
+      cast(first, count);
+      for (const SimulatedColumn& column :
+           std::span(columns_).first(static_cast<std::size_t>(count))) {
+        for (const LabelledReturn& echo : column.wire.by_laser) summary.returns += echo.raw != 0;
+        ++summary.columns;
+        if (Status status = sink(column); !status) return tl::unexpected(status.error());
+      }
+    }
+    return summary;
+  }
+
+ private:
+  [[nodiscard]] Eigen::Isometry3d T_world_lidar(double time_s) const {
+    return ego_pose(scene_, time_s) * T_vehicle_lidar_;
+  }
+
+  void move_world(std::int64_t first, std::int64_t count) {
+    const Firing begin = plan_.firing(first);
+    const Firing end = plan_.firing(first + count - 1);
+    if (config_.motion_within_turn) {
+      const double window_s = end.time_s - begin.time_s;
+      update(0, begin.time_s, window_s);
+      return;
+    }
+    const double turn_s = 1 / config_.spin_hz;
+    // Beams lead and trail the head by some degrees.
+    for (const std::int64_t cdeg : {begin.azimuth_cdeg - 1500, end.azimuth_cdeg + 1500}) {
+      const std::int64_t turn = (cdeg - calib::wrap_cdeg(cdeg)) / calib::kTurn_cdeg;
+      if (!plan_.wants(turn)) continue;
+      const auto parity = static_cast<std::size_t>(turn % 2);
+      const double time_s = static_cast<double>(turn) * turn_s;
+      if (turn_moments_[parity].objects != nullptr && still_time_s_[parity] == time_s) continue;
+      update(parity, time_s, 0);
+      turn_moments_[parity] = {&objects_[parity], 0, T_world_lidar(time_s)};
+      still_time_s_[parity] = time_s;
+    }
+  }
+
+  void update(std::size_t index, double time_s, double window_s) {
+    const Eigen::Vector3d viewpoint = T_world_lidar(time_s).translation();
+    const double reach_m = kBeamStarts_m + 1.2 * std::abs(scene_.ego_speed_mps) * window_s;
+    objects_[index].update(time_s, window_s, viewpoint, reach_m);
+    batch_time_s_ = time_s;
+  }
+
+  void cast_one(std::int64_t index, SimulatedColumn& column) const {
+    const Firing firing = plan_.firing(index);
+    if (!config_.motion_within_turn) {
+      head_.cast(firing, turn_moments_, column);
+      return;
+    }
+    const Moment moment{&objects_[0], firing.time_s - batch_time_s_, T_world_lidar(firing.time_s)};
+    head_.cast(firing, {moment, moment}, column);
+  }
+
+  /// Every thread takes each n-th column; a column depends on nothing but its index.
+  void cast(std::int64_t first, std::int64_t count) {
+    const auto share = [&](std::int64_t from) {
+      for (std::int64_t i = from; i < count; i += config_.threads) {
+        cast_one(first + i, columns_[static_cast<std::size_t>(i)]);
+      }
+    };
+    std::vector<std::jthread> helpers;
+    for (int i = 1; i < config_.threads; ++i) helpers.emplace_back(share, i);
+    share(0);
+  }
+
+  const SimulationConfig& config_;
+  const Scene& scene_;
+  Eigen::Isometry3d T_vehicle_lidar_;
+  FiringPlan plan_;
+  ScanHead head_;
+  std::array<ObjectIndex, 2> objects_;  ///< By turn; only the first while moving.
+  std::array<Moment, 2> turn_moments_{};
+  std::array<double, 2> still_time_s_{};
+  double batch_time_s_ = 0;
+  std::vector<SimulatedColumn> columns_;
+};
+
+}  // namespace
+
+Expected<SimulationSummary> simulate_drive(const SimulationConfig& config, const ColumnSink& sink) {
+  if (Status status = check(config); !status) return tl::unexpected(status.error());
+  const std::int64_t turns =
+      std::max<std::int64_t>(1, std::llround(config.duration_s * config.spin_hz));
+  const double duration_s = static_cast<double>(turns) / config.spin_hz;
+  const Expected<Scene> scene =
+      make_scene(config.scene, {config.seed, duration_s, config.speed_mps});
+  if (!scene) return tl::unexpected(scene.error());
+  return Drive(config, *scene, turns).run(sink);
+}
+
+}  // namespace terracut::firmware_io

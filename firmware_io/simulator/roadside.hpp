@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "firmware_io/simulator/random.hpp"
+#include "firmware_io/simulator/scene_object.hpp"
+
+namespace terracut::firmware_io {
+
+/// Things that stand beside a road. Origin on the ground in their middle; long ones along x, and
+/// reaching some way below the origin so that nothing gapes on slopes.
+
+/// `length_m` along the road, `depth_m` across, `height_m` high, with a plinth.
+[[nodiscard]] SceneObject make_building(double length_m, double depth_m, double height_m);
+
+/// Trunk of 0.1 to 0.25 m radius, crown of leaves from 2.2 m or higher up.
+[[nodiscard]] SceneObject make_tree(Random& random);
+
+/// A bush of leaves down to the ground, 0.5 to 1.6 m across.
+[[nodiscard]] SceneObject make_bush(Random& random);
+
+/// Lamp post, sign post with its plate, or bollard.
+[[nodiscard]] SceneObject make_lamp_post(Random& random);
+[[nodiscard]] SceneObject make_sign_post(Random& random);
+[[nodiscard]] SceneObject make_bollard();
+
+/// Leaves from the ground up, 0.8 m thick.
+[[nodiscard]] SceneObject make_hedge(double length_m, double height_m);
+
+/// Posts and wire mesh that lets 6 beams of 10 through, 1.2 m high.
+[[nodiscard]] SceneObject make_mesh_fence(double length_m);
+
+/// Steel rail at 0.45 to 0.76 m on posts every 2 m.
+[[nodiscard]] SceneObject make_guard_rail(double length_m);
+
+/// Concrete barrier, 0.9 m high, broader at its foot.
+[[nodiscard]] SceneObject make_concrete_barrier(double length_m);
+
+/// A bridge over the road, deck from 5.2 m up, on two walls `clear_width_m` apart.
+[[nodiscard]] SceneObject make_overpass(double clear_width_m);
+
+}  // namespace terracut::firmware_io

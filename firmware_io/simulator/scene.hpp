@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "firmware_io/simulator/scene_object.hpp"
+#include "firmware_io/simulator/terrain.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// A world and the way of the sensor's vehicle through it: from s = 0 at time 0 along the road.
+struct Scene {
+  Terrain terrain;
+  std::vector<SceneObject> objects;
+  double ego_d_m = 0;  ///< The vehicle's distance from the centre line, left positive.
+  double ego_speed_mps = 0;
+};
+
+/// How much of the world a drive will see.
+struct SceneExtent {
+  std::uint64_t seed = 1;
+  double duration_s = 5;
+  double speed_mps = -1;  ///< < 0: what is usual in the scene.
+};
+
+/// "street"   kerbs of 6 to 20 cm, parked cars, people, cyclists, houses, trees; 30 km/h
+/// "highway"  two carriageways at 3 % grade, barriers, trucks, banks up and down; 97 km/h
+/// "rural"    narrow bending road, ditches, banks, rough grass, hedges, fences; 43 km/h
+/// "flat"     a plane at z = 0 with the boxes of flat_scene_boxes(), which do not vary; 18 km/h
+/// "hill"     onto a 15 % slope across a hillside; 29 km/h
+[[nodiscard]] std::span<const std::string_view> scene_names() noexcept;
+
+/// The same name and seed give the same world, in which a longer drive sees the same things as a
+/// shorter one, and then more. kInvalidArgument for an unknown name, saying which there are.
+[[nodiscard]] Expected<Scene> make_scene(std::string_view name, const SceneExtent& extent);
+
+/// A box of the scene "flat", standing on the plane.
+struct FlatSceneBox {
+  double x_m = 0, y_m = 0;                         ///< Middle.
+  double length_m = 0, width_m = 0, height_m = 0;  ///< Along x, y, z.
+  Truth truth = Truth::kBuilding;
+};
+[[nodiscard]] std::span<const FlatSceneBox> flat_scene_boxes() noexcept;
+
+}  // namespace terracut::firmware_io

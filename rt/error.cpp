@@ -14,6 +14,7 @@ std::string_view to_string(ErrorCode code) noexcept {
     case ErrorCode::kCapacityExceeded: return "capacity exceeded";
     case ErrorCode::kWriteFailed: return "write failed";
     case ErrorCode::kNoCalibration: return "no calibration";
+    case ErrorCode::kNothingCameOut: return "nothing came out";
   }
   return "unknown";
 }

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <ctime>
+
+#include <cstdint>
+
+namespace terracut::rt {
+
+/// Both clocks never step. Real-time safe, no system call that can block, thread-safe.
+
+/// Processor time the calling thread has used, nanoseconds (CLOCK_THREAD_CPUTIME_ID): what a
+/// computation costs, whatever else the machine does meanwhile. Only differences within one thread
+/// mean something.
+[[nodiscard]] inline std::int64_t thread_cpu_ns() noexcept;
+
+/// Nanoseconds since an arbitrary start (CLOCK_MONOTONIC): what a deadline is measured with.
+[[nodiscard]] inline std::int64_t monotonic_ns() noexcept;
+
+namespace detail {
+[[nodiscard]] inline std::int64_t read_clock_ns(clockid_t clock) noexcept {
+  timespec now{};
+  ::clock_gettime(clock, &now);  // cannot fail for these two clocks on Linux
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+}  // namespace detail
+
+inline std::int64_t thread_cpu_ns() noexcept {
+  return detail::read_clock_ns(CLOCK_THREAD_CPUTIME_ID);
+}
+inline std::int64_t monotonic_ns() noexcept { return detail::read_clock_ns(CLOCK_MONOTONIC); }
+
+/// The two clocks read together.
+struct ClockPair {
+  std::int64_t cpu_ns = 0;
+  std::int64_t wall_ns = 0;
+
+  [[nodiscard]] static ClockPair now() noexcept { return {thread_cpu_ns(), monotonic_ns()}; }
+  [[nodiscard]] ClockPair since(const ClockPair& earlier) const noexcept {
+    return {cpu_ns - earlier.cpu_ns, wall_ns - earlier.wall_ns};
+  }
+};
+
+}  // namespace terracut::rt

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sinks/label_sink.hpp"
+
+#include "small_frame.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+using pipeline::Label;
+
+class LabelSink : public OutputFolder {};
+
+TEST_F(LabelSink, WritesOneLittleEndianClassAReturnInOrder) {
+  const std::vector labels{Label::kGround, Label::kObstacle, Label::kGround};
+  ASSERT_TRUE(write_label_file(folder_ / "000000.label", labels).has_value());
+  const std::string expected("\x28\0\0\0\x63\0\0\0\x28\0\0\0", 12);  // 40, 99, 40
+  EXPECT_EQ(content_of(folder_ / "000000.label"), expected);
+}
+
+TEST_F(LabelSink, WritesAnEmptyFileForAnEmptyFrame) {
+  ASSERT_TRUE(write_label_file(folder_ / "000000.label", {}).has_value());
+  EXPECT_TRUE(std::filesystem::is_regular_file(folder_ / "000000.label"));
+  EXPECT_EQ(content_of(folder_ / "000000.label"), "");
+}
+
+}  // namespace
+}  // namespace terracut::firmware_io

@@ -17,7 +17,7 @@ SegmenterConfig paper_profile() noexcept {
   SegmenterConfig config;
   config.elevation_map = {};
   config.elevation_map.reference = GroundReference::kCellMinimum;
-  config.elevation_map.obstacle_height_m = 0.30F;
+  config.elevation_map.obstacle_height_m = 0.20F;
 
   config.adjacent_points.rule = AdjacentRule::kRingSpacing;
   config.adjacent_points.max_slope_rad = 0.50F;

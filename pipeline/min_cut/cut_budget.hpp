@@ -7,13 +7,15 @@
 
 namespace terracut::pipeline {
 
-/// How much work one min-cut may do. An operation is one visit of an arc (6-13 ns on a 3 GHz core).
+/// How much work the solvers of one min-cut may do. An operation is one visit of an arc (3-14 ns on a
+/// 3 GHz core, more in larger components). Outside the budget, and bounded by the cap on unknown
+/// cells, are the steps before them and one linear pass over the component that was interrupted.
 ///
 /// Without `expired` the result depends on the input alone: the deterministic mode, for replays and
 /// tests. With it the solver also stops when the caller's clock says so: live mode.
 struct CutBudget {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
-  /// About 25 ms; four hundred times what a typical street frame takes.
+  /// 10 to 25 ms; fifty to two hundred times what a typical street frame takes.
   static constexpr std::int64_t kDefaultOps = 2'500'000;
   /// Operations between two looks at the clock: some 40 microseconds.
   static constexpr std::int64_t kOpsPerClockLook = 4096;

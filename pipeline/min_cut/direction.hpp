@@ -31,11 +31,6 @@ inline constexpr std::array<CellStep, kDirections> kCellSteps{
 /// Cells (row * stride + column) of the 8 neighbours, indexed by direction.
 using NeighbourCells = std::array<std::uint32_t, kDirections>;
 
-/// Bits of the directions that lead outside the rows of the image.
-[[nodiscard]] constexpr unsigned outside_rows(const ImageShape& shape, int row) noexcept {
-  return (row == 0 ? 0x07U : 0U) | (row + 1 == shape.rows ? 0xE0U : 0U);
-}
-
 /// Neighbours of the cell in `row` [0, rows) and `column` [0, columns). A direction that leads
 /// outside the rows yields the cell itself, so that every entry may be read from.
 [[nodiscard]] constexpr NeighbourCells neighbour_cells(const ImageShape& shape, int row,

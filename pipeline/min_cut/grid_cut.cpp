@@ -12,13 +12,18 @@
 namespace terracut::pipeline {
 namespace {
 
-/// More nodes than cells are never needed.
 GridCut::Config checked(const ImageShape& shape, GridCut::Config config) {
   if (shape.columns < 3 || shape.rows < 1) {
     throw std::invalid_argument("GridCut expects at least 3 columns (they are cyclic) and 1 row");
   }
+  constexpr std::int64_t kMostOps = 1'000'000'000;
+  for (const std::int64_t ops : {config.bk_ops_per_node, config.bk_ops_base}) {
+    if (ops < 0 || ops > kMostOps) {
+      throw std::invalid_argument("GridCut expects bk_ops_per_node and bk_ops_base in [0, 1e9]");
+    }
+  }
   config.max_unknown = static_cast<std::uint32_t>(
-      std::min<std::size_t>(config.max_unknown, shape.cells()));
+      std::min<std::size_t>(config.max_unknown, shape.cells()));  // more are never needed
   return config;
 }
 

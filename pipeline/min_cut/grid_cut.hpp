@@ -35,12 +35,13 @@ class GridCut {
     /// Unknown cells solved at most; beyond, the farthest keep their coarse label. Bounds the time.
     std::uint32_t max_unknown = 16'384;
     /// A component that takes Boykov-Kolmogorov more operations than
-    /// `bk_ops_per_node` * its nodes + `bk_ops_base` is finished by push-relabel.
+    /// `bk_ops_per_node` * its nodes + `bk_ops_base` is finished by push-relabel. Each in [0, 1e9].
     std::int64_t bk_ops_per_node = 100;
     std::int64_t bk_ops_base = 20'000;
   };
 
-  /// shape.columns >= 3 and shape.rows >= 1, else std::invalid_argument (start-up only).
+  /// shape.columns >= 3 and shape.rows >= 1. Throws std::invalid_argument when these or the config
+  /// are out of range (start-up only).
   GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory& memory);
 
   /// Labels the unknown cells. `labels`: on entry the coarse label of every unknown cell (anything but

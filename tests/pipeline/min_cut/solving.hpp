@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/min_cut/grid_cut.hpp"
+#include "rt/fixed_memory.hpp"
+#include "tests/pipeline/min_cut/test_problem.hpp"
+
+namespace terracut::pipeline::test {
+
+inline constexpr CutBudget kNoLimit{CutBudget::kUnlimited};
+
+struct Solution {
+  CutReport report;
+  std::vector<Label> labels;
+  std::vector<std::uint32_t> coarse_cells;
+};
+
+/// Solves with a solver of its own.
+inline Solution solve(const TestProblem& problem, const GridCut::Config& config = {},
+                      const CutBudget& budget = kNoLimit) {
+  rt::FixedMemory memory;
+  GridCut cut(problem.shape, config, memory);
+  Solution solution;
+  solution.labels = problem.coarse_labelling();
+  solution.report = cut.solve(problem.view(), problem.weights(), budget, solution.labels);
+  solution.coarse_cells.assign(cut.coarse_cells().begin(), cut.coarse_cells().end());
+  return solution;
+}
+
+/// Boykov-Kolmogorov gives up after its first look at the budget.
+inline GridCut::Config push_relabel_only() {
+  GridCut::Config config;
+  config.bk_ops_per_node = 0;
+  config.bk_ops_base = 1;
+  return config;
+}
+
+}  // namespace terracut::pipeline::test

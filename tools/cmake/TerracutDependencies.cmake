@@ -35,14 +35,7 @@ terracut_require(CLI11_FOUND "CLI11" libcli11-dev)
 find_package(PNG QUIET)
 terracut_require(PNG_FOUND "libpng" libpng-dev)
 
-find_path(PCAP_INCLUDE_DIR pcap/pcap.h)
-find_library(PCAP_LIBRARY pcap)
-if(PCAP_INCLUDE_DIR AND PCAP_LIBRARY)
-  set(PCAP_FOUND ON)
-  add_library(pcap::pcap UNKNOWN IMPORTED)
-  set_target_properties(pcap::pcap PROPERTIES
-    IMPORTED_LOCATION "${PCAP_LIBRARY}" INTERFACE_INCLUDE_DIRECTORIES "${PCAP_INCLUDE_DIR}")
-endif()
+include(TerracutPcap)
 terracut_require(PCAP_FOUND "libpcap" libpcap-dev)
 
 if(TERRACUT_BUILD_TESTS)

@@ -25,7 +25,11 @@ function(terracut_add_test name)
   target_link_libraries(${name} PRIVATE ${arg_LIBS} terracut_flags GTest::gtest GTest::gmock GTest::gtest_main)
   target_compile_definitions(${name} PRIVATE
     TERRACUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TERRACUT_BINARY_DIR="${PROJECT_BINARY_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
+  if(NOT arg_LABELS)
+    set(arg_LABELS unit)  # an empty list would make the next word the label
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
+    PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})
 endfunction()
 
 # terracut_add_fuzzer(NAME SOURCES... LIBS...)

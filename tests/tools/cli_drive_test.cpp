@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "cli_fixture.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::Each;
+using testing::AnyOf;
+using testing::HasSubstr;
+
+TEST_F(Cli, SimulateWritesCaptureTableAndOneTruthFileAFrame) {
+  EXPECT_TRUE(fs::is_regular_file(kDrive));
+  EXPECT_TRUE(fs::is_regular_file(kDriveCalibration));
+  EXPECT_EQ(files_in(kDriveTruth, ".label"), kDriveFrames);
+}
+
+TEST_F(Cli, SimulateIsTheSameForTheSameSeedOnly) {
+  expect_done("simulate --scene flat --seed 3 --duration 0.1 -o a.pcap");
+  expect_done("simulate --scene flat --seed 3 --duration 0.1 -o b.pcap");
+  expect_done("simulate --scene flat --seed 4 --duration 0.1 -o c.pcap");
+  EXPECT_EQ(content_of(folder_ / "a.pcap"), content_of(folder_ / "b.pcap"));
+  EXPECT_NE(content_of(folder_ / "a.pcap"), content_of(folder_ / "c.pcap"));
+}
+
+TEST_F(Cli, InfoNamesTheSensorItsRateAndTheTableInTheStream) {
+  const Outcome outcome = run("info --json info.json " + quoted(kDrive));
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.out, HasSubstr("HDL-64E"));
+  EXPECT_THAT(outcome.out, HasSubstr("600.0 rpm"));
+  EXPECT_THAT(outcome.out, HasSubstr("single return"));
+  EXPECT_THAT(outcome.out, HasSubstr("complete, fingerprint"));
+  const auto info = json("info.json");
+  ASSERT_EQ(info["streams"].size(), 1U);
+  EXPECT_EQ(info["streams"][0]["hdl64e"]["packets_lost"], 0);
+}
+
+TEST_F(Cli, ReplayLabelsEveryReturnOfEveryFrameInTheOrderOfTheTruth) {
+  expect_done("replay " + quoted(kDrive) + " --labels labels --json report.json");
+  const auto report = json("report.json");
+  ASSERT_EQ(report["frames"].size(), kDriveFrames);
+  for (const auto& frame : report["frames"]) {
+    const std::size_t number = frame["frame"];
+    char name[32];
+    std::snprintf(name, sizeof(name), "%06zu.label", number);
+    const auto labels = ids_of(folder_ / "labels" / name);
+    const auto truth = ids_of(kDriveTruth / name);
+    EXPECT_GT(labels.size(), 10'000U);
+    EXPECT_EQ(labels.size(), truth.size());
+    EXPECT_EQ(frame["returns_in"], truth.size());
+    EXPECT_EQ(frame["returns_labelled"], truth.size());
+    EXPECT_EQ(frame["complete"], true);
+    EXPECT_THAT(labels, Each(AnyOf(40U, 49U, 99U)));
+  }
+}
+
+TEST_F(Cli, ReportHoldsWhatTheExchangePromises) {
+  expect_done("replay " + quoted(kDrive) + " --truth " + quoted(kDriveTruth) + " --json report.json");
+  const auto report = json("report.json");
+  const auto& frame = report["frames"][0];
+  EXPECT_TRUE(frame["losses"].contains("network_gap_packets"));
+  EXPECT_TRUE(frame["losses"].contains("rejected_wrong_model"));
+  for (const char* stage : {"decode", "elevation_map", "adjacent_points", "seeds", "min_cut",
+                            "labels", "total"}) {
+    EXPECT_TRUE(frame["ms"].contains(stage)) << stage;
+    const auto& summed = report["summary"]["ms"][stage];
+    EXPECT_LE(summed["p50"], summed["p99"]) << stage;
+    EXPECT_LE(summed["p99"], summed["max"]) << stage;
+    EXPECT_GT(summed["max"], 0.0) << stage;
+  }
+  EXPECT_EQ(report["summary"]["frames"], kDriveFrames);
+  EXPECT_EQ(report["summary"]["unscored_frames"], 0);
+  EXPECT_GT(report["summary"]["iou_g"], 0.8);
+  EXPECT_GT(report["summary"]["recall_o"], 0.9);
+  EXPECT_LE(report["summary"]["iou_g"], 1.0);
+}
+
+TEST_F(Cli, ReplayGivesTheSameLabelsEveryTimeAndFromEitherCopyOfTheTable) {
+  expect_done("replay " + quoted(kDrive) + " --labels a --duration 0.5");
+  expect_done("replay " + quoted(kDrive) + " --labels b --duration 0.5");
+  expect_done("replay " + quoted(kDrive) + " --labels c --duration 0.5 --calibration " +
+              quoted(kDriveCalibration));
+  for (const char* name : {"000000.label", "000003.label"}) {
+    EXPECT_EQ(content_of(folder_ / "a" / name), content_of(folder_ / "b" / name));
+    EXPECT_EQ(content_of(folder_ / "a" / name), content_of(folder_ / "c" / name));
+  }
+}
+
+TEST_F(Cli, EveryRowOfTableThreeIsOneOption) {
+  std::vector<std::string> labels;
+  for (const std::string stages : {"elevation", "adjacent", "mrf"}) {
+    expect_done("replay " + quoted(kDrive) + " --duration 0.2 --profile paper --stages " + stages +
+                " --labels " + stages);
+    labels.push_back(content_of(folder_ / stages / "000000.label"));
+  }
+  EXPECT_NE(labels[0], labels[1]);
+  EXPECT_NE(labels[1], labels[2]);
+}
+
+TEST_F(Cli, ReplayWritesCloudsAndPictures) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.15 --pcd clouds --png pictures --truth " +
+              quoted(kDriveTruth));
+  EXPECT_GE(files_in(folder_ / "clouds", ".pcd"), 1U);
+  for (const char* name :
+       {"000000.birdseye.png", "000000.range.png", "000000.mistakes.png"}) {
+    EXPECT_THAT(content_of(folder_ / "pictures" / name), testing::StartsWith("\x89PNG")) << name;
+  }
+}
+
+TEST_F(Cli, ReplayTakesTheWantedPartOfTheCapture) {
+  expect_done("replay " + quoted(kDrive) + " --start 0.4 --duration 0.3 --json report.json");
+  const auto summary = json("report.json")["summary"];
+  EXPECT_EQ(summary["complete_frames"], 2);  // 0.3 s cover two turns from seam to seam
+  EXPECT_EQ(summary["frames"], 4);           // and touch two more
+}
+
+TEST_F(Cli, ReplayLoopsOverTheCapture) {
+  expect_done("replay " + quoted(kDrive) + " --loop 3 --json report.json");
+  const auto summary = json("report.json")["summary"];
+  EXPECT_EQ(summary["frames"], 3 * kDriveFrames);
+  EXPECT_EQ(summary["losses"]["clock_jumps"], 2);
+  EXPECT_EQ(summary["returns_in"], summary["returns_labelled"]);
+}
+
+TEST_F(Cli, CalibrateWritesASetupThatReplayReads) {
+  expect_done("simulate --scene flat --duration 0.3 --mount-height 2 --mount-pitch 1.5 -o flat.pcap");
+  expect_done("calibrate flat.pcap --calibration flat.calibration.xml -o setup.yaml");
+  const Outcome outcome = run("calibrate flat.pcap --calibration flat.calibration.xml -o again.yaml");
+  EXPECT_THAT(outcome.out, HasSubstr("height 2.0"));
+  EXPECT_THAT(outcome.out, HasSubstr("pitch 1.5"));
+  expect_done("replay flat.pcap --calibration flat.calibration.xml --setup setup.yaml "
+              "--truth flat.truth --json report.json");
+  EXPECT_GT(json("report.json")["summary"]["iou_g"], 0.98);
+}
+
+TEST_F(Cli, BenchTimesDecodingAndEveryStage) {
+  expect_done("bench " + quoted(kDrive) + " --repeat 2 --duration 0.5 --calibration " +
+              quoted(kDriveCalibration) + " --json bench.json");
+  const auto bench = json("bench.json");
+  EXPECT_GT(bench["decode_ns_per_column"]["p50"], 0);
+  EXPECT_GT(bench["ms"]["total"]["p50"], 0.0);
+  EXPECT_EQ(bench["returns_unlabelled"], 0);
+  EXPECT_GE(bench["frames"], 6);
+}
+
+TEST_F(Cli, PlanAddsUpItsParts) {
+  expect_done("plan --json plan.json");
+  const auto plan = json("plan.json");
+  std::uint64_t sum = 0;
+  for (const auto& bytes : plan["parts"]) sum += bytes.get<std::uint64_t>();
+  EXPECT_EQ(plan["total_bytes"], sum);
+  EXPECT_GT(sum, 1'000'000U);
+}
+
+}  // namespace
+}  // namespace terracut::cli

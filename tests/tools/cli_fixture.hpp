@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace terracut::cli {
+
+namespace fs = std::filesystem;
+
+[[nodiscard]] inline std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+[[nodiscard]] inline std::vector<std::uint32_t> ids_of(const fs::path& path) {
+  const std::string bytes = content_of(path);
+  std::vector<std::uint32_t> ids(bytes.size() / 4);
+  std::memcpy(ids.data(), bytes.data(), ids.size() * 4);
+  return ids;
+}
+
+[[nodiscard]] inline std::size_t files_in(const fs::path& folder, const std::string& extension) {
+  std::size_t count = 0;
+  for (const auto& entry : fs::directory_iterator(folder)) {
+    if (entry.path().extension() == extension) ++count;
+  }
+  return count;
+}
+
+struct Outcome {
+  int exit_code = -1;
+  std::string out, err;
+};
+
+/// A folder of this test's own and the built program to run in it.
+class Cli : public testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
+    folder_ = fs::path(testing::TempDir()) / "terracut_cli" / info->name();
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// Runs `terracut ARGUMENTS` with the test's folder as working directory.
+  [[nodiscard]] Outcome run(const std::string& arguments) const {
+    const std::string command = "cd '" + folder_.string() + "' && '" TERRACUT_PROGRAM "' " +
+                                arguments + " >stdout.txt 2>stderr.txt";
+    const int status = std::system(command.c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder_ / "stdout.txt"),
+            content_of(folder_ / "stderr.txt")};
+  }
+  void expect_done(const std::string& arguments) const {
+    const Outcome outcome = run(arguments);
+    EXPECT_EQ(outcome.exit_code, 0) << arguments << "\n" << outcome.out << outcome.err;
+  }
+  [[nodiscard]] nlohmann::json json(const std::string& name) const {
+    return nlohmann::json::parse(content_of(folder_ / name), nullptr, false);
+  }
+  void write(const std::string& name, const std::string& content) const {
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
+
+  fs::path folder_;
+};
+
+/// 1.3 s of the scene "street": 13 turns, and one whole round of the status stream.
+inline const fs::path kDrive = TERRACUT_TEST_DRIVE;
+inline const fs::path kDriveCalibration = fs::path(kDrive).replace_extension("calibration.xml");
+inline const fs::path kDriveTruth = fs::path(kDrive).replace_extension("truth");
+inline constexpr std::size_t kDriveFrames = 13;
+
+[[nodiscard]] inline std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+
+}  // namespace terracut::cli

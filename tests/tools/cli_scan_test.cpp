@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Recorded scans through `segment` directly and through packets by `encode` and `replay`.
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+
+#include "cli_fixture.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::HasSubstr;
+
+struct PcdPoint {
+  float x, y, z, intensity;
+  std::uint16_t ring, label;
+};
+
+std::vector<PcdPoint> points_of(const fs::path& pcd) {
+  const std::string file = content_of(pcd);
+  const std::size_t data = file.find("DATA binary\n") + 12;
+  std::vector<PcdPoint> points((file.size() - data) / sizeof(PcdPoint));
+  std::memcpy(points.data(), file.data() + data, points.size() * sizeof(PcdPoint));
+  return points;
+}
+
+/// A KITTI scan of a replayed frame: sensor frame, ring after ring from the top, each counter-clockwise
+/// from straight ahead, with the frame's truth as labels.
+void write_scan(const fs::path& pcd, const fs::path& truth, const fs::path& folder) {
+  const std::vector<PcdPoint> points = points_of(pcd);
+  const std::vector<std::uint32_t> ids = ids_of(truth);
+  ASSERT_EQ(points.size(), ids.size());
+  std::vector<std::size_t> order(points.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  const auto place = [&](std::size_t i) {
+    const double azimuth = std::atan2(points[i].y, points[i].x);
+    return std::tuple(-int{points[i].ring}, azimuth < 0 ? azimuth + 2 * M_PI : azimuth);
+  };
+  std::sort(order.begin(), order.end(), [&](auto a, auto b) { return place(a) < place(b); });
+  fs::create_directories(folder / "velodyne");
+  fs::create_directories(folder / "labels");
+  std::ofstream bin(folder / "velodyne" / "000000.bin", std::ios::binary);
+  std::ofstream label(folder / "labels" / "000000.label", std::ios::binary);
+  for (const std::size_t i : order) {
+    const float point[4] = {points[i].x, points[i].y, points[i].z - 1.73F,
+                            points[i].intensity / 255.0F};
+    bin.write(reinterpret_cast<const char*>(point), sizeof(point));
+    label.write(reinterpret_cast<const char*>(&ids[i]), 4);
+  }
+}
+
+class CliScans : public Cli {
+ protected:
+  /// Both ways of a sequence folder; checks what holds for either.
+  void expect_equal_ways(const fs::path& sequence) {
+    expect_done("encode " + quoted(sequence) + " -o drive.pcap --sensor hdl64e");
+    expect_done("replay drive.pcap --calibration drive.calibration.xml --truth drive.truth "
+                "--labels packets --json packets.json");
+    expect_done("segment " + quoted(sequence) + " --labels direct --json direct.json");
+    const auto packets = json("packets.json")["summary"], direct = json("direct.json")["summary"];
+    EXPECT_EQ(packets["returns_in"], packets["returns_labelled"]);
+    EXPECT_EQ(direct["returns_in"], direct["returns_labelled"]);
+    EXPECT_EQ(packets["unscored_frames"], 0);
+    EXPECT_EQ(packets["frames"], direct["frames"]);
+    EXPECT_NEAR(packets["iou_g"], direct["iou_g"], 0.01) << sequence;
+    EXPECT_NEAR(packets["recall_o"], direct["recall_o"], 0.01) << sequence;
+    EXPECT_GT(packets["returns_in"].get<double>(), 0.98 * direct["returns_in"].get<double>());
+  }
+};
+
+TEST_F(CliScans, OfASimulatedDriveGiveTheSameAccuracyThroughPackets) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  expect_equal_ways(folder_ / "scans");
+  EXPECT_EQ(fs::file_size(folder_ / "direct" / "000000.label"),
+            fs::file_size(folder_ / "scans" / "labels" / "000000.label"));
+}
+
+TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
+  const fs::path sequences =
+      fs::path(TERRACUT_SOURCE_DIR) / "../shared/data/semantickitti/sequences";
+  if (!fs::exists(sequences)) GTEST_SKIP() << "no scans at " << sequences;
+  for (const auto& entry : fs::directory_iterator(sequences)) expect_equal_ways(entry.path());
+}
+
+TEST_F(CliScans, ThatAreDamagedAreRefusedByName) {
+  fs::create_directories(folder_ / "scans");
+  write("scans/000000.bin", "seventeen bytes!!");
+  for (const std::string command : {"segment scans", "encode scans -o x.pcap"}) {
+    const Outcome outcome = run(command);
+    EXPECT_EQ(outcome.exit_code, 3) << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr("000000.bin"));
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "x.pcap"));
+  EXPECT_EQ(run("segment nowhere").exit_code, 3);
+}
+
+}  // namespace
+}  // namespace terracut::cli

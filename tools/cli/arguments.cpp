@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// The only file that includes CLI11, which takes seconds to compile.
+#include "arguments.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <limits>
+#include <memory>
+
+#include "exit_codes.hpp"
+#include "setup_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+constexpr const char* kAbout =
+    "terracut: ground or obstacle for every LiDAR return, from the sensor's packets.\n\n"
+    "  terracut simulate --scene street --duration 3 -o drive.pcap\n"
+    "  terracut info drive.pcap\n"
+    "  terracut replay drive.pcap --labels labels --png pictures --json report.json\n";
+
+constexpr const char* kExitCodes =
+    "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
+    "4 an output could not be written; 5 packets were read but no frame came out.\n"
+    "`terracut COMMAND --help` lists a command's options.";
+
+void add_capture(CLI::App& app, CaptureOptions& capture) {
+  app.add_option("FILE", capture.file, "Capture of HDL-64E packets, pcap or pcapng")->required();
+  app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
+  app.add_option("--from", capture.from, "Only datagrams of this IPv4 address")
+      ->check(CLI::ValidIPV4);
+  app.add_option("--calibration", capture.calibration,
+                 "The unit's table, db.xml or yaml (default: the one in the packets)");
+  app.add_option("--geometry", capture.geometry,
+                 "Meaning of the table: the maker's manual, or as ROS drivers take it")
+      ->check(CLI::IsMember({"manual", "ros"}))
+      ->capture_default_str();
+  app.add_option("--start", capture.start_s, "Skip this many seconds of the capture")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--duration", capture.duration_s, "Stop after this many seconds of the capture")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_mount(CLI::App& app, MountOptions& mount) {
+  app.add_option("--setup", mount.setup, "Mount and ring distances found by `terracut calibrate`");
+  app.add_option("--mount-height", mount.height_m,
+                 "Metres from the ground to the sensor's origin (default 1.73)")
+      ->check(CLI::Range(0.2, 6.0));
+  app.add_option("--mount-roll", mount.roll_deg, "Degrees, left side up (default 0)")
+      ->check(CLI::Range(-28.0, 28.0));
+  app.add_option("--mount-pitch", mount.pitch_deg, "Degrees, looking down in front (default 0)")
+      ->check(CLI::Range(-28.0, 28.0));
+}
+
+void add_method(CLI::App& app, MethodOptions& method) {
+  app.add_option("--profile", method.profile,
+                 "paper: the method as printed; terracut: what measured better")
+      ->check(CLI::IsMember({"paper", "terracut"}))
+      ->capture_default_str();
+  app.add_option("--stages", method.stages,
+                 "How far to refine: elevation map, + adjacent points, + random field (mrf)")
+      ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
+      ->capture_default_str();
+  app.add_option("--set", method.settings,
+                 "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
+      ->check([](const std::string& setting) {
+        pipeline::SegmenterConfig scratch;
+        const Status valid = apply_setting(scratch, setting);
+        return valid ? std::string() : valid.error().message;
+      })
+      ->allow_extra_args(false);
+}
+
+void add_outputs(CLI::App& app, OutputOptions& output) {
+  app.add_option("--labels", output.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
+  app.add_option("--pcd", output.pcd, "Folder for NNNNNN.pcd: x y z intensity ring label");
+  app.add_option("--png", output.png, "Folder for pictures: from above and as the sensor sees it");
+  app.add_option("--json", output.json, "File for the report: returns, losses and times by frame");
+}
+
+void add_sensor(CLI::App& app) {
+  // One sensor so far; the option exists so that scripts written today keep their meaning.
+  app.add_option("--sensor", "Sensor model (hdl64e)")->check(CLI::IsMember({"hdl64e"}));
+}
+
+/// Makes the subcommand and, when it is used, puts its options into `command`.
+template <class Options, class AddOptions>
+void add_command(CLI::App& app, std::optional<Command>& command, const char* name,
+                 const char* about, AddOptions&& add_options) {
+  CLI::App* sub = app.add_subcommand(name, about);
+  auto options = std::make_shared<Options>();
+  add_options(*sub, *options);
+  sub->callback([&command, options] { command = *options; });
+}
+
+void add_replay(CLI::App& sub, ReplayOptions& o) {
+  add_capture(sub, o.capture);
+  add_mount(sub, o.mount);
+  add_method(sub, o.method);
+  add_outputs(sub, o.output);
+  sub.add_option("--truth", o.output.truth,
+                 "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes");
+  sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->capture_default_str();
+  sub.add_option("--loop", o.loops, "Passes over the capture; without a number, until interrupted")
+      ->expected(0, 1)
+      ->default_str("0")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
+void add_segment(CLI::App& sub, SegmentOptions& o) {
+  sub.add_option("SCANS_DIR", o.scans, "Folder of .bin scans, or a SemanticKITTI sequence folder")
+      ->required();
+  add_mount(sub, o.mount);
+  add_method(sub, o.method);
+  add_outputs(sub, o.output);
+}
+
+void add_simulate(CLI::App& sub, SimulateOptions& o) {
+  add_sensor(sub);
+  sub.add_option("--scene", o.scene, "street, highway, rural, flat or hill")->capture_default_str();
+  sub.add_option("--seed", o.seed, "The same seed gives the same drive")->capture_default_str();
+  sub.add_option("--duration", o.duration_s, "Seconds to drive")
+      ->check(CLI::Range(0.1, 3600.0))
+      ->capture_default_str();
+  sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
+  add_mount(sub, o.mount);
+  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
+      ->required();
+}
+
+void add_encode(CLI::App& sub, EncodeOptions& o) {
+  add_sensor(sub);
+  sub.add_option("SCANS_DIR", o.scans, "Folder of .bin scans, or a SemanticKITTI sequence folder")
+      ->required();
+  sub.add_option("--calibration", o.calibration,
+                 "Unit to encode through (default: one fitted to the scans)");
+  sub.add_flag("--undo-compensation", o.undo_compensation,
+               "Put the sensor's motion back into the points; needs poses.txt and times.txt");
+  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
+      ->required();
+}
+
+void add_calibrate(CLI::App& sub, CalibrateOptions& o) {
+  add_capture(sub, o.capture);
+  add_mount(sub, o.mount);
+  add_method(sub, o.method);
+  sub.add_flag("--keep-mount", o.keep_mount,
+               "Take the mount as given; only measure the rings' ground distances");
+  sub.add_option("-o,--output", o.output, "Setup file to write, for --setup")->required();
+}
+
+void add_info(CLI::App& sub, InfoOptions& o) {
+  sub.add_option("FILE", o.file, "Any capture, pcap or pcapng")->required();
+  sub.add_option("--json", o.json, "The same as a file for programs");
+}
+
+void add_plan(CLI::App& sub, PlanOptions& o) {
+  add_sensor(sub);
+  add_method(sub, o.method);
+  sub.add_option("--json", o.json, "The same as a file for programs");
+}
+
+void add_bench(CLI::App& sub, BenchOptions& o) {
+  add_capture(sub, o.capture);
+  add_mount(sub, o.mount);
+  add_method(sub, o.method);
+  sub.add_option("--repeat", o.repeat, "Passes over the capture")
+      ->check(CLI::Range(1, 100000))
+      ->capture_default_str();
+  sub.add_option("--core", o.core, "Processor core to stay on (default: the last one allowed)")
+      ->check(CLI::Range(0, 4095));
+  sub.add_option("--json", o.json, "The same as a file for programs");
+}
+
+/// CLI11 would say only that a subcommand is required.
+void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
+  const std::string first = argc > 1 ? argv[1] : "";
+  if (first.empty() || first.front() == '-') return;
+  std::string known;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (command->get_name() == first) return;
+    known += (known.empty() ? "" : ", ") + command->get_name();
+  }
+  throw CLI::ParseError("there is no command '" + first + "'; expected one of: " + known,
+                        CLI::ExitCodes::ExtrasError);
+}
+
+}  // namespace
+
+Arguments parse_arguments(int argc, char** argv) {
+  Arguments result;
+  CLI::App app{kAbout, "terracut"};
+  app.footer(kExitCodes);
+  app.set_version_flag("--version", "terracut " TERRACUT_VERSION);
+  app.require_subcommand(1);
+
+  add_command<ReplayOptions>(app, result.command, "replay",
+                             "Label every return of a capture, frame by frame", add_replay);
+  add_command<SegmentOptions>(app, result.command, "segment",
+                              "Label recorded scans (.bin) without packets", add_segment);
+  add_command<SimulateOptions>(app, result.command, "simulate",
+                               "Drive a simulated HDL-64E: capture, table and truth", add_simulate);
+  add_command<EncodeOptions>(app, result.command, "encode",
+                             "Turn recorded scans into HDL-64E packets with their truth",
+                             add_encode);
+  add_command<CalibrateOptions>(app, result.command, "calibrate",
+                                "Find the mount and the rings' ground distances from a capture",
+                                add_calibrate);
+  add_command<InfoOptions>(app, result.command, "info",
+                           "What a capture holds: streams, sensor, rate, loss, calibration",
+                           add_info);
+  add_command<PlanOptions>(app, result.command, "plan", "Memory the program takes, part by part",
+                           add_plan);
+  add_command<ParametersOptions>(app, result.command, "parameters",
+                                 "Every parameter of the method, as a table for docs/parameters.md",
+                                 [](CLI::App&, ParametersOptions&) {});
+  add_command<BenchOptions>(app, result.command, "bench",
+                            "Time decoding and every stage on one core", add_bench);
+  app.failure_message([](const CLI::App*, const CLI::Error& error) {
+    return std::string("error: ") + error.what() +
+           "\n`terracut --help` and `terracut COMMAND --help` say what is expected\n";
+  });
+  try {
+    refuse_unknown_command(app, argc, argv);
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    result.command.reset();
+    result.exit_code = app.exit(error) == 0 ? kOk : kUsage;
+  }
+  return result;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <optional>
+#include <variant>
+
+#include "options.hpp"
+
+namespace terracut::cli {
+
+using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
+                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions, BenchOptions>;
+
+/// The command line, read.
+struct Arguments {
+  std::optional<Command> command;  ///< Absent when help, the version or an error was printed instead.
+  int exit_code = 0;               ///< What to exit with where there is no command.
+};
+
+[[nodiscard]] Arguments parse_arguments(int argc, char** argv);
+
+}  // namespace terracut::cli

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+#include <sched.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "open_capture.hpp"
+#include "packet_chain.hpp"
+#include "packet_store.hpp"
+#include "report.hpp"
+#include "rt/whole_file.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using firmware_io::FrameInfo;
+
+/// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when the
+/// system does not allow it.
+int stay_on_core(int core) {
+  cpu_set_t allowed;
+  CPU_ZERO(&allowed);
+  if (::sched_getaffinity(0, sizeof(allowed), &allowed) != 0) return -1;
+  if (core < 0) {
+    for (int i = 0; i < CPU_SETSIZE; ++i) {
+      if (CPU_ISSET(static_cast<std::size_t>(i), &allowed)) core = i;
+    }
+  }
+  cpu_set_t one;
+  CPU_ZERO(&one);
+  CPU_SET(static_cast<std::size_t>(core), &one);
+  return ::sched_setaffinity(0, sizeof(one), &one) == 0 ? core : -1;
+}
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+Expected<PacketStore> load(OpenCapture& capture, const CaptureOptions& options) {
+  PacketStore packets;
+  CaptureWindow window(options);
+  while (true) {
+    const auto next = capture.source.next();
+    if (!next) {
+      warn(next.error().message);
+      return packets;
+    }
+    if (!*next) return packets;
+    const CaptureWindow::Place place = window.place((*next)->stamp_ns);
+    if (place == CaptureWindow::Place::kAfter) return packets;
+    if (place == CaptureWindow::Place::kInside) packets.add(**next);
+  }
+}
+
+struct BenchResult {
+  TimeSummary times;                       ///< Of whole frames.
+  rt::LogLinearHistogram decode_column_ns; ///< Mean of each pass.
+  std::uint64_t frames = 0, returns = 0, unlabelled = 0;
+};
+
+/// One pass over the packets: decoding and segmenting, timed frame by frame.
+void run_frames(PacketChain& chain, const PacketStore& packets, BenchResult* result) {
+  StageClock clock;
+  std::int64_t decode_ns = 0;
+  std::int64_t resumed_ns = rt::thread_cpu_ns();
+  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    decode_ns += rt::thread_cpu_ns() - resumed_ns;
+    clock.begin();
+    const pipeline::SegmentationReport segmented = chain.segmenter.segment(image, {}, &clock);
+    if (result != nullptr && info.complete) {
+      const FrameRecord record = record_of(info, segmented, decode_ns, clock.times());
+      result->times.add(record);
+      ++result->frames;
+      result->returns += record.returns_in;
+      result->unlabelled += record.returns_in - record.returns_labelled;
+    }
+    decode_ns = 0;
+    resumed_ns = rt::thread_cpu_ns();
+  };
+  for (std::size_t i = 0; i < packets.size(); ++i) chain.decoder.decode(packets.at(i), on_frame);
+  chain.decoder.flush(on_frame);
+}
+
+/// One pass of decoding alone: nanoseconds a column of 64 lasers.
+double run_decoding(PacketChain& chain, const PacketStore& packets) {
+  const auto nothing = [](const FrameInfo&, const pipeline::RangeImage&) noexcept {};
+  const std::uint64_t columns_before = chain.decoder.columns_decoded();
+  const std::int64_t start_ns = rt::thread_cpu_ns();
+  for (std::size_t i = 0; i < packets.size(); ++i) chain.decoder.decode(packets.at(i), nothing);
+  const std::int64_t spent_ns = rt::thread_cpu_ns() - start_ns;
+  chain.decoder.flush(nothing);
+  const std::uint64_t columns = chain.decoder.columns_decoded() - columns_before;
+  return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
+}
+
+ExitCode print(const BenchOptions& options, const BenchResult& result, int core) {
+  const double returns_per_frame =
+      static_cast<double>(result.returns) / static_cast<double>(result.frames);
+  fmt::print("processor {}, core {}\n", processor_name(), core < 0 ? "not pinned" : std::to_string(core));
+  fmt::print("frames    {} ({} passes), {:.0f} returns each\n", result.frames, options.repeat,
+             returns_per_frame);
+  fmt::print("decode    {} ns a packet column, p50 of the passes\n",
+             result.decode_column_ns.percentile_ns(50));
+  fmt::print("{}", result.times.text());
+  if (options.json.empty()) return kOk;
+
+  nlohmann::ordered_json json;
+  json["terracut"] = TERRACUT_VERSION;
+  json["command"] = "bench";
+  json["input"] = options.capture.file.string();
+  json["processor"] = processor_name();
+  json["core"] = core;
+  json["profile"] = options.method.profile;
+  json["stages"] = options.method.stages;
+  json["frames"] = result.frames;
+  json["returns_per_frame"] = returns_per_frame;
+  json["returns_unlabelled"] = result.unlabelled;
+  json["decode_ns_per_column"] = {{"p50", result.decode_column_ns.percentile_ns(50)},
+                                  {"p99", result.decode_column_ns.percentile_ns(99)},
+                                  {"max", result.decode_column_ns.max_ns()}};
+  json["ms"] = result.times.json();
+  const Status written = rt::write_whole_file(options.json, json.dump(1) + "\n");
+  return written ? kOk : refuse(written.error());
+}
+
+}  // namespace
+
+ExitCode run(const BenchOptions& options) {
+  auto capture = open_capture(options.capture);
+  if (!capture) return refuse(capture.error());
+  const auto profile = ring_profile_of(capture->calibration, options.mount);
+  if (!profile) return refuse(profile.error());
+  const auto packets = load(*capture, options.capture);
+  if (!packets) return refuse(packets.error());
+
+  rt::FixedMemory memory;
+  PacketChain chain(capture->calibration, *profile, options.capture, options.method, memory);
+  const int core = stay_on_core(options.core);
+  if (core < 0) warn("could not stay on one core; times include moves between cores");
+
+  run_frames(chain, *packets, nullptr);  // warms caches and branch predictors; not counted
+  const firmware_io::LossCounters first_pass_losses = chain.decoder.losses();
+  BenchResult result;
+  Progress progress("measuring", "passes", options.repeat);
+  for (int pass = 0; pass < options.repeat; ++pass) {
+    run_frames(chain, *packets, &result);
+    result.decode_column_ns.record(static_cast<std::int64_t>(run_decoding(chain, *packets)));
+    progress.update(pass + 1);
+  }
+  if (result.frames == 0) {
+    return refuse(nothing_came_out(capture->source, packets->size(), first_pass_losses));
+  }
+  return print(options, result, core);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <array>
+#include <functional>
+#include <vector>
+
+#include "calib/angle.hpp"
+#include "calib/mount_estimate.hpp"
+#include "calib/ring_profile_estimate.hpp"
+#include "calib/sensor_setup_file.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "firmware_io/sinks/each_return.hpp"
+#include "open_capture.hpp"
+#include "packet_chain.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using firmware_io::FrameInfo;
+using firmware_io::PlacedReturn;
+using pipeline::RangeImage;
+
+/// Frames the mount is read off: two seconds' worth is plenty and bounds the memory.
+constexpr std::uint32_t kMountFrames = 20;
+
+/// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when it
+/// has seen enough.
+Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
+                     firmware_io::Hdl64eDecoder& decoder,
+                     const std::function<bool(const RangeImage&)>& on_frame) {
+  bool go_on = true;
+  std::uint64_t offered = 0;
+  const auto hand_over = [&](const FrameInfo&, const RangeImage& image) noexcept {
+    if (go_on) go_on = on_frame(image);
+  };
+  CaptureWindow window(options);
+  if (Status status = capture.source.rewind(); !status) return status;
+  while (go_on) {
+    const auto next = capture.source.next();
+    if (!next) warn(next.error().message);
+    if (!next || !*next) break;
+    const CaptureWindow::Place place = window.place((*next)->stamp_ns);
+    if (place == CaptureWindow::Place::kAfter) break;
+    if (place == CaptureWindow::Place::kBefore) continue;
+    decoder.decode(**next, hand_over);
+    ++offered;
+  }
+  decoder.flush(hand_over);
+  if (decoder.frames() > 0) return {};
+  return tl::unexpected(nothing_came_out(capture.source, offered, decoder.losses()));
+}
+
+/// The mount by the ground itself. A sensor at height 0 without tilt: the decoder's vehicle frame is
+/// then the sensor's.
+Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptions& options) {
+  const calib::MountEstimateConfig config;
+  std::vector<std::array<float, 3>> points;
+  std::uint32_t frames = 0;
+  const calib::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
+  rt::FixedMemory memory;
+  firmware_io::Hdl64eDecoder decoder(capture.calibration, at_the_sensor,
+                                     PacketChain::decoder_config(options), memory);
+  const Status decoded =
+      decode_frames(capture, options, decoder, [&](const RangeImage& image) {
+        firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
+          const auto range_m = static_cast<double>(placed.echo.ground_range_m);
+          if (range_m < config.near_m || range_m > config.far_m) return;
+          points.push_back({placed.echo.x_m, placed.echo.y_m, placed.echo.z_m});
+        });
+        return ++frames < kMountFrames;
+      });
+  if (!decoded) return tl::unexpected(decoded.error());
+  return calib::estimate_mount(points, config);
+}
+
+/// The mean distance of each ring's ground returns, labelled by the method itself.
+Expected<calib::RingProfileEstimate> measure_rings(OpenCapture& capture,
+                                                   const CalibrateOptions& options,
+                                                   const calib::RingProfile& geometry) {
+  rt::FixedMemory memory;
+  PacketChain chain(capture.calibration, geometry, options.capture, options.method, memory);
+  calib::RingProfileEstimate rings(geometry);
+  std::vector<calib::RingObservation> observations;
+  Progress progress("measuring rings", "frames", 0);
+  std::uint32_t frames = 0;
+  const Status decoded =
+      decode_frames(capture, options.capture, chain.decoder, [&](const RangeImage& image) {
+        (void)chain.segmenter.segment(image);
+        observations.clear();
+        firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
+          const bool is_ground =
+              chain.segmenter.labels()[placed.return_index] == pipeline::Label::kGround;
+          observations.push_back({placed.row, placed.echo.ground_range_m, is_ground});
+        });
+        rings.add(observations);
+        progress.update(++frames);
+        return true;
+      });
+  if (!decoded) return tl::unexpected(decoded.error());
+  return rings;
+}
+
+}  // namespace
+
+ExitCode run(const CalibrateOptions& options) {
+  auto capture = open_capture(options.capture);
+  if (!capture) return refuse(capture.error());
+  auto mount = mount_of(options.mount);
+  if (!mount) return refuse(mount.error());
+  if (!options.keep_mount) {
+    const auto estimated = estimate(*capture, options.capture);
+    if (!estimated) return refuse(estimated.error());
+    mount = estimated->mount;
+    fmt::print("mount     from {} returns, {:.0f} % of them within {:.1f} cm (rms) of the plane\n",
+               estimated->points_used, 100 * estimated->inlier_share, 100 * estimated->rms_m);
+  }
+  fmt::print("          height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg\n", mount->height_m,
+             calib::rad_to_deg(mount->roll_rad), calib::rad_to_deg(mount->pitch_rad));
+
+  const calib::RingProfile geometry = calib::ring_profile(capture->calibration, *mount);
+  const auto rings = measure_rings(*capture, options, geometry);
+  if (!rings) return refuse(rings.error());
+  fmt::print("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
+             geometry.rings.size());
+
+  calib::SensorSetup setup{*mount, {}};
+  for (const calib::Ring& ring : rings->profile().rings) {
+    setup.ring_ground_distance_m.push_back(ring.ground_distance_m);
+  }
+  const Status written = calib::write_sensor_setup(options.output, setup);
+  if (!written) return refuse(written.error());
+  fmt::print("wrote     {}\n", options.output.string());
+  return kOk;
+}
+
+}  // namespace terracut::cli

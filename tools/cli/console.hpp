@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "exit_codes.hpp"
+#include "rt/error.hpp"
+
+/// What people see: results go to stdout, everything said on the way to stderr.
+namespace terracut::cli {
+
+/// One line on stderr; wipes a progress line that stands there.
+void say(std::string_view line);
+void warn(std::string_view line);
+
+/// Prints "error: <message>" and answers the exit code it leads to.
+[[nodiscard]] ExitCode refuse(const Error& error);
+[[nodiscard]] ExitCode refuse(ExitCode code, std::string_view message);
+
+/// Shows how far long work has come: on a terminal one line that is redrawn, else a line every few
+/// seconds. Nothing is shown for work that ends at once.
+class Progress {
+ public:
+  /// `unit`: what is counted ("frames"); `total`: how many there will be, 0 when unknown.
+  Progress(std::string task, std::string unit, double total);
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  void update(double done);
+
+ private:
+  std::string task_, unit_;
+  double total_;
+  bool terminal_;
+  std::int64_t started_ns_, shown_ns_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include "calib/hdl64e_file.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "firmware_io/scan/scan_drive.hpp"
+
+namespace terracut::cli {
+namespace {
+
+void print(const EncodeOptions& options, const firmware_io::ScanDriveReport& report) {
+  const firmware_io::EncodeSummary& encoded = report.encoded;
+  fmt::print("wrote     {}\n          {}\n          {}/\n", options.output.string(),
+             firmware_io::calibration_path_of(options.output).string(),
+             firmware_io::truth_folder_of(options.output).string());
+  fmt::print("table     {}, fingerprint {:016x}\n",
+             report.fitted ? "fitted to the scans" : report.calibration.origin,
+             fingerprint(report.calibration));
+  fmt::print("frames    {}\nreturns   {} of {} points ({:.2f} %)\n", report.drive.frames,
+             encoded.encoded, encoded.points,
+             encoded.points == 0 ? 0.0
+                                 : 100.0 * static_cast<double>(encoded.encoded) /
+                                       static_cast<double>(encoded.points));
+  for (std::size_t i = 0; i < firmware_io::kNotEncodedReasons; ++i) {
+    if (encoded.not_encoded[i] == 0) continue;
+    fmt::print("          {} left out: {}\n", encoded.not_encoded[i],
+               to_string(static_cast<firmware_io::NotEncoded>(i)));
+  }
+  fmt::print("range     off by {:.1f} mm at most\n", 1000 * encoded.max_range_error_m);
+  fmt::print("height    off by {:.1f} cm (rms), {:.1f} cm (p95)\n", 100 * encoded.height.rms_m,
+             100 * encoded.height.p95_m);
+}
+
+}  // namespace
+
+ExitCode run(const EncodeOptions& options) {
+  firmware_io::ScanDriveOptions drive;
+  drive.undo_compensation = options.undo_compensation;
+  if (!options.calibration.empty()) {
+    auto calibration = calib::load_hdl64e_calibration(options.calibration);
+    if (!calibration) return refuse(calibration.error());
+    drive.calibration = *std::move(calibration);
+  }
+  Progress progress("encoding", "scans", 0);
+  drive.on_scan = [&](std::size_t done, std::size_t) { progress.update(static_cast<double>(done)); };
+  const auto report = firmware_io::encode_scan_folder(options.scans, options.output, drive);
+  if (!report) return refuse(report.error());
+  print(options, *report);
+  return kOk;
+}
+
+}  // namespace terracut::cli

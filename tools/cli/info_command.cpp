@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "calib/hdl64e_stream_table.hpp"
+#include "commands.hpp"
+#include "console.hpp"
+#include "firmware_io/capture/capture_survey.hpp"
+#include "rt/whole_file.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using firmware_io::CaptureSurvey;
+using firmware_io::Hdl64eFacts;
+using firmware_io::UdpStream;
+using Json = nlohmann::ordered_json;
+
+std::string endpoint(std::uint32_t address, std::uint16_t port) {
+  return fmt::format("{}.{}.{}.{}:{}", address >> 24, address >> 16 & 0xFFU, address >> 8 & 0xFFU,
+                     address & 0xFFU, port);
+}
+
+std::string sizes(const UdpStream& stream) {
+  std::string text;
+  for (const auto& [bytes, count] : stream.payload_sizes) {
+    if (text.size() > 40) return text + ", ...";
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", bytes,
+                        stream.payload_sizes.size() > 1 ? fmt::format(" ({}x)", count) : "");
+  }
+  return text;
+}
+
+double duration_s(const UdpStream& stream) {
+  return static_cast<double>(stream.last_stamp_ns - stream.first_stamp_ns) * 1e-9;
+}
+
+std::string utc(std::int64_t stamp_ns) {
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC",
+                     fmt::gmtime(static_cast<std::time_t>(stamp_ns / 1'000'000'000)));
+}
+
+/// The table in the packets: "complete, fingerprint ...", or what is missing.
+std::string calibration_in(const Hdl64eFacts& facts) {
+  if (!facts.table) {
+    return fmt::format("incomplete, {} of {} bytes missing", facts.status_holes,
+                       calib::kStreamTableBytes);
+  }
+  const auto table = calib::parse_stream_table(*facts.table);
+  if (!table) return "unusable: " + table.error().message;
+  return fmt::format("complete, fingerprint {:016x}", fingerprint(table->calibration));
+}
+
+std::string text_of(const Hdl64eFacts& facts) {
+  std::string text = fmt::format(
+      "  head         {:.1f} rpm, {:.1f} turns, {:.4f} deg a column\n"
+      "  mode         {} return, a packet every {:.1f} us\n"
+      "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock jumps\n"
+      "  calibration  {}\n",
+      facts.spin_rpm, facts.turns, facts.step_deg, to_string(facts.return_mode),
+      facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
+      facts.clock_jumps, calibration_in(facts));
+  if (facts.azimuths_out_of_range > 0) {
+    text += fmt::format("  broken       {} packets with an azimuth of 360 degrees or more\n",
+                        facts.azimuths_out_of_range);
+  }
+  if (facts.status.temperature_deg_c) {
+    text += fmt::format("  temperature  {} deg C\n", int{*facts.status.temperature_deg_c});
+  }
+  if (facts.status.firmware) {
+    text += fmt::format("  firmware     {:#04x}\n", unsigned{*facts.status.firmware});
+  }
+  if (facts.status.warning_bits && *facts.status.warning_bits != 0) {
+    text += fmt::format("  warnings     bits {:#04x} (1 lens dirty, 2 hot, 4 cold)\n",
+                        unsigned{*facts.status.warning_bits});
+  }
+  return text;
+}
+
+std::string text_of(const CaptureSurvey& survey) {
+  std::string text = fmt::format("{}: {} frames of {}\n", survey.name, survey.counters.frames,
+                                 survey.link_type_name);
+  for (std::size_t i = 0; i < firmware_io::kFrameRejects; ++i) {
+    if (survey.counters.refused[i] == 0) continue;
+    text += fmt::format("  {} hold no UDP datagram: {}\n", survey.counters.refused[i],
+                        to_string(static_cast<firmware_io::FrameReject>(i)));
+  }
+  text += fmt::format("\n{:<22} {:<22} {:>9} {:>10} {:>8}  {:<18} {}\n", "source", "destination",
+                      "packets", "packets/s", "seconds", "payload bytes", "sensor");
+  for (const UdpStream& stream : survey.streams) {
+    text += fmt::format("{:<22} {:<22} {:>9} {:>10.1f} {:>8.1f}  {:<18} {}{}\n",
+                        endpoint(stream.source_address, stream.source_port),
+                        endpoint(stream.destination_address, stream.destination_port),
+                        stream.packets, stream.rate_hz(), duration_s(stream), sizes(stream),
+                        to_string(stream.sensor),
+                        stream.sensor_hints.empty() ? "" : " (" + stream.sensor_hints + ")");
+  }
+  if (survey.packets_of_further_streams > 0) {
+    text += fmt::format("{} packets of further streams\n", survey.packets_of_further_streams);
+  }
+  for (const UdpStream& stream : survey.streams) {
+    if (!stream.hdl64e) continue;
+    text += fmt::format("\nHDL-64E at {}, from {}\n{}",
+                        endpoint(stream.source_address, stream.source_port),
+                        utc(stream.first_stamp_ns), text_of(*stream.hdl64e));
+  }
+  return text;
+}
+
+Json json_of(const Hdl64eFacts& facts) {
+  Json json{{"packets", facts.packets},
+            {"return_mode", to_string(facts.return_mode)},
+            {"packet_period_us", facts.packet_period_us},
+            {"spin_rpm", facts.spin_rpm},
+            {"step_deg", facts.step_deg},
+            {"turns", facts.turns},
+            {"packets_lost", facts.packets_lost},
+            {"packets_repeated", facts.packets_repeated},
+            {"packets_reordered", facts.packets_reordered},
+            {"clock_jumps", facts.clock_jumps},
+            {"azimuths_out_of_range", facts.azimuths_out_of_range},
+            {"calibration", calibration_in(facts)}};
+  if (facts.status.temperature_deg_c) json["temperature_deg_c"] = *facts.status.temperature_deg_c;
+  if (facts.status.firmware) json["firmware"] = *facts.status.firmware;
+  if (facts.status.warning_bits) json["warning_bits"] = *facts.status.warning_bits;
+  return json;
+}
+
+Json json_of(const CaptureSurvey& survey) {
+  Json json{{"terracut", TERRACUT_VERSION}, {"command", "info"},
+            {"input", survey.name},         {"link_type", survey.link_type_name},
+            {"frames", survey.counters.frames}};
+  for (std::size_t i = 0; i < firmware_io::kFrameRejects; ++i) {
+    json["refused"][std::string(to_string(static_cast<firmware_io::FrameReject>(i)))] =
+        survey.counters.refused[i];
+  }
+  Json& streams = json["streams"] = Json::array();
+  for (const UdpStream& stream : survey.streams) {
+    Json& entry = streams.emplace_back(
+        Json{{"source", endpoint(stream.source_address, stream.source_port)},
+             {"destination", endpoint(stream.destination_address, stream.destination_port)},
+             {"packets", stream.packets},
+             {"payload_bytes", stream.payload_bytes},
+             {"packets_per_s", stream.rate_hz()},
+             {"first_stamp_ns", stream.first_stamp_ns},
+             {"last_stamp_ns", stream.last_stamp_ns},
+             {"sensor", to_string(stream.sensor)},
+             {"hints", stream.sensor_hints}});
+    if (stream.hdl64e) entry["hdl64e"] = json_of(*stream.hdl64e);
+  }
+  if (survey.broke_off) json["broke_off"] = survey.broke_off->message;
+  return json;
+}
+
+}  // namespace
+
+ExitCode run(const InfoOptions& options) {
+  const auto survey = firmware_io::survey_capture(options.file);
+  if (!survey) return refuse(survey.error());
+  fmt::print("{}", text_of(*survey));
+  if (survey->broke_off) warn(survey->broke_off->message);
+  if (options.json.empty()) return kOk;
+  const Status written = rt::write_whole_file(options.json, json_of(*survey).dump(1) + "\n");
+  return written ? kOk : refuse(written.error());
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "firmware_io/loss_counters.hpp"
+
+namespace terracut::cli {
+
+/// One cause of loss under its name in reports.
+struct LossCause {
+  std::string name;  ///< "network_gap_packets", "rejected_wrong_size", ...
+  std::uint64_t count = 0;
+};
+
+/// Every cause, those that did not happen included, in the order of LossCounters.
+[[nodiscard]] std::vector<LossCause> causes_of(const firmware_io::LossCounters& losses);
+
+/// "none", or the causes that happened: "network_gap_packets 12, rejected_late 1".
+[[nodiscard]] std::string loss_sentence(const firmware_io::LossCounters& losses);
+
+}  // namespace terracut::cli

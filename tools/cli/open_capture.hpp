@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "calib/hdl64e_calibration.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/loss_counters.hpp"
+#include "options.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::cli {
+
+/// A capture ready to be read from its beginning, and the table its packets are decoded with.
+struct OpenCapture {
+  firmware_io::PcapSource source;
+  calib::Hdl64eCalibration calibration;
+  std::string calibration_line;  ///< Origin and fingerprint, for logs and reports.
+};
+
+/// Opens the capture and chooses the calibration: the file of --calibration, else the table in the
+/// packets' status stream, else kNoCalibration with what was found instead and what to do. Says on
+/// stderr which one won.
+[[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
+
+/// --start and --duration, by the stamps of the capture.
+class CaptureWindow {
+ public:
+  enum class Place : std::uint8_t { kBefore, kInside, kAfter };
+
+  explicit CaptureWindow(const CaptureOptions& options);
+
+  [[nodiscard]] Place place(std::int64_t stamp_ns) noexcept;
+
+ private:
+  std::int64_t start_ns_, end_ns_;
+  std::optional<std::int64_t> first_ns_;
+};
+
+/// kNothingCameOut for a capture that gave no frame, naming the checks its packets failed.
+/// `offered`: datagrams that the decoder was given.
+[[nodiscard]] Error nothing_came_out(const firmware_io::PcapSource& source, std::uint64_t offered,
+                                     const firmware_io::LossCounters& losses);
+
+}  // namespace terracut::cli

@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "commands.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "calib/hdl64e_stream_table.hpp"
+#include "console.hpp"
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "frame_outputs.hpp"
+#include "open_capture.hpp"
+#include "packet_chain.hpp"
+#include "report.hpp"
+#include "setup_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using firmware_io::FrameInfo;
+
+volatile std::sig_atomic_t interrupted = 0;
+
+/// Ctrl-C ends the replay as the end of the capture would: results so far are reported.
+void end_on_interrupt() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { interrupted = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C kills
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
+/// Sleeps so that datagrams come at `rate` times the speed of their stamps; 0 never sleeps.
+class Pace {
+ public:
+  explicit Pace(double rate) : rate_(rate) {}
+
+  void restart() noexcept { begun_ = false; }
+  void wait_for(std::int64_t stamp_ns) {
+    if (rate_ <= 0) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (!begun_) {
+      begun_ = true;
+      first_ns_ = stamp_ns;
+      started_ = now;
+    }
+    const auto due = std::chrono::nanoseconds(
+        static_cast<std::int64_t>(static_cast<double>(stamp_ns - first_ns_) / rate_));
+    std::this_thread::sleep_until(started_ + due);
+  }
+
+ private:
+  double rate_;
+  bool begun_ = false;
+  std::int64_t first_ns_ = 0;
+  std::chrono::steady_clock::time_point started_;
+};
+
+/// The truth of one frame after the other, as far as there is any that fits.
+class FrameTruth {
+ public:
+  explicit FrameTruth(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  /// One id a return, or empty: no truth asked for, or none that fits (said once).
+  std::span<const std::uint32_t> read(const std::string& name, std::size_t returns) {
+    labels_.clear();
+    if (folder_.empty()) return labels_;
+    const Status status = firmware_io::read_label_file(folder_ / (name + ".label"), returns, labels_);
+    if (status) return labels_;
+    if (!warned_) warn("frames without fitting truth are not scored; the first: " + status.error().message);
+    warned_ = true;
+    labels_.clear();
+    return labels_;
+  }
+
+ private:
+  std::filesystem::path folder_;
+  std::vector<std::uint32_t> labels_;
+  bool warned_ = false;
+};
+
+/// A capture's way to labels, on one thread: source, decoder, segmenter, sinks.
+class Replay {
+ public:
+  Replay(const ReplayOptions& options, OpenCapture& capture, const calib::RingProfile& profile)
+      : options_(options),
+        capture_(capture),
+        chain_(capture.calibration, profile, options.capture, options.method, memory_),
+        outputs_(options.output),
+        truth_(options.output.truth),
+        report_({"replay", options.capture.file.string(), capture.calibration_line,
+                 options.method.profile, options.method.stages}),
+        progress_("replaying", "frames", 0) {}
+
+  ExitCode run() {
+    Pace pace(options_.rate);
+    for (int pass = 0; options_.loops == 0 || pass < options_.loops; ++pass) {
+      if (pass > 0) {
+        if (Status status = capture_.source.rewind(); !status) return refuse(status.error());
+      }
+      pace.restart();
+      if (!play_once(pace)) break;
+    }
+    chain_.decoder.flush([this](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+      take(info, image);
+    });
+    return conclude();
+  }
+
+ private:
+  /// False when the replay is over: a sink failed, Ctrl-C, or the capture broke off.
+  bool play_once(Pace& pace) {
+    CaptureWindow window(options_.capture);
+    while (interrupted == 0 && sinks_) {
+      const auto next = capture_.source.next();
+      if (!next) {
+        warn(next.error().message);
+        report_.set_input_warning(next.error().message);
+        return false;
+      }
+      if (!*next) return true;
+      const firmware_io::Datagram& datagram = **next;
+      const CaptureWindow::Place place = window.place(datagram.stamp_ns);
+      if (place == CaptureWindow::Place::kBefore) continue;
+      if (place == CaptureWindow::Place::kAfter) return true;
+      pace.wait_for(datagram.stamp_ns);
+      decode(datagram);
+    }
+    return false;
+  }
+
+  void decode(const firmware_io::Datagram& datagram) {
+    ++offered_;
+    std::int64_t resumed_ns = rt::thread_cpu_ns();
+    const auto reject = chain_.decoder.decode(
+        datagram, [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+          decode_ns_ += rt::thread_cpu_ns() - resumed_ns;
+          take(info, image);
+          resumed_ns = rt::thread_cpu_ns();
+        });
+    decode_ns_ += rt::thread_cpu_ns() - resumed_ns;
+    if (reject) return;
+    if (const auto packet = firmware_io::Hdl64ePacketView::of(datagram.payload)) {
+      status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+    }
+  }
+
+  /// One turn: segments it and hands the labels to the sinks. Runs inside the decoder, which wants no
+  /// exceptions: a sink that fails is remembered, and play_once() ends the replay.
+  void take(const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    clock_.begin();
+    const pipeline::SegmentationReport segmented = chain_.segmenter.segment(image, {}, &clock_);
+    report_.add(record_of(info, segmented, decode_ns_, clock_.times()));
+    decode_ns_ = 0;
+
+    const std::string name = fmt::format("{:06}", info.number);
+    const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
+    if (!truth.empty()) {
+      quality_ += pipeline::measure(chain_.segmenter.labels(), truth);
+      ++scored_;
+    }
+    if (sinks_) sinks_ = outputs_.write_labels(name, chain_.segmenter.labels());
+    if (sinks_) sinks_ = outputs_.write_frame(name, image, chain_.segmenter.labels(), truth);
+    progress_.update(static_cast<double>(report_.frames()));
+  }
+
+  void warn_of_other_table() const {
+    if (!status_.has_table()) return;
+    const auto table = calib::parse_stream_table(status_.table());
+    if (!table || fingerprint(table->calibration) == fingerprint(capture_.calibration)) return;
+    warn(fmt::format("the packets carry another calibration (fingerprint {:016x}) than the one in use "
+                     "({:016x}); leave --calibration away to use theirs",
+                     fingerprint(table->calibration), fingerprint(capture_.calibration)));
+  }
+
+  ExitCode conclude() {
+    if (!sinks_) return refuse(sinks_.error());
+    const firmware_io::LossCounters losses = chain_.decoder.losses();
+    if (report_.frames() == 0) {
+      return refuse(nothing_came_out(capture_.source, offered_, losses));
+    }
+    warn_of_other_table();
+    report_.set_losses(losses);
+    if (scored_ > 0) report_.set_quality(quality_, report_.frames() - scored_);
+    fmt::print("{}", report_.text());
+    if (options_.output.json.empty()) return kOk;
+    const Status written = report_.write_json(options_.output.json);
+    return written ? kOk : refuse(written.error());
+  }
+
+  const ReplayOptions& options_;
+  OpenCapture& capture_;
+  rt::FixedMemory memory_;
+  PacketChain chain_;
+  firmware_io::StatusStreamReader status_;
+  FrameOutputs outputs_;
+  FrameTruth truth_;
+  Report report_;
+  Progress progress_;
+  StageClock clock_;
+  pipeline::Quality quality_;
+  std::uint64_t scored_ = 0;  ///< Frames with truth.
+  Status sinks_;
+  std::uint64_t offered_ = 0;   ///< Datagrams given to the decoder.
+  std::int64_t decode_ns_ = 0;  ///< Since the last frame was handed over.
+};
+
+}  // namespace
+
+ExitCode run(const ReplayOptions& options) {
+  const bool from_the_start = options.capture.start_s == 0 && options.loops == 1;
+  if (!options.output.truth.empty() && !from_the_start) {
+    return refuse(kUsage,
+                  "--truth goes by frame number, so the replay must run once from the capture's "
+                  "beginning: leave --start and --loop away");
+  }
+  if (!options.output.truth.empty() && !std::filesystem::is_directory(options.output.truth)) {
+    return refuse(kInputRefused, fmt::format("--truth {}: no such folder; expected one of "
+                                             "NNNNNN.label, as `terracut simulate` writes it",
+                                             options.output.truth.string()));
+  }
+  auto capture = open_capture(options.capture);
+  if (!capture) return refuse(capture.error());
+  const auto profile = ring_profile_of(capture->calibration, options.mount);
+  if (!profile) return refuse(profile.error());
+  end_on_interrupt();
+  return Replay(options, *capture, *profile).run();
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "report.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "loss_table.hpp"
+#include "rt/whole_file.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Milliseconds to the microsecond: more digits would only be noise.
+double milliseconds(std::int64_t ns) { return static_cast<double>(ns / 1000) / 1000.0; }
+
+std::int64_t segment_ns(const FrameRecord& frame) {
+  std::int64_t sum = 0;
+  for (const std::int64_t stage_ns : frame.times.stage_ns) sum += stage_ns;
+  return sum;
+}
+
+Json losses_json(const firmware_io::LossCounters& losses) {
+  Json json = Json::object();
+  for (const LossCause& cause : causes_of(losses)) json[cause.name] = cause.count;
+  return json;
+}
+
+Json milliseconds_json(const FrameRecord& frame) {
+  Json json;
+  json["decode"] = milliseconds(frame.decode_ns);
+  for (std::size_t i = 0; i < frame.times.stage_ns.size(); ++i) {
+    json[std::string(to_string(static_cast<pipeline::Stage>(i)))] =
+        milliseconds(frame.times.stage_ns[i]);
+  }
+  json["total"] = milliseconds(frame.decode_ns + segment_ns(frame));
+  return json;
+}
+
+/// How many cells the cut had to decide, how many kept their coarse label for want of budget, and the
+/// operations it took.
+Json min_cut_json(const pipeline::CutReport& cut) {
+  return {{"unknown", cut.unknown},
+          {"coarse", cut.coarse_by_cap + cut.coarse_by_budget},
+          {"ops", cut.persistency_ops + cut.greedy_push_ops + cut.boykov_kolmogorov_ops +
+                      cut.push_relabel_ops}};
+}
+
+Json percentiles_json(const rt::LogLinearHistogram& histogram) {
+  return {{"p50", milliseconds(histogram.percentile_ns(50))},
+          {"p99", milliseconds(histogram.percentile_ns(99))},
+          {"max", milliseconds(histogram.max_ns())}};
+}
+
+/// Calls visit(name, histogram) for decoding, every stage, their total and the wall clock.
+template <class Visit>
+void for_each_time(const TimeSummary& times, Visit&& visit) {
+  visit("decode", times.decode);
+  for (std::size_t i = 0; i < times.stages.size(); ++i) {
+    visit(std::string(to_string(static_cast<pipeline::Stage>(i))), times.stages[i]);
+  }
+  visit("total", times.total);
+}
+
+struct Totals {
+  std::uint64_t returns_in = 0, returns_labelled = 0, complete = 0;
+};
+
+Totals totals_of(const std::vector<FrameRecord>& records) {
+  Totals totals;
+  for (const FrameRecord& frame : records) {
+    totals.returns_in += frame.returns_in;
+    totals.returns_labelled += frame.returns_labelled;
+    totals.complete += frame.complete ? 1 : 0;
+  }
+  return totals;
+}
+
+}  // namespace
+
+FrameRecord record_of(const firmware_io::FrameInfo& info,
+                      const pipeline::SegmentationReport& segmented, std::int64_t decode_ns,
+                      const StageTimes& times) noexcept {
+  FrameRecord record;
+  record.number = info.number;
+  record.first_packet_ns = info.first_packet_ns;
+  record.complete = info.complete;
+  record.returns_in = info.returns;
+  record.returns_labelled = segmented.ground + segmented.obstacles;
+  record.decode_ns = decode_ns;
+  record.times = times;
+  record.cut = segmented.cut;
+  record.losses = info.losses;
+  return record;
+}
+
+void TimeSummary::add(const FrameRecord& frame) noexcept {
+  for (std::size_t i = 0; i < stages.size(); ++i) stages[i].record(frame.times.stage_ns[i]);
+  decode.record(frame.decode_ns);
+  total.record(frame.decode_ns + segment_ns(frame));
+  wall.record(frame.times.segment_wall_ns);
+}
+
+std::string TimeSummary::text() const {
+  std::string text = fmt::format("ms/frame  {:<16}{:>9}{:>9}{:>9}\n", "", "p50", "p99", "max");
+  for_each_time(*this, [&](const std::string& name, const rt::LogLinearHistogram& histogram) {
+    text += fmt::format("          {:<16}{:>9.3f}{:>9.3f}{:>9.3f}\n", name,
+                        milliseconds(histogram.percentile_ns(50)),
+                        milliseconds(histogram.percentile_ns(99)),
+                        milliseconds(histogram.max_ns()));
+  });
+  return text;
+}
+
+Json TimeSummary::json() const {
+  Json json;
+  for_each_time(*this, [&](const std::string& name, const rt::LogLinearHistogram& histogram) {
+    json[name] = percentiles_json(histogram);
+  });
+  return json;
+}
+
+void Report::add(const FrameRecord& frame) {
+  records_.push_back(frame);
+  times_.add(frame);
+}
+
+firmware_io::LossCounters Report::losses() const {
+  if (losses_) return *losses_;
+  firmware_io::LossCounters losses;
+  for (const FrameRecord& frame : records_) losses += frame.losses;
+  return losses;
+}
+
+std::string Report::text() const {
+  const Totals totals = totals_of(records_);
+  std::string text = fmt::format(
+      "frames    {} ({} complete)\nreturns   {} in, {} labelled\n", records_.size(),
+      totals.complete, totals.returns_in, totals.returns_labelled);
+  if (quality_) {
+    text += fmt::format("quality   IoU_g {:.2f} %, Recall_o {:.2f} %{}\n",
+                        100 * quality_->iou_ground(), 100 * quality_->recall_key_obstacles(),
+                        unscored_ == 0 ? "" : fmt::format(" ({} frames not scored)", unscored_));
+  }
+  text += "losses    " + loss_sentence(losses()) + "\n";
+  text += times_.text();
+  return text;
+}
+
+Status Report::write_json(const std::filesystem::path& path) const {
+  Json json;
+  json["terracut"] = TERRACUT_VERSION;
+  json["command"] = run_.command;
+  json["input"] = run_.input;
+  if (!input_warning_.empty()) json["input_warning"] = input_warning_;
+  json["calibration"] = run_.calibration;
+  json["profile"] = run_.profile;
+  json["stages"] = run_.stages;
+  Json& frames = json["frames"] = Json::array();
+  for (const FrameRecord& frame : records_) {
+    frames.push_back({{"frame", frame.number},
+                      {"first_packet_ns", frame.first_packet_ns},
+                      {"complete", frame.complete},
+                      {"returns_in", frame.returns_in},
+                      {"returns_labelled", frame.returns_labelled},
+                      {"losses", losses_json(frame.losses)},
+                      {"ms", milliseconds_json(frame)},
+                      {"segment_wall_ms", milliseconds(frame.times.segment_wall_ns)},
+                      {"min_cut", min_cut_json(frame.cut)}});
+  }
+  const Totals totals = totals_of(records_);
+  Json& summary = json["summary"];
+  summary["frames"] = records_.size();
+  summary["complete_frames"] = totals.complete;
+  summary["returns_in"] = totals.returns_in;
+  summary["returns_labelled"] = totals.returns_labelled;
+  summary["losses"] = losses_json(losses());
+  summary["ms"] = times_.json();
+  summary["segment_wall_ms"] = percentiles_json(times_.wall);
+  if (quality_) {
+    summary["iou_g"] = quality_->iou_ground();
+    summary["recall_o"] = quality_->recall_key_obstacles();
+    summary["unscored_frames"] = unscored_;
+  }
+  return rt::write_whole_file(path, json.dump(1) + "\n");
+}
+
+}  // namespace terracut::cli

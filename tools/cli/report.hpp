@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_io/frame_info.hpp"
+#include "firmware_io/loss_counters.hpp"
+#include "pipeline/quality.hpp"
+#include "pipeline/segmenter.hpp"
+#include "rt/error.hpp"
+#include "rt/log_linear_histogram.hpp"
+#include "stage_clock.hpp"
+
+namespace terracut::cli {
+
+/// What is reported of one frame.
+struct FrameRecord {
+  std::uint32_t number = 0;
+  std::int64_t first_packet_ns = 0;  ///< 0 for scans, which have no packets.
+  bool complete = true;
+  std::uint32_t returns_in = 0;
+  std::uint32_t returns_labelled = 0;
+  std::int64_t decode_ns = 0;        ///< Processor time of decoding the packets since the frame before.
+  StageTimes times;
+  pipeline::CutReport cut;
+  firmware_io::LossCounters losses;
+};
+
+/// The record of a frame that came out of packets.
+[[nodiscard]] FrameRecord record_of(const firmware_io::FrameInfo& info,
+                                    const pipeline::SegmentationReport& segmented,
+                                    std::int64_t decode_ns, const StageTimes& times) noexcept;
+
+/// Times of all frames: per stage, decoding and the sum of both, and by the wall clock.
+struct TimeSummary {
+  std::array<rt::LogLinearHistogram, pipeline::kStages> stages;
+  rt::LogLinearHistogram decode, total, wall;
+
+  void add(const FrameRecord& frame) noexcept;
+  /// Lines "name p50 p99 max" in milliseconds, for people; and the same for programs.
+  [[nodiscard]] std::string text() const;
+  [[nodiscard]] nlohmann::ordered_json json() const;
+};
+
+/// The report of a run: what the frames' records say, and the same summarised.
+class Report {
+ public:
+  struct Run {
+    std::string command;       ///< "replay"
+    std::string input;
+    std::string calibration;   ///< Origin and fingerprint of the table in use.
+    std::string profile, stages;
+  };
+
+  explicit Report(Run run) : run_(std::move(run)) {}
+
+  void add(const FrameRecord& frame);
+  /// `unscored`: frames for which no fitting truth was found.
+  void set_quality(const pipeline::Quality& quality, std::uint64_t unscored = 0) {
+    quality_ = quality;
+    unscored_ = unscored;
+  }
+  /// Everything lost in the run, where that is more than the frames' sum (losses after the last one).
+  void set_losses(const firmware_io::LossCounters& losses) { losses_ = losses; }
+  /// The input broke off, and where.
+  void set_input_warning(std::string warning) { input_warning_ = std::move(warning); }
+
+  [[nodiscard]] std::size_t frames() const noexcept { return records_.size(); }
+  [[nodiscard]] firmware_io::LossCounters losses() const;
+
+  /// The summary for people, several lines, as printed on stdout.
+  [[nodiscard]] std::string text() const;
+  /// The whole report for programs, whole or not at all:
+  ///
+  ///   terracut, command, input, calibration, profile, stages   of what ran on what
+  ///   input_warning                where the input broke off, if it did
+  ///   frames[]                     frame (number), first_packet_ns, complete, returns_in,
+  ///                                returns_labelled, losses{cause: count}, ms{stage: processor time},
+  ///                                segment_wall_ms, min_cut{unknown, coarse, ops}
+  ///   summary                      frames, complete_frames, returns_in, returns_labelled, losses{},
+  ///                                ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
+  ///                                with truth iou_g, recall_o, unscored_frames
+  [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
+
+ private:
+  Run run_;
+  std::vector<FrameRecord> records_;
+  TimeSummary times_;
+  std::optional<firmware_io::LossCounters> losses_;
+  std::optional<pipeline::Quality> quality_;
+  std::uint64_t unscored_ = 0;
+  std::string input_warning_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <string_view>
+
+#include "calib/hdl64e_calibration.hpp"
+#include "calib/ring_profile.hpp"
+#include "options.hpp"
+#include "pipeline/profile.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::cli {
+
+/// Where the sensor stands: --setup, then --mount-... on top, else a level mount at 1.73 m.
+[[nodiscard]] Expected<calib::Mount> mount_of(const MountOptions& options);
+
+/// The ring profile of a unit so mounted. The measured ring distances of a setup count only as long
+/// as no --mount-... option moves the sensor away from where they were measured.
+[[nodiscard]] Expected<calib::RingProfile> ring_profile_of(
+    const calib::Hdl64eCalibration& calibration, const MountOptions& options);
+
+/// Applies one KEY=VALUE of --set.
+[[nodiscard]] Status apply_setting(pipeline::SegmenterConfig& config, std::string_view setting);
+
+/// The method's parameters for --profile, --stages and --set, whose settings must have been checked.
+[[nodiscard]] pipeline::SegmenterConfig segmenter_config_of(const MethodOptions& options);
+
+}  // namespace terracut::cli

@@ -50,10 +50,15 @@ void write_scan(const fs::path& pcd, const fs::path& truth, const fs::path& fold
   }
 }
 
+/// What the two ways made of a sequence.
+struct BothWays {
+  double packets_iou_g, packets_recall_o, direct_iou_g, direct_recall_o;
+};
+
 class CliScans : public Cli {
  protected:
   /// Both ways of a sequence folder; checks what holds for either.
-  void expect_equal_ways(const fs::path& sequence) {
+  BothWays both_ways(const fs::path& sequence) {
     expect_done("encode " + quoted(sequence) + " -o drive.pcap --sensor hdl64e");
     expect_done("replay drive.pcap --calibration drive.calibration.xml --truth drive.truth "
                 "--labels packets --json packets.json");
@@ -63,16 +68,17 @@ class CliScans : public Cli {
     EXPECT_EQ(direct["returns_in"], direct["returns_labelled"]);
     EXPECT_EQ(packets["unscored_frames"], 0);
     EXPECT_EQ(packets["frames"], direct["frames"]);
+    EXPECT_GT(packets["returns_in"].get<double>(), 0.998 * direct["returns_in"].get<double>());
     EXPECT_NEAR(packets["iou_g"], direct["iou_g"], 0.01) << sequence;
-    EXPECT_NEAR(packets["recall_o"], direct["recall_o"], 0.01) << sequence;
-    EXPECT_GT(packets["returns_in"].get<double>(), 0.98 * direct["returns_in"].get<double>());
+    return {packets["iou_g"], packets["recall_o"], direct["iou_g"], direct["recall_o"]};
   }
 };
 
 TEST_F(CliScans, OfASimulatedDriveGiveTheSameAccuracyThroughPackets) {
   expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
-  expect_equal_ways(folder_ / "scans");
+  const BothWays ways = both_ways(folder_ / "scans");
+  EXPECT_NEAR(ways.packets_recall_o, ways.direct_recall_o, 0.01);
   EXPECT_EQ(fs::file_size(folder_ / "direct" / "000000.label"),
             fs::file_size(folder_ / "scans" / "labels" / "000000.label"));
 }
@@ -81,7 +87,20 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
   const fs::path sequences =
       fs::path(TERRACUT_SOURCE_DIR) / "../shared/data/semantickitti/sequences";
   if (!fs::exists(sequences)) GTEST_SKIP() << "no scans at " << sequences;
-  for (const auto& entry : fs::directory_iterator(sequences)) expect_equal_ways(entry.path());
+  // Within one point in the mean over sequences, as accuracy is stated. A single sequence may differ
+  // by more in Recall_o: sequence 01 has 580 key obstacle returns, so six of them are a point.
+  int count = 0;
+  double iou_g = 0, recall_o = 0;  // packets minus direct
+  for (const auto& entry : fs::directory_iterator(sequences)) {
+    const BothWays ways = both_ways(entry.path());
+    iou_g += ways.packets_iou_g - ways.direct_iou_g;
+    recall_o += ways.packets_recall_o - ways.direct_recall_o;
+    EXPECT_NEAR(ways.packets_recall_o, ways.direct_recall_o, 0.02) << entry.path();
+    ++count;
+  }
+  ASSERT_GT(count, 0);
+  EXPECT_NEAR(iou_g / count, 0.0, 0.01);
+  EXPECT_NEAR(recall_o / count, 0.0, 0.01);
 }
 
 TEST_F(CliScans, ThatAreDamagedAreRefusedByName) {

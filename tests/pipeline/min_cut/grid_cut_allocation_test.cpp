@@ -1,43 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// solve() takes no memory: this program counts every operator new.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <new>
-
 #include "tests/pipeline/min_cut/solving.hpp"
-
-namespace {
-thread_local bool counting = false;
-thread_local int allocations = 0;
-
-void* counted(std::size_t bytes, std::size_t alignment) {
-  if (counting) ++allocations;
-  const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
-  void* block = std::aligned_alloc(alignment, rounded == 0 ? alignment : rounded);
-  if (block == nullptr) throw std::bad_alloc();
-  return block;
-}
-}  // namespace
-
-void* operator new(std::size_t bytes) { return counted(bytes, alignof(std::max_align_t)); }
-void* operator new[](std::size_t bytes) { return counted(bytes, alignof(std::max_align_t)); }
-void* operator new(std::size_t bytes, std::align_val_t a) { return counted(bytes, static_cast<std::size_t>(a)); }
-void* operator new[](std::size_t bytes, std::align_val_t a) { return counted(bytes, static_cast<std::size_t>(a)); }
-void operator delete(void* block) noexcept { std::free(block); }
-void operator delete[](void* block) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
-void operator delete(void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::align_val_t) noexcept { std::free(block); }
-void operator delete(void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
-void operator delete[](void* block, std::size_t, std::align_val_t) noexcept { std::free(block); }
+#include "tests/support/allocation_counter.hpp"
 
 namespace terracut::pipeline::test {
 namespace {
 
+using terracut::test::allocations_of_this_thread;
+
 TEST(GridCutMemory, SolvingAllocatesNothing) {
+  if (!terracut::test::allocations_are_counted()) GTEST_SKIP() << "sanitizers bring their own allocator";
   Random random(31);
   const ImageShape shape{32, 128};
   const TestProblem problem = random_problem(shape, {.ground_seeds = 5, .obstacle_seeds = 5}, random);
@@ -49,26 +23,28 @@ TEST(GridCutMemory, SolvingAllocatesNothing) {
   std::vector<Label> labels = problem.coarse_labelling();
   std::vector<Label> again = labels;
 
-  allocations = 0;
-  counting = true;
+  const std::uint64_t before = allocations_of_this_thread();
   const CutReport whole = cut.solve(problem.view(), problem.weights(), kNoLimit, labels);
   const CutReport stopped = cut.solve(problem.view(), problem.weights(), {3000}, again);
-  counting = false;
+  const std::uint64_t after = allocations_of_this_thread();
 
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(after, before);
   EXPECT_EQ(memory.total_bytes(), bytes_planned);
   EXPECT_GT(whole.coarse_by_cap, 0U);
   EXPECT_GT(whole.push_relabel_runs, 0U);
   EXPECT_TRUE(stopped.budget_hit);
 }
 
-TEST(GridCutMemory, TheCountingWorks) {
-  counting = true;
-  allocations = 0;
-  auto* block = ::operator new(16);
-  counting = false;
-  ::operator delete(block);
-  EXPECT_EQ(allocations, 1);
+TEST(GridCutMemory, IsPlannedByTheCapNotByTheWorstFrame) {
+  const auto bytes = [](std::uint32_t max_unknown) {
+    rt::FixedMemory memory;
+    GridCut cut({64, 2083}, {.max_unknown = max_unknown}, memory);
+    return memory.total_bytes();
+  };
+  const std::size_t extra = bytes(16'384) - bytes(8'192);
+  EXPECT_GE(extra, 8'192 * sizeof(CutNode));
+  EXPECT_LT(extra, 8'192 * (sizeof(CutNode) + 80)) << "lists cost more than the nodes";
+  EXPECT_EQ(bytes(64 * 2096), bytes(1'000'000)) << "more nodes than cells are never needed";
 }
 
 }  // namespace

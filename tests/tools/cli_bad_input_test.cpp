@@ -32,6 +32,8 @@ TEST_F(CliRefusal, OfAWrongCommandLineSaysWhatIsExpected) {
   expect_refusal("simulate", kUsage, HasSubstr("--output is required"));
   expect_refusal("replay x.pcap --rate -1", kUsage, HasSubstr("--rate"));
   expect_refusal("replay x.pcap --stages all", kUsage, HasSubstr("--stages"));
+  expect_refusal("replay x.pcap --set region.lambda", kUsage, HasSubstr("KEY=VALUE"));
+  expect_refusal("replay x.pcap --set region.lambda=-1", kUsage, HasSubstr("from 0.0001 to 1000"));
   expect_refusal("replay x.pcap --from here", kUsage, HasSubstr("--from"));
   expect_refusal("simulate --sensor vlp16 -o x.pcap", kUsage, HasSubstr("hdl64e"));
   expect_refusal("simulate --scene moon -o x.pcap", kUsage, AllOf(HasSubstr("moon"), HasSubstr("street")));

@@ -152,5 +152,21 @@ TEST_F(Cli, PlanAddsUpItsParts) {
   EXPECT_GT(sum, 1'000'000U);
 }
 
+TEST_F(Cli, ParametersPageShowsWhatTheProgramHas) {
+  const Outcome table = run("parameters");
+  EXPECT_EQ(table.exit_code, 0);
+  EXPECT_THAT(content_of(TERRACUT_SOURCE_DIR "/docs/parameters.md"), testing::EndsWith(table.out))
+      << "print it anew with `terracut parameters`";
+}
+
+TEST_F(Cli, SetChangesWhatTheMethodDoes) {
+  const std::string replay = "replay " + quoted(kDrive) + " --duration 0.3 --json ";
+  expect_done(replay + "default.json");
+  expect_done(replay + "set.json --set elevation_map.obstacle_height_m=1.5 --set min_cut.max_unknown=0");
+  EXPECT_GT(json("default.json")["frames"][0]["min_cut"]["unknown"], 1000);
+  EXPECT_EQ(json("set.json")["frames"][0]["min_cut"]["coarse"],
+            json("set.json")["frames"][0]["min_cut"]["unknown"]);
+}
+
 }  // namespace
 }  // namespace terracut::cli

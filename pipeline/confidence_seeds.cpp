@@ -3,12 +3,39 @@
 #include "pipeline/confidence_seeds.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 namespace terracut::pipeline {
 
-ConfidenceSeeds::ConfidenceSeeds(const Config& config, ImageShape shape, rt::FixedMemory& memory)
+namespace {
+
+/// One more than the highest row whose beam meets the ground.
+int rows_that_see_ground(const calib::RingProfile& profile) {
+  int rows = 0;
+  for (std::size_t row = 0; row < profile.rings.size(); ++row) {
+    if (std::isfinite(profile.rings[row].ground_distance_m)) rows = static_cast<int>(row) + 1;
+  }
+  return rows;
+}
+
+/// The seed that keeps the label of the stages before.
+Seed kept(Label label) noexcept {
+  switch (label) {
+    case Label::kNone: return Seed::kNone;
+    case Label::kGround: return Seed::kGround;
+    case Label::kObstacle: return Seed::kObstacle;
+  }
+  return Seed::kNone;
+}
+
+}  // namespace
+
+ConfidenceSeeds::ConfidenceSeeds(const Config& config, const calib::RingProfile& profile,
+                                 ImageShape shape, rt::FixedMemory& memory)
     : config_(config),
       shape_(shape),
+      cut_rows_(config.rows == CutRows::kAll ? shape.rows : rows_that_see_ground(profile)),
       seeds_(memory.take<Seed>("seeds", shape.cells())),
       ground_in_column_(memory.take<std::uint8_t>(
           "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
@@ -16,7 +43,11 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, ImageShape shape, rt::Fix
 
 void ConfidenceSeeds::select(const CellPlanes& planes) noexcept {
   const int window = 2 * config_.window_columns + 1;
-  for (int row = 0; row < shape_.rows; ++row) {
+  const std::size_t cut_cells =
+      static_cast<std::size_t>(cut_rows_) * static_cast<std::size_t>(shape_.stride());
+  std::transform(planes.label.begin() + static_cast<std::ptrdiff_t>(cut_cells), planes.label.end(),
+                 seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells), kept);
+  for (int row = 0; row < cut_rows_; ++row) {
     count_in_row(planes, row);
     int ground = 0, returns = 0;  // in the window, slid along the row
     for (int i = 0; i < window - 1; ++i) {

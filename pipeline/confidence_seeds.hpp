@@ -2,12 +2,21 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include "calib/ring_profile.hpp"
 #include "pipeline/cell_planes.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
 
 namespace terracut::pipeline {
+
+/// Which rows of the range image the MRF decides on.
+enum class CutRows : std::uint8_t {
+  kAll,     ///< Every row.
+  /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's 70
+  /// of the RS-Ruby128's 128). Above them the stages before have the last word.
+  kGround,
+};
 
 /// Stage 3a: which returns initialise the MRF as "object" and "background", and which stay unknown
 /// (paper, section III-D). Obstacles of the stages before are trusted where they are high or steep;
@@ -21,14 +30,19 @@ class ConfidenceSeeds {
     float max_ground_height_m = 0.10F;    ///< Ground seeds lie no higher above the reference.
     float min_obstacle_height_m = 0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
     bool trust_all_obstacles = false;     ///< Every obstacle of the stages before is a seed, as printed.
+    CutRows rows = CutRows::kAll;
   };
 
-  ConfidenceSeeds(const Config& config, ImageShape shape, rt::FixedMemory& memory);
+  /// `profile` must have shape.rows rings.
+  ConfidenceSeeds(const Config& config, const calib::RingProfile& profile, ImageShape shape,
+                  rt::FixedMemory& memory);
 
   /// Seeds of every cell from `planes`. Real-time safe.
   void select(const CellPlanes& planes) noexcept;
 
   [[nodiscard]] std::span<const Seed> seeds() const noexcept { return seeds_; }
+  /// Rows 0 .. cut_rows() - 1 may hold unknown returns.
+  [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
 
  private:
   void count_in_row(const CellPlanes& planes, int row) noexcept;
@@ -37,6 +51,7 @@ class ConfidenceSeeds {
 
   Config config_;
   ImageShape shape_;
+  int cut_rows_;
   std::span<Seed> seeds_;
   // Sums over the window's rows, one per column, with the seam's columns repeated at both ends.
   std::span<std::uint8_t> ground_in_column_;

@@ -18,6 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kOffOn{"no", "yes"};
 constexpr std::array<std::string_view, 2> kReferences{"cell_minimum", "local_surface"};
 constexpr std::array<std::string_view, 2> kAdjacentRules{"ring_spacing", "slope"};
+constexpr std::array<std::string_view, 2> kCutRows{"all", "ground"};
 constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
 constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
 
@@ -101,6 +102,8 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(seeds.min_obstacle_height_m)},
     Parameter{"seeds.trust_all_obstacles", "", "Every obstacle of the stages before is a seed", 0, 1, kOffOn,
               TERRACUT_FIELD(seeds.trust_all_obstacles)},
+    Parameter{"seeds.rows", "", "Rows the MRF decides on: all, or those whose beams meet the ground", 0, 1, kCutRows,
+              TERRACUT_FIELD(seeds.rows)},
 
     Parameter{"region.rule", "", "Where the costs of unknown returns come from", 0, 1, kRegionRules,
               TERRACUT_FIELD(region.rule)},

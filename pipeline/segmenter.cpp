@@ -15,7 +15,7 @@ Segmenter::Segmenter(const SegmenterConfig& config, const calib::RingProfile& pr
       planes_(shape, memory),
       elevation_map_(config.elevation_map, profile, shape, memory),
       adjacent_points_(config.adjacent_points, profile, shape, memory),
-      seeds_(config.seeds, shape, memory),
+      seeds_(config.seeds, profile, shape, memory),
       region_(config.region, shape, memory),
       min_cut_(shape, config.min_cut, memory),
       return_labels_(config.returns, return_capacity, memory) {}

@@ -4,7 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
+
+#include "tests/support/synthetic_turn.hpp"
 
 namespace terracut::pipeline {
 namespace {
@@ -21,12 +24,13 @@ struct LabelledPlanes : testing::Test {
     return static_cast<std::size_t>(row * kShape.stride() + column);
   }
   std::span<const Seed> select(const ConfidenceSeeds::Config& config = {}) {
-    stage = std::make_unique<ConfidenceSeeds>(config, kShape, memory);
+    stage = std::make_unique<ConfidenceSeeds>(config, profile, kShape, memory);
     stage->select(planes);
     return stage->seeds();
   }
   rt::FixedMemory memory;
   CellPlanes planes;
+  calib::RingProfile profile = test::even_profile(kShape.rows, -20, 10);  // five of them see ground
   std::unique_ptr<ConfidenceSeeds> stage;
 };
 
@@ -65,6 +69,19 @@ TEST_F(LabelledPlanes, LowObstaclesAreSeedsOnlyWhenSteep) {
 TEST_F(LabelledPlanes, HighGroundIsNotTrusted) {
   planes.height_m[at(5, 5)] = 0.12F;
   EXPECT_EQ(select()[at(5, 5)], Seed::kUnknown);
+}
+
+TEST_F(LabelledPlanes, RowsThatNeverSeeGroundKeepTheirLabelsIfAsked) {
+  planes.label[at(7, 10)] = planes.label[at(2, 10)] = Label::kObstacle;
+  planes.height_m[at(7, 10)] = planes.height_m[at(2, 10)] = 0.2F;
+  ConfidenceSeeds::Config config;
+  config.rows = CutRows::kGround;
+  const auto seeds = select(config);
+  EXPECT_EQ(stage->cut_rows(), 5);
+  EXPECT_EQ(seeds[at(7, 10)], Seed::kObstacle);
+  EXPECT_EQ(seeds[at(7, 11)], Seed::kGround);
+  EXPECT_EQ(seeds[at(2, 10)], Seed::kUnknown);
+  EXPECT_EQ(select()[at(7, 10)], Seed::kUnknown) << "by default every row is decided";
 }
 
 TEST_F(LabelledPlanes, SlidingWindowAgreesWithCountingEveryWindow) {

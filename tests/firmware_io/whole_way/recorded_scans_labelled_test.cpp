@@ -113,7 +113,7 @@ pipeline::test::TestProblem cut_problem(const SegmenterConfig& config,
   pipeline::CellPlanes planes(shape, memory);
   pipeline::RingElevationMap(config.elevation_map, profile, shape, memory).segment(image, planes);
   pipeline::AdjacentPoints(config.adjacent_points, profile, shape, memory).refine(image, planes);
-  pipeline::ConfidenceSeeds seeds(config.seeds, shape, memory);
+  pipeline::ConfidenceSeeds seeds(config.seeds, profile, shape, memory);
   seeds.select(planes);
   pipeline::RegionTerm region(config.region, shape, memory);
   region.evaluate(image, planes, seeds.seeds());

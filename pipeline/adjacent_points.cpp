@@ -6,6 +6,9 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
+
+#include "rt/vector_clones.hpp"
 
 namespace terracut::pipeline {
 namespace {
@@ -27,33 +30,41 @@ struct Run {
   int count;
 };
 
-// The two loops below are the stage. They have no branches, so that the compiler turns them into
+// The loops below are the stage. They have no branches, so that the compiler turns them into
 // vector code; comparisons with the NaN heights of empty cells are false. Everything they use is
 // copied first: a store through a byte pointer could change it, for all the compiler knows.
 
-void mark_by_slope(const Run run, const AdjacentPoints::Config& config,
-                   float tan_max_slope_squared) noexcept {
-  const float min_rise_m = config.min_rise_m;
-  const float min_upper_height_m = config.min_upper_height_m;
-  const float min_lower_height_m = config.min_lower_height_m;
-  const int count = run.count;
-  const auto mark = [&](std::uint8_t* steep_plane, const float* height, float min_height_m) {
-    for (int i = 0; i < count; ++i) {
-      const float dx = run.upper_x[i] - run.lower_x[i];
-      const float dy = run.upper_y[i] - run.lower_y[i];
-      const float rise = run.upper_z[i] - run.lower_z[i];
-      const bool steep = (rise >= min_rise_m) &
-                         ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
-                         (run.upper_height[i] >= min_upper_height_m) & (height[i] >= min_height_m);
-      steep_plane[i] = static_cast<std::uint8_t>(steep_plane[i] | std::uint8_t{steep});
-    }
-  };
+/// Pairs whose step from lower to upper return is too steep: 1 in `steep`, else 0.
+TERRACUT_VECTOR_CLONES void find_steep_steps(const Run run, float min_rise_m,
+                                             float min_upper_height_m,
+                                             float tan_max_slope_squared,
+                                             std::uint8_t* steep) noexcept {
   constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
-  mark(run.upper_steep, run.lower_height, kAnyHeight);
-  mark(run.lower_steep, run.lower_height, min_lower_height_m);
+  const int count = run.count;
+  for (int i = 0; i < count; ++i) {
+    const float dx = run.upper_x[i] - run.lower_x[i];
+    const float dy = run.upper_y[i] - run.lower_y[i];
+    const float rise = run.upper_z[i] - run.lower_z[i];
+    steep[i] = (rise >= min_rise_m) &
+               ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
+               (run.upper_height[i] >= min_upper_height_m) & (run.lower_height[i] >= kAnyHeight);
+  }
 }
 
-void mark_by_ring_spacing(const Run run, float bound_m) noexcept {
+/// Marks what find_steep_steps() found: the upper return, and the lower one where it is high enough.
+TERRACUT_VECTOR_CLONES void mark_steep_steps(const Run run, float min_lower_height_m,
+                                             const std::uint8_t* steep) noexcept {
+  const int count = run.count;
+  for (int i = 0; i < count; ++i) {
+    run.upper_steep[i] = static_cast<std::uint8_t>(run.upper_steep[i] | steep[i]);
+  }
+  for (int i = 0; i < count; ++i) {
+    const std::uint8_t is_high = run.lower_height[i] >= min_lower_height_m;
+    run.lower_steep[i] = static_cast<std::uint8_t>(run.lower_steep[i] | (steep[i] & is_high));
+  }
+}
+
+TERRACUT_VECTOR_CLONES void mark_by_ring_spacing(const Run run, float bound_m) noexcept {
   const float bound_squared = bound_m * bound_m;
   const int count = run.count;
   for (int i = 0; i < count; ++i) {
@@ -66,6 +77,13 @@ void mark_by_ring_spacing(const Run run, float bound_m) noexcept {
   }
 }
 
+TERRACUT_VECTOR_CLONES void make_obstacles(std::span<const std::uint8_t> steep,
+                                           std::span<Label> label) noexcept {
+  for (std::size_t cell = 0; cell < steep.size(); ++cell) {
+    label[cell] = steep[cell] != 0 ? Label::kObstacle : label[cell];
+  }
+}
+
 }  // namespace
 
 AdjacentPoints::AdjacentPoints(const Config& config, const calib::RingProfile& profile,
@@ -75,7 +93,9 @@ AdjacentPoints::AdjacentPoints(const Config& config, const calib::RingProfile& p
       tan_max_slope_squared_(static_cast<float>(
           std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
       ring_spacing_m_(memory.take<float>(
-          "adjacent points", static_cast<std::size_t>(config.last_row_step * shape.rows))) {
+          "adjacent points", static_cast<std::size_t>(config.last_row_step * shape.rows))),
+      steep_pairs_(memory.take<std::uint8_t>("adjacent points",
+                                             static_cast<std::size_t>(shape.columns))) {
   for (int step = 1; step <= config.last_row_step; ++step) {
     for (int row = 0; row + step < shape.rows; ++row) {
       const calib::Ring& lower = profile.rings[static_cast<std::size_t>(row)];
@@ -106,9 +126,7 @@ void AdjacentPoints::refine(const RangeImage& image, CellPlanes& planes) noexcep
       }
     }
   }
-  for (std::size_t cell = 0; cell < planes.steep.size(); ++cell) {
-    if (planes.steep[cell] != 0) planes.label[cell] = Label::kObstacle;
-  }
+  make_obstacles(planes.steep, planes.label);
 }
 
 void AdjacentPoints::mark(const RangeImage& image, const RowPair& pair,
@@ -122,7 +140,9 @@ void AdjacentPoints::mark(const RangeImage& image, const RowPair& pair,
                   &planes.height_m[upper],
                   &planes.steep[lower], &planes.steep[upper], count};
     if (config_.rule == AdjacentRule::kSlope) {
-      mark_by_slope(run, config_, tan_max_slope_squared_);
+      find_steep_steps(run, config_.min_rise_m, config_.min_upper_height_m, tan_max_slope_squared_,
+                       steep_pairs_.data());
+      mark_steep_steps(run, config_.min_lower_height_m, steep_pairs_.data());
     } else {
       mark_by_ring_spacing(run, pair.bound_m);
     }

@@ -57,6 +57,7 @@ class AdjacentPoints {
   ImageShape shape_;
   float tan_max_slope_squared_;
   std::span<float> ring_spacing_m_;  // [row_step - 1][row]
+  std::span<std::uint8_t> steep_pairs_;  // of the pair of rows at hand, by column
 };
 
 }  // namespace terracut::pipeline

@@ -3,8 +3,12 @@
 #include "pipeline/confidence_seeds.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
+
+#include "rt/vector_clones.hpp"
 
 namespace terracut::pipeline {
 
@@ -29,6 +33,40 @@ Seed kept(Label label) noexcept {
   return Seed::kNone;
 }
 
+// A row of labels enters the counts of its columns, or leaves them.
+TERRACUT_VECTOR_CLONES void count(const Label* labels, std::size_t columns, std::uint8_t* ground,
+                                  std::uint8_t* returns) noexcept {
+  for (std::size_t i = 0; i < columns; ++i) {
+    ground[i] = static_cast<std::uint8_t>(ground[i] + (labels[i] == Label::kGround));
+  }
+  for (std::size_t i = 0; i < columns; ++i) {
+    returns[i] = static_cast<std::uint8_t>(returns[i] + (labels[i] != Label::kNone));
+  }
+}
+TERRACUT_VECTOR_CLONES void uncount(const Label* labels, std::size_t columns, std::uint8_t* ground,
+                                    std::uint8_t* returns) noexcept {
+  for (std::size_t i = 0; i < columns; ++i) {
+    ground[i] = static_cast<std::uint8_t>(ground[i] - (labels[i] == Label::kGround));
+  }
+  for (std::size_t i = 0; i < columns; ++i) {
+    returns[i] = static_cast<std::uint8_t>(returns[i] - (labels[i] != Label::kNone));
+  }
+}
+
+/// sums[i] = counts[i] + .. + counts[i + width - 1]
+TERRACUT_VECTOR_CLONES void sum_windows(const std::uint8_t* counts, int width,
+                                        std::span<std::uint16_t> sums) noexcept {
+  const std::size_t columns = sums.size();
+  std::uint16_t* const out = sums.data();
+  for (std::size_t i = 0; i < columns; ++i) out[i] = counts[i];
+  for (int offset = 1; offset < width; ++offset) {
+    const std::uint8_t* shifted = counts + offset;
+    for (std::size_t i = 0; i < columns; ++i) {
+      out[i] = static_cast<std::uint16_t>(out[i] + shifted[i]);
+    }
+  }
+}
+
 }  // namespace
 
 ConfidenceSeeds::ConfidenceSeeds(const Config& config, const calib::RingProfile& profile,
@@ -39,80 +77,81 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, const calib::RingProfile&
       seeds_(memory.take<Seed>("seeds", shape.cells())),
       ground_in_column_(memory.take<std::uint8_t>(
           "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
-      returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())) {}
+      returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
+      ground_in_window_(
+          memory.take<std::uint16_t>("seeds", static_cast<std::size_t>(shape.columns))),
+      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())) {}
 
 void ConfidenceSeeds::select(const CellPlanes& planes) noexcept {
-  const int window = 2 * config_.window_columns + 1;
   const std::size_t cut_cells =
       static_cast<std::size_t>(cut_rows_) * static_cast<std::size_t>(shape_.stride());
   std::transform(planes.label.begin() + static_cast<std::ptrdiff_t>(cut_cells), planes.label.end(),
                  seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells), kept);
   for (int row = 0; row < cut_rows_; ++row) {
-    count_in_row(planes, row);
-    int ground = 0, returns = 0;  // in the window, slid along the row
-    for (int i = 0; i < window - 1; ++i) {
-      ground += ground_in_column_[static_cast<std::size_t>(i)];
-      returns += returns_in_column_[static_cast<std::size_t>(i)];
-    }
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
-    for (int column = 0; column < shape_.columns; ++column) {
-      const auto entering = static_cast<std::size_t>(column + window - 1);
-      ground += ground_in_column_[entering];
-      returns += returns_in_column_[entering];
-      const std::size_t cell = first + static_cast<std::size_t>(column);
-      seeds_[cell] = seed_of(planes, cell, ground, returns);
-      ground -= ground_in_column_[static_cast<std::size_t>(column)];
-      returns -= returns_in_column_[static_cast<std::size_t>(column)];
-    }
+    count_in_columns(planes, row);
+    count_in_windows();
+    select_in_row(planes, row);
   }
 }
 
-Seed ConfidenceSeeds::seed_of(const CellPlanes& planes, std::size_t cell, int ground,
-                              int returns) const noexcept {
-  switch (planes.label[cell]) {
-    case Label::kNone: return Seed::kNone;
-    case Label::kObstacle: {
-      const bool trusted = config_.trust_all_obstacles || planes.steep[cell] != 0 ||
-                           planes.height_m[cell] > config_.min_obstacle_height_m;
-      return trusted ? Seed::kObstacle : Seed::kUnknown;
-    }
-    case Label::kGround: {
-      const bool trusted =
-          static_cast<float>(ground) > config_.ground_share * static_cast<float>(returns) &&
-          planes.height_m[cell] < config_.max_ground_height_m;
-      return trusted ? Seed::kGround : Seed::kUnknown;
-    }
+void ConfidenceSeeds::select_in_row(const CellPlanes& planes, int row) noexcept {
+  // Indexed by label, whether its ground is trusted, and whether its obstacle is: a branch here
+  // would be mispredicted wherever ground and obstacles alternate.
+  constexpr std::array<std::array<Seed, 4>, 3> kSeeds{{
+      {Seed::kNone, Seed::kNone, Seed::kNone, Seed::kNone},
+      {Seed::kUnknown, Seed::kGround, Seed::kUnknown, Seed::kGround},
+      {Seed::kUnknown, Seed::kUnknown, Seed::kObstacle, Seed::kObstacle},
+  }};
+  const std::size_t first =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
+  const float share = config_.ground_share;
+  const float max_ground_height_m = config_.max_ground_height_m;
+  const float min_obstacle_height_m = config_.trust_all_obstacles
+                                          ? -std::numeric_limits<float>::infinity()
+                                          : config_.min_obstacle_height_m;
+  for (std::size_t column = 0; column < ground_in_window_.size(); ++column) {
+    const std::size_t cell = first + column;
+    const float height_m = planes.height_m[cell];
+    const bool ground = (static_cast<float>(ground_in_window_[column]) >
+                         share * static_cast<float>(returns_in_window_[column])) &
+                        (height_m < max_ground_height_m);
+    const bool obstacle = (planes.steep[cell] != 0) | (height_m > min_obstacle_height_m);
+    seeds_[cell] = kSeeds[static_cast<std::size_t>(planes.label[cell])]
+                         [static_cast<std::size_t>(ground) + 2 * static_cast<std::size_t>(obstacle)];
   }
-  return Seed::kNone;
 }
 
-void ConfidenceSeeds::count_in_row(const CellPlanes& planes, int row) noexcept {
-  std::fill(ground_in_column_.begin(), ground_in_column_.end(), std::uint8_t{0});
-  std::fill(returns_in_column_.begin(), returns_in_column_.end(), std::uint8_t{0});
-  const int reach = config_.window_columns;
-  const int last = std::min(shape_.rows - 1, row + config_.window_rows);
-  for (int r = std::max(0, row - config_.window_rows); r <= last; ++r) {
-    const Label* labels =
-        &planes.label[static_cast<std::size_t>(r) * static_cast<std::size_t>(shape_.stride())];
-    std::uint8_t* ground = &ground_in_column_[static_cast<std::size_t>(reach)];
-    std::uint8_t* returns = &returns_in_column_[static_cast<std::size_t>(reach)];
-    for (int column = 0; column < shape_.columns; ++column) {
-      ground[column] =
-          static_cast<std::uint8_t>(ground[column] + std::uint8_t{labels[column] == Label::kGround});
-      returns[column] =
-          static_cast<std::uint8_t>(returns[column] + std::uint8_t{labels[column] != Label::kNone});
-    }
-  }
-  const auto wrap = [&](std::span<std::uint8_t> counts) {
-    const auto columns = static_cast<std::size_t>(shape_.columns);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(reach); ++i) {
-      counts[i] = counts[columns + i];
-      counts[static_cast<std::size_t>(reach) + columns + i] = counts[static_cast<std::size_t>(reach) + i];
-    }
+void ConfidenceSeeds::count_in_columns(const CellPlanes& planes, int row) noexcept {
+  const auto labels_of = [&](int r) {
+    return &planes.label[static_cast<std::size_t>(r) * static_cast<std::size_t>(shape_.stride())];
   };
-  wrap(ground_in_column_);
-  wrap(returns_in_column_);
+  const auto reach = static_cast<std::size_t>(config_.window_columns);
+  const auto columns = static_cast<std::size_t>(shape_.columns);
+  std::uint8_t* ground = &ground_in_column_[reach];
+  std::uint8_t* returns = &returns_in_column_[reach];
+  if (row == 0) {
+    std::fill(ground_in_column_.begin(), ground_in_column_.end(), std::uint8_t{0});
+    std::fill(returns_in_column_.begin(), returns_in_column_.end(), std::uint8_t{0});
+    for (int r = 0; r < std::min(config_.window_rows, shape_.rows); ++r) {
+      count(labels_of(r), columns, ground, returns);
+    }
+  }
+  const int entering = row + config_.window_rows;
+  const int leaving = row - config_.window_rows - 1;
+  if (entering < shape_.rows) count(labels_of(entering), columns, ground, returns);
+  if (leaving >= 0) uncount(labels_of(leaving), columns, ground, returns);
+  for (std::span<std::uint8_t> counts : {ground_in_column_, returns_in_column_}) {
+    for (std::size_t i = 0; i < reach; ++i) {
+      counts[i] = counts[columns + i];
+      counts[reach + columns + i] = counts[reach + i];
+    }
+  }
+}
+
+void ConfidenceSeeds::count_in_windows() noexcept {
+  const int width = 2 * config_.window_columns + 1;
+  sum_windows(ground_in_column_.data(), width, ground_in_window_);
+  sum_windows(returns_in_column_.data(), width, returns_in_window_);
 }
 
 }  // namespace terracut::pipeline

@@ -45,17 +45,20 @@ class ConfidenceSeeds {
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
 
  private:
-  void count_in_row(const CellPlanes& planes, int row) noexcept;
-  [[nodiscard]] Seed seed_of(const CellPlanes& planes, std::size_t cell, int ground,
-                             int returns) const noexcept;
+  void count_in_columns(const CellPlanes& planes, int row) noexcept;
+  void count_in_windows() noexcept;
+  void select_in_row(const CellPlanes& planes, int row) noexcept;
 
   Config config_;
   ImageShape shape_;
   int cut_rows_;
   std::span<Seed> seeds_;
-  // Sums over the window's rows, one per column, with the seam's columns repeated at both ends.
+  // Of one row: sums over the window's rows, the seam's columns repeated at both ends ...
   std::span<std::uint8_t> ground_in_column_;
   std::span<std::uint8_t> returns_in_column_;
+  // ... and over the whole window.
+  std::span<std::uint16_t> ground_in_window_;
+  std::span<std::uint16_t> returns_in_window_;
 };
 
 }  // namespace terracut::pipeline

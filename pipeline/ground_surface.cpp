@@ -17,7 +17,7 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid, rt::Fix
 void GroundSurface::estimate(const RingGrid& grid, std::span<const float> lowest_m) noexcept {
   for (int sector = 0; sector < grid.sectors(); ++sector) walk_outwards(grid, sector, lowest_m);
   drop_narrow_strips(grid);
-  borrow_from_neighbours(grid);
+  borrow_from_neighbours(grid, lowest_m);
 }
 
 float GroundSurface::Walk::predict_m(float to_range_m, const Config& config) const noexcept {
@@ -129,32 +129,41 @@ void GroundSurface::drop_narrow_strips(const RingGrid& grid) noexcept {
   }
 }
 
-void GroundSurface::borrow_from_neighbours(const RingGrid& grid) noexcept {
-  const int sectors = grid.sectors();
-  const int reach = std::min(config_.borrow_sectors, (sectors - 1) / 2);
-  for (int sector = 0; sector < sectors; ++sector) {
-    for (int band = 0; band < grid.bands(); ++band) {
-      const std::size_t cell = grid.cell(sector, band);
-      float sum_m = walked_m_[cell];
-      if (origin_[cell] == kPredicted) {
-        float weights = config_.walked_weight;
-        sum_m *= weights;
-        for (int distance = 1; distance <= reach; ++distance) {
-          const float weight = 1.0F / static_cast<float>(distance);
-          const int left = sector >= distance ? sector - distance : sector - distance + sectors;
-          const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;
-          for (const int neighbour : {left, right}) {
-            const std::size_t lender = grid.cell(neighbour, band);
-            if (origin_[lender] == kPredicted) continue;
-            sum_m += weight * walked_m_[lender];
-            weights += weight;
-          }
-        }
-        sum_m /= weights;
-      }
-      height_m_[cell] = sum_m;
+void GroundSurface::borrow_from_neighbours(const RingGrid& grid,
+                                           std::span<const float> lowest_m) noexcept {
+  const int bands = grid.bands();
+  for (int sector = 0; sector < grid.sectors(); ++sector) {
+    const std::size_t first = grid.cell(sector, 0);
+    const auto has_return = [&](int band) {
+      return band >= 0 && band < bands && lowest_m[first + static_cast<std::size_t>(band)] != kEmpty;
+    };
+    for (int band = 0; band < bands; ++band) {
+      const std::size_t cell = first + static_cast<std::size_t>(band);
+      // Heights are asked for where returns are, and between bands only from one to the next.
+      const bool is_asked_for = has_return(band - 1) || has_return(band) || has_return(band + 1);
+      height_m_[cell] = origin_[cell] == kPredicted && is_asked_for ? borrowed_m(grid, sector, band)
+                                                                    : walked_m_[cell];
     }
   }
+}
+
+float GroundSurface::borrowed_m(const RingGrid& grid, int sector, int band) const noexcept {
+  const int sectors = grid.sectors();
+  const int reach = std::min(config_.borrow_sectors, (sectors - 1) / 2);
+  float weights = config_.walked_weight;
+  float sum_m = weights * walked_m_[grid.cell(sector, band)];
+  for (int distance = 1; distance <= reach; ++distance) {
+    const float weight = 1.0F / static_cast<float>(distance);
+    const int left = sector >= distance ? sector - distance : sector - distance + sectors;
+    const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;
+    for (const int neighbour : {left, right}) {
+      const std::size_t lender = grid.cell(neighbour, band);
+      if (origin_[lender] == kPredicted) continue;
+      sum_m += weight * walked_m_[lender];
+      weights += weight;
+    }
+  }
+  return sum_m / weights;
 }
 
 }  // namespace terracut::pipeline

@@ -41,7 +41,8 @@ class GroundSurface {
   /// Real-time safe.
   void estimate(const RingGrid& grid, std::span<const float> lowest_m) noexcept;
 
-  /// Ground height above the mount's plane, one per grid cell, defined everywhere.
+  /// Ground height above the mount's plane, one per grid cell; meaningful in cells that had a return
+  /// and in the bands next to them.
   [[nodiscard]] std::span<const float> height_m() const noexcept { return height_m_; }
 
   static constexpr float kEmpty = 1e9F;
@@ -80,7 +81,8 @@ class GroundSurface {
                                          std::span<const float> lowest_m) const noexcept;
   /// Takes back what was found again on a strip too narrow to be ground: car roofs in a row, say.
   void drop_narrow_strips(const RingGrid& grid) noexcept;
-  void borrow_from_neighbours(const RingGrid& grid) noexcept;
+  void borrow_from_neighbours(const RingGrid& grid, std::span<const float> lowest_m) noexcept;
+  [[nodiscard]] float borrowed_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;
   std::span<float> walked_m_;

@@ -16,15 +16,16 @@ namespace terracut::pipeline {
 /// Maximum flow of one component after Y. Boykov, V. Kolmogorov, "An Experimental Comparison of
 /// Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 26(9), 2004, section 3: two
 /// search trees, one from each terminal, grow until they touch; the path is augmented; the nodes it
-/// cuts off are adopted by other parents or set free. Fastest on street scenes, but without a useful
-/// bound: give it a budget.
+/// cuts off are adopted by other parents or set free. Fastest on street scenes, but without a
+/// useful bound: give it a budget.
 class BoykovKolmogorov {
  public:
   BoykovKolmogorov(std::size_t max_nodes, rt::FixedMemory& memory);
 
   /// True when the flow is maximal; `side` then is the answer for each node of the component.
-  /// False when `ops_limit` (of clock.ops()) or the clock's own budget is reached; the residual graph
-  /// then is one that any other solver can go on from, and `side` means nothing. Real-time safe.
+  /// False when `ops_limit` (of clock.ops()) or the clock's own budget is reached; the residual
+  /// graph then is one that any other solver can go on from, and `side` means nothing. Real-time
+  /// safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
                            OpClock& clock, std::int64_t ops_limit) noexcept;
 

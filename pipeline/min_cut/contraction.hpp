@@ -17,19 +17,21 @@
 namespace terracut::pipeline {
 
 /// One node of contract().
-inline void contract_cell(const GridProblem& problem, const UnknownCells& unknown, std::uint32_t cell,
-                          int row, const NeighbourCells& around,
+inline void contract_cell(const GridProblem& problem, const UnknownCells& unknown,
+                          std::uint32_t cell, int row, const NeighbourCells& around,
                           const std::array<std::uint16_t, kDirections>& weight, CutNode& node,
                           std::int64_t& flow) noexcept {
   EightLanes seed, w;
   for (std::size_t d = 0; d < 4; ++d) {
-    const auto allowed = [](std::uint16_t given) { return std::min<std::uint64_t>(given, kMaxEdgeWeight); };
+    const auto allowed = [](std::uint16_t given) {
+      return std::min<std::uint64_t>(given, kMaxEdgeWeight);
+    };
     seed.low |= static_cast<std::uint64_t>(problem.seeds[around[d]]) << (16 * d);
     seed.high |= static_cast<std::uint64_t>(problem.seeds[around[d + 4]]) << (16 * d);
     w.low |= allowed(weight[d]) << (16 * d);
     w.high |= allowed(weight[d + 4]) << (16 * d);
   }
-  if (row == 0) seed.low &= ~std::uint64_t{0xFFFF'FFFF'FFFF};          // directions 0, 1, 2
+  if (row == 0) seed.low &= ~std::uint64_t{0xFFFF'FFFF'FFFF};             // directions 0, 1, 2
   if (row + 1 == problem.shape.rows) seed.high &= std::uint64_t{0xFFFF};  // directions 5, 6, 7
 
   const auto bit_of = [](Seed value) { return std::countr_zero(static_cast<unsigned>(value)); };
@@ -42,7 +44,8 @@ inline void contract_cell(const GridProblem& problem, const UnknownCells& unknow
     const auto d = static_cast<std::size_t>(std::countr_zero(left));
     const std::uint32_t other = unknown.node_of(around[d]);
     node.neighbour[d] = other;
-    if (other < UnknownCells::kPinnedGround) [[likely]] continue;
+    if (other < UnknownCells::kPinnedGround) [[likely]]
+      continue;
     (other == UnknownCells::kPinnedGround ? to_ground : to_obstacle) += node.residual[d];
     node.residual[d] = 0;
     edges &= ~(1U << d);
@@ -57,9 +60,9 @@ inline void contract_cell(const GridProblem& problem, const UnknownCells& unknow
   node.side = Side::kFree;
 }
 
-/// Builds the graph of the unknown cells. An edge to a hard seed is cut exactly when the cell gets the
-/// other label, so its weight is added to the cost of that label: hard seeds never become nodes, and
-/// nothing is approximated. `graph.nodes` has one node per kept cell.
+/// Builds the graph of the unknown cells. An edge to a hard seed is cut exactly when the cell gets
+/// the other label, so its weight is added to the cost of that label: hard seeds never become
+/// nodes, and nothing is approximated. `graph.nodes` has one node per kept cell.
 template <EdgeWeights Weights>
 void contract(const GridProblem& problem, const UnknownCells& unknown, const Weights& weights,
               CutGraph& graph) noexcept {
@@ -74,7 +77,8 @@ void contract(const GridProblem& problem, const UnknownCells& unknown, const Wei
     const NeighbourCells around = neighbour_cells(problem.shape, static_cast<int>(row), column);
     std::array<std::uint16_t, kDirections> weight;
     weights(cell, around, std::span<std::uint16_t, kDirections>(weight));
-    contract_cell(problem, unknown, cell, static_cast<int>(row), around, weight, graph.nodes[i], graph.flow);
+    contract_cell(problem, unknown, cell, static_cast<int>(row), around, weight, graph.nodes[i],
+                  graph.flow);
   }
 }
 

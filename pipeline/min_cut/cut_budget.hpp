@@ -7,8 +7,8 @@
 
 namespace terracut::pipeline {
 
-/// How much work the solvers of one min-cut may do. An operation is one visit of an arc (3-14 ns on a
-/// 3 GHz core, more in larger components). Outside the budget, and bounded by the cap on unknown
+/// How much work the solvers of one min-cut may do. An operation is one visit of an arc (3-14 ns on
+/// a 3 GHz core, more in larger components). Outside the budget, and bounded by the cap on unknown
 /// cells, are the steps before them and one linear pass over the component that was interrupted.
 ///
 /// Without `expired` the result depends on the input alone: the deterministic mode, for replays and

@@ -22,11 +22,12 @@ enum class Side : std::uint8_t {
 
 /// An unknown cell as a node of the residual graph; one cache line.
 ///
-/// Everything the solvers do keeps one sum constant for every labelling: flow + cut of what is left.
-/// So each may stop at any time, and the next one goes on from the graph as it stands.
+/// Everything the solvers do keeps one sum constant for every labelling: flow + cut of what is
+/// left. So each may stop at any time, and the next one goes on from the graph as it stands.
 struct alignas(64) CutNode {
-  std::array<std::uint32_t, kDirections> neighbour;  ///< Node index; valid where `edges` has the bit.
-  std::array<std::int16_t, kDirections> residual;    ///< Capacity left towards it; 0 without edge.
+  std::array<std::uint32_t, kDirections>
+      neighbour;                                   ///< Node index; valid where `edges` has the bit.
+  std::array<std::int16_t, kDirections> residual;  ///< Capacity left towards it; 0 without edge.
   std::int32_t excess;     ///< > 0: capacity left from the source; < 0: capacity left to the sink.
   std::uint32_t distance;  ///< Boykov-Kolmogorov: to the tree's root. Push-relabel: to the sink.
   std::uint32_t stamp;     ///< Boykov-Kolmogorov: the augmentation at which `distance` held.
@@ -57,8 +58,8 @@ inline void push_along(CutNode& from, CutNode& to, int direction, int amount) no
   back = static_cast<std::int16_t>(back + amount);
 }
 
-/// Adds terminal capacity (> 0: from the source, < 0: to the sink) to a node. What meets the opposite
-/// terminal's capacity is flow at once; returns it.
+/// Adds terminal capacity (> 0: from the source, < 0: to the sink) to a node. What meets the
+/// opposite terminal's capacity is flow at once; returns it.
 [[nodiscard]] inline int add_excess(CutNode& node, int amount) noexcept {
   const bool meets = (node.excess > 0) != (amount > 0);
   const int flow = meets ? std::min(std::abs(node.excess), std::abs(amount)) : 0;

@@ -14,14 +14,14 @@ struct CutReport {
   std::uint32_t unknown = 0;
   std::uint32_t fixed_by_persistency = 0;  ///< Decided by their own excess alone.
   std::uint32_t solved = 0;                ///< In components solved to the end.
-  std::uint32_t certified = 0;             ///< Proven optimal in the component the budget interrupted.
-  std::uint32_t coarse_by_cap = 0;         ///< Beyond GridCut::Config::max_unknown, farthest first.
-  std::uint32_t coarse_by_budget = 0;      ///< In components not solved to the end.
+  std::uint32_t certified = 0;         ///< Proven optimal in the component the budget interrupted.
+  std::uint32_t coarse_by_cap = 0;     ///< Beyond GridCut::Config::max_unknown, farthest first.
+  std::uint32_t coarse_by_budget = 0;  ///< In components not solved to the end.
 
-  std::uint32_t components = 0;          ///< Connected components left after persistency.
-  std::uint32_t components_solved = 0;   ///< Of them, solved to the end.
-  std::uint32_t push_relabel_runs = 0;   ///< Components that Boykov-Kolmogorov gave up on.
-  std::uint32_t largest_component = 0;   ///< Cells.
+  std::uint32_t components = 0;         ///< Connected components left after persistency.
+  std::uint32_t components_solved = 0;  ///< Of them, solved to the end.
+  std::uint32_t push_relabel_runs = 0;  ///< Components that Boykov-Kolmogorov gave up on.
+  std::uint32_t largest_component = 0;  ///< Cells.
 
   std::int64_t persistency_ops = 0;
   std::int64_t greedy_push_ops = 0;
@@ -29,10 +29,11 @@ struct CutReport {
   std::int64_t push_relabel_ops = 0;  ///< The last two count against CutBudget::ops.
   bool budget_hit = false;            ///< Operations or clock ran out before the last component.
 
-  /// GridProblem's E of the labels returned. Cells beyond the cap count as hard seeds of their coarse
-  /// label.
+  /// GridProblem's E of the labels returned. Cells beyond the cap count as hard seeds of their
+  /// coarse label.
   std::int64_t energy = 0;
-  /// Flow found, a lower bound of the least energy; equal to `energy` when nothing is coarse by budget.
+  /// Flow found, a lower bound of the least energy; equal to `energy` when nothing is coarse by
+  /// budget.
   std::int64_t flow = 0;
 
   /// Every unknown cell carries the label of one global optimum.

@@ -26,7 +26,9 @@ inline constexpr std::array<CellStep, kDirections> kCellSteps{
     {{-1, -1}, {-1, 0}, {-1, 1}, {0, -1}, {0, 1}, {1, -1}, {1, 0}, {1, 1}}};
 
 /// Direction from the neighbour back to the cell.
-[[nodiscard]] constexpr int opposite(int direction) noexcept { return kDirections - 1 - direction; }
+[[nodiscard]] constexpr int opposite(int direction) noexcept {
+  return kDirections - 1 - direction;
+}
 
 /// Cells (row * stride + column) of the 8 neighbours, indexed by direction.
 using NeighbourCells = std::array<std::uint32_t, kDirections>;
@@ -40,9 +42,9 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   };
   const int left = column == 0 ? shape.columns - 1 : column - 1;
   const int right = column + 1 == shape.columns ? 0 : column + 1;
-  NeighbourCells cells{at(row - 1, left), at(row - 1, column), at(row - 1, right), at(row, left),
-                       at(row, right),    at(row + 1, left),   at(row + 1, column),
-                       at(row + 1, right)};
+  NeighbourCells cells{at(row - 1, left),   at(row - 1, column), at(row - 1, right),
+                       at(row, left),       at(row, right),      at(row + 1, left),
+                       at(row + 1, column), at(row + 1, right)};
   if (row == 0) cells[0] = cells[1] = cells[2] = at(row, column);
   if (row + 1 == shape.rows) cells[5] = cells[6] = cells[7] = at(row, column);
   return cells;

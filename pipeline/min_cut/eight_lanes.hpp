@@ -12,8 +12,8 @@
 
 namespace terracut::pipeline {
 
-/// Eight 16-bit numbers, one a neighbour, worked on four at a time inside plain 64-bit words: the same
-/// on every machine, and without the branch a neighbour that mispredicts every other time.
+/// Eight 16-bit numbers, one a neighbour, worked on four at a time inside plain 64-bit words: the
+/// same on every machine, and without the branch a neighbour that mispredicts every other time.
 struct EightLanes {
   static_assert(std::endian::native == std::endian::little, "lane d must be at bit 16 * d");
   static constexpr std::uint64_t kOnes = 0x0001'0001'0001'0001;  ///< 1 in every lane.
@@ -40,9 +40,7 @@ struct EightLanes {
             high & (((flags.high >> bit) & kOnes) * 0xFFFF)};
   }
   /// Sum of all lanes; it must fit 16 bits.
-  [[nodiscard]] int sum() const noexcept {
-    return static_cast<int>(((low + high) * kOnes) >> 48U);
-  }
+  [[nodiscard]] int sum() const noexcept { return static_cast<int>(((low + high) * kOnes) >> 48U); }
   /// Bit d set where lane d is not 0. Lanes must be below 0x8000.
   [[nodiscard]] std::uint8_t nonzero() const noexcept {
     const auto signs = [](std::uint64_t half) { return (half + (kSigns - kOnes)) & kSigns; };

@@ -28,7 +28,8 @@ GridCut::Config checked(const ImageShape& shape, GridCut::Config config) {
 }
 
 /// What the labels in `side` cost in the residual graph: terminal capacities and arcs they cut.
-std::int64_t residual_cost(const CutGraph& graph, std::span<const std::uint32_t> component) noexcept {
+std::int64_t residual_cost(const CutGraph& graph,
+                           std::span<const std::uint32_t> component) noexcept {
   std::int64_t cost = 0;
   for (const std::uint32_t index : component) {
     const CutNode& node = graph.nodes[index];
@@ -84,7 +85,7 @@ CutReport GridCut::solve_contracted(const GridProblem& problem, const CutBudget&
     const std::span<const std::uint32_t> component = components_[i];
     const auto cells = static_cast<std::uint32_t>(component.size());
     report.largest_component = std::max(report.largest_component, cells);
-    const bool started = !report.budget_hit && !clock.exhausted();
+    const bool started = !clock.exhausted();
     if (started && solve_component(component, clock, report)) {
       ++report.components_solved;
       report.solved += cells;
@@ -106,8 +107,8 @@ CutReport GridCut::solve_contracted(const GridProblem& problem, const CutBudget&
 bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock& clock,
                               CutReport& report) noexcept {
   const std::int64_t before = clock.ops();
-  const std::int64_t bk_budget = config_.bk_ops_base + config_.bk_ops_per_node *
-                                                           static_cast<std::int64_t>(component.size());
+  const std::int64_t bk_budget =
+      config_.bk_ops_base + config_.bk_ops_per_node * static_cast<std::int64_t>(component.size());
   const bool bk_finished = boykov_kolmogorov_.solve(graph_, component, clock, before + bk_budget);
   report.boykov_kolmogorov_ops += clock.ops() - before;
   if (bk_finished) return true;

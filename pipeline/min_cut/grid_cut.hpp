@@ -21,12 +21,13 @@
 
 namespace terracut::pipeline {
 
-/// The minimum of GridProblem's energy: exact, or, when the budget runs out, exact where finished and
-/// coarse, listed and counted elsewhere. At no point is the result worse than the coarse labels.
+/// The minimum of GridProblem's energy: exact, or, when the budget runs out, exact where finished
+/// and coarse, listed and counted elsewhere. At no point is the result worse than the coarse
+/// labels.
 ///
-/// Among labellings of equal energy it returns the one with the most obstacle cells (there is exactly
-/// one: the largest source side). So the labels of a finished component depend on the problem alone,
-/// not on the solver, the order of work or the budget.
+/// Among labellings of equal energy it returns the one with the most obstacle cells (there is
+/// exactly one: the largest source side). So the labels of a finished component depend on the
+/// problem alone, not on the solver, the order of work or the budget.
 ///
 /// All memory is taken in the constructor. One instance per thread; solve() is real-time safe.
 class GridCut {
@@ -44,8 +45,8 @@ class GridCut {
   /// are out of range (start-up only).
   GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory& memory);
 
-  /// Labels the unknown cells. `labels`: on entry the coarse label of every unknown cell (anything but
-  /// kObstacle counts as ground), on return its final one; other cells are left as they are.
+  /// Labels the unknown cells. `labels`: on entry the coarse label of every unknown cell (anything
+  /// but kObstacle counts as ground), on return its final one; other cells are left as they are.
   /// `problem.shape` must be the constructor's. Real-time safe.
   template <EdgeWeights Weights>
   [[nodiscard]] CutReport solve(const GridProblem& problem, const Weights& weights,
@@ -55,8 +56,8 @@ class GridCut {
     return solve_contracted(problem, budget, labels);
   }
 
-  /// The cells the last solve() left coarse: first those beyond the cap in row-major order, then those
-  /// the budget did not reach, nearest component first.
+  /// The cells the last solve() left coarse: first those beyond the cap in row-major order, then
+  /// those the budget did not reach, nearest component first.
   [[nodiscard]] std::span<const std::uint32_t> coarse_cells() const noexcept {
     return coarse_.view();
   }

@@ -24,8 +24,8 @@ enum class Seed : std::uint8_t {
 /// Integer capacity of an energy of 1.0. With 1024 the labels equal those of a solution in double
 /// precision (measured on two scenes; 256 already changes some).
 inline constexpr int kCapacityScale = 1024;
-/// Highest edge weight; larger ones are taken as this. Twice the largest B of Eq. 14, and low enough
-/// that a residual capacity, which can reach 2 * weight, fits 16 bits.
+/// Highest edge weight; larger ones are taken as this. Twice the largest B of Eq. 14, and low
+/// enough that a residual capacity, which can reach 2 * weight, fits 16 bits.
 inline constexpr int kMaxEdgeWeight = 2 * kCapacityScale;
 /// Costs outside [0, kMaxTerminalCost] are clamped to it, in the reported energy too; with 8 edges
 /// folded into it the sum stays far inside 32 bits.
@@ -34,14 +34,15 @@ inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 /// The energy of paper Eq. 6-15 in integers scaled by kCapacityScale, as views the caller owns.
 ///
 /// All planes are row-major with `shape.stride()` and at least `shape.cells()` long; padding cells
-/// (column >= columns) are never read. `cost_*` and `ground_range_m` are read at unknown cells only.
+/// (column >= columns) are never read. `cost_*` and `ground_range_m` are read at unknown cells
+/// only.
 ///
 ///   E(labels) = sum over unknown p of cost_<label of p>(p)
 ///             + sum over 8-neighbours p, q with different labels of weight(p, q)
 ///
 /// Pairs of two hard seeds are no part of E: no choice is left for them.
 struct GridProblem {
-  ImageShape shape;                            ///< columns >= 3, rows >= 1.
+  ImageShape shape;  ///< columns >= 3, rows >= 1.
   std::span<const Seed> seeds;
   std::span<const std::int32_t> cost_ground;    ///< Cost of calling the cell ground.
   std::span<const std::int32_t> cost_obstacle;  ///< Cost of calling the cell obstacle.
@@ -52,11 +53,10 @@ struct GridProblem {
 ///   weights(cell, neighbours, out): out[d] = weight of the edge to neighbours[d], in
 ///   [0, kMaxEdgeWeight], scaled by kCapacityScale.
 /// `out[d]` is ignored where neighbours[d] is a hole or leads outside the rows (there
-/// neighbours[d] == cell). Must be symmetric, bit for bit: the weight from p to q is the weight from
-/// q to p; else the cut is not the minimum. Must not throw.
+/// neighbours[d] == cell). Must be symmetric, bit for bit: the weight from p to q is the weight
+/// from q to p; else the cut is not the minimum. Must not throw.
 template <class W>
-concept EdgeWeights =
-    std::is_nothrow_invocable_v<const W&, std::uint32_t, const NeighbourCells&,
-                                std::span<std::uint16_t, kDirections>>;
+concept EdgeWeights = std::is_nothrow_invocable_v<const W&, std::uint32_t, const NeighbourCells&,
+                                                  std::span<std::uint16_t, kDirections>>;
 
 }  // namespace terracut::pipeline

@@ -11,9 +11,10 @@
 
 namespace terracut::pipeline {
 
-/// Fixes every node whose terminal capacity outweighs all its edges together: whatever its neighbours
-/// get, it is not worth cutting it from its terminal. A fixed node acts on its neighbours like a hard
-/// seed, which may fix them in turn, until nothing changes. On real frames 7 of 10 nodes go this way.
+/// Fixes every node whose terminal capacity outweighs all its edges together: whatever its
+/// neighbours get, it is not worth cutting it from its terminal. A fixed node acts on its
+/// neighbours like a hard seed, which may fix them in turn, until nothing changes. On real frames 7
+/// of 10 nodes go this way.
 ///
 /// Ties go to obstacle, so that the answer stays the one described in grid_cut.hpp.
 /// Requires untouched capacities: residual of both arcs of an edge equal.

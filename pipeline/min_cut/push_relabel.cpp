@@ -9,8 +9,9 @@
 namespace terracut::pipeline {
 namespace {
 
-/// Exact relabelling visits each arc once, some 8 operations a node. Repeating it when lifts have cost
-/// four times that was best over the adversarial families; never repeating it costs one of them 10-fold.
+/// Exact relabelling visits each arc once, some 8 operations a node. Repeating it when lifts have
+/// cost four times that was best over the adversarial families; never repeating it costs one of
+/// them 10-fold.
 constexpr std::int64_t kLiftWorkPerNode = 32;
 
 }  // namespace

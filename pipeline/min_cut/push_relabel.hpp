@@ -12,11 +12,11 @@
 
 namespace terracut::pipeline {
 
-/// Minimum cut of one component after A. V. Goldberg, R. E. Tarjan, "A New Approach to the Maximum-Flow
-/// Problem", J. ACM 35(4), 1988, with the highest-label rule, the gap rule and exact relabelling now
-/// and then. Slower than Boykov-Kolmogorov on street scenes but bounded, O(n^2 sqrt m); goes on from
-/// whatever residual graph it is given. Only the cut is computed: excess that cannot reach the sink
-/// stays where it is, as source capacity.
+/// Minimum cut of one component after A. V. Goldberg, R. E. Tarjan, "A New Approach to the
+/// Maximum-Flow Problem", J. ACM 35(4), 1988, with the highest-label rule, the gap rule and exact
+/// relabelling now and then. Slower than Boykov-Kolmogorov on street scenes but bounded, O(n^2 sqrt
+/// m); goes on from whatever residual graph it is given. Only the cut is computed: excess that
+/// cannot reach the sink stays where it is, as source capacity.
 class PushRelabel {
  public:
   PushRelabel(std::size_t max_nodes, rt::FixedMemory& memory);
@@ -38,17 +38,17 @@ class PushRelabel {
   void make_active(std::uint32_t index) noexcept;
   [[nodiscard]] std::uint32_t take_highest_active() noexcept;
 
-  /// Nodes of each distance to the sink in [1, component size], as doubly linked lists; of these, the
-  /// ones with excess also as stacks.
+  /// Nodes of each distance to the sink in [1, component size], as doubly linked lists; of these,
+  /// the ones with excess also as stacks.
   std::span<std::uint32_t> level_first_, level_next_, level_previous_;
   std::span<std::uint32_t> active_first_, active_next_;
   std::span<std::uint32_t> queue_;
   std::uint32_t levels_ = 0;          ///< Levels in use; higher ones are empty.
   std::uint32_t highest_active_ = 0;  ///< No active node above this level.
 
-  std::span<CutNode> nodes_;     ///< Of the graph being solved.
-  std::int64_t ops_ = 0;         ///< Since the clock was told.
-  std::int64_t lift_work_ = 0;   ///< Operations in lifts since the last exact relabelling.
+  std::span<CutNode> nodes_;    ///< Of the graph being solved.
+  std::int64_t ops_ = 0;        ///< Since the clock was told.
+  std::int64_t lift_work_ = 0;  ///< Operations in lifts since the last exact relabelling.
   std::int64_t flow_ = 0;
 };
 

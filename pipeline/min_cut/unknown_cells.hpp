@@ -21,14 +21,15 @@ struct CellList {
   [[nodiscard]] std::span<const std::uint32_t> view() const noexcept { return storage.first(size); }
 };
 
-/// Finds the cells that become nodes: the unknown ones, at most `max_unknown`. Where there are more,
-/// the nearest are kept, by 0.25 m steps of ground range and in row-major order within the last step.
+/// Finds the cells that become nodes: the unknown ones, at most `max_unknown`. Where there are
+/// more, the nearest are kept, by 0.25 m steps of ground range and in row-major order within the
+/// last step.
 class UnknownCells {
  public:
   UnknownCells(const ImageShape& shape, std::uint32_t max_unknown, rt::FixedMemory& memory);
 
-  /// Appends the cells beyond the cap to `dropped`; `labels` are the coarse labels they are pinned to.
-  /// Real-time safe.
+  /// Appends the cells beyond the cap to `dropped`; `labels` are the coarse labels they are pinned
+  /// to. Real-time safe.
   void find(const GridProblem& problem, std::span<const Label> labels, CellList& dropped) noexcept;
 
   /// Kept cells in row-major order; node i of the graph is cells()[i].

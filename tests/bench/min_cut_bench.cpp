@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 //
-// What the min-cut costs: a whole typical frame, its stages one by one, and problems made to be hard.
-// Counters are of the last run; they are the same on every machine.
+// What the min-cut costs: a whole typical frame, its stages one by one, and problems made to be
+// hard. Counters are of the last run; they are the same on every machine.
 #include <benchmark/benchmark.h>
 
 #include <string>
@@ -66,7 +66,8 @@ void typical_frame_up_to_stage(benchmark::State& state) {
   Components components(kNodes, memory);
   BoykovKolmogorov boykov_kolmogorov(kNodes, memory);
   const std::vector<Label> labels = problem.coarse_labelling();
-  constexpr const char* kStages[] = {"scan", "contract", "persistency", "push", "components", "solve"};
+  constexpr const char* kStages[] = {"scan", "contract",   "persistency",
+                                     "push", "components", "solve"};
   const auto stage = state.range(0);
   state.SetLabel(kStages[stage]);
 
@@ -92,11 +93,11 @@ BENCHMARK(typical_frame_up_to_stage)->DenseRange(0, 5)->Unit(benchmark::kMicrose
 
 void register_adversarial() {
   for (const test::AdversarialFamily& family : test::adversarial_families()) {
-    benchmark::RegisterBenchmark(
-        ("adversarial_16k/" + std::string(family.name)).c_str(),
-        [&family](benchmark::State& state) {
-          solve_again_and_again(state, family.make(kSixteenThousand), {CutBudget::kUnlimited});
-        })
+    benchmark::RegisterBenchmark(("adversarial_16k/" + std::string(family.name)).c_str(),
+                                 [&family](benchmark::State& state) {
+                                   solve_again_and_again(state, family.make(kSixteenThousand),
+                                                         {CutBudget::kUnlimited});
+                                 })
         ->Unit(benchmark::kMillisecond);
   }
 }

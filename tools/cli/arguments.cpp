@@ -7,6 +7,8 @@
 
 #include <limits>
 #include <memory>
+#include <sstream>
+#include <string>
 
 #include "exit_codes.hpp"
 #include "setup_choice.hpp"
@@ -25,6 +27,23 @@ constexpr const char* kExitCodes =
     "4 an output could not be written; 5 packets were read but no frame came out.\n"
     "`terracut COMMAND --help` lists a command's options.";
 
+/// A number in [low, high]. Unlike CLI::Range it lets no NaN through.
+CLI::Validator number(double low, double high) {
+  return CLI::Validator(
+      [low, high](std::string& text) {
+        double value = 0;
+        if (CLI::detail::lexical_cast(text, value) && value >= low && value <= high) {
+          return std::string();
+        }
+        std::ostringstream message;
+        message << "expected a number from " << low << " to " << high << ", found '" << text << "'";
+        return message.str();
+      },
+      "");
+}
+
+constexpr double kLongest_s = 1e9;
+
 void add_capture(CLI::App& app, CaptureOptions& capture) {
   app.add_option("FILE", capture.file, "Capture of HDL-64E packets, pcap or pcapng")->required();
   app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
@@ -37,20 +56,20 @@ void add_capture(CLI::App& app, CaptureOptions& capture) {
       ->check(CLI::IsMember({"manual", "ros"}))
       ->capture_default_str();
   app.add_option("--start", capture.start_s, "Skip this many seconds of the capture")
-      ->check(CLI::NonNegativeNumber);
+      ->check(number(0, kLongest_s));
   app.add_option("--duration", capture.duration_s, "Stop after this many seconds of the capture")
-      ->check(CLI::PositiveNumber);
+      ->check(number(1e-6, kLongest_s));
 }
 
 void add_mount(CLI::App& app, MountOptions& mount) {
   app.add_option("--setup", mount.setup, "Mount and ring distances found by `terracut calibrate`");
   app.add_option("--mount-height", mount.height_m,
                  "Metres from the ground to the sensor's origin (default 1.73)")
-      ->check(CLI::Range(0.2, 6.0));
+      ->check(number(0.2, 6));
   app.add_option("--mount-roll", mount.roll_deg, "Degrees, left side up (default 0)")
-      ->check(CLI::Range(-28.0, 28.0));
+      ->check(number(-28, 28));
   app.add_option("--mount-pitch", mount.pitch_deg, "Degrees, looking down in front (default 0)")
-      ->check(CLI::Range(-28.0, 28.0));
+      ->check(number(-28, 28));
 }
 
 void add_method(CLI::App& app, MethodOptions& method) {
@@ -102,9 +121,9 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   sub.add_option("--truth", o.output.truth,
                  "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes");
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
-      ->check(CLI::Range(0.0, 1000.0))
+      ->check(number(0, 1000))
       ->capture_default_str();
-  sub.add_option("--loop", o.loops, "Passes over the capture; without a number, until interrupted")
+  sub.add_option("--loop", o.loops, "Passes over the capture (once without this option); no number or 0: until interrupted")
       ->expected(0, 1)
       ->default_str("0")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
@@ -123,10 +142,10 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--scene", o.scene, "street, highway, rural, flat or hill")->capture_default_str();
   sub.add_option("--seed", o.seed, "The same seed gives the same drive")->capture_default_str();
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
-      ->check(CLI::Range(0.1, 3600.0))
+      ->check(number(0.1, 3600))
       ->capture_default_str();
   sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
-      ->check(CLI::Range(0.0, 1.0))
+      ->check(number(0, 1))
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);

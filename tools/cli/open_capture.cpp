@@ -5,7 +5,6 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <limits>
 #include <string_view>
 #include <utility>
@@ -37,8 +36,7 @@ firmware_io::PcapFilter filter_of(const CaptureOptions& options) {
 }
 
 std::int64_t nanoseconds(double seconds) {
-  constexpr double kFar_s = 9e9;  // still fits 64 bits
-  return static_cast<std::int64_t>(std::min(seconds, kFar_s) * 1e9);
+  return static_cast<std::int64_t>(seconds * 1e9);
 }
 
 /// What became of the frames of a capture of which no datagram was delivered.

@@ -19,8 +19,8 @@ struct CaptureOptions {
   std::string from;                       ///< --from, dotted IPv4
   std::filesystem::path calibration;      ///< --calibration
   std::string geometry = "manual";        ///< --geometry manual|ros
-  double start_s = 0;                     ///< --start
-  std::optional<double> duration_s;       ///< --duration
+  double start_s = 0;                     ///< --start, [0, 1e9]
+  std::optional<double> duration_s;       ///< --duration, (0, 1e9]
 };
 
 /// How the sensor stands on the vehicle.

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -50,9 +51,10 @@ class Pace {
       first_ns_ = stamp_ns;
       started_ = now;
     }
-    const auto due = std::chrono::nanoseconds(
-        static_cast<std::int64_t>(static_cast<double>(stamp_ns - first_ns_) / rate_));
-    std::this_thread::sleep_until(started_ + due);
+    constexpr double kFar_ns = 9e18;  // a rate near 0 would leave the 64 bits
+    const double due_ns = static_cast<double>(stamp_ns - first_ns_) / rate_;
+    std::this_thread::sleep_until(
+        started_ + std::chrono::nanoseconds(static_cast<std::int64_t>(std::clamp(due_ns, 0.0, kFar_ns))));
   }
 
  private:
@@ -105,11 +107,14 @@ class Replay {
         if (Status status = capture_.source.rewind(); !status) return refuse(status.error());
       }
       pace.restart();
-      if (!play_once(pace)) break;
+      const std::uint64_t offered_before = offered_;
+      const bool go_on = play_once(pace);
+      chain_.decoder.flush(
+          [this](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+            take(info, image);
+          });
+      if (!go_on || offered_ == offered_before) break;  // a pass without packets will stay without
     }
-    chain_.decoder.flush([this](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
-      take(info, image);
-    });
     return conclude();
   }
 

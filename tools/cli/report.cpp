@@ -107,6 +107,7 @@ void TimeSummary::add(const FrameRecord& frame) noexcept {
 std::string TimeSummary::text() const {
   std::string text = fmt::format("ms/frame  {:<16}{:>9}{:>9}{:>9}\n", "", "p50", "p99", "max");
   for_each_time(*this, [&](const std::string& name, const rt::LogLinearHistogram& histogram) {
+    if (histogram.max_ns() == 0) return;  // a stage that did not run
     text += fmt::format("          {:<16}{:>9.3f}{:>9.3f}{:>9.3f}\n", name,
                         milliseconds(histogram.percentile_ns(50)),
                         milliseconds(histogram.percentile_ns(99)),

@@ -21,6 +21,7 @@ if(TERRACUT_SANITIZE)
   target_compile_options(terracut_flags INTERFACE
     -fsanitize=${TERRACUT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
   target_link_options(terracut_flags INTERFACE -fsanitize=${TERRACUT_SANITIZE})
+  target_compile_definitions(terracut_flags INTERFACE TERRACUT_SANITIZED_BUILD)
 endif()
 if(TERRACUT_LIBFUZZER)
   # Coverage feedback in the libraries too; the fuzzer's own main is linked per target.

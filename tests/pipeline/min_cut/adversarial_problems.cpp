@@ -22,8 +22,12 @@ TestProblem all_unknown(ImageShape shape, Random& random, Weight&& weight) {
   });
   return problem;
 }
-int any_weight(Random& random) { return uniform(random, 1, kStrong); }
-int full_weight(Random&) { return kStrong; }
+int any_weight(Random& random) {
+  return uniform(random, 1, kStrong);
+}
+int full_weight(Random&) {
+  return kStrong;
+}
 
 void give_excess(TestProblem& problem, std::uint32_t p, int excess) {
   problem.cost_ground[p] = std::max(0, excess);
@@ -92,13 +96,14 @@ TestProblem equal_weights_sparse_terminals(ImageShape shape) {
   Random random(107);
   TestProblem problem = all_unknown(shape, random, full_weight);
   problem.for_each_cell([&](int, int, std::uint32_t p) {
-    if (uniform(random, 0, 19) == 0) give_excess(problem, p, uniform(random, 0, 1) == 0 ? -8 * kStrong : 8 * kStrong);
+    if (uniform(random, 0, 19) == 0)
+      give_excess(problem, p, uniform(random, 0, 1) == 0 ? -8 * kStrong : 8 * kStrong);
   });
   return problem;
 }
 
-/// A corridor, two rows wide, that winds through the image between walls of holes. Sources in its first
-/// third, sinks in its last.
+/// A corridor, two rows wide, that winds through the image between walls of holes. Sources in its
+/// first third, sinks in its last.
 TestProblem serpentine(ImageShape shape) {
   Random random(108);
   TestProblem problem = all_unknown(shape, random, any_weight);
@@ -148,7 +153,9 @@ constexpr std::array<AdversarialFamily, 9> kFamilies{{
 class Noise {
  public:
   Noise(ImageShape shape, int row_step, int column_step, Random& random)
-      : row_step_(row_step), column_step_(column_step), lattice_columns_(shape.columns / column_step) {
+      : row_step_(row_step),
+        column_step_(column_step),
+        lattice_columns_(shape.columns / column_step) {
     values_.resize(static_cast<std::size_t>((shape.rows / row_step + 2) * lattice_columns_));
     for (float& value : values_) value = static_cast<float>(uniform(random, -1000, 1000)) / 1000.0F;
   }
@@ -170,7 +177,9 @@ class Noise {
 
 }  // namespace
 
-std::span<const AdversarialFamily> adversarial_families() { return kFamilies; }
+std::span<const AdversarialFamily> adversarial_families() {
+  return kFamilies;
+}
 
 TestProblem typical_problem(ImageShape shape, std::uint32_t seed) {
   Random random(seed);
@@ -184,7 +193,8 @@ TestProblem typical_problem(ImageShape shape, std::uint32_t seed) {
                        : shape_height > 0.24F ? Seed::kObstacle
                                               : Seed::kUnknown;
     if (uniform(random, 0, 99) < 12) problem.seeds[p] = Seed::kNone;
-    give_excess(problem, p, static_cast<int>(3200.0F * (height[p] - 0.18F)) + uniform(random, -200, 200));
+    give_excess(problem, p,
+                static_cast<int>(3200.0F * (height[p] - 0.18F)) + uniform(random, -200, 200));
     problem.ground_range_m[p] = 3.0F + static_cast<float>(row * row) / 50.0F;
     problem.coarse[p] = height[p] > 0.18F ? Label::kObstacle : Label::kGround;
   });
@@ -192,9 +202,11 @@ TestProblem typical_problem(ImageShape shape, std::uint32_t seed) {
     for (int d = 4; d < kDirections; ++d) {
       const CellStep step = kCellSteps[static_cast<std::size_t>(d)];
       if (row + step.rows >= shape.rows) continue;
-      const float difference = height[p] - height[problem.cell(row + step.rows, column + step.columns)];
+      const float difference =
+          height[p] - height[problem.cell(row + step.rows, column + step.columns)];
       const float weight = std::exp(-40.0F * difference * difference);
-      problem.set_weight(row, column, d, static_cast<int>(static_cast<float>(kCapacityScale) * weight));
+      problem.set_weight(row, column, d,
+                         static_cast<int>(static_cast<float>(kCapacityScale) * weight));
     }
   });
   return problem;

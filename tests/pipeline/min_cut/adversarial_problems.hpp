@@ -17,8 +17,8 @@ struct AdversarialFamily {
 };
 std::span<const AdversarialFamily> adversarial_families();
 
-/// A stand-in for a street frame of 64 x 2083: blobs of unknown cells between seeds, 8 % of the cells,
-/// whose costs mostly agree with their neighbours'.
+/// A stand-in for a street frame of 64 x 2083: blobs of unknown cells between seeds, 8 % of the
+/// cells, whose costs mostly agree with their neighbours'.
 TestProblem typical_problem(ImageShape shape, std::uint32_t seed);
 
 }  // namespace terracut::pipeline::test

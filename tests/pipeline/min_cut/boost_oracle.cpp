@@ -17,9 +17,11 @@ struct Arc {
   std::int64_t capacity = 0, residual = 0;
   Traits::edge_descriptor reverse;
 };
-using Graph = boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Arc>;
+using Graph =
+    boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS, boost::no_property, Arc>;
 
-void add_arcs(Graph& graph, std::size_t from, std::size_t to, std::int64_t forth, std::int64_t back) {
+void add_arcs(Graph& graph, std::size_t from, std::size_t to, std::int64_t forth,
+              std::int64_t back) {
   const auto there = boost::add_edge(from, to, graph).first;
   const auto here = boost::add_edge(to, from, graph).first;
   graph[there] = {forth, 0, here};

@@ -50,7 +50,8 @@ TEST_P(GridCutAdversarial, TheDefaultBudgetIsKept) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Families, GridCutAdversarial,
-                         testing::ValuesIn(adversarial_families().begin(), adversarial_families().end()),
+                         testing::ValuesIn(adversarial_families().begin(),
+                                           adversarial_families().end()),
                          name_of);
 
 TEST(GridCutTypical, StaysBelowItsCeilingOfOperations) {

@@ -11,10 +11,12 @@ namespace {
 using terracut::test::allocations_of_this_thread;
 
 TEST(GridCutMemory, SolvingAllocatesNothing) {
-  if (!terracut::test::allocations_are_counted()) GTEST_SKIP() << "sanitizers bring their own allocator";
+  if (!terracut::test::allocations_are_counted())
+    GTEST_SKIP() << "sanitizers bring their own allocator";
   Random random(31);
   const ImageShape shape{32, 128};
-  const TestProblem problem = random_problem(shape, {.ground_seeds = 5, .obstacle_seeds = 5}, random);
+  const TestProblem problem =
+      random_problem(shape, {.ground_seeds = 5, .obstacle_seeds = 5}, random);
   GridCut::Config config = push_relabel_only();
   config.max_unknown = 2000;  // the cap, both solvers and the certificate all have their turn
   rt::FixedMemory memory;

@@ -21,7 +21,8 @@ std::uint32_t exact_cells(const CutReport& report) {
 void expect_consistent(const TestProblem& problem, const Solution& solution) {
   const CutReport& r = solution.report;
   ASSERT_EQ(r.unknown, problem.unknown());
-  ASSERT_EQ(r.unknown, r.fixed_by_persistency + r.solved + r.certified + r.coarse_by_cap + r.coarse_by_budget);
+  ASSERT_EQ(r.unknown,
+            r.fixed_by_persistency + r.solved + r.certified + r.coarse_by_cap + r.coarse_by_budget);
   ASSERT_EQ(solution.coarse_cells.size(), r.coarse_by_cap + r.coarse_by_budget);
   for (const std::uint32_t cell : solution.coarse_cells) {
     ASSERT_EQ(problem.seeds[cell], Seed::kUnknown);
@@ -59,10 +60,12 @@ TEST(GridCutAnytime, EveryCellNotCoarseIsPartOfOneOptimum) {
     certified += solution.report.certified;
     const std::int64_t optimum = boost_optimum(problem).energy;
     // With the answered cells forced to their label, the rest can still be chosen optimally.
-    const std::set<std::uint32_t> coarse(solution.coarse_cells.begin(), solution.coarse_cells.end());
+    const std::set<std::uint32_t> coarse(solution.coarse_cells.begin(),
+                                         solution.coarse_cells.end());
     problem.for_each_cell([&](int, int, std::uint32_t p) {
       if (problem.seeds[p] != Seed::kUnknown || coarse.contains(p)) return;
-      (solution.labels[p] == Label::kObstacle ? problem.cost_ground : problem.cost_obstacle)[p] = 1 << 24;
+      (solution.labels[p] == Label::kObstacle ? problem.cost_ground : problem.cost_obstacle)[p] =
+          1 << 24;
     });
     ASSERT_EQ(boost_optimum(problem).energy, optimum);
   }
@@ -113,7 +116,8 @@ TEST(GridCutAnytime, TheNearestComponentIsSolvedFirst) {
   ASSERT_EQ(solution.report.components, 2U);
   ASSERT_EQ(solution.report.components_solved, 1U);
   ASSERT_FALSE(solution.coarse_cells.empty());
-  for (const std::uint32_t cell : solution.coarse_cells) EXPECT_EQ(problem.ground_range_m[cell], 50.0F);
+  for (const std::uint32_t cell : solution.coarse_cells)
+    EXPECT_EQ(problem.ground_range_m[cell], 50.0F);
 }
 
 TEST(GridCutAnytime, BeyondTheCapTheFarthestStayCoarse) {
@@ -152,8 +156,10 @@ TEST(GridCutAnytime, BeyondTheCapTheFarthestStayCoarse) {
 TEST(GridCutAnytime, TheCapHoldsWithoutUsableRanges) {
   Random random(26);
   TestProblem problem = random_problem({8, 40}, {}, random);
-  const float odd[] = {std::numeric_limits<float>::quiet_NaN(), -3.0F, std::numeric_limits<float>::infinity(), 1e30F};
-  for (std::size_t p = 0; p < problem.ground_range_m.size(); ++p) problem.ground_range_m[p] = odd[p % 4];
+  const float odd[] = {std::numeric_limits<float>::quiet_NaN(), -3.0F,
+                       std::numeric_limits<float>::infinity(), 1e30F};
+  for (std::size_t p = 0; p < problem.ground_range_m.size(); ++p)
+    problem.ground_range_m[p] = odd[p % 4];
   GridCut::Config config;
   config.max_unknown = 50;
   const Solution solution = solve(problem, config);
@@ -163,12 +169,15 @@ TEST(GridCutAnytime, TheCapHoldsWithoutUsableRanges) {
 
 struct FakeClock {
   int looks_left;
-  static bool expired(void* context) noexcept { return --static_cast<FakeClock*>(context)->looks_left < 0; }
+  static bool expired(void* context) noexcept {
+    return --static_cast<FakeClock*>(context)->looks_left < 0;
+  }
 };
 
 TEST(GridCutAnytime, TheClockStopsTheWork) {
   Random random(27);
-  const TestProblem problem = random_problem({32, 256}, {.holes = 5, .ground_seeds = 0, .obstacle_seeds = 0}, random);
+  const TestProblem problem =
+      random_problem({32, 256}, {.holes = 5, .ground_seeds = 0, .obstacle_seeds = 0}, random);
   const Solution whole = solve(problem);
   FakeClock clock{2};
   const Solution stopped = solve(problem, {}, {CutBudget::kUnlimited, &FakeClock::expired, &clock});
@@ -183,7 +192,8 @@ TEST(GridCutAnytime, TheClockStopsTheWork) {
 
 TEST(GridCutAnytime, AClockThatNeverExpiresChangesNothing) {
   Random random(28);
-  const TestProblem problem = random_problem({32, 128}, {.ground_seeds = 2, .obstacle_seeds = 2}, random);
+  const TestProblem problem =
+      random_problem({32, 128}, {.ground_seeds = 2, .obstacle_seeds = 2}, random);
   FakeClock clock{1'000'000};
   const Solution with = solve(problem, {}, {CutBudget::kUnlimited, &FakeClock::expired, &clock});
   const Solution without = solve(problem);

@@ -45,7 +45,8 @@ TEST(GridCutMetamorphic, ScalingAllCapacitiesScalesTheEnergyAndKeepsTheLabels) {
   Random random(12);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
-    const TestProblem problem = random_problem({6, 16}, {.max_weight = 500, .max_cost = 900}, random);
+    const TestProblem problem =
+        random_problem({6, 16}, {.max_weight = 500, .max_cost = 900}, random);
     TestProblem scaled = problem;
     for (auto& cost : scaled.cost_ground) cost *= 4;
     for (auto& cost : scaled.cost_obstacle) cost *= 4;
@@ -61,7 +62,9 @@ TEST(GridCutMetamorphic, ScalingAllCapacitiesScalesTheEnergyAndKeepsTheLabels) {
 TEST(GridCutMetamorphic, SwappingGroundAndObstacleKeepsTheEnergy) {
   Random random(13);
   const auto swapped = [](Label label) {
-    return label == Label::kGround ? Label::kObstacle : label == Label::kObstacle ? Label::kGround : label;
+    return label == Label::kGround     ? Label::kObstacle
+           : label == Label::kObstacle ? Label::kGround
+                                       : label;
   };
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
@@ -69,12 +72,15 @@ TEST(GridCutMetamorphic, SwappingGroundAndObstacleKeepsTheEnergy) {
     TestProblem mirror = problem;
     std::swap(mirror.cost_ground, mirror.cost_obstacle);
     for (Seed& seed : mirror.seeds) {
-      if (seed == Seed::kGround) seed = Seed::kObstacle;
-      else if (seed == Seed::kObstacle) seed = Seed::kGround;
+      if (seed == Seed::kGround)
+        seed = Seed::kObstacle;
+      else if (seed == Seed::kObstacle)
+        seed = Seed::kGround;
     }
     Solution solution = solve(mirror);
     ASSERT_EQ(solution.report.energy, solve(problem).report.energy);
-    std::transform(solution.labels.begin(), solution.labels.end(), solution.labels.begin(), swapped);
+    std::transform(solution.labels.begin(), solution.labels.end(), solution.labels.begin(),
+                   swapped);
     ASSERT_EQ(problem.energy(solution.labels), solution.report.energy);
   }
 }

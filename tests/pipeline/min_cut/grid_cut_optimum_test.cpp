@@ -61,7 +61,8 @@ TEST(GridCut, HoldsTheLargestCapacities) {
   Random random(4);
   for (int i = 0; i < 20; ++i) {
     SCOPED_TRACE(i);
-    TestProblem problem = random_problem({10, 24}, {.holes = 0, .zero_edges = 0, .zero_costs = 60}, random);
+    TestProblem problem =
+        random_problem({10, 24}, {.holes = 0, .zero_edges = 0, .zero_costs = 60}, random);
     problem.for_each_cell([&](int row, int column, std::uint32_t p) {
       for (int d = 4; d < kDirections; ++d) problem.set_weight(row, column, d, kMaxEdgeWeight);
       if (uniform(random, 0, 9) == 0) problem.cost_ground[p] = kMaxTerminalCost;
@@ -116,7 +117,8 @@ TEST(GridCut, ReadsNoPaddingCell) {
   const Solution clean = solve(problem);
   for (int row = 0; row < problem.shape.rows; ++row) {
     for (int column = problem.shape.columns; column < problem.shape.stride(); ++column) {
-      problem.seeds[static_cast<std::size_t>(row * problem.shape.stride() + column)] = Seed::kUnknown;
+      problem.seeds[static_cast<std::size_t>(row * problem.shape.stride() + column)] =
+          Seed::kUnknown;
     }
   }
   const Solution dirty = solve(problem);
@@ -141,7 +143,8 @@ TEST(GridCut, RefusesAnImageTooNarrowToBeCyclic) {
 TEST(GridCut, RefusesOperationBudgetsItCannotAddUp) {
   rt::FixedMemory memory;
   EXPECT_THROW(GridCut({4, 8}, {.bk_ops_per_node = -1}, memory), std::invalid_argument);
-  EXPECT_THROW(GridCut({4, 8}, {.bk_ops_base = CutBudget::kUnlimited}, memory), std::invalid_argument);
+  EXPECT_THROW(GridCut({4, 8}, {.bk_ops_base = CutBudget::kUnlimited}, memory),
+               std::invalid_argument);
 }
 
 }  // namespace

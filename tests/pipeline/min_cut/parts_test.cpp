@@ -31,7 +31,9 @@ TEST(NeighbourCells, LeadBackToWhereTheyCameFrom) {
         const int other_row = static_cast<int>(other) / shape.stride();
         const int other_column = static_cast<int>(other) % shape.stride();
         ASSERT_LT(other_column, shape.columns);
-        ASSERT_EQ(neighbour_cells(shape, other_row, other_column)[static_cast<std::size_t>(opposite(d))], cell);
+        ASSERT_EQ(
+            neighbour_cells(shape, other_row, other_column)[static_cast<std::size_t>(opposite(d))],
+            cell);
       }
     }
   }
@@ -44,7 +46,8 @@ TEST(EightLanes, AgreeWithLoopsOverEightNumbers) {
     int sum = 0;
     unsigned nonzero = 0;
     for (std::size_t d = 0; d < kDirections; ++d) {
-      numbers[d] = static_cast<std::int16_t>(uniform(random, 0, 2) == 0 ? 0 : uniform(random, 0, 8191));
+      numbers[d] =
+          static_cast<std::int16_t>(uniform(random, 0, 2) == 0 ? 0 : uniform(random, 0, 8191));
       flags[d] = static_cast<std::int16_t>(1 << uniform(random, 0, 3));
       kept[d] = flags[d] == 4 ? numbers[d] : std::int16_t{0};
       sum += kept[d];
@@ -68,7 +71,8 @@ TEST(NodeQueue, KeepsItsOrderAcrossTheEndOfTheRing) {
     queue.push_front(0);
     queue.push_back(3);
     queue.push_back(4);
-    for (std::uint32_t expected = 0; expected < 5; ++expected) ASSERT_EQ(queue.pop_front(), expected);
+    for (std::uint32_t expected = 0; expected < 5; ++expected)
+      ASSERT_EQ(queue.pop_front(), expected);
     ASSERT_TRUE(queue.empty());
     queue.push_back(9);
     ASSERT_EQ(queue.pop_front(), 9U);
@@ -77,7 +81,8 @@ TEST(NodeQueue, KeepsItsOrderAcrossTheEndOfTheRing) {
 
 TEST(OpClock, LooksAtTheClockOnlyNowAndThen) {
   int looks = 0;
-  OpClock clock({CutBudget::kUnlimited, [](void* count) noexcept { return ++*static_cast<int*>(count) > 2; }, &looks});
+  OpClock clock({CutBudget::kUnlimited,
+                 [](void* count) noexcept { return ++*static_cast<int*>(count) > 2; }, &looks});
   EXPECT_FALSE(clock.exhausted());
   EXPECT_FALSE(clock.exhausted());
   EXPECT_EQ(looks, 1);
@@ -165,7 +170,8 @@ TEST(Components, AreConnectedWholeAndNearestFirst) {
     const TestProblem problem = any_problem(random);
     Contracted contracted(problem);
     const auto nodes = contracted.graph.nodes;
-    contracted.components.find(contracted.graph, contracted.unknown.cells(), problem.ground_range_m);
+    contracted.components.find(contracted.graph, contracted.unknown.cells(),
+                               problem.ground_range_m);
 
     std::vector<std::uint32_t> component_of(nodes.size(), 0xFFFFFFFF);
     float last_range_m = -1;

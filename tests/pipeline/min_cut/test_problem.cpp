@@ -65,10 +65,17 @@ std::vector<Label> TestProblem::coarse_labelling() const {
   std::vector<Label> labels(shape.cells(), Label::kNone);
   for_each_cell([&](int, int, std::uint32_t p) {
     switch (seeds[p]) {
-      case Seed::kNone: break;
-      case Seed::kGround: labels[p] = Label::kGround; break;
-      case Seed::kObstacle: labels[p] = Label::kObstacle; break;
-      case Seed::kUnknown: labels[p] = coarse[p]; break;
+      case Seed::kNone:
+        break;
+      case Seed::kGround:
+        labels[p] = Label::kGround;
+        break;
+      case Seed::kObstacle:
+        labels[p] = Label::kObstacle;
+        break;
+      case Seed::kUnknown:
+        labels[p] = coarse[p];
+        break;
     }
   });
   return labels;
@@ -81,10 +88,11 @@ TestProblem random_problem(ImageShape shape, const RandomRecipe& recipe, Random&
   };
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
     const int dice = uniform(random, 0, 99);
-    problem.seeds[p] = dice < recipe.holes                                               ? Seed::kNone
-                       : dice < recipe.holes + recipe.ground_seeds                        ? Seed::kGround
-                       : dice < recipe.holes + recipe.ground_seeds + recipe.obstacle_seeds ? Seed::kObstacle
-                                                                                          : Seed::kUnknown;
+    problem.seeds[p] = dice < recipe.holes                         ? Seed::kNone
+                       : dice < recipe.holes + recipe.ground_seeds ? Seed::kGround
+                       : dice < recipe.holes + recipe.ground_seeds + recipe.obstacle_seeds
+                           ? Seed::kObstacle
+                           : Seed::kUnknown;
     problem.cost_ground[p] = cost();
     problem.cost_obstacle[p] = cost();
     problem.ground_range_m[p] = static_cast<float>(uniform(random, 0, 100));

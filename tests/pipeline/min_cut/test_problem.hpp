@@ -29,7 +29,8 @@ struct TestProblem {
   /// weight[cell][d]; kept symmetric by set_weight().
   std::vector<std::array<std::uint16_t, kDirections>> weight;
 
-  [[nodiscard]] std::uint32_t cell(int row, int column) const;  ///< Column may lie one turn outside.
+  [[nodiscard]] std::uint32_t cell(int row,
+                                   int column) const;  ///< Column may lie one turn outside.
   void set_weight(int row, int column, int direction, int value);
   /// Calls visit(row, column, cell) for every cell that is not padding.
   template <class Visit>

@@ -10,8 +10,8 @@
 
 namespace terracut::pipeline::test {
 
-/// Checks what GridCut asks of every EdgeWeights: between cells that are no holes, the weight is the same
-/// both ways, bit for bit, and at most kMaxEdgeWeight.
+/// Checks what GridCut asks of every EdgeWeights: between cells that are no holes, the weight is
+/// the same both ways, bit for bit, and at most kMaxEdgeWeight.
 template <EdgeWeights Weights>
 void expect_symmetric_weights(const ImageShape& shape, std::span<const Seed> seeds,
                               const Weights& weights) {

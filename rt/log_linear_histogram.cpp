@@ -50,7 +50,8 @@ double LogLinearHistogram::mean_ns() const noexcept {
 }
 
 LogLinearHistogram& LogLinearHistogram::operator+=(const LogLinearHistogram& other) noexcept {
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket) buckets_[bucket] += other.buckets_[bucket];
+  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
+    buckets_[bucket] += other.buckets_[bucket];
   count_ += other.count_;
   min_ns_ = std::min(min_ns_, other.min_ns_);
   max_ns_ = std::max(max_ns_, other.max_ns_);

@@ -8,12 +8,13 @@
 
 namespace terracut::rt {
 
-/// Counts durations in buckets whose width grows with the value (HdrHistogram's layout), so that any
-/// percentile is known to two significant digits from fixed memory (about 34 KiB, no allocation).
+/// Counts durations in buckets whose width grows with the value (HdrHistogram's layout), so that
+/// any percentile is known to two significant digits from fixed memory (about 34 KiB, no
+/// allocation).
 ///
 /// Values are nanoseconds in [0, kMax_ns]; those outside are counted at the nearer end, but max()
-/// stays exact. Values below 256 ns have a bucket each; above, a bucket is at most 1/128 of its value
-/// wide. One writer; readers only after the writer has finished or from the same thread.
+/// stays exact. Values below 256 ns have a bucket each; above, a bucket is at most 1/128 of its
+/// value wide. One writer; readers only after the writer has finished or from the same thread.
 class LogLinearHistogram {
  public:
   static constexpr std::int64_t kMax_ns = (std::int64_t{1} << 40) - 1;  ///< About 18 minutes.

@@ -29,7 +29,9 @@ namespace detail {
 inline std::int64_t thread_cpu_ns() noexcept {
   return detail::read_clock_ns(CLOCK_THREAD_CPUTIME_ID);
 }
-inline std::int64_t monotonic_ns() noexcept { return detail::read_clock_ns(CLOCK_MONOTONIC); }
+inline std::int64_t monotonic_ns() noexcept {
+  return detail::read_clock_ns(CLOCK_MONOTONIC);
+}
 
 /// The two clocks read together.
 struct ClockPair {

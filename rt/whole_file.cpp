@@ -14,10 +14,11 @@ namespace terracut::rt {
 namespace {
 
 Status failed(const std::filesystem::path& path, const std::string& step, int error_number) {
-  return fail(ErrorCode::kWriteFailed,
-              "could not write " + path.string() + ": " + step + ": " +
-                  std::generic_category().message(error_number) +
-                  "; nothing was left in its place. Check the folder, its rights and the free space");
+  return fail(
+      ErrorCode::kWriteFailed,
+      "could not write " + path.string() + ": " + step + ": " +
+          std::generic_category().message(error_number) +
+          "; nothing was left in its place. Check the folder, its rights and the free space");
 }
 
 /// 0, or the errno of the call that failed.

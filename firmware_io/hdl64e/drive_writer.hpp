@@ -50,9 +50,10 @@ class DriveWriter {
   DriveWriter& operator=(DriveWriter&&) noexcept;
   ~DriveWriter();
 
-  /// The next firing of all lasers. `stamp_ns` (of its first laser) must not fall, and the head must
-  /// turn on by [0.02, 1.0] degrees from one firing to the next inside a packet (the 1st to 6th, 7th
-  /// to 12th, ... of these calls); between packets it may also leave a gap of less than half a turn.
+  /// The next firing of all lasers; `stamp_ns` is that of its first laser. Firings must be those of a
+  /// turning head: stamps at least 1 us apart; inside a packet (the 1st to 6th, 7th to 12th, ... of
+  /// these calls) the head turns on by [0.02, 1.0] degrees from one to the next. Between packets it
+  /// may leave a gap of up to 0.9 s, if speed and stamps agree with the azimuths to 15 degrees.
   /// Errors: kInvalidArgument naming the firing and what it broke, kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
                                   std::span<const LabelledReturn, calib::kHdl64eLasers> by_laser);

@@ -21,8 +21,8 @@ namespace terracut::firmware_io {
 
 /// What Decoder needs to know of the HDL-64E (see there).
 ///
-/// Single and dual return packets are told apart by their azimuths (formats: in dual return every
-/// azimuth comes twice). Both returns of a firing are placed, the second one on the overflow list
+/// Single and dual return packets are told apart by their azimuths: in dual return each comes twice,
+/// for the strongest and the last return. Both returns of a firing are placed, the second one on the overflow list
 /// where it shares the cell of the first.
 class Hdl64eSensor {
  public:

@@ -94,7 +94,8 @@ void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
 
 Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
   const double pixels_per_m = kOversampling * std::clamp(view.pixels_per_m, 2.0, 40.0);
-  const int side = static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));
+  const int side =
+      static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));
   Canvas canvas{Picture(side, side, kPictureBackground), pixels_per_m};
   draw_returns(canvas, frame);
   draw_range_rings(canvas, view);

@@ -9,13 +9,14 @@ namespace terracut::firmware_io {
 
 /// What the bird's-eye view shows.
 struct BirdEyeView {
-  double side_m = 100;         ///< Length of the square's side; the sensor is in the middle. [10, 400]
+  double side_m = 100;  ///< Length of the square's side; the sensor is in the middle. [10, 400]
   double pixels_per_m = 10;    ///< [2, 40]
   double ring_spacing_m = 10;  ///< Distance between the range rings, > 0.
 };
 
 /// The frame from above, x (forward) up: colours of frame_colours.hpp, range rings, the vehicle as
-/// an arrow, and at the lower left a scale bar of one ring spacing. Higher returns lie over lower ones.
+/// an arrow, and at the lower left a scale bar of one ring spacing. Higher returns lie over lower
+/// ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
 
 }  // namespace terracut::firmware_io

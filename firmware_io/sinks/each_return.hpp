@@ -27,7 +27,9 @@ void for_each_return(const pipeline::RangeImage& image, Visitor&& visit) {
       const auto cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride) +
                         static_cast<std::size_t>(column);
       if (!image.has_return(cell)) continue;
-      visit(PlacedReturn{image.return_index()[cell], row, column,
+      visit(PlacedReturn{image.return_index()[cell],
+                         row,
+                         column,
                          {image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
                           image.ground_range_m()[cell], image.intensity()[cell]}});
     }

@@ -16,9 +16,8 @@ struct HeightStop {
   double height_m;
   Colour colour;
 };
-constexpr std::array kHeightStops{
-    HeightStop{0.0, {255, 96, 70}}, HeightStop{1.0, {255, 72, 140}}, HeightStop{2.2, {178, 92, 240}},
-    HeightStop{4.0, {74, 158, 255}}};
+constexpr std::array kHeightStops{HeightStop{0.0, {255, 96, 70}}, HeightStop{1.0, {255, 72, 140}},
+                                  HeightStop{2.2, {178, 92, 240}}, HeightStop{4.0, {74, 158, 255}}};
 
 Colour by_height(double height_m) noexcept {
   if (height_m <= kHeightStops.front().height_m) return kHeightStops.front().colour;

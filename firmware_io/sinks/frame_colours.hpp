@@ -30,7 +30,8 @@ inline constexpr Colour kMissedObstacleColour{255, 30, 30};
 inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 
 /// Ground is sand, brighter where more light came back. Obstacles go by height, coral at the ground
-/// over violet to blue above 4 m; beside mistakes they are all slate, so that the mistakes stand out.
+/// over violet to blue above 4 m; beside mistakes they are all slate, so that the mistakes stand
+/// out.
 [[nodiscard]] Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
                                       const pipeline::Return& echo) noexcept;
 

@@ -18,7 +18,8 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the record below is written as it lies");
 
-/// One point on disk; PCD readers take fields at the offsets that the header's SIZE line adds up to.
+/// One point on disk; PCD readers take fields at the offsets that the header's SIZE line adds up
+/// to.
 struct PcdPoint {
   float x_m, y_m, z_m;
   float intensity;
@@ -54,8 +55,11 @@ Status write_pcd(const std::filesystem::path& path, const pipeline::RangeImage& 
   content.resize(header_size + labels.size() * sizeof(PcdPoint));
   for_each_return(image, [&](const PlacedReturn& placed) {
     const PcdPoint point{
-        placed.echo.x_m, placed.echo.y_m, placed.echo.z_m,
-        static_cast<float>(placed.echo.intensity), static_cast<std::uint16_t>(placed.row),
+        placed.echo.x_m,
+        placed.echo.y_m,
+        placed.echo.z_m,
+        static_cast<float>(placed.echo.intensity),
+        static_cast<std::uint16_t>(placed.row),
         static_cast<std::uint16_t>(semantic_kitti_class(labels[placed.return_index]))};
     std::memcpy(content.data() + header_size + placed.return_index * sizeof(PcdPoint), &point,
                 sizeof(PcdPoint));

@@ -84,9 +84,10 @@ Status Picture::write_png(const std::filesystem::path& path) const {
   std::vector<std::byte> file(pixels_.size() * sizeof(Colour) + 65536);
   png_alloc_size_t size = file.size();
   if (png_image_write_to_memory(&image, file.data(), &size, 0, pixels_.data(), 0, nullptr) == 0) {
-    return fail(ErrorCode::kWriteFailed,
-                fmt::format("could not compress the {} x {} picture for {}: libpng says '{}'", width_,
-                            height_, path.string(), static_cast<const char*>(image.message)));
+    return fail(
+        ErrorCode::kWriteFailed,
+        fmt::format("could not compress the {} x {} picture for {}: libpng says '{}'", width_,
+                    height_, path.string(), static_cast<const char*>(image.message)));
   }
   return rt::write_whole_file(path, std::span(file).first(size));
 }

@@ -40,7 +40,8 @@ class Picture {
   void circle(double centre_x, double centre_y, double radius, double width, Colour colour,
               double opacity) noexcept;
 
-  /// The picture at half the size, each pixel the mean of four: smooths edges drawn at twice the size.
+  /// The picture at half the size, each pixel the mean of four: smooths edges drawn at twice the
+  /// size.
   [[nodiscard]] Picture halved() const;
 
   /// Writes a PNG file (8-bit RGB), whole or not at all.

@@ -10,6 +10,8 @@
 #include <iterator>
 #include <string>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace terracut::rt {
 namespace {
 
@@ -18,11 +20,7 @@ namespace fs = std::filesystem;
 class WholeFile : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = fs::path(testing::TempDir()) /
-              (std::string("terracut_whole_file_") +
-               testing::UnitTest::GetInstance()->current_test_info()->name());
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = test::make_scratch_folder();
   }
   void TearDown() override { fs::remove_all(folder_); }
 

@@ -31,21 +31,28 @@ TEST_F(CliRefusal, OfAWrongCommandLineSaysWhatIsExpected) {
   expect_refusal("replay", kUsage, HasSubstr("FILE is required"));
   expect_refusal("simulate", kUsage, HasSubstr("--output is required"));
   expect_refusal("replay x.pcap --rate -1", kUsage, HasSubstr("--rate"));
+  expect_refusal("replay x.pcap --rate nan", kUsage, HasSubstr("--rate"));
+  expect_refusal("replay x.pcap --mount-height nan", kUsage, HasSubstr("--mount-height"));
+  expect_refusal("replay x.pcap --start 1e300", kUsage, HasSubstr("--start"));
   expect_refusal("replay x.pcap --stages all", kUsage, HasSubstr("--stages"));
   expect_refusal("replay x.pcap --set region.lambda", kUsage, HasSubstr("KEY=VALUE"));
   expect_refusal("replay x.pcap --set region.lambda=-1", kUsage, HasSubstr("from 0.0001 to 1000"));
   expect_refusal("replay x.pcap --from here", kUsage, HasSubstr("--from"));
   expect_refusal("simulate --sensor vlp16 -o x.pcap", kUsage, HasSubstr("hdl64e"));
-  expect_refusal("simulate --scene moon -o x.pcap", kUsage, AllOf(HasSubstr("moon"), HasSubstr("street")));
+  expect_refusal("simulate --scene moon -o x.pcap", kUsage,
+                 AllOf(HasSubstr("moon"), HasSubstr("street")));
   expect_refusal("replay x.pcap --truth t --start 1", kUsage, HasSubstr("--truth"));
 }
 
 TEST_F(CliRefusal, OfFilesThatAreNoCaptureNamesThem) {
   write("empty.pcap", "");
   write("text.pcap", "This is not a capture, it only says so.\n");
-  expect_refusal("replay none.pcap", kInputRefused, AllOf(HasSubstr("none.pcap"), HasSubstr("no such file")));
-  expect_refusal("replay empty.pcap", kInputRefused, AllOf(HasSubstr("empty.pcap"), HasSubstr("is empty")));
-  expect_refusal("replay text.pcap", kInputRefused, AllOf(HasSubstr("text.pcap"), HasSubstr("not a capture")));
+  expect_refusal("replay none.pcap", kInputRefused,
+                 AllOf(HasSubstr("none.pcap"), HasSubstr("no such file")));
+  expect_refusal("replay empty.pcap", kInputRefused,
+                 AllOf(HasSubstr("empty.pcap"), HasSubstr("is empty")));
+  expect_refusal("replay text.pcap", kInputRefused,
+                 AllOf(HasSubstr("text.pcap"), HasSubstr("not a capture")));
   expect_refusal("replay .", kInputRefused, HasSubstr("folder"));
   for (const std::string command : {"info", "bench"}) {
     expect_refusal(command + " none.pcap", kInputRefused, HasSubstr("no such file"));
@@ -55,8 +62,9 @@ TEST_F(CliRefusal, OfFilesThatAreNoCaptureNamesThem) {
 TEST_F(CliRefusal, WithoutACalibrationSaysHowMuchIsMissingAndWhatToDo) {
   const std::string whole = content_of(kDrive);
   write("short.pcap", whole.substr(0, whole.size() / 3));
-  expect_refusal("replay short.pcap", kInputRefused,
-                 AllOf(HasSubstr("no calibration"), HasSubstr("missing"), HasSubstr("--calibration")));
+  expect_refusal(
+      "replay short.pcap", kInputRefused,
+      AllOf(HasSubstr("no calibration"), HasSubstr("missing"), HasSubstr("--calibration")));
 }
 
 TEST_F(CliRefusal, OfAnUnusableCalibrationNamesTheFile) {
@@ -65,8 +73,8 @@ TEST_F(CliRefusal, OfAnUnusableCalibrationNamesTheFile) {
                  HasSubstr("broken.xml"));
   expect_refusal("replay " + quoted(kDrive) + " --calibration none.xml", kInputRefused,
                  HasSubstr("none.xml"));
-  expect_refusal("replay " + quoted(kDrive) + " --setup " + quoted(kDriveCalibration), kInputRefused,
-                 HasSubstr("calibration.xml"));
+  expect_refusal("replay " + quoted(kDrive) + " --setup " + quoted(kDriveCalibration),
+                 kInputRefused, HasSubstr("calibration.xml"));
 }
 
 TEST_F(CliRefusal, OfACaptureWithoutWantedPacketsSaysWhereTheyWent) {
@@ -80,8 +88,8 @@ TEST_F(CliRefusal, OfACaptureWithoutWantedPacketsSaysWhereTheyWent) {
 
 TEST_F(CliRefusal, OfOutputsThatCannotBeWrittenNamesThem) {
   write("file", "in the way");
-  const std::string replay = "replay " + quoted(kDrive) + " --duration 0.2 --calibration " +
-                             quoted(kDriveCalibration);
+  const std::string replay =
+      "replay " + quoted(kDrive) + " --duration 0.2 --calibration " + quoted(kDriveCalibration);
   expect_refusal(replay + " --json file/report.json", kOutputFailed, HasSubstr("file/report.json"));
   expect_refusal(replay + " --labels file", kOutputFailed, HasSubstr("file/000000.label"));
   expect_refusal(replay + " --pcd file", kOutputFailed, HasSubstr("file/000000.pcd"));
@@ -106,9 +114,9 @@ TEST_F(CliRefusal, OfOtherSensorsNamesTheCheckThatRejectedThem) {
 
 TEST_F(CliRefusal, OfAnotherSensorsCalibrationNamesIt) {
   if (!fs::exists(kCalibrations)) GTEST_SKIP() << "no calibrations at " << kCalibrations;
-  expect_refusal("replay " + quoted(kDrive) + " --calibration " +
-                     quoted(kCalibrations / "rs32-angle.csv"),
-                 kInputRefused, AllOf(HasSubstr("rs32-angle.csv"), HasSubstr("RoboSense")));
+  expect_refusal(
+      "replay " + quoted(kDrive) + " --calibration " + quoted(kCalibrations / "rs32-angle.csv"),
+      kInputRefused, AllOf(HasSubstr("rs32-angle.csv"), HasSubstr("RoboSense")));
 }
 
 TEST_F(CliRefusal, DoesNotBefallACaptureThatBreaksOff) {

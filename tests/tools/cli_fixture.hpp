@@ -16,6 +16,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace terracut::cli {
 
 namespace fs = std::filesystem;
@@ -49,10 +51,7 @@ struct Outcome {
 class Cli : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = fs::path(testing::TempDir()) / "terracut_cli" / info->name();
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
+    folder_ = test::make_scratch_folder();
   }
   void TearDown() override { fs::remove_all(folder_); }
 
@@ -84,6 +83,8 @@ inline const fs::path kDriveCalibration = fs::path(kDrive).replace_extension("ca
 inline const fs::path kDriveTruth = fs::path(kDrive).replace_extension("truth");
 inline constexpr std::size_t kDriveFrames = 13;
 
-[[nodiscard]] inline std::string quoted(const fs::path& path) { return "'" + path.string() + "'"; }
+[[nodiscard]] inline std::string quoted(const fs::path& path) {
+  return "'" + path.string() + "'";
+}
 
 }  // namespace terracut::cli

@@ -25,8 +25,8 @@ std::vector<PcdPoint> points_of(const fs::path& pcd) {
   return points;
 }
 
-/// A KITTI scan of a replayed frame: sensor frame, ring after ring from the top, each counter-clockwise
-/// from straight ahead, with the frame's truth as labels.
+/// A KITTI scan of a replayed frame: sensor frame, ring after ring from the top, each
+/// counter-clockwise from straight ahead, with the frame's truth as labels.
 void write_scan(const fs::path& pcd, const fs::path& truth, const fs::path& folder) {
   const std::vector<PcdPoint> points = points_of(pcd);
   const std::vector<std::uint32_t> ids = ids_of(truth);
@@ -60,8 +60,9 @@ class CliScans : public Cli {
   /// Both ways of a sequence folder; checks what holds for either.
   BothWays both_ways(const fs::path& sequence) {
     expect_done("encode " + quoted(sequence) + " -o drive.pcap --sensor hdl64e");
-    expect_done("replay drive.pcap --calibration drive.calibration.xml --truth drive.truth "
-                "--labels packets --json packets.json");
+    expect_done(
+        "replay drive.pcap --calibration drive.calibration.xml --truth drive.truth "
+        "--labels packets --json packets.json");
     expect_done("segment " + quoted(sequence) + " --labels direct --json direct.json");
     const auto packets = json("packets.json")["summary"], direct = json("direct.json")["summary"];
     EXPECT_EQ(packets["returns_in"], packets["returns_labelled"]);
@@ -87,8 +88,9 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
   const fs::path sequences =
       fs::path(TERRACUT_SOURCE_DIR) / "../shared/data/semantickitti/sequences";
   if (!fs::exists(sequences)) GTEST_SKIP() << "no scans at " << sequences;
-  // Within one point in the mean over sequences, as accuracy is stated. A single sequence may differ
-  // by more in Recall_o: sequence 01 has 580 key obstacle returns, so six of them are a point.
+  // Within one point in the mean over sequences, as accuracy is stated. A single sequence may
+  // differ by more in Recall_o: sequence 01 has 580 key obstacle returns, so six of them are a
+  // point.
   int count = 0;
   double iou_g = 0, recall_o = 0;  // packets minus direct
   for (const auto& entry : fs::directory_iterator(sequences)) {

@@ -81,8 +81,9 @@ void add_method(CLI::App& app, MethodOptions& method) {
                  "How far to refine: elevation map, + adjacent points, + random field (mrf)")
       ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
       ->capture_default_str();
-  app.add_option("--set", method.settings,
-                 "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
+  app.add_option(
+         "--set", method.settings,
+         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
       ->check([](const std::string& setting) {
         pipeline::SegmenterConfig scratch;
         const Status valid = apply_setting(scratch, setting);
@@ -123,7 +124,9 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(number(0, 1000))
       ->capture_default_str();
-  sub.add_option("--loop", o.loops, "Passes over the capture (once without this option); no number or 0: until interrupted")
+  sub.add_option(
+         "--loop", o.loops,
+         "Passes over the capture (once without this option); no number or 0: until interrupted")
       ->expected(0, 1)
       ->default_str("0")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));

@@ -9,13 +9,15 @@
 
 namespace terracut::cli {
 
-using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
-                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions, BenchOptions>;
+using Command =
+    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions>;
 
 /// The command line, read.
 struct Arguments {
-  std::optional<Command> command;  ///< Absent when help, the version or an error was printed instead.
-  int exit_code = 0;               ///< What to exit with where there is no command.
+  std::optional<Command>
+      command;        ///< Absent when help, the version or an error was printed instead.
+  int exit_code = 0;  ///< What to exit with where there is no command.
 };
 
 [[nodiscard]] Arguments parse_arguments(int argc, char** argv);

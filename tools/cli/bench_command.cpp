@@ -20,8 +20,8 @@ namespace {
 
 using firmware_io::FrameInfo;
 
-/// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when the
-/// system does not allow it.
+/// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when
+/// the system does not allow it.
 int stay_on_core(int core) {
   cpu_set_t allowed;
   CPU_ZERO(&allowed);
@@ -62,8 +62,8 @@ Expected<PacketStore> load(OpenCapture& capture, const CaptureOptions& options) 
 }
 
 struct BenchResult {
-  TimeSummary times;                       ///< Of whole frames.
-  rt::LogLinearHistogram decode_column_ns; ///< Mean of each pass.
+  TimeSummary times;                        ///< Of whole frames.
+  rt::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
   std::uint64_t frames = 0, returns = 0, unlabelled = 0;
 };
 
@@ -105,7 +105,8 @@ double run_decoding(PacketChain& chain, const PacketStore& packets) {
 ExitCode print(const BenchOptions& options, const BenchResult& result, int core) {
   const double returns_per_frame =
       static_cast<double>(result.returns) / static_cast<double>(result.frames);
-  fmt::print("processor {}, core {}\n", processor_name(), core < 0 ? "not pinned" : std::to_string(core));
+  fmt::print("processor {}, core {}\n", processor_name(),
+             core < 0 ? "not pinned" : std::to_string(core));
   fmt::print("frames    {} ({} passes), {:.0f} returns each\n", result.frames, options.repeat,
              returns_per_frame);
   fmt::print("decode    {} ns a packet column, p50 of the passes\n",

@@ -26,8 +26,8 @@ using pipeline::RangeImage;
 /// Frames the mount is read off: two seconds' worth is plenty and bounds the memory.
 constexpr std::uint32_t kMountFrames = 20;
 
-/// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when it
-/// has seen enough.
+/// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when
+/// it has seen enough.
 Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
                      firmware_io::Hdl64eDecoder& decoder,
                      const std::function<bool(const RangeImage&)>& on_frame) {
@@ -53,8 +53,8 @@ Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
   return tl::unexpected(nothing_came_out(capture.source, offered, decoder.losses()));
 }
 
-/// The mount by the ground itself. A sensor at height 0 without tilt: the decoder's vehicle frame is
-/// then the sensor's.
+/// The mount by the ground itself. A sensor at height 0 without tilt: the decoder's vehicle frame
+/// is then the sensor's.
 Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptions& options) {
   const calib::MountEstimateConfig config;
   std::vector<std::array<float, 3>> points;
@@ -63,15 +63,14 @@ Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptio
   rt::FixedMemory memory;
   firmware_io::Hdl64eDecoder decoder(capture.calibration, at_the_sensor,
                                      PacketChain::decoder_config(options), memory);
-  const Status decoded =
-      decode_frames(capture, options, decoder, [&](const RangeImage& image) {
-        firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
-          const auto range_m = static_cast<double>(placed.echo.ground_range_m);
-          if (range_m < config.near_m || range_m > config.far_m) return;
-          points.push_back({placed.echo.x_m, placed.echo.y_m, placed.echo.z_m});
-        });
-        return ++frames < kMountFrames;
-      });
+  const Status decoded = decode_frames(capture, options, decoder, [&](const RangeImage& image) {
+    firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
+      const auto range_m = static_cast<double>(placed.echo.ground_range_m);
+      if (range_m < config.near_m || range_m > config.far_m) return;
+      points.push_back({placed.echo.x_m, placed.echo.y_m, placed.echo.z_m});
+    });
+    return ++frames < kMountFrames;
+  });
   if (!decoded) return tl::unexpected(decoded.error());
   return calib::estimate_mount(points, config);
 }

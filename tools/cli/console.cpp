@@ -24,10 +24,16 @@ void print_line(std::string_view line) {
 
 }  // namespace
 
-void say(std::string_view line) { print_line(line); }
-void warn(std::string_view line) { print_line(fmt::format("warning: {}", line)); }
+void say(std::string_view line) {
+  print_line(line);
+}
+void warn(std::string_view line) {
+  print_line(fmt::format("warning: {}", line));
+}
 
-ExitCode refuse(const Error& error) { return refuse(exit_code_of(error.code), error.message); }
+ExitCode refuse(const Error& error) {
+  return refuse(exit_code_of(error.code), error.message);
+}
 
 ExitCode refuse(ExitCode code, std::string_view message) {
   print_line(fmt::format("error: {}", message));

@@ -44,7 +44,9 @@ ExitCode run(const EncodeOptions& options) {
     drive.calibration = *std::move(calibration);
   }
   Progress progress("encoding", "scans", 0);
-  drive.on_scan = [&](std::size_t done, std::size_t) { progress.update(static_cast<double>(done)); };
+  drive.on_scan = [&](std::size_t done, std::size_t) {
+    progress.update(static_cast<double>(done));
+  };
   const auto report = firmware_io::encode_scan_folder(options.scans, options.output, drive);
   if (!report) return refuse(report.error());
   print(options, *report);

@@ -47,7 +47,8 @@ Status FrameOutputs::write_frame(const std::string& name, const pipeline::RangeI
   const Status from_above =
       bird_eye_picture(plain).write_png(options_.png / (name + ".birdseye.png"));
   if (!from_above) return from_above;
-  const Status panorama = range_image_picture(plain).write_png(options_.png / (name + ".range.png"));
+  const Status panorama =
+      range_image_picture(plain).write_png(options_.png / (name + ".range.png"));
   if (!panorama || truth.size() != labels.size()) return panorama;
 
   mistakes_.resize(labels.size());

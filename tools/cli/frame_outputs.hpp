@@ -24,8 +24,8 @@ class FrameOutputs {
   [[nodiscard]] Status write_labels(const std::string& name,
                                     std::span<const pipeline::Label> labels) const;
 
-  /// NAME.pcd, and NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png. `labels`
-  /// and `truth` (SemanticKITTI ids, or empty) go by return index.
+  /// NAME.pcd, and NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
+  /// `labels` and `truth` (SemanticKITTI ids, or empty) go by return index.
   [[nodiscard]] Status write_frame(const std::string& name, const pipeline::RangeImage& image,
                                    std::span<const pipeline::Label> labels,
                                    std::span<const std::uint32_t> truth);

@@ -60,7 +60,8 @@ std::string text_of(const Hdl64eFacts& facts) {
   std::string text = fmt::format(
       "  head         {:.1f} rpm, {:.1f} turns, {:.4f} deg a column\n"
       "  mode         {} return, a packet every {:.1f} us\n"
-      "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock jumps\n"
+      "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock "
+      "jumps\n"
       "  calibration  {}\n",
       facts.spin_rpm, facts.turns, facts.step_deg, to_string(facts.return_mode),
       facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
@@ -93,12 +94,12 @@ std::string text_of(const CaptureSurvey& survey) {
   text += fmt::format("\n{:<22} {:<22} {:>9} {:>10} {:>8}  {:<18} {}\n", "source", "destination",
                       "packets", "packets/s", "seconds", "payload bytes", "sensor");
   for (const UdpStream& stream : survey.streams) {
-    text += fmt::format("{:<22} {:<22} {:>9} {:>10.1f} {:>8.1f}  {:<18} {}{}\n",
-                        endpoint(stream.source_address, stream.source_port),
-                        endpoint(stream.destination_address, stream.destination_port),
-                        stream.packets, stream.rate_hz(), duration_s(stream), sizes(stream),
-                        to_string(stream.sensor),
-                        stream.sensor_hints.empty() ? "" : " (" + stream.sensor_hints + ")");
+    text +=
+        fmt::format("{:<22} {:<22} {:>9} {:>10.1f} {:>8.1f}  {:<18} {}{}\n",
+                    endpoint(stream.source_address, stream.source_port),
+                    endpoint(stream.destination_address, stream.destination_port), stream.packets,
+                    stream.rate_hz(), duration_s(stream), sizes(stream), to_string(stream.sensor),
+                    stream.sensor_hints.empty() ? "" : " (" + stream.sensor_hints + ")");
   }
   if (survey.packets_of_further_streams > 0) {
     text += fmt::format("{} packets of further streams\n", survey.packets_of_further_streams);
@@ -132,8 +133,10 @@ Json json_of(const Hdl64eFacts& facts) {
 }
 
 Json json_of(const CaptureSurvey& survey) {
-  Json json{{"terracut", TERRACUT_VERSION}, {"command", "info"},
-            {"input", survey.name},         {"link_type", survey.link_type_name},
+  Json json{{"terracut", TERRACUT_VERSION},
+            {"command", "info"},
+            {"input", survey.name},
+            {"link_type", survey.link_type_name},
             {"frames", survey.counters.frames}};
   for (std::size_t i = 0; i < firmware_io::kFrameRejects; ++i) {
     json["refused"][std::string(to_string(static_cast<firmware_io::FrameReject>(i)))] =

@@ -43,7 +43,8 @@ std::int64_t nanoseconds(double seconds) {
 std::string where_frames_went(const firmware_io::PcapCounters& read) {
   std::string text = fmt::format("of {} captured frames", read.frames);
   const auto add = [&](std::uint64_t count, std::string_view what) {
-    if (count > 0) text += fmt::format("{} {} {}", text.ends_with("frames") ? "" : ",", count, what);
+    if (count > 0)
+      text += fmt::format("{} {} {}", text.ends_with("frames") ? "" : ",", count, what);
   };
   add(read.other_port, "went to another port than --port");
   add(read.other_source, "came from another address than --from");
@@ -62,18 +63,19 @@ std::string why(const firmware_io::PcapCounters& read, std::uint64_t offered,
     return fmt::format("{} datagrams were read and none rejected, but they do not make a turn",
                        offered);
   }
-  return fmt::format("{} datagrams were read, and these failed a check: {}; `terracut info` names "
-                     "the sensors in the capture",
-                     offered, loss_sentence(losses));
+  return fmt::format(
+      "{} datagrams were read, and these failed a check: {}; `terracut info` names "
+      "the sensors in the capture",
+      offered, loss_sentence(losses));
 }
 
 /// What the search for a table in the stream met on its way.
 struct StreamSearch {
   std::optional<calib::Hdl64eCalibration> found;
-  std::string table_error;        ///< Of a whole table that does not hold a plausible calibration.
-  std::string broke_off;          ///< Why the capture could not be read further.
+  std::string table_error;  ///< Of a whole table that does not hold a plausible calibration.
+  std::string broke_off;    ///< Why the capture could not be read further.
   std::uint64_t datagrams = 0;
-  std::uint64_t data_packets = 0; ///< Of them, of an HDL-64E.
+  std::uint64_t data_packets = 0;  ///< Of them, of an HDL-64E.
   std::size_t holes = 0;
   firmware_io::LossCounters losses;
 };
@@ -117,14 +119,15 @@ Error no_calibration(const PcapSource& source, const StreamSearch& search) {
   const std::string missing =
       !search.table_error.empty()
           ? fmt::format("the table in them is not usable: {}", search.table_error)
-          : fmt::format("{} of the table's {} bytes are missing after {} packets (a whole table takes "
-                        "4160 packets, 1.2 s)",
-                        search.holes, calib::kStreamTableBytes, search.data_packets);
-  return {ErrorCode::kNoCalibration,
-          fmt::format("{}: no calibration: none was given, and the packets do not hold one: {}{}. Give "
-                      "the unit's db.xml or yaml with --calibration FILE",
-                      source.name(), missing,
-                      search.broke_off.empty() ? "" : "; " + search.broke_off)};
+          : fmt::format(
+                "{} of the table's {} bytes are missing after {} packets (a whole table takes "
+                "4160 packets, 1.2 s)",
+                search.holes, calib::kStreamTableBytes, search.data_packets);
+  return {
+      ErrorCode::kNoCalibration,
+      fmt::format("{}: no calibration: none was given, and the packets do not hold one: {}{}. Give "
+                  "the unit's db.xml or yaml with --calibration FILE",
+                  source.name(), missing, search.broke_off.empty() ? "" : "; " + search.broke_off)};
 }
 
 Expected<calib::Hdl64eCalibration> choose_calibration(const CaptureOptions& options,

@@ -15,32 +15,32 @@ namespace terracut::cli {
 /// Which datagrams of a capture, and how they become points.
 struct CaptureOptions {
   std::filesystem::path file;
-  std::optional<std::uint16_t> port;      ///< --port
-  std::string from;                       ///< --from, dotted IPv4
-  std::filesystem::path calibration;      ///< --calibration
-  std::string geometry = "manual";        ///< --geometry manual|ros
-  double start_s = 0;                     ///< --start, [0, 1e9]
-  std::optional<double> duration_s;       ///< --duration, (0, 1e9]
+  std::optional<std::uint16_t> port;  ///< --port
+  std::string from;                   ///< --from, dotted IPv4
+  std::filesystem::path calibration;  ///< --calibration
+  std::string geometry = "manual";    ///< --geometry manual|ros
+  double start_s = 0;                 ///< --start, [0, 1e9]
+  std::optional<double> duration_s;   ///< --duration, (0, 1e9]
 };
 
 /// How the sensor stands on the vehicle.
 struct MountOptions {
-  std::filesystem::path setup;            ///< --setup
+  std::filesystem::path setup;                          ///< --setup
   std::optional<double> height_m, roll_deg, pitch_deg;  ///< --mount-...; win over --setup
 };
 
 /// Which method runs.
 struct MethodOptions {
-  std::string profile = "terracut";       ///< --profile paper|terracut
-  std::string stages = "mrf";             ///< --stages elevation|adjacent|mrf
-  std::vector<std::string> settings;      ///< --set KEY=VALUE, checked; docs/parameters.md
+  std::string profile = "terracut";   ///< --profile paper|terracut
+  std::string stages = "mrf";         ///< --stages elevation|adjacent|mrf
+  std::vector<std::string> settings;  ///< --set KEY=VALUE, checked; docs/parameters.md
 };
 
 /// Where results go.
 struct OutputOptions {
-  std::filesystem::path labels, pcd, png; ///< Folders.
-  std::filesystem::path json;             ///< File.
-  std::filesystem::path truth;            ///< Folder of NNNNNN.label: scores the labels.
+  std::filesystem::path labels, pcd, png;  ///< Folders.
+  std::filesystem::path json;              ///< File.
+  std::filesystem::path truth;             ///< Folder of NNNNNN.label: scores the labels.
 };
 
 struct ReplayOptions {
@@ -48,15 +48,15 @@ struct ReplayOptions {
   MountOptions mount;
   MethodOptions method;
   OutputOptions output;
-  double rate = 0;                        ///< --rate: 0 as fast as possible, 1 as recorded
-  int loops = 1;                          ///< --loop: passes over the capture, 0 until interrupted
+  double rate = 0;  ///< --rate: 0 as fast as possible, 1 as recorded
+  int loops = 1;    ///< --loop: passes over the capture, 0 until interrupted
 };
 
 struct SegmentOptions {
   std::filesystem::path scans;
   MountOptions mount;
   MethodOptions method;
-  OutputOptions output;                   ///< truth is not used: it lies beside the scans
+  OutputOptions output;  ///< truth is not used: it lies beside the scans
 };
 
 struct SimulateOptions {
@@ -64,21 +64,21 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   double duration_s = 3;
   double noise_m = 0.015;
-  std::filesystem::path calibration;      ///< Empty: the built-in nominal unit.
+  std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;
   std::filesystem::path output;
 };
 
 struct EncodeOptions {
   std::filesystem::path scans;
-  std::filesystem::path calibration;      ///< Empty: fitted from the scans.
+  std::filesystem::path calibration;  ///< Empty: fitted from the scans.
   bool undo_compensation = false;
   std::filesystem::path output;
 };
 
 struct CalibrateOptions {
   CaptureOptions capture;
-  MountOptions mount;                     ///< Start of the estimate, or fixed with --keep-mount.
+  MountOptions mount;  ///< Start of the estimate, or fixed with --keep-mount.
   MethodOptions method;
   bool keep_mount = false;
   std::filesystem::path output;
@@ -100,8 +100,8 @@ struct BenchOptions {
   CaptureOptions capture;
   MountOptions mount;
   MethodOptions method;
-  int repeat = 10;                        ///< Passes over the capture's frames.
-  int core = -1;                          ///< --core: pin to it; -1: the last one allowed.
+  int repeat = 10;  ///< Passes over the capture's frames.
+  int core = -1;    ///< --core: pin to it; -1: the last one allowed.
   std::filesystem::path json;
 };
 

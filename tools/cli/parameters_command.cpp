@@ -37,8 +37,9 @@ ExitCode run(const ParametersOptions&) {
   const pipeline::SegmenterConfig paper = pipeline::paper_profile();
   fmt::print("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
   for (const pipeline::Parameter& parameter : pipeline::parameters()) {
-    fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit, range(parameter),
-               value(parameter, terracut), value(parameter, paper), parameter.help);
+    fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
+               range(parameter), value(parameter, terracut), value(parameter, paper),
+               parameter.help);
   }
   return kOk;
 }

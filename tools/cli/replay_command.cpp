@@ -31,7 +31,7 @@ volatile std::sig_atomic_t interrupted = 0;
 
 /// Ctrl-C ends the replay as the end of the capture would: results so far are reported.
 void end_on_interrupt() {
-  struct sigaction action {};
+  struct sigaction action{};
   action.sa_handler = [](int) { interrupted = 1; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C kills
   ::sigaction(SIGINT, &action, nullptr);
@@ -53,8 +53,8 @@ class Pace {
     }
     constexpr double kFar_ns = 9e18;  // a rate near 0 would leave the 64 bits
     const double due_ns = static_cast<double>(stamp_ns - first_ns_) / rate_;
-    std::this_thread::sleep_until(
-        started_ + std::chrono::nanoseconds(static_cast<std::int64_t>(std::clamp(due_ns, 0.0, kFar_ns))));
+    std::this_thread::sleep_until(started_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
+                                                 std::clamp(due_ns, 0.0, kFar_ns))));
   }
 
  private:
@@ -73,9 +73,11 @@ class FrameTruth {
   std::span<const std::uint32_t> read(const std::string& name, std::size_t returns) {
     labels_.clear();
     if (folder_.empty()) return labels_;
-    const Status status = firmware_io::read_label_file(folder_ / (name + ".label"), returns, labels_);
+    const Status status =
+        firmware_io::read_label_file(folder_ / (name + ".label"), returns, labels_);
     if (status) return labels_;
-    if (!warned_) warn("frames without fitting truth are not scored; the first: " + status.error().message);
+    if (!warned_)
+      warn("frames without fitting truth are not scored; the first: " + status.error().message);
     warned_ = true;
     labels_.clear();
     return labels_;
@@ -156,8 +158,8 @@ class Replay {
     }
   }
 
-  /// One turn: segments it and hands the labels to the sinks. Runs inside the decoder, which wants no
-  /// exceptions: a sink that fails is remembered, and play_once() ends the replay.
+  /// One turn: segments it and hands the labels to the sinks. Runs inside the decoder, which wants
+  /// no exceptions: a sink that fails is remembered, and play_once() ends the replay.
   void take(const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
     clock_.begin();
     const pipeline::SegmentationReport segmented = chain_.segmenter.segment(image, {}, &clock_);
@@ -179,9 +181,10 @@ class Replay {
     if (!status_.has_table()) return;
     const auto table = calib::parse_stream_table(status_.table());
     if (!table || fingerprint(table->calibration) == fingerprint(capture_.calibration)) return;
-    warn(fmt::format("the packets carry another calibration (fingerprint {:016x}) than the one in use "
-                     "({:016x}); leave --calibration away to use theirs",
-                     fingerprint(table->calibration), fingerprint(capture_.calibration)));
+    warn(fmt::format(
+        "the packets carry another calibration (fingerprint {:016x}) than the one in use "
+        "({:016x}); leave --calibration away to use theirs",
+        fingerprint(table->calibration), fingerprint(capture_.calibration)));
   }
 
   ExitCode conclude() {

@@ -15,7 +15,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Milliseconds to the microsecond: more digits would only be noise.
-double milliseconds(std::int64_t ns) { return static_cast<double>(ns / 1000) / 1000.0; }
+double milliseconds(std::int64_t ns) {
+  return static_cast<double>(ns / 1000) / 1000.0;
+}
 
 std::int64_t segment_ns(const FrameRecord& frame) {
   std::int64_t sum = 0;
@@ -40,8 +42,8 @@ Json milliseconds_json(const FrameRecord& frame) {
   return json;
 }
 
-/// How many cells the cut had to decide, how many kept their coarse label for want of budget, and the
-/// operations it took.
+/// How many cells the cut had to decide, how many kept their coarse label for want of budget, and
+/// the operations it took.
 Json min_cut_json(const pipeline::CutReport& cut) {
   return {{"unknown", cut.unknown},
           {"coarse", cut.coarse_by_cap + cut.coarse_by_budget},
@@ -108,10 +110,10 @@ std::string TimeSummary::text() const {
   std::string text = fmt::format("ms/frame  {:<16}{:>9}{:>9}{:>9}\n", "", "p50", "p99", "max");
   for_each_time(*this, [&](const std::string& name, const rt::LogLinearHistogram& histogram) {
     if (histogram.max_ns() == 0) return;  // a stage that did not run
-    text += fmt::format("          {:<16}{:>9.3f}{:>9.3f}{:>9.3f}\n", name,
-                        milliseconds(histogram.percentile_ns(50)),
-                        milliseconds(histogram.percentile_ns(99)),
-                        milliseconds(histogram.max_ns()));
+    text +=
+        fmt::format("          {:<16}{:>9.3f}{:>9.3f}{:>9.3f}\n", name,
+                    milliseconds(histogram.percentile_ns(50)),
+                    milliseconds(histogram.percentile_ns(99)), milliseconds(histogram.max_ns()));
   });
   return text;
 }
@@ -138,9 +140,9 @@ firmware_io::LossCounters Report::losses() const {
 
 std::string Report::text() const {
   const Totals totals = totals_of(records_);
-  std::string text = fmt::format(
-      "frames    {} ({} complete)\nreturns   {} in, {} labelled\n", records_.size(),
-      totals.complete, totals.returns_in, totals.returns_labelled);
+  std::string text =
+      fmt::format("frames    {} ({} complete)\nreturns   {} in, {} labelled\n", records_.size(),
+                  totals.complete, totals.returns_in, totals.returns_labelled);
   if (quality_) {
     text += fmt::format("quality   IoU_g {:.2f} %, Recall_o {:.2f} %{}\n",
                         100 * quality_->iou_ground(), 100 * quality_->recall_key_obstacles(),

@@ -27,7 +27,7 @@ struct FrameRecord {
   bool complete = true;
   std::uint32_t returns_in = 0;
   std::uint32_t returns_labelled = 0;
-  std::int64_t decode_ns = 0;        ///< Processor time of decoding the packets since the frame before.
+  std::int64_t decode_ns = 0;  ///< Processor time of decoding the packets since the frame before.
   StageTimes times;
   pipeline::CutReport cut;
   firmware_io::LossCounters losses;
@@ -53,9 +53,9 @@ struct TimeSummary {
 class Report {
  public:
   struct Run {
-    std::string command;       ///< "replay"
+    std::string command;  ///< "replay"
     std::string input;
-    std::string calibration;   ///< Origin and fingerprint of the table in use.
+    std::string calibration;  ///< Origin and fingerprint of the table in use.
     std::string profile, stages;
   };
 
@@ -67,7 +67,8 @@ class Report {
     quality_ = quality;
     unscored_ = unscored;
   }
-  /// Everything lost in the run, where that is more than the frames' sum (losses after the last one).
+  /// Everything lost in the run, where that is more than the frames' sum (losses after the last
+  /// one).
   void set_losses(const firmware_io::LossCounters& losses) { losses_ = losses; }
   /// The input broke off, and where.
   void set_input_warning(std::string warning) { input_warning_ = std::move(warning); }
@@ -80,13 +81,13 @@ class Report {
   /// The whole report for programs, whole or not at all:
   ///
   ///   terracut, command, input, calibration, profile, stages   of what ran on what
-  ///   input_warning                where the input broke off, if it did
-  ///   frames[]                     frame (number), first_packet_ns, complete, returns_in,
-  ///                                returns_labelled, losses{cause: count}, ms{stage: processor time},
-  ///                                segment_wall_ms, min_cut{unknown, coarse, ops}
-  ///   summary                      frames, complete_frames, returns_in, returns_labelled, losses{},
-  ///                                ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
-  ///                                with truth iou_g, recall_o, unscored_frames
+  ///   input_warning   where the input broke off, if it did
+  ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
+  ///                   losses{cause: count}, ms{stage: processor time}, segment_wall_ms,
+  ///                   min_cut{unknown, coarse, ops}
+  ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
+  ///                   ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
+  ///                   with truth iou_g, recall_o, unscored_frames
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
  private:

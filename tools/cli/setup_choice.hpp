@@ -23,7 +23,8 @@ namespace terracut::cli {
 /// Applies one KEY=VALUE of --set.
 [[nodiscard]] Status apply_setting(pipeline::SegmenterConfig& config, std::string_view setting);
 
-/// The method's parameters for --profile, --stages and --set, whose settings must have been checked.
+/// The method's parameters for --profile, --stages and --set, whose settings must have been
+/// checked.
 [[nodiscard]] pipeline::SegmenterConfig segmenter_config_of(const MethodOptions& options);
 
 }  // namespace terracut::cli

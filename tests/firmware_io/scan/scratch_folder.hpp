@@ -9,17 +9,15 @@
 #include <string>
 #include <string_view>
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace terracut::firmware_io {
 
 /// An empty folder of the running test's own, removed at its end.
 class ScratchFolder {
  public:
   ScratchFolder() {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    path_ = std::filesystem::path(testing::TempDir()) /
-            (std::string("terracut_") + info->test_suite_name() + "_" + info->name());
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
+    path_ = test::make_scratch_folder();
   }
   ~ScratchFolder() {
     std::error_code ignored;

@@ -16,6 +16,8 @@
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
 
+#include "tests/support/scratch_folder.hpp"
+
 namespace terracut::firmware_io {
 
 /// An image of 4 rows x 32 columns that a test fills return by return.
@@ -37,11 +39,7 @@ struct SmallFrame {
 class OutputFolder : public testing::Test {
  protected:
   void SetUp() override {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    folder_ = std::filesystem::path(testing::TempDir()) /
-              (std::string("terracut_") + info->test_suite_name() + "_" + info->name());
-    std::filesystem::remove_all(folder_);
-    std::filesystem::create_directories(folder_);
+    folder_ = test::make_scratch_folder();
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 

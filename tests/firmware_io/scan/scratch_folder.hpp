@@ -16,9 +16,7 @@ namespace terracut::firmware_io {
 /// An empty folder of the running test's own, removed at its end.
 class ScratchFolder {
  public:
-  ScratchFolder() {
-    path_ = test::make_scratch_folder();
-  }
+  ScratchFolder() { path_ = test::make_scratch_folder(); }
   ~ScratchFolder() {
     std::error_code ignored;
     std::filesystem::remove_all(path_, ignored);

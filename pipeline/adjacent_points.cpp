@@ -36,8 +36,7 @@ struct Run {
 
 /// Pairs whose step from lower to upper return is too steep: 1 in `steep`, else 0.
 TERRACUT_VECTOR_CLONES void find_steep_steps(const Run run, float min_rise_m,
-                                             float min_upper_height_m,
-                                             float tan_max_slope_squared,
+                                             float min_upper_height_m, float tan_max_slope_squared,
                                              std::uint8_t* steep) noexcept {
   constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
   const int count = run.count;
@@ -45,13 +44,13 @@ TERRACUT_VECTOR_CLONES void find_steep_steps(const Run run, float min_rise_m,
     const float dx = run.upper_x[i] - run.lower_x[i];
     const float dy = run.upper_y[i] - run.lower_y[i];
     const float rise = run.upper_z[i] - run.lower_z[i];
-    steep[i] = (rise >= min_rise_m) &
-               ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
+    steep[i] = (rise >= min_rise_m) & ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
                (run.upper_height[i] >= min_upper_height_m) & (run.lower_height[i] >= kAnyHeight);
   }
 }
 
-/// Marks what find_steep_steps() found: the upper return, and the lower one where it is high enough.
+/// Marks what find_steep_steps() found: the upper return, and the lower one where it is high
+/// enough.
 TERRACUT_VECTOR_CLONES void mark_steep_steps(const Run run, float min_lower_height_m,
                                              const std::uint8_t* steep) noexcept {
   const int count = run.count;
@@ -90,12 +89,12 @@ AdjacentPoints::AdjacentPoints(const Config& config, const calib::RingProfile& p
                                ImageShape shape, rt::FixedMemory& memory)
     : config_(config),
       shape_(shape),
-      tan_max_slope_squared_(static_cast<float>(
-          std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
+      tan_max_slope_squared_(
+          static_cast<float>(std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
       ring_spacing_m_(memory.take<float>(
           "adjacent points", static_cast<std::size_t>(config.last_row_step * shape.rows))),
-      steep_pairs_(memory.take<std::uint8_t>("adjacent points",
-                                             static_cast<std::size_t>(shape.columns))) {
+      steep_pairs_(
+          memory.take<std::uint8_t>("adjacent points", static_cast<std::size_t>(shape.columns))) {
   for (int step = 1; step <= config.last_row_step; ++step) {
     for (int row = 0; row + step < shape.rows; ++row) {
       const calib::Ring& lower = profile.rings[static_cast<std::size_t>(row)];
@@ -121,8 +120,10 @@ void AdjacentPoints::refine(const RangeImage& image, CellPlanes& planes) noexcep
     for (int row = 0; row + step < shape_.rows; ++row) {
       const std::size_t lower = static_cast<std::size_t>(row) * stride;
       for (int offset = -config_.column_reach; offset <= config_.column_reach; ++offset) {
-        mark(image, {lower, lower + static_cast<std::size_t>(step) * stride, offset,
-                     ring_spacing_m(row, step)}, planes);
+        mark(image,
+             {lower, lower + static_cast<std::size_t>(step) * stride, offset,
+              ring_spacing_m(row, step)},
+             planes);
       }
     }
   }
@@ -134,11 +135,17 @@ void AdjacentPoints::mark(const RangeImage& image, const RowPair& pair,
   const auto mark_run = [&](int lower_column, int upper_column, int count) noexcept {
     const std::size_t lower = pair.lower + static_cast<std::size_t>(lower_column);
     const std::size_t upper = pair.upper + static_cast<std::size_t>(upper_column);
-    const Run run{&image.x_m()[lower], &image.y_m()[lower], &image.z_m()[lower],
+    const Run run{&image.x_m()[lower],
+                  &image.y_m()[lower],
+                  &image.z_m()[lower],
                   &planes.height_m[lower],
-                  &image.x_m()[upper], &image.y_m()[upper], &image.z_m()[upper],
+                  &image.x_m()[upper],
+                  &image.y_m()[upper],
+                  &image.z_m()[upper],
                   &planes.height_m[upper],
-                  &planes.steep[lower], &planes.steep[upper], count};
+                  &planes.steep[lower],
+                  &planes.steep[upper],
+                  count};
     if (config_.rule == AdjacentRule::kSlope) {
       find_steep_steps(run, config_.min_rise_m, config_.min_upper_height_m, tan_max_slope_squared_,
                        steep_pairs_.data());

@@ -30,7 +30,8 @@ class AdjacentPoints {
     int last_row_step = 2;          ///< [first_row_step, 4]
     int column_reach = 1;           ///< Columns to each side; "colselzoo" in Algorithm 1; [0, 8].
     float min_rise_m = 0.10F;       ///< kSlope: smaller rises are noise.
-    float min_upper_height_m = 0.04F;  ///< kSlope: the upper return must be this far above the ground reference.
+    float min_upper_height_m =
+        0.04F;  ///< kSlope: the upper return must be this far above the ground reference.
     float min_lower_height_m = 0.05F;  ///< kSlope: above this the lower return is marked as well.
   };
 
@@ -56,7 +57,7 @@ class AdjacentPoints {
   Config config_;
   ImageShape shape_;
   float tan_max_slope_squared_;
-  std::span<float> ring_spacing_m_;  // [row_step - 1][row]
+  std::span<float> ring_spacing_m_;      // [row_step - 1][row]
   std::span<std::uint8_t> steep_pairs_;  // of the pair of rows at hand, by column
 };
 

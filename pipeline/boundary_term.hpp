@@ -26,14 +26,16 @@ class BoundaryTerm {
   struct Config {
     BoundaryRule rule = BoundaryRule::kNearness;
     // kHeightGradient
-    float sigma = 10.0F;               ///< Adjustment coefficient of Eq. 14, 1/m.
-    float min_distance_m = 0.05F;      ///< Floor of d: on walls d goes to 0 and the exponent to infinity.
+    float sigma = 10.0F;  ///< Adjustment coefficient of Eq. 14, 1/m.
+    float min_distance_m =
+        0.05F;  ///< Floor of d: on walls d goes to 0 and the exponent to infinity.
     // kNearness
-    float scale_m = 0.10F;             ///< Distance at which the weight has fallen to 1/e, at range 0 ...
-    float scale_per_metre = 0.02F;     ///< ... and how much it grows per metre of range.
+    float scale_m = 0.10F;  ///< Distance at which the weight has fallen to 1/e, at range 0 ...
+    float scale_per_metre = 0.02F;  ///< ... and how much it grows per metre of range.
   };
 
-  BoundaryTerm(const Config& config, const NegativeExp& negative_exp, const RangeImage& image) noexcept
+  BoundaryTerm(const Config& config, const NegativeExp& negative_exp,
+               const RangeImage& image) noexcept
       : config_(&config),
         exp_(&negative_exp),
         x_m_(image.x_m().data()),
@@ -49,7 +51,8 @@ class BoundaryTerm {
     }
   }
 
-  /// Weight of the edge between two cells that hold returns, [0, 1]; the same both ways, bit for bit.
+  /// Weight of the edge between two cells that hold returns, [0, 1]; the same both ways, bit for
+  /// bit.
   [[nodiscard]] float weight(std::size_t p, std::size_t q) const noexcept {
     const float dx = x_m_[p] - x_m_[q];
     const float dy = y_m_[p] - y_m_[q];

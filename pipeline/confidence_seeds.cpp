@@ -26,9 +26,12 @@ int rows_that_see_ground(const calib::RingProfile& profile) {
 /// The seed that keeps the label of the stages before.
 Seed kept(Label label) noexcept {
   switch (label) {
-    case Label::kNone: return Seed::kNone;
-    case Label::kGround: return Seed::kGround;
-    case Label::kObstacle: return Seed::kObstacle;
+    case Label::kNone:
+      return Seed::kNone;
+    case Label::kGround:
+      return Seed::kGround;
+    case Label::kObstacle:
+      return Seed::kObstacle;
   }
   return Seed::kNone;
 }
@@ -116,8 +119,9 @@ void ConfidenceSeeds::select_in_row(const CellPlanes& planes, int row) noexcept 
                          share * static_cast<float>(returns_in_window_[column])) &
                         (height_m < max_ground_height_m);
     const bool obstacle = (planes.steep[cell] != 0) | (height_m > min_obstacle_height_m);
-    seeds_[cell] = kSeeds[static_cast<std::size_t>(planes.label[cell])]
-                         [static_cast<std::size_t>(ground) + 2 * static_cast<std::size_t>(obstacle)];
+    seeds_[cell] =
+        kSeeds[static_cast<std::size_t>(planes.label[cell])]
+              [static_cast<std::size_t>(ground) + 2 * static_cast<std::size_t>(obstacle)];
   }
 }
 

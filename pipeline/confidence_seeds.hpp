@@ -12,9 +12,9 @@ namespace terracut::pipeline {
 
 /// Which rows of the range image the MRF decides on.
 enum class CutRows : std::uint8_t {
-  kAll,     ///< Every row.
-  /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's 70
-  /// of the RS-Ruby128's 128). Above them the stages before have the last word.
+  kAll,  ///< Every row.
+  /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's
+  /// 70 of the RS-Ruby128's 128). Above them the stages before have the last word.
   kGround,
 };
 
@@ -24,12 +24,14 @@ enum class CutRows : std::uint8_t {
 class ConfidenceSeeds {
  public:
   struct Config {
-    float ground_share = 0.8F;   ///< k: share of ground among the window's returns, [0, 1].
-    int window_rows = 2;         ///< Window reach up and down, rows; [0, 8].
-    int window_columns = 3;      ///< Window reach to each side, columns; [0, 16].
-    float max_ground_height_m = 0.10F;    ///< Ground seeds lie no higher above the reference.
-    float min_obstacle_height_m = 0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
-    bool trust_all_obstacles = false;     ///< Every obstacle of the stages before is a seed, as printed.
+    float ground_share = 0.8F;          ///< k: share of ground among the window's returns, [0, 1].
+    int window_rows = 2;                ///< Window reach up and down, rows; [0, 8].
+    int window_columns = 3;             ///< Window reach to each side, columns; [0, 16].
+    float max_ground_height_m = 0.10F;  ///< Ground seeds lie no higher above the reference.
+    float min_obstacle_height_m =
+        0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
+    bool trust_all_obstacles =
+        false;  ///< Every obstacle of the stages before is a seed, as printed.
     CutRows rows = CutRows::kAll;
   };
 

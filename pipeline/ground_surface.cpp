@@ -50,8 +50,8 @@ void GroundSurface::walk_outwards(const RingGrid& grid, int sector,
     const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest_m);
     if (detour.band < 0) return;
     ground = {lowest_m[grid.cell(sector, detour.band)], grid.center_m(detour.band), detour.slope};
-    lost_band = std::max(detour.band,
-                         walk_on(grid, sector, detour.band, kRegained, ground, lowest_m));
+    lost_band =
+        std::max(detour.band, walk_on(grid, sector, detour.band, kRegained, ground, lowest_m));
   }
 }
 
@@ -86,7 +86,7 @@ GroundSurface::Detour GroundSurface::find_ground_again(
   };
   const Place lost{ground.range_m, ground.height_m};
   Place start{}, last{};
-  int start_band = -1;  // of the places that lead on passably from one to the next
+  int start_band = -1;     // of the places that lead on passably from one to the next
   bool connected = false;  // ... and whether they do so from the lost ground
   for (int band = lost_band + 1; band < grid.bands(); ++band) {
     const Place here{grid.center_m(band), lowest_m[grid.cell(sector, band)]};
@@ -135,7 +135,8 @@ void GroundSurface::borrow_from_neighbours(const RingGrid& grid,
   for (int sector = 0; sector < grid.sectors(); ++sector) {
     const std::size_t first = grid.cell(sector, 0);
     const auto has_return = [&](int band) {
-      return band >= 0 && band < bands && lowest_m[first + static_cast<std::size_t>(band)] != kEmpty;
+      return band >= 0 && band < bands &&
+             lowest_m[first + static_cast<std::size_t>(band)] != kEmpty;
     };
     for (int band = 0; band < bands; ++band) {
       const std::size_t cell = first + static_cast<std::size_t>(band);

@@ -22,27 +22,31 @@ class GroundSurface {
   struct Config {
     float step_up_m = 0.04F;        ///< Rise accepted at no distance at all (noise, bumps).
     float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre walked.
-    float step_up_limit_m = 0.31F;  ///< Never accept a rise above this, however far the last ground.
-    float extra_fall = 0.30F;       ///< Further fall accepted per metre walked (ground may drop away).
-    float slope_gain = 0.30F;       ///< Share of a new step in the running slope, (0, 1].
-    float max_slope = 0.40F;        ///< Largest running slope, rise over run.
-    float slope_memory_m = 2.0F;    ///< How far the running slope is carried on over missing ground.
-    float first_slope_run_m = 0.4F; ///< A shorter step than this counts as this long for the slope.
-    float regain_length_m = 4.0F;   ///< Lost ground is found again after so many metres of passable steps ...
-    float regain_slope = 0.40F;     ///< ... that begin no steeper than this from the last ground ...
-    float regain_width_m = 4.0F;    ///< ... on a strip at least so wide.
-    int borrow_sectors = 10;        ///< How many sectors to each side a cell may borrow from.
-    float walked_weight = 0.30F;    ///< Weight of the walked prediction against a neighbour's 1/distance.
+    float step_up_limit_m =
+        0.31F;                 ///< Never accept a rise above this, however far the last ground.
+    float extra_fall = 0.30F;  ///< Further fall accepted per metre walked (ground may drop away).
+    float slope_gain = 0.30F;  ///< Share of a new step in the running slope, (0, 1].
+    float max_slope = 0.40F;   ///< Largest running slope, rise over run.
+    float slope_memory_m = 2.0F;  ///< How far the running slope is carried on over missing ground.
+    float first_slope_run_m =
+        0.4F;  ///< A shorter step than this counts as this long for the slope.
+    float regain_length_m =
+        4.0F;  ///< Lost ground is found again after so many metres of passable steps ...
+    float regain_slope = 0.40F;   ///< ... that begin no steeper than this from the last ground ...
+    float regain_width_m = 4.0F;  ///< ... on a strip at least so wide.
+    int borrow_sectors = 10;      ///< How many sectors to each side a cell may borrow from.
+    float walked_weight =
+        0.30F;  ///< Weight of the walked prediction against a neighbour's 1/distance.
   };
 
   GroundSurface(const Config& config, const RingGrid& grid, rt::FixedMemory& memory);
 
-  /// Estimates the surface from `lowest_m`, one height per grid cell, kEmpty where it had no return.
-  /// Real-time safe.
+  /// Estimates the surface from `lowest_m`, one height per grid cell, kEmpty where it had no
+  /// return. Real-time safe.
   void estimate(const RingGrid& grid, std::span<const float> lowest_m) noexcept;
 
-  /// Ground height above the mount's plane, one per grid cell; meaningful in cells that had a return
-  /// and in the bands next to them.
+  /// Ground height above the mount's plane, one per grid cell; meaningful in cells that had a
+  /// return and in the bands next to them.
   [[nodiscard]] std::span<const float> height_m() const noexcept { return height_m_; }
 
   static constexpr float kEmpty = 1e9F;
@@ -61,7 +65,8 @@ class GroundSurface {
     float slope = 0;
 
     [[nodiscard]] float predict_m(float to_range_m, const Config& config) const noexcept;
-    [[nodiscard]] bool reaches(float to_range_m, float to_height_m, const Config& config) const noexcept;
+    [[nodiscard]] bool reaches(float to_range_m, float to_height_m,
+                               const Config& config) const noexcept;
     void step(float to_range_m, float to_height_m, const Config& config) noexcept;
   };
 

@@ -23,14 +23,15 @@ constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp
 constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
 
 // The pair of functions that read and write one field of the configuration.
-#define TERRACUT_FIELD(path)                                                              \
-  [](const SegmenterConfig& c) noexcept { return static_cast<double>(c.path); },          \
-      [](SegmenterConfig& c, double value) noexcept {                                     \
-        c.path = static_cast<std::remove_reference_t<decltype(c.path)>>(value);           \
+#define TERRACUT_FIELD(path)                                                     \
+  [](const SegmenterConfig& c) noexcept { return static_cast<double>(c.path); }, \
+      [](SegmenterConfig& c, double value) noexcept {                            \
+        c.path = static_cast<std::remove_reference_t<decltype(c.path)>>(value);  \
       }
 
 constexpr double kFar = 1e9;  // "no limit"
 
+// clang-format off: a table reads better with an entry on two lines than one word a line.
 constexpr std::array kParameters{
     Parameter{"grid.columns_per_sector", "columns", "Image columns a sector of the ring grid covers", 1, 64, {},
               TERRACUT_FIELD(elevation_map.grid.columns_per_sector)},
@@ -139,6 +140,7 @@ constexpr std::array kParameters{
     Parameter{"returns.obstacle_height_m", "m", "Else it is an obstacle from this height on", 0.01, 2, {},
               TERRACUT_FIELD(returns.obstacle_height_m)},
 };
+// clang-format on
 #undef TERRACUT_FIELD
 
 std::string number_text(double value) {
@@ -149,14 +151,16 @@ std::string number_text(double value) {
 Expected<double> parse_value(const Parameter& parameter, std::string_view value) {
   if (!parameter.choices.empty()) {
     const auto choice = std::find(parameter.choices.begin(), parameter.choices.end(), value);
-    if (choice != parameter.choices.end()) return static_cast<double>(choice - parameter.choices.begin());
+    if (choice != parameter.choices.end())
+      return static_cast<double>(choice - parameter.choices.begin());
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{}: expected one of {}, found '{}'", parameter.key,
                             fmt::join(parameter.choices, ", "), value));
   }
   double number = 0;
   const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  const bool whole = error == std::errc{} && end == value.data() + value.size() && std::isfinite(number);
+  const bool whole =
+      error == std::errc{} && end == value.data() + value.size() && std::isfinite(number);
   if (whole && number >= parameter.least && number <= parameter.most) return number;
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: expected a number from {} to {}{}{}, found '{}'", parameter.key,
@@ -175,17 +179,21 @@ std::vector<std::string_view> keys_of_same_stage(std::string_view key) {
 
 }  // namespace
 
-std::span<const Parameter> parameters() noexcept { return kParameters; }
+std::span<const Parameter> parameters() noexcept {
+  return kParameters;
+}
 
 Status set_parameter(SegmenterConfig& config, std::string_view key, std::string_view value) {
   const auto parameter = std::find_if(kParameters.begin(), kParameters.end(),
                                       [&](const Parameter& p) { return p.key == key; });
   if (parameter == kParameters.end()) {
     const std::vector<std::string_view> alike = keys_of_same_stage(key);
-    return fail(ErrorCode::kInvalidArgument,
-                alike.empty()
-                    ? fmt::format("no parameter is called '{}'; docs/parameters.md lists them all", key)
-                    : fmt::format("no parameter is called '{}'; there are {}", key, fmt::join(alike, ", ")));
+    return fail(
+        ErrorCode::kInvalidArgument,
+        alike.empty()
+            ? fmt::format("no parameter is called '{}'; docs/parameters.md lists them all", key)
+            : fmt::format("no parameter is called '{}'; there are {}", key,
+                          fmt::join(alike, ", ")));
   }
   const Expected<double> number = parse_value(*parameter, value);
   if (!number) return tl::unexpected<Error>(number.error());
@@ -195,8 +203,9 @@ Status set_parameter(SegmenterConfig& config, std::string_view key, std::string_
 
 std::string value_text(const Parameter& parameter, const SegmenterConfig& config) {
   const double value = parameter.get(config);
-  return parameter.choices.empty() ? number_text(value)
-                                   : std::string(parameter.choices[static_cast<std::size_t>(value)]);
+  return parameter.choices.empty()
+             ? number_text(value)
+             : std::string(parameter.choices[static_cast<std::size_t>(value)]);
 }
 
 }  // namespace terracut::pipeline

@@ -25,7 +25,8 @@ double portable_log(double x) noexcept {
 NegativeExp::NegativeExp() noexcept {
   // exp(-i / 64) as the product of the Taylor series of one step, taken i times: IEEE only.
   const double x = -1.0 / static_cast<double>(kStepsPerUnit);
-  const double one_step = 1 + x * (1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6)))));
+  const double one_step =
+      1 + x * (1 + x / 2 * (1 + x / 3 * (1 + x / 4 * (1 + x / 5 * (1 + x / 6)))));
   double value = 1;
   for (float& entry : table_) {
     entry = static_cast<float>(value);

@@ -11,7 +11,9 @@ RingElevationMap::Config SegmenterConfig::terracut_elevation_map() noexcept {
   return config;
 }
 
-SegmenterConfig terracut_profile() noexcept { return {}; }
+SegmenterConfig terracut_profile() noexcept {
+  return {};
+}
 
 SegmenterConfig paper_profile() noexcept {
   SegmenterConfig config;

@@ -15,8 +15,8 @@ double ratio(std::uint64_t part, std::uint64_t whole) noexcept {
 
 TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept {
   switch (semantic_kitti_id & 0xFFFFU) {
-    case 0:   // unlabelled
-    case 1:   // outlier
+    case 0:  // unlabelled
+    case 1:  // outlier
       return TruthClass::kIgnored;
     case 40:  // road
     case 44:  // parking
@@ -35,7 +35,14 @@ TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept {
     case 30:  // person
     case 31:  // bicyclist
     case 32:  // motorcyclist
-    case 252: case 253: case 254: case 255: case 256: case 257: case 258: case 259:  // moving ones
+    case 252:
+    case 253:
+    case 254:
+    case 255:
+    case 256:
+    case 257:
+    case 258:
+    case 259:  // moving ones
       return TruthClass::kKeyObstacle;
     default:
       return TruthClass::kOrdinaryObstacle;
@@ -46,10 +53,16 @@ void Quality::add(Label label, std::uint32_t semantic_kitti_id) noexcept {
   const TruthClass truth = truth_class(semantic_kitti_id);
   const bool as_ground = label == Label::kGround;
   switch (truth) {
-    case TruthClass::kIgnored: return;
-    case TruthClass::kGround: ++(as_ground ? ground_as_ground : ground_as_obstacle); return;
-    case TruthClass::kKeyObstacle: ++(as_ground ? key_as_ground : key_as_obstacle); break;
-    case TruthClass::kOrdinaryObstacle: break;
+    case TruthClass::kIgnored:
+      return;
+    case TruthClass::kGround:
+      ++(as_ground ? ground_as_ground : ground_as_obstacle);
+      return;
+    case TruthClass::kKeyObstacle:
+      ++(as_ground ? key_as_ground : key_as_obstacle);
+      break;
+    case TruthClass::kOrdinaryObstacle:
+      break;
   }
   ++(as_ground ? obstacle_as_ground : obstacle_as_obstacle);
 }

@@ -11,8 +11,8 @@ namespace terracut::pipeline {
 
 /// What a SemanticKITTI class id means for the measures (peers.md conventions; docs/method.md).
 enum class TruthClass : std::uint8_t {
-  kIgnored,           ///< Unlabelled or outlier (0, 1): counts nowhere.
-  kGround,            ///< 40 road, 44 parking, 48 sidewalk, 49 other ground, 60 lane marking, 72 terrain.
+  kIgnored,  ///< Unlabelled or outlier (0, 1): counts nowhere.
+  kGround,   ///< 40 road, 44 parking, 48 sidewalk, 49 other ground, 60 lane marking, 72 terrain.
   kOrdinaryObstacle,  ///< Everything else.
   kKeyObstacle,       ///< Motor vehicles, bicycles, persons, moving or not.
 };
@@ -26,14 +26,16 @@ struct Quality {
   std::uint64_t ground_as_obstacle = 0;
   std::uint64_t obstacle_as_ground = 0;
   std::uint64_t obstacle_as_obstacle = 0;
-  std::uint64_t key_as_ground = 0;     ///< Part of obstacle_as_ground.
-  std::uint64_t key_as_obstacle = 0;   ///< Part of obstacle_as_obstacle.
+  std::uint64_t key_as_ground = 0;    ///< Part of obstacle_as_ground.
+  std::uint64_t key_as_obstacle = 0;  ///< Part of obstacle_as_obstacle.
 
   void add(Label label, std::uint32_t semantic_kitti_id) noexcept;
   Quality& operator+=(const Quality& other) noexcept;
 
-  [[nodiscard]] double iou_ground() const noexcept;           ///< IoU_g, Eq. 16; [0, 1]; 1 when nothing to find.
-  [[nodiscard]] double recall_key_obstacles() const noexcept; ///< Recall_o, Eq. 17; [0, 1]; 1 without any.
+  [[nodiscard]] double iou_ground()
+      const noexcept;  ///< IoU_g, Eq. 16; [0, 1]; 1 when nothing to find.
+  [[nodiscard]] double recall_key_obstacles()
+      const noexcept;  ///< Recall_o, Eq. 17; [0, 1]; 1 without any.
   [[nodiscard]] double precision_ground() const noexcept;
   [[nodiscard]] double recall_ground() const noexcept;
 };

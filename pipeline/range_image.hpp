@@ -27,7 +27,7 @@ struct ImageShape {
 /// One echo in the vehicle frame (calib/mount.hpp).
 struct Return {
   float x_m = 0, y_m = 0;
-  float z_m = 0;        ///< Height above the mount's ground plane.
+  float z_m = 0;             ///< Height above the mount's ground plane.
   float ground_range_m = 0;  ///< Horizontal distance from the sensor, sqrt(x^2 + y^2).
   std::uint8_t intensity = 0;
 };
@@ -55,13 +55,14 @@ class RangeImage {
   /// Forgets all returns. Real-time safe, O(1) but for one turn in 2^32.
   void clear() noexcept;
 
-  /// Puts a return into its cell or, where that is taken, on the overflow list. Returns are numbered
-  /// in the order of these calls. False when the overflow list is full: the return is not kept and
-  /// the caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
+  /// Puts a return into its cell or, where that is taken, on the overflow list. Returns are
+  /// numbered in the order of these calls. False when the overflow list is full: the return is not
+  /// kept and the caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
   bool place(int row, int column, const Return& echo) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
                              static_cast<std::size_t>(column);
-    if (stamp_[cell] == generation_) [[unlikely]] return place_overflow(cell, echo);
+    if (stamp_[cell] == generation_) [[unlikely]]
+      return place_overflow(cell, echo);
     stamp_[cell] = generation_;
     x_m_[cell] = echo.x_m;
     y_m_[cell] = echo.y_m;

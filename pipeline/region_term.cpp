@@ -27,16 +27,15 @@ void RegionTerm::evaluate_ramp(const CellPlanes& planes, std::span<const Seed> s
   const float full = config_.lambda * static_cast<float>(kCapacityScale);
   for (std::size_t cell = 0; cell < seeds.size(); ++cell) {
     if (seeds[cell] != Seed::kUnknown) continue;
-    const float lean = std::clamp(
-        (planes.height_m[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
+    const float lean =
+        std::clamp((planes.height_m[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
     const auto cost = static_cast<std::int32_t>(lean * full);
     cost_ground_[cell] = std::max(cost, 0);
     cost_obstacle_[cell] = std::max(-cost, 0);
   }
 }
 
-void RegionTerm::evaluate_histogram(const RangeImage& image,
-                                    std::span<const Seed> seeds) noexcept {
+void RegionTerm::evaluate_histogram(const RangeImage& image, std::span<const Seed> seeds) noexcept {
   const auto z_m = image.z_m();
   float lowest_ground_m = std::numeric_limits<float>::max();
   for (std::size_t cell = 0; cell < seeds.size(); ++cell) {

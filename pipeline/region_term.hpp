@@ -29,13 +29,13 @@ class RegionTerm {
 
   struct Config {
     RegionRule rule = RegionRule::kHeightRamp;
-    float lambda = 1.0F;              ///< Weight against the boundary term, > 0.
+    float lambda = 1.0F;  ///< Weight against the boundary term, > 0.
     // kHistogram
-    float bins_per_metre = 10.0F;     ///< k of Eq. 10.
-    float empty_bin_count = 1.0F;     ///< Floor of every bin (an empty one would cost infinity), > 0.
+    float bins_per_metre = 10.0F;  ///< k of Eq. 10.
+    float empty_bin_count = 1.0F;  ///< Floor of every bin (an empty one would cost infinity), > 0.
     // kHeightRamp
-    float even_height_m = 0.13F;      ///< Ground and obstacle cost the same at this height.
-    float ramp_m = 0.15F;             ///< Beyond this far from it the cost stays at lambda.
+    float even_height_m = 0.13F;  ///< Ground and obstacle cost the same at this height.
+    float ramp_m = 0.15F;         ///< Beyond this far from it the cost stays at lambda.
   };
 
   RegionTerm(const Config& config, ImageShape shape, rt::FixedMemory& memory);

@@ -8,7 +8,8 @@
 namespace terracut::pipeline {
 namespace {
 
-/// Applies `reference_m(cell, sector)` to every return: its height above it, and the label it earns.
+/// Applies `reference_m(cell, sector)` to every return: its height above it, and the label it
+/// earns.
 template <class Reference>
 void label_by_height(const RangeImage& image, const RingGrid& grid, float obstacle_height_m,
                      CellPlanes& planes, Reference reference_m) noexcept {

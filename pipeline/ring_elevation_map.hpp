@@ -22,8 +22,8 @@ class RingElevationMap {
   struct Config {
     RingGrid::Config grid;
     GroundReference reference = GroundReference::kLocalSurface;
-    GroundSurface::Config surface;         ///< Used with kLocalSurface.
-    float obstacle_height_m = 0.15F;       ///< A return this far above its reference is an obstacle.
+    GroundSurface::Config surface;    ///< Used with kLocalSurface.
+    float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
   };
 
   RingElevationMap(const Config& config, const calib::RingProfile& profile, ImageShape shape,

@@ -23,9 +23,9 @@ class RingGrid {
  public:
   struct Config {
     float min_band_m = 0.0F;
-    float max_band_m = 1e9F;      ///< Not cut by default, as in the paper.
-    float range_limit_m = 100.0F; ///< (0, 250]
-    int columns_per_sector = 10;  ///< Image columns a sector covers; [1, 64].
+    float max_band_m = 1e9F;       ///< Not cut by default, as in the paper.
+    float range_limit_m = 100.0F;  ///< (0, 250]
+    int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
   };
   static constexpr int kMaxBands = 250;  ///< More would not fit the 8-bit band numbers.
 

@@ -49,7 +49,8 @@ SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& 
 
   const auto labels = return_labels_.labels();
   report.returns = static_cast<std::uint32_t>(labels.size());
-  report.ground = static_cast<std::uint32_t>(std::count(labels.begin(), labels.end(), Label::kGround));
+  report.ground =
+      static_cast<std::uint32_t>(std::count(labels.begin(), labels.end(), Label::kGround));
   report.obstacles = report.returns - report.ground;
   return report;
 }

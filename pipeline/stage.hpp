@@ -22,12 +22,18 @@ inline constexpr int kStages = static_cast<int>(Stage::kCount);
 /// lower_snake_case name, as in reports.
 [[nodiscard]] constexpr std::string_view to_string(Stage stage) noexcept {
   switch (stage) {
-    case Stage::kElevationMap: return "elevation_map";
-    case Stage::kAdjacentPoints: return "adjacent_points";
-    case Stage::kSeeds: return "seeds";
-    case Stage::kMinCut: return "min_cut";
-    case Stage::kLabels: return "labels";
-    case Stage::kCount: break;
+    case Stage::kElevationMap:
+      return "elevation_map";
+    case Stage::kAdjacentPoints:
+      return "adjacent_points";
+    case Stage::kSeeds:
+      return "seeds";
+    case Stage::kMinCut:
+      return "min_cut";
+    case Stage::kLabels:
+      return "labels";
+    case Stage::kCount:
+      break;
   }
   return "unknown";
 }

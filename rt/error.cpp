@@ -6,15 +6,24 @@ namespace terracut {
 
 std::string_view to_string(ErrorCode code) noexcept {
   switch (code) {
-    case ErrorCode::kNotFound: return "not found";
-    case ErrorCode::kUnreadable: return "unreadable";
-    case ErrorCode::kMalformed: return "malformed";
-    case ErrorCode::kUnsupported: return "unsupported";
-    case ErrorCode::kInvalidArgument: return "invalid argument";
-    case ErrorCode::kCapacityExceeded: return "capacity exceeded";
-    case ErrorCode::kWriteFailed: return "write failed";
-    case ErrorCode::kNoCalibration: return "no calibration";
-    case ErrorCode::kNothingCameOut: return "nothing came out";
+    case ErrorCode::kNotFound:
+      return "not found";
+    case ErrorCode::kUnreadable:
+      return "unreadable";
+    case ErrorCode::kMalformed:
+      return "malformed";
+    case ErrorCode::kUnsupported:
+      return "unsupported";
+    case ErrorCode::kInvalidArgument:
+      return "invalid argument";
+    case ErrorCode::kCapacityExceeded:
+      return "capacity exceeded";
+    case ErrorCode::kWriteFailed:
+      return "write failed";
+    case ErrorCode::kNoCalibration:
+      return "no calibration";
+    case ErrorCode::kNothingCameOut:
+      return "nothing came out";
   }
   return "unknown";
 }

@@ -8,12 +8,14 @@
 
 namespace terracut {
 
-/// What went wrong, as far as a program needs to tell cases apart. The message tells a person the rest.
+/// What went wrong, as far as a program needs to tell cases apart. The message tells a person the
+/// rest.
 enum class ErrorCode {
   kNotFound,          ///< A file, folder or stream that was named does not exist.
   kUnreadable,        ///< It exists, but the system refused to read it.
   kMalformed,         ///< It was read, but it is not what it claims to be.
-  kUnsupported,       ///< It is well formed, but of a kind terracut does not handle (another model, say).
+  kUnsupported,       ///< It is well formed, but of a kind terracut does not handle (another model,
+                      ///< say).
   kInvalidArgument,   ///< A setting or option outside its documented range.
   kCapacityExceeded,  ///< It needs more than the memory planned at start.
   kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.

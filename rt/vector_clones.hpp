@@ -5,7 +5,8 @@
 /// Marks a function whose loops are worth compiling twice on x86-64: for the baseline and for AVX2,
 /// chosen once at program start by the processor. The results are the same bit for bit: the same
 /// IEEE operations, only more of them at once (no fused multiply-add, -ffp-contract=off).
-/// Sanitizers cannot stand the selection mechanism (ifunc), and other processors need no such thing.
+/// Sanitizers cannot stand the selection mechanism (ifunc), and other processors need no such
+/// thing.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(TERRACUT_SANITIZED_BUILD)
 #define TERRACUT_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else

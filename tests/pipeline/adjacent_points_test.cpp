@@ -26,8 +26,11 @@ AdjacentPoints::Config paper_rule() {
 /// Heights and labels of the stage before, then the stage itself.
 struct Refined {
   Refined(const AdjacentPoints::Config& config, const test::BeamCast& cast)
-      : profile(test::even_profile()), image(kShape, 16, memory), planes(kShape, memory),
-        map({}, profile, kShape, memory), stage(config, profile, kShape, memory) {
+      : profile(test::even_profile()),
+        image(kShape, 16, memory),
+        planes(kShape, memory),
+        map({}, profile, kShape, memory),
+        stage(config, profile, kShape, memory) {
     test::cast_turn(profile, cast, image);
     map.segment(image, planes);
     stage.refine(image, planes);
@@ -47,7 +50,8 @@ struct Refined {
 
 TEST(AdjacentPoints, BoundIsEquationFive) {
   // h = 2 m, beams 60 and 65 degrees from the downward normal, K = 0.25 rad:
-  // 2 (tan 65 - tan 60) / (tan 0.25 tan 65 + 1) = 2 (2.144507 - 1.732051) / (0.255342 * 2.144507 + 1)
+  // 2 (tan 65 - tan 60) / (tan 0.25 tan 65 + 1) = 2 (2.144507 - 1.732051) / (0.255342 * 2.144507 +
+  // 1)
   calib::RingProfile profile;
   profile.mount.height_m = 2.0;
   for (const double elevation_deg : {-30.0, -27.0, -25.0}) {
@@ -89,7 +93,7 @@ TEST(AdjacentPoints, AWallIsSteepByEitherRule) {
 }
 
 TEST(AdjacentPoints, SeesAWallThatLiesAcrossTheSeamOfColumns) {
-  const Refined wall({}, test::ground_with_wall(10, 2, 1.0));  // straight ahead is the seam
+  const Refined wall({}, test::ground_with_wall(10, 2, 1.0));       // straight ahead is the seam
   const auto row = static_cast<std::size_t>(kShape.stride()) * 40;  // 7.5 deg down: on the wall
   ASSERT_NEAR(wall.image.x_m()[row], 10.0F, 0.01F);
   EXPECT_EQ(wall.planes.steep[row], 1);

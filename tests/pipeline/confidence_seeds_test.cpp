@@ -17,7 +17,8 @@ const ImageShape kShape{8, 40};
 struct LabelledPlanes : testing::Test {
   LabelledPlanes() : planes(kShape, memory) {
     for (int row = 0; row < kShape.rows; ++row) {
-      for (int column = 0; column < kShape.columns; ++column) planes.label[at(row, column)] = Label::kGround;
+      for (int column = 0; column < kShape.columns; ++column)
+        planes.label[at(row, column)] = Label::kGround;
     }
   }
   static std::size_t at(int row, int column) {
@@ -40,7 +41,9 @@ TEST_F(LabelledPlanes, GroundAmidGroundIsASeed) {
   EXPECT_EQ(seeds[at(0, 0)], Seed::kGround);
 }
 
-TEST_F(LabelledPlanes, PaddingIsNoSeed) { EXPECT_EQ(select()[at(4, 40)], Seed::kNone); }
+TEST_F(LabelledPlanes, PaddingIsNoSeed) {
+  EXPECT_EQ(select()[at(4, 40)], Seed::kNone);
+}
 
 TEST_F(LabelledPlanes, GroundBesideObstaclesIsUnknownAlsoAcrossTheSeam) {
   for (int row = 0; row < kShape.rows; ++row) {

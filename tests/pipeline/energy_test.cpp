@@ -92,7 +92,8 @@ TEST_F(FourCells, WeightsAreTheSameBothWaysBitForBit) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> metres(-50, 50);
   for (int i = 0; i < 16; ++i) {
-    image.place(0, i, {metres(random), metres(random), metres(random) / 20, metres(random) + 60, 0});
+    image.place(0, i,
+                {metres(random), metres(random), metres(random) / 20, metres(random) + 60, 0});
   }
   const NegativeExp negative_exp;
   for (const BoundaryRule rule : {BoundaryRule::kHeightGradient, BoundaryRule::kNearness}) {

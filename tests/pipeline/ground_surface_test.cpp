@@ -13,7 +13,8 @@ namespace terracut::pipeline {
 namespace {
 
 struct SurfaceOverGrid : testing::Test {
-  SurfaceOverGrid() : grid(config(), test::even_profile(), {64, 2083}, memory), surface({}, grid, memory) {
+  SurfaceOverGrid()
+      : grid(config(), test::even_profile(), {64, 2083}, memory), surface({}, grid, memory) {
     lowest_m.assign(grid.cells(), 0.0F);
   }
   static RingGrid::Config config() {
@@ -26,7 +27,8 @@ struct SurfaceOverGrid : testing::Test {
   template <class F>
   void fill(F height_of_range) {
     for (int s = 0; s < grid.sectors(); ++s)
-      for (int b = 0; b < grid.bands(); ++b) lowest_m[grid.cell(s, b)] = height_of_range(grid.center_m(b));
+      for (int b = 0; b < grid.bands(); ++b)
+        lowest_m[grid.cell(s, b)] = height_of_range(grid.center_m(b));
   }
   float at(int sector, float range_m) {
     return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
@@ -90,7 +92,8 @@ TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
 TEST_F(SurfaceOverGrid, DoesNotTakeARowOfRoofsForGroundThoughNothingShowsBehindIt) {
   fill([](float) { return 0.0F; });
   for (int band = grid.band_of(12.0F); band < grid.bands(); ++band) {
-    for (const int sector : {7, 8, 9}) lowest_m[grid.cell(sector, band)] = 1.5F;  // 1.1 m wide at 12 m
+    for (const int sector : {7, 8, 9})
+      lowest_m[grid.cell(sector, band)] = 1.5F;  // 1.1 m wide at 12 m
   }
   surface.estimate(grid, lowest_m);
   EXPECT_NEAR(at(8, 16.0F), 0.0F, 0.1F);

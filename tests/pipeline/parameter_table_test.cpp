@@ -27,7 +27,8 @@ TEST(ParameterTable, EveryKeyIsUniqueAndSetsAFieldOfItsOwn) {
     p.set(config, other);
     for (const Parameter& q : parameters()) {
       const double expected = q.key == p.key ? other : q.get(SegmenterConfig{});
-      EXPECT_NEAR(q.get(config), expected, 1e-6 * std::abs(expected)) << p.key << " changed " << q.key;
+      EXPECT_NEAR(q.get(config), expected, 1e-6 * std::abs(expected))
+          << p.key << " changed " << q.key;
     }
   }
 }
@@ -45,7 +46,8 @@ TEST(ParameterTable, NamesWhatWouldHaveBeenValid) {
   SegmenterConfig config;
   const Status range = set_parameter(config, "region.lambda", "-1");
   ASSERT_FALSE(range.has_value());
-  EXPECT_NE(range.error().message.find("from 0.0001 to 1000"), std::string::npos) << range.error().message;
+  EXPECT_NE(range.error().message.find("from 0.0001 to 1000"), std::string::npos)
+      << range.error().message;
   const Status choice = set_parameter(config, "adjacent.rule", "steep");
   ASSERT_FALSE(choice.has_value());
   EXPECT_NE(choice.error().message.find("ring_spacing, slope"), std::string::npos);

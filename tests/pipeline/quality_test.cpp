@@ -10,7 +10,8 @@ namespace terracut::pipeline {
 namespace {
 
 TEST(Quality, SortsSemanticKittiClasses) {
-  for (const std::uint32_t id : {40U, 44U, 48U, 49U, 60U, 72U}) EXPECT_EQ(truth_class(id), TruthClass::kGround) << id;
+  for (const std::uint32_t id : {40U, 44U, 48U, 49U, 60U, 72U})
+    EXPECT_EQ(truth_class(id), TruthClass::kGround) << id;
   for (const std::uint32_t id : {10U, 11U, 13U, 15U, 16U, 18U, 20U, 30U, 31U, 32U, 252U, 259U}) {
     EXPECT_EQ(truth_class(id), TruthClass::kKeyObstacle) << id;
   }
@@ -24,7 +25,8 @@ TEST(Quality, SortsSemanticKittiClasses) {
 
 TEST(Quality, MeasuresAreEquationsSixteenAndSeventeen) {
   using enum Label;
-  const std::array labels{kGround, kGround, kGround, kObstacle, kObstacle, kGround, kObstacle, kGround};
+  const std::array labels{kGround,   kGround, kGround,   kObstacle,
+                          kObstacle, kGround, kObstacle, kGround};
   const std::array<std::uint32_t, 8> truth{40, 48, 72, 40, 10, 30, 50, 0};
   const Quality q = measure(labels, truth);
   // TP 3, FN 1 (the road called obstacle), FP 1 (the person); the unlabelled return counts nowhere.

@@ -24,7 +24,8 @@ struct SegmenterOnSyntheticTurns : testing::Test {
     return resegment(config);
   }
   std::span<const Label> resegment(const SegmenterConfig& config = {}) {
-    segmenter = std::make_unique<Segmenter>(config, profile, kShape, image.return_capacity(), memory);
+    segmenter =
+        std::make_unique<Segmenter>(config, profile, kShape, image.return_capacity(), memory);
     report = segmenter->segment(image);
     return segmenter->labels();
   }
@@ -32,7 +33,8 @@ struct SegmenterOnSyntheticTurns : testing::Test {
   double share(Label label, float from_m, float to_m) {
     int all = 0, hits = 0;
     for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
-      if (!image.has_return(cell) || image.z_m()[cell] < from_m || image.z_m()[cell] >= to_m) continue;
+      if (!image.has_return(cell) || image.z_m()[cell] < from_m || image.z_m()[cell] >= to_m)
+        continue;
       ++all;
       hits += segmenter->labels()[image.return_index()[cell]] == label;
     }
@@ -49,7 +51,8 @@ TEST_F(SegmenterOnSyntheticTurns, FlatGroundIsAllGroundInBothProfiles) {
   for (const auto& config : {terracut_profile(), paper_profile()}) {
     const auto labels = segment(test::flat_ground(), config);
     EXPECT_GT(labels.size(), 50'000U);
-    EXPECT_TRUE(std::all_of(labels.begin(), labels.end(), [](Label l) { return l == Label::kGround; }));
+    EXPECT_TRUE(
+        std::all_of(labels.begin(), labels.end(), [](Label l) { return l == Label::kGround; }));
     EXPECT_EQ(report.ground, labels.size());
   }
 }
@@ -120,7 +123,8 @@ TEST_F(SegmenterOnSyntheticTurns, TheSameTurnGivesTheSameLabelsWhateverCameBefor
   (void)segmenter->segment(image);
   test::cast_turn(profile, wall, image);
   (void)segmenter->segment(image);
-  EXPECT_TRUE(std::equal(first.begin(), first.end(), segmenter->labels().begin(), segmenter->labels().end()));
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), segmenter->labels().begin(),
+                         segmenter->labels().end()));
 }
 
 TEST_F(SegmenterOnSyntheticTurns, TurningTheWorldTurnsTheLabels) {
@@ -158,8 +162,8 @@ TEST_F(SegmenterOnSyntheticTurns, ReportsStagesToTheObserverInTheirOrder) {
   } recorder;
   segment(test::flat_ground());
   (void)segmenter->segment(image, {}, &recorder);
-  EXPECT_EQ(recorder.seen, (std::vector<Stage>{Stage::kElevationMap, Stage::kAdjacentPoints, Stage::kSeeds,
-                                               Stage::kMinCut, Stage::kLabels}));
+  EXPECT_EQ(recorder.seen, (std::vector<Stage>{Stage::kElevationMap, Stage::kAdjacentPoints,
+                                               Stage::kSeeds, Stage::kMinCut, Stage::kLabels}));
 }
 
 }  // namespace

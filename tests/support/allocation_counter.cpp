@@ -20,12 +20,18 @@ thread_local std::uint64_t allocations = 0;
 
 namespace terracut::test {
 
-std::uint64_t allocations_of_this_thread() noexcept { return allocations; }
+std::uint64_t allocations_of_this_thread() noexcept {
+  return allocations;
+}
 
 #if defined(TERRACUT_SANITIZED) || !defined(__GLIBC__)
-bool allocations_are_counted() noexcept { return false; }
+bool allocations_are_counted() noexcept {
+  return false;
+}
 #else
-bool allocations_are_counted() noexcept { return true; }
+bool allocations_are_counted() noexcept {
+  return true;
+}
 #endif
 
 }  // namespace terracut::test

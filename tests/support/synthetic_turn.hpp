@@ -19,11 +19,10 @@ inline calib::RingProfile even_profile(int rows = 64, double lowest_deg = -24.0,
   profile.mount.height_m = height_m;
   for (int row = 0; row < rows; ++row) {
     calib::Ring ring;
-    ring.elevation_rad = (lowest_deg + (highest_deg - lowest_deg) * row / (rows - 1)) *
-                         std::numbers::pi / 180;
+    ring.elevation_rad =
+        (lowest_deg + (highest_deg - lowest_deg) * row / (rows - 1)) * std::numbers::pi / 180;
     const double distance_m = height_m / std::tan(-ring.elevation_rad);
-    ring.ground_distance_m =
-        ring.elevation_rad < 0 && distance_m < 120 ? distance_m : INFINITY;
+    ring.ground_distance_m = ring.elevation_rad < 0 && distance_m < 120 ? distance_m : INFINITY;
     profile.rings.push_back(ring);
   }
   return profile;

@@ -66,8 +66,7 @@ struct TwoWays {
   void send(const std::array<FiringColumn, kColumnsPerPacketSingle>& columns) {
     Hdl64ePacketBuffer packet;
     encode_hdl64e_packet(columns, packet_end_ns(columns), {}, packet);
-    const auto rejected =
-        decoder.decode({packet.payload(), columns.back().stamp_ns}, on_frame());
+    const auto rejected = decoder.decode({packet.payload(), columns.back().stamp_ns}, on_frame());
     ASSERT_FALSE(rejected.has_value()) << to_string(*rejected);
   }
 
@@ -82,14 +81,14 @@ struct TwoWays {
         if (measured.raw == 0) continue;
         const BeamAzimuth beam =
             beam_azimuth(column.unwrapped_azimuth_cdeg, offsets.offset_ticks(step, laser));
-        const double head_rad = firing_azimuth_rad(column.unwrapped_azimuth_cdeg,
-                                                   firing_advance_ticks(step, laser));
+        const double head_rad =
+            firing_azimuth_rad(column.unwrapped_azimuth_cdeg, firing_advance_ticks(step, laser));
         const calib::Point sensor = geometry.point(laser, head_rad, measured.raw);
         const auto vehicle = calib::apply(T, sensor.x_m, sensor.y_m, sensor.z_m);
         auto& image = images[beam.turn];
         if (!image) {
-          image = std::make_unique<pipeline::RangeImage>(decoder.shape(),
-                                                         decoder.shape().cells(), memory);
+          image = std::make_unique<pipeline::RangeImage>(decoder.shape(), decoder.shape().cells(),
+                                                         memory);
         }
         image->place(rows[static_cast<std::size_t>(laser)],
                      column_of(beam.in_turn_ticks, decoder.shape().columns),

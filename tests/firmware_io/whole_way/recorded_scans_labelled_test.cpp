@@ -90,7 +90,8 @@ Accuracy accuracy(const std::vector<std::filesystem::path>& sequences, Segmenter
 TEST(RecordedScansLabelled, ReachTheirAccuracyAndEveryStageRaisesBothMeasures) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const bool printed : {false, true}) {
-    const SegmenterConfig config = printed ? pipeline::paper_profile() : pipeline::terracut_profile();
+    const SegmenterConfig config =
+        printed ? pipeline::paper_profile() : pipeline::terracut_profile();
     const Accuracy coarse = accuracy(sequences, config, Stage::kElevationMap);
     const Accuracy finer = accuracy(sequences, config, Stage::kAdjacentPoints);
     const Accuracy fine = accuracy(sequences, config, Stage::kMinCut);
@@ -107,7 +108,8 @@ TEST(RecordedScansLabelled, ReachTheirAccuracyAndEveryStageRaisesBothMeasures) {
 
 /// The cut's problem for one image, by the stages before it.
 pipeline::test::TestProblem cut_problem(const SegmenterConfig& config,
-                                        const calib::RingProfile& profile, const RangeImage& image) {
+                                        const calib::RingProfile& profile,
+                                        const RangeImage& image) {
   const ImageShape shape = image.shape();
   rt::FixedMemory memory;
   pipeline::CellPlanes planes(shape, memory);

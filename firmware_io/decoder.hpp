@@ -23,14 +23,16 @@ namespace terracut::firmware_io {
 /// Data packets of one spinning sensor in, turns of returns out. A return goes straight into its
 /// cell while its packet is read.
 ///
-/// `Sensor` is a trait: all that differs from model to model, resolved at compile time.
-///   using Calibration, Config;  static constexpr int kRows;  static constexpr int64_t kClockWrap_us;
-///   Sensor(const Calibration&, const calib::Mount&, const Config&, int columns, rt::FixedMemory&);
-///   std::optional<Reject> check(std::span<const uint8_t> payload, PacketHeads&) const noexcept;
-///   BeamSpread spread(int32_t step_ticks) const noexcept;         // beam minus head azimuth
-///   void begin_packet(const PacketHeads&) noexcept;
-///   const ColumnReturns<kRows>& read_column(payload, const PacketHeads&, int column) noexcept;
-///   std::span<const int32_t, kRows> rows() const noexcept;        // range image row of each laser
+/// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
+/// - `Calibration`, `Config`; `kRows` lasers; `kClockWrap_us`, where the device clock wraps;
+/// - a constructor (const Calibration&, const calib::Mount&, const Config&, int columns,
+///   rt::FixedMemory&);
+/// - `check(payload, PacketHeads&)`: the reason to reject a payload, or nothing and its heads;
+/// - `spread(step_ticks)`: the BeamSpread around the head;
+/// - `begin_packet(heads)`, then `read_column(payload, heads, column)` for each column in turn: its
+///   ColumnReturns<kRows>;
+/// - `rows()`: the range image row of each laser.
+/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp.
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns); a packet is decoded whole or
@@ -46,9 +48,11 @@ template <class Sensor>
 class Decoder {
  public:
   struct Config {
-    int columns = 2083;  ///< Firings per turn at the sensor's spin rate: HDL-64E single return 10 Hz.
-    int returns_per_cell = 2;  ///< Room for so many on average; beyond, returns are counted and lost.
-    int images = 3;            ///< FrameBuilder::Config::images
+    /// Firings per turn at the sensor's spin rate; 2083: HDL-64E, single return, 10 Hz.
+    int columns = 2083;
+    /// Room for so many returns a cell on average; beyond, they are counted and lost.
+    int returns_per_cell = 2;
+    int images = 3;  ///< FrameBuilder::Config::images
     /// A frame is handed over when the hindmost beam is so many packets past the seam, so that
     /// packets reordered by as many still find their frame. Costs their time as latency.
     int reorder_packets = 2;
@@ -101,8 +105,8 @@ class Decoder {
     return ticks % kTurn_ticks < 0 ? turn - 1 : turn;
   }
 
-  /// From firing to firing, over some hundred packets: one packet's own step is rounded to the wire's
-  /// hundredths, too coarse to count the firings of a wide gap.
+  /// From firing to firing, over some hundred packets: one packet's own step is rounded to the
+  /// wire's hundredths, too coarse to count the firings of a wide gap.
   [[nodiscard]] std::int64_t mean_step(std::int32_t step_ticks) noexcept {
     constexpr std::int64_t kMost_packets = 512;
     steps_ticks_ += step_ticks;
@@ -194,12 +198,13 @@ void Decoder<Sensor>::place_columns(std::span<const std::uint8_t> payload,
   for (int column = 0; column < heads_.columns; ++column) {
     const ColumnReturns<kLasers>& found = sensor_.read_column(payload, heads_, column);
     const std::int64_t column_cdeg = head_cdeg + heads_.advance_cdeg(column);
-    const std::int64_t head_turn = (column_cdeg - calib::wrap_cdeg(column_cdeg)) / calib::kTurn_cdeg;
+    const std::int64_t head_turn =
+        (column_cdeg - calib::wrap_cdeg(column_cdeg)) / calib::kTurn_cdeg;
     for (std::size_t i = 0; i < kLasers; ++i) {
       if (found.raw[i] == 0) continue;
-      frames_.place(head_turn + found.turn_offset[i], rows[i], found.column[i],
-                    {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i],
-                     found.intensity[i]});
+      frames_.place(
+          head_turn + found.turn_offset[i], rows[i], found.column[i],
+          {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i], found.intensity[i]});
     }
   }
   ++packets_;

@@ -86,8 +86,8 @@ void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_turn,
   frontier_ticks_ = frontier_ticks;
   step_ticks_ = step_ticks;
   spread_ = spread;
-  for (std::int64_t turn = std::max(first_turn, oldest_);
-       turn <= std::min(last_turn, oldest_ + 1); ++turn) {
+  for (std::int64_t turn = std::max(first_turn, oldest_); turn <= std::min(last_turn, oldest_ + 1);
+       ++turn) {
     OpenTurn& touched = open_[static_cast<std::size_t>(turn - oldest_)];
     touched.first_packet_ns =
         touched.touched ? std::min(touched.first_packet_ns, stamp_ns) : stamp_ns;

@@ -67,7 +67,8 @@ class FrameBuilder {
 
   /// Puts a return into an open turn. False, and counted, when its overflow list is full.
   bool place(std::int64_t turn, int row, int column, const pipeline::Return& echo) noexcept {
-    if (open_[static_cast<std::size_t>(turn - oldest_)].image->place(row, column, echo)) return true;
+    pipeline::RangeImage& image = *open_[static_cast<std::size_t>(turn - oldest_)].image;
+    if (image.place(row, column, echo)) return true;
     ++losses_.overflow_full_returns;
     return false;
   }
@@ -77,8 +78,8 @@ class FrameBuilder {
   void lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks) noexcept;
   void regain(HeadInterval found, const BeamSpread& spread) noexcept;
 
-  /// A packet with this datagram stamp was decoded; its beams touch turns [first, last]. `step_ticks`
-  /// and `spread` as they are now; the head has been seen up to `frontier_ticks`.
+  /// A packet with this datagram stamp was decoded; its beams touch turns [first, last].
+  /// `step_ticks` and `spread` as they are now; the head has been seen up to `frontier_ticks`.
   void note_packet(std::int64_t stamp_ns, std::int64_t first_turn, std::int64_t last_turn,
                    std::int64_t frontier_ticks, std::int64_t step_ticks,
                    const BeamSpread& spread) noexcept;

@@ -10,13 +10,14 @@ namespace terracut::firmware_io {
 
 /// What is known of one turn besides its returns.
 struct FrameInfo {
-  std::uint32_t number = 0;          ///< 0.. in order of hand-over.
-  std::int64_t first_packet_ns = 0;  ///< Datagram stamp of the first and last packet that touched the turn.
+  std::uint32_t number = 0;  ///< 0.. in order of hand-over.
+  std::int64_t first_packet_ns =
+      0;  ///< Datagram stamp of the first and last packet that touched the turn.
   std::int64_t last_packet_ns = 0;
-  std::uint32_t packets = 0;         ///< Packets decoded since the frame before was handed over.
-  std::uint32_t returns = 0;         ///< Returns placed; equals RangeImage::returns().
-  bool complete = false;             ///< Every firing of the turn was seen, from seam to seam.
-  LossCounters losses;               ///< What was lost since the frame before was handed over.
+  std::uint32_t packets = 0;  ///< Packets decoded since the frame before was handed over.
+  std::uint32_t returns = 0;  ///< Returns placed; equals RangeImage::returns().
+  bool complete = false;      ///< Every firing of the turn was seen, from seam to seam.
+  LossCounters losses;        ///< What was lost since the frame before was handed over.
 };
 
 }  // namespace terracut::firmware_io

@@ -8,16 +8,26 @@ namespace terracut::firmware_io {
 
 std::string_view to_string(Reject reason) noexcept {
   switch (reason) {
-    case Reject::kWrongSize: return "wrong_size";
-    case Reject::kWrongMagic: return "wrong_magic";
-    case Reject::kWrongModel: return "wrong_model";
-    case Reject::kAzimuthOutOfRange: return "azimuth_out_of_range";
-    case Reject::kAzimuthMismatch: return "azimuth_mismatch";
-    case Reject::kAzimuthJump: return "azimuth_jump";
-    case Reject::kRepeated: return "repeated";
-    case Reject::kLate: return "late";
-    case Reject::kStationary: return "stationary";
-    case Reject::kCount: break;
+    case Reject::kWrongSize:
+      return "wrong_size";
+    case Reject::kWrongMagic:
+      return "wrong_magic";
+    case Reject::kWrongModel:
+      return "wrong_model";
+    case Reject::kAzimuthOutOfRange:
+      return "azimuth_out_of_range";
+    case Reject::kAzimuthMismatch:
+      return "azimuth_mismatch";
+    case Reject::kAzimuthJump:
+      return "azimuth_jump";
+    case Reject::kRepeated:
+      return "repeated";
+    case Reject::kLate:
+      return "late";
+    case Reject::kStationary:
+      return "stationary";
+    case Reject::kCount:
+      break;
   }
   return "unknown";
 }

@@ -26,16 +26,18 @@ inline constexpr std::size_t kRejectReasons = static_cast<std::size_t>(Reject::k
 /// Stable lower_snake_case name, as in the JSON report.
 [[nodiscard]] std::string_view to_string(Reject reason) noexcept;
 
-/// Everything that can be lost between the sensor and a label, by cause (docs/design.md, promise 4).
+/// Everything that can be lost between the sensor and a label, by cause (docs/design.md, promise
+/// 4).
 struct LossCounters {
   std::uint64_t kernel_drops = 0;          ///< Datagrams the socket buffer could not hold.
   std::uint64_t network_gap_packets = 0;   ///< Packets missing by the device's own stamps.
   std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a turn, whatever the cause.
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets, by reason.
-  std::uint64_t overflow_full_returns = 0; ///< Returns beyond the frame's fixed overflow list.
-  std::uint64_t queue_full_frames = 0;     ///< Frames dropped because a newer one was ready.
-  std::uint64_t skipped_frames = 0;        ///< Frames not segmented for want of time.
-  std::uint64_t clock_jumps = 0;           ///< Device stamp jumps that no loss explains (replay loop, reset).
+  std::uint64_t overflow_full_returns = 0;  ///< Returns beyond the frame's fixed overflow list.
+  std::uint64_t queue_full_frames = 0;      ///< Frames dropped because a newer one was ready.
+  std::uint64_t skipped_frames = 0;         ///< Frames not segmented for want of time.
+  std::uint64_t clock_jumps =
+      0;  ///< Device stamp jumps that no loss explains (replay loop, reset).
 
   LossCounters& operator+=(const LossCounters& other) noexcept;
   [[nodiscard]] std::uint64_t rejected_total() const noexcept;

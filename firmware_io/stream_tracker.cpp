@@ -35,7 +35,8 @@ constexpr std::int64_t kAssumedPeriod_ns = 288'000;
 StreamTracker::StreamTracker(std::int64_t clock_wrap_us, rt::FixedMemory& memory)
     : clock_wrap_us_(clock_wrap_us), seen_(memory.take<Seen>("stream tracker", kSeenSlots)) {}
 
-std::int64_t StreamTracker::device_step_us(std::int64_t from_us, std::int64_t to_us) const noexcept {
+std::int64_t StreamTracker::device_step_us(std::int64_t from_us,
+                                           std::int64_t to_us) const noexcept {
   std::int64_t step = (to_us - from_us) % clock_wrap_us_;
   if (step >= clock_wrap_us_ / 2) step -= clock_wrap_us_;
   if (step < -(clock_wrap_us_ / 2)) step += clock_wrap_us_;
@@ -124,7 +125,8 @@ Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_sta
   return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_};
 }
 
-// --- Missing packets, by the device's own stamps ---------------------------------------------------
+// --- Missing packets, by the device's own stamps
+// ---------------------------------------------------
 
 void StreamTracker::count_missing(std::int64_t step_us, LossCounters& losses) noexcept {
   if (period_ns_ == 0) return;  // settle_period() will look back
@@ -189,7 +191,8 @@ void StreamTracker::settle_period(LossCounters& losses) noexcept {
   steps_ = 0;
 }
 
-// --- Packets that are not placed ------------------------------------------------------------------
+// --- Packets that are not placed
+// ------------------------------------------------------------------
 
 void StreamTracker::note_rejected(std::int64_t device_stamp_us) noexcept {
   if (!started_) return;

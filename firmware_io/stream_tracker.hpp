@@ -64,7 +64,8 @@ class StreamTracker {
 
   static constexpr std::size_t kPeriodSamples = 15;
 
-  [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us, std::int64_t to_us) const noexcept;
+  [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us,
+                                            std::int64_t to_us) const noexcept;
   [[nodiscard]] bool is_repeat(const PacketHeads& heads) noexcept;
   void measure_period(std::int64_t step_us, LossCounters& losses) noexcept;
   void average_in(std::int64_t step_us) noexcept;

@@ -41,16 +41,19 @@ Status check_replaceable(const fs::path& folder) {
   std::error_code error;
   if (!fs::exists(folder, error)) return {};
   if (!fs::is_directory(folder, error)) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{}: expected a folder of truth labels or nothing, found a file; move it "
-                            "away or choose another output name", folder.string()));
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("{}: expected a folder of truth labels or nothing, found a file; move it "
+                    "away or choose another output name",
+                    folder.string()));
   }
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
     if (!is_label_name(entry.path().filename().string())) {
-      return fail(ErrorCode::kInvalidArgument,
-                  fmt::format("{}: expected only NNNNNN.label files, found '{}'; the folder would be "
-                              "replaced, so move it away or choose another output name",
-                              folder.string(), entry.path().filename().string()));
+      return fail(
+          ErrorCode::kInvalidArgument,
+          fmt::format("{}: expected only NNNNNN.label files, found '{}'; the folder would be "
+                      "replaced, so move it away or choose another output name",
+                      folder.string(), entry.path().filename().string()));
     }
   }
   return {};
@@ -59,7 +62,8 @@ Status check_replaceable(const fs::path& folder) {
 tl::unexpected<Error> write_failed(const fs::path& path, const std::string& reason) {
   return fail(ErrorCode::kWriteFailed,
               fmt::format("{}: could not be written: {}; nothing was left in its place. Check the "
-                          "free space and the folder's permissions", path.string(), reason));
+                          "free space and the folder's permissions",
+                          path.string(), reason));
 }
 
 /// A folder beside the outputs, on the same file system, that vanishes with this object.
@@ -239,6 +243,8 @@ Status DriveWriter::add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azi
   return impl_->add_column(stamp_ns, unwrapped_azimuth_cdeg, by_laser);
 }
 
-Expected<DriveSummary> DriveWriter::finish() { return impl_->finish(); }
+Expected<DriveSummary> DriveWriter::finish() {
+  return impl_->finish();
+}
 
 }  // namespace terracut::firmware_io

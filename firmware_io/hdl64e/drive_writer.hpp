@@ -31,17 +31,17 @@ struct DriveSummary {
 ///
 /// The n-th entry of NNNNNN.label is the n-th return that the decoder places into its frame NNNNNN
 /// (RangeImage::return_index()). A turn without a single return is no frame, on either side. Turns
-/// are those of the beams, not of the head: lasers point up to 10 degrees before or behind the head,
-/// so start about 11 degrees before a seam and end about 11 degrees after one, and leave returns of
-/// turns that are not wanted out (raw = 0).
+/// are those of the beams, not of the head: lasers point up to 10 degrees before or behind the
+/// head, so start about 11 degrees before a seam and end about 11 degrees after one, and leave
+/// returns of turns that are not wanted out (raw = 0).
 ///
 /// Everything is written under temporary names and appears, whole, at finish(); a DriveWriter that
 /// goes without it leaves nothing behind. File work: not real-time safe. One thread.
 class DriveWriter {
  public:
-  /// `pcap_path` is "<folder>/<name>.pcap"; the other two names follow from it. An existing capture,
-  /// calibration and truth folder of that name are replaced at finish(); a truth folder that holds
-  /// anything but NNNNNN.label files is refused here.
+  /// `pcap_path` is "<folder>/<name>.pcap"; the other two names follow from it. An existing
+  /// capture, calibration and truth folder of that name are replaced at finish(); a truth folder
+  /// that holds anything but NNNNNN.label files is refused here.
   [[nodiscard]] static Expected<DriveWriter> create(const std::filesystem::path& pcap_path,
                                                     const calib::Hdl64eCalibration& calibration,
                                                     AzimuthAt azimuth_at = AzimuthAt::kFiring);
@@ -50,10 +50,10 @@ class DriveWriter {
   DriveWriter& operator=(DriveWriter&&) noexcept;
   ~DriveWriter();
 
-  /// The next firing of all lasers; `stamp_ns` is that of its first laser. Firings must be those of a
-  /// turning head: stamps at least 1 us apart; inside a packet (the 1st to 6th, 7th to 12th, ... of
-  /// these calls) the head turns on by [0.02, 1.0] degrees from one to the next. Between packets it
-  /// may leave a gap of up to 0.9 s, if speed and stamps agree with the azimuths to 15 degrees.
+  /// The next firing of all lasers; `stamp_ns` is that of its first laser. Firings must be those of
+  /// a turning head: stamps at least 1 us apart; inside a packet (the 1st to 6th, 7th to 12th, ...
+  /// of these calls) the head turns on by [0.02, 1.0] degrees from one to the next. Between packets
+  /// it may leave a gap of up to 0.9 s, if speed and stamps agree with the azimuths to 15 degrees.
   /// Errors: kInvalidArgument naming the firing and what it broke, kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
                                   std::span<const LabelledReturn, calib::kHdl64eLasers> by_laser);

@@ -23,7 +23,8 @@
 ///
 /// both clockwise from straight ahead. `offset` below is beam minus column azimuth. The step from
 /// column to column is taken from the packet's own first and last azimuth, so nothing depends on a
-/// nominal spin rate. Angles are in ticks (packet_heads.hpp). Everything here is allocation-free and noexcept; any thread.
+/// nominal spin rate. Angles are in ticks (packet_heads.hpp). Everything here is allocation-free
+/// and noexcept; any thread.
 namespace terracut::firmware_io {
 
 /// Which head azimuth a laser's return is given.

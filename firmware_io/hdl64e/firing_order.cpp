@@ -32,7 +32,8 @@ Status FiringOrder::check(std::int64_t stamp_ns, std::int64_t azimuth_cdeg) {
     const std::int64_t step_cdeg = azimuth_cdeg - last_.azimuth_cdeg;
     if (step_ns < kLeastStep_ns) {
       return refuse(firings_, fmt::format("expected a stamp at least {} ns after the one before, "
-                                          "found a step of {} ns", kLeastStep_ns, step_ns));
+                                          "found a step of {} ns",
+                                          kLeastStep_ns, step_ns));
     }
     if (step_cdeg < kLeastStep_cdeg || (place != 0 && step_cdeg > kMaxColumnStep_cdeg)) {
       return refuse(firings_,
@@ -49,19 +50,21 @@ Status FiringOrder::check(std::int64_t stamp_ns, std::int64_t azimuth_cdeg) {
       const std::int64_t packet_cdeg = last_.azimuth_cdeg - packet_first_.azimuth_cdeg;
       const std::int64_t packet_ns = last_.stamp_ns - packet_first_.stamp_ns;
       if (gap_ns > kLongestGap_ns) {
-        return refuse(firings_, fmt::format("expected the next packet within {} ms, found a gap of {} "
-                                            "ms; write a second drive instead",
-                                            kLongestGap_ns / 1'000'000, gap_ns / 1'000'000));
+        return refuse(firings_,
+                      fmt::format("expected the next packet within {} ms, found a gap of {} "
+                                  "ms; write a second drive instead",
+                                  kLongestGap_ns / 1'000'000, gap_ns / 1'000'000));
       }
       const std::int64_t expected_cdeg = packet_cdeg * gap_ns / packet_ns;
       if (std::abs(gap_cdeg - expected_cdeg) > kGapSlack_cdeg) {
-        return refuse(firings_,
-                      fmt::format("the head's speed and the stamps say it turned by {:.2f} degrees "
-                                  "since the packet before began, the azimuths say {:.2f}; they may "
-                                  "differ by {:.0f} degrees",
-                                  static_cast<double>(expected_cdeg) / 100.0,
-                                  static_cast<double>(gap_cdeg) / 100.0,
-                                  static_cast<double>(kGapSlack_cdeg) / 100.0));
+        return refuse(
+            firings_,
+            fmt::format("the head's speed and the stamps say it turned by {:.2f} degrees "
+                        "since the packet before began, the azimuths say {:.2f}; they may "
+                        "differ by {:.0f} degrees",
+                        static_cast<double>(expected_cdeg) / 100.0,
+                        static_cast<double>(gap_cdeg) / 100.0,
+                        static_cast<double>(kGapSlack_cdeg) / 100.0));
       }
     }
   }

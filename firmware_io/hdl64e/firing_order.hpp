@@ -9,8 +9,8 @@
 
 namespace terracut::firmware_io {
 
-/// Watches that the firings given to a DriveWriter are those of a turning head that the decoder will
-/// follow: in time and azimuth, inside packets of six and from packet to packet.
+/// Watches that the firings given to a DriveWriter are those of a turning head that the decoder
+/// will follow: in time and azimuth, inside packets of six and from packet to packet.
 class FiringOrder {
  public:
   /// kInvalidArgument, naming the firing and the rule, when the next firing cannot follow.

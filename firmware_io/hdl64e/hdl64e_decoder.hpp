@@ -11,7 +11,7 @@ namespace terracut::firmware_io {
 ///
 ///   rt::FixedMemory memory;
 ///   Hdl64eDecoder decoder(calibration, mount, {}, memory);
-///   auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept { ... };
+///   auto on_frame = [&](const FrameInfo&, const pipeline::RangeImage&) noexcept { ... };
 ///   while (auto datagram = ...next datagram...) decoder.decode(*datagram, on_frame);
 ///   decoder.flush(on_frame);
 using Hdl64eDecoder = Decoder<Hdl64eSensor>;

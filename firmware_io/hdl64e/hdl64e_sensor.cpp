@@ -46,8 +46,7 @@ const Hdl64eSensor::Column& Hdl64eSensor::read_column(std::span<const std::uint8
       const auto bytes = packet->returns(2 * column + half);
       const auto first = static_cast<std::size_t>(half) * kLasersPerBlock;
       for (std::size_t j = 0; j < kLasersPerBlock; ++j) {
-        returns_.raw[first + j] =
-            static_cast<std::uint16_t>(bytes[3 * j] | bytes[3 * j + 1] << 8);
+        returns_.raw[first + j] = static_cast<std::uint16_t>(bytes[3 * j] | bytes[3 * j + 1] << 8);
         returns_.intensity[first + j] = bytes[3 * j + 2];
       }
     }

@@ -21,9 +21,9 @@ namespace terracut::firmware_io {
 
 /// What Decoder needs to know of the HDL-64E (see there).
 ///
-/// Single and dual return packets are told apart by their azimuths: in dual return each comes twice,
-/// for the strongest and the last return. Both returns of a firing are placed, the second one on the overflow list
-/// where it shares the cell of the first.
+/// Single and dual return packets are told apart by their azimuths: in dual return each comes
+/// twice, for the strongest and the last return. Both returns of a firing are placed, the second
+/// one on the overflow list where it shares the cell of the first.
 class Hdl64eSensor {
  public:
   using Calibration = calib::Hdl64eCalibration;
@@ -49,7 +49,9 @@ class Hdl64eSensor {
   void begin_packet(const PacketHeads& heads) noexcept;
   [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
                                           const PacketHeads& heads, int column) noexcept;
-  [[nodiscard]] std::span<const std::int32_t, calib::kHdl64eLasers> rows() const noexcept { return rows_; }
+  [[nodiscard]] std::span<const std::int32_t, calib::kHdl64eLasers> rows() const noexcept {
+    return rows_;
+  }
 
  private:
   BeamOffsets offsets_;

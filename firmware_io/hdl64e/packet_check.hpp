@@ -13,9 +13,9 @@ namespace terracut::firmware_io {
 
 /// What the head of an HDL-64E may do inside a packet. The steps cover 69 to 3400 rpm at the 48 us
 /// cycle (the sensor spins at 300 to 1200); a jitter backwards is not a step back.
-inline constexpr int kMinSweep_cdeg = 10;      ///< First to last column; below, the head stands still.
+inline constexpr int kMinSweep_cdeg = 10;  ///< First to last column; below, the head stands still.
 inline constexpr int kMaxColumnStep_cdeg = 100;
-inline constexpr int kMaxJitter_cdeg = 5;      ///< Backwards, from column to column.
+inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column.
 
 /// Checks that a payload is an HDL-64E S2, S2.1 or S3 data packet of a turning head and reads its
 /// azimuths and stamp into `heads`; otherwise the reason to reject it. The checks, in this order:

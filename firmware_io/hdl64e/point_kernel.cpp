@@ -89,7 +89,8 @@ void PointKernel::compute(std::int32_t azimuth_cdeg,
     const float sin_a = sin_head * offset.cos[i] + cos_head * offset.sin[i];
     const float cos_a = cos_head * offset.cos[i] - sin_head * offset.sin[i];
     const float side_x = k.horiz_m[i] * cos_a, side_y = k.horiz_m[i] * sin_a;
-    const float measured_m = static_cast<float>(static_cast<std::int32_t>(out.raw[i])) * resolution_m;
+    const float measured_m =
+        static_cast<float>(static_cast<std::int32_t>(out.raw[i])) * resolution_m;
 
     // The two-point distance correction depends on where the far correction puts the point.
     const float xy = (measured_m + k.far_m[i]) * k.cos_vert[i] + k.xy_start_m[i];
@@ -111,16 +112,16 @@ void PointKernel::compute(std::int32_t azimuth_cdeg,
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
 
-  // Half a tick's worth of column keeps the product on the right side of every whole number, so that
-  // this is exactly column_of(): the distance to the next is at least twice that, the rounding of
-  // the product a thousand times less.
+  // Half a tick's worth of column keeps the product on the right side of every whole number, so
+  // that this is exactly column_of(): the distance to the next is at least twice that, the rounding
+  // of the product a thousand times less.
   const double scale = columns_per_tick_;
   const double bias = 0.5 / kTurn_ticks;
   const std::int32_t head_ticks = azimuth_cdeg * kTicksPerCdeg;
   for (std::size_t i = 0; i < kLasers; ++i) {
     const std::int32_t beam_ticks = head_ticks + offset.ticks[i];
-    const std::int32_t turn =
-        static_cast<std::int32_t>(beam_ticks >= kTurn_ticks) - static_cast<std::int32_t>(beam_ticks < 0);
+    const std::int32_t turn = static_cast<std::int32_t>(beam_ticks >= kTurn_ticks) -
+                              static_cast<std::int32_t>(beam_ticks < 0);
     const std::int32_t in_turn_ticks = beam_ticks - turn * kTurn_ticks;
     out.turn_offset[i] = turn;
     out.column[i] = static_cast<std::int32_t>(static_cast<double>(in_turn_ticks) * scale + bias);

@@ -19,10 +19,10 @@ namespace terracut::firmware_io {
 /// and calib::Mount in float, for all 64 lasers in one loop that compilers vectorise. Agrees with
 /// those double functions to within 1 mm + 1e-6 of the range.
 ///
-/// Only +, -, *, sqrt, min and abs are used per point, so that every machine gets the same bits; the
-/// tables behind them are made in double at start. Sine and cosine of the head's azimuth come from a
-/// table of the wire's 36000 steps; the lasers' own offsets from it are turned into sines and
-/// cosines once a packet, and both are combined by the addition theorems.
+/// Only +, -, *, sqrt, min and abs are used per point, so that every machine gets the same bits;
+/// the tables behind them are made in double at start. Sine and cosine of the head's azimuth come
+/// from a table of the wire's 36000 steps; the lasers' own offsets from it are turned into sines
+/// and cosines once a packet, and both are combined by the addition theorems.
 ///
 /// Real-time safe but for the constructor. One thread.
 class PointKernel {

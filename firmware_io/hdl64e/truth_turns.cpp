@@ -14,8 +14,8 @@ void TruthTurns::add(std::span<const FiringColumn, kColumnsPerPacketSingle> colu
     for (int i = 0; i < calib::kHdl64eLasers; ++i) {
       const LabelledReturn& echo = column.by_laser[static_cast<std::size_t>(i)];
       if (echo.raw == 0) continue;
-      const BeamAzimuth beam = beam_azimuth(column.unwrapped_azimuth_cdeg,
-                                            offsets_.offset_ticks(step_ticks, i));
+      const BeamAzimuth beam =
+          beam_azimuth(column.unwrapped_azimuth_cdeg, offsets_.offset_ticks(step_ticks, i));
       by_turn_[beam.turn].push_back(echo.truth);
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// The HDL-64E decoder by itself: nanoseconds per packet column (64 lasers). Reports, asserts nothing.
+// The HDL-64E decoder by itself: nanoseconds per packet column (64 lasers). Reports, asserts
+// nothing.
 #include <benchmark/benchmark.h>
 
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
@@ -26,8 +27,8 @@ std::vector<test::Packet> street_like() {
 
 void report(benchmark::State& state, std::size_t packets) {
   const auto columns = static_cast<double>(state.iterations()) * static_cast<double>(6 * packets);
-  state.counters["per_column"] = benchmark::Counter(
-      columns, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+  state.counters["per_column"] =
+      benchmark::Counter(columns, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
 void decode_turns(benchmark::State& state) {

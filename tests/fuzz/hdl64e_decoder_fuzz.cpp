@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // The HDL-64E decoder on streams of packets made from the input: wild payloads, and well-formed
-// packets whose stamps, azimuths and bytes the input bends. Whatever comes, every return of a packet
-// that was accepted must be in a frame or counted as lost, and every packet that was not must be
-// counted under its reason.
+// packets whose stamps, azimuths and bytes the input bends. Whatever comes, every return of a
+// packet that was accepted must be in a frame or counted as lost, and every packet that was not
+// must be counted under its reason.
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -124,8 +124,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto send = [&] {
     for (int block = 0; block < firmware_io::kBlocksPerPacket; ++block) {
       const auto column = static_cast<std::uint32_t>(block / 2);
-      packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(
-                                         (azimuth_cdeg + column * step_cdeg) % 36'000));
+      packet.set_azimuth_cdeg(
+          block, static_cast<std::uint16_t>((azimuth_cdeg + column * step_cdeg) % 36'000));
     }
     packet.set_stamp_us(stamp_us);
     run.feed(packet.payload());

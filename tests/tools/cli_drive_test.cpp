@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
+#include <cstdio>
+
 #include "cli_fixture.hpp"
 
 namespace terracut::cli {
@@ -135,6 +137,21 @@ TEST_F(Cli, CalibrateWritesASetupThatReplayReads) {
       "replay flat.pcap --calibration flat.calibration.xml --setup setup.yaml "
       "--truth flat.truth --json report.json");
   EXPECT_GT(json("report.json")["summary"]["iou_g"], 0.98);
+}
+
+TEST_F(Cli, CalibrateReadsTheMountOffTheVehiclesOwnSideOfACrownedRoad) {
+  const Outcome outcome = run("calibrate " + quoted(kDrive) + " --duration 0.5 --calibration " +
+                              quoted(kDriveCalibration) + " -o setup.yaml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  double height_m = 0, roll_deg = 0, pitch_deg = 0;
+  const std::size_t at = outcome.out.find("height ");
+  ASSERT_NE(at, std::string::npos) << outcome.out;
+  ASSERT_EQ(std::sscanf(outcome.out.c_str() + at, "height %lf m, roll %lf deg, pitch %lf deg",
+                        &height_m, &roll_deg, &pitch_deg),
+            3);
+  EXPECT_NEAR(height_m, 1.73, 0.03);
+  EXPECT_NEAR(roll_deg, 0.0, 0.3);  // the other side of the road lies some 2.5 degrees off
+  EXPECT_NEAR(pitch_deg, 0.0, 0.3);
 }
 
 TEST_F(Cli, BenchTimesDecodingAndEveryStage) {

@@ -204,8 +204,8 @@ TEST(Disorder, ADuplicatedTurnIsRepeatedPacketsAndNoSecondFrame) {
 TEST(Disorder, TheDeviceClockWrapsAtTheHour) {
   // The second device hour begins in the middle of the drive.
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
-  const auto packets = random_packets(
-      {.first_stamp_ns = 472'222 * kHour_ns - 150'000'000, .share_of_returns = 0.3});
+  const auto packets =
+      random_packets({.first_stamp_ns = 472'222 * kHour_ns - 150'000'000, .share_of_returns = 0.3});
   Recorder recorder;
   recorder.decode_all(packets);
   recorder.flush();
@@ -219,9 +219,8 @@ TEST(Disorder, TheDeviceClockWrapsAtTheHour) {
 TEST(Disorder, ALossAcrossTheHourIsStillExact) {
   auto packets = random_packets({.share_of_returns = 0.3});
   for (std::size_t n = 0; n < packets.size(); ++n) {
-    packets[n].set_device_stamp_us(
-        static_cast<std::uint32_t>((3'599'999'900LL - 288 * 400 + 288 * static_cast<int>(n)) %
-                                   3'600'000'000LL));
+    packets[n].set_device_stamp_us(static_cast<std::uint32_t>(
+        (3'599'999'900LL - 288 * 400 + 288 * static_cast<int>(n)) % 3'600'000'000LL));
   }
   // Packet 400 is stamped 3 599 999 900, the next one 188.
   packets.erase(packets.begin() + 399, packets.begin() + 402);
@@ -363,8 +362,8 @@ TEST(Disorder, ForeignAzimuthsAreRefusedWhileTheStreamGoesOn) {
     stream.push_back(packets[n]);
     if (n % 10 == 5) {  // another head, half a turn away, with the same clock
       Packet other = packets[(n + 170) % packets.size()];
-      other.set_device_stamp_us(static_cast<std::uint32_t>(
-          packets[n].stamp_ns / 1000 % 3'600'000'000LL + 100));
+      other.set_device_stamp_us(
+          static_cast<std::uint32_t>(packets[n].stamp_ns / 1000 % 3'600'000'000LL + 100));
       stream.push_back(other);
       ++foreign;
     }

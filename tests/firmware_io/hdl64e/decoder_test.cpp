@@ -54,12 +54,13 @@ void expect_same_returns(std::span<const Packet> packets,
       const Frame::Echo& echo = frame.echoes[i];
       const auto v = calib::apply(T, truth.x_m, truth.y_m, truth.z_m);
       const double range_m = std::hypot(truth.x_m, truth.y_m, truth.z_m);
-      worst_m = std::max(worst_m, std::hypot(echo.point.x_m - v[0], echo.point.y_m - v[1],
-                                             echo.point.z_m - v[2]) - 1e-6 * range_m);
+      worst_m = std::max(
+          worst_m, std::hypot(echo.point.x_m - v[0], echo.point.y_m - v[1], echo.point.z_m - v[2]) -
+                       1e-6 * range_m);
       ASSERT_EQ(echo.point.intensity, truth.intensity);
       ASSERT_EQ(echo.row, static_cast<std::uint32_t>(rows[static_cast<std::size_t>(truth.laser)]));
-      const double column = (truth.beam_deg - 360.0 * static_cast<double>(turn)) *
-                            config.columns / 360.0;
+      const double column =
+          (truth.beam_deg - 360.0 * static_cast<double>(turn)) * config.columns / 360.0;
       ASSERT_NEAR(echo.column + 0.5, column, 0.5 + 1e-3);
     }
   }
@@ -246,7 +247,8 @@ TEST(Hdl64eDecoder, PlacesBothReturnsOfADualReturnPacket) {
   EXPECT_EQ(recorder.returns(), 900U * 128U);
   const auto losses = recorder.decoder.losses();
   EXPECT_EQ(losses.rejected_total() + losses.overflow_full_returns + losses.azimuth_hole_columns +
-                losses.network_gap_packets, 0U);
+                losses.network_gap_packets,
+            0U);
 }
 
 TEST(Hdl64eDecoder, RefusesSettingsOutsideTheirRange) {

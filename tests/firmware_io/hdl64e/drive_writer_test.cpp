@@ -137,7 +137,8 @@ TEST_F(DriveWriterTest, OneWholeTurnIsOneFrame) {
         calib::wrap_cdeg(firings[packet + 5].unwrapped_azimuth_cdeg));
     for (int i = 0; i < 64; ++i) {
       if (firmware_io::beam_azimuth(firings[n].unwrapped_azimuth_cdeg,
-                                    offsets.offset_ticks(step_ticks, i)).turn != 1) {
+                                    offsets.offset_ticks(step_ticks, i))
+              .turn != 1) {
         firings[n].by_laser[static_cast<std::size_t>(i)] = {};
       }
     }

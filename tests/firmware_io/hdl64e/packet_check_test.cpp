@@ -12,7 +12,9 @@
 namespace terracut::firmware_io {
 namespace {
 
-test::Packet good_packet() { return test::random_packets({.last_cdeg = 35'000}).front(); }
+test::Packet good_packet() {
+  return test::random_packets({.last_cdeg = 35'000}).front();
+}
 
 std::optional<Reject> check(const test::Packet& packet) {
   PacketHeads heads;

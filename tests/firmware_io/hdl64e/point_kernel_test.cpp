@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kLasers = PointKernel::kLasers;
 
 struct Worst {
-  double error_m = 0;         ///< Beyond 1e-6 of the range.
+  double error_m = 0;  ///< Beyond 1e-6 of the range.
   int wrong_columns = 0;
 };
 
@@ -53,16 +53,15 @@ Worst compare(const calib::Hdl64eCalibration& calibration, calib::GeometryModel 
     }
     kernel.compute(azimuth_cdeg, column);
     for (std::size_t i = 0; i < kLasers; ++i) {
-      const auto p = geometry.point(static_cast<int>(i),
-                                    firing_azimuth_rad(azimuth_cdeg, advance[i % 32]),
-                                    column.raw[i]);
+      const auto p = geometry.point(
+          static_cast<int>(i), firing_azimuth_rad(azimuth_cdeg, advance[i % 32]), column.raw[i]);
       const auto v = calib::apply(T, p.x_m, p.y_m, p.z_m);
       const double range_m = std::hypot(p.x_m, p.y_m, p.z_m);
-      const double error_m = std::hypot(column.x_m[i] - v[0], column.y_m[i] - v[1],
-                                        column.z_m[i] - v[2]);
+      const double error_m =
+          std::hypot(column.x_m[i] - v[0], column.y_m[i] - v[1], column.z_m[i] - v[2]);
       const double range_error_m = std::abs(column.ground_range_m[i] - std::hypot(v[0], v[1]));
-      worst.error_m = std::max({worst.error_m, error_m - 1e-6 * range_m,
-                                range_error_m - 1e-6 * range_m});
+      worst.error_m =
+          std::max({worst.error_m, error_m - 1e-6 * range_m, range_error_m - 1e-6 * range_m});
       const BeamAzimuth beam = beam_azimuth(azimuth_cdeg, offset[i]);
       worst.wrong_columns += column.turn_offset[i] != beam.turn;
       worst.wrong_columns += column.column[i] != column_of(beam.in_turn_ticks, kColumns);
@@ -117,7 +116,8 @@ TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
       const auto cdeg = static_cast<std::int32_t>(std::min<std::int64_t>(ticks / 1000, 35'999));
       std::array<std::int32_t, 64> offset{};
       for (int i = 0; i < 64; ++i) {
-        offset[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(ticks - cdeg * 1000) + i - 32;
+        offset[static_cast<std::size_t>(i)] =
+            static_cast<std::int32_t>(ticks - cdeg * 1000) + i - 32;
       }
       kernel.begin_packet(std::array<std::int32_t, 32>{}, offset);
       ColumnReturns<kLasers> out{};

@@ -37,7 +37,7 @@ struct Packet {
 };
 
 struct DriveSettings {
-  std::int64_t first_cdeg = 34'900;   ///< Head azimuth of the first firing.
+  std::int64_t first_cdeg = 34'900;              ///< Head azimuth of the first firing.
   std::int64_t last_cdeg = 37'100 + 2 * 36'000;  ///< No firing beyond.
   double step_deg = 0.1728;
   std::int64_t first_stamp_ns = 1'700'000'000'000'000'000;

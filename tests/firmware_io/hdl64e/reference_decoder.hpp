@@ -15,7 +15,7 @@ namespace terracut::test {
 
 /// One return of the plain, slow decoder, in order of arrival.
 struct ReferenceReturn {
-  double beam_deg = 0;  ///< Unwrapped: turn = floor(beam_deg / 360).
+  double beam_deg = 0;               ///< Unwrapped: turn = floor(beam_deg / 360).
   double x_m = 0, y_m = 0, z_m = 0;  ///< Sensor frame, REP-103.
   int laser = 0;
   int intensity = 0;
@@ -82,8 +82,8 @@ class ReferenceDecoder {
     const double right = ((d1 + cx) * std::cos(w) - along) * std::sin(a) - h * std::cos(a);
     const double ahead = ((d1 + cy) * std::cos(w) - along) * std::cos(a) + h * std::sin(a);
     const double z = (d1 + cy) * std::sin(w) + up;
-    return {head_deg - laser.rot_correction_rad * 180 / std::numbers::pi, ahead, -right, z, number,
-            0};
+    return {
+        head_deg - laser.rot_correction_rad * 180 / std::numbers::pi, ahead, -right, z, number, 0};
   }
 
   calib::Hdl64eCalibration calibration_;

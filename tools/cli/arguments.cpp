@@ -232,7 +232,8 @@ Arguments parse_arguments(int argc, char** argv) {
                              "Turn recorded scans into HDL-64E packets with their truth",
                              add_encode);
   add_command<CalibrateOptions>(app, result.command, "calibrate",
-                                "Find the mount and the rings' ground distances from a capture",
+                                "Find the mount and the rings' ground distances from a capture\n"
+                                "taken on a straight, level, open road",
                                 add_calibrate);
   add_command<InfoOptions>(app, result.command, "info",
                            "What a capture holds: streams, sensor, rate, loss, calibration",

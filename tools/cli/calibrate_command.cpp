@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -25,6 +26,11 @@ using pipeline::RangeImage;
 
 /// Frames the mount is read off: two seconds' worth is plenty and bounds the memory.
 constexpr std::uint32_t kMountFrames = 20;
+
+/// Half the width of the strip before and behind the vehicle that the mount is read off: the
+/// surface it stands on. A crowned road falls away on the other side, and there is more to see of
+/// it.
+constexpr float kOwnLane_m = 1.5F;
 
 /// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when
 /// it has seen enough.
@@ -67,6 +73,7 @@ Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptio
     firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
       const auto range_m = static_cast<double>(placed.echo.ground_range_m);
       if (range_m < config.near_m || range_m > config.far_m) return;
+      if (std::abs(placed.echo.y_m) > kOwnLane_m) return;
       points.push_back({placed.echo.x_m, placed.echo.y_m, placed.echo.z_m});
     });
     return ++frames < kMountFrames;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -200,8 +201,16 @@ void Decoder<Sensor>::place_columns(std::span<const std::uint8_t> payload,
     const std::int64_t column_cdeg = head_cdeg + heads_.advance_cdeg(column);
     const std::int64_t head_turn =
         (column_cdeg - calib::wrap_cdeg(column_cdeg)) / calib::kTurn_cdeg;
+    // Which lasers found something is as good as random, so no branch is asked to guess it.
+    static_assert(kLasers <= 256);
+    std::array<std::uint8_t, kLasers> lasers;
+    std::size_t returns = 0;
     for (std::size_t i = 0; i < kLasers; ++i) {
-      if (found.raw[i] == 0) continue;
+      lasers[returns] = static_cast<std::uint8_t>(i);
+      returns += found.raw[i] != 0 ? 1 : 0;
+    }
+    for (std::size_t n = 0; n < returns; ++n) {
+      const std::size_t i = lasers[n];
       frames_.place(
           head_turn + found.turn_offset[i], rows[i], found.column[i],
           {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i], found.intensity[i]});

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/labelled_return.hpp"
 #include "firmware_io/hdl64e/status_cycle.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 

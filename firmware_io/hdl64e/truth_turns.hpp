@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/labelled_return.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 
 namespace terracut::firmware_io {

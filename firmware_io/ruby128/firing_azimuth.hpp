@@ -24,18 +24,21 @@
 ///   head at the firing of channel c = azimuth of its block + advance(c)
 ///   beam of channel c               = head at its firing   + azimuth offset(c)
 ///
-/// both clockwise from straight ahead. The step from firing to firing is taken from the packet's own
-/// azimuths, so nothing depends on a nominal spin rate. Allocation-free, noexcept; any thread.
+/// both clockwise from straight ahead. The step from firing to firing is taken from the packet's
+/// own azimuths, so nothing depends on a nominal spin rate. Allocation-free, noexcept; any thread.
 namespace terracut::firmware_io {
 
 // --- Times (docs/sensors.md; a public decoder of the maker) ---
 
-inline constexpr std::int32_t kRubyBlock_ns = 55'550;  ///< From a firing of all channels to the next.
-inline constexpr std::int32_t kRubyGroup_ns = 3'236;   ///< From a group of channels to the next.
+inline constexpr std::int32_t kRubyBlock_ns =
+    55'550;  ///< From a firing of all channels to the next.
+inline constexpr std::int32_t kRubyGroup_ns = 3'236;  ///< From a group of channels to the next.
 inline constexpr int kRubyGroups = 16;
 
 /// The group in which a channel, [0, 128), fires.
-[[nodiscard]] constexpr int ruby_group(int channel) noexcept { return channel / 4 % kRubyGroups; }
+[[nodiscard]] constexpr int ruby_group(int channel) noexcept {
+  return channel / 4 % kRubyGroups;
+}
 /// From the first firing of a block to that of `channel`.
 [[nodiscard]] constexpr std::int32_t ruby_channel_ns(int channel) noexcept {
   return kRubyGroup_ns * ruby_group(channel);
@@ -74,8 +77,7 @@ class HeldFiring {
     const RubyBlocks blocks = ruby_blocks(azimuth_cdeg);
     const std::int64_t since_us = stamp_us - stamp_us_;
     const bool joins = held_ && blocks == RubyBlocks::kPairLast &&
-                       azimuth_cdeg[0] == azimuth_cdeg_ && since_us >= 0 &&
-                       since_us <= kLongest_us;
+                       azimuth_cdeg[0] == azimuth_cdeg_ && since_us >= 0 && since_us <= kLongest_us;
     const std::int32_t first_step_ticks = joins ? step_ticks_ : step_ticks;
     held_ = blocks == RubyBlocks::kPairFirst;
     azimuth_cdeg_ = azimuth_cdeg[2];

@@ -71,8 +71,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 }  // namespace ruby128_wire
 
-/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree with the
-/// low four in the high half of the second byte (RS-Ruby user manual).
+/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree with
+/// the low four in the high half of the second byte (RS-Ruby user manual).
 [[nodiscard]] constexpr double ruby_temperature_deg_c(std::uint8_t high,
                                                       std::uint8_t low) noexcept {
   const int sixteenths = (high & 0x7F) << 4 | low >> 4;
@@ -189,8 +189,7 @@ class Ruby128PacketBuffer {
     at(block).azimuth_cdeg = Be16::of(azimuth_cdeg);
   }
   void set_return_id(int block, std::uint8_t id) noexcept { at(block).return_id = id; }
-  void set_return(int block, int channel, std::uint16_t distance,
-                  std::uint8_t intensity) noexcept {
+  void set_return(int block, int channel, std::uint16_t distance, std::uint8_t intensity) noexcept {
     assert(channel >= 0 && channel < kRubyChannelsPerBlock);
     at(block).returns[static_cast<std::size_t>(channel)] = {Be16::of(distance), intensity};
   }

@@ -58,6 +58,20 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
   return azimuth_cdeg[1] == azimuth_cdeg[2] ? RubyBlocks::kPairLast : RubyBlocks::kSingle;
 }
 
+/// Firings from a packet's first block to the next packet's. A firing whose second return is in the
+/// next packet belongs to that one.
+[[nodiscard]] constexpr int ruby_firings(RubyBlocks blocks) noexcept {
+  switch (blocks) {
+    case RubyBlocks::kPairFirst:
+      return 1;
+    case RubyBlocks::kPairLast:
+      return 2;
+    case RubyBlocks::kSingle:
+      break;
+  }
+  return 3;
+}
+
 /// How far the head turns from firing to firing, ticks, given the packet's azimuths. Exact.
 [[nodiscard]] constexpr std::int32_t ruby_step_ticks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {

@@ -31,8 +31,8 @@ TEST(RubyTimestamp, ReadsSecondsWithMicroseconds) {
 }
 
 TEST(RubyTimestamp, ReadsSecondsWithNanoseconds) {
-  // 789123456 = 0x2F090D80
-  const Bytes bytes{0, 0, 0x6B, 0x01, 0x8F, 0xF0, 0x2F, 0x09, 0x0D, 0x80};
+  // 789123456 = 0x2F091180
+  const Bytes bytes{0, 0, 0x6B, 0x01, 0x8F, 0xF0, 0x2F, 0x09, 0x11, 0x80};
   EXPECT_EQ(read_ruby_timestamp(bytes, RubyTimestamp::kUtcNanoseconds), kMoment_ns);
 }
 

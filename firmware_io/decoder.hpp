@@ -68,6 +68,8 @@ class Decoder {
           const Config& config, rt::FixedMemory& memory)
       : reorder_packets_(config.reorder_packets),
         dual_owner_(config.dual_owner),
+        return_capacity_(pipeline::ImageShape{kRows, config.columns}.cells() +
+                         frame_config(config).overflow_capacity),
         sensor_(calibration, mount, config.sensor, config.columns, memory),
         tracker_(Sensor::kClockWrap_us, memory),
         frames_(frame_config(config), memory) {}
@@ -90,6 +92,8 @@ class Decoder {
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return frames_.shape(); }
+  /// The most returns a turn may have, as RangeImage::return_capacity().
+  [[nodiscard]] std::size_t return_capacity() const noexcept { return return_capacity_; }
   /// Device time between packets, measured; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
   /// The last packet decoded carried two returns per firing.
@@ -136,6 +140,7 @@ class Decoder {
 
   int reorder_packets_;
   pipeline::CellOwner dual_owner_;
+  std::size_t return_capacity_;
   Sensor sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;

@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/ruby128/timestamp.hpp"
 
+#include <algorithm>
 #include <chrono>
+#include <limits>
 
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 
@@ -30,10 +32,13 @@ std::int64_t calendar_ns(std::span<const std::uint8_t, 10> bytes) noexcept {
   const int years = months >= 0 ? months / 12 : -1;
   const auto month_of_year = static_cast<unsigned>(months - 12 * years) + 1;
   const sys_days first_of_month{year{2000 + years} / month{month_of_year} / 1};
-  const auto time = first_of_month.time_since_epoch() + days{bytes[2] - 1} + hours{bytes[3]} +
-                    minutes{bytes[4]} + std::chrono::seconds{bytes[5]} +
-                    milliseconds{bytes[6] << 8 | bytes[7]} + microseconds{bytes[8] << 8 | bytes[9]};
-  return duration_cast<nanoseconds>(time).count();
+  const microseconds time = first_of_month.time_since_epoch() + days{bytes[2] - 1} +
+                            hours{bytes[3]} + minutes{bytes[4]} + std::chrono::seconds{bytes[5]} +
+                            milliseconds{bytes[6] << 8 | bytes[7]} +
+                            microseconds{bytes[8] << 8 | bytes[9]};
+  // 64 bits of nanoseconds end in 2262.
+  constexpr std::int64_t kLatest_us = std::numeric_limits<std::int64_t>::max() / 1000;
+  return std::clamp<std::int64_t>(time.count(), 0, kLatest_us) * 1000;
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "tests/support/reference/hdl64e_reference.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -20,6 +19,8 @@ struct FiringPattern {
 };
 constexpr FiringPattern kSinglePattern{48.0, 6.0, {0, 1.26, 2.46, 3.66}};
 constexpr FiringPattern kDualPattern{57.6, 7.2, {0, 1.3, 2.5, 3.7}};
+
+constexpr HeadLimits kLimits{.forwards_cdeg = 100, .backwards_cdeg = 5, .least_sweep_cdeg = 10};
 
 int u16(std::span<const std::uint8_t> payload, std::size_t at) {
   return payload[at] + 256 * payload[at + 1];
@@ -41,11 +42,6 @@ Refusal read_azimuths(std::span<const std::uint8_t> payload, int (&pair_cdeg)[6]
   return Refusal::kNone;
 }
 
-/// Counts clockwise from one azimuth to another, [0, 36000).
-int clockwise(int from_cdeg, int to_cdeg) {
-  return (to_cdeg - from_cdeg + 36'000) % 36'000;
-}
-
 }  // namespace
 
 Packet Hdl64eReference::decode(std::span<const std::uint8_t> payload) const {
@@ -53,30 +49,17 @@ Packet Hdl64eReference::decode(std::span<const std::uint8_t> payload) const {
   int pair_cdeg[6] = {};
   packet.refusal = read_azimuths(payload, pair_cdeg);
   if (packet.refusal != Refusal::kNone) return packet;
-  packet.columns = 6;
-  packet.first_deg = pair_cdeg[0] / 100.0;
-
-  // How far the head has come at each pair since the first one.
-  int advance_cdeg[6] = {};
-  for (int pair = 1; pair < 6; ++pair) {
-    advance_cdeg[pair] = advance_cdeg[pair - 1] + clockwise(pair_cdeg[pair - 1], pair_cdeg[pair]);
-  }
-  if (std::all_of(pair_cdeg, pair_cdeg + 6, [&](int a) { return a == pair_cdeg[0]; })) {
-    packet.refusal = Refusal::kNotTurning;
-    return packet;
-  }
-  packet.dual_return = pair_cdeg[0] == pair_cdeg[1];
-  const int returns_per_firing = packet.dual_return ? 2 : 1;
-  for (int pair = 1; pair < 6; ++pair) {
-    const bool same_firing = pair % returns_per_firing != 0;
-    if (same_firing != (pair_cdeg[pair] == pair_cdeg[pair - 1])) packet.refusal = Refusal::kUneven;
-  }
-  if (advance_cdeg[5] >= 18'000) packet.refusal = Refusal::kUneven;
+  packet.refusal = judge_turning(pair_cdeg, kLimits);
   if (packet.refusal != Refusal::kNone) return packet;
 
+  packet.columns = 6;
+  packet.first_deg = pair_cdeg[0] / 100.0;
+  packet.dual_return =
+      pair_cdeg[0] == pair_cdeg[1] && pair_cdeg[2] == pair_cdeg[3] && pair_cdeg[4] == pair_cdeg[5];
+  const int returns_per_firing = packet.dual_return ? 2 : 1;
   const FiringPattern& pattern = packet.dual_return ? kDualPattern : kSinglePattern;
   const int firings = 6 / returns_per_firing;
-  packet.step_deg = advance_cdeg[5] / 100.0 / (firings - 1);
+  packet.step_deg = clockwise_cdeg(pair_cdeg[0], pair_cdeg[5]) / 100.0 / (firings - 1);
   for (int block = 0; block < 12; ++block) {
     for (int j = 0; j < 32; ++j) {
       const auto at = static_cast<std::size_t>(100 * block + 4 + 3 * j);
@@ -88,7 +71,8 @@ Packet Hdl64eReference::decode(std::span<const std::uint8_t> payload) const {
       if (echo.raw_distance == 0) continue;
       const double in_column_us = pattern.group_us * (j / 4) + pattern.in_group_us[j % 4];
       echo.fired_us = pattern.column_us * (echo.column / returns_per_firing) + in_column_us;
-      echo.head_deg = packet.first_deg + advance_cdeg[echo.column] / 100.0 +
+      const int advance_cdeg = clockwise_cdeg(pair_cdeg[0], pair_cdeg[echo.column]);
+      echo.head_deg = packet.first_deg + advance_cdeg / 100.0 +
                       packet.step_deg * in_column_us / pattern.column_us;
       locate(echo);
       packet.returns.push_back(echo);

@@ -19,7 +19,8 @@ enum class Hdl64eOffsets : std::uint8_t { kManual, kRosLike };
 /// be made twice. Keeps no state from packet to packet.
 ///
 /// What no manual says is as terracut fixes it: the step from firing to firing is the packet's own,
-/// (last - first) / firings between, and the near correction ends at 25.04 m per axis.
+/// (last - first) / firings between, dual return is told by azimuths that come in pairs, and the
+/// near correction ends at 25.04 m per axis.
 class Hdl64eReference {
  public:
   explicit Hdl64eReference(const calib::Hdl64eCalibration& calibration,

@@ -20,12 +20,30 @@ std::string_view to_string(Refusal refusal) {
       return "azimuth range";
     case Refusal::kUnequalFirings:
       return "unequal firings";
-    case Refusal::kNotTurning:
-      return "not turning";
     case Refusal::kUneven:
       return "uneven";
+    case Refusal::kNotTurning:
+      return "not turning";
   }
   return "?";
+}
+
+int clockwise_cdeg(int from_cdeg, int to_cdeg) {
+  const int around = (to_cdeg - from_cdeg + 36'000) % 36'000;
+  return around < 18'000 ? around : around - 36'000;
+}
+
+Refusal judge_turning(std::span<const int> azimuths_cdeg, const HeadLimits& limits) {
+  int sweep_cdeg = 0;
+  for (std::size_t i = 1; i < azimuths_cdeg.size(); ++i) {
+    const int step_cdeg = clockwise_cdeg(azimuths_cdeg[i - 1], azimuths_cdeg[i]);
+    if (step_cdeg > limits.forwards_cdeg || -step_cdeg > limits.backwards_cdeg) {
+      return Refusal::kUneven;
+    }
+    sweep_cdeg += step_cdeg;
+  }
+  if (-sweep_cdeg >= limits.least_sweep_cdeg) return Refusal::kUneven;
+  return sweep_cdeg < limits.least_sweep_cdeg ? Refusal::kNotTurning : Refusal::kNone;
 }
 
 double Turns::unwrap(const Packet& packet) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -25,14 +26,27 @@ struct Return {
 enum class Refusal : std::uint8_t {
   kNone,
   kSize,            ///< Not as long as the sensor's data packet.
-  kOtherKind,       ///< Bytes that must have one value have another.
+  kOtherKind,       ///< Bytes that must have one value have another, or name another model.
   kAzimuthRange,    ///< An azimuth of 360 degrees or more.
   kUnequalFirings,  ///< Blocks that fire together carry different azimuths.
-  kNotTurning,      ///< All azimuths are the same.
   kUneven,          ///< The azimuths are not those of a head turning clockwise.
+  kNotTurning,      ///< The azimuths hardly differ.
 };
 
 [[nodiscard]] std::string_view to_string(Refusal refusal);
+
+/// What no format says but terracut fixes: hundredths of a degree that a head may turn from one
+/// column to the next, either way, and the least it must turn in a packet.
+struct HeadLimits {
+  int forwards_cdeg = 0, backwards_cdeg = 0;
+  int least_sweep_cdeg = 0;
+};
+
+/// Whether these azimuths, each in [0, 36000), can be a turning head's.
+[[nodiscard]] Refusal judge_turning(std::span<const int> azimuths_cdeg, const HeadLimits& limits);
+
+/// Hundredths of a degree clockwise from one azimuth to another, the short way: [-18000, 18000).
+[[nodiscard]] int clockwise_cdeg(int from_cdeg, int to_cdeg);
 
 /// One payload, decoded or refused.
 struct Packet {

@@ -13,6 +13,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kColumn_us = 55.55;
 constexpr double kGroup_us = 3.236;
 constexpr double kLensAhead_m = 0.03615;
+constexpr HeadLimits kLimits{.forwards_cdeg = 100, .backwards_cdeg = 2, .least_sweep_cdeg = 4};
 
 std::int64_t big_endian(std::span<const std::uint8_t> payload, std::size_t at, std::size_t bytes) {
   std::int64_t value = 0;
@@ -26,6 +27,8 @@ Refusal read_azimuths(std::span<const std::uint8_t> payload, int (&block_cdeg)[3
   for (std::size_t block = 0; block < 3; ++block) {
     if (payload[80 + 388 * block] != 0xFE) return Refusal::kOtherKind;
   }
+  // A Ruby Plus has the same layout, but other angles and times.
+  if (payload[31] == 5 && payload[32] == 1) return Refusal::kOtherKind;
   for (std::size_t block = 0; block < 3; ++block) {
     block_cdeg[block] = static_cast<int>(big_endian(payload, 80 + 388 * block + 2, 2));
   }
@@ -33,11 +36,6 @@ Refusal read_azimuths(std::span<const std::uint8_t> payload, int (&block_cdeg)[3
     if (cdeg > 35'999) return Refusal::kAzimuthRange;
   }
   return Refusal::kNone;
-}
-
-/// Counts clockwise from one azimuth to another, [0, 36000).
-int clockwise(int from_cdeg, int to_cdeg) {
-  return (to_cdeg - from_cdeg + 36'000) % 36'000;
 }
 
 bool leap(std::int64_t year) {
@@ -66,26 +64,23 @@ Packet Ruby128Reference::decode(std::span<const std::uint8_t> payload) {
   int block_cdeg[3] = {};
   packet.refusal = read_azimuths(payload, block_cdeg);
   if (packet.refusal != Refusal::kNone) return packet;
-  packet.columns = 3;
-  packet.first_deg = block_cdeg[0] / 100.0;
-
-  const int first_step = clockwise(block_cdeg[0], block_cdeg[1]);
-  const int second_step = clockwise(block_cdeg[1], block_cdeg[2]);
-  if (first_step == 0 && second_step == 0) packet.refusal = Refusal::kNotTurning;
-  if (first_step + second_step >= 18'000) packet.refusal = Refusal::kUneven;
+  packet.refusal = judge_turning(block_cdeg, kLimits);
   if (packet.refusal != Refusal::kNone) return packet;
 
-  // A A B or A B B: the lone one has its partner in the packet before or after.
-  packet.dual_return = first_step == 0 || second_step == 0;
-  const double advance_deg = (first_step + second_step) / 100.0;
+  // In dual return A A B or A B B: the lone one has its partner in the packet before or after.
+  packet.columns = 3;
+  packet.first_deg = block_cdeg[0] / 100.0;
+  const bool pair_first = block_cdeg[0] == block_cdeg[1];
+  const bool pair_last = !pair_first && block_cdeg[1] == block_cdeg[2];
+  packet.dual_return = pair_first || pair_last;
+  const double advance_deg = clockwise_cdeg(block_cdeg[0], block_cdeg[2]) / 100.0;
   packet.step_deg = packet.dual_return ? advance_deg : advance_deg / 2;
-  const bool second_of_pending =
-      packet.dual_return && first_step != 0 && pending_step_deg_ && pending_cdeg_ == block_cdeg[0];
-  const double firing_of_block[3] = {0.0, first_step == 0 ? 0.0 : 1.0,
-                                     packet.dual_return ? 1.0 : 2.0};
+  const bool second_of_pending = pair_last && pending_step_deg_ && pending_cdeg_ == block_cdeg[0];
+  const double firing_of_block[3] = {0.0, pair_first ? 0.0 : 1.0, packet.dual_return ? 1.0 : 2.0};
   for (int block = 0; block < 3; ++block) {
     const double step_deg = block == 0 && second_of_pending ? *pending_step_deg_ : packet.step_deg;
-    const double block_deg = packet.first_deg + clockwise(block_cdeg[0], block_cdeg[block]) / 100.0;
+    const double block_deg =
+        packet.first_deg + clockwise_cdeg(block_cdeg[0], block_cdeg[block]) / 100.0;
     for (int channel = 0; channel < 128; ++channel) {
       const auto at = static_cast<std::size_t>(80 + 388 * block + 4 + 3 * channel);
       Return echo;
@@ -102,7 +97,7 @@ Packet Ruby128Reference::decode(std::span<const std::uint8_t> payload) {
     }
   }
   forget();
-  if (packet.dual_return && first_step == 0) {
+  if (pair_first) {
     pending_cdeg_ = block_cdeg[2];
     pending_step_deg_ = packet.step_deg;
   }

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -49,10 +50,16 @@ Refusal as_refusal(std::optional<Reject> reason) {
     case Reject::kStationary:
       return Refusal::kNotTurning;
     case Reject::kWrongSize:
-      return Refusal::kSize;
-    default:
-      return Refusal::kOtherKind;
+    case Reject::kWrongMagic:
+    case Reject::kDeviceInfo:
+    case Reject::kWrongModel:
+      return Refusal::kOtherPacket;
+    case Reject::kRepeated:
+    case Reject::kLate:
+    case Reject::kCount:
+      break;  // of the stream, not of the packet
   }
+  return Refusal::kNone;
 }
 
 void ExpectedTurns::add(const Packet& packet, double unwrap_deg) {

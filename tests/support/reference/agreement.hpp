@@ -20,8 +20,8 @@ namespace terracut::reference {
 /// a beam nearer than this to a border between columns may be on either side of it.
 inline constexpr double kBorder_deg = 2e-5;
 
-/// The reason by which the product should refuse what a reference refuses as `refusal`; several of
-/// the product's can be one of the reference's.
+/// What a reference calls the product's reason to refuse a packet; kNone for those reasons that lie
+/// in the stream and not in the packet.
 [[nodiscard]] Refusal as_refusal(std::optional<firmware_io::Reject> reason);
 
 /// A return and its place, in the vehicle frame (calib/mount.hpp).

@@ -20,17 +20,18 @@ struct FiringPattern {
 constexpr FiringPattern kSinglePattern{48.0, 6.0, {0, 1.26, 2.46, 3.66}};
 constexpr FiringPattern kDualPattern{57.6, 7.2, {0, 1.3, 2.5, 3.7}};
 
-constexpr HeadLimits kLimits{.forwards_cdeg = 100, .backwards_cdeg = 5, .least_sweep_cdeg = 10};
+constexpr HeadLimits kLimits{
+    .forwards_cdeg = 100, .backwards_cdeg = 5, .least_sweep_cdeg = 10, .standing_back_cdeg = 9};
 
 int u16(std::span<const std::uint8_t> payload, std::size_t at) {
   return payload[at] + 256 * payload[at + 1];
 }
 
 Refusal read_azimuths(std::span<const std::uint8_t> payload, int (&pair_cdeg)[6]) {
-  if (payload.size() != 1206) return Refusal::kSize;
+  if (payload.size() != 1206) return Refusal::kOtherPacket;
   for (std::size_t block = 0; block < 12; ++block) {
     const int id = block % 2 == 0 ? 0xEEFF : 0xDDFF;
-    if (u16(payload, 100 * block) != id) return Refusal::kOtherKind;
+    if (u16(payload, 100 * block) != id) return Refusal::kOtherPacket;
   }
   for (std::size_t block = 0; block < 12; ++block) {
     if (u16(payload, 100 * block + 2) > 35'999) return Refusal::kAzimuthRange;

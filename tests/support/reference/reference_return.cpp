@@ -12,10 +12,8 @@ std::string_view to_string(Refusal refusal) {
   switch (refusal) {
     case Refusal::kNone:
       return "none";
-    case Refusal::kSize:
-      return "size";
-    case Refusal::kOtherKind:
-      return "other kind";
+    case Refusal::kOtherPacket:
+      return "other packet";
     case Refusal::kAzimuthRange:
       return "azimuth range";
     case Refusal::kUnequalFirings:
@@ -42,7 +40,7 @@ Refusal judge_turning(std::span<const int> azimuths_cdeg, const HeadLimits& limi
     }
     sweep_cdeg += step_cdeg;
   }
-  if (-sweep_cdeg >= limits.least_sweep_cdeg) return Refusal::kUneven;
+  if (-sweep_cdeg > limits.standing_back_cdeg) return Refusal::kUneven;
   return sweep_cdeg < limits.least_sweep_cdeg ? Refusal::kNotTurning : Refusal::kNone;
 }
 
@@ -65,6 +63,10 @@ Cell cell_of(double unwrapped_deg, int columns) {
   cell.column = std::min(static_cast<int>(in_columns), columns - 1);
   cell.border_deg = std::abs(in_columns - std::round(in_columns)) * pitch_deg;
   return cell;
+}
+
+double seam_distance_deg(double beam_deg) {
+  return std::abs(beam_deg - 360.0 * std::round(beam_deg / 360.0));
 }
 
 std::vector<int> rank_of_elevation(const std::vector<double>& elevations) {

@@ -25,8 +25,7 @@ struct Return {
 /// Why a payload is no data packet that could be decoded.
 enum class Refusal : std::uint8_t {
   kNone,
-  kSize,            ///< Not as long as the sensor's data packet.
-  kOtherKind,       ///< Bytes that must have one value have another, or name another model.
+  kOtherPacket,     ///< No data packet of this sensor, by its size or the bytes that tell.
   kAzimuthRange,    ///< An azimuth of 360 degrees or more.
   kUnequalFirings,  ///< Blocks that fire together carry different azimuths.
   kUneven,          ///< The azimuths are not those of a head turning clockwise.
@@ -36,10 +35,11 @@ enum class Refusal : std::uint8_t {
 [[nodiscard]] std::string_view to_string(Refusal refusal);
 
 /// What no format says but terracut fixes: hundredths of a degree that a head may turn from one
-/// column to the next, either way, and the least it must turn in a packet.
+/// column to the next, either way; the least it must turn in a packet, else it stands still; and
+/// how far back it may come in a packet and still be thought to stand.
 struct HeadLimits {
   int forwards_cdeg = 0, backwards_cdeg = 0;
-  int least_sweep_cdeg = 0;
+  int least_sweep_cdeg = 0, standing_back_cdeg = 0;
 };
 
 /// Whether these azimuths, each in [0, 36000), can be a turning head's.
@@ -78,6 +78,9 @@ struct Cell {
   double border_deg = 0;
 };
 [[nodiscard]] Cell cell_of(double unwrapped_deg, int columns);
+
+/// How far a beam is from the nearest border between two turns.
+[[nodiscard]] double seam_distance_deg(double beam_deg);
 
 /// The rank of each elevation, 0 for the lowest; of equal ones the earlier is the lower.
 [[nodiscard]] std::vector<int> rank_of_elevation(const std::vector<double>& elevations);

@@ -13,7 +13,8 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kColumn_us = 55.55;
 constexpr double kGroup_us = 3.236;
 constexpr double kLensAhead_m = 0.03615;
-constexpr HeadLimits kLimits{.forwards_cdeg = 100, .backwards_cdeg = 2, .least_sweep_cdeg = 4};
+constexpr HeadLimits kLimits{
+    .forwards_cdeg = 100, .backwards_cdeg = 2, .least_sweep_cdeg = 4, .standing_back_cdeg = 4};
 
 std::int64_t big_endian(std::span<const std::uint8_t> payload, std::size_t at, std::size_t bytes) {
   std::int64_t value = 0;
@@ -22,13 +23,13 @@ std::int64_t big_endian(std::span<const std::uint8_t> payload, std::size_t at, s
 }
 
 Refusal read_azimuths(std::span<const std::uint8_t> payload, int (&block_cdeg)[3]) {
-  if (payload.size() != 1248) return Refusal::kSize;
-  if (big_endian(payload, 0, 4) != 0x55AA055A) return Refusal::kOtherKind;
+  if (payload.size() != 1248) return Refusal::kOtherPacket;
+  if (big_endian(payload, 0, 4) != 0x55AA055A) return Refusal::kOtherPacket;
   for (std::size_t block = 0; block < 3; ++block) {
-    if (payload[80 + 388 * block] != 0xFE) return Refusal::kOtherKind;
+    if (payload[80 + 388 * block] != 0xFE) return Refusal::kOtherPacket;
   }
   // A Ruby Plus has the same layout, but other angles and times.
-  if (payload[31] == 5 && payload[32] == 1) return Refusal::kOtherKind;
+  if (payload[31] == 5 && payload[32] == 1) return Refusal::kOtherPacket;
   for (std::size_t block = 0; block < 3; ++block) {
     block_cdeg[block] = static_cast<int>(big_endian(payload, 80 + 388 * block + 2, 2));
   }

@@ -24,9 +24,9 @@ void put_big(Bytes& bytes, std::size_t at, std::uint64_t value, std::size_t coun
 }
 
 /// The azimuth of a firing as a head's encoder gives it, hundredths of a degree.
-std::uint64_t azimuth_cdeg(const TurningHead& head, std::int64_t firing, double firing_s) {
+unsigned azimuth_cdeg(const TurningHead& head, std::int64_t firing, double firing_s) {
   const double turned_deg = 360.0 * head.spin_hz * firing_s * static_cast<double>(firing);
-  return static_cast<std::uint64_t>(std::llround((head.first_deg + turned_deg) * 100.0) % 36'000);
+  return static_cast<unsigned>(std::llround((head.first_deg + turned_deg) * 100.0) % 36'000);
 }
 
 std::size_t hdl64e_return_at(int column, int laser) {
@@ -74,13 +74,11 @@ std::vector<Payload> hdl64e_payloads(const TurningHead& head) {
     const std::int64_t first_firing = static_cast<std::int64_t>(n) * firings_per_packet;
     for (int column = 0; column < 6; ++column) {
       const int firing_in_packet = column * firings_per_packet / 6;
-      const std::uint64_t azimuth = azimuth_cdeg(head, first_firing + firing_in_packet,
-                                                 static_cast<double>(firing_ns) * 1e-9);
-      for (int half = 0; half < 2; ++half) {
-        const auto block_at = static_cast<std::size_t>(100 * (2 * column + half));
-        put_little(bytes, block_at, half == 0 ? 0xEEFF : 0xDDFF, 2);
-        put_little(bytes, block_at + 2, azimuth, 2);
-      }
+      const unsigned azimuth = azimuth_cdeg(head, first_firing + firing_in_packet,
+                                            static_cast<double>(firing_ns) * 1e-9);
+      put_little(bytes, static_cast<std::size_t>(200 * column), 0xEEFF, 2);
+      put_little(bytes, static_cast<std::size_t>(200 * column + 100), 0xDDFF, 2);
+      set_hdl64e_azimuth(bytes, column, azimuth);
       for (int laser = 0; laser < 64; ++laser) {
         if (!measured(random)) continue;
         put_little(bytes, hdl64e_return_at(column, laser), distance(random), 2);
@@ -116,7 +114,7 @@ std::vector<Payload> ruby128_payloads(const TurningHead& head, RubyClock clock) 
       const auto block_at = static_cast<std::size_t>(80 + 388 * block);
       bytes[block_at] = 0xFE;
       bytes[block_at + 1] = static_cast<std::uint8_t>(1 + reading % returns_per_firing);
-      put_big(bytes, block_at + 2, azimuth_cdeg(head, firing, 55.55e-6), 2);
+      set_ruby128_azimuth(bytes, block, azimuth_cdeg(head, firing, 55.55e-6));
       for (int channel = 0; channel < 128; ++channel) {
         if (!measured(random)) continue;
         put_big(bytes, ruby128_return_at(block, channel), distance(random), 2);
@@ -125,6 +123,16 @@ std::vector<Payload> ruby128_payloads(const TurningHead& head, RubyClock clock) 
     }
   }
   return payloads;
+}
+
+void set_hdl64e_azimuth(Bytes& payload, int column, unsigned cdeg) {
+  for (int half = 0; half < 2; ++half) {
+    put_little(payload, static_cast<std::size_t>(100 * (2 * column + half) + 2), cdeg, 2);
+  }
+}
+
+void set_ruby128_azimuth(Bytes& payload, int column, unsigned cdeg) {
+  put_big(payload, static_cast<std::size_t>(80 + 388 * column + 2), cdeg, 2);
 }
 
 void erase_hdl64e_return(Bytes& payload, int column, int laser) {
@@ -148,8 +156,8 @@ calib::Hdl64eCalibration random_hdl64e(std::mt19937& random) {
     laser.rot_correction_rad = between(-10, 10) * kRadPerDeg;
     laser.dist_correction_m = between(0, 1.6);
     laser.two_point = between(0, 1) < 0.7;
-    laser.dist_correction_x_m = between(1.1, 1.6);
-    laser.dist_correction_y_m = between(1.1, 1.6);
+    laser.dist_correction_x_m = laser.dist_correction_m + between(-0.5, 0.5);
+    laser.dist_correction_y_m = laser.dist_correction_m + between(-0.5, 0.5);
     laser.vert_offset_m = between(0, 0.22);
     laser.horiz_offset_m = between(-0.026, 0.026);
   }

@@ -35,6 +35,10 @@ struct Payload {
 [[nodiscard]] std::vector<Payload> ruby128_payloads(const TurningHead& head,
                                                     RubyClock clock = RubyClock::kMicroseconds);
 
+/// Where the head stood at a column of a payload.
+void set_hdl64e_azimuth(std::vector<std::uint8_t>& payload, int column, unsigned cdeg);
+void set_ruby128_azimuth(std::vector<std::uint8_t>& payload, int column, unsigned cdeg);
+
 /// Makes a return of a payload that no one measured.
 void erase_hdl64e_return(std::vector<std::uint8_t>& payload, int column, int laser);
 void erase_ruby128_return(std::vector<std::uint8_t>& payload, int column, int laser);

@@ -8,80 +8,17 @@
 #include <map>
 #include <optional>
 #include <random>
-#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
-#include "firmware_io/ruby128/packet_check.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "rt/fixed_memory.hpp"
 #include "tests/support/reference/agreement.hpp"
-#include "tests/support/reference/hdl64e_reference.hpp"
-#include "tests/support/reference/ruby128_reference.hpp"
-#include "tests/support/reference/turning_head.hpp"
+#include "tests/support/reference/sensors.hpp"
 
 namespace terracut::reference {
 namespace {
-
-// --- The sensors ---
-
-struct Hdl64e {
-  using Decoder = firmware_io::Hdl64eDecoder;
-  using Calibration = calib::Hdl64eCalibration;
-  using Reference = Hdl64eReference;
-  static constexpr int kColumns = 6, kLasers = 64, kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
-
-  static double firing_us(bool dual_return) { return dual_return ? 57.6 : 48.0; }
-  static double firings_per_packet(bool dual_return) { return dual_return ? 3 : 6; }
-  static Calibration random_unit(std::mt19937& random) { return random_hdl64e(random); }
-  static std::vector<double> elevations(const Calibration& calibration) {
-    std::vector<double> elevations;
-    for (const auto& laser : calibration.lasers) elevations.push_back(laser.vert_correction_rad);
-    return elevations;
-  }
-  static std::vector<Payload> payloads(const TurningHead& head) { return hdl64e_payloads(head); }
-  static void erase(Payload& payload, const Return& echo) {
-    erase_hdl64e_return(payload.bytes, echo.column, echo.laser);
-  }
-  static void set_azimuth(std::vector<std::uint8_t>& payload, int column, unsigned cdeg) {
-    set_hdl64e_azimuth(payload, column, cdeg);
-  }
-  static void forget(Reference&) {}
-  static auto check(std::span<const std::uint8_t> payload, firmware_io::PacketHeads& heads) {
-    return firmware_io::check_hdl64e_packet(payload, heads);
-  }
-};
-
-struct Ruby128 {
-  using Decoder = firmware_io::Ruby128Decoder;
-  using Calibration = calib::Ruby128Calibration;
-  using Reference = Ruby128Reference;
-  static constexpr int kColumns = 3, kLasers = 128, kFirstBlock = 80, kBlockBytes = 388,
-                       kBlocks = 3;
-
-  static double firing_us(bool) { return 55.55; }
-  static double firings_per_packet(bool dual_return) { return dual_return ? 1.5 : 3; }
-  static Calibration random_unit(std::mt19937& random) { return random_ruby128(random); }
-  static std::vector<double> elevations(const Calibration& calibration) {
-    std::vector<double> elevations;
-    for (const auto& channel : calibration.channels) elevations.push_back(channel.elevation_rad);
-    return elevations;
-  }
-  static std::vector<Payload> payloads(const TurningHead& head) { return ruby128_payloads(head); }
-  static void erase(Payload& payload, const Return& echo) {
-    erase_ruby128_return(payload.bytes, echo.column, echo.laser);
-  }
-  static void set_azimuth(std::vector<std::uint8_t>& payload, int column, unsigned cdeg) {
-    set_ruby128_azimuth(payload, column, cdeg);
-  }
-  static void forget(Reference& reference) { reference.forget(); }
-  static auto check(std::span<const std::uint8_t> payload, firmware_io::PacketHeads& heads) {
-    return firmware_io::check_ruby128_packet(payload, heads);
-  }
-};
 
 // --- Streams ---
 
@@ -118,9 +55,7 @@ class BothDecoders {
   std::string difference() {
     // Beams on the very seam may be of either turn.
     reference_pass([&](Payload& payload, const Packet& packet, double) {
-      for (const Return& echo : packet.returns) {
-        if (seam_distance_deg(echo.beam_deg) < kBorder_deg) Sensor::erase(payload, echo);
-      }
+      erase_returns_on_the_seam<Sensor>(payload.bytes, packet);
     });
     ExpectedTurns expected(Sensor::elevations(calibration_), mount_, config_.columns);
     reference_pass([&](Payload&, const Packet& packet, double unwrap_deg) {
@@ -159,10 +94,7 @@ class BothDecoders {
   static void unmeasure(Payload& payload) {
     for (int column = 0; column < Sensor::kColumns; ++column) {
       for (int laser = 0; laser < Sensor::kLasers; ++laser) {
-        Return echo;
-        echo.column = column;
-        echo.laser = laser;
-        Sensor::erase(payload, echo);
+        Sensor::set_return(payload.bytes, column, laser, 0, 0);
       }
     }
   }

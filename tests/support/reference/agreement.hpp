@@ -16,10 +16,6 @@
 
 namespace terracut::reference {
 
-/// The product counts azimuths in whole ticks of 1e-5 degrees and cuts off twice on the way there:
-/// a beam nearer than this to a border between columns may be on either side of it.
-inline constexpr double kBorder_deg = 2e-5;
-
 /// What a reference calls the product's reason to refuse a packet; kNone for those reasons that lie
 /// in the stream and not in the packet.
 [[nodiscard]] Refusal as_refusal(std::optional<firmware_io::Reject> reason);

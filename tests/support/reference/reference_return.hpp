@@ -70,6 +70,10 @@ class Turns {
   double last_deg_ = 0;
 };
 
+/// The product counts azimuths in whole ticks of 1e-5 degrees and cuts off twice on the way there:
+/// a beam nearer than this to a border between columns may be on either side of it.
+inline constexpr double kBorder_deg = 2e-5;
+
 /// Turn and column of a beam that points to `unwrapped_deg`, and how far it is from the nearest
 /// border between two columns.
 struct Cell {

@@ -36,29 +36,6 @@ std::size_t ruby128_return_at(int column, int laser) {
   return static_cast<std::size_t>(80 + 388 * column + 4 + 3 * laser);
 }
 
-void put_ruby_clock(Bytes& bytes, std::int64_t time_ns, RubyClock clock) {
-  // All streams are of the first two hours of 2026.
-  constexpr std::int64_t kSecond_ns = 1'000'000'000, kNewYear_s = 1'767'225'600;
-  const std::int64_t seconds = time_ns / kSecond_ns, rest_ns = time_ns % kSecond_ns;
-  const auto put = [&](std::size_t at, std::int64_t value, std::size_t count) {
-    put_big(bytes, at, static_cast<std::uint64_t>(value), count);
-  };
-  if (clock == RubyClock::kCalendar) {
-    const std::int64_t of_year_s = seconds - kNewYear_s;
-    put(10, 26, 1);
-    put(11, 1, 1);
-    put(12, 1, 1);
-    put(13, of_year_s / 3'600, 1);
-    put(14, of_year_s / 60 % 60, 1);
-    put(15, of_year_s % 60, 1);
-    put(16, rest_ns / 1'000'000, 2);
-    put(18, rest_ns / 1'000 % 1'000, 2);
-    return;
-  }
-  put(10, seconds, 6);
-  put(16, clock == RubyClock::kMicroseconds ? rest_ns / 1'000 : rest_ns, 4);
-}
-
 }  // namespace
 
 std::vector<Payload> hdl64e_payloads(const TurningHead& head) {
@@ -81,13 +58,12 @@ std::vector<Payload> hdl64e_payloads(const TurningHead& head) {
       set_hdl64e_azimuth(bytes, column, azimuth);
       for (int laser = 0; laser < 64; ++laser) {
         if (!measured(random)) continue;
-        put_little(bytes, hdl64e_return_at(column, laser), distance(random), 2);
-        put_little(bytes, hdl64e_return_at(column, laser) + 2, intensity(random), 1);
+        const unsigned raw = distance(random);
+        set_hdl64e_return(bytes, column, laser, raw, intensity(random));
       }
     }
     payloads[n].stamp_ns = kStart_ns + (first_firing + firings_per_packet) * firing_ns;
-    put_little(bytes, 1200,
-               static_cast<std::uint64_t>(payloads[n].stamp_ns / 1'000 % 3'600'000'000), 4);
+    set_hdl64e_clock(bytes, payloads[n].stamp_ns);
   }
   return payloads;
 }
@@ -109,7 +85,7 @@ std::vector<Payload> ruby128_payloads(const TurningHead& head, RubyClock clock) 
       const std::int64_t firing = reading / returns_per_firing;
       if (block == 0) {
         payloads[n].stamp_ns = kStart_ns + firing * 55'550;
-        put_ruby_clock(bytes, payloads[n].stamp_ns, clock);
+        set_ruby128_clock(bytes, payloads[n].stamp_ns, clock);
       }
       const auto block_at = static_cast<std::size_t>(80 + 388 * block);
       bytes[block_at] = 0xFE;
@@ -117,8 +93,8 @@ std::vector<Payload> ruby128_payloads(const TurningHead& head, RubyClock clock) 
       set_ruby128_azimuth(bytes, block, azimuth_cdeg(head, firing, 55.55e-6));
       for (int channel = 0; channel < 128; ++channel) {
         if (!measured(random)) continue;
-        put_big(bytes, ruby128_return_at(block, channel), distance(random), 2);
-        put_big(bytes, ruby128_return_at(block, channel) + 2, intensity(random), 1);
+        const unsigned raw = distance(random);
+        set_ruby128_return(bytes, block, channel, raw, intensity(random));
       }
     }
   }
@@ -135,12 +111,40 @@ void set_ruby128_azimuth(Bytes& payload, int column, unsigned cdeg) {
   put_big(payload, static_cast<std::size_t>(80 + 388 * column + 2), cdeg, 2);
 }
 
-void erase_hdl64e_return(Bytes& payload, int column, int laser) {
-  put_little(payload, hdl64e_return_at(column, laser), 0, 2);
+void set_hdl64e_return(Bytes& payload, int column, int laser, unsigned raw, unsigned intensity) {
+  put_little(payload, hdl64e_return_at(column, laser), raw, 2);
+  put_little(payload, hdl64e_return_at(column, laser) + 2, intensity, 1);
 }
 
-void erase_ruby128_return(Bytes& payload, int column, int laser) {
-  put_big(payload, ruby128_return_at(column, laser), 0, 2);
+void set_ruby128_return(Bytes& payload, int column, int laser, unsigned raw, unsigned intensity) {
+  put_big(payload, ruby128_return_at(column, laser), raw, 2);
+  put_big(payload, ruby128_return_at(column, laser) + 2, intensity, 1);
+}
+
+void set_hdl64e_clock(Bytes& payload, std::int64_t time_ns) {
+  put_little(payload, 1200, static_cast<std::uint64_t>(time_ns / 1'000 % 3'600'000'000), 4);
+}
+
+void set_ruby128_clock(Bytes& payload, std::int64_t time_ns, RubyClock clock) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000, kNewYear_s = 1'767'225'600;
+  const std::int64_t seconds = time_ns / kSecond_ns, rest_ns = time_ns % kSecond_ns;
+  const auto put = [&](std::size_t at, std::int64_t value, std::size_t count) {
+    put_big(payload, at, static_cast<std::uint64_t>(value), count);
+  };
+  if (clock == RubyClock::kCalendar) {
+    const std::int64_t of_year_s = seconds - kNewYear_s;
+    put(10, 26, 1);
+    put(11, 1, 1);
+    put(12, 1, 1);
+    put(13, of_year_s / 3'600, 1);
+    put(14, of_year_s / 60 % 60, 1);
+    put(15, of_year_s % 60, 1);
+    put(16, rest_ns / 1'000'000, 2);
+    put(18, rest_ns / 1'000 % 1'000, 2);
+    return;
+  }
+  put(10, seconds, 6);
+  put(16, clock == RubyClock::kMicroseconds ? rest_ns / 1'000 : rest_ns, 4);
 }
 
 calib::Hdl64eCalibration random_hdl64e(std::mt19937& random) {

@@ -39,9 +39,16 @@ struct Payload {
 void set_hdl64e_azimuth(std::vector<std::uint8_t>& payload, int column, unsigned cdeg);
 void set_ruby128_azimuth(std::vector<std::uint8_t>& payload, int column, unsigned cdeg);
 
-/// Makes a return of a payload that no one measured.
-void erase_hdl64e_return(std::vector<std::uint8_t>& payload, int column, int laser);
-void erase_ruby128_return(std::vector<std::uint8_t>& payload, int column, int laser);
+/// One return; a raw distance of 0 is none.
+void set_hdl64e_return(std::vector<std::uint8_t>& payload, int column, int laser, unsigned raw,
+                       unsigned intensity);
+void set_ruby128_return(std::vector<std::uint8_t>& payload, int column, int laser, unsigned raw,
+                        unsigned intensity);
+
+/// The device's clock, of the HDL-64E at the packet's end and of the RS-Ruby128 at its first
+/// firing. The calendar is for the first day of 2026.
+void set_hdl64e_clock(std::vector<std::uint8_t>& payload, std::int64_t time_ns);
+void set_ruby128_clock(std::vector<std::uint8_t>& payload, std::int64_t time_ns, RubyClock clock);
 
 /// Any unit within the spans of real ones, and any mount.
 [[nodiscard]] calib::Hdl64eCalibration random_hdl64e(std::mt19937& random);

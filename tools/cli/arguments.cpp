@@ -170,6 +170,15 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
       ->check(number(0.1, 3600))
       ->capture_default_str();
+  sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
+      ->check(number(5, 20))
+      ->capture_default_str();
+  sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
+      ->check(CLI::IsMember({"single", "dual"}))
+      ->capture_default_str();
+  sub.add_option("--timestamp", o.timestamp, "Ruby128: how its stamps are encoded")
+      ->check(CLI::IsMember({"calendar", "us", "ns"}))
+      ->capture_default_str();
   sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
       ->check(number(0, 1))
       ->capture_default_str();

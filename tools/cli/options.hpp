@@ -70,6 +70,9 @@ struct SimulateOptions {
   std::string scene = "street";
   std::uint64_t seed = 1;
   double duration_s = 3;
+  double spin_hz = 10;             ///< --spin-hz, [5, 20]
+  std::string returns = "single";  ///< --returns single|dual
+  std::string timestamp = "us";    ///< --timestamp calendar|us|ns, of a Ruby128
   double noise_m = 0.015;
   std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;

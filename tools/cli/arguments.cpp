@@ -193,7 +193,7 @@ void add_encode(CLI::App& sub, EncodeOptions& o) {
   sub.add_option("SCANS_DIR", o.scans, "Folder of .bin scans, or a SemanticKITTI sequence folder")
       ->required();
   sub.add_option("--calibration", o.calibration,
-                 "Unit to encode through (default: one fitted to the scans)");
+                 "Unit to encode through (default: one fitted to the scans; Ruby128: nominal)");
   sub.add_flag("--undo-compensation", o.undo_compensation,
                "Put the sensor's motion back into the points; needs poses.txt and times.txt");
   sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")

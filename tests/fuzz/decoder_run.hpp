@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame_info.hpp"
+#include "firmware_io/loss_counters.hpp"
+#include "pipeline/range_image.hpp"
+#include "rt/fixed_memory.hpp"
+#include "tests/fuzz/input.hpp"
+
+namespace terracut::fuzz {
+
+/// One decoder per input, small enough to run thousands of inputs a second, and what must hold
+/// whatever it is fed: every return of a packet that was accepted is in a frame or counted as lost,
+/// and every packet that was not is counted under its reason.
+template <class Decoder, class Calibration>
+class DecoderRun {
+ public:
+  /// `returns_in(payload)`: how many returns an accepted payload carries.
+  using ReturnsIn = std::uint64_t (*)(std::span<const std::uint8_t> payload);
+
+  /// No return can lie beyond `farthest_m`.
+  DecoderRun(const Calibration& calibration, ReturnsIn returns_in, float farthest_m)
+      : returns_in_(returns_in),
+        farthest_m_(farthest_m),
+        decoder_(calibration, {}, config(), memory_) {}
+
+  [[nodiscard]] auto keep() {
+    return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+      require(info.number == frames_++);
+      require(info.returns > 0 && info.returns == image.returns());
+      require(image.returns() <= image.return_capacity());
+      std::uint64_t in_cells = image.overflow().size();
+      for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
+        if (!image.has_return(cell)) continue;
+        ++in_cells;
+        const auto stride = static_cast<std::size_t>(image.shape().stride());
+        require(cell % stride < static_cast<std::size_t>(image.shape().columns));
+        require(image.ground_range_m()[cell] >= 0.0F && image.ground_range_m()[cell] < farthest_m_);
+        require(std::abs(image.z_m()[cell]) < farthest_m_);
+      }
+      require(in_cells == info.returns);
+      handed_returns_ += info.returns;
+    };
+  }
+
+  void feed(std::span<const std::uint8_t> payload) {
+    ++fed_;
+    const auto reason = decoder_.decode({.payload = payload, .stamp_ns = stamp_ns_}, keep());
+    if (reason) {
+      ++rejected_;
+    } else {
+      accepted_returns_ += returns_in_(payload);
+    }
+  }
+  void advance(std::int64_t ns) { stamp_ns_ += ns; }
+  void flush() { decoder_.flush(keep()); }
+
+  void check() const {
+    const firmware_io::LossCounters losses = decoder_.losses();
+    require(losses.rejected_total() == rejected_);
+    require(decoder_.packets_decoded() + rejected_ == fed_);
+    require(handed_returns_ + losses.overflow_full_returns == accepted_returns_);
+    require(decoder_.frames() == frames_);
+  }
+
+ private:
+  static typename Decoder::Config config() {
+    typename Decoder::Config config;
+    config.columns = 64;
+    config.returns_per_cell = 3;
+    return config;
+  }
+  ReturnsIn returns_in_;
+  float farthest_m_;
+  rt::FixedMemory memory_;
+  Decoder decoder_;
+  std::int64_t stamp_ns_ = 1'000'000'000;
+  std::uint64_t fed_ = 0, rejected_ = 0, accepted_returns_ = 0, handed_returns_ = 0;
+  std::uint32_t frames_ = 0;
+};
+
+}  // namespace terracut::fuzz

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// The RS-Ruby128 decoder on streams of packets made from the input: wild payloads, and well-formed
+// packets in single and dual return whose stamps, of any encoding, azimuths and bytes the input
+// bends. What must hold: tests/fuzz/decoder_run.hpp.
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "calib/nominal_ruby128.hpp"
+#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+#include "tests/fuzz/decoder_run.hpp"
+#include "tests/fuzz/input.hpp"
+
+namespace {
+
+using namespace terracut;
+
+constexpr int kMaxPackets = 4'000;
+
+std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
+  const auto packet = firmware_io::Ruby128PacketView::of(payload);
+  std::uint64_t sum = 0;
+  for (int block = 0; packet && block < firmware_io::kRubyBlocksPerPacket; ++block) {
+    for (int channel = 0; channel < firmware_io::kRubyChannelsPerBlock; ++channel) {
+      sum += packet->distance(block, channel) != 0;
+    }
+  }
+  return sum;
+}
+
+/// A head whose azimuth, speed, clock and return mode the input changes at will.
+struct Head {
+  std::uint32_t azimuth_cdeg = 0, step_cdeg = 20;
+  std::int64_t stamp_ns = 1'767'225'600'000'000'000;
+  firmware_io::RubyTimestamp encoding = firmware_io::RubyTimestamp::kUtcMicroseconds;
+  std::uint32_t reading = 0, readings_per_firing = 1;
+
+  void next(firmware_io::Ruby128PacketBuffer& packet) {
+    packet.set_stamp(firmware_io::write_ruby_timestamp(stamp_ns, encoding));
+    for (int block = 0; block < firmware_io::kRubyBlocksPerPacket; ++block) {
+      packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(azimuth_cdeg));
+      if (++reading % readings_per_firing != 0) continue;
+      azimuth_cdeg = (azimuth_cdeg + step_cdeg) % 36'000;
+      stamp_ns += firmware_io::kRubyBlock_ns;
+    }
+  }
+  void go_back(std::uint32_t firings) {
+    azimuth_cdeg = (azimuth_cdeg + 36'000 - firings * step_cdeg % 36'000) % 36'000;
+    stamp_ns -= std::int64_t{firings} * firmware_io::kRubyBlock_ns;
+  }
+};
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::Input input({data, size});
+  fuzz::DecoderRun<firmware_io::Ruby128Decoder, calib::Ruby128Calibration> run(
+      calib::nominal_ruby128(), returns_in, 400.0F);
+  firmware_io::Ruby128PacketBuffer packet;
+  Head head;
+  const auto send = [&] {
+    const std::int64_t before_ns = head.stamp_ns;
+    head.next(packet);
+    run.feed(packet.payload());
+    run.advance(head.stamp_ns - before_ns);
+  };
+  for (int fed = 0; fed < kMaxPackets && !input.empty(); ++fed) {
+    switch (input.below(12)) {
+      case 0:  // the stream goes on
+        send();
+        break;
+      case 1:  // for a while
+        for (std::uint32_t n = input.next(1); n > 0; --n, ++fed) send();
+        break;
+      case 2:  // packets are lost, or the clock jumps
+        head.stamp_ns += std::int64_t{input.next(4)} * (input.next(1) % 2 == 0 ? 1'000 : 1);
+        break;
+      case 3:
+        head.azimuth_cdeg = input.next(2) % 36'000;
+        break;
+      case 4:  // an older packet, or a repeated one
+        head.go_back(3 * (input.next(1) % 8));
+        break;
+      case 5:
+        head.step_cdeg = input.next(1) % 120;
+        break;
+      case 6: {  // one return
+        const int block = input.below(firmware_io::kRubyBlocksPerPacket);
+        const int channel = input.below(firmware_io::kRubyChannelsPerBlock);
+        const auto distance = static_cast<std::uint16_t>(input.next(2));
+        packet.set_return(block, channel, distance, static_cast<std::uint8_t>(input.next(1)));
+        break;
+      }
+      case 7: {  // a bent copy of the packet
+        std::array<std::uint8_t, firmware_io::kRubyPacketBytes> bent{};
+        std::memcpy(bent.data(), packet.payload().data(), bent.size());
+        for (std::uint32_t n = input.next(1) % 8; n > 0; --n) {
+          bent[input.next(2) % bent.size()] = static_cast<std::uint8_t>(input.next(1));
+        }
+        run.feed(bent);
+        break;
+      }
+      case 8:  // anything
+        run.feed(input.take(input.next(2) % 1'300));
+        break;
+      case 9:  // single or dual return, from either block of a pair on
+        head.readings_per_firing = 1 + input.next(1) % 2;
+        head.reading += input.next(1) % 2;
+        break;
+      case 10:
+        head.encoding = static_cast<firmware_io::RubyTimestamp>(input.next(1) % 3);
+        packet.set_protocol_version(static_cast<std::uint16_t>(input.next(1) % 2));
+        break;
+      default:
+        run.advance(static_cast<std::int32_t>(input.next(4)));
+        if (input.next(1) % 4 == 0) run.flush();
+        break;
+    }
+  }
+  run.flush();
+  run.check();
+  return 0;
+}

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/mount.hpp"
+#include "firmware_io/frame_info.hpp"
+#include "firmware_io/loss_counters.hpp"
+#include "pipeline/range_image.hpp"
+#include "tests/support/reference/reference_return.hpp"
+
+namespace terracut::reference {
+
+/// What a reference calls the product's reason to refuse a packet; kNone for those reasons that lie
+/// in the stream and not in the packet.
+[[nodiscard]] Refusal as_refusal(std::optional<firmware_io::Reject> reason);
+
+/// A return and its place, in the vehicle frame (calib/mount.hpp).
+struct PlacedReturn {
+  int row = 0, column = 0;
+  double x_m = 0, y_m = 0, z_m = 0, ground_range_m = 0;
+  double range_m = 0;  ///< From the sensor.
+  int intensity = 0;
+  bool on_border = false;  ///< Between two columns: `column` may be off by one.
+};
+
+/// The turns that a stream should give by a reference decoder.
+class ExpectedTurns {
+ public:
+  /// `elevations`: of each laser, in any unit.
+  ExpectedTurns(const std::vector<double>& elevations, const calib::Mount& mount, int columns)
+      : rows_(rank_of_elevation(elevations)), mount_(mount), columns_(columns) {}
+
+  /// The next packet, whose azimuths grow by `unwrap_deg` (Turns).
+  void add(const Packet& packet, double unwrap_deg);
+
+  /// Turn -> its returns in order of arrival; turns without any do not appear.
+  [[nodiscard]] const std::map<std::int64_t, std::vector<PlacedReturn>>& turns() const {
+    return turns_;
+  }
+
+ private:
+  std::vector<int> rows_;
+  calib::Mount mount_;
+  int columns_;
+  std::map<std::int64_t, std::vector<PlacedReturn>> turns_;
+};
+
+/// The frames that the product handed over, copied, returns in order of arrival.
+class HandedFrames {
+ public:
+  /// The callable to hand frames over to.
+  [[nodiscard]] auto keep() {
+    return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+      add(info, image);
+    };
+  }
+  [[nodiscard]] const std::vector<std::vector<PlacedReturn>>& frames() const { return frames_; }
+  [[nodiscard]] std::size_t returns() const;
+
+ private:
+  void add(const firmware_io::FrameInfo& info, const pipeline::RangeImage& image);
+
+  std::vector<std::vector<PlacedReturn>> frames_;
+};
+
+/// The first difference between what should be and what is: turns, their returns in number, order,
+/// row, column and intensity, and in place by more than 1 mm + 1e-6 of the range. Empty when there
+/// is none.
+[[nodiscard]] std::string first_difference(const ExpectedTurns& expected,
+                                           const HandedFrames& handed, int columns);
+
+}  // namespace terracut::reference

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
+
+#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/hdl64e/packet_check.hpp"
+#include "firmware_io/ruby128/packet_check.hpp"
+#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "tests/support/reference/hdl64e_reference.hpp"
+#include "tests/support/reference/ruby128_reference.hpp"
+#include "tests/support/reference/turning_head.hpp"
+
+/// Both sensors under the same names, for tests and fuzzers that compare the product's decoder with
+/// the reference and are the same for either.
+namespace terracut::reference {
+
+using PayloadBytes = std::vector<std::uint8_t>;
+
+struct Hdl64e {
+  using Decoder = firmware_io::Hdl64eDecoder;
+  using Calibration = calib::Hdl64eCalibration;
+  using Reference = Hdl64eReference;
+  static constexpr int kColumns = 6, kLasers = 64;
+  static constexpr int kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
+
+  static double firing_us(bool dual_return) { return dual_return ? 57.6 : 48.0; }
+  static double firings_per_packet(bool dual_return) { return dual_return ? 3 : 6; }
+  static Calibration random_unit(std::mt19937& random) { return random_hdl64e(random); }
+  static std::vector<double> elevations(const Calibration& calibration) {
+    std::vector<double> elevations;
+    for (const auto& laser : calibration.lasers) elevations.push_back(laser.vert_correction_rad);
+    return elevations;
+  }
+  static std::vector<Payload> payloads(const TurningHead& head) { return hdl64e_payloads(head); }
+  static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
+    set_hdl64e_azimuth(payload, column, cdeg);
+  }
+  static void set_return(PayloadBytes& payload, int column, int laser, unsigned raw,
+                         unsigned intensity) {
+    set_hdl64e_return(payload, column, laser, raw, intensity);
+  }
+  static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
+    set_hdl64e_clock(payload, time_ns);
+  }
+  static void forget(Reference&) {}
+  static std::optional<firmware_io::Reject> check(std::span<const std::uint8_t> payload,
+                                                  firmware_io::PacketHeads& heads) {
+    return firmware_io::check_hdl64e_packet(payload, heads);
+  }
+};
+
+struct Ruby128 {
+  using Decoder = firmware_io::Ruby128Decoder;
+  using Calibration = calib::Ruby128Calibration;
+  using Reference = Ruby128Reference;
+  static constexpr int kColumns = 3, kLasers = 128;
+  static constexpr int kFirstBlock = 80, kBlockBytes = 388, kBlocks = 3;
+
+  static double firing_us(bool) { return 55.55; }
+  static double firings_per_packet(bool dual_return) { return dual_return ? 1.5 : 3; }
+  static Calibration random_unit(std::mt19937& random) { return random_ruby128(random); }
+  static std::vector<double> elevations(const Calibration& calibration) {
+    std::vector<double> elevations;
+    for (const auto& channel : calibration.channels) elevations.push_back(channel.elevation_rad);
+    return elevations;
+  }
+  static std::vector<Payload> payloads(const TurningHead& head) { return ruby128_payloads(head); }
+  static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
+    set_ruby128_azimuth(payload, column, cdeg);
+  }
+  static void set_return(PayloadBytes& payload, int column, int laser, unsigned raw,
+                         unsigned intensity) {
+    set_ruby128_return(payload, column, laser, raw, intensity);
+  }
+  static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
+    set_ruby128_clock(payload, time_ns, RubyClock::kMicroseconds);
+  }
+  static void forget(Reference& reference) { reference.forget(); }
+  static std::optional<firmware_io::Reject> check(std::span<const std::uint8_t> payload,
+                                                  firmware_io::PacketHeads& heads) {
+    return firmware_io::check_ruby128_packet(payload, heads);
+  }
+};
+
+/// Takes the returns off whose beam is so near a seam that it may be of either turn.
+template <class Sensor>
+void erase_returns_on_the_seam(PayloadBytes& payload, const Packet& packet) {
+  for (const Return& echo : packet.returns) {
+    if (seam_distance_deg(echo.beam_deg) < kBorder_deg) {
+      Sensor::set_return(payload, echo.column, echo.laser, 0, 0);
+    }
+  }
+}
+
+}  // namespace terracut::reference

@@ -18,9 +18,9 @@ constexpr int kBins = 3600;
 constexpr double kBin_rad = kTurn_rad / kBins;
 
 // The HDL-64E of the recordings fires every 0.17 to 0.18 degrees, its rings are 0.33 to 0.55 apart.
-constexpr double kJoined_rad = calib::deg_to_rad(0.30);      // successive returns of a ring
-constexpr double kBeside_rad = calib::deg_to_rad(0.12);      // a return stands for its ring
-constexpr double kNextRing_rad = calib::deg_to_rad(0.85);    // neighbouring rings
+constexpr double kJoined_rad = calib::deg_to_rad(0.30);    // successive returns of a ring
+constexpr double kBeside_rad = calib::deg_to_rad(0.12);    // a return stands for its ring
+constexpr double kNextRing_rad = calib::deg_to_rad(1.20);  // neighbouring rings; blocks part by 0.9
 constexpr double kAboveBelow_rad = calib::deg_to_rad(0.28);  // a ring stands for its direction
 /// The line through two returns must not run along the ray: flatter than this, it is a leap from
 /// one surface to another. Level ground is seen at 1.5 degrees at 66 m.

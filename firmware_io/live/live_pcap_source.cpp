@@ -178,7 +178,10 @@ std::span<const Datagram> LivePcapSource::receive(std::int64_t timeout_ns) noexc
   const std::int64_t deadline_ns =
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
-    if (const std::size_t count = read_batch(); count > 0) return datagrams_.first(count);
+    if (const std::size_t count = read_batch(); count > 0) {
+      link_ = LinkState::kUp;  // it was empty when the link was found down
+      return datagrams_.first(count);
+    }
     const std::int64_t now_ns = rt::monotonic_ns();
     look_after(now_ns);
     if (now_ns >= deadline_ns) return {};

@@ -19,9 +19,9 @@
 namespace terracut::firmware_io {
 
 struct UdpSenderConfig {
-  Ipv4Endpoint to;                   ///< One address, a broadcast address or a multicast group.
-  std::optional<Ipv4Endpoint> from;  ///< Sent from here; else the system chooses.
-  std::string interface;             ///< Of multicast and broadcast; empty: by the routes.
+  Ipv4Endpoint to{};                   ///< One address, a broadcast address or a multicast group.
+  std::optional<Ipv4Endpoint> from{};  ///< Sent from here; else the system chooses.
+  std::string interface{};             ///< Of multicast and broadcast; empty: by the routes.
 };
 
 /// failed datagrams were not sent: the system refused them (no route, interface down).

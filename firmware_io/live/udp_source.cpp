@@ -231,7 +231,11 @@ std::span<const Datagram> UdpSource::receive(std::int64_t timeout_ns) noexcept {
   const std::int64_t spin_until_ns =
       begun_ns + std::min(patience_ns, std::int64_t{config_.busy_poll_us} * 1000);
   for (;;) {
-    if (const std::size_t count = read_batch(); count > 0) return datagrams_.first(count);
+    if (const std::size_t count = read_batch(); count > 0) {
+      // It was empty when the link was found down, so this came since.
+      if (link_ != LinkState::kUnknown) link_ = LinkState::kUp;
+      return datagrams_.first(count);
+    }
     const std::int64_t now_ns = rt::monotonic_ns();
     look_after(now_ns);
     if (now_ns >= deadline_ns) return {};

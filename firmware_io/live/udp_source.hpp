@@ -32,10 +32,10 @@ struct UdpSourceConfig {
   /// Where the sensor sends to. Leave the address 0 unless one of the machine's own is wanted and
   /// nothing else: a socket bound to an address hears no broadcasts, and an HDL-64E broadcasts
   /// until told otherwise. Port 0 lets the system choose, see UdpSource::local().
-  Ipv4Endpoint bind;
-  std::optional<std::uint32_t> multicast_group;  ///< Joined on `interface`, else by the routes.
-  std::string interface;                         ///< Only what comes in here; empty: anywhere.
-  std::optional<std::uint32_t> source_address;   ///< Only this sender; others count as foreign.
+  Ipv4Endpoint bind{};
+  std::optional<std::uint32_t> multicast_group{};  ///< Joined on `interface`, else by the routes.
+  std::string interface{};                         ///< Only what comes in here; empty: anywhere.
+  std::optional<std::uint32_t> source_address{};   ///< Only this sender; others count as foreign.
   /// Lets other sockets with the same option bind the port too. Of broadcasts and multicasts each
   /// then gets a copy; of datagrams to one address only one socket gets any.
   bool share_port = false;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "calib/angle.hpp"
+#include "calib/elevation_rows.hpp"
+#include "calib/fnv1a.hpp"
 
 namespace terracut::calib {
 namespace {
@@ -106,18 +108,8 @@ void check_laser(Checker& checker, int number, const Hdl64eLaser& laser) {
                  {static_cast<double>(laser.min_intensity), kIntensity.high});
 }
 
-/// Laser numbers from the lowest elevation to the highest; lower number first where equal.
-std::array<int, kHdl64eLasers> lasers_by_elevation(const Hdl64eCalibration& calibration) {
-  const auto rows = rows_by_elevation(calibration);
-  std::array<int, kHdl64eLasers> order{};
-  for (int laser = 0; laser < kHdl64eLasers; ++laser) {
-    order[static_cast<std::size_t>(rows[static_cast<std::size_t>(laser)])] = laser;
-  }
-  return order;
-}
-
 void check_elevations(Checker& checker, const Hdl64eCalibration& calibration) {
-  const auto order = lasers_by_elevation(calibration);
+  const auto order = order_of_rows(rows_by_elevation(calibration));
   const auto elevation_deg = [&](int rank) {
     const auto laser = static_cast<std::size_t>(order[static_cast<std::size_t>(rank)]);
     return rad_to_deg(calibration.lasers[laser].vert_correction_rad);
@@ -139,21 +131,6 @@ void check_elevations(Checker& checker, const Hdl64eCalibration& calibration) {
     }
   }
 }
-
-/// FNV-1a over whole numbers, byte by byte, the same on every machine.
-class Fnv1a {
- public:
-  void add(std::int64_t value) {
-    for (int byte = 0; byte < 8; ++byte) {
-      hash_ ^= (static_cast<std::uint64_t>(value) >> (8 * byte)) & 0xFFU;
-      hash_ *= 0x100000001B3ULL;
-    }
-  }
-  std::uint64_t value() const { return hash_; }
-
- private:
-  std::uint64_t hash_ = 0xCBF29CE484222325ULL;
-};
 
 /// `value * scale` as a whole number; a fixed stand-in for what no whole number can hold.
 std::int64_t rounded(double value, double scale) {
@@ -195,15 +172,11 @@ std::uint64_t fingerprint(const Hdl64eCalibration& calibration) {
 }
 
 std::array<int, kHdl64eLasers> rows_by_elevation(const Hdl64eCalibration& calibration) {
-  const auto& lasers = calibration.lasers;
-  std::array<int, kHdl64eLasers> rows{};
-  for (std::size_t i = 0; i < lasers.size(); ++i) {
-    for (std::size_t j = 0; j < lasers.size(); ++j) {
-      const double below = lasers[j].vert_correction_rad, here = lasers[i].vert_correction_rad;
-      rows[i] += below < here || (below == here && j < i) ? 1 : 0;
-    }
+  std::array<double, kHdl64eLasers> elevation_rad{};
+  for (std::size_t i = 0; i < elevation_rad.size(); ++i) {
+    elevation_rad[i] = calibration.lasers[i].vert_correction_rad;
   }
-  return rows;
+  return rows_of_elevations(elevation_rad);
 }
 
 }  // namespace terracut::calib

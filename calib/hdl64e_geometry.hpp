@@ -7,25 +7,10 @@
 #include <cstdint>
 #include <optional>
 
+#include "calib/beam.hpp"
 #include "calib/hdl64e_calibration.hpp"
 
 namespace terracut::calib {
-
-/// A point of the sensor frame (calib/mount.hpp): x forward, y left, z up, metres.
-struct Point {
-  double x_m = 0, y_m = 0, z_m = 0;
-};
-
-/// A direction in the sensor frame, without unit.
-struct Direction {
-  double x = 0, y = 0, z = 0;
-};
-
-/// A straight beam: where it starts and its unit direction, both in the sensor frame.
-struct Ray {
-  Point origin;
-  Direction direction;
-};
 
 /// How the laser's offsets enter the coordinates (docs/sensors.md).
 enum class GeometryModel : std::uint8_t {
@@ -37,9 +22,6 @@ enum class GeometryModel : std::uint8_t {
 inline constexpr double kFarPoint_m = 25.04;
 inline constexpr double kNearPointX_m = 2.40;
 inline constexpr double kNearPointY_m = 1.93;
-
-/// The largest raw distance of the wire; 0 means "no return".
-inline constexpr double kMaxRawCounts = 65535.0;
 
 /// Raw counts to metres and back for one HDL-64E, in double: the reference that the packet
 /// decoder's float loop is checked against, and what the simulator and the encoder invert.

@@ -6,6 +6,7 @@
 
 #include "calib/hdl64e_calibration.hpp"
 #include "calib/mount.hpp"
+#include "calib/ruby128_calibration.hpp"
 
 namespace terracut::calib {
 
@@ -28,6 +29,8 @@ struct RingProfile {
 /// The profile that follows from the geometry alone, for a level mount; beams that reach the ground
 /// beyond `range_limit_m` count as never reaching it.
 [[nodiscard]] RingProfile ring_profile(const Hdl64eCalibration& calibration, const Mount& mount,
+                                       double range_limit_m = 120.0);
+[[nodiscard]] RingProfile ring_profile(const Ruby128Calibration& calibration, const Mount& mount,
                                        double range_limit_m = 120.0);
 
 }  // namespace terracut::calib

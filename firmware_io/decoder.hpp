@@ -26,6 +26,7 @@ namespace terracut::firmware_io {
 ///
 /// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
 /// - `Calibration`, `Config`; `kRows` lasers; `kClockWrap_us`, where the device clock wraps;
+///   `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const calib::Mount&, const Config&, int columns,
 ///   rt::FixedMemory&);
 /// - `check(payload, PacketHeads&)`: the reason to reject a payload, or nothing and its heads;
@@ -33,7 +34,7 @@ namespace terracut::firmware_io {
 /// - `begin_packet(heads)`, then `read_column(payload, heads, column)` for each column in turn: its
 ///   ColumnReturns<kRows>;
 /// - `rows()`: the range image row of each laser.
-/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp.
+/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns); a packet is decoded whole or
@@ -49,13 +50,16 @@ template <class Sensor>
 class Decoder {
  public:
   struct Config {
-    /// Firings per turn at the sensor's spin rate; 2083: HDL-64E, single return, 10 Hz.
-    int columns = 2083;
+    /// Firings per turn at the sensor's spin rate.
+    int columns = Sensor::kDefaultColumns;
     /// Room for so many returns a cell on average; beyond, they are counted and lost.
-    int returns_per_cell = 2;
+    int returns_per_cell = Sensor::kDefaultReturnsPerCell;
+    /// In dual return: which return owns a cell. All of them are placed and labelled.
+    pipeline::CellOwner dual_owner = pipeline::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
     /// A frame is handed over when the hindmost beam is so many packets past the seam, so that
-    /// packets reordered by as many still find their frame. Costs their time as latency.
+    /// packets reordered by as many still find their frame. Costs their time as latency, and one
+    /// firing's.
     int reorder_packets = 2;
     typename Sensor::Config sensor;
   };
@@ -63,6 +67,9 @@ class Decoder {
   Decoder(const typename Sensor::Calibration& calibration, const calib::Mount& mount,
           const Config& config, rt::FixedMemory& memory)
       : reorder_packets_(config.reorder_packets),
+        dual_owner_(config.dual_owner),
+        return_capacity_(pipeline::ImageShape{kRows, config.columns}.cells() +
+                         frame_config(config).overflow_capacity),
         sensor_(calibration, mount, config.sensor, config.columns, memory),
         tracker_(Sensor::kClockWrap_us, memory),
         frames_(frame_config(config), memory) {}
@@ -85,10 +92,17 @@ class Decoder {
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return frames_.shape(); }
+  /// The most returns a turn may have, as RangeImage::return_capacity().
+  [[nodiscard]] std::size_t return_capacity() const noexcept { return return_capacity_; }
   /// Device time between packets, measured; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
   /// The last packet decoded carried two returns per firing.
   [[nodiscard]] bool dual_return() const noexcept { return heads_.dual_return; }
+  /// From firing to firing, mean of the last packets; 0 before the first.
+  [[nodiscard]] double step_deg() const noexcept {
+    return steps_ == 0 ? 0 : static_cast<double>(steps_ticks_) / static_cast<double>(steps_) * 1e-5;
+  }
+  [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
 
  private:
   static constexpr int kRows = Sensor::kRows;
@@ -125,6 +139,8 @@ class Decoder {
   void place_columns(std::span<const std::uint8_t> payload, std::int64_t head_cdeg) noexcept;
 
   int reorder_packets_;
+  pipeline::CellOwner dual_owner_;
+  std::size_t return_capacity_;
   Sensor sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;
@@ -184,9 +200,10 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
                       spread);
   place_columns(datagram.payload, placed.head_cdeg);
 
-  const std::int64_t settled_ticks = std::max(most_ticks, frontier_ticks_ - heads_.step_ticks) +
-                                     spread.hindmost_ticks -
-                                     std::int64_t{reorder_packets_} * heads_.sweep_ticks;
+  // Packets need not sweep alike: in the Ruby's dual return one firing and two in turn.
+  const std::int64_t settled_ticks =
+      std::max(most_ticks, frontier_ticks_ - heads_.step_ticks) + spread.hindmost_ticks -
+      std::int64_t{reorder_packets_} * heads_.sweep_ticks - heads_.step_ticks;
   while (turn_of(settled_ticks) > frames_.oldest()) frames_.roll(on_frame);
   return std::nullopt;
 }
@@ -195,6 +212,8 @@ template <class Sensor>
 void Decoder<Sensor>::place_columns(std::span<const std::uint8_t> payload,
                                     std::int64_t head_cdeg) noexcept {
   sensor_.begin_packet(heads_);
+  const pipeline::CellOwner owner =
+      heads_.dual_return ? dual_owner_ : pipeline::CellOwner::kFirstArrived;
   const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
   for (int column = 0; column < heads_.columns; ++column) {
     const ColumnReturns<kLasers>& found = sensor_.read_column(payload, heads_, column);
@@ -213,7 +232,8 @@ void Decoder<Sensor>::place_columns(std::span<const std::uint8_t> payload,
       const std::size_t i = lasers[n];
       frames_.place(
           head_turn + found.turn_offset[i], rows[i], found.column[i],
-          {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i], found.intensity[i]});
+          {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i], found.intensity[i]},
+          owner);
     }
   }
   ++packets_;

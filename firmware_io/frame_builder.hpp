@@ -66,9 +66,10 @@ class FrameBuilder {
   }
 
   /// Puts a return into an open turn. False, and counted, when its overflow list is full.
-  bool place(std::int64_t turn, int row, int column, const pipeline::Return& echo) noexcept {
+  bool place(std::int64_t turn, int row, int column, const pipeline::Return& echo,
+             pipeline::CellOwner owner = pipeline::CellOwner::kFirstArrived) noexcept {
     pipeline::RangeImage& image = *open_[static_cast<std::size_t>(turn - oldest_)].image;
-    if (image.place(row, column, echo)) return true;
+    if (image.place(row, column, echo, owner)) return true;
     ++losses_.overflow_full_returns;
     return false;
   }

@@ -12,6 +12,8 @@ std::string_view to_string(Reject reason) noexcept {
       return "wrong_size";
     case Reject::kWrongMagic:
       return "wrong_magic";
+    case Reject::kDeviceInfo:
+      return "device_info";
     case Reject::kWrongModel:
       return "wrong_model";
     case Reject::kAzimuthOutOfRange:

@@ -12,6 +12,7 @@ namespace terracut::firmware_io {
 enum class Reject : std::uint8_t {
   kWrongSize,          ///< Payload length is not that of the sensor's data packet.
   kWrongMagic,         ///< Block identifiers are not those of this sensor.
+  kDeviceInfo,         ///< The sensor's own packet about itself, not a data packet.
   kWrongModel,         ///< A data packet of a model that is recognised but not decoded.
   kAzimuthOutOfRange,  ///< A block azimuth >= 360 degrees.
   kAzimuthMismatch,    ///< Blocks that fire together carry different azimuths.

@@ -21,12 +21,17 @@ inline constexpr double kRadPerTick = calib::deg_to_rad(1e-5);
 struct PacketHeads {
   static constexpr int kMaxColumns = 6;
 
-  std::int64_t device_stamp_us = 0;  ///< Device clock, [0, Sensor::kClockWrap_us).
+  /// Device clock, [0, Sensor::kClockWrap_us), at the same place of every packet: it advances
+  /// evenly from packet to packet.
+  std::int64_t device_stamp_us = 0;
+  std::int32_t nominal_period_ns = 0;  ///< By the model's own figures, from packet to packet.
   std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Of each column, [0, 36000).
   int columns = 0;
-  std::int32_t step_ticks = 0;   ///< From firing to firing, > 0.
-  std::int32_t sweep_ticks = 0;  ///< From the first firing to that of the next packet, > 0.
-  bool dual_return = false;      ///< Successive columns are two returns of one firing.
+  std::int32_t step_ticks = 0;  ///< From firing to firing, > 0.
+  /// From the first firing to that of the next packet, > 0. A firing whose second return is in the
+  /// next packet belongs to that one.
+  std::int32_t sweep_ticks = 0;
+  bool dual_return = false;  ///< Columns come in pairs: two returns of one firing.
 
   [[nodiscard]] std::int32_t first_cdeg() const noexcept { return azimuth_cdeg[0]; }
   [[nodiscard]] std::int32_t last_cdeg() const noexcept {

@@ -25,10 +25,8 @@ constexpr std::int64_t kPeriodMean_packets = 8'192;
 /// A packet can be told to be a repeat of one within this many packets. Slots are direct-mapped by
 /// time; the width is below the shortest packet period, so neighbours never share one.
 constexpr std::uint32_t kRepeatWindow_packets = 1'024;
-constexpr std::size_t kSeenSlots = 4'096;
-constexpr std::int64_t kSeenSlot_us = 128;
-/// The speed of a packet stream until its period is measured: the HDL-64E's.
-constexpr std::int64_t kAssumedPeriod_ns = 288'000;
+constexpr std::size_t kSeenSlots = 8'192;
+constexpr std::int64_t kSeenSlot_us = 64;
 
 }  // namespace
 
@@ -80,7 +78,7 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
     return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
   }
 
-  const std::int64_t period_ns = period_ns_ != 0 ? period_ns_ : kAssumedPeriod_ns;
+  const std::int64_t period_ns = period_ns_ != 0 ? period_ns_ : heads.nominal_period_ns;
   const std::int64_t turned_cdeg =
       newest_sweep_ticks_ * (step_us * 1000) / period_ns / kTicksPerCdeg;
   const std::int64_t expected_cdeg = newest_head_cdeg_ + turned_cdeg;
@@ -125,8 +123,7 @@ Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_sta
   return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_};
 }
 
-// --- Missing packets, by the device's own stamps
-// ---------------------------------------------------
+// --- Missing packets, by the device's own stamps ---
 
 void StreamTracker::count_missing(std::int64_t step_us, LossCounters& losses) noexcept {
   if (period_ns_ == 0) return;  // settle_period() will look back
@@ -191,8 +188,7 @@ void StreamTracker::settle_period(LossCounters& losses) noexcept {
   steps_ = 0;
 }
 
-// --- Packets that are not placed
-// ------------------------------------------------------------------
+// --- Packets that are not placed ---
 
 void StreamTracker::note_rejected(std::int64_t device_stamp_us) noexcept {
   if (!started_) return;

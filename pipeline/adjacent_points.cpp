@@ -8,6 +8,7 @@
 #include <numbers>
 #include <span>
 
+#include "pipeline/row_steps.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::pipeline {
@@ -93,18 +94,22 @@ AdjacentPoints::AdjacentPoints(const Config& config, const calib::RingProfile& p
           static_cast<float>(std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
       ring_spacing_m_(memory.take<float>(
           "adjacent points", static_cast<std::size_t>(config.last_row_step * shape.rows))),
+      upper_row_(memory.take<std::int32_t>("adjacent points", ring_spacing_m_.size())),
       steep_pairs_(
           memory.take<std::uint8_t>("adjacent points", static_cast<std::size_t>(shape.columns))) {
+  const RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
   for (int step = 1; step <= config.last_row_step; ++step) {
-    for (int row = 0; row + step < shape.rows; ++row) {
+    for (int row = 0; row < shape.rows; ++row) {
+      const auto pair = static_cast<std::size_t>((step - 1) * shape.rows + row);
+      upper_row_[pair] = row_steps.up(row, step);
+      if (upper_row_[pair] == shape.rows) continue;
       const calib::Ring& lower = profile.rings[static_cast<std::size_t>(row)];
-      const calib::Ring& upper = profile.rings[static_cast<std::size_t>(row + step)];
+      const calib::Ring& upper = profile.rings[static_cast<std::size_t>(upper_row_[pair])];
       if (!std::isfinite(upper.ground_distance_m)) continue;
       const double bound_m =
           least_distance_m(profile.mount.height_m + upper.origin_height_m, lower.elevation_rad,
                            upper.elevation_rad, static_cast<double>(config.max_slope_rad));
-      ring_spacing_m_[static_cast<std::size_t>((step - 1) * shape.rows + row)] =
-          static_cast<float>(std::fmax(bound_m, 0.0));
+      ring_spacing_m_[pair] = static_cast<float>(std::fmax(bound_m, 0.0));
     }
   }
 }
@@ -117,11 +122,13 @@ void AdjacentPoints::refine(const RangeImage& image, CellPlanes& planes) noexcep
   std::fill(planes.steep.begin(), planes.steep.end(), std::uint8_t{0});
   const auto stride = static_cast<std::size_t>(shape_.stride());
   for (int step = config_.first_row_step; step <= config_.last_row_step; ++step) {
-    for (int row = 0; row + step < shape_.rows; ++row) {
+    for (int row = 0; row < shape_.rows; ++row) {
+      const int upper_row = upper_row_[static_cast<std::size_t>((step - 1) * shape_.rows + row)];
+      if (upper_row == shape_.rows) break;  // nor is there one for the rows above
       const std::size_t lower = static_cast<std::size_t>(row) * stride;
       for (int offset = -config_.column_reach; offset <= config_.column_reach; ++offset) {
         mark(image,
-             {lower, lower + static_cast<std::size_t>(step) * stride, offset,
+             {lower, static_cast<std::size_t>(upper_row) * stride, offset,
               ring_spacing_m(row, step)},
              planes);
       }

@@ -26,10 +26,11 @@ class AdjacentPoints {
   struct Config {
     AdjacentRule rule = AdjacentRule::kSlope;
     float max_slope_rad = 0.5236F;  ///< K: the steepest ground, (0, pi/2).
-    int first_row_step = 1;         ///< Rows up from .. to; the paper compares l with l + 2 only.
-    int last_row_step = 2;          ///< [first_row_step, 4]
-    int column_reach = 1;           ///< Columns to each side; "colselzoo" in Algorithm 1; [0, 8].
-    float min_rise_m = 0.10F;       ///< kSlope: smaller rises are noise.
+    int first_row_step = 1;      ///< Row steps up from .. to; the paper compares l with l + 2 only.
+    int last_row_step = 2;       ///< [first_row_step, 4]
+    float row_step_deg = 0.25F;  ///< A row step covers at least this elevation (RowSteps), [0, 5].
+    int column_reach = 1;        ///< Columns to each side; "colselzoo" in Algorithm 1; [0, 8].
+    float min_rise_m = 0.10F;    ///< kSlope: smaller rises are noise.
     float min_upper_height_m =
         0.04F;  ///< kSlope: the upper return must be this far above the ground reference.
     float min_lower_height_m = 0.05F;  ///< kSlope: above this the lower return is marked as well.
@@ -41,8 +42,8 @@ class AdjacentPoints {
   /// Fills `steep` and turns the label of steep returns to kObstacle. Real-time safe.
   void refine(const RangeImage& image, CellPlanes& planes) noexcept;
 
-  /// Bound of Eq. 5 for the pair (row, row + row_step), metres; 0 (no bound) where the upper beam
-  /// never reaches the ground.
+  /// Bound of Eq. 5 for the pair of `row` and the row `row_step` steps up, metres; 0 (no bound)
+  /// where the upper beam never reaches the ground.
   [[nodiscard]] float ring_spacing_m(int row, int row_step) const noexcept;
 
  private:
@@ -58,6 +59,7 @@ class AdjacentPoints {
   ImageShape shape_;
   float tan_max_slope_squared_;
   std::span<float> ring_spacing_m_;      // [row_step - 1][row]
+  std::span<std::int32_t> upper_row_;    // likewise: the row that is so many steps up
   std::span<std::uint8_t> steep_pairs_;  // of the pair of rows at hand, by column
 };
 

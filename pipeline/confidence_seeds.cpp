@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "pipeline/row_steps.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::pipeline {
@@ -21,6 +22,13 @@ int rows_that_see_ground(const calib::RingProfile& profile) {
     if (std::isfinite(profile.rings[row].ground_distance_m)) rows = static_cast<int>(row) + 1;
   }
   return rows;
+}
+
+int rows_to_cut(CutRows rows, const calib::RingProfile& profile, const ImageShape& shape) {
+  constexpr int kMostRowsToCutAll = 64;
+  const bool all =
+      rows == CutRows::kAll || (rows == CutRows::kAuto && shape.rows <= kMostRowsToCutAll);
+  return all ? shape.rows : rows_that_see_ground(profile);
 }
 
 /// The seed that keeps the label of the stages before.
@@ -76,20 +84,30 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, const calib::RingProfile&
                                  ImageShape shape, rt::FixedMemory& memory)
     : config_(config),
       shape_(shape),
-      cut_rows_(config.rows == CutRows::kAll ? shape.rows : rows_that_see_ground(profile)),
+      cut_rows_(rows_to_cut(config.rows, profile, shape)),
+      window_begin_(memory.take<std::int32_t>("seeds", static_cast<std::size_t>(shape.rows))),
+      window_end_(memory.take<std::int32_t>("seeds", window_begin_.size())),
       seeds_(memory.take<Seed>("seeds", shape.cells())),
       ground_in_column_(memory.take<std::uint8_t>(
           "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
       returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
       ground_in_window_(
           memory.take<std::uint16_t>("seeds", static_cast<std::size_t>(shape.columns))),
-      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())) {}
+      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())) {
+  const RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
+  for (int row = 0; row < shape.rows; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    window_begin_[i] = std::max(0, row_steps.down(row, config.window_rows));
+    window_end_[i] = std::min(shape.rows, row_steps.up(row, config.window_rows) + 1);
+  }
+}
 
 void ConfidenceSeeds::select(const CellPlanes& planes) noexcept {
   const std::size_t cut_cells =
       static_cast<std::size_t>(cut_rows_) * static_cast<std::size_t>(shape_.stride());
   std::transform(planes.label.begin() + static_cast<std::ptrdiff_t>(cut_cells), planes.label.end(),
                  seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells), kept);
+  start_counting();
   for (int row = 0; row < cut_rows_; ++row) {
     count_in_columns(planes, row);
     count_in_windows();
@@ -125,6 +143,12 @@ void ConfidenceSeeds::select_in_row(const CellPlanes& planes, int row) noexcept 
   }
 }
 
+void ConfidenceSeeds::start_counting() noexcept {
+  std::fill(ground_in_column_.begin(), ground_in_column_.end(), std::uint8_t{0});
+  std::fill(returns_in_column_.begin(), returns_in_column_.end(), std::uint8_t{0});
+  counted_begin_ = counted_end_ = 0;
+}
+
 void ConfidenceSeeds::count_in_columns(const CellPlanes& planes, int row) noexcept {
   const auto labels_of = [&](int r) {
     return &planes.label[static_cast<std::size_t>(r) * static_cast<std::size_t>(shape_.stride())];
@@ -133,17 +157,13 @@ void ConfidenceSeeds::count_in_columns(const CellPlanes& planes, int row) noexce
   const auto columns = static_cast<std::size_t>(shape_.columns);
   std::uint8_t* ground = &ground_in_column_[reach];
   std::uint8_t* returns = &returns_in_column_[reach];
-  if (row == 0) {
-    std::fill(ground_in_column_.begin(), ground_in_column_.end(), std::uint8_t{0});
-    std::fill(returns_in_column_.begin(), returns_in_column_.end(), std::uint8_t{0});
-    for (int r = 0; r < std::min(config_.window_rows, shape_.rows); ++r) {
-      count(labels_of(r), columns, ground, returns);
-    }
+  // Windows move upwards only, so every row enters once and leaves once.
+  for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
+    count(labels_of(counted_end_), columns, ground, returns);
   }
-  const int entering = row + config_.window_rows;
-  const int leaving = row - config_.window_rows - 1;
-  if (entering < shape_.rows) count(labels_of(entering), columns, ground, returns);
-  if (leaving >= 0) uncount(labels_of(leaving), columns, ground, returns);
+  for (; counted_begin_ < window_begin_[static_cast<std::size_t>(row)]; ++counted_begin_) {
+    uncount(labels_of(counted_begin_), columns, ground, returns);
+  }
   for (std::span<std::uint8_t> counts : {ground_in_column_, returns_in_column_}) {
     for (std::size_t i = 0; i < reach; ++i) {
       counts[i] = counts[columns + i];

@@ -12,7 +12,8 @@ namespace terracut::pipeline {
 
 /// Which rows of the range image the MRF decides on.
 enum class CutRows : std::uint8_t {
-  kAll,  ///< Every row.
+  kAuto,  ///< kAll for images of up to 64 rows, kGround for denser ones: they have the time.
+  kAll,   ///< Every row.
   /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's
   /// 70 of the RS-Ruby128's 128). Above them the stages before have the last word.
   kGround,
@@ -25,14 +26,15 @@ class ConfidenceSeeds {
  public:
   struct Config {
     float ground_share = 0.8F;          ///< k: share of ground among the window's returns, [0, 1].
-    int window_rows = 2;                ///< Window reach up and down, rows; [0, 8].
+    int window_rows = 2;                ///< Window reach up and down, row steps; [0, 8].
+    float row_step_deg = 0.25F;         ///< A row step covers at least this (RowSteps), [0, 5].
     int window_columns = 3;             ///< Window reach to each side, columns; [0, 16].
     float max_ground_height_m = 0.10F;  ///< Ground seeds lie no higher above the reference.
     float min_obstacle_height_m =
         0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
     bool trust_all_obstacles =
         false;  ///< Every obstacle of the stages before is a seed, as printed.
-    CutRows rows = CutRows::kAll;
+    CutRows rows = CutRows::kAuto;
   };
 
   /// `profile` must have shape.rows rings.
@@ -47,6 +49,7 @@ class ConfidenceSeeds {
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
 
  private:
+  void start_counting() noexcept;
   void count_in_columns(const CellPlanes& planes, int row) noexcept;
   void count_in_windows() noexcept;
   void select_in_row(const CellPlanes& planes, int row) noexcept;
@@ -54,6 +57,8 @@ class ConfidenceSeeds {
   Config config_;
   ImageShape shape_;
   int cut_rows_;
+  std::span<std::int32_t> window_begin_, window_end_;  // rows of the window, by row: [begin, end)
+  int counted_begin_ = 0, counted_end_ = 0;            // rows in the sums below
   std::span<Seed> seeds_;
   // Of one row: sums over the window's rows, the seam's columns repeated at both ends ...
   std::span<std::uint8_t> ground_in_column_;

@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::string_view, 2> kOffOn{"no", "yes"};
 constexpr std::array<std::string_view, 2> kReferences{"cell_minimum", "local_surface"};
 constexpr std::array<std::string_view, 2> kAdjacentRules{"ring_spacing", "slope"};
-constexpr std::array<std::string_view, 2> kCutRows{"all", "ground"};
+constexpr std::array<std::string_view, 3> kCutRows{"auto", "all", "ground"};
 constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
 constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
 
@@ -78,10 +78,12 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(adjacent_points.rule)},
     Parameter{"adjacent.max_slope_rad", "rad", "K: the steepest ground", 0.05, 1.5, {},
               TERRACUT_FIELD(adjacent_points.max_slope_rad)},
-    Parameter{"adjacent.first_row_step", "rows", "Nearest row compared", 1, 4, {},
+    Parameter{"adjacent.first_row_step", "steps", "Nearest row compared", 1, 4, {},
               TERRACUT_FIELD(adjacent_points.first_row_step)},
-    Parameter{"adjacent.last_row_step", "rows", "Farthest row compared, not below first_row_step", 1, 4, {},
+    Parameter{"adjacent.last_row_step", "steps", "Farthest row compared, not below first_row_step", 1, 4, {},
               TERRACUT_FIELD(adjacent_points.last_row_step)},
+    Parameter{"adjacent.row_step_deg", "deg", "Elevation a row step covers at least", 0, 5, {},
+              TERRACUT_FIELD(adjacent_points.row_step_deg)},
     Parameter{"adjacent.column_reach", "columns", "Columns compared to each side", 0, 8, {},
               TERRACUT_FIELD(adjacent_points.column_reach)},
     Parameter{"adjacent.min_rise_m", "m", "slope: smaller rises are noise", 0, 1, {},
@@ -93,8 +95,10 @@ constexpr std::array kParameters{
 
     Parameter{"seeds.ground_share", "", "k: share of ground around a ground seed", 0, 1, {},
               TERRACUT_FIELD(seeds.ground_share)},
-    Parameter{"seeds.window_rows", "rows", "Window reach up and down", 0, 8, {},
+    Parameter{"seeds.window_rows", "steps", "Window reach up and down", 0, 8, {},
               TERRACUT_FIELD(seeds.window_rows)},
+    Parameter{"seeds.row_step_deg", "deg", "Elevation a row step covers at least", 0, 5, {},
+              TERRACUT_FIELD(seeds.row_step_deg)},
     Parameter{"seeds.window_columns", "columns", "Window reach to each side", 0, 16, {},
               TERRACUT_FIELD(seeds.window_columns)},
     Parameter{"seeds.max_ground_height_m", "m", "Ground seeds lie no higher above the reference", 0, kFar, {},
@@ -103,7 +107,7 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(seeds.min_obstacle_height_m)},
     Parameter{"seeds.trust_all_obstacles", "", "Every obstacle of the stages before is a seed", 0, 1, kOffOn,
               TERRACUT_FIELD(seeds.trust_all_obstacles)},
-    Parameter{"seeds.rows", "", "Rows the MRF decides on: all, or those whose beams meet the ground", 0, 1, kCutRows,
+    Parameter{"seeds.rows", "", "Rows the MRF decides on: all, those whose beams meet the ground, or all of up to 64 (auto)", 0, 2, kCutRows,
               TERRACUT_FIELD(seeds.rows)},
 
     Parameter{"region.rule", "", "Where the costs of unknown returns come from", 0, 1, kRegionRules,

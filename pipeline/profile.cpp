@@ -25,10 +25,13 @@ SegmenterConfig paper_profile() noexcept {
   config.adjacent_points.max_slope_rad = 0.50F;
   config.adjacent_points.first_row_step = 2;
   config.adjacent_points.last_row_step = 2;
+  config.adjacent_points.row_step_deg = 0;
   config.adjacent_points.column_reach = 3;
 
   config.seeds.trust_all_obstacles = true;
   config.seeds.ground_share = 0.8F;
+  config.seeds.row_step_deg = 0;
+  config.seeds.rows = CutRows::kAll;
   config.seeds.max_ground_height_m = 1e9F;
 
   config.region.rule = RegionRule::kHistogram;

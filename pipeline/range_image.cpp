@@ -27,9 +27,32 @@ void RangeImage::clear() noexcept {
   }
 }
 
-bool RangeImage::place_overflow(std::size_t cell, const Return& echo) noexcept {
+bool RangeImage::owns(std::size_t cell, const Return& echo, CellOwner owner) const noexcept {
+  switch (owner) {
+    case CellOwner::kFirstArrived:
+      return false;
+    case CellOwner::kStrongest:
+      return echo.intensity > intensity_[cell];
+    case CellOwner::kNearest:
+      return echo.ground_range_m < ground_range_m_[cell];
+    case CellOwner::kFarthest:
+      return echo.ground_range_m > ground_range_m_[cell];
+  }
+  return false;
+}
+
+bool RangeImage::place_second(std::size_t cell, const Return& echo, CellOwner owner) noexcept {
   if (overflow_used_ == overflow_.size()) return false;
-  overflow_[overflow_used_++] = {echo, static_cast<std::uint32_t>(cell), returns_++};
+  OverflowReturn& extra = overflow_[overflow_used_++];
+  extra.cell = static_cast<std::uint32_t>(cell);
+  if (owns(cell, echo, owner)) {
+    extra.echo = {x_m_[cell], y_m_[cell], z_m_[cell], ground_range_m_[cell], intensity_[cell]};
+    extra.return_index = return_index_[cell];
+    write(cell, echo, returns_++);
+  } else {
+    extra.echo = echo;
+    extra.return_index = returns_++;
+  }
   return true;
 }
 

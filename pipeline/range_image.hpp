@@ -32,7 +32,16 @@ struct Return {
   std::uint8_t intensity = 0;
 };
 
-/// A return that found its cell taken (dual return, two firings in one column).
+/// Which of several returns in one cell owns it, that is stands for it in the segmentation. The
+/// others are labelled, too (return_labels.hpp).
+enum class CellOwner : std::uint8_t {
+  kFirstArrived,  ///< No preference.
+  kStrongest,     ///< The highest intensity.
+  kNearest,       ///< The smallest horizontal distance: the first surface a beam meets.
+  kFarthest,      ///< The last one.
+};
+
+/// A return that shares its cell with the one that owns it (dual return, two firings in a column).
 struct OverflowReturn {
   Return echo;
   std::uint32_t cell = 0;          ///< The taken cell, row * stride + column.
@@ -55,21 +64,18 @@ class RangeImage {
   /// Forgets all returns. Real-time safe, O(1) but for one turn in 2^32.
   void clear() noexcept;
 
-  /// Puts a return into its cell or, where that is taken, on the overflow list. Returns are
-  /// numbered in the order of these calls. False when the overflow list is full: the return is not
-  /// kept and the caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
-  bool place(int row, int column, const Return& echo) noexcept {
+  /// Puts a return into its cell. Where that is taken, `owner` says which of the two keeps it (the
+  /// earlier one when they are equal); the other goes to the overflow list. Returns are numbered in
+  /// the order of these calls. False when the overflow list is full: the return is not kept and the
+  /// caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
+  bool place(int row, int column, const Return& echo,
+             CellOwner owner = CellOwner::kFirstArrived) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
                              static_cast<std::size_t>(column);
     if (stamp_[cell] == generation_) [[unlikely]]
-      return place_overflow(cell, echo);
+      return place_second(cell, echo, owner);
     stamp_[cell] = generation_;
-    x_m_[cell] = echo.x_m;
-    y_m_[cell] = echo.y_m;
-    z_m_[cell] = echo.z_m;
-    ground_range_m_[cell] = echo.ground_range_m;
-    intensity_[cell] = echo.intensity;
-    return_index_[cell] = returns_++;
+    write(cell, echo, returns_++);
     return true;
   }
 
@@ -100,7 +106,16 @@ class RangeImage {
   }
 
  private:
-  bool place_overflow(std::size_t cell, const Return& echo) noexcept;
+  void write(std::size_t cell, const Return& echo, std::uint32_t return_index) noexcept {
+    x_m_[cell] = echo.x_m;
+    y_m_[cell] = echo.y_m;
+    z_m_[cell] = echo.z_m;
+    ground_range_m_[cell] = echo.ground_range_m;
+    intensity_[cell] = echo.intensity;
+    return_index_[cell] = return_index;
+  }
+  [[nodiscard]] bool owns(std::size_t cell, const Return& echo, CellOwner owner) const noexcept;
+  bool place_second(std::size_t cell, const Return& echo, CellOwner owner) noexcept;
 
   ImageShape shape_;
   int stride_;

@@ -9,6 +9,7 @@
 #include <cstddef>
 
 #include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -16,14 +17,10 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kPositionBytes = 512;
-constexpr std::size_t kRoboSenseBytes = 1248;
-// RoboSense MSOP header and blocks (docs/sensors.md): blocks begin at 80 with the byte 0xFE and are
-// 4 + 3 bytes a channel long.
-constexpr std::size_t kFirstRubyBlockAt = 80;
-constexpr std::size_t kRuby128BlockBytes = 388;
-constexpr std::size_t kRubyLiteBlockBytes = 244;
-constexpr std::uint8_t kRubyBlockId = 0xFE;
-constexpr std::array<std::uint8_t, 4> kMsopStart{0x55, 0xAA, 0x05, 0x5A};
+// The Ruby Lite has the Ruby128's header and blocks of 4 + 3 bytes a channel, but four of 80.
+constexpr std::size_t kFirstRubyBlockAt = offsetof(ruby128_wire::Packet, blocks);
+constexpr std::size_t kRuby128BlockBytes = sizeof(ruby128_wire::Block);
+constexpr std::size_t kRubyLiteBlockBytes = 4 + 3 * 80;
 constexpr std::array<std::uint8_t, 4> kOlderMsopStart{0x55, 0xAA, 0x05, 0x0A};
 constexpr std::array<std::uint8_t, 8> kDifopStart{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
 
@@ -68,10 +65,15 @@ SensorModel velodyne_model(const Hdl64ePacketView& packet) noexcept {
   return SensorModel::kUnknown;
 }
 
+/// By the Ruby Plus manual byte 31 is 5 for the Ruby family, byte 32 the model.
+bool is_ruby_plus(Bytes payload) noexcept {
+  return payload[31] == 5 && payload[32] == 1;
+}
+
 SensorModel robosense_model(Bytes payload) noexcept {
   if (starts_with(payload, kDifopStart)) return SensorModel::kRoboSenseDeviceInfo;
   if (starts_with(payload, kOlderMsopStart)) return SensorModel::kOtherRoboSense;
-  if (!starts_with(payload, kMsopStart)) return SensorModel::kUnknown;
+  if (!starts_with(payload, kRubyMagic)) return SensorModel::kUnknown;
   // Only the first byte of a block is its id; the second is the number of the return.
   const auto block_at = [&](std::size_t at) { return payload[at] == kRubyBlockId; };
   if (!block_at(kFirstRubyBlockAt)) return SensorModel::kOtherRoboSense;
@@ -80,7 +82,7 @@ SensorModel robosense_model(Bytes payload) noexcept {
   const bool by_80 = block_at(kFirstRubyBlockAt + kRubyLiteBlockBytes) &&
                      block_at(kFirstRubyBlockAt + 2 * kRubyLiteBlockBytes) &&
                      block_at(kFirstRubyBlockAt + 3 * kRubyLiteBlockBytes);
-  if (by_128) return SensorModel::kRuby128;
+  if (by_128) return is_ruby_plus(payload) ? SensorModel::kRubyPlus : SensorModel::kRuby128;
   return by_80 ? SensorModel::kRubyLite : SensorModel::kOtherRoboSense;
 }
 
@@ -142,7 +144,9 @@ std::string_view to_string(SensorModel model) noexcept {
     case SensorModel::kVelodynePosition:
       return "Velodyne position packets";
     case SensorModel::kRuby128:
-      return "RoboSense RS-Ruby128 / Ruby Plus";
+      return "RoboSense RS-Ruby128";
+    case SensorModel::kRubyPlus:
+      return "RoboSense Ruby Plus";
     case SensorModel::kRubyLite:
       return "RoboSense Ruby Lite (80)";
     case SensorModel::kOtherRoboSense:
@@ -155,7 +159,7 @@ std::string_view to_string(SensorModel model) noexcept {
 
 SensorModel recognise_sensor(Bytes payload) noexcept {
   if (const auto packet = Hdl64ePacketView::of(payload)) return velodyne_model(*packet);
-  if (payload.size() == kRoboSenseBytes) return robosense_model(payload);
+  if (payload.size() == kRubyPacketBytes) return robosense_model(payload);
   if (payload.size() == kPositionBytes) {
     // NMEA text at offset 206 where a GPS is connected, else zeros.
     constexpr std::size_t kSentenceAt = 206;
@@ -176,6 +180,7 @@ std::string describe_sensor_hints(Bytes payload) {
       return fmt::format("product number 0x{:02X}, {}", payload[1205],
                          velodyne_return_mode(payload[1204]));
     case SensorModel::kRuby128:
+    case SensorModel::kRubyPlus:
     case SensorModel::kRubyLite:
       return fmt::format("type bytes {:02X} {:02X} {:02X}{}{}", payload[30], payload[31],
                          payload[32], ruby_model(payload),

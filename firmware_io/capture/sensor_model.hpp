@@ -21,7 +21,8 @@ enum class SensorModel : std::uint8_t {
   kVls128,              ///< Alpha Prime.
   kOtherVelodyne,       ///< Velodyne's data packet with a product number not known here.
   kVelodynePosition,    ///< 512 bytes with NMEA text, of the models below the HDL-64E.
-  kRuby128,             ///< RS-Ruby128 or Ruby Plus: three blocks of 128 channels.
+  kRuby128,             ///< RS-Ruby128: decoded.
+  kRubyPlus,            ///< The same layout, other angles and firing times; told by type bytes.
   kRubyLite,            ///< Ruby Lite / Ruby 80: four blocks of 80 channels.
   kOtherRoboSense,      ///< RoboSense's data packet of another model.
   kRoboSenseDeviceInfo  ///< DIFOP, sent about once a second.

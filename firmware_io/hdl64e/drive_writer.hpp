@@ -9,7 +9,7 @@
 
 #include "calib/hdl64e_calibration.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/labelled_return.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::firmware_io {

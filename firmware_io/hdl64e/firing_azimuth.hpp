@@ -9,6 +9,7 @@
 
 #include "calib/angle.hpp"
 #include "calib/hdl64e_calibration.hpp"
+#include "firmware_io/beam_azimuth.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/packet_heads.hpp"
 
@@ -69,44 +70,9 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
   return static_cast<std::int32_t>((step_ticks * share) >> kFiringShareBits);
 }
 
-/// Head azimuth at a firing for calib::Hdl64eGeometry: radians, clockwise from straight ahead,
-/// [0, 2 pi + a step). `column_cdeg` may be unwrapped (any turn).
-[[nodiscard]] constexpr double firing_azimuth_rad(std::int64_t column_cdeg,
-                                                  std::int32_t advance_ticks) noexcept {
-  return (calib::wrap_cdeg(column_cdeg) * kTicksPerCdeg + advance_ticks) * kRadPerTick;
-}
-
 /// A laser's rotational correction in ticks, as all whole-number azimuths take it.
 [[nodiscard]] inline std::int32_t rot_correction_ticks(const calib::Hdl64eLaser& laser) noexcept {
   return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / kRadPerTick));
-}
-
-/// A beam's azimuth: which turn, and where in it.
-struct BeamAzimuth {
-  std::int64_t turn = 0;
-  std::int32_t in_turn_ticks = 0;  ///< [0, kTurn_ticks)
-};
-
-/// The beam `offset_ticks` (advance - rotational correction) away from a column's azimuth.
-/// `column_cdeg` is unwrapped: it grows by 36000 each turn of the head. |offset| < one turn.
-[[nodiscard]] constexpr BeamAzimuth beam_azimuth(std::int64_t column_cdeg,
-                                                 std::int32_t offset_ticks) noexcept {
-  const std::int32_t head_cdeg = calib::wrap_cdeg(column_cdeg);
-  BeamAzimuth beam{(column_cdeg - head_cdeg) / calib::kTurn_cdeg,
-                   head_cdeg * kTicksPerCdeg + offset_ticks};
-  if (beam.in_turn_ticks < 0) {
-    beam.in_turn_ticks += kTurn_ticks;
-    --beam.turn;
-  } else if (beam.in_turn_ticks >= kTurn_ticks) {
-    beam.in_turn_ticks -= kTurn_ticks;
-    ++beam.turn;
-  }
-  return beam;
-}
-
-/// Range image column of a beam: floor(in_turn / pitch), [0, columns). columns in [1, 36000].
-[[nodiscard]] constexpr int column_of(std::int32_t in_turn_ticks, int columns) noexcept {
-  return static_cast<int>(std::int64_t{in_turn_ticks} * columns / kTurn_ticks);
 }
 
 /// Offsets of all 64 beams for one unit.

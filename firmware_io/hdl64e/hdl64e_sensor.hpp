@@ -22,8 +22,7 @@ namespace terracut::firmware_io {
 /// What Decoder needs to know of the HDL-64E (see there).
 ///
 /// Single and dual return packets are told apart by their azimuths: in dual return each comes
-/// twice, for the strongest and the last return. Both returns of a firing are placed, the second
-/// one on the overflow list where it shares the cell of the first.
+/// twice, for the strongest and the last return. Both returns of a firing are placed.
 class Hdl64eSensor {
  public:
   using Calibration = calib::Hdl64eCalibration;
@@ -34,6 +33,8 @@ class Hdl64eSensor {
   static constexpr int kRows = calib::kHdl64eLasers;
   using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
+  static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a turn, 48 us each.
+  static constexpr int kDefaultReturnsPerCell = 2;
 
   /// columns: in [16, 36000], else std::invalid_argument.
   Hdl64eSensor(const Calibration& calibration, const calib::Mount& mount, const Config& config,

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/hdl64e/labelled_return.hpp"
 #include "firmware_io/hdl64e/status_cycle.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/labelled_return.hpp"
 
 namespace terracut::firmware_io {
 

@@ -17,15 +17,10 @@ PointKernel::PointKernel(const calib::Hdl64eCalibration& calibration, calib::Geo
       interpolation_end_m_(model == calib::GeometryModel::kManual
                                ? static_cast<float>(calib::kFarPoint_m)
                                : std::numeric_limits<float>::max()),
-      columns_per_tick_(static_cast<double>(columns) / kTurn_ticks),
-      head_(memory.take<SinCos>("decoder tables", calib::kTurn_cdeg)),
+      columns_(columns),
+      head_(memory),
       constants_(memory.take<Constants>("decoder tables", 1)),
       offsets_(memory.take<Offsets>("decoder tables", 1)) {
-  for (std::size_t i = 0; i < head_.size(); ++i) {
-    const double azimuth_rad = calib::deg_to_rad(static_cast<double>(i) / 100.0);
-    head_[i] = {static_cast<float>(std::sin(azimuth_rad)),
-                static_cast<float>(std::cos(azimuth_rad))};
-  }
   const auto T = calib::T_vehicle_lidar(mount);
   std::transform(T.begin(), T.end(), T_vehicle_lidar_.begin(),
                  [](double v) { return static_cast<float>(v); });
@@ -80,8 +75,7 @@ void PointKernel::compute(std::int32_t azimuth_cdeg,
   const Constants& __restrict k = constants_[0];
   const Offsets& __restrict offset = offsets_[0];
   ColumnReturns<kLasers>& __restrict out = column;
-  const float sin_head = head_[static_cast<std::size_t>(azimuth_cdeg)].sin;
-  const float cos_head = head_[static_cast<std::size_t>(azimuth_cdeg)].cos;
+  const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
   const float resolution_m = resolution_m_, end_m = interpolation_end_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
 
@@ -112,20 +106,7 @@ void PointKernel::compute(std::int32_t azimuth_cdeg,
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
 
-  // Half a tick's worth of column keeps the product on the right side of every whole number, so
-  // that this is exactly column_of(): the distance to the next is at least twice that, the rounding
-  // of the product a thousand times less.
-  const double scale = columns_per_tick_;
-  const double bias = 0.5 / kTurn_ticks;
-  const std::int32_t head_ticks = azimuth_cdeg * kTicksPerCdeg;
-  for (std::size_t i = 0; i < kLasers; ++i) {
-    const std::int32_t beam_ticks = head_ticks + offset.ticks[i];
-    const std::int32_t turn = static_cast<std::int32_t>(beam_ticks >= kTurn_ticks) -
-                              static_cast<std::int32_t>(beam_ticks < 0);
-    const std::int32_t in_turn_ticks = beam_ticks - turn * kTurn_ticks;
-    out.turn_offset[i] = turn;
-    out.column[i] = static_cast<std::int32_t>(static_cast<double>(in_turn_ticks) * scale + bias);
-  }
+  columns_.compute(azimuth_cdeg, offset.ticks, out);
 }
 
 }  // namespace terracut::firmware_io

@@ -10,7 +10,9 @@
 #include "calib/hdl64e_calibration.hpp"
 #include "calib/hdl64e_geometry.hpp"
 #include "calib/mount.hpp"
+#include "firmware_io/beam_columns.hpp"
 #include "firmware_io/column_returns.hpp"
+#include "firmware_io/head_directions.hpp"
 #include "rt/fixed_memory.hpp"
 
 namespace terracut::firmware_io {
@@ -53,15 +55,12 @@ class PointKernel {
     alignas(64) std::array<float, kLasers> sin, cos;
     alignas(64) std::array<std::int32_t, kLasers> ticks;
   };
-  struct SinCos {
-    float sin = 0, cos = 1;
-  };
 
   float resolution_m_;
   float interpolation_end_m_;
-  double columns_per_tick_;
+  BeamColumns columns_;
   std::array<float, 12> T_vehicle_lidar_;
-  std::span<SinCos> head_;
+  HeadDirections head_;
   std::span<Constants> constants_;  ///< One element.
   std::span<Offsets> offsets_;      ///< One element.
 };

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/labelled_return.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/labelled_return.hpp"
 
 namespace terracut::firmware_io {
 

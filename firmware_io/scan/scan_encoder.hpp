@@ -13,7 +13,7 @@
 #include "calib/hdl64e_calibration.hpp"
 #include "calib/hdl64e_geometry.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/labelled_return.hpp"
 #include "firmware_io/scan/firing_schedule.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/ring_table.hpp"

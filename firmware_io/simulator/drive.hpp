@@ -10,7 +10,7 @@
 #include "calib/hdl64e_geometry.hpp"
 #include "calib/mount.hpp"
 #include "calib/nominal_hdl64e.hpp"
-#include "firmware_io/hdl64e/labelled_return.hpp"
+#include "firmware_io/labelled_return.hpp"
 #include "firmware_io/simulator/sensor_effects.hpp"
 #include "rt/error.hpp"
 

@@ -6,7 +6,9 @@
 
 #include "calib/angle.hpp"
 #include "calib/nominal_hdl64e.hpp"
+#include "calib/nominal_ruby128.hpp"
 #include "calib/ring_profile_estimate.hpp"
+#include "calib/ruby128_geometry.hpp"
 #include "tests/calib/calib_test_support.hpp"
 
 namespace terracut::calib {
@@ -49,6 +51,31 @@ TEST(RingProfile, RingsThatDoNotReachTheGroundInTimeAreInfinitelyFar) {
   }
   EXPECT_TRUE(std::isinf(profile.rings[63].ground_distance_m));
   EXPECT_FALSE(std::isinf(profile.rings[0].ground_distance_m));
+}
+
+TEST(RingProfile, OfARubyMeetsTheGroundWhereItsReturnsDo) {
+  const Ruby128Calibration calibration = nominal_ruby128();
+  const Ruby128Geometry geometry(calibration);
+  const Mount mount{.height_m = 1.9};
+  const RingProfile profile = ring_profile(calibration, mount, 120.0);
+  ASSERT_EQ(profile.rings.size(), 128U);
+  const auto rows = rows_by_elevation(calibration);
+  int reaching = 0;
+  for (int channel = 0; channel < kRuby128Lasers; ++channel) {
+    const auto c = static_cast<std::size_t>(channel);
+    const Ring& ring = profile.rings[static_cast<std::size_t>(rows[c])];
+    EXPECT_EQ(ring.elevation_rad, calibration.channels[c].elevation_rad);
+    EXPECT_EQ(ring.origin_height_m, 0.0);
+    const auto raw = geometry.raw_on_plane(channel, 0.3, {0, 0, -1.9}, {0, 0, 1});
+    const Point ground = geometry.point(channel, 0.3, raw.value_or(0));
+    const double distance_m = std::hypot(ground.x_m, ground.y_m);
+    const bool reaches = raw.has_value() && distance_m <= 120.0;
+    EXPECT_EQ(std::isfinite(ring.ground_distance_m), reaches) << channel;
+    if (!reaches) continue;
+    EXPECT_NEAR(ring.ground_distance_m, distance_m, 1e-9) << channel;
+    ++reaching;
+  }
+  EXPECT_EQ(reaching, 68);  // 13 coarse rows, then -6.39 to -0.99 degrees by tenths
 }
 
 TEST(RingProfileEstimate, TakesTheMeanOfARingsGroundReturns) {

@@ -80,6 +80,7 @@ TEST(SensorModel, NamesTheRubyFamilyByItsBlocks) {
   Bytes plus = robosense({0x55, 0xAA, 0x05, 0x5A}, 388);
   plus[31] = 5;
   plus[32] = 1;
+  EXPECT_EQ(recognise_sensor(plus), SensorModel::kRubyPlus);
   EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("Ruby Plus"));
   plus[7] = 3;
   EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("dual return"));

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/capture/sensor_probe.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "firmware_io/hdl64e/hdl64e_sensor.hpp"
+#include "firmware_io/ruby128/packet_check.hpp"
+#include "firmware_io/ruby128/ruby128_sensor.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+constexpr std::uint64_t kEnoughPackets = 50;
+/// A step between packets beyond this is a gap, across which the head's way is not known.
+constexpr std::int64_t kLongestStep_us = 5'000;
+/// Sensors keep their set spin rate to a percent or two.
+constexpr double kNominalTolerance = 0.03;
+
+/// Of the HDL-64E, which fires every 48 us or, in dual return, 57.6.
+double firing_s(SensorModel model, bool dual_return) {
+  if (model == SensorModel::kRuby128) return kRubyBlock_ns * 1e-9;
+  return (dual_return ? kFiringTimesDual : kFiringTimesSingle48).column_ns * 1e-9;
+}
+
+double nominal_spin_hz(double spin_hz) {
+  for (const double nominal_hz : {5.0, 10.0, 15.0, 20.0}) {
+    if (std::abs(spin_hz - nominal_hz) < kNominalTolerance * nominal_hz) return nominal_hz;
+  }
+  return spin_hz;
+}
+
+}  // namespace
+
+void SensorProbe::Head::add(const PacketHeads& heads) {
+  ++packets;
+  dual_packets += heads.dual_return ? 1 : 0;
+  if (last) {
+    const std::int64_t step_us = heads.device_stamp_us - last->device_stamp_us;
+    const int step_cdeg = calib::step_cdeg(last->first_cdeg(), heads.first_cdeg());
+    if (step_us > 0 && step_us < kLongestStep_us && step_cdeg > 0) {
+      turned_cdeg += step_cdeg;
+      time_us += step_us;
+    }
+  }
+  last = heads;
+}
+
+void SensorProbe::add(std::span<const std::uint8_t> payload) {
+  const SensorModel model = recognise_sensor(payload);
+  ++votes_[model];
+  PacketHeads heads;
+  if (model == SensorModel::kHdl64e) {
+    if (!check_hdl64e_packet(payload, heads)) heads_[model].add(heads);
+  } else if (model == SensorModel::kRuby128) {
+    const auto packet = Ruby128PacketView::of(payload);
+    if (!packet || check_ruby128_packet(payload, heads)) return;
+    const RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp(), packet->protocol_version());
+    heads.device_stamp_us = read_ruby_timestamp(packet->stamp(), encoding) / 1000;
+    heads_[model].add(heads);
+  }
+}
+
+std::uint64_t SensorProbe::packets_of(SensorModel model) const {
+  const auto found = votes_.find(model);
+  return found == votes_.end() ? 0 : found->second;
+}
+
+const SensorProbe::Head* SensorProbe::head_of(SensorModel model) const {
+  const auto found = heads_.find(model);
+  return found == heads_.end() ? nullptr : &found->second;
+}
+
+bool SensorProbe::knows(SensorModel model) const {
+  const Head* head = head_of(model);
+  return head != nullptr && head->packets >= kEnoughPackets && head->time_us > 0;
+}
+
+double SensorProbe::spin_hz(SensorModel model) const {
+  const Head* head = head_of(model);
+  if (head == nullptr || head->time_us == 0) return 0;
+  return static_cast<double>(head->turned_cdeg) / calib::kTurn_cdeg * 1e6 /
+         static_cast<double>(head->time_us);
+}
+
+bool SensorProbe::dual_return(SensorModel model) const {
+  const Head* head = head_of(model);
+  return head != nullptr && 2 * head->dual_packets > head->packets;
+}
+
+int SensorProbe::columns(SensorModel model) const {
+  const double hz = nominal_spin_hz(spin_hz(model));
+  constexpr double kSlowest_hz = 2, kFastest_hz = 40;  // far beyond what the sensors do
+  if (!knows(model) || hz < kSlowest_hz || hz > kFastest_hz) {
+    return model == SensorModel::kRuby128 ? Ruby128Sensor::kDefaultColumns
+                                          : Hdl64eSensor::kDefaultColumns;
+  }
+  return static_cast<int>(std::lround(1 / (hz * firing_s(model, dual_return(model)))));
+}
+
+std::string SensorProbe::foreign_models() const {
+  std::string text;
+  for (const auto& [model, packets] : votes_) {
+    if (model == SensorModel::kHdl64e || model == SensorModel::kRuby128 ||
+        model == SensorModel::kUnknown || model == SensorModel::kRoboSenseDeviceInfo ||
+        model == SensorModel::kVelodynePosition) {
+      continue;
+    }
+    text +=
+        fmt::format("{}{} packets of a {}", text.empty() ? "" : ", ", packets, to_string(model));
+  }
+  return text;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "firmware_io/capture/sensor_model.hpp"
+#include "firmware_io/packet_heads.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+
+namespace terracut::firmware_io {
+
+/// Finds out from the first packets of a stream which sensor sends them, and how it turns, so that
+/// a decoder can be made for it. Not for the receive thread: allocates.
+class SensorProbe {
+ public:
+  /// Any datagram's payload.
+  void add(std::span<const std::uint8_t> payload);
+
+  /// Datagrams by what they are; device information and unknown ones included.
+  [[nodiscard]] const std::map<SensorModel, std::uint64_t>& votes() const noexcept {
+    return votes_;
+  }
+  [[nodiscard]] std::uint64_t packets_of(SensorModel model) const;
+  /// Enough data packets of a turning head of that model for the answers below.
+  [[nodiscard]] bool knows(SensorModel model) const;
+
+  /// Turns per second of a decoded model, by its own stamps and azimuths; 0 while unknown.
+  [[nodiscard]] double spin_hz(SensorModel model) const;
+  [[nodiscard]] bool dual_return(SensorModel model) const;
+  /// Firings a turn, rounded to the sensor's nominal spin rates where it turns at one: the columns
+  /// its range image should have. The model's default while unknown.
+  [[nodiscard]] int columns(SensorModel model) const;
+
+  /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLS-128".
+  /// Empty when there are none.
+  [[nodiscard]] std::string foreign_models() const;
+
+ private:
+  /// What one model's packets say together.
+  struct Head {
+    std::uint64_t packets = 0, dual_packets = 0;
+    std::int64_t turned_cdeg = 0, time_us = 0;
+    std::optional<PacketHeads> last;
+
+    void add(const PacketHeads& heads);
+  };
+  [[nodiscard]] const Head* head_of(SensorModel model) const;
+
+  std::map<SensorModel, std::uint64_t> votes_;
+  std::map<SensorModel, Head> heads_;  ///< Of decoded models.
+  RubyTimestampDetector ruby_timestamp_;
+};
+
+}  // namespace terracut::firmware_io

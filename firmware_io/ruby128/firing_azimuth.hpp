@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "calib/angle.hpp"
+#include "calib/ruby128_calibration.hpp"
+#include "firmware_io/beam_azimuth.hpp"
+#include "firmware_io/packet_heads.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+/// Where a beam of the RS-Ruby128 points when its channel fires, in whole numbers (see
+/// firmware_io/beam_azimuth.hpp).
+///
+/// A block carries one azimuth for 128 channels, that of the head at the block's first firing.
+/// Channels fire in groups of four, both halves of 64 in parallel; meanwhile the head turns on by
+/// almost a column:
+///
+///   head at the firing of channel c = azimuth of its block + advance(c)
+///   beam of channel c               = head at its firing   + azimuth offset(c)
+///
+/// both clockwise from straight ahead. The step from firing to firing is taken from the packet's
+/// own azimuths, so nothing depends on a nominal spin rate. Allocation-free, noexcept; any thread.
+namespace terracut::firmware_io {
+
+// --- Times (docs/sensors.md; a public decoder of the maker) ---
+
+inline constexpr std::int32_t kRubyBlock_ns =
+    55'550;  ///< From a firing of all channels to the next.
+inline constexpr std::int32_t kRubyGroup_ns = 3'236;  ///< From a group of channels to the next.
+inline constexpr int kRubyGroups = 16;
+
+/// The group in which a channel, [0, 128), fires.
+[[nodiscard]] constexpr int ruby_group(int channel) noexcept {
+  return channel / 4 % kRubyGroups;
+}
+/// From the first firing of a block to that of `channel`.
+[[nodiscard]] constexpr std::int32_t ruby_channel_ns(int channel) noexcept {
+  return kRubyGroup_ns * ruby_group(channel);
+}
+static_assert(ruby_channel_ns(63) == 48'540 && ruby_channel_ns(64) == 0);
+
+// --- Blocks of a packet ---
+
+/// How the three blocks of a packet belong together. In dual return both returns of a firing are
+/// blocks of their own, side by side, so that pairs straddle packets: A A B, then B C C.
+enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
+
+/// By the azimuths of a turning head. All three equal: kPairFirst, but such a head stands still.
+[[nodiscard]] constexpr RubyBlocks ruby_blocks(
+    const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
+  if (azimuth_cdeg[0] == azimuth_cdeg[1]) return RubyBlocks::kPairFirst;
+  return azimuth_cdeg[1] == azimuth_cdeg[2] ? RubyBlocks::kPairLast : RubyBlocks::kSingle;
+}
+
+/// Firings from a packet's first block to the next packet's. A firing whose second return is in the
+/// next packet belongs to that one.
+[[nodiscard]] constexpr int ruby_firings(RubyBlocks blocks) noexcept {
+  switch (blocks) {
+    case RubyBlocks::kPairFirst:
+      return 1;
+    case RubyBlocks::kPairLast:
+      return 2;
+    case RubyBlocks::kSingle:
+      break;
+  }
+  return 3;
+}
+
+/// How far the head turns from firing to firing, ticks, given the packet's azimuths. Exact.
+[[nodiscard]] constexpr std::int32_t ruby_step_ticks(
+    const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
+  const std::int32_t firings_apart = ruby_blocks(azimuth_cdeg) == RubyBlocks::kSingle ? 2 : 1;
+  return calib::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[2]) * (kTicksPerCdeg / firings_apart);
+}
+
+/// The firing whose second return was not in its packet, until the next packet brings it: both
+/// returns of one pulse must point the same way, so the second takes the step of the first.
+class HeldFiring {
+ public:
+  /// The step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is the
+  /// packet's device stamp. To be called once for every packet, in order of arrival.
+  [[nodiscard]] constexpr std::int32_t join(
+      const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg, std::int32_t step_ticks,
+      std::int64_t stamp_us) noexcept {
+    const RubyBlocks blocks = ruby_blocks(azimuth_cdeg);
+    const std::int64_t since_us = stamp_us - stamp_us_;
+    const bool joins = held_ && blocks == RubyBlocks::kPairLast &&
+                       azimuth_cdeg[0] == azimuth_cdeg_ && since_us >= 0 && since_us <= kLongest_us;
+    const std::int32_t first_step_ticks = joins ? step_ticks_ : step_ticks;
+    held_ = blocks == RubyBlocks::kPairFirst;
+    azimuth_cdeg_ = azimuth_cdeg[2];
+    step_ticks_ = step_ticks;
+    stamp_us_ = stamp_us;
+    return first_step_ticks;
+  }
+  constexpr void forget() noexcept { held_ = false; }
+
+ private:
+  /// Two firings, plus what a stamp in whole microseconds and a jitter may add.
+  static constexpr std::int64_t kLongest_us = 2 * kRubyBlock_ns / 1000 + 10;
+
+  bool held_ = false;
+  std::int32_t azimuth_cdeg_ = 0, step_ticks_ = 0;
+  std::int64_t stamp_us_ = 0;
+};
+
+// --- Beams ---
+
+/// The share of the firing period after which a channel fires, in 1 / 2^20.
+inline constexpr int kRubyShareBits = 20;
+
+/// How far the head has turned since its block's azimuth when `channel` fires, ticks.
+[[nodiscard]] constexpr std::int32_t ruby_advance_ticks(std::int32_t step_ticks,
+                                                        int channel) noexcept {
+  const std::int64_t share =
+      (std::int64_t{ruby_channel_ns(channel)} << kRubyShareBits) / kRubyBlock_ns;
+  return static_cast<std::int32_t>((step_ticks * share) >> kRubyShareBits);
+}
+
+/// A channel's azimuth offset in ticks, as all whole-number azimuths take it.
+[[nodiscard]] inline std::int32_t azimuth_offset_ticks(
+    const calib::Ruby128Channel& channel) noexcept {
+  return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / kRadPerTick));
+}
+
+/// Offsets of all 128 beams from their block's azimuth, for one unit.
+class Ruby128BeamOffsets {
+ public:
+  explicit Ruby128BeamOffsets(const calib::Ruby128Calibration& calibration) noexcept {
+    for (std::size_t i = 0; i < ticks_.size(); ++i) {
+      ticks_[i] = azimuth_offset_ticks(calibration.channels[i]);
+    }
+    const auto [least, most] = std::minmax_element(ticks_.begin(), ticks_.end());
+    least_ticks_ = *least;
+    most_ticks_ = *most;
+  }
+
+  [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int channel) const noexcept {
+    return ruby_advance_ticks(step_ticks, channel) + ticks_[static_cast<std::size_t>(channel)];
+  }
+  /// No beam's offset is below hindmost_ticks(), nor above foremost_ticks() for that step.
+  [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return least_ticks_; }
+  [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
+    return step_ticks + most_ticks_;
+  }
+
+ private:
+  std::array<std::int32_t, calib::kRuby128Lasers> ticks_{};
+  std::int32_t least_ticks_ = 0, most_ticks_ = 0;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/ruby128/packet_check.hpp"
+
+#include <array>
+
+#include "firmware_io/capture/sensor_model.hpp"
+#include "firmware_io/ruby128/firing_azimuth.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+std::optional<Reject> reject_model(std::span<const std::uint8_t> payload) noexcept {
+  switch (recognise_sensor(payload)) {
+    case SensorModel::kRuby128:
+      return std::nullopt;
+    case SensorModel::kRoboSenseDeviceInfo:
+      return Reject::kDeviceInfo;
+    case SensorModel::kUnknown:
+    case SensorModel::kOtherRoboSense:  // the right leader, but no known order of blocks
+      return payload.size() == kRubyPacketBytes ? Reject::kWrongMagic : Reject::kWrongSize;
+    default:
+      return Reject::kWrongModel;
+  }
+}
+
+}  // namespace
+
+std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
+                                           PacketHeads& heads) noexcept {
+  if (const auto reason = reject_model(payload)) return reason;
+  const auto packet = Ruby128PacketView::of(payload);
+  if (!packet) return Reject::kWrongSize;
+
+  std::array<std::int32_t, kRubyBlocksPerPacket> azimuth_cdeg{};
+  heads.columns = kRubyBlocksPerPacket;
+  bool in_range = true;
+  for (int block = 0; block < kRubyBlocksPerPacket; ++block) {
+    const auto b = static_cast<std::size_t>(block);
+    azimuth_cdeg[b] = heads.azimuth_cdeg[b] = packet->azimuth_cdeg(block);
+    in_range &= azimuth_cdeg[b] < calib::kTurn_cdeg;
+  }
+  if (!in_range) return Reject::kAzimuthOutOfRange;
+
+  const int first_cdeg = calib::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[1]);
+  const int second_cdeg = calib::step_cdeg(azimuth_cdeg[1], azimuth_cdeg[2]);
+  for (const int step_cdeg : {first_cdeg, second_cdeg}) {
+    if (step_cdeg < -kRubyMaxJitter_cdeg || step_cdeg > kRubyMaxStep_cdeg) {
+      return Reject::kAzimuthJump;
+    }
+  }
+  if (first_cdeg + second_cdeg < kRubyMinSweep_cdeg) return Reject::kStationary;
+
+  const RubyBlocks blocks = ruby_blocks(azimuth_cdeg);
+  heads.dual_return = blocks != RubyBlocks::kSingle;
+  heads.nominal_period_ns = kRubyBlocksPerPacket * kRubyBlock_ns / (heads.dual_return ? 2 : 1);
+  heads.step_ticks = ruby_step_ticks(azimuth_cdeg);
+  heads.sweep_ticks = heads.step_ticks * ruby_firings(blocks);
+  return std::nullopt;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "firmware_io/loss_counters.hpp"
+#include "firmware_io/packet_heads.hpp"
+
+namespace terracut::firmware_io {
+
+/// What the head of an RS-Ruby128 may do inside a packet; it spins at 5 to 20 Hz, 10 to 40
+/// hundredths of a degree a firing. A blind sector (field of view) shows as a jump beyond that.
+inline constexpr int kRubyMinSweep_cdeg =
+    4;  ///< First to last firing; below, the head stands still.
+inline constexpr int kRubyMaxStep_cdeg = 100;
+inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to firing.
+
+/// Checks that a payload is an RS-Ruby128 data packet of a turning head and reads its azimuths into
+/// `heads`, all but the device stamp; otherwise the reason to reject it. The checks, in this order:
+///
+///   kWrongModel         another sensor's data packet: any Velodyne's, a Ruby Lite's (four blocks
+///   of
+///                       80 channels), a Ruby Plus's (the same layout; told by its type bytes)
+///   kWrongSize          not 1248 bytes
+///   kDeviceInfo         a DIFOP packet
+///   kWrongMagic         other leading bytes or block ids
+///   kAzimuthOutOfRange, kAzimuthJump (steps beyond those above)
+///   kStationary
+///
+/// `heads` holds the azimuths for the azimuth reasons and kStationary too. Real-time safe; any
+/// thread.
+[[nodiscard]] std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
+                                                         PacketHeads& heads) noexcept;
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/ruby128/ruby128_sensor.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "firmware_io/ruby128/packet_check.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+int checked_columns(int columns) {
+  if (columns < 16 || columns > calib::kTurn_cdeg) {
+    throw std::invalid_argument("RS-Ruby128: columns per turn must be in [16, 36000]");
+  }
+  return columns;
+}
+
+std::array<std::int32_t, kRubyBlocksPerPacket> azimuths(const PacketHeads& heads) noexcept {
+  return {heads.azimuth_cdeg[0], heads.azimuth_cdeg[1], heads.azimuth_cdeg[2]};
+}
+
+}  // namespace
+
+Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const calib::Mount& mount,
+                             const Config& config, int columns, rt::FixedMemory& memory)
+    : given_timestamp_(config.timestamp),
+      offsets_(calibration),
+      kernel_(calibration, mount, checked_columns(columns), memory),
+      rows_(calib::rows_by_elevation(calibration)) {}
+
+std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
+                                           PacketHeads& heads) noexcept {
+  const auto reason = check_ruby128_packet(payload, heads);
+  const bool is_of_this_sensor = !reason || *reason == Reject::kAzimuthOutOfRange ||
+                                 *reason == Reject::kAzimuthJump || *reason == Reject::kStationary;
+  const auto packet = Ruby128PacketView::of(payload);
+  if (!is_of_this_sensor || !packet) return reason;
+
+  const RubyTimestamp detected = timestamp_.add(packet->stamp(), packet->protocol_version());
+  const std::int64_t stamp_ns =
+      read_ruby_timestamp(packet->stamp(), given_timestamp_.value_or(detected));
+  // The stamp is the first block's. In dual return packets begin with a new firing and with the
+  // second return of an old one in turn; half a firing makes that even.
+  const bool begins_late = !reason && ruby_blocks(azimuths(heads)) == RubyBlocks::kPairLast;
+  heads.device_stamp_us = std::clamp<std::int64_t>(
+      (stamp_ns + (begins_late ? kRubyBlock_ns / 2 : 0)) / 1000, 0, kClockWrap_us - 1);
+  return reason;
+}
+
+void Ruby128Sensor::begin_packet(const PacketHeads& heads) noexcept {
+  first_step_ticks_ = held_.join(azimuths(heads), heads.step_ticks, heads.device_stamp_us);
+}
+
+const Ruby128Sensor::Column& Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
+                                                        const PacketHeads& heads,
+                                                        int column) noexcept {
+  if (const auto packet = Ruby128PacketView::of(payload)) {  // check() has seen to it
+    const auto bytes = packet->returns(column);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(kRows); ++i) {
+      returns_.raw[i] = static_cast<std::uint16_t>(bytes[3 * i] << 8 | bytes[3 * i + 1]);
+      returns_.intensity[i] = bytes[3 * i + 2];
+    }
+  }
+  kernel_.set_step(column == 0 ? first_step_ticks_ : heads.step_ticks);
+  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], returns_);
+  return returns_;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "calib/mount.hpp"
+#include "calib/ruby128_calibration.hpp"
+#include "firmware_io/column_returns.hpp"
+#include "firmware_io/frame_builder.hpp"
+#include "firmware_io/loss_counters.hpp"
+#include "firmware_io/packet_heads.hpp"
+#include "firmware_io/ruby128/firing_azimuth.hpp"
+#include "firmware_io/ruby128/point_kernel.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+
+namespace terracut::firmware_io {
+
+/// What Decoder needs to know of the RS-Ruby128 (see there).
+///
+/// Single and dual return packets are told apart by their azimuths: in dual return each comes
+/// twice. A pair that straddles two packets is joined (HeldFiring), unless one of them is lost.
+class Ruby128Sensor {
+ public:
+  using Calibration = calib::Ruby128Calibration;
+  struct Config {
+    /// How stamps are to be read; nothing: found out from the packets.
+    std::optional<RubyTimestamp> timestamp;
+  };
+  static constexpr int kRows = calib::kRuby128Lasers;
+  using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
+  /// Device stamps count up from 1970; this is farther than they can get.
+  static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
+  static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a turn at 10 Hz.
+  /// Dual return and the columns that two firings share: more than two for some cells.
+  static constexpr int kDefaultReturnsPerCell = 3;
+
+  /// columns: in [16, 36000], else std::invalid_argument.
+  Ruby128Sensor(const Calibration& calibration, const calib::Mount& mount, const Config& config,
+                int columns, rt::FixedMemory& memory);
+
+  [[nodiscard]] std::optional<Reject> check(std::span<const std::uint8_t> payload,
+                                            PacketHeads& heads) noexcept;
+  [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
+    return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
+  }
+  void begin_packet(const PacketHeads& heads) noexcept;
+  [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
+                                          const PacketHeads& heads, int column) noexcept;
+  [[nodiscard]] std::span<const std::int32_t, calib::kRuby128Lasers> rows() const noexcept {
+    return rows_;
+  }
+
+  [[nodiscard]] const RubyTimestampDetector& timestamp() const noexcept { return timestamp_; }
+
+ private:
+  std::optional<RubyTimestamp> given_timestamp_;
+  RubyTimestampDetector timestamp_;
+  Ruby128BeamOffsets offsets_;
+  Ruby128PointKernel kernel_;
+  HeldFiring held_;
+  std::int32_t first_step_ticks_ = 0;  ///< Of the packet's first block, which may be a held one's.
+  std::array<std::int32_t, calib::kRuby128Lasers> rows_;
+  Column returns_{};
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <type_traits>
+
+#include "firmware_io/big_endian.hpp"
+
+/// The data packet (MSOP) of the RS-Ruby128 as it lies in the UDP payload; big endian (RS-Ruby user
+/// manual v1.0; docs/sensors.md). Nothing here allocates or throws; everything is callable from the
+/// packet path.
+namespace terracut::firmware_io {
+
+// --- Numbers of the format ---
+
+inline constexpr std::uint16_t kRubyDataPort = 6699;    ///< UDP destination; factory setting.
+inline constexpr std::uint16_t kRubyDevicePort = 7788;  ///< Of DIFOP; factory setting.
+
+inline constexpr std::size_t kRubyPacketBytes = 1248;  ///< Of MSOP and of DIFOP.
+inline constexpr std::array<std::uint8_t, 4> kRubyMagic{0x55, 0xAA, 0x05, 0x5A};
+inline constexpr std::uint8_t kRubyBlockId = 0xFE;
+inline constexpr int kRubyBlocksPerPacket = 3;
+inline constexpr int kRubyChannelsPerBlock = 128;
+
+/// Bits of the wave mode: which returns the packet carries.
+inline constexpr std::uint8_t kRubyFirstReturnBit = 1, kRubySecondReturnBit = 2;
+
+// --- The bytes ---
+
+namespace ruby128_wire {
+
+struct Return {
+  Be16 distance;           ///< Counts of 5 mm; 0 = no return.
+  std::uint8_t intensity;  ///< 0..255
+};
+
+struct Block {
+  std::uint8_t id;         ///< kRubyBlockId
+  std::uint8_t return_id;  ///< 1 or 2 in dual return, by the manual; not relied on.
+  Be16 azimuth_cdeg;       ///< 0..35999, clockwise seen from above, of the block's first firing.
+  std::array<Return, kRubyChannelsPerBlock> returns;
+};
+
+struct Packet {
+  std::array<std::uint8_t, 4> magic;
+  Be16 protocol_version;
+  std::uint8_t reserved1;
+  std::uint8_t wave_mode;
+  Be16 temperature;                    ///< Sign and magnitude (see temperature_deg_c()).
+  std::array<std::uint8_t, 10> stamp;  ///< One of three encodings (timestamp.hpp).
+  std::array<std::uint8_t, 10> reserved2;
+  std::uint8_t lidar_type, lidar_model;
+  std::array<std::uint8_t, 48> reserved3;
+  std::array<Block, kRubyBlocksPerPacket> blocks;
+  std::array<std::uint8_t, 4> tail;
+};
+
+static_assert(sizeof(Return) == 3 && alignof(Return) == 1);
+static_assert(sizeof(Block) == 388 && alignof(Block) == 1);
+static_assert(sizeof(Packet) == kRubyPacketBytes && alignof(Packet) == 1);
+static_assert(offsetof(Packet, wave_mode) == 7 && offsetof(Packet, temperature) == 8);
+static_assert(offsetof(Packet, stamp) == 10 && offsetof(Packet, lidar_type) == 30);
+static_assert(offsetof(Packet, blocks) == 80 && offsetof(Packet, tail) == 1244);
+static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<Packet>);
+
+}  // namespace ruby128_wire
+
+/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree with
+/// the low four in the high half of the second byte (RS-Ruby user manual).
+[[nodiscard]] constexpr double ruby_temperature_deg_c(std::uint8_t high,
+                                                      std::uint8_t low) noexcept {
+  const int sixteenths = (high & 0x7F) << 4 | low >> 4;
+  return (high & 0x80 ? -sixteenths : sixteenths) / 16.0;
+}
+static_assert(ruby_temperature_deg_c(0x12, 0xC0) == 18.75);
+static_assert(ruby_temperature_deg_c(0x92, 0xC0) == -18.75);
+
+// --- Reading ---
+
+/// Reads fields of one packet where it lies, without copying it. Checks only the length: magic,
+/// block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
+class Ruby128PacketView {
+ public:
+  /// Nothing when the payload is not exactly 1248 bytes long.
+  [[nodiscard]] static constexpr std::optional<Ruby128PacketView> of(
+      std::span<const std::uint8_t> payload) noexcept {
+    if (payload.size() != kRubyPacketBytes) return std::nullopt;
+    return Ruby128PacketView(payload.data());
+  }
+
+  [[nodiscard]] constexpr bool has_magic() const noexcept {
+    for (std::size_t i = 0; i < kRubyMagic.size(); ++i) {
+      if (bytes_[i] != kRubyMagic[i]) return false;
+    }
+    return true;
+  }
+  [[nodiscard]] constexpr std::uint16_t protocol_version() const noexcept {
+    return u16(offsetof(ruby128_wire::Packet, protocol_version));
+  }
+  [[nodiscard]] constexpr std::uint8_t wave_mode() const noexcept {
+    return bytes_[offsetof(ruby128_wire::Packet, wave_mode)];
+  }
+  [[nodiscard]] constexpr double temperature_deg_c() const noexcept {
+    constexpr std::size_t kAt = offsetof(ruby128_wire::Packet, temperature);
+    return ruby_temperature_deg_c(bytes_[kAt], bytes_[kAt + 1]);
+  }
+  [[nodiscard]] constexpr std::span<const std::uint8_t, 10> stamp() const noexcept {
+    return std::span<const std::uint8_t, 10>(bytes_ + offsetof(ruby128_wire::Packet, stamp), 10);
+  }
+  /// The bytes by which relatives are told apart. Sources disagree whether type and model are bytes
+  /// 30 and 31 or 31 and 32.
+  [[nodiscard]] constexpr std::span<const std::uint8_t, 3> type_bytes() const noexcept {
+    return std::span<const std::uint8_t, 3>(bytes_ + offsetof(ruby128_wire::Packet, lidar_type), 3);
+  }
+  [[nodiscard]] constexpr std::uint8_t block_id(int block) const noexcept {
+    return bytes_[block_offset(block)];
+  }
+  [[nodiscard]] constexpr std::uint8_t return_id(int block) const noexcept {
+    return bytes_[block_offset(block) + offsetof(ruby128_wire::Block, return_id)];
+  }
+  [[nodiscard]] constexpr std::uint16_t azimuth_cdeg(int block) const noexcept {
+    return u16(block_offset(block) + offsetof(ruby128_wire::Block, azimuth_cdeg));
+  }
+  /// The 128 returns of a block as they lie: distance high byte, low byte, intensity, 384 bytes.
+  [[nodiscard]] constexpr std::span<const std::uint8_t, 3 * kRubyChannelsPerBlock> returns(
+      int block) const noexcept {
+    return std::span<const std::uint8_t, 3 * kRubyChannelsPerBlock>(
+        bytes_ + block_offset(block) + offsetof(ruby128_wire::Block, returns),
+        3 * kRubyChannelsPerBlock);
+  }
+  /// `channel` in [0, 128).
+  [[nodiscard]] constexpr std::uint16_t distance(int block, int channel) const noexcept {
+    return u16(return_offset(block, channel));
+  }
+  [[nodiscard]] constexpr std::uint8_t intensity(int block, int channel) const noexcept {
+    return bytes_[return_offset(block, channel) + offsetof(ruby128_wire::Return, intensity)];
+  }
+
+ private:
+  explicit constexpr Ruby128PacketView(const std::uint8_t* bytes) noexcept : bytes_(bytes) {}
+
+  [[nodiscard]] static constexpr std::size_t block_offset(int block) noexcept {
+    assert(block >= 0 && block < kRubyBlocksPerPacket);
+    return offsetof(ruby128_wire::Packet, blocks) +
+           static_cast<std::size_t>(block) * sizeof(ruby128_wire::Block);
+  }
+  [[nodiscard]] static constexpr std::size_t return_offset(int block, int channel) noexcept {
+    assert(channel >= 0 && channel < kRubyChannelsPerBlock);
+    return block_offset(block) + offsetof(ruby128_wire::Block, returns) +
+           static_cast<std::size_t>(channel) * sizeof(ruby128_wire::Return);
+  }
+  [[nodiscard]] constexpr std::uint16_t u16(std::size_t offset) const noexcept {
+    return static_cast<std::uint16_t>(bytes_[offset] << 8 | bytes_[offset + 1]);
+  }
+
+  const std::uint8_t* bytes_;
+};
+
+// --- Writing ---
+
+/// One packet being made; starts as three blocks without any return, at azimuth 0, with magic and
+/// block ids in place. Indices as in Ruby128PacketView.
+class Ruby128PacketBuffer {
+ public:
+  Ruby128PacketBuffer() noexcept { clear(); }
+
+  void clear() noexcept {
+    packet_ = ruby128_wire::Packet{};
+    packet_.magic = kRubyMagic;
+    packet_.wave_mode = kRubyFirstReturnBit;
+    for (ruby128_wire::Block& block : packet_.blocks) block.id = kRubyBlockId;
+  }
+  void set_protocol_version(std::uint16_t version) noexcept {
+    packet_.protocol_version = Be16::of(version);
+  }
+  void set_wave_mode(std::uint8_t mode) noexcept { packet_.wave_mode = mode; }
+  void set_stamp(const std::array<std::uint8_t, 10>& stamp) noexcept { packet_.stamp = stamp; }
+  void set_type_bytes(std::uint8_t type, std::uint8_t model) noexcept {
+    packet_.lidar_type = type;
+    packet_.lidar_model = model;
+  }
+  void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
+    at(block).azimuth_cdeg = Be16::of(azimuth_cdeg);
+  }
+  void set_return_id(int block, std::uint8_t id) noexcept { at(block).return_id = id; }
+  void set_return(int block, int channel, std::uint16_t distance, std::uint8_t intensity) noexcept {
+    assert(channel >= 0 && channel < kRubyChannelsPerBlock);
+    at(block).returns[static_cast<std::size_t>(channel)] = {Be16::of(distance), intensity};
+  }
+
+  /// The payload to send; valid, and following later changes, as long as this object lives.
+  [[nodiscard]] std::span<const std::uint8_t, kRubyPacketBytes> payload() const noexcept {
+    return std::span<const std::uint8_t, kRubyPacketBytes>(
+        reinterpret_cast<const std::uint8_t*>(&packet_), kRubyPacketBytes);
+  }
+
+ private:
+  [[nodiscard]] ruby128_wire::Block& at(int block) noexcept {
+    assert(block >= 0 && block < kRubyBlocksPerPacket);
+    return packet_.blocks[static_cast<std::size_t>(block)];
+  }
+
+  ruby128_wire::Packet packet_;
+};
+
+}  // namespace terracut::firmware_io

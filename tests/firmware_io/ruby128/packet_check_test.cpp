@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/ruby128/packet_check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <random>
+
+#include "firmware_io/capture/pcap_source.hpp"
+#include "tests/firmware_io/ruby128/random_stream.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+using Bytes = std::vector<std::uint8_t>;
+
+Bytes packet_at(std::array<int, 3> azimuth_cdeg) {
+  Ruby128PacketBuffer packet;
+  for (int b = 0; b < 3; ++b) {
+    packet.set_azimuth_cdeg(b,
+                            static_cast<std::uint16_t>(azimuth_cdeg[static_cast<std::size_t>(b)]));
+  }
+  return {packet.payload().begin(), packet.payload().end()};
+}
+
+std::optional<Reject> check(const Bytes& payload) {
+  PacketHeads heads;
+  return check_ruby128_packet(payload, heads);
+}
+
+PacketHeads heads_of(std::array<int, 3> azimuth_cdeg) {
+  PacketHeads heads;
+  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), std::nullopt);
+  return heads;
+}
+
+TEST(Ruby128PacketCheck, ReadsTheHeadsOfASingleReturnPacketAcrossTheSeam) {
+  const PacketHeads heads = heads_of({35'970, 35'990, 11});
+  EXPECT_FALSE(heads.dual_return);
+  EXPECT_EQ(heads.columns, 3);
+  EXPECT_EQ(heads.advance_cdeg(2), 41);
+  EXPECT_EQ(heads.step_ticks, 20'500);
+  EXPECT_EQ(heads.sweep_ticks, 61'500);
+}
+
+TEST(Ruby128PacketCheck, KnowsBothPacketsOfDualReturn) {
+  const PacketHeads pair_first = heads_of({100, 100, 120});
+  EXPECT_TRUE(pair_first.dual_return);
+  EXPECT_EQ(pair_first.step_ticks, 20'000);
+  EXPECT_EQ(pair_first.sweep_ticks, 20'000);  // the firing at 120 is the next packet's
+  const PacketHeads pair_last = heads_of({120, 140, 140});
+  EXPECT_TRUE(pair_last.dual_return);
+  EXPECT_EQ(pair_last.step_ticks, 20'000);
+  EXPECT_EQ(pair_last.sweep_ticks, 40'000);
+}
+
+TEST(Ruby128PacketCheck, TakesEverySpinRate) {
+  for (const int step_cdeg : {10, 20, 40}) {
+    EXPECT_EQ(heads_of({0, step_cdeg, 2 * step_cdeg}).step_ticks, step_cdeg * kTicksPerCdeg);
+  }
+}
+
+TEST(Ruby128PacketCheck, TellsAStandingHeadFromDualReturn) {
+  EXPECT_EQ(check(packet_at({100, 100, 100})), Reject::kStationary);
+  EXPECT_EQ(check(packet_at({100, 101, 101})), Reject::kStationary);
+}
+
+TEST(Ruby128PacketCheck, RefusesAzimuthsThatAreNone) {
+  EXPECT_EQ(check(packet_at({35'980, 36'000, 20})), Reject::kAzimuthOutOfRange);
+  EXPECT_EQ(check(packet_at({65'535, 65'535, 65'535})), Reject::kAzimuthOutOfRange);
+  EXPECT_EQ(check(packet_at({100, 120, 18'000})), Reject::kAzimuthJump);
+  EXPECT_EQ(check(packet_at({100, 120, 100})), Reject::kAzimuthJump);
+}
+
+TEST(Ruby128PacketCheck, NamesWhatIsNoDataPacket) {
+  Bytes good = packet_at({100, 120, 140});
+  EXPECT_EQ(check(good), std::nullopt);
+  EXPECT_EQ(check({good.begin(), good.end() - 1}), Reject::kWrongSize);
+  EXPECT_EQ(check({}), Reject::kWrongSize);
+
+  Bytes other = good;
+  other[3] = 0x5B;
+  EXPECT_EQ(check(other), Reject::kWrongMagic);
+  other = good;
+  other[80 + 388] = 0xFD;
+  EXPECT_EQ(check(other), Reject::kWrongMagic);
+  other = good;
+  other[81] = 0xD1;  // the return's number, not part of the id
+  EXPECT_EQ(check(other), std::nullopt);
+
+  Bytes device_info(kRubyPacketBytes, 0);
+  const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
+  std::copy(start.begin(), start.end(), device_info.begin());
+  EXPECT_EQ(check(device_info), Reject::kDeviceInfo);
+}
+
+TEST(Ruby128PacketCheck, RefusesItsRelativesByModel) {
+  Bytes plus = packet_at({100, 120, 140});
+  plus[31] = 5;
+  plus[32] = 1;
+  EXPECT_EQ(check(plus), Reject::kWrongModel);
+
+  Bytes lite(kRubyPacketBytes, 0);
+  std::copy(kRubyMagic.begin(), kRubyMagic.end(), lite.begin());
+  for (std::size_t block = 0; block < 4; ++block) lite[80 + 244 * block] = kRubyBlockId;
+  EXPECT_EQ(check(lite), Reject::kWrongModel);
+}
+
+class RealCapture : public testing::TestWithParam<const char*> {};
+
+TEST_P(RealCapture, OfAnotherSensorIsRefusedByModel) {
+  const std::filesystem::path path =
+      std::filesystem::path(TERRACUT_SOURCE_DIR "/../shared/data/pcap") / GetParam();
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
+  auto source = PcapSource::open(path);
+  ASSERT_TRUE(source) << source.error().message;
+  int data_packets = 0;
+  while (true) {
+    const auto next = source->next();
+    ASSERT_TRUE(next) << next.error().message;
+    if (!*next) break;
+    PacketHeads heads;
+    const auto reason = check_ruby128_packet((*next)->payload, heads);
+    ASSERT_TRUE(reason);
+    if ((*next)->payload.size() == 1206) {
+      EXPECT_EQ(*reason, Reject::kWrongModel);
+      ++data_packets;
+    }
+  }
+  EXPECT_GT(data_packets, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Shared, RealCapture,
+                         testing::Values("vls128_nebula.pcap", "vlp32_nebula.pcap",
+                                         "vlp16_nebula.pcap", "sample_velodyne_hdl32.pcap"),
+                         [](const auto& file) {
+                           std::string name = file.param;
+                           name.resize(name.find('.'));
+                           return name;
+                         });
+
+TEST(HeldFiring, GivesTheSecondReturnTheStepOfTheFirst) {
+  HeldFiring held;
+  EXPECT_EQ(held.join({100, 100, 120}, 20'000, 1000), 20'000);
+  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083), 20'000);
+  EXPECT_EQ(held.join({161, 161, 181}, 20'000, 1166), 20'000);
+}
+
+TEST(HeldFiring, DropsAFiringWhosePacketIsLost) {
+  HeldFiring held;
+  (void)held.join({100, 100, 120}, 20'000, 1000);
+  EXPECT_EQ(held.join({180, 201, 201}, 21'000, 1249), 21'000);
+  (void)held.join({100, 100, 120}, 20'000, 1000);
+  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 101'083), 21'000);  // the same place, a turn later
+  (void)held.join({100, 100, 120}, 20'000, 1000);
+  held.forget();
+  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083), 21'000);
+}
+
+}  // namespace
+}  // namespace terracut::firmware_io

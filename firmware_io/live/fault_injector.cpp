@@ -45,7 +45,10 @@ bool FaultOutcome::complete() const noexcept {
 
 FaultInjector::FaultInjector(FaultScript script, Sink sink, ShiftStamp shift_stamp)
     : sink_(std::move(sink)), shift_stamp_(std::move(shift_stamp)) {
-  for (const Fault& fault : script) outcomes_.push_back({.fault = fault});
+  for (const Fault& fault : script) {
+    outcomes_.push_back({.fault = fault});
+    has_clock_fault_ = has_clock_fault_ || fault.kind == FaultKind::kClock;
+  }
 }
 
 void FaultInjector::feed(const Datagram& fed) {
@@ -122,22 +125,23 @@ void FaultInjector::edit(Datagram& datagram) {
     if (is_due(outcome, FaultKind::kClock, time_ns)) shift_ns += outcome.fault.span_ns;
     if (cut == nullptr && is_due(outcome, FaultKind::kTruncate, time_ns)) cut = &outcome;
   }
-  if (shift_ns == 0 && cut == nullptr) return;
+  if (!has_clock_fault_ && cut == nullptr) return;
   edited_.assign(datagram.payload.begin(), datagram.payload.end());
-  if (shift_ns != 0) {
-    if (shift_stamp_ && shift_stamp_(edited_, shift_ns)) {
-      for (FaultOutcome& outcome : outcomes_) {
-        if (is_due(outcome, FaultKind::kClock, time_ns)) note(outcome, index_);
-      }
-    } else {
-      ++unshifted_;
-    }
-  }
+  if (has_clock_fault_) shift_clock(time_ns, shift_ns);
   if (cut != nullptr) {
     note(*cut, index_);
     edited_.resize(edited_.size() / 2);
   }
   datagram.payload = edited_;
+}
+
+void FaultInjector::shift_clock(std::int64_t time_ns, std::int64_t shift_ns) {
+  const bool shifted = shift_stamp_ && shift_stamp_(edited_, shift_ns);
+  if (!shifted && shift_ns != 0) ++unshifted_;
+  if (!shifted) return;
+  for (FaultOutcome& outcome : outcomes_) {
+    if (is_due(outcome, FaultKind::kClock, time_ns)) note(outcome, index_);
+  }
 }
 
 bool FaultInjector::move_back(const Datagram& datagram) {

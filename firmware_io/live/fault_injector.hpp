@@ -42,7 +42,8 @@ class FaultInjector {
   /// of the datagram before it unless the stream's own stamps go back. The payload is valid only
   /// during the call.
   using Sink = std::function<void(const Datagram&, Origin)>;
-  /// Adds `shift_ns` to the device's stamp in a packet; false where it knows none.
+  /// Adds `shift_ns` to the device's stamp in a packet; false where it knows none. Where the script
+  /// has a clock fault, it sees every packet that is not taken away, before the jump with 0.
   using ShiftStamp = std::function<bool(std::span<std::uint8_t> packet, std::int64_t shift_ns)>;
 
   static constexpr std::size_t kForeignBytes = 512;  ///< Of no sensor's data packet.
@@ -74,6 +75,7 @@ class FaultInjector {
   void insert_foreign(const Datagram& before);
   [[nodiscard]] bool take_away(std::int64_t time_ns);
   void edit(Datagram& datagram);
+  void shift_clock(std::int64_t time_ns, std::int64_t shift_ns);
   [[nodiscard]] bool move_back(const Datagram& datagram);
   [[nodiscard]] bool is_duplicated(std::int64_t time_ns);
   void pass(const Datagram& datagram, Origin origin, std::uint64_t index);
@@ -84,6 +86,7 @@ class FaultInjector {
   Sink sink_;
   ShiftStamp shift_stamp_;
   std::optional<std::int64_t> first_ns_;
+  bool has_clock_fault_ = false;
   std::uint64_t fed_ = 0, unshifted_ = 0;
   std::uint64_t index_ = 0;  ///< Of the packet being fed.
   std::vector<std::uint8_t> edited_;

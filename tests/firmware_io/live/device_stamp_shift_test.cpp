@@ -7,13 +7,16 @@
 #include <vector>
 
 #include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::test {
 namespace {
 
+using firmware_io::DeviceStampShift;
 using firmware_io::Hdl64ePacketBuffer;
 using firmware_io::Hdl64ePacketView;
-using firmware_io::shift_device_stamp;
+using firmware_io::RubyTimestamp;
 
 std::vector<std::uint8_t> hdl64e_packet(std::uint32_t stamp_us) {
   Hdl64ePacketBuffer packet;
@@ -27,7 +30,7 @@ std::vector<std::uint8_t> hdl64e_packet(std::uint32_t stamp_us) {
 
 std::uint32_t shifted_us(std::uint32_t stamp_us, std::int64_t shift_ns) {
   auto packet = hdl64e_packet(stamp_us);
-  EXPECT_TRUE(shift_device_stamp(packet, shift_ns));
+  EXPECT_TRUE(DeviceStampShift()(packet, shift_ns));
   return Hdl64ePacketView::of(packet)->stamp_us();
 }
 
@@ -47,8 +50,33 @@ TEST(DeviceStampShift, WrapsAtTheHour) {
 
 TEST(DeviceStampShift, ChangesNothingElse) {
   auto shifted = hdl64e_packet(5'000'000);
-  ASSERT_TRUE(shift_device_stamp(shifted, 1'000'000));
+  ASSERT_TRUE(DeviceStampShift()(shifted, 1'000'000));
   EXPECT_EQ(shifted, hdl64e_packet(5'001'000));
+}
+
+std::vector<std::uint8_t> ruby_packet(std::int64_t stamp_ns, RubyTimestamp encoding) {
+  std::vector<std::uint8_t> packet(firmware_io::kRubyPacketBytes);
+  std::copy(firmware_io::kRubyMagic.begin(), firmware_io::kRubyMagic.end(), packet.begin());
+  const auto stamp = firmware_io::write_ruby_timestamp(stamp_ns, encoding);
+  std::copy(stamp.begin(), stamp.end(), packet.begin() + 10);
+  for (const std::size_t block : {80, 468, 856}) packet[block] = firmware_io::kRubyBlockId;
+  return packet;
+}
+
+TEST(DeviceStampShift, MovesTheClockOfARuby128InEachEncoding) {
+  constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000, kPeriod_ns = 166'000;
+  for (const auto encoding : {RubyTimestamp::kCalendar, RubyTimestamp::kUtcMicroseconds,
+                              RubyTimestamp::kUtcNanoseconds}) {
+    DeviceStampShift shift;
+    for (std::int64_t i = 0; i < 10; ++i) {
+      const std::int64_t stamp_ns = kStart_ns + i * kPeriod_ns;
+      const std::int64_t shift_ns = i < 5 ? 0 : -2'000'000'000;
+      auto packet = ruby_packet(stamp_ns, encoding);
+      ASSERT_TRUE(shift(packet, shift_ns));
+      EXPECT_EQ(packet, ruby_packet(stamp_ns + shift_ns, encoding))
+          << to_string(encoding) << ", packet " << i;
+    }
+  }
 }
 
 TEST(DeviceStampShift, LeavesWhatIsNoDataPacketAlone) {
@@ -57,7 +85,7 @@ TEST(DeviceStampShift, LeavesWhatIsNoDataPacketAlone) {
   std::vector<std::uint8_t> position(512, 7), empty;
   for (auto* payload : {&truncated, &position, &empty}) {
     const auto before = *payload;
-    EXPECT_FALSE(shift_device_stamp(*payload, 1'000'000));
+    EXPECT_FALSE(DeviceStampShift()(*payload, 1'000'000));
     EXPECT_EQ(*payload, before);
   }
 }

@@ -37,7 +37,7 @@ class FaultsToDecoder : public LiveTest {
         [&](const firmware_io::Datagram& datagram, FaultInjector::Origin origin) {
           pacer.add(datagram, origin == FaultInjector::Origin::kForeign ? stranger : sensor);
         },
-        firmware_io::shift_device_stamp);
+        firmware_io::DeviceStampShift());
 
     Result result;
     for (const Packet& packet : random_packets({.last_cdeg = 37'100 + 4 * 36'000})) {

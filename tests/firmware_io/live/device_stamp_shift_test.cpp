@@ -59,7 +59,7 @@ std::vector<std::uint8_t> ruby_packet(std::int64_t stamp_ns, RubyTimestamp encod
   std::copy(firmware_io::kRubyMagic.begin(), firmware_io::kRubyMagic.end(), packet.begin());
   const auto stamp = firmware_io::write_ruby_timestamp(stamp_ns, encoding);
   std::copy(stamp.begin(), stamp.end(), packet.begin() + 10);
-  for (const std::size_t block : {80, 468, 856}) packet[block] = firmware_io::kRubyBlockId;
+  for (const std::size_t block : {80U, 468U, 856U}) packet[block] = firmware_io::kRubyBlockId;
   return packet;
 }
 

@@ -15,7 +15,7 @@ TEST_F(LiveMemory, ReceivingAndSendingAllocateNothing) {
   auto sender = sender_to(source);
   auto stranger = sender_to(source, kOtherLocalhost);
   firmware_io::PacketPacer pacer(1, memory_);
-  Numbered numbered(200);
+  Numbered numbered(60);
   const std::size_t planned = memory_.total_bytes();
 
   const std::uint64_t before = allocations_of_this_thread();
@@ -23,7 +23,7 @@ TEST_F(LiveMemory, ReceivingAndSendingAllocateNothing) {
   pacer.flush();
   stranger.send(numbered.datagrams());
   const std::int64_t deadline_ns = rt::monotonic_ns() + kPatience_ns;
-  while (source.counters().received < 400 && rt::monotonic_ns() < deadline_ns) {
+  while (source.counters().received < 120 && rt::monotonic_ns() < deadline_ns) {
     static_cast<void>(source.receive(20 * kMillisecond_ns));
   }
   static_cast<void>(source.receive(600 * kMillisecond_ns));  // long enough to look at the interface
@@ -31,8 +31,8 @@ TEST_F(LiveMemory, ReceivingAndSendingAllocateNothing) {
   static_cast<void>(source.receive(kPatience_ns));
   EXPECT_EQ(allocations_of_this_thread() - before, 0U);
   EXPECT_EQ(memory_.total_bytes(), planned);
-  EXPECT_EQ(source.counters().delivered, 200U);
-  EXPECT_EQ(source.counters().foreign, 200U);
+  EXPECT_EQ(source.counters().delivered, 60U);
+  EXPECT_EQ(source.counters().foreign, 60U);
 }
 
 }  // namespace

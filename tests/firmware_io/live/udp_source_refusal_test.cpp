@@ -93,10 +93,11 @@ TEST_F(UdpSourceRefusal, OfALargeReceiveBufferNamesTheSettingThatMendsIt) {
   std::ifstream("/proc/sys/net/core/rmem_max") >> limit;
   if (limit == 0 || limit > 500U << 20) GTEST_SKIP() << "rmem_max is not known or has no end";
   as_nobody([&] {
-    const auto source = open({.receive_buffer_bytes = 2 * limit});
-    EXPECT_EQ(source.receive_buffer().asked_bytes, 2 * limit);
-    EXPECT_EQ(source.receive_buffer().granted_bytes, limit);
-    EXPECT_THAT(source.warnings(),
+    const auto source = UdpSource::open({.receive_buffer_bytes = 2 * limit}, memory_);
+    ASSERT_TRUE(source);
+    EXPECT_EQ(source->receive_buffer().asked_bytes, 2 * limit);
+    EXPECT_EQ(source->receive_buffer().granted_bytes, limit);
+    EXPECT_THAT(source->warnings(),
                 Contains(AllOf(HasSubstr(std::to_string(limit) + " of the "),
                                HasSubstr("net.core.rmem_max=" + std::to_string(2 * limit)))));
   });

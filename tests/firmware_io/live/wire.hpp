@@ -54,15 +54,19 @@ inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 /// So long is waited for what must come, on the slowest machine.
 inline constexpr std::int64_t kPatience_ns = 20'000 * kMillisecond_ns;
 
+inline void keep(std::span<const firmware_io::Datagram> batch, std::vector<Received>& received) {
+  for (const firmware_io::Datagram& each : batch) {
+    received.push_back({each, {each.payload.begin(), each.payload.end()}});
+  }
+}
+
 /// Receives until `done()`; false when that did not come about in kPatience_ns.
 template <class Source, class Done>
 [[nodiscard]] bool receive_until(Source& source, std::vector<Received>& received, Done&& done) {
   const std::int64_t deadline_ns = rt::monotonic_ns() + kPatience_ns;
   while (!done()) {
     if (rt::monotonic_ns() > deadline_ns) return false;
-    for (const firmware_io::Datagram& each : source.receive(20 * kMillisecond_ns)) {
-      received.push_back({each, {each.payload.begin(), each.payload.end()}});
-    }
+    keep(source.receive(20 * kMillisecond_ns), received);
   }
   return true;
 }
@@ -85,7 +89,13 @@ template <class Source>
 /// A source on a free port of this machine and a sender to it.
 class LiveTest : public testing::Test {
  protected:
+  /// With the receive buffer that any system grants, unless the test asks for another: it holds
+  /// about 170 datagrams of 1.2 kB.
   [[nodiscard]] firmware_io::UdpSource open(firmware_io::UdpSourceConfig config = {}) {
+    const firmware_io::UdpSourceConfig usual;
+    if (config.receive_buffer_bytes == usual.receive_buffer_bytes) {
+      config.receive_buffer_bytes = 200'000;
+    }
     auto source = firmware_io::UdpSource::open(std::move(config), memory_);
     if (!source) throw std::runtime_error(source.error().message);
     return *std::move(source);

@@ -96,6 +96,8 @@ class Decoder {
   [[nodiscard]] std::size_t return_capacity() const noexcept { return return_capacity_; }
   /// Device time between packets, measured; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
+  /// Device clock of the last packet that passed the sensor's checks (PacketHeads).
+  [[nodiscard]] std::int64_t device_stamp_us() const noexcept { return heads_.device_stamp_us; }
   /// The last packet decoded carried two returns per firing.
   [[nodiscard]] bool dual_return() const noexcept { return heads_.dual_return; }
   /// From firing to firing, mean of the last packets; 0 before the first.

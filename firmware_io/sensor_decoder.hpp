@@ -29,6 +29,32 @@ class SensorDecoder {
     Ruby128Sensor::Config ruby128;
   };
 
+ private:
+  template <class SomeDecoder, class SensorConfig>
+  [[nodiscard]] static typename SomeDecoder::Config of_sensor(const Config& config,
+                                                              const SensorConfig& sensor) {
+    typename SomeDecoder::Config result;
+    if (config.columns != 0) result.columns = config.columns;
+    result.images = config.images;
+    result.reorder_packets = config.reorder_packets;
+    result.dual_owner = config.dual_owner;
+    result.sensor = sensor;
+    return result;
+  }
+
+  /// std::visit without its exception: after the constructor there is always a decoder.
+  template <class Function>
+  decltype(auto) visit(Function&& function) noexcept {
+    if (auto* hdl64e = std::get_if<Hdl64eDecoder>(&decoder_)) return function(*hdl64e);
+    return function(*std::get_if<Ruby128Decoder>(&decoder_));
+  }
+  template <class Function>
+  decltype(auto) visit(Function&& function) const noexcept {
+    if (const auto* hdl64e = std::get_if<Hdl64eDecoder>(&decoder_)) return function(*hdl64e);
+    return function(*std::get_if<Ruby128Decoder>(&decoder_));
+  }
+
+ public:
   SensorDecoder(const calib::SensorCalibration& calibration, const calib::Mount& mount,
                 const Config& config, rt::FixedMemory& memory) {
     if (const auto* hdl64e = std::get_if<calib::Hdl64eCalibration>(&calibration)) {
@@ -78,30 +104,6 @@ class SensorDecoder {
   }
 
  private:
-  template <class SomeDecoder, class SensorConfig>
-  [[nodiscard]] static typename SomeDecoder::Config of_sensor(const Config& config,
-                                                              const SensorConfig& sensor) {
-    typename SomeDecoder::Config result;
-    if (config.columns != 0) result.columns = config.columns;
-    result.images = config.images;
-    result.reorder_packets = config.reorder_packets;
-    result.dual_owner = config.dual_owner;
-    result.sensor = sensor;
-    return result;
-  }
-
-  /// std::visit without its exception: after the constructor there is always a decoder.
-  template <class Function>
-  decltype(auto) visit(Function&& function) noexcept {
-    if (auto* hdl64e = std::get_if<Hdl64eDecoder>(&decoder_)) return function(*hdl64e);
-    return function(*std::get_if<Ruby128Decoder>(&decoder_));
-  }
-  template <class Function>
-  decltype(auto) visit(Function&& function) const noexcept {
-    if (const auto* hdl64e = std::get_if<Hdl64eDecoder>(&decoder_)) return function(*hdl64e);
-    return function(*std::get_if<Ruby128Decoder>(&decoder_));
-  }
-
   std::variant<std::monostate, Hdl64eDecoder, Ruby128Decoder> decoder_;
 };
 

@@ -20,7 +20,10 @@ struct StreamUnderSurvey {
   UdpStream stream;
   std::map<SensorModel, std::uint64_t> votes;
   std::map<SensorModel, std::string> hints;
-  std::unique_ptr<Hdl64eSurvey> hdl64e;  ///< Some kilobytes; only made where one is seen.
+  // Some kilobytes each; only made where one is seen.
+  std::unique_ptr<Hdl64eSurvey> hdl64e;
+  std::unique_ptr<Ruby128Survey> ruby128;
+  std::unique_ptr<Ruby128DeviceReader> device;
 
   void add(const Datagram& datagram) {
     const bool first = stream.packets == 0;
@@ -36,9 +39,16 @@ struct StreamUnderSurvey {
 
     const SensorModel model = recognise_sensor(datagram.payload);
     if (++votes[model] == 1) hints[model] = describe_sensor_hints(datagram.payload);
-    if (model != SensorModel::kHdl64e) return;
-    if (!hdl64e) hdl64e = std::make_unique<Hdl64eSurvey>();
-    if (const auto packet = Hdl64ePacketView::of(datagram.payload)) hdl64e->add(*packet);
+    if (model == SensorModel::kHdl64e) {
+      if (!hdl64e) hdl64e = std::make_unique<Hdl64eSurvey>();
+      hdl64e->add(datagram.payload);
+    } else if (model == SensorModel::kRuby128) {
+      if (!ruby128) ruby128 = std::make_unique<Ruby128Survey>();
+      ruby128->add(datagram.payload, datagram.stamp_ns);
+    } else if (model == SensorModel::kRoboSenseDeviceInfo) {
+      if (!device) device = std::make_unique<Ruby128DeviceReader>();
+      device->add(datagram.payload);
+    }
   }
 
   [[nodiscard]] UdpStream finished() {
@@ -51,6 +61,8 @@ struct StreamUnderSurvey {
     }
     stream.sensor_hints = hints[stream.sensor];
     if (hdl64e) stream.hdl64e = hdl64e->facts();
+    if (ruby128) stream.ruby128 = ruby128->facts();
+    if (device) stream.device = *device;
     return std::move(stream);
   }
 };

@@ -12,7 +12,9 @@
 
 #include "firmware_io/capture/hdl64e_survey.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/ruby128_survey.hpp"
 #include "firmware_io/capture/sensor_model.hpp"
+#include "firmware_io/ruby128/device_reader.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::firmware_io {
@@ -30,8 +32,10 @@ struct UdpStream {
   std::int64_t last_stamp_ns = 0;
 
   SensorModel sensor = SensorModel::kUnknown;  ///< What most of its packets are.
-  std::string sensor_hints;           ///< As describe_sensor_hints() of its first such packet.
-  std::optional<Hdl64eFacts> hdl64e;  ///< Where any packet is an HDL-64E's.
+  std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet.
+  std::optional<Hdl64eFacts> hdl64e;    ///< Where any packet is an HDL-64E's.
+  std::optional<Ruby128Facts> ruby128;  ///< Where any is an RS-Ruby128's data packet.
+  std::optional<Ruby128DeviceReader> device;  ///< Where any is a DIFOP.
 
   /// Packets a second by the capture stamps; 0 for one packet or none.
   [[nodiscard]] double rate_hz() const noexcept;

@@ -3,132 +3,28 @@
 #include "firmware_io/capture/hdl64e_survey.hpp"
 
 #include <algorithm>
-#include <cmath>
 
-#include "calib/angle.hpp"
+#include "firmware_io/hdl64e/packet_check.hpp"
 
 namespace terracut::firmware_io {
-namespace {
 
-constexpr std::int64_t kJump_us = 10'000'000;
-/// Less than half a turn at the fastest spin (20 Hz), so that the short way round is the true one.
-constexpr std::int64_t kSurelyUnderHalfATurn_us = 20'000;
-constexpr std::int64_t kShortestPeriod_us = 100;
-constexpr std::int64_t kLongestPeriod_us = 1'000;
-/// Bounds the memory a senseless capture can take.
-constexpr std::size_t kMostDistinctSteps = 100'000;
-
-}  // namespace
-
-std::string_view to_string(ReturnMode mode) noexcept {
-  switch (mode) {
-    case ReturnMode::kUnknown:
-      return "unknown";
-    case ReturnMode::kSingle:
-      return "single";
-    case ReturnMode::kDual:
-      return "dual";
+void Hdl64eSurvey::add(std::span<const std::uint8_t> payload) {
+  const auto packet = Hdl64ePacketView::of(payload);
+  if (!packet) return;
+  status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+  PacketHeads heads;
+  const auto reject = check_hdl64e_packet(payload, heads);
+  if (reject && heads.columns == 0) return;  // not its block ids after all
+  if (reject == Reject::kAzimuthOutOfRange) {
+    stream_.add_out_of_range();
+  } else {
+    stream_.add(heads, !reject);
   }
-  return "unknown";
-}
-
-void Hdl64eSurvey::add(const Hdl64ePacketView& packet) {
-  ++facts_.packets;
-  status_.add(packet.status_type(), packet.status_value(), packet.stamp_us());
-  for (int block = 0; block < kBlocksPerPacket; ++block) {
-    if (packet.azimuth_cdeg(block) >= calib::kTurn_cdeg) {
-      ++facts_.azimuths_out_of_range;
-      return;
-    }
-  }
-  const int inside =
-      calib::step_cdeg(packet.azimuth_cdeg(0), packet.azimuth_cdeg(kBlocksPerPacket - 1));
-  if (inside > 0) {
-    ++turning_packets_;
-    inside_advance_cdeg_ += inside;
-    dual_packets_ += packet.repeats_azimuth() ? 1 : 0;
-  }
-  add_step(packet);
-}
-
-void Hdl64eSurvey::add_step(const Hdl64ePacketView& packet) {
-  const std::uint32_t stamp_us = packet.stamp_us();
-  const int azimuth_cdeg = packet.azimuth_cdeg(0);
-  if (newest_stamp_us_) {
-    const std::int64_t step_us = device_step_us(*newest_stamp_us_, stamp_us);
-    if (step_us == 0) {
-      ++facts_.packets_repeated;
-      return;
-    }
-    if (step_us < 0 && step_us > -kJump_us) {
-      ++facts_.packets_reordered;
-      return;
-    }
-    if (std::abs(step_us) >= kJump_us) {
-      ++facts_.clock_jumps;
-    } else {
-      if (steps_us_.size() < kMostDistinctSteps || steps_us_.contains(step_us))
-        ++steps_us_[step_us];
-      if (step_us < kSurelyUnderHalfATurn_us) {
-        short_time_us_ += step_us;
-        short_advance_cdeg_ += calib::step_cdeg(newest_azimuth_cdeg_, azimuth_cdeg);
-      } else {
-        long_time_us_ += step_us;
-      }
-    }
-  }
-  newest_stamp_us_ = stamp_us;
-  newest_azimuth_cdeg_ = azimuth_cdeg;
-}
-
-/// Mean of the steps near the median of those that can be one period.
-double Hdl64eSurvey::period_us() const {
-  const auto first = steps_us_.lower_bound(kShortestPeriod_us);
-  const auto last = steps_us_.upper_bound(kLongestPeriod_us);
-  std::uint64_t total = 0;
-  for (auto step = first; step != last; ++step) total += step->second;
-  if (total == 0) return 0;
-  auto median = first;
-  for (std::uint64_t below = 0; (below += median->second) * 2 <= total;) ++median;
-  double sum_us = 0;
-  double count = 0;
-  for (auto step = first; step != last; ++step) {
-    if (std::abs(step->first - median->first) * 20 > median->first) continue;
-    sum_us += static_cast<double>(step->first) * static_cast<double>(step->second);
-    count += static_cast<double>(step->second);
-  }
-  return sum_us / count;
 }
 
 Hdl64eFacts Hdl64eSurvey::facts() const {
-  Hdl64eFacts facts = facts_;
-  facts.packet_period_us = period_us();
-  if (facts.packet_period_us > 0) {
-    for (const auto& [step_us, count] : steps_us_) {
-      const auto periods = static_cast<std::uint64_t>(
-          std::llround(static_cast<double>(step_us) / facts.packet_period_us));
-      // A packet put back in order fills a gap that was counted when the later one overtook it.
-      if (periods > 1) facts.packets_lost += (periods - 1) * count;
-    }
-    facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
-  }
-  if (turning_packets_ > 0) {
-    const bool dual = dual_packets_ * 2 > turning_packets_;
-    facts.return_mode = dual ? ReturnMode::kDual : ReturnMode::kSingle;
-    const int steps_inside = (dual ? kColumnsPerPacketDual : kColumnsPerPacketSingle) - 1;
-    facts.step_deg = static_cast<double>(inside_advance_cdeg_) /
-                     static_cast<double>(turning_packets_) / steps_inside / 100.0;
-  }
-  if (short_time_us_ > 0) {
-    const double cdeg_per_us =
-        static_cast<double>(short_advance_cdeg_) / static_cast<double>(short_time_us_);
-    facts.spin_rpm = cdeg_per_us * 60e6 / calib::kTurn_cdeg;
-    facts.turns =
-        cdeg_per_us * static_cast<double>(short_time_us_ + long_time_us_) / calib::kTurn_cdeg;
-  }
-  facts.status = status_.latest();
-  facts.status_rounds = status_.counters().rounds;
-  facts.status_holes = status_.holes();
+  Hdl64eFacts facts{stream_.facts(), status_.latest(), status_.counters().rounds, status_.holes(),
+                    std::nullopt};
   if (status_.has_table()) {
     facts.table.emplace();
     std::copy(status_.table().begin(), status_.table().end(), facts.table->begin());

@@ -26,11 +26,11 @@ double firing_s(SensorModel model, bool dual_return) {
   return (dual_return ? kFiringTimesDual : kFiringTimesSingle48).column_ns * 1e-9;
 }
 
-double nominal_spin_hz(double spin_hz) {
+std::optional<double> nominal_spin_hz(double spin_hz) {
   for (const double nominal_hz : {5.0, 10.0, 15.0, 20.0}) {
     if (std::abs(spin_hz - nominal_hz) < kNominalTolerance * nominal_hz) return nominal_hz;
   }
-  return spin_hz;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -92,13 +92,12 @@ bool SensorProbe::dual_return(SensorModel model) const {
 }
 
 int SensorProbe::columns(SensorModel model) const {
-  const double hz = nominal_spin_hz(spin_hz(model));
-  constexpr double kSlowest_hz = 2, kFastest_hz = 40;  // far beyond what the sensors do
-  if (!knows(model) || hz < kSlowest_hz || hz > kFastest_hz) {
+  const std::optional<double> hz = nominal_spin_hz(spin_hz(model));
+  if (!knows(model) || !hz) {
     return model == SensorModel::kRuby128 ? Ruby128Sensor::kDefaultColumns
                                           : Hdl64eSensor::kDefaultColumns;
   }
-  return static_cast<int>(std::lround(1 / (hz * firing_s(model, dual_return(model)))));
+  return static_cast<int>(std::lround(1 / (*hz * firing_s(model, dual_return(model)))));
 }
 
 std::string SensorProbe::foreign_models() const {

@@ -32,8 +32,8 @@ class SensorProbe {
   /// Turns per second of a decoded model, by its own stamps and azimuths; 0 while unknown.
   [[nodiscard]] double spin_hz(SensorModel model) const;
   [[nodiscard]] bool dual_return(SensorModel model) const;
-  /// Firings a turn, rounded to the sensor's nominal spin rates where it turns at one: the columns
-  /// its range image should have. The model's default while unknown.
+  /// The columns its range image should have: firings a turn at 5, 10, 15 or 20 Hz, where it turns
+  /// at one of those; else, and while unknown, the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
   /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLS-128".

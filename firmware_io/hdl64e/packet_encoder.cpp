@@ -9,7 +9,9 @@ namespace terracut::firmware_io {
 std::int64_t packet_end_ns(
     std::span<const FiringColumn, kColumnsPerPacketSingle> columns) noexcept {
   const std::int64_t first_ns = columns.front().stamp_ns, last_ns = columns.back().stamp_ns;
-  return last_ns + (last_ns - first_ns) / (kColumnsPerPacketSingle - 1);
+  const bool dual_return = columns[0].unwrapped_azimuth_cdeg == columns[1].unwrapped_azimuth_cdeg;
+  const int firings = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
+  return last_ns + (last_ns - first_ns) / (firings - 1);
 }
 
 void encode_hdl64e_packet(std::span<const FiringColumn, kColumnsPerPacketSingle> columns,

@@ -11,14 +11,15 @@
 
 namespace terracut::firmware_io {
 
-/// Writes six firings as one single-return data packet. The device stamp marks the packet's end
-/// (docs/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
+/// Writes six columns as one data packet: six firings, or in dual return three firings with their
+/// strongest and their last return, each pair of one azimuth. The device stamp marks the packet's
+/// end (docs/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
 void encode_hdl64e_packet(std::span<const FiringColumn, kColumnsPerPacketSingle> columns,
                           std::int64_t end_stamp_ns, StatusPair status,
                           Hdl64ePacketBuffer& packet) noexcept;
 
-/// When the packet of these firings ends: one column period, taken from the firings themselves,
-/// after the last one.
+/// When the packet of these columns ends: one firing period, taken from the columns themselves,
+/// after the last one. Two columns of one azimuth at the start mean dual return.
 [[nodiscard]] std::int64_t packet_end_ns(
     std::span<const FiringColumn, kColumnsPerPacketSingle> columns) noexcept;
 

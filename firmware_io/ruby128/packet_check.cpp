@@ -60,4 +60,10 @@ std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload
   return std::nullopt;
 }
 
+std::int64_t ruby_stamp_delay_ns(const PacketHeads& heads, bool turning) noexcept {
+  const bool begins_late =
+      turning && heads.dual_return && heads.azimuth_cdeg[0] != heads.azimuth_cdeg[1];
+  return begins_late ? kRubyBlock_ns / 2 : 0;
+}
+
 }  // namespace terracut::firmware_io

@@ -35,4 +35,10 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 [[nodiscard]] std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
                                                          PacketHeads& heads) noexcept;
 
+/// What to add to a packet's stamp, which is its first block's, to get one that advances evenly
+/// from packet to packet: in dual return packets begin with a new firing and with the second return
+/// of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning` when it took
+/// them.
+[[nodiscard]] std::int64_t ruby_stamp_delay_ns(const PacketHeads& heads, bool turning) noexcept;
+
 }  // namespace terracut::firmware_io

@@ -42,11 +42,8 @@ std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload
   const RubyTimestamp detected = timestamp_.add(packet->stamp(), packet->protocol_version());
   const std::int64_t stamp_ns =
       read_ruby_timestamp(packet->stamp(), given_timestamp_.value_or(detected));
-  // The stamp is the first block's. In dual return packets begin with a new firing and with the
-  // second return of an old one in turn; half a firing makes that even.
-  const bool begins_late = !reason && ruby_blocks(azimuths(heads)) == RubyBlocks::kPairLast;
   heads.device_stamp_us = std::clamp<std::int64_t>(
-      (stamp_ns + (begins_late ? kRubyBlock_ns / 2 : 0)) / 1000, 0, kClockWrap_us - 1);
+      (stamp_ns + ruby_stamp_delay_ns(heads, !reason)) / 1000, 0, kClockWrap_us - 1);
   return reason;
 }
 

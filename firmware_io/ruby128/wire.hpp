@@ -81,6 +81,15 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 static_assert(ruby_temperature_deg_c(0x12, 0xC0) == 18.75);
 static_assert(ruby_temperature_deg_c(0x92, 0xC0) == -18.75);
 
+/// The inverse, rounded towards zero; |temperature_deg_c| < 128.
+[[nodiscard]] constexpr std::uint16_t ruby_temperature_field(double temperature_deg_c) noexcept {
+  const int sixteenths = static_cast<int>(temperature_deg_c * 16.0);
+  const int magnitude = sixteenths < 0 ? -sixteenths : sixteenths;
+  return static_cast<std::uint16_t>(magnitude << 4 | (sixteenths < 0 ? 0x8000 : 0));
+}
+static_assert(ruby_temperature_field(18.75) == 0x12C0);
+static_assert(ruby_temperature_field(-18.75) == 0x92C0);
+
 // --- Reading ---
 
 /// Reads fields of one packet where it lies, without copying it. Checks only the length: magic,
@@ -180,6 +189,9 @@ class Ruby128PacketBuffer {
     packet_.protocol_version = Be16::of(version);
   }
   void set_wave_mode(std::uint8_t mode) noexcept { packet_.wave_mode = mode; }
+  void set_temperature_deg_c(double temperature_deg_c) noexcept {
+    packet_.temperature = Be16::of(ruby_temperature_field(temperature_deg_c));
+  }
   void set_stamp(const std::array<std::uint8_t, 10>& stamp) noexcept { packet_.stamp = stamp; }
   void set_type_bytes(std::uint8_t type, std::uint8_t model) noexcept {
     packet_.lidar_type = type;

@@ -26,7 +26,7 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
     report.calibration.origin = "fitted from " + folder.string();
   }
 
-  auto writer = DriveWriter::create(pcap_path, report.calibration);
+  auto writer = Hdl64eDriveWriter::create(pcap_path, report.calibration);
   if (!writer) return tl::unexpected(std::move(writer.error()));
   ScanEncoder encoder(report.calibration, options.first_stamp_ns, [&](const EncodedFiring& firing) {
     return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,

@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "calib/hdl64e_calibration.hpp"
-#include "firmware_io/hdl64e/drive_writer.hpp"
+#include "firmware_io/drive/drive_writer.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "firmware_io/scan/scan_encoder.hpp"
 #include "rt/error.hpp"

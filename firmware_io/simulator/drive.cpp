@@ -23,7 +23,7 @@ namespace terracut::firmware_io {
 namespace {
 
 // Objects are sorted anew after so many firings (9 ms): nothing moves far in that time.
-constexpr std::int64_t kBatch = 32 * kColumnsPerPacketSingle;
+constexpr std::int64_t kBatch = 192;
 // From the sensor's origin to where its beams start.
 constexpr double kBeamStarts_m = 0.5;
 
@@ -33,10 +33,9 @@ Status in_range(const char* what, double value, double least, double most) {
               fmt::format("simulation: {} is {}, expected {} to {}", what, value, least, most));
 }
 
-Status check(const SimulationConfig& config) {
+Status check(const DriveConfig& config) {
   const SensorEffects& effects = config.effects;
   const Status checks[] = {
-      calib::validate(config.calibration),
       in_range("duration_s", config.duration_s, 1e-3, 3600),
       in_range("spin_hz", config.spin_hz, 5, 20),
       in_range("speed_mps", config.speed_mps, -1, 60),
@@ -56,26 +55,30 @@ Status check(const SimulationConfig& config) {
 }
 
 /// A drive under way: the world at the current batch of firings.
+template <class Transmitter>
 class Drive {
  public:
-  Drive(const SimulationConfig& config, const Scene& scene, std::int64_t turns)
+  using Column = SimulatedColumn<Transmitter>;
+
+  Drive(const SimulationConfig<Transmitter>& config, const Scene& scene, std::int64_t turns)
       : config_(config),
         scene_(scene),
         T_vehicle_lidar_(mount_pose(config.mount)),
-        plan_(config.calibration, config.spin_hz, turns),
+        plan_(config.calibration, config.sensor.returns, config.spin_hz, turns),
         head_(config, scene.terrain, plan_),
         objects_{ObjectIndex(scene), ObjectIndex(scene)},
-        columns_(static_cast<std::size_t>(kBatch)) {}
+        returns_(static_cast<std::size_t>(returns_per_firing(config.sensor.returns))),
+        columns_(static_cast<std::size_t>(kBatch) * returns_) {}
 
-  Expected<SimulationSummary> run(const ColumnSink& sink) {
+  Expected<SimulationSummary> run(const ColumnSink<Transmitter>& sink) {
     SimulationSummary summary;
     summary.turns = static_cast<std::uint64_t>(plan_.turns());
     for (std::int64_t first = 0; first < plan_.firings(); first += kBatch) {
       const std::int64_t count = std::min(kBatch, plan_.firings() - first);
       move_world(first, count);
       cast(first, count);
-      for (const SimulatedColumn& column :
-           std::span(columns_).first(static_cast<std::size_t>(count))) {
+      for (const Column& column :
+           std::span(columns_).first(static_cast<std::size_t>(count) * returns_)) {
         for (const LabelledReturn& echo : column.wire.by_laser) summary.returns += echo.raw != 0;
         ++summary.columns;
         if (Status status = sink(column); !status) return tl::unexpected(status.error());
@@ -118,21 +121,22 @@ class Drive {
     batch_time_s_ = time_s;
   }
 
-  void cast_one(std::int64_t index, SimulatedColumn& column) const {
+  void cast_one(std::int64_t index, std::span<Column> columns) const {
     const Firing firing = plan_.firing(index);
     if (!config_.motion_within_turn) {
-      head_.cast(firing, turn_moments_, column);
+      head_.cast(firing, turn_moments_, columns);
       return;
     }
     const Moment moment{&objects_[0], firing.time_s - batch_time_s_, T_world_lidar(firing.time_s)};
-    head_.cast(firing, {moment, moment}, column);
+    head_.cast(firing, {moment, moment}, columns);
   }
 
-  /// Every thread takes each n-th column; a column depends on nothing but its index.
+  /// Every thread takes each n-th firing; a firing depends on nothing but its index.
   void cast(std::int64_t first, std::int64_t count) {
     const auto share = [&](std::int64_t from) {
       for (std::int64_t i = from; i < count; i += config_.threads) {
-        cast_one(first + i, columns_[static_cast<std::size_t>(i)]);
+        const auto at = static_cast<std::size_t>(i) * returns_;
+        cast_one(first + i, std::span(columns_).subspan(at, returns_));
       }
     };
     std::vector<std::jthread> helpers;
@@ -140,29 +144,40 @@ class Drive {
     share(0);
   }
 
-  const SimulationConfig& config_;
+  const SimulationConfig<Transmitter>& config_;
   const Scene& scene_;
   Eigen::Isometry3d T_vehicle_lidar_;
-  FiringPlan plan_;
-  ScanHead head_;
+  FiringPlan<Transmitter> plan_;
+  ScanHead<Transmitter> head_;
   std::array<ObjectIndex, 2> objects_;  ///< By turn; only the first while moving.
   std::array<Moment, 2> turn_moments_{};
   std::array<double, 2> still_time_s_{};
   double batch_time_s_ = 0;
-  std::vector<SimulatedColumn> columns_;
+  std::size_t returns_;  ///< Columns of a firing.
+  std::vector<Column> columns_;
 };
 
 }  // namespace
 
-Expected<SimulationSummary> simulate_drive(const SimulationConfig& config, const ColumnSink& sink) {
-  if (Status status = check(config); !status) return tl::unexpected(status.error());
+template <class Transmitter>
+Expected<SimulationSummary> simulate_drive(
+    const SimulationConfig<Transmitter>& config,
+    const std::type_identity_t<ColumnSink<Transmitter>>& sink) {
+  for (const Status& status : {calib::validate(config.calibration), check(config)}) {
+    if (!status) return tl::unexpected(status.error());
+  }
   const std::int64_t turns =
       std::max<std::int64_t>(1, std::llround(config.duration_s * config.spin_hz));
   const double duration_s = static_cast<double>(turns) / config.spin_hz;
   const Expected<Scene> scene =
       make_scene(config.scene, {config.seed, duration_s, config.speed_mps});
   if (!scene) return tl::unexpected(scene.error());
-  return Drive(config, *scene, turns).run(sink);
+  return Drive<Transmitter>(config, *scene, turns).run(sink);
 }
+
+template Expected<SimulationSummary> simulate_drive(const Hdl64eSimulation&,
+                                                    const ColumnSink<Hdl64eTransmitter>&);
+template Expected<SimulationSummary> simulate_drive(const Ruby128Simulation&,
+                                                    const ColumnSink<Ruby128Transmitter>&);
 
 }  // namespace terracut::firmware_io

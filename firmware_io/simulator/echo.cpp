@@ -20,9 +20,9 @@ bool is_seen(double signal, Random& random) noexcept {
 }  // namespace
 
 std::optional<Echo> echo_from(const SensorEffects& effects, const Hit& hit, double cos_incidence,
-                              Random& random) noexcept {
+                              Random& random, double share) noexcept {
   const MaterialProperties surface = properties(hit.material);
-  const double signal = surface.reflectivity * cos_incidence / (hit.way_m * hit.way_m);
+  const double signal = share * surface.reflectivity * cos_incidence / (hit.way_m * hit.way_m);
   if (effects.weak_drop && (random.chance(surface.drop_share) || !is_seen(signal, random))) {
     return std::nullopt;
   }
@@ -32,10 +32,10 @@ std::optional<Echo> echo_from(const SensorEffects& effects, const Hit& hit, doub
   if (effects.rough_surfaces) noise_m = std::hypot(noise_m, surface.roughness_m);
   // The sensor turns its power up with distance, so intensity tells the surface more than the
   // range.
-  const double brightness = surface.reflectivity * (0.4 + 0.6 * cos_incidence);
+  const double brightness = share * surface.reflectivity * (0.4 + 0.6 * cos_incidence);
   const double intensity = 255.0 * (0.04 + 0.75 * brightness) + 5.0 * random.normal();
   return Echo{noise_m * random.normal(),
-              static_cast<std::uint8_t>(std::lround(std::clamp(intensity, 0.0, 255.0)))};
+              static_cast<std::uint8_t>(std::lround(std::clamp(intensity, 0.0, 255.0))), signal};
 }
 
 }  // namespace terracut::firmware_io

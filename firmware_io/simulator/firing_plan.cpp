@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "calib/angle.hpp"
-#include "firmware_io/hdl64e/firing_azimuth.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -16,33 +16,40 @@ constexpr double kSpareRunUp_cdeg = 100;
 
 }  // namespace
 
-FiringPlan::FiringPlan(const calib::Hdl64eCalibration& calibration, double spin_hz,
-                       std::int64_t turns)
-    : turns_(turns), cdeg_per_s_(spin_hz * calib::kTurn_cdeg), column_s_(kTimes.column_ns * 1e-9) {
-  double widest_rad = 0;
-  for (const calib::Hdl64eLaser& laser : calibration.lasers) {
-    widest_rad = std::max(widest_rad, std::abs(laser.rot_correction_rad));
-  }
-  const double run_up_cdeg =
-      std::max(kLeastRunUp_cdeg, 100 * calib::rad_to_deg(widest_rad) + kSpareRunUp_cdeg);
+template <class Transmitter>
+FiringPlan<Transmitter>::FiringPlan(const typename Transmitter::Calibration& calibration,
+                                    ReturnMode returns, double spin_hz, std::int64_t turns)
+    : returns_(returns),
+      turns_(turns),
+      group_(Transmitter::limits(returns).firings_per_group),
+      cdeg_per_s_(spin_hz * calib::kTurn_cdeg),
+      firing_s_(static_cast<double>(Transmitter::firing_ns(returns)) * 1e-9) {
+  const double widest_cdeg = 100 * calib::rad_to_deg(Transmitter::widest_offset_rad(calibration));
+  const double run_up_cdeg = std::max(kLeastRunUp_cdeg, widest_cdeg + kSpareRunUp_cdeg);
   start_cdeg_ = -run_up_cdeg;
   const double way_cdeg = static_cast<double>(turns) * calib::kTurn_cdeg + 2 * run_up_cdeg;
-  const double columns = way_cdeg / (cdeg_per_s_ * column_s_);
-  firings_ = static_cast<std::int64_t>(std::ceil(columns / kColumnsPerPacketSingle)) *
-             kColumnsPerPacketSingle;
+  const double firings = way_cdeg / (cdeg_per_s_ * firing_s_);
+  firings_ = static_cast<std::int64_t>(std::ceil(firings / static_cast<double>(group_))) * group_;
 }
 
-std::int64_t FiringPlan::azimuth_cdeg(std::int64_t index) const noexcept {
-  return std::llround(start_cdeg_ + static_cast<double>(index) * column_s_ * cdeg_per_s_);
+template <class Transmitter>
+std::int64_t FiringPlan<Transmitter>::azimuth_cdeg(std::int64_t index) const noexcept {
+  return std::llround(start_cdeg_ + static_cast<double>(index) * firing_s_ * cdeg_per_s_);
 }
 
-Firing FiringPlan::firing(std::int64_t index) const noexcept {
-  const std::int64_t first = index - index % kColumnsPerPacketSingle;
-  const std::int64_t last = first + kColumnsPerPacketSingle - 1;
+template <class Transmitter>
+Firing FiringPlan<Transmitter>::firing(std::int64_t index) const noexcept {
+  const std::int64_t place = index % group_;
+  GroupAzimuths head_cdeg{};
+  for (std::int64_t i = 0; i < group_; ++i) {
+    head_cdeg[static_cast<std::size_t>(i)] = calib::wrap_cdeg(azimuth_cdeg(index - place + i));
+  }
   return {index, azimuth_cdeg(index),
-          column_step_ticks(calib::wrap_cdeg(azimuth_cdeg(first)),
-                            calib::wrap_cdeg(azimuth_cdeg(last))),
-          static_cast<double>(index) * column_s_ + start_cdeg_ / cdeg_per_s_};
+          Transmitter::step_ticks(head_cdeg, static_cast<int>(place), returns_),
+          static_cast<double>(index) * firing_s_ + start_cdeg_ / cdeg_per_s_};
 }
+
+template class FiringPlan<Hdl64eTransmitter>;
+template class FiringPlan<Ruby128Transmitter>;
 
 }  // namespace terracut::firmware_io

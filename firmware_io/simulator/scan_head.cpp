@@ -2,11 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/simulator/scan_head.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <optional>
+#include <utility>
 
-#include "firmware_io/simulator/echo.hpp"
+#include "firmware_io/beam_azimuth.hpp"
+#include "firmware_io/simulator/beam_spot.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -23,69 +25,146 @@ Eigen::Vector3d to_eigen(const calib::Point& point) {
 
 }  // namespace
 
-ScanHead::ScanHead(const SimulationConfig& config, const Terrain& terrain, const FiringPlan& plan)
+template <class Transmitter>
+ScanHead<Transmitter>::ScanHead(const SimulationConfig<Transmitter>& config, const Terrain& terrain,
+                                const FiringPlan<Transmitter>& plan)
     : config_(&config),
       terrain_(&terrain),
       plan_(&plan),
-      geometry_(config.calibration, config.geometry),
-      offsets_(config.calibration) {}
+      geometry_(Transmitter::geometry(config.calibration, config.sensor)),
+      offsets_(Transmitter::offsets(config.calibration, config.sensor)) {}
 
-void ScanHead::cast(const Firing& firing, const std::array<Moment, 2>& moments,
-                    SimulatedColumn& column) const {
-  column = SimulatedColumn{};
-  column.time_s = firing.time_s;
-  column.wire.stamp_ns = config_->start_ns + firing.index * FiringPlan::kTimes.column_ns;
-  column.wire.unwrapped_azimuth_cdeg = firing.azimuth_cdeg;
-  for (int laser = 0; laser < calib::kHdl64eLasers; ++laser) {
-    const std::int64_t turn =
-        beam_azimuth(firing.azimuth_cdeg, offsets_.offset_ticks(firing.step_ticks, laser)).turn;
+template <class Transmitter>
+void ScanHead<Transmitter>::cast(const Firing& firing, const std::array<Moment, 2>& moments,
+                                 std::span<Column> columns) const {
+  for (Column& column : columns) {
+    column = Column{};
+    column.time_s = firing.time_s;
+    column.wire.stamp_ns = config_->start_ns + plan_->after_ns(firing.index);
+    column.wire.unwrapped_azimuth_cdeg = firing.azimuth_cdeg;
+  }
+  const ReturnMode returns = config_->sensor.returns;
+  for (int laser = 0; laser < Transmitter::kLasers; ++laser) {
+    const std::int32_t offset_ticks =
+        Transmitter::offset_ticks(offsets_, firing.step_ticks, laser, returns);
+    const std::int64_t turn = beam_azimuth(firing.azimuth_cdeg, offset_ticks).turn;
     if (!plan_->wants(turn)) continue;
-    const double azimuth_rad =
-        firing_azimuth_rad(firing.azimuth_cdeg, firing_advance_ticks(firing.step_ticks, laser));
+    const double azimuth_rad = firing_azimuth_rad(
+        firing.azimuth_cdeg, Transmitter::advance_ticks(firing.step_ticks, laser, returns));
     const std::uint64_t ray_key = mix_keys(
-        config_->seed, static_cast<std::uint64_t>(firing.index * calib::kHdl64eLasers + laser));
-    const auto i = static_cast<std::size_t>(laser);
-    measure(laser, ray_key, azimuth_rad, moments[static_cast<std::size_t>(turn % 2)],
-            column.wire.by_laser[i], column.exact[i]);
+        config_->seed, static_cast<std::uint64_t>(firing.index * Transmitter::kLasers + laser));
+    const calib::Ray ray = geometry_.ray(laser, azimuth_rad);
+    const Beam beam{laser,
+                    azimuth_rad,
+                    ray_key,
+                    to_eigen(ray.origin),
+                    {ray.direction.x, ray.direction.y, ray.direction.z}};
+    const Moment& moment = moments[static_cast<std::size_t>(turn % 2)];
+    if (returns == ReturnMode::kDual) {
+      cast_dual(beam, moment, columns);
+    } else {
+      cast_single(beam, moment, columns.front());
+    }
   }
 }
 
-void ScanHead::measure(int laser, std::uint64_t ray_key, double azimuth_rad, const Moment& moment,
-                       LabelledReturn& wire, calib::Point& exact) const {
-  const calib::Ray ray = geometry_.ray(laser, azimuth_rad);
-  const Eigen::Vector3d origin = to_eigen(ray.origin);
-  const Eigen::Vector3d direction(ray.direction.x, ray.direction.y, ray.direction.z);
-  const SightLine line{moment.T_world_lidar * origin, moment.T_world_lidar.linear() * direction};
+template <class Transmitter>
+void ScanHead<Transmitter>::put(const Measured& measured, int laser, Column& column) {
+  const auto i = static_cast<std::size_t>(laser);
+  column.wire.by_laser[i] = measured.wire;
+  column.exact[i] = measured.exact;
+}
 
-  const SensorEffects& effects = config_->effects;
-  const double limit_m = effects.max_range_m + 1;
+template <class Transmitter>
+std::optional<Hit> ScanHead<Transmitter>::look(const SightLine& line, const Moment& moment,
+                                               std::uint64_t ray_key) const {
+  const double limit_m = config_->effects.max_range_m + 1;
   std::optional<Hit> hit = moment.objects->cast(line, moment.after_s, ray_key, limit_m);
   if (const auto ground = terrain_->cast(line, hit ? hit->way_m : limit_m)) hit = ground;
-  if (!hit) return;
+  return hit;
+}
 
+template <class Transmitter>
+auto ScanHead<Transmitter>::echo_of(const SightLine& line, const std::optional<Hit>& hit,
+                                    std::uint64_t ray_key, double share) const
+    -> std::optional<Sighting> {
+  if (!hit) return std::nullopt;
   const double cos_incidence = std::min(1.0, std::abs(hit->normal.dot(line.direction)));
   Random random(ray_key);
-  const std::optional<Echo> echo = echo_from(effects, *hit, cos_incidence, random);
-  if (!echo) return;
-
-  const bool slanting = cos_incidence < (is_ground(hit->truth) ? kSlantingGround : kSlantingObject);
-  const Eigen::Vector3d normal =
-      slanting ? direction
-               : Eigen::Vector3d(moment.T_world_lidar.linear().transpose() * hit->normal);
-  const Eigen::Vector3d place = origin + hit->way_m * direction;
-  const std::optional<double> raw = geometry_.raw_on_plane(
-      laser, azimuth_rad, {place.x(), place.y(), place.z()}, {normal.x(), normal.y(), normal.z()});
-  if (!raw) return;
-  const double counts = *raw + echo->range_error_m / config_->calibration.distance_resolution_m;
-  if (counts < 1 || counts > calib::kMaxRawCounts) return;
-  const calib::Point measured = geometry_.point(laser, azimuth_rad, counts);
-  const double range_m = to_eigen(measured).norm();
-  if (range_m < effects.min_range_m || range_m > effects.max_range_m) return;
-
-  wire.raw = static_cast<std::uint16_t>(std::lround(counts));
-  wire.intensity = echo->intensity;
-  wire.truth = static_cast<std::uint32_t>(hit->truth);
-  exact = measured;
+  const std::optional<Echo> echo = echo_from(config_->effects, *hit, cos_incidence, random, share);
+  if (!echo) return std::nullopt;
+  return Sighting{*hit, *echo, cos_incidence};
 }
+
+template <class Transmitter>
+auto ScanHead<Transmitter>::measure_along(const Beam& beam, const Sighting& sighting,
+                                          const Eigen::Vector3d& normal) const
+    -> std::optional<Measured> {
+  const SensorEffects& effects = config_->effects;
+  const Eigen::Vector3d place = beam.origin + sighting.hit.way_m * beam.direction;
+  const std::optional<double> raw =
+      geometry_.raw_on_plane(beam.laser, beam.azimuth_rad, {place.x(), place.y(), place.z()},
+                             {normal.x(), normal.y(), normal.z()});
+  if (!raw) return std::nullopt;
+  const double counts =
+      *raw + sighting.echo.range_error_m / Transmitter::metres_per_count(config_->calibration);
+  if (counts < 1 || counts > calib::kMaxRawCounts) return std::nullopt;
+  const calib::Point exact = geometry_.point(beam.laser, beam.azimuth_rad, counts);
+  const double range_m = to_eigen(exact).norm();
+  if (range_m < effects.min_range_m || range_m > effects.max_range_m) return std::nullopt;
+  return Measured{{static_cast<std::uint16_t>(std::lround(counts)), sighting.echo.intensity,
+                   static_cast<std::uint32_t>(sighting.hit.truth)},
+                  exact};
+}
+
+template <class Transmitter>
+auto ScanHead<Transmitter>::measure(const Beam& beam, const Moment& moment,
+                                    const Sighting& sighting) const -> std::optional<Measured> {
+  const bool slanting =
+      sighting.cos_incidence < (is_ground(sighting.hit.truth) ? kSlantingGround : kSlantingObject);
+  if (slanting) return measure_along(beam, sighting, beam.direction);
+  return measure_along(beam, sighting,
+                       moment.T_world_lidar.linear().transpose() * sighting.hit.normal);
+}
+
+template <class Transmitter>
+void ScanHead<Transmitter>::cast_single(const Beam& beam, const Moment& moment,
+                                        Column& column) const {
+  const SightLine line{moment.T_world_lidar * beam.origin,
+                       moment.T_world_lidar.linear() * beam.direction};
+  const auto sighting = echo_of(line, look(line, moment, beam.ray_key), beam.ray_key, 1);
+  if (!sighting) return;
+  if (const auto measured = measure(beam, moment, *sighting)) put(*measured, beam.laser, column);
+}
+
+// The axis is measured as in single return, so that a dual-return drive differs by what it adds.
+template <class Transmitter>
+void ScanHead<Transmitter>::cast_dual(const Beam& beam, const Moment& moment,
+                                      std::span<Column> columns) const {
+  const SightLine axis{moment.T_world_lidar * beam.origin,
+                       moment.T_world_lidar.linear() * beam.direction};
+  const SideLine side = side_line(axis, Transmitter::kBeamHalfWidth_rad, beam.ray_key);
+  const std::optional<Hit> axis_hit = look(axis, moment, beam.ray_key);
+  std::optional<Hit> side_hit = look(side.line, moment, side.ray_key);
+  if (axis_hit && side_hit && one_echo(axis, *axis_hit, side.line, *side_hit)) side_hit.reset();
+
+  const auto on_axis = echo_of(axis, axis_hit, beam.ray_key, 1);
+  const auto beside = echo_of(side.line, side_hit, side.ray_key, side.share);
+  std::optional<Measured> strongest, last;
+  if (on_axis) strongest = measure(beam, moment, *on_axis);
+  if (beside) last = measure_along(beam, *beside, beam.direction);
+  if (!strongest && !last) return;
+  if (!strongest) strongest = last;
+  if (!last) last = strongest;
+  if (on_axis && beside) {
+    if (beside->echo.signal > on_axis->echo.signal) std::swap(strongest, last);
+    if (strongest->wire.raw > last->wire.raw) last = strongest;  // the weaker one lies before it
+  }
+  put(*strongest, beam.laser, columns[Transmitter::kStrongestFirst ? 0 : 1]);
+  put(*last, beam.laser, columns[Transmitter::kStrongestFirst ? 1 : 0]);
+}
+
+template class ScanHead<Hdl64eTransmitter>;
+template class ScanHead<Ruby128Transmitter>;
 
 }  // namespace terracut::firmware_io

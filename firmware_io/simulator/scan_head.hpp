@@ -5,10 +5,12 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <span>
 
-#include "calib/hdl64e_geometry.hpp"
-#include "firmware_io/hdl64e/firing_azimuth.hpp"
+#include "firmware_io/drive/transmitter.hpp"
 #include "firmware_io/simulator/drive.hpp"
+#include "firmware_io/simulator/echo.hpp"
 #include "firmware_io/simulator/firing_plan.hpp"
 #include "firmware_io/simulator/object_index.hpp"
 #include "firmware_io/simulator/terrain.hpp"
@@ -22,29 +24,63 @@ struct Moment {
   Eigen::Isometry3d T_world_lidar = Eigen::Isometry3d::Identity();
 };
 
-/// The sensor: casts the 64 beams of a firing and writes down what they measure, in the units of
-/// the wire and through the inverse of the unit's calibration.
+/// The sensor: casts the beams of a firing and writes down what they measure, in the units of the
+/// wire and through the inverse of the unit's calibration.
 ///
 /// Immutable; any thread may cast.
+template <class Transmitter>
 class ScanHead {
  public:
+  using Column = SimulatedColumn<Transmitter>;
+
   /// All three must outlive this.
-  ScanHead(const SimulationConfig& config, const Terrain& terrain, const FiringPlan& plan);
+  ScanHead(const SimulationConfig<Transmitter>& config, const Terrain& terrain,
+           const FiringPlan<Transmitter>& plan);
 
   /// `moments` by turn of the beam, even and odd: they differ when the world stands still during
-  /// each turn. Fills in everything of `column`.
+  /// each turn. Fills in everything of `columns`, one for each return of a firing.
   void cast(const Firing& firing, const std::array<Moment, 2>& moments,
-            SimulatedColumn& column) const;
+            std::span<Column> columns) const;
 
  private:
-  void measure(int laser, std::uint64_t ray_key, double azimuth_rad, const Moment& moment,
-               LabelledReturn& wire, calib::Point& exact) const;
+  /// One laser when it fires.
+  struct Beam {
+    int laser = 0;
+    double azimuth_rad = 0;
+    std::uint64_t ray_key = 0;
+    Eigen::Vector3d origin, direction;  ///< In the sensor's frame.
+  };
+  /// What a beam found in one direction.
+  struct Sighting {
+    Hit hit;
+    Echo echo;
+    double cos_incidence = 0;
+  };
+  struct Measured {
+    LabelledReturn wire;
+    calib::Point exact;
+  };
 
-  const SimulationConfig* config_;
+  [[nodiscard]] std::optional<Hit> look(const SightLine& line, const Moment& moment,
+                                        std::uint64_t ray_key) const;
+  [[nodiscard]] std::optional<Sighting> echo_of(const SightLine& line,
+                                                const std::optional<Hit>& hit,
+                                                std::uint64_t ray_key, double share) const;
+  /// Where the echo ends up on the wire. The sensor takes all light to come along the beam's axis.
+  [[nodiscard]] std::optional<Measured> measure(const Beam& beam, const Moment& moment,
+                                                const Sighting& sighting) const;
+  /// As measured, but for the bend of the beam: only the depth counts.
+  [[nodiscard]] std::optional<Measured> measure_along(const Beam& beam, const Sighting& sighting,
+                                                      const Eigen::Vector3d& normal) const;
+  void cast_single(const Beam& beam, const Moment& moment, Column& column) const;
+  void cast_dual(const Beam& beam, const Moment& moment, std::span<Column> columns) const;
+  static void put(const Measured& measured, int laser, Column& column);
+
+  const SimulationConfig<Transmitter>* config_;
   const Terrain* terrain_;
-  const FiringPlan* plan_;
-  calib::Hdl64eGeometry geometry_;
-  BeamOffsets offsets_;
+  const FiringPlan<Transmitter>* plan_;
+  typename Transmitter::Geometry geometry_;
+  typename Transmitter::Offsets offsets_;
 };
 
 }  // namespace terracut::firmware_io

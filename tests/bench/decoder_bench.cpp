@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// The HDL-64E decoder by itself: nanoseconds per packet column (64 lasers). Reports, asserts
-// nothing.
+// The decoders by themselves: nanoseconds per packet column (64 lasers of an HDL-64E, 128 of an
+// RS-Ruby128). Reports, asserts nothing.
 #include <benchmark/benchmark.h>
 
+#include "calib/nominal_ruby128.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "tests/firmware_io/ruby128/random_stream.hpp"
 
 namespace terracut {
 namespace {
@@ -25,8 +28,9 @@ std::vector<test::Packet> street_like() {
   return test::to_packets(firings);
 }
 
-void report(benchmark::State& state, std::size_t packets) {
-  const auto columns = static_cast<double>(state.iterations()) * static_cast<double>(6 * packets);
+void report(benchmark::State& state, std::size_t packets, std::size_t columns_per_packet = 6) {
+  const auto columns =
+      static_cast<double>(state.iterations()) * static_cast<double>(columns_per_packet * packets);
   state.counters["per_column"] =
       benchmark::Counter(columns, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
@@ -46,6 +50,26 @@ void decode_turns(benchmark::State& state) {
   report(state, packets.size());
 }
 BENCHMARK(decode_turns)->Unit(benchmark::kMillisecond);
+
+/// Five turns, in single (0) or dual return (1).
+void decode_ruby128_turns(benchmark::State& state) {
+  const auto packets = test::random_packets({.dual = state.range(0) == 1,
+                                             .first_cdeg = 35'000,
+                                             .last_cdeg = 35'000 + 5 * 36'000,
+                                             .share_of_returns = 0.9});
+  rt::FixedMemory memory;
+  firmware_io::Ruby128Decoder decoder(calib::nominal_ruby128(), {}, {}, memory);
+  std::uint64_t returns = 0;
+  const auto on_frame = [&](const firmware_io::FrameInfo& info,
+                            const pipeline::RangeImage&) noexcept { returns += info.returns; };
+  for (auto _ : state) {
+    for (const auto& packet : packets) decoder.decode(packet.datagram(), on_frame);
+    decoder.flush(on_frame);
+  }
+  benchmark::DoNotOptimize(returns);
+  report(state, packets.size(), 3);
+}
+BENCHMARK(decode_ruby128_turns)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
 /// Points only, nothing placed.
 void compute_points(benchmark::State& state) {

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "calib/nominal_ruby128.hpp"
 
+#include <array>
 #include <cmath>
 #include <set>
 
@@ -59,6 +60,26 @@ TEST(NominalRuby128, HasTheModelsSpansAndPitch) {
     ++fine;
   }
   EXPECT_EQ(fine, 103);
+}
+
+TEST(NominalRuby128, RowsWidenBelowAndAboveTheFinePitch) {
+  const Ruby128Calibration table = nominal_ruby128();
+  const auto rows = rows_by_elevation(table);
+  std::array<double, kRuby128Lasers> row_deg{};
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    row_deg[static_cast<std::size_t>(rows[i])] = rad_to_deg(table.channels[i].elevation_rad);
+  }
+  // From row 12 (-6.5 degrees) downwards, to hundredths.
+  const double below_deg[] = {0.15, 0.2, 0.3, 0.5, 0.70, 0.89, 1.10, 1.40, 1.82, 2.48, 3.54, 5.42};
+  for (std::size_t i = 0; i < std::size(below_deg); ++i) {
+    EXPECT_NEAR(row_deg[12 - i] - row_deg[11 - i], below_deg[i], 0.006) << "row " << 11 - i;
+  }
+  double gap_deg = 0.1;
+  for (std::size_t row = 116; row < row_deg.size(); ++row) {
+    EXPECT_GT(row_deg[row] - row_deg[row - 1], gap_deg) << "row " << row;
+    gap_deg = row_deg[row] - row_deg[row - 1];
+  }
+  EXPECT_NEAR(gap_deg, 3.5, 1e-9);
 }
 
 TEST(NominalRuby128, BeamsStandInEightColumns) {

@@ -3,7 +3,7 @@
 #include "calib/ruby128_csv.hpp"
 
 #include <algorithm>
-#include <clocale>
+#include <locale>
 #include <string>
 #include <vector>
 
@@ -105,13 +105,16 @@ TEST(Ruby128Csv, LetsPassWhatEditorsDoToFiles) {
   expect_nominal(with_line(36, "-25,8.5e-1"));
 }
 
-TEST(Ruby128Csv, ReadsTheSameInALocaleWithDecimalCommas) {
-  const std::string before = std::setlocale(LC_NUMERIC, nullptr);
-  const char* set = std::setlocale(LC_NUMERIC, "de_DE.UTF-8");
-  if (set == nullptr) GTEST_SKIP() << "the locale de_DE.UTF-8 is not installed";
+TEST(Ruby128Csv, KnowsNoLocale) {
+  struct DecimalComma : std::numpunct<char> {
+    char do_decimal_point() const override { return ','; }
+    char do_thousands_sep() const override { return '.'; }
+    std::string do_grouping() const override { return "\3"; }
+  };
+  const std::locale before = std::locale::global(std::locale(std::locale(), new DecimalComma));
   const std::string text = ruby128_csv_text(nominal_ruby128());
   const auto read = parsed(text);
-  std::setlocale(LC_NUMERIC, before.c_str());
+  std::locale::global(before);
   EXPECT_THAT(text, StartsWith("-13.565,5.950\n"));
   EXPECT_TRUE(read.has_value() && read->channels == nominal_ruby128().channels);
 }

@@ -158,10 +158,19 @@ TEST(Ruby128Geometry, NoRawDistanceBehindTheLensAlongThePlaneOrBeyondTheWire) {
   const Ruby128Geometry level(Ruby128Calibration{});
   EXPECT_FALSE(level.raw_on_plane(0, 0.7, {5, 0, 0}, up).has_value());
   EXPECT_FALSE(level.raw_on_plane(0, 0.7, {5, 0, -1}, up).has_value());
-  // Parallel but for rounding: the normal lies across a slanting beam.
-  const Ray ray = geometry.ray(35, 0.7);
-  const Direction across{-ray.direction.y, ray.direction.x, 0};
-  EXPECT_FALSE(geometry.raw_on_plane(35, 0.7, {1, 2, 3}, across).has_value());
+}
+
+TEST(Ruby128Geometry, ABeamInThePlaneIsAlongItWhateverRoundingSays) {
+  const Ruby128Geometry geometry(nominal_ruby128());
+  for_random_firings(5000, [&](int channel, double azimuth, double raw) {
+    const Direction beam = geometry.ray(channel, azimuth).direction;
+    // Two normals across the beam, one of them level.
+    const Direction level{-beam.y, beam.x, 0};
+    const Direction upward{-beam.z * beam.x, -beam.z * beam.y, beam.x * beam.x + beam.y * beam.y};
+    const Point hit = geometry.point(channel, azimuth, raw);
+    ASSERT_FALSE(geometry.raw_on_plane(channel, azimuth, hit, level).has_value());
+    ASSERT_FALSE(geometry.raw_on_plane(channel, azimuth, hit, upward).has_value());
+  });
 }
 
 }  // namespace

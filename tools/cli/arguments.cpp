@@ -45,12 +45,34 @@ CLI::Validator number(double low, double high) {
 constexpr double kLongest_s = 1e9;
 
 void add_capture(CLI::App& app, CaptureOptions& capture) {
-  app.add_option("FILE", capture.file, "Capture of HDL-64E packets, pcap or pcapng")->required();
+  app.add_option("FILE", capture.file, "Capture of HDL-64E or RS-Ruby128 packets, pcap or pcapng")
+      ->required();
+  app.add_option("--sensor", capture.sensor, "Sensor model (default: the one found)")
+      ->check(CLI::IsMember({"auto", "hdl64e", "ruby128"}))
+      ->capture_default_str();
   app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
   app.add_option("--from", capture.from, "Only datagrams of this IPv4 address")
       ->check(CLI::ValidIPV4);
   app.add_option("--calibration", capture.calibration,
-                 "The unit's table, db.xml or yaml (default: the one in the packets)");
+                 "The unit's table: db.xml or yaml of an HDL-64E, angle.csv of a Ruby128 (default: "
+                 "the one in the packets)");
+  app.add_flag(
+      "--nominal-calibration", capture.nominal_calibration,
+      "Ruby128: take the model's table where there is none of the unit; heights may be off");
+  app.add_option("--columns", capture.columns,
+                 "Columns of the range image (default: firings a turn at the spin rate found)")
+      ->check(CLI::Range(16, 36000));
+  app.add_option("--cell-owner", capture.cell_owner,
+                 "Dual return: which return stands for its cell; all of them are labelled")
+      ->check(CLI::IsMember({"strongest", "last", "first", "both"}))
+      ->capture_default_str();
+  app.add_option("--timestamp", capture.timestamp,
+                 "Ruby128: how its stamps are encoded (default: found out from the packets)")
+      ->check(CLI::IsMember({"auto", "calendar", "us", "ns"}))
+      ->capture_default_str();
+  app.add_option("--clock-offset", capture.clock_offset_s,
+                 "Seconds to add to the device's clock where it is reported")
+      ->check(number(-kLongest_s, kLongest_s));
   app.add_option("--geometry", capture.geometry,
                  "Meaning of the table: the maker's manual, or as ROS drivers take it")
       ->check(CLI::IsMember({"manual", "ros"}))
@@ -99,9 +121,10 @@ void add_outputs(CLI::App& app, OutputOptions& output) {
   app.add_option("--json", output.json, "File for the report: returns, losses and times by frame");
 }
 
-void add_sensor(CLI::App& app) {
-  // One sensor so far; the option exists so that scripts written today keep their meaning.
-  app.add_option("--sensor", "Sensor model (hdl64e)")->check(CLI::IsMember({"hdl64e"}));
+void add_sensor(CLI::App& app, std::string& sensor) {
+  app.add_option("--sensor", sensor, "Sensor model")
+      ->check(CLI::IsMember({"hdl64e", "ruby128"}))
+      ->capture_default_str();
 }
 
 /// Makes the subcommand and, when it is used, puts its options into `command`.
@@ -145,11 +168,20 @@ void add_segment(CLI::App& sub, SegmentOptions& o) {
 }
 
 void add_simulate(CLI::App& sub, SimulateOptions& o) {
-  add_sensor(sub);
+  add_sensor(sub, o.sensor);
   sub.add_option("--scene", o.scene, "street, highway, rural, flat or hill")->capture_default_str();
   sub.add_option("--seed", o.seed, "The same seed gives the same drive")->capture_default_str();
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
       ->check(number(0.1, 3600))
+      ->capture_default_str();
+  sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
+      ->check(number(5, 20))
+      ->capture_default_str();
+  sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
+      ->check(CLI::IsMember({"single", "dual"}))
+      ->capture_default_str();
+  sub.add_option("--timestamp", o.timestamp, "Ruby128: how its stamps are encoded")
+      ->check(CLI::IsMember({"calendar", "us", "ns"}))
       ->capture_default_str();
   sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
       ->check(number(0, 1))
@@ -161,7 +193,7 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
 }
 
 void add_encode(CLI::App& sub, EncodeOptions& o) {
-  add_sensor(sub);
+  add_sensor(sub, o.sensor);
   sub.add_option("SCANS_DIR", o.scans, "Folder of .bin scans, or a SemanticKITTI sequence folder")
       ->required();
   sub.add_option("--calibration", o.calibration,
@@ -187,7 +219,7 @@ void add_info(CLI::App& sub, InfoOptions& o) {
 }
 
 void add_plan(CLI::App& sub, PlanOptions& o) {
-  add_sensor(sub);
+  add_sensor(sub, o.sensor);
   add_method(sub, o.method);
   sub.add_option("--json", o.json, "The same as a file for programs");
 }
@@ -252,10 +284,9 @@ Arguments parse_arguments(int argc, char** argv) {
   add_command<SegmentOptions>(app, result.command, "segment",
                               "Label recorded scans (.bin) without packets", add_segment);
   add_command<SimulateOptions>(app, result.command, "simulate",
-                               "Drive a simulated HDL-64E: capture, table and truth", add_simulate);
+                               "Drive a simulated sensor: capture, table and truth", add_simulate);
   add_command<EncodeOptions>(app, result.command, "encode",
-                             "Turn recorded scans into HDL-64E packets with their truth",
-                             add_encode);
+                             "Turn recorded scans into packets with their truth", add_encode);
   add_command<CalibrateOptions>(app, result.command, "calibrate",
                                 "Find the mount and the rings' ground distances from a capture\n"
                                 "taken on a straight, level, open road",

@@ -144,7 +144,8 @@ ExitCode run(const BenchOptions& options) {
   if (!packets) return refuse(packets.error());
 
   rt::FixedMemory memory;
-  PacketChain chain(capture->calibration, *profile, options.capture, options.method, memory);
+  PacketChain chain(capture->calibration, *profile, capture->sensor.columns, options.capture,
+                    options.method, memory);
   const int core = stay_on_core(options.core);
   if (core < 0) warn("could not stay on one core; times include moves between cores");
 

@@ -35,7 +35,7 @@ constexpr float kOwnLane_m = 1.5F;
 /// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when
 /// it has seen enough.
 Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
-                     firmware_io::Hdl64eDecoder& decoder,
+                     firmware_io::SensorDecoder& decoder,
                      const std::function<bool(const RangeImage&)>& on_frame) {
   bool go_on = true;
   std::uint64_t offered = 0;
@@ -67,8 +67,9 @@ Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptio
   std::uint32_t frames = 0;
   const calib::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
   rt::FixedMemory memory;
-  firmware_io::Hdl64eDecoder decoder(capture.calibration, at_the_sensor,
-                                     PacketChain::decoder_config(options), memory);
+  firmware_io::SensorDecoder decoder(capture.calibration, at_the_sensor,
+                                     PacketChain::decoder_config(capture.sensor.columns, options),
+                                     memory);
   const Status decoded = decode_frames(capture, options, decoder, [&](const RangeImage& image) {
     firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
       const auto range_m = static_cast<double>(placed.echo.ground_range_m);
@@ -87,7 +88,8 @@ Expected<calib::RingProfileEstimate> measure_rings(OpenCapture& capture,
                                                    const CalibrateOptions& options,
                                                    const calib::RingProfile& geometry) {
   rt::FixedMemory memory;
-  PacketChain chain(capture.calibration, geometry, options.capture, options.method, memory);
+  PacketChain chain(capture.calibration, geometry, capture.sensor.columns, options.capture,
+                    options.method, memory);
   calib::RingProfileEstimate rings(geometry);
   std::vector<calib::RingObservation> observations;
   Progress progress("measuring rings", "frames", 0);

@@ -12,9 +12,10 @@ namespace {
 
 void print(const EncodeOptions& options, const firmware_io::ScanDriveReport& report) {
   const firmware_io::EncodeSummary& encoded = report.encoded;
-  fmt::print("wrote     {}\n          {}\n          {}/\n", options.output.string(),
-             firmware_io::calibration_path_of(options.output).string(),
-             firmware_io::truth_folder_of(options.output).string());
+  fmt::print(
+      "wrote     {}\n          {}\n          {}/\n", options.output.string(),
+      firmware_io::calibration_path_of<firmware_io::Hdl64eTransmitter>(options.output).string(),
+      firmware_io::truth_folder_of(options.output).string());
   fmt::print("table     {}, fingerprint {:016x}\n",
              report.fitted ? "fitted to the scans" : report.calibration.origin,
              fingerprint(report.calibration));

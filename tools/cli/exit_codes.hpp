@@ -23,11 +23,16 @@ enum ExitCode : int {
     case ErrorCode::kUnreadable:
     case ErrorCode::kMalformed:
     case ErrorCode::kUnsupported:
-    case ErrorCode::kNoCalibration: return kInputRefused;
-    case ErrorCode::kNothingCameOut: return kNothingCameOut;
-    case ErrorCode::kInvalidArgument: return kUsage;
-    case ErrorCode::kWriteFailed: return kOutputFailed;
-    case ErrorCode::kCapacityExceeded: return kInternal;
+    case ErrorCode::kNoCalibration:
+      return kInputRefused;
+    case ErrorCode::kNothingCameOut:
+      return kNothingCameOut;
+    case ErrorCode::kInvalidArgument:
+      return kUsage;
+    case ErrorCode::kWriteFailed:
+      return kOutputFailed;
+    case ErrorCode::kCapacityExceeded:
+      return kInternal;
   }
   return kInternal;
 }

@@ -19,11 +19,13 @@ using pipeline::TruthClass;
 
 Mistake mistake_of(Label label, std::uint32_t truth) noexcept {
   switch (pipeline::truth_class(truth)) {
-    case TruthClass::kIgnored: return Mistake::kNone;
+    case TruthClass::kIgnored:
+      return Mistake::kNone;
     case TruthClass::kGround:
       return label == Label::kObstacle ? Mistake::kFalseObstacle : Mistake::kNone;
     case TruthClass::kOrdinaryObstacle:
-    case TruthClass::kKeyObstacle: break;
+    case TruthClass::kKeyObstacle:
+      break;
   }
   return label == Label::kGround ? Mistake::kMissedObstacle : Mistake::kNone;
 }

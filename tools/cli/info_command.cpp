@@ -3,6 +3,7 @@
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,6 +19,9 @@ namespace {
 
 using firmware_io::CaptureSurvey;
 using firmware_io::Hdl64eFacts;
+using firmware_io::Ruby128DeviceReader;
+using firmware_io::Ruby128Facts;
+using firmware_io::StreamFacts;
 using firmware_io::UdpStream;
 using Json = nlohmann::ordered_json;
 
@@ -56,20 +60,25 @@ std::string calibration_in(const Hdl64eFacts& facts) {
   return fmt::format("complete, fingerprint {:016x}", fingerprint(table->calibration));
 }
 
-std::string text_of(const Hdl64eFacts& facts) {
+std::string text_of(const StreamFacts& facts) {
   std::string text = fmt::format(
       "  head         {:.1f} rpm, {:.1f} turns, {:.4f} deg a column\n"
       "  mode         {} return, a packet every {:.1f} us\n"
       "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock "
-      "jumps\n"
-      "  calibration  {}\n",
+      "jumps\n",
       facts.spin_rpm, facts.turns, facts.step_deg, to_string(facts.return_mode),
       facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
-      facts.clock_jumps, calibration_in(facts));
+      facts.clock_jumps);
   if (facts.azimuths_out_of_range > 0) {
     text += fmt::format("  broken       {} packets with an azimuth of 360 degrees or more\n",
                         facts.azimuths_out_of_range);
   }
+  return text;
+}
+
+std::string text_of(const Hdl64eFacts& facts) {
+  std::string text = text_of(static_cast<const StreamFacts&>(facts));
+  text += fmt::format("  calibration  {}\n", calibration_in(facts));
   if (facts.status.temperature_deg_c) {
     text += fmt::format("  temperature  {} deg C\n", int{*facts.status.temperature_deg_c});
   }
@@ -81,6 +90,41 @@ std::string text_of(const Hdl64eFacts& facts) {
                         unsigned{*facts.status.warning_bits});
   }
   return text;
+}
+
+std::string text_of(const Ruby128Facts& facts) {
+  return text_of(static_cast<const StreamFacts&>(facts)) +
+         fmt::format(
+             "  clock        {} ({}), {:.1f} s {} the capture; protocol version {}\n"
+             "  temperature  {:.1f} deg C\n",
+             to_string(facts.timestamp), facts.timestamp_proven ? "proven" : "most likely",
+             std::abs(facts.ahead_of_capture_s),
+             facts.ahead_of_capture_s < 0 ? "behind" : "ahead of", facts.protocol_version,
+             facts.temperature_deg_c);
+}
+
+/// The angles in DIFOP: "complete, fingerprint ...", or why they are of no use.
+std::string calibration_in(const Ruby128DeviceReader& device) {
+  const auto calibration = device.calibration();
+  if (!calibration) return calibration.error().message;
+  return fmt::format("complete, fingerprint {:016x}", fingerprint(*calibration));
+}
+
+std::string text_of(const Ruby128DeviceReader& device) {
+  const auto info = device.newest();
+  if (!info) return {};
+  return fmt::format(
+      "  serial       {}\n  set to       {} rpm, turns at {}; return mode {} ({})\n"
+      "  network      {} to {}, data port {}, device port {}, MAC {}\n"
+      "  time         by {}, status {}\n  calibration  {}\n"
+      "  changes      {} of the serial number, {} of the angles\n",
+      firmware_io::hex_text(info->serial), info->rpm_set, info->rpm_actual, info->return_mode_raw,
+      info->return_mode_raw == 3 ? "dual" : "single",
+      firmware_io::address_text(info->device_address),
+      firmware_io::address_text(info->destination_address), info->data_port, info->device_port,
+      firmware_io::hex_text(info->mac, ":"), firmware_io::sync_mode_name(info->sync_mode_raw),
+      info->sync_status_raw, calibration_in(device), device.counters().serial_changes,
+      device.counters().angle_changes);
 }
 
 std::string text_of(const CaptureSurvey& survey) {
@@ -105,27 +149,62 @@ std::string text_of(const CaptureSurvey& survey) {
     text += fmt::format("{} packets of further streams\n", survey.packets_of_further_streams);
   }
   for (const UdpStream& stream : survey.streams) {
-    if (!stream.hdl64e) continue;
-    text += fmt::format("\nHDL-64E at {}, from {}\n{}",
-                        endpoint(stream.source_address, stream.source_port),
-                        utc(stream.first_stamp_ns), text_of(*stream.hdl64e));
+    const auto describe = [&](std::string_view what, const std::string& facts) {
+      text += fmt::format("\n{} at {}, from {}\n{}", what,
+                          endpoint(stream.source_address, stream.source_port),
+                          utc(stream.first_stamp_ns), facts);
+    };
+    if (stream.hdl64e) describe("HDL-64E", text_of(*stream.hdl64e));
+    if (stream.ruby128) describe("RS-Ruby128", text_of(*stream.ruby128));
+    if (stream.device) describe("RS-Ruby128 device information", text_of(*stream.device));
   }
   return text;
 }
 
+Json json_of(const StreamFacts& facts) {
+  return {{"packets", facts.packets},
+          {"return_mode", to_string(facts.return_mode)},
+          {"packet_period_us", facts.packet_period_us},
+          {"spin_rpm", facts.spin_rpm},
+          {"step_deg", facts.step_deg},
+          {"turns", facts.turns},
+          {"packets_lost", facts.packets_lost},
+          {"packets_repeated", facts.packets_repeated},
+          {"packets_reordered", facts.packets_reordered},
+          {"clock_jumps", facts.clock_jumps},
+          {"azimuths_out_of_range", facts.azimuths_out_of_range}};
+}
+
+Json json_of(const Ruby128Facts& facts) {
+  Json json = json_of(static_cast<const StreamFacts&>(facts));
+  json["protocol_version"] = facts.protocol_version;
+  json["timestamp"] = to_string(facts.timestamp);
+  json["timestamp_proven"] = facts.timestamp_proven;
+  json["ahead_of_capture_s"] = facts.ahead_of_capture_s;
+  json["temperature_deg_c"] = facts.temperature_deg_c;
+  return json;
+}
+
+Json json_of(const Ruby128DeviceReader& device) {
+  const auto info = device.newest();
+  if (!info) return {};
+  return {{"packets", device.counters().packets},
+          {"serial", firmware_io::hex_text(info->serial)},
+          {"rpm_set", info->rpm_set},
+          {"rpm_actual", info->rpm_actual},
+          {"return_mode", info->return_mode_raw},
+          {"data_port", info->data_port},
+          {"device_port", info->device_port},
+          {"sync_mode", firmware_io::sync_mode_name(info->sync_mode_raw)},
+          {"sync_status", info->sync_status_raw},
+          {"calibration", calibration_in(device)},
+          {"serial_changes", device.counters().serial_changes},
+          {"angle_changes", device.counters().angle_changes}};
+}
+
 Json json_of(const Hdl64eFacts& facts) {
-  Json json{{"packets", facts.packets},
-            {"return_mode", to_string(facts.return_mode)},
-            {"packet_period_us", facts.packet_period_us},
-            {"spin_rpm", facts.spin_rpm},
-            {"step_deg", facts.step_deg},
-            {"turns", facts.turns},
-            {"packets_lost", facts.packets_lost},
-            {"packets_repeated", facts.packets_repeated},
-            {"packets_reordered", facts.packets_reordered},
-            {"clock_jumps", facts.clock_jumps},
-            {"azimuths_out_of_range", facts.azimuths_out_of_range},
-            {"calibration", calibration_in(facts)}};
+  Json json = json_of(static_cast<const StreamFacts&>(facts));
+  json["calibration"] = calibration_in(facts);
   if (facts.status.temperature_deg_c) json["temperature_deg_c"] = *facts.status.temperature_deg_c;
   if (facts.status.firmware) json["firmware"] = *facts.status.firmware;
   if (facts.status.warning_bits) json["warning_bits"] = *facts.status.warning_bits;
@@ -155,6 +234,8 @@ Json json_of(const CaptureSurvey& survey) {
              {"sensor", to_string(stream.sensor)},
              {"hints", stream.sensor_hints}});
     if (stream.hdl64e) entry["hdl64e"] = json_of(*stream.hdl64e);
+    if (stream.ruby128) entry["ruby128"] = json_of(*stream.ruby128);
+    if (stream.device) entry["ruby128_device"] = json_of(*stream.device);
   }
   if (survey.broke_off) json["broke_off"] = survey.broke_off->message;
   return json;

@@ -6,24 +6,26 @@
 #include <optional>
 #include <string>
 
-#include "calib/hdl64e_calibration.hpp"
+#include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/loss_counters.hpp"
 #include "options.hpp"
 #include "rt/error.hpp"
+#include "sensor_choice.hpp"
 
 namespace terracut::cli {
 
-/// A capture ready to be read from its beginning, and the table its packets are decoded with.
+/// A capture ready to be read from its beginning, and what its packets are decoded with.
 struct OpenCapture {
   firmware_io::PcapSource source;
-  calib::Hdl64eCalibration calibration;
-  std::string calibration_line;  ///< Origin and fingerprint, for logs and reports.
+  SensorChoice sensor;
+  calib::SensorCalibration calibration;
+  std::string sensor_line;       ///< Model, spin rate, return mode, for logs and reports.
+  std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
 };
 
-/// Opens the capture and chooses the calibration: the file of --calibration, else the table in the
-/// packets' status stream, else kNoCalibration with what was found instead and what to do. Says on
-/// stderr which one won.
+/// Opens the capture and chooses sensor and calibration (sensor_choice.hpp,
+/// calibration_choice.hpp). Says on stderr which they are.
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
 
 /// --start and --duration, by the stamps of the capture.

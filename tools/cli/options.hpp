@@ -15,12 +15,18 @@ namespace terracut::cli {
 /// Which datagrams of a capture, and how they become points.
 struct CaptureOptions {
   std::filesystem::path file;
-  std::optional<std::uint16_t> port;  ///< --port
-  std::string from;                   ///< --from, dotted IPv4
-  std::filesystem::path calibration;  ///< --calibration
-  std::string geometry = "manual";    ///< --geometry manual|ros
-  double start_s = 0;                 ///< --start, [0, 1e9]
-  std::optional<double> duration_s;   ///< --duration, (0, 1e9]
+  std::optional<std::uint16_t> port;     ///< --port
+  std::string from;                      ///< --from, dotted IPv4
+  std::string sensor = "auto";           ///< --sensor auto|hdl64e|ruby128
+  std::filesystem::path calibration;     ///< --calibration
+  bool nominal_calibration = false;      ///< --nominal-calibration
+  std::optional<int> columns;            ///< --columns, [16, 36000]; else by the spin rate
+  std::string cell_owner = "strongest";  ///< --cell-owner strongest|last|first|both
+  std::string timestamp = "auto";        ///< --timestamp auto|calendar|us|ns
+  double clock_offset_s = 0;             ///< --clock-offset
+  std::string geometry = "manual";       ///< --geometry manual|ros
+  double start_s = 0;                    ///< --start, [0, 1e9]
+  std::optional<double> duration_s;      ///< --duration, (0, 1e9]
 };
 
 /// How the sensor stands on the vehicle.
@@ -60,9 +66,13 @@ struct SegmentOptions {
 };
 
 struct SimulateOptions {
+  std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
   std::string scene = "street";
   std::uint64_t seed = 1;
   double duration_s = 3;
+  double spin_hz = 10;             ///< --spin-hz, [5, 20]
+  std::string returns = "single";  ///< --returns single|dual
+  std::string timestamp = "us";    ///< --timestamp calendar|us|ns, of a Ruby128
   double noise_m = 0.015;
   std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;
@@ -70,6 +80,7 @@ struct SimulateOptions {
 };
 
 struct EncodeOptions {
+  std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
   std::filesystem::path scans;
   std::filesystem::path calibration;  ///< Empty: fitted from the scans.
   bool undo_compensation = false;
@@ -90,6 +101,7 @@ struct InfoOptions {
 };
 
 struct PlanOptions {
+  std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
   MethodOptions method;
   std::filesystem::path json;
 };

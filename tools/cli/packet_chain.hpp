@@ -2,8 +2,11 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "calib/ring_profile.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/sensor_decoder.hpp"
 #include "options.hpp"
 #include "pipeline/segmenter.hpp"
 #include "setup_choice.hpp"
@@ -13,22 +16,40 @@ namespace terracut::cli {
 /// Decoder and segmenter, sized for each other: all that needs memory of its own on the way from
 /// packets to labels.
 struct PacketChain {
-  firmware_io::Hdl64eDecoder decoder;
+  firmware_io::SensorDecoder decoder;
   pipeline::Segmenter segmenter;
 
-  PacketChain(const calib::Hdl64eCalibration& calibration, const calib::RingProfile& profile,
-              const CaptureOptions& capture, const MethodOptions& method, rt::FixedMemory& memory)
-      : decoder(calibration, profile.mount, decoder_config(capture), memory),
-        segmenter(segmenter_config_of(method), profile, decoder.shape(),
-                  decoder.shape().cells() *
-                      static_cast<std::size_t>(decoder_config(capture).returns_per_cell),
+  /// `columns`: of the range image, 0 for the sensor's default.
+  PacketChain(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
+              int columns, const CaptureOptions& capture, const MethodOptions& method,
+              rt::FixedMemory& memory)
+      : decoder(calibration, profile.mount, decoder_config(columns, capture), memory),
+        segmenter(segmenter_config_of(method), profile, decoder.shape(), decoder.return_capacity(),
                   memory) {}
 
-  [[nodiscard]] static firmware_io::Hdl64eDecoder::Config decoder_config(
-      const CaptureOptions& capture) {
-    firmware_io::Hdl64eDecoder::Config config;
-    if (capture.geometry == "ros") config.sensor.geometry = calib::GeometryModel::kRosLike;
+  [[nodiscard]] static firmware_io::SensorDecoder::Config decoder_config(
+      int columns, const CaptureOptions& capture) {
+    firmware_io::SensorDecoder::Config config;
+    config.columns = columns;
+    config.dual_owner = cell_owner_of(capture.cell_owner);
+    if (capture.geometry == "ros") config.hdl64e.geometry = calib::GeometryModel::kRosLike;
+    config.ruby128.timestamp = timestamp_of(capture.timestamp);
     return config;
+  }
+
+ private:
+  [[nodiscard]] static pipeline::CellOwner cell_owner_of(const std::string& name) {
+    if (name == "last") return pipeline::CellOwner::kFarthest;
+    if (name == "first") return pipeline::CellOwner::kNearest;
+    if (name == "both") return pipeline::CellOwner::kFirstArrived;
+    return pipeline::CellOwner::kStrongest;
+  }
+  [[nodiscard]] static std::optional<firmware_io::RubyTimestamp> timestamp_of(
+      const std::string& name) {
+    if (name == "calendar") return firmware_io::RubyTimestamp::kCalendar;
+    if (name == "us") return firmware_io::RubyTimestamp::kUtcMicroseconds;
+    if (name == "ns") return firmware_io::RubyTimestamp::kUtcNanoseconds;
+    return std::nullopt;
   }
 };
 

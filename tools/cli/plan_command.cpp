@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "calib/nominal_hdl64e.hpp"
+#include "calib/nominal_ruby128.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "packet_chain.hpp"
@@ -16,10 +17,12 @@ namespace terracut::cli {
 /// Builds the very objects a replay builds, so the figures are those of a replay, not an estimate.
 ExitCode run(const PlanOptions& options) {
   rt::FixedMemory memory;
-  const calib::Hdl64eCalibration calibration = calib::nominal_hdl64e();
+  const calib::SensorCalibration calibration =
+      options.sensor == "ruby128" ? calib::SensorCalibration(calib::nominal_ruby128())
+                                  : calib::SensorCalibration(calib::nominal_hdl64e());
   const auto profile = ring_profile_of(calibration, {});
   if (!profile) return refuse(profile.error());
-  const PacketChain chain(calibration, *profile, {}, options.method, memory);
+  const PacketChain chain(calibration, *profile, 0, {}, options.method, memory);
 
   nlohmann::ordered_json json;
   fmt::print("{:<24}{:>14}\n", "part", "bytes");

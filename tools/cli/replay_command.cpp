@@ -14,6 +14,7 @@
 
 #include "calib/hdl64e_stream_table.hpp"
 #include "console.hpp"
+#include "device_clock.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "frame_outputs.hpp"
@@ -95,11 +96,13 @@ class Replay {
   Replay(const ReplayOptions& options, OpenCapture& capture, const calib::RingProfile& profile)
       : options_(options),
         capture_(capture),
-        chain_(capture.calibration, profile, options.capture, options.method, memory_),
+        chain_(capture.calibration, profile, capture.sensor.columns, options.capture,
+               options.method, memory_),
+        clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
         truth_(options.output.truth),
-        report_({"replay", options.capture.file.string(), capture.calibration_line,
-                 options.method.profile, options.method.stages}),
+        report_({"replay", options.capture.file.string(), capture.sensor_line,
+                 capture.calibration_line, options.method.profile, options.method.stages}),
         progress_("replaying", "frames", 0) {}
 
   ExitCode run() {
@@ -153,6 +156,8 @@ class Replay {
         });
     decode_ns_ += rt::thread_cpu_ns() - resumed_ns;
     if (reject) return;
+    if (const auto* ruby128 = chain_.decoder.ruby128())
+      clock_of_device_.note(*ruby128, datagram.stamp_ns);
     if (const auto packet = firmware_io::Hdl64ePacketView::of(datagram.payload)) {
       status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
     }
@@ -180,11 +185,12 @@ class Replay {
   void warn_of_other_table() const {
     if (!status_.has_table()) return;
     const auto table = calib::parse_stream_table(status_.table());
-    if (!table || fingerprint(table->calibration) == fingerprint(capture_.calibration)) return;
+    const std::uint64_t in_use = calib::fingerprint(capture_.calibration);
+    if (!table || fingerprint(table->calibration) == in_use) return;
     warn(fmt::format(
         "the packets carry another calibration (fingerprint {:016x}) than the one in use "
         "({:016x}); leave --calibration away to use theirs",
-        fingerprint(table->calibration), fingerprint(capture_.calibration)));
+        fingerprint(table->calibration), in_use));
   }
 
   ExitCode conclude() {
@@ -195,6 +201,10 @@ class Replay {
     }
     warn_of_other_table();
     report_.set_losses(losses);
+    if (clock_of_device_.noted()) {
+      report_.set_device_clock(clock_of_device_.text());
+      if (const std::string warning = clock_of_device_.warning(); !warning.empty()) warn(warning);
+    }
     if (scored_ > 0) report_.set_quality(quality_, report_.frames() - scored_);
     fmt::print("{}", report_.text());
     if (options_.output.json.empty()) return kOk;
@@ -207,6 +217,7 @@ class Replay {
   rt::FixedMemory memory_;
   PacketChain chain_;
   firmware_io::StatusStreamReader status_;
+  DeviceClock clock_of_device_;
   FrameOutputs outputs_;
   FrameTruth truth_;
   Report report_;

@@ -140,9 +140,12 @@ firmware_io::LossCounters Report::losses() const {
 
 std::string Report::text() const {
   const Totals totals = totals_of(records_);
-  std::string text =
-      fmt::format("frames    {} ({} complete)\nreturns   {} in, {} labelled\n", records_.size(),
-                  totals.complete, totals.returns_in, totals.returns_labelled);
+  std::string text;
+  if (!run_.sensor.empty()) text += "sensor    " + run_.sensor + "\n";
+  if (!run_.calibration.empty()) text += "table     " + run_.calibration + "\n";
+  if (!device_clock_.empty()) text += "clock     " + device_clock_ + "\n";
+  text += fmt::format("frames    {} ({} complete)\nreturns   {} in, {} labelled\n", records_.size(),
+                      totals.complete, totals.returns_in, totals.returns_labelled);
   if (quality_) {
     text += fmt::format("quality   IoU_g {:.2f} %, Recall_o {:.2f} %{}\n",
                         100 * quality_->iou_ground(), 100 * quality_->recall_key_obstacles(),
@@ -159,7 +162,9 @@ Status Report::write_json(const std::filesystem::path& path) const {
   json["command"] = run_.command;
   json["input"] = run_.input;
   if (!input_warning_.empty()) json["input_warning"] = input_warning_;
+  if (!run_.sensor.empty()) json["sensor"] = run_.sensor;
   json["calibration"] = run_.calibration;
+  if (!device_clock_.empty()) json["device_clock"] = device_clock_;
   json["profile"] = run_.profile;
   json["stages"] = run_.stages;
   Json& frames = json["frames"] = Json::array();

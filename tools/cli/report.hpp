@@ -55,6 +55,7 @@ class Report {
   struct Run {
     std::string command;  ///< "replay"
     std::string input;
+    std::string sensor;       ///< Model, spin rate and return mode; empty for scans.
     std::string calibration;  ///< Origin and fingerprint of the table in use.
     std::string profile, stages;
   };
@@ -70,6 +71,8 @@ class Report {
   /// Everything lost in the run, where that is more than the frames' sum (losses after the last
   /// one).
   void set_losses(const firmware_io::LossCounters& losses) { losses_ = losses; }
+  /// What is known of the sensor's clock, for people.
+  void set_device_clock(std::string text) { device_clock_ = std::move(text); }
   /// The input broke off, and where.
   void set_input_warning(std::string warning) { input_warning_ = std::move(warning); }
 
@@ -97,6 +100,7 @@ class Report {
   std::optional<firmware_io::LossCounters> losses_;
   std::optional<pipeline::Quality> quality_;
   std::uint64_t unscored_ = 0;
+  std::string device_clock_;
   std::string input_warning_;
 };
 

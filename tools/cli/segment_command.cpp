@@ -82,7 +82,7 @@ ExitCode run(const SegmentOptions& options) {
 
   ScanLabeller labeller(segmenter_config_of(options.method), *profile);
   FrameOutputs outputs(options.output);
-  Report report({"segment", options.scans.string(), calibration_line, options.method.profile,
+  Report report({"segment", options.scans.string(), "", calibration_line, options.method.profile,
                  options.method.stages});
   Progress progress("labelling", "scans", static_cast<double>(reader->size()));
   for (std::size_t i = 0; i < reader->size(); ++i) {

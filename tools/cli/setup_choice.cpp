@@ -35,7 +35,7 @@ Expected<calib::Mount> mount_of(const MountOptions& options) {
   return setup_of(options).map([](const calib::SensorSetup& setup) { return setup.mount; });
 }
 
-Expected<calib::RingProfile> ring_profile_of(const calib::Hdl64eCalibration& calibration,
+Expected<calib::RingProfile> ring_profile_of(const calib::SensorCalibration& calibration,
                                              const MountOptions& options) {
   const Expected<calib::SensorSetup> setup = setup_of(options);
   if (!setup) return tl::unexpected(setup.error());

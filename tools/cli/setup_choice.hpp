@@ -4,8 +4,8 @@
 
 #include <string_view>
 
-#include "calib/hdl64e_calibration.hpp"
 #include "calib/ring_profile.hpp"
+#include "calib/sensor_calibration.hpp"
 #include "options.hpp"
 #include "pipeline/profile.hpp"
 #include "rt/error.hpp"
@@ -18,7 +18,7 @@ namespace terracut::cli {
 /// The ring profile of a unit so mounted. The measured ring distances of a setup count only as long
 /// as no --mount-... option moves the sensor away from where they were measured.
 [[nodiscard]] Expected<calib::RingProfile> ring_profile_of(
-    const calib::Hdl64eCalibration& calibration, const MountOptions& options);
+    const calib::SensorCalibration& calibration, const MountOptions& options);
 
 /// Applies one KEY=VALUE of --set.
 [[nodiscard]] Status apply_setting(pipeline::SegmenterConfig& config, std::string_view setting);

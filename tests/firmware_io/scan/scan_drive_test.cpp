@@ -46,7 +46,7 @@ TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
   EXPECT_TRUE(report->fitted.has_value());
   EXPECT_GT(std::filesystem::file_size(pcap), report->drive.packets * 1206);
 
-  const auto calibration = calib::read_hdl64e_xml(calibration_path_of(pcap));
+  const auto calibration = calib::read_hdl64e_xml(calibration_path_of<Hdl64eTransmitter>(pcap));
   ASSERT_TRUE(calibration) << calibration.error().message;
   EXPECT_EQ(calib::fingerprint(*calibration), calib::fingerprint(report->calibration));
   for (std::uint32_t turn = 0; turn < 2; ++turn) {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/hdl64e/drive_writer.hpp"
+#include "firmware_io/drive/drive_writer.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_encoder.hpp"
@@ -36,7 +36,7 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
   const auto fitted = reader->fit_rings();
   ASSERT_TRUE(fitted);
   drive.calibration = hdl64e_calibration(fitted->table);
-  auto writer = DriveWriter::create(drive.pcap, drive.calibration);
+  auto writer = Hdl64eDriveWriter::create(drive.pcap, drive.calibration);
   ASSERT_TRUE(writer) << writer.error().message;
   std::vector<KittiScan> scans(reader->size());
   drive.arriving.resize(scans.size());

@@ -20,9 +20,9 @@
 namespace terracut::firmware_io {
 namespace {
 
-std::vector<SimulatedColumn> drive(const SimulationConfig& config) {
-  std::vector<SimulatedColumn> columns;
-  const auto summary = simulate_drive(config, [&](const SimulatedColumn& column) -> Status {
+std::vector<Hdl64eSimulatedColumn> drive(const Hdl64eSimulation& config) {
+  std::vector<Hdl64eSimulatedColumn> columns;
+  const auto summary = simulate_drive(config, [&](const Hdl64eSimulatedColumn& column) -> Status {
     columns.push_back(column);
     return {};
   });
@@ -30,8 +30,8 @@ std::vector<SimulatedColumn> drive(const SimulationConfig& config) {
   return columns;
 }
 
-SimulationConfig one_turn(const std::string& scene) {
-  SimulationConfig config;
+Hdl64eSimulation one_turn(const std::string& scene) {
+  Hdl64eSimulation config;
   config.scene = scene;
   config.duration_s = 0.1;
   config.threads = 2;
@@ -40,8 +40,8 @@ SimulationConfig one_turn(const std::string& scene) {
 
 /// Calls visit(column, laser, wire, exact point) for each return.
 template <class Visit>
-void for_each_return(const std::vector<SimulatedColumn>& columns, Visit&& visit) {
-  for (const SimulatedColumn& column : columns) {
+void for_each_return(const std::vector<Hdl64eSimulatedColumn>& columns, Visit&& visit) {
+  for (const Hdl64eSimulatedColumn& column : columns) {
     for (int laser = 0; laser < calib::kHdl64eLasers; ++laser) {
       const auto i = static_cast<std::size_t>(laser);
       if (column.wire.by_laser[i].raw != 0)
@@ -50,10 +50,10 @@ void for_each_return(const std::vector<SimulatedColumn>& columns, Visit&& visit)
   }
 }
 
-std::uint64_t digest(const std::vector<SimulatedColumn>& columns) {
+std::uint64_t digest(const std::vector<Hdl64eSimulatedColumn>& columns) {
   std::uint64_t sum = 0;
-  for_each_return(columns, [&](const SimulatedColumn& column, int laser, const LabelledReturn& wire,
-                               const calib::Point&) {
+  for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int laser,
+                               const LabelledReturn& wire, const calib::Point&) {
     sum = sum * 0x9E3779B97F4A7C15U +
           static_cast<std::uint64_t>(column.wire.unwrapped_azimuth_cdeg) +
           static_cast<std::uint64_t>(laser) * 77 + wire.raw * 3U + wire.intensity * 5U + wire.truth;
@@ -62,7 +62,7 @@ std::uint64_t digest(const std::vector<SimulatedColumn>& columns) {
 }
 
 TEST(Drive, SameSeedGivesTheSameReturnsOnAnyNumberOfThreads) {
-  SimulationConfig config = one_turn("street");
+  Hdl64eSimulation config = one_turn("street");
   config.threads = 1;
   const std::uint64_t alone = digest(drive(config));
   config.threads = 3;
@@ -72,7 +72,7 @@ TEST(Drive, SameSeedGivesTheSameReturnsOnAnyNumberOfThreads) {
 }
 
 TEST(Drive, LongerDriveStartsLikeAShorterOne) {
-  SimulationConfig config = one_turn("street");
+  Hdl64eSimulation config = one_turn("street");
   auto brief = drive(config);
   config.duration_s = 0.2;
   auto longer = drive(config);
@@ -84,11 +84,11 @@ TEST(Drive, LongerDriveStartsLikeAShorterOne) {
 }
 
 TEST(Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   config.mount.height_m = 2.1;
   std::size_t ground = 0;
-  for_each_return(drive(config), [&](const SimulatedColumn&, int, const LabelledReturn& wire,
+  for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int, const LabelledReturn& wire,
                                      const calib::Point& exact) {
     if (wire.truth != static_cast<std::uint32_t>(Truth::kRoad)) return;
     ++ground;
@@ -98,11 +98,11 @@ TEST(Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
 }
 
 TEST(Drive, GroundIsLevelInTheVehicleFrameOfATiltedMount) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   config.mount = {.height_m = 1.8, .roll_rad = 0.03, .pitch_rad = 0.06};
   const calib::RigidTransform T = calib::T_vehicle_lidar(config.mount);
-  for_each_return(drive(config), [&](const SimulatedColumn&, int, const LabelledReturn& wire,
+  for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int, const LabelledReturn& wire,
                                      const calib::Point& exact) {
     if (wire.truth != static_cast<std::uint32_t>(Truth::kRoad)) return;
     EXPECT_NEAR(calib::apply(T, exact.x_m, exact.y_m, exact.z_m)[2], 0, 1e-6);
@@ -110,12 +110,12 @@ TEST(Drive, GroundIsLevelInTheVehicleFrameOfATiltedMount) {
 }
 
 TEST(Drive, RangeNoiseOnTheGroundIsThatOfTheConfiguration) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   config.effects.range_noise_m = 0.02;
   double squares = 0;
   double count = 0;
-  for_each_return(drive(config), [&](const SimulatedColumn&, int, const LabelledReturn& wire,
+  for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int, const LabelledReturn& wire,
                                      const calib::Point& exact) {
     if (wire.truth != static_cast<std::uint32_t>(Truth::kRoad)) return;
     const double range_m = std::hypot(exact.x_m, exact.y_m, exact.z_m);
@@ -128,7 +128,7 @@ TEST(Drive, RangeNoiseOnTheGroundIsThatOfTheConfiguration) {
 }
 
 TEST(Drive, WireValuesDecodeToTheExactPointsWithinTheirRounding) {
-  SimulationConfig config = one_turn("street");
+  Hdl64eSimulation config = one_turn("street");
   const calib::Hdl64eGeometry geometry(config.calibration);
   const auto columns = drive(config);
   double worst_m = 0;
@@ -157,15 +157,15 @@ TEST(Drive, WireValuesDecodeToTheExactPointsWithinTheirRounding) {
 }
 
 TEST(Drive, BoxesOfTheFlatSceneAreSeenWithTheirClassAndNowhereElse) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   config.speed_mps = 0;
   for (const FlatSceneBox& known : flat_scene_boxes()) {
     const auto truth = static_cast<std::uint32_t>(known.truth);
     double low_m = 1e9, high_m = -1e9;
     std::size_t seen = 0;
-    for_each_return(drive(config), [&](const SimulatedColumn&, int, const LabelledReturn& wire,
-                                       const calib::Point& exact) {
+    for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int,
+                                       const LabelledReturn& wire, const calib::Point& exact) {
       const double dx = std::abs(exact.x_m - known.x_m) - known.length_m / 2;
       const double dy = std::abs(exact.y_m - known.y_m) - known.width_m / 2;
       const double z_m = exact.z_m + config.mount.height_m;
@@ -186,7 +186,7 @@ TEST(Drive, BoxesOfTheFlatSceneAreSeenWithTheirClassAndNowhereElse) {
 }
 
 TEST(Drive, EveryLaserSeesWholeTurnsAndNothingOutsideOfThem) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.duration_s = 0.2;
   config.effects = SensorEffects::none();
   const BeamOffsets offsets(config.calibration);
@@ -195,8 +195,8 @@ TEST(Drive, EveryLaserSeesWholeTurnsAndNothingOutsideOfThem) {
   EXPECT_LT(columns.front().wire.unwrapped_azimuth_cdeg, -1000);
   EXPECT_GT(columns.back().wire.unwrapped_azimuth_cdeg, 2 * calib::kTurn_cdeg + 1000);
   std::array<std::array<int, calib::kHdl64eLasers>, 2> returns{};
-  for_each_return(columns, [&](const SimulatedColumn& column, int laser, const LabelledReturn&,
-                               const calib::Point&) {
+  for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int laser,
+                               const LabelledReturn&, const calib::Point&) {
     const auto at = static_cast<std::size_t>(&column - columns.data());
     const std::size_t first = at - at % 6;
     const std::int32_t step_ticks =
@@ -219,7 +219,7 @@ TEST(Drive, EveryLaserSeesWholeTurnsAndNothingOutsideOfThem) {
 
 TEST(Drive, AzimuthsAndStampsAdvanceLikeATurningHead) {
   for (const double spin_hz : {5.0, 10.0, 20.0}) {
-    SimulationConfig config = one_turn("flat");
+    Hdl64eSimulation config = one_turn("flat");
     config.spin_hz = spin_hz;
     const auto columns = drive(config);
     const double step_cdeg = 360e2 * spin_hz * 48e-6;
@@ -233,14 +233,15 @@ TEST(Drive, AzimuthsAndStampsAdvanceLikeATurningHead) {
 }
 
 TEST(Drive, WorldComesNearerAsTheVehicleMoves) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   config.duration_s = 0.3;
   config.speed_mps = 10;
-  const auto truck_face_m = [&](const std::vector<SimulatedColumn>& columns, std::int64_t turn) {
+  const auto truck_face_m = [&](const std::vector<Hdl64eSimulatedColumn>& columns,
+                                std::int64_t turn) {
     double nearest_m = 1e9;
-    for_each_return(columns, [&](const SimulatedColumn& column, int, const LabelledReturn& wire,
-                                 const calib::Point& exact) {
+    for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int,
+                                 const LabelledReturn& wire, const calib::Point& exact) {
       const std::int64_t head_turn = column.wire.unwrapped_azimuth_cdeg / calib::kTurn_cdeg;
       if (head_turn != turn || wire.truth != static_cast<std::uint32_t>(Truth::kTruck)) return;
       nearest_m = std::min(nearest_m, exact.x_m);
@@ -260,13 +261,13 @@ TEST(Drive, WorldComesNearerAsTheVehicleMoves) {
 }
 
 TEST(Drive, TurnsAreOnePictureWhenTheWorldStandsStillDuringThem) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   config.speed_mps = 20;
   const auto spread_m = [&] {
     double least_m = 1e9, most_m = -1e9;
-    for_each_return(drive(config), [&](const SimulatedColumn&, int, const LabelledReturn& wire,
-                                       const calib::Point& exact) {
+    for_each_return(drive(config), [&](const Hdl64eSimulatedColumn&, int,
+                                       const LabelledReturn& wire, const calib::Point& exact) {
       // The wall of the building that faces the road, and its front end behind the vehicle.
       if (wire.truth != static_cast<std::uint32_t>(Truth::kBuilding) || exact.y_m < 9.2) return;
       least_m = std::min(least_m, exact.x_m);
@@ -284,7 +285,7 @@ TEST(Drive, TurnsAreOnePictureWhenTheWorldStandsStillDuringThem) {
 class EveryScene : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(EveryScene, HasOnlyKnownLabelsAndRangesWithinTheLimits) {
-  SimulationConfig config = one_turn(std::string(GetParam()));
+  Hdl64eSimulation config = one_turn(std::string(GetParam()));
   const std::set<std::uint32_t> known = {10, 18, 30, 31, 40, 44, 48, 49, 50, 51, 70, 71, 72, 80};
   const calib::Hdl64eGeometry geometry(config.calibration);
   const auto begin = std::chrono::steady_clock::now();
@@ -292,7 +293,7 @@ TEST_P(EveryScene, HasOnlyKnownLabelsAndRangesWithinTheLimits) {
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   std::size_t returns = 0;
   std::size_t ground = 0;
-  for_each_return(columns, [&](const SimulatedColumn&, int, const LabelledReturn& wire,
+  for_each_return(columns, [&](const Hdl64eSimulatedColumn&, int, const LabelledReturn& wire,
                                const calib::Point& exact) {
     ++returns;
     EXPECT_TRUE(known.contains(wire.truth)) << wire.truth;
@@ -315,7 +316,7 @@ INSTANTIATE_TEST_SUITE_P(Drive, EveryScene,
                          [](const auto& each) { return std::string(each.param); });
 
 TEST(Drive, DropOutsAreTheAskedShareOfReturns) {
-  SimulationConfig config = one_turn("flat");
+  Hdl64eSimulation config = one_turn("flat");
   config.effects = SensorEffects::none();
   double all = 0, kept = 0;
   const auto count = [&](double& sum) {
@@ -329,9 +330,10 @@ TEST(Drive, DropOutsAreTheAskedShareOfReturns) {
 
 TEST(Drive, ErrorOfTheSinkEndsTheDrive) {
   int taken = 0;
-  const auto summary = simulate_drive(one_turn("flat"), [&](const SimulatedColumn&) -> Status {
-    return ++taken < 10 ? Status{} : fail(ErrorCode::kWriteFailed, "disk full");
-  });
+  const auto summary =
+      simulate_drive(one_turn("flat"), [&](const Hdl64eSimulatedColumn&) -> Status {
+        return ++taken < 10 ? Status{} : fail(ErrorCode::kWriteFailed, "disk full");
+      });
   ASSERT_FALSE(summary);
   EXPECT_EQ(summary.error().message, "disk full");
   EXPECT_EQ(taken, 10);
@@ -339,10 +341,10 @@ TEST(Drive, ErrorOfTheSinkEndsTheDrive) {
 
 TEST(Drive, SettingsOutOfRangeAreRefusedByName) {
   const auto message = [](auto&& change) {
-    SimulationConfig config = one_turn("flat");
+    Hdl64eSimulation config = one_turn("flat");
     change(config);
     const auto summary =
-        simulate_drive(config, [](const SimulatedColumn&) -> Status { return {}; });
+        simulate_drive(config, [](const Hdl64eSimulatedColumn&) -> Status { return {}; });
     return summary ? std::string("accepted") : summary.error().message;
   };
   EXPECT_NE(message([](auto& c) { c.spin_hz = 50; }).find("spin_hz"), std::string::npos);

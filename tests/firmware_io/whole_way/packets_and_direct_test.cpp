@@ -30,7 +30,7 @@ struct LabelledTurn {
 };
 
 struct TwoWays {
-  explicit TwoWays(const SimulationConfig& config)
+  explicit TwoWays(const Hdl64eSimulation& config)
       : decoder(config.calibration, config.mount, {}, memory),
         geometry(config.calibration),
         offsets(config.calibration),
@@ -113,14 +113,14 @@ struct TwoWays {
 class SimulatedDrive : public testing::TestWithParam<const char*> {};
 
 TEST_P(SimulatedDrive, GetsTheSameLabelsThroughPacketsAndDirectly) {
-  SimulationConfig config;
+  Hdl64eSimulation config;
   config.scene = GetParam();
   config.duration_s = 0.3;
   config.mount.pitch_rad = 0.02;
   TwoWays ways(config);
   std::array<FiringColumn, kColumnsPerPacketSingle> columns;
   std::size_t filled = 0;
-  const auto summary = simulate_drive(config, [&](const SimulatedColumn& column) -> Status {
+  const auto summary = simulate_drive(config, [&](const Hdl64eSimulatedColumn& column) -> Status {
     columns[filled++] = column.wire;
     if (filled == columns.size()) {
       ways.send(columns);

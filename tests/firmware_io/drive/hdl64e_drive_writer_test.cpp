@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/hdl64e/drive_writer.hpp"
+#include "firmware_io/drive/drive_writer.hpp"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -17,7 +17,7 @@ namespace terracut::test {
 namespace {
 
 namespace fs = std::filesystem;
-using firmware_io::DriveWriter;
+using DriveWriter = firmware_io::Hdl64eDriveWriter;
 
 class DriveWriterTest : public testing::Test {
  protected:

@@ -7,20 +7,23 @@
 #include <span>
 #include <vector>
 
-#include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
-#include "firmware_io/labelled_return.hpp"
+#include "firmware_io/drive/return_mode.hpp"
 
 namespace terracut::firmware_io {
 
 /// Sorts the truth of a drive's returns into turns as the decoder sorts the returns: by each beam's
-/// own azimuth, in order of arrival. Not real-time safe (allocates).
+/// own azimuth, in order of arrival. `Transmitter`: see transmitter.hpp. Not real-time safe
+/// (allocates).
+template <class Transmitter>
 class TruthTurns {
  public:
-  explicit TruthTurns(const BeamOffsets& offsets) : offsets_(offsets) {}
+  using Column = typename Transmitter::Column;
 
-  /// The firings of one packet.
-  void add(std::span<const FiringColumn, kColumnsPerPacketSingle> columns);
+  TruthTurns(const typename Transmitter::Offsets& offsets, ReturnMode returns)
+      : offsets_(offsets), returns_(returns) {}
+
+  /// The columns of one group of firings.
+  void add(std::span<const Column> columns);
 
   /// The oldest turn that no further beam can reach, if any; its labels move to `labels`, which has
   /// at least one. Empty turns are dropped.
@@ -29,7 +32,8 @@ class TruthTurns {
   [[nodiscard]] bool take_any(std::vector<std::uint32_t>& labels);
 
  private:
-  BeamOffsets offsets_;
+  typename Transmitter::Offsets offsets_;
+  ReturnMode returns_;
   std::map<std::int64_t, std::vector<std::uint32_t>> by_turn_;
   std::int64_t oldest_reachable_ = 0;
 };

@@ -2,13 +2,14 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <span>
 
-#include "calib/hdl64e_calibration.hpp"
-#include "firmware_io/hdl64e/firing_azimuth.hpp"
+#include "firmware_io/drive/drive_files.hpp"
+#include "firmware_io/drive/transmitter.hpp"
 #include "firmware_io/labelled_return.hpp"
 #include "rt/error.hpp"
 
@@ -18,14 +19,16 @@ namespace terracut::firmware_io {
 struct DriveSummary {
   std::uint64_t frames = 0;   ///< Turns with at least one return = truth files.
   std::uint64_t returns = 0;  ///< = entries of all truth files.
-  std::uint64_t columns = 0;  ///< Firings, those that fill up the last packet included.
-  std::uint64_t packets = 0;
+  std::uint64_t columns = 0;  ///< Those that fill up the last packets included.
+  std::uint64_t packets = 0;  ///< Of data.
 };
 
-/// Writes a labelled HDL-64E drive: three things that belong together.
+/// Writes a labelled drive of a sensor: three things that belong together.
 ///
-///   drive.pcap                data packets on UDP port 2368, the calibration in their status bytes
-///   drive.calibration.xml     the unit's table (db.xml)
+///   drive.pcap                the sensor's packets, its calibration in them (HDL-64E: in the
+///                             status bytes; RS-Ruby128: in a device packet every second)
+///   drive.calibration.xml     the unit's table (HDL-64E: db.xml; RS-Ruby128: angle.csv, named
+///                             drive.calibration.csv)
 ///   drive.truth/NNNNNN.label  one little-endian uint32 per return, turn by turn, in order of
 ///                             arrival (packet, block, laser), SemanticKITTI ids
 ///
@@ -37,28 +40,35 @@ struct DriveSummary {
 ///
 /// Everything is written under temporary names and appears, whole, at finish(); a DriveWriter that
 /// goes without it leaves nothing behind. File work: not real-time safe. One thread.
+///
+/// `Transmitter`: Hdl64eTransmitter or Ruby128Transmitter.
+template <class Transmitter>
 class DriveWriter {
  public:
+  static constexpr auto kLasers = static_cast<std::size_t>(Transmitter::kLasers);
+
   /// `pcap_path` is "<folder>/<name>.pcap"; the other two names follow from it. An existing
   /// capture, calibration and truth folder of that name are replaced at finish(); a truth folder
   /// that holds anything but NNNNNN.label files is refused here.
-  [[nodiscard]] static Expected<DriveWriter> create(const std::filesystem::path& pcap_path,
-                                                    const calib::Hdl64eCalibration& calibration,
-                                                    AzimuthAt azimuth_at = AzimuthAt::kFiring);
+  [[nodiscard]] static Expected<DriveWriter> create(
+      const std::filesystem::path& pcap_path, const typename Transmitter::Calibration& calibration,
+      const typename Transmitter::Config& config = {});
 
   DriveWriter(DriveWriter&&) noexcept;
   DriveWriter& operator=(DriveWriter&&) noexcept;
   ~DriveWriter();
 
-  /// The next firing of all lasers; `stamp_ns` is that of its first laser. Firings must be those of
-  /// a turning head: stamps at least 1 us apart; inside a packet (the 1st to 6th, 7th to 12th, ...
-  /// of these calls) the head turns on by [0.02, 1.0] degrees from one to the next. Between packets
-  /// it may leave a gap of up to 0.9 s, if speed and stamps agree with the azimuths to 15 degrees.
+  /// The next firing of all lasers; `stamp_ns` is that of its first laser. In dual return two calls
+  /// a firing, with the same stamp and azimuth: HDL-64E strongest, then last; RS-Ruby128 last, then
+  /// strongest. Firings must be those of a turning head: stamps at least 1 us apart; inside a group
+  /// (Transmitter::limits(); the first group begins with the first firing) the head turns on by the
+  /// sensor's own span of steps from one to the next. Between groups it may leave a gap of up to
+  /// 0.9 s, if speed and stamps agree with the azimuths to 15 degrees.
   /// Errors: kInvalidArgument naming the firing and what it broke, kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
-                                  std::span<const LabelledReturn, calib::kHdl64eLasers> by_laser);
+                                  std::span<const LabelledReturn, kLasers> by_laser);
 
-  /// Fills up the last packet with empty firings and puts all files in their places.
+  /// Fills up the last packets with empty firings and puts all files in their places.
   [[nodiscard]] Expected<DriveSummary> finish();
 
  private:
@@ -67,8 +77,7 @@ class DriveWriter {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The names a drive's parts have beside "<folder>/<name>.pcap".
-[[nodiscard]] std::filesystem::path calibration_path_of(const std::filesystem::path& pcap_path);
-[[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
+using Hdl64eDriveWriter = DriveWriter<Hdl64eTransmitter>;
+using Ruby128DriveWriter = DriveWriter<Ruby128Transmitter>;
 
 }  // namespace terracut::firmware_io

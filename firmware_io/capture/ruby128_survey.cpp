@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/capture/ruby128_survey.hpp"
+
+#include "firmware_io/ruby128/packet_check.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::firmware_io {
+
+void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
+  const auto packet = Ruby128PacketView::of(payload);
+  if (!packet) return;
+  PacketHeads heads;
+  const auto reject = check_ruby128_packet(payload, heads);
+  if (reject && heads.columns == 0) return;  // not its block ids after all
+  const RubyTimestamp encoding = timestamp_.add(packet->stamp(), packet->protocol_version());
+  const std::int64_t device_ns = read_ruby_timestamp(packet->stamp(), encoding);
+  last_.protocol_version = packet->protocol_version();
+  last_.ahead_of_capture_s = static_cast<double>(device_ns - stamp_ns) * 1e-9;
+  last_.temperature_deg_c = packet->temperature_deg_c();
+  heads.device_stamp_us = (device_ns + ruby_stamp_delay_ns(heads, !reject)) / 1000;
+  if (reject == Reject::kAzimuthOutOfRange) {
+    stream_.add_out_of_range();
+  } else {
+    stream_.add(heads, !reject);
+  }
+}
+
+Ruby128Facts Ruby128Survey::facts() const {
+  Ruby128Facts facts = last_;
+  static_cast<StreamFacts&>(facts) = stream_.facts();
+  facts.timestamp = timestamp_.encoding();
+  facts.timestamp_proven = timestamp_.settled();
+  return facts;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/drive/drive_files.hpp"
+
+#include <fmt/format.h>
+#include <stdlib.h>
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace terracut::firmware_io {
+namespace fs = std::filesystem;
+namespace {
+
+bool is_label_name(const std::string& name) {
+  constexpr std::size_t kDigits = 6;
+  return name.size() == kDigits + 6 && name.ends_with(".label") &&
+         std::all_of(name.begin(), name.begin() + kDigits,
+                     [](unsigned char c) { return std::isdigit(c) != 0; });
+}
+
+Status check_folder(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder, error)) return {};
+  if (!fs::is_directory(folder, error)) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("{}: expected a folder of truth labels or nothing, found a file; move it "
+                    "away or choose another output name",
+                    folder.string()));
+  }
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, error)) {
+    if (!is_label_name(entry.path().filename().string())) {
+      return fail(
+          ErrorCode::kInvalidArgument,
+          fmt::format("{}: expected only NNNNNN.label files, found '{}'; the folder would be "
+                      "replaced, so move it away or choose another output name",
+                      folder.string(), entry.path().filename().string()));
+    }
+  }
+  return {};
+}
+
+tl::unexpected<Error> write_failed(const fs::path& path, const std::string& reason) {
+  return fail(ErrorCode::kWriteFailed,
+              fmt::format("{}: could not be written: {}; nothing was left in its place. Check the "
+                          "free space and the folder's permissions",
+                          path.string(), reason));
+}
+
+}  // namespace
+
+fs::path truth_folder_of(const fs::path& pcap_path) {
+  return pcap_path.parent_path() / (pcap_path.stem().string() + ".truth");
+}
+
+/// The folder itself; vanishes with this object.
+class DriveFiles::Staging {
+ public:
+  explicit Staging(fs::path path) : path_(std::move(path)) {}
+  Staging(const Staging&) = delete;
+  Staging& operator=(const Staging&) = delete;
+  ~Staging() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  [[nodiscard]] fs::path truth() const { return path_ / "truth"; }
+  [[nodiscard]] fs::path old_truth() const { return path_ / "old-truth"; }
+  [[nodiscard]] fs::path calibration() const { return path_ / "calibration"; }
+
+ private:
+  fs::path path_;
+};
+
+DriveFiles::DriveFiles(fs::path truth, std::unique_ptr<Staging> staging) noexcept
+    : truth_(std::move(truth)), staging_(std::move(staging)) {}
+DriveFiles::DriveFiles(DriveFiles&&) noexcept = default;
+DriveFiles& DriveFiles::operator=(DriveFiles&&) noexcept = default;
+DriveFiles::~DriveFiles() = default;
+
+Expected<DriveFiles> DriveFiles::create(const fs::path& pcap_path) {
+  const fs::path truth = truth_folder_of(pcap_path);
+  if (const Status usable = check_folder(truth); !usable) return tl::unexpected(usable.error());
+  const std::string stem = pcap_path.stem().string();
+  std::string name = (pcap_path.parent_path() / fmt::format(".{}-XXXXXX", stem)).string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    return write_failed(pcap_path, "no temporary folder can be made in its folder");
+  }
+  DriveFiles files(truth, std::make_unique<Staging>(name));
+  std::error_code error;
+  fs::create_directory(files.staging_->truth(), error);
+  if (error) return write_failed(truth, error.message());
+  return files;
+}
+
+fs::path DriveFiles::staged_calibration() const {
+  return staging_->calibration();
+}
+
+Status DriveFiles::write_truth(std::uint64_t frame, std::span<const std::uint32_t> labels) {
+  std::vector<char> bytes;
+  bytes.reserve(4 * labels.size());
+  for (const std::uint32_t label : labels) {
+    for (int shift = 0; shift < 32; shift += 8) {
+      bytes.push_back(static_cast<char>(label >> shift & 0xFFU));
+    }
+  }
+  std::ofstream file(staging_->truth() / fmt::format("{:06}.label", frame), std::ios::binary);
+  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  file.close();
+  if (!file) return write_failed(truth_, "a label file was refused");
+  return {};
+}
+
+Status DriveFiles::check_replaceable() const {
+  return check_folder(truth_);
+}
+
+Status DriveFiles::put_in_place(const fs::path& calibration_path) {
+  std::error_code error;
+  if (fs::exists(truth_, error)) fs::rename(truth_, staging_->old_truth(), error);
+  if (!error) fs::rename(staging_->truth(), truth_, error);
+  if (error) return write_failed(truth_, error.message());
+  fs::rename(staging_->calibration(), calibration_path, error);
+  if (error) return write_failed(calibration_path, error.message());
+  return {};
+}
+
+}  // namespace terracut::firmware_io

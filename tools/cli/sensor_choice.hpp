@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/sensor_probe.hpp"
+#include "firmware_io/loss_counters.hpp"
+#include "options.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::cli {
+
+/// The sensor of a capture, and how it turns.
+struct SensorChoice {
+  firmware_io::SensorModel model = firmware_io::SensorModel::kHdl64e;  ///< kHdl64e or kRuby128.
+  int columns = 0;  ///< For the range image: firings a turn.
+  double spin_hz = 0;
+  bool dual_return = false;
+};
+
+/// Reads the beginning of `source` and tells which sensor it is of: the one of --sensor, or the one
+/// found. Errors: kUnsupported, naming the models found instead; kInvalidArgument when there are
+/// packets of both sensors and none was named. Leaves `source` anywhere; rewind it.
+[[nodiscard]] Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
+                                                   firmware_io::PcapSource& source);
+
+/// Why datagrams of a capture gave nothing: what its frames were, or the checks they failed.
+[[nodiscard]] std::string why_nothing_came(const firmware_io::PcapCounters& read,
+                                           std::uint64_t offered,
+                                           const firmware_io::LossCounters& losses);
+
+}  // namespace terracut::cli

@@ -122,15 +122,17 @@ bool FrameBuilder::close_oldest() noexcept {
                       .returns = closing.image->returns(),
                       .complete = seen_whole(closing),
                       .losses = losses_};
-    closed_ = closing.image;
     losses_handed_over_ += losses_;
     losses_ = {};
     packets_ = 0;
   }
+  return has_returns;
+}
+
+void FrameBuilder::open_next(pipeline::RangeImage& image) noexcept {
   open_[0] = open_[1];
   ++oldest_;
-  open(1, oldest_ + 1, has_returns ? exchange(*closing.image) : *closing.image);
-  return has_returns;
+  open(1, oldest_ + 1, image);
 }
 
 LossCounters FrameBuilder::total_losses() const noexcept {

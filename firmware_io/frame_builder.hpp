@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
+#include <type_traits>
 #include <vector>
 
 #include "firmware_io/frame_info.hpp"
@@ -37,8 +39,11 @@ struct BeamSpread {
 ///   foremost beam     .......|------- turn k ---|=== turn k+1 ===
 ///   hindmost beam     ............|------- turn k ---|=== turn k+1
 ///
-/// Hand-over is a call on_frame(const FrameInfo&, const pipeline::RangeImage&), noexcept. With n
-/// images the one handed over stays untouched until the (n - 2)th hand-over after it.
+/// Hand-over is a call on_frame(const FrameInfo&, pipeline::RangeImage&), noexcept. Where it
+/// returns nothing, the image handed over stays untouched until the (n - 2)th hand-over after it,
+/// with n images. Where it returns a RangeImage*, the builder goes on with that one and does not
+/// touch the other any more: images change hands one for one, for a reader on another thread. It
+/// must be an image that nobody else uses, of images().
 ///
 /// Memory is taken in the constructor; nothing else allocates, locks or throws. One thread.
 class FrameBuilder {
@@ -88,7 +93,17 @@ class FrameBuilder {
   /// Hands the oldest turn over, if it has returns, and opens the one after the next.
   template <class OnFrame>
   void roll(OnFrame&& on_frame) noexcept {
-    if (close_oldest()) on_frame(info_, *closed_);
+    pipeline::RangeImage& closing = *open_[0].image;
+    if (!close_oldest()) {
+      open_next(closing);
+      return;
+    }
+    if constexpr (std::is_pointer_v<decltype(on_frame(info_, closing))>) {
+      open_next(*on_frame(info_, closing));
+    } else {
+      on_frame(info_, closing);
+      open_next(exchange(closing));
+    }
   }
 
   /// The stream ends here: hands over what is open, oldest first. start() must follow.
@@ -106,6 +121,8 @@ class FrameBuilder {
   [[nodiscard]] LossCounters total_losses() const noexcept;
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_; }
   [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return shape_; }
+  /// All images; the first two are open at the start.
+  [[nodiscard]] std::span<pipeline::RangeImage> images() noexcept { return images_; }
 
  private:
   struct OpenTurn {
@@ -122,8 +139,10 @@ class FrameBuilder {
   void add_missing(OpenTurn& turn, std::int64_t number, const HeadInterval& interval, int sign,
                    const BeamSpread& spread) noexcept;
   [[nodiscard]] bool seen_whole(const OpenTurn& turn) const noexcept;
-  /// Fills info_ and closed_, or answers false when the turn has no returns.
+  /// Fills info_, or answers false when the turn has no returns.
   [[nodiscard]] bool close_oldest() noexcept;
+  /// Shifts the open turns by one; the new one goes into `image`.
+  void open_next(pipeline::RangeImage& image) noexcept;
 
   pipeline::ImageShape shape_;
   std::int64_t turn_ticks_;
@@ -142,7 +161,6 @@ class FrameBuilder {
   std::uint32_t packets_ = 0;
   LossCounters losses_, losses_handed_over_;
   FrameInfo info_;
-  const pipeline::RangeImage* closed_ = nullptr;
 };
 
 }  // namespace terracut::firmware_io

@@ -14,10 +14,10 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid, rt::Fix
       height_m_(memory.take<float>("ground surface", grid.cells())),
       origin_(memory.take<Origin>("ground surface", grid.cells())) {}
 
-void GroundSurface::estimate(const RingGrid& grid, std::span<const float> lowest_m) noexcept {
-  for (int sector = 0; sector < grid.sectors(); ++sector) walk_outwards(grid, sector, lowest_m);
+void GroundSurface::estimate(const RingGrid& grid, std::span<const LowestReturn> lowest) noexcept {
+  for (int sector = 0; sector < grid.sectors(); ++sector) walk_outwards(grid, sector, lowest);
   drop_narrow_strips(grid);
-  borrow_from_neighbours(grid, lowest_m);
+  borrow_from_neighbours(grid, lowest);
 }
 
 float GroundSurface::Walk::predict_m(float to_range_m, const Config& config) const noexcept {
@@ -33,63 +33,75 @@ bool GroundSurface::Walk::reaches(float to_range_m, float to_height_m,
   return rise_m < accepted_m && rise_m > -(accepted_m + config.extra_fall * run_m);
 }
 
-void GroundSurface::Walk::step(float to_range_m, float to_height_m, const Config& config) noexcept {
+float GroundSurface::Walk::step(float to_range_m, float to_height_m,
+                                const Config& config) noexcept {
   const float run_m = std::max(to_range_m - range_m, config.first_slope_run_m);
-  const float step_slope = (to_height_m - height_m) / run_m;
+  const float step_slope =
+      std::clamp((to_height_m - height_m) / run_m, -config.max_slope, config.max_slope);
   slope = std::clamp((1.0F - config.slope_gain) * slope + config.slope_gain * step_slope,
                      -config.max_slope, config.max_slope);
   height_m = to_height_m;
   range_m = to_range_m;
+  return step_slope;
 }
 
 void GroundSurface::walk_outwards(const RingGrid& grid, int sector,
-                                  std::span<const float> lowest_m) noexcept {
+                                  std::span<const LowestReturn> lowest) noexcept {
   Walk ground;
-  int lost_band = walk_on(grid, sector, 0, kMeasured, ground, lowest_m);
+  int lost_band = walk_on(grid, sector, 0, kMeasured, ground, lowest);
   for (;;) {
-    const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest_m);
+    const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest);
     if (detour.band < 0) return;
-    ground = {lowest_m[grid.cell(sector, detour.band)], grid.center_m(detour.band), detour.slope};
+    const LowestReturn& start = lowest[grid.cell(sector, detour.band)];
+    ground = {start.height_m, start.range_m, detour.slope};
     lost_band =
-        std::max(detour.band, walk_on(grid, sector, detour.band, kRegained, ground, lowest_m));
+        std::max(detour.band, walk_on(grid, sector, detour.band, kRegained, ground, lowest));
   }
 }
 
 int GroundSurface::walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
-                           std::span<const float> lowest_m) noexcept {
+                           std::span<const LowestReturn> lowest) noexcept {
   int last_band = -1;
   for (; band < grid.bands(); ++band) {
     const std::size_t cell = grid.cell(sector, band);
-    const float range_m = grid.center_m(band);
-    const float lowest = lowest_m[cell];
-    const bool is_ground = lowest != kEmpty && ground.reaches(range_m, lowest, config_);
+    const float center_m = grid.center_m(band);
+    const LowestReturn& here = lowest[cell];
+    const bool is_ground =
+        here.height_m != kEmpty && ground.reaches(here.range_m, here.height_m, config_);
     origin_[cell] = is_ground ? origin : kPredicted;
     if (is_ground) {
-      ground.step(range_m, lowest, config_);
+      // The step's own slope carries the heights of both returns to the middles of their cells.
+      const Walk before = ground;
+      const float step_slope = ground.step(here.range_m, here.height_m, config_);
+      if (last_band >= 0 && grid.center_m(last_band) > before.range_m) {
+        walked_m_[grid.cell(sector, last_band)] =
+            before.height_m + step_slope * (grid.center_m(last_band) - before.range_m);
+      }
+      walked_m_[cell] = center_m < here.range_m
+                            ? here.height_m - step_slope * (here.range_m - center_m)
+                            : ground.predict_m(center_m, config_);
       last_band = band;
+    } else {
+      walked_m_[cell] = ground.predict_m(center_m, config_);
     }
-    walked_m_[cell] = ground.predict_m(range_m, config_);
   }
   return last_band;
 }
 
 GroundSurface::Detour GroundSurface::find_ground_again(
     const RingGrid& grid, int sector, int lost_band, const Walk& ground,
-    std::span<const float> lowest_m) const noexcept {
-  struct Place {
-    float range_m, height_m;
-  };
+    std::span<const LowestReturn> lowest) const noexcept {
   // No steeper than regain_slope from one place to the next.
-  const auto passable = [this](const Place& from, const Place& to) {
+  const auto passable = [this](const LowestReturn& from, const LowestReturn& to) {
     return std::fabs(to.height_m - from.height_m) <=
            config_.regain_slope * (to.range_m - from.range_m);
   };
-  const Place lost{ground.range_m, ground.height_m};
-  Place start{}, last{};
+  const LowestReturn lost{ground.height_m, ground.range_m};
+  LowestReturn start, last;
   int start_band = -1;     // of the places that lead on passably from one to the next
   bool connected = false;  // ... and whether they do so from the lost ground
   for (int band = lost_band + 1; band < grid.bands(); ++band) {
-    const Place here{grid.center_m(band), lowest_m[grid.cell(sector, band)]};
+    const LowestReturn& here = lowest[grid.cell(sector, band)];
     if (here.height_m == kEmpty) continue;
     if (start_band < 0 || !passable(last, here)) {
       start = here;
@@ -130,13 +142,13 @@ void GroundSurface::drop_narrow_strips(const RingGrid& grid) noexcept {
 }
 
 void GroundSurface::borrow_from_neighbours(const RingGrid& grid,
-                                           std::span<const float> lowest_m) noexcept {
+                                           std::span<const LowestReturn> lowest) noexcept {
   const int bands = grid.bands();
   for (int sector = 0; sector < grid.sectors(); ++sector) {
     const std::size_t first = grid.cell(sector, 0);
     const auto has_return = [&](int band) {
       return band >= 0 && band < bands &&
-             lowest_m[first + static_cast<std::size_t>(band)] != kEmpty;
+             lowest[first + static_cast<std::size_t>(band)].height_m != kEmpty;
     };
     for (int band = 0; band < bands; ++band) {
       const std::size_t cell = first + static_cast<std::size_t>(band);

@@ -19,6 +19,14 @@ namespace terracut::pipeline {
 /// ground of their own borrow from the nearest sectors that have it.
 class GroundSurface {
  public:
+  /// The lowest return of a grid cell. On a slope it lies at the cell's near or far end, not in its
+  /// middle: half a band of 2 m at a slope of 40 % is 0.4 m of height.
+  struct LowestReturn {
+    float height_m = kEmpty;  ///< kEmpty where the cell had no return.
+    float range_m = 0;        ///< Horizontal.
+  };
+  static constexpr float kEmpty = 1e9F;
+
   struct Config {
     float step_up_m = 0.04F;        ///< Rise accepted at no distance at all (noise, bumps).
     float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre walked.
@@ -26,13 +34,13 @@ class GroundSurface {
         0.31F;                 ///< Never accept a rise above this, however far the last ground.
     float extra_fall = 0.30F;  ///< Further fall accepted per metre walked (ground may drop away).
     float slope_gain = 0.30F;  ///< Share of a new step in the running slope, (0, 1].
-    float max_slope = 0.40F;   ///< Largest running slope, rise over run.
+    float max_slope = 0.55F;   ///< Largest running slope, rise over run.
     float slope_memory_m = 2.0F;  ///< How far the running slope is carried on over missing ground.
     float first_slope_run_m =
         0.4F;  ///< A shorter step than this counts as this long for the slope.
     float regain_length_m =
         4.0F;  ///< Lost ground is found again after so many metres of passable steps ...
-    float regain_slope = 0.40F;   ///< ... that begin no steeper than this from the last ground ...
+    float regain_slope = 0.55F;   ///< ... that begin no steeper than this from the last ground ...
     float regain_width_m = 4.0F;  ///< ... on a strip at least so wide.
     int borrow_sectors = 10;      ///< How many sectors to each side a cell may borrow from.
     float walked_weight =
@@ -41,15 +49,12 @@ class GroundSurface {
 
   GroundSurface(const Config& config, const RingGrid& grid, rt::FixedMemory& memory);
 
-  /// Estimates the surface from `lowest_m`, one height per grid cell, kEmpty where it had no
-  /// return. Real-time safe.
-  void estimate(const RingGrid& grid, std::span<const float> lowest_m) noexcept;
+  /// Estimates the surface from the lowest return of each grid cell. Real-time safe.
+  void estimate(const RingGrid& grid, std::span<const LowestReturn> lowest) noexcept;
 
-  /// Ground height above the mount's plane, one per grid cell; meaningful in cells that had a
-  /// return and in the bands next to them.
+  /// Ground height above the mount's plane in the middle of each grid cell; meaningful in cells
+  /// that had a return and in the bands next to them.
   [[nodiscard]] std::span<const float> height_m() const noexcept { return height_m_; }
-
-  static constexpr float kEmpty = 1e9F;
 
  private:
   enum Origin : std::uint8_t {
@@ -67,13 +72,15 @@ class GroundSurface {
     [[nodiscard]] float predict_m(float to_range_m, const Config& config) const noexcept;
     [[nodiscard]] bool reaches(float to_range_m, float to_height_m,
                                const Config& config) const noexcept;
-    void step(float to_range_m, float to_height_m, const Config& config) noexcept;
+    /// Goes there; the slope of the step, at most max_slope up or down.
+    float step(float to_range_m, float to_height_m, const Config& config) noexcept;
   };
 
-  void walk_outwards(const RingGrid& grid, int sector, std::span<const float> lowest_m) noexcept;
+  void walk_outwards(const RingGrid& grid, int sector,
+                     std::span<const LowestReturn> lowest) noexcept;
   /// Walks from `band` to the end of the sector; returns the last band that was ground, or -1.
   int walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
-              std::span<const float> lowest_m) noexcept;
+              std::span<const LowestReturn> lowest) noexcept;
   /// Where ground begins again, and the slope it goes on at.
   struct Detour {
     int band = -1;  // -1: nowhere
@@ -83,10 +90,10 @@ class GroundSurface {
   /// passably for `regain_length_m`.
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
                                          const Walk& ground,
-                                         std::span<const float> lowest_m) const noexcept;
+                                         std::span<const LowestReturn> lowest) const noexcept;
   /// Takes back what was found again on a strip too narrow to be ground: car roofs in a row, say.
   void drop_narrow_strips(const RingGrid& grid) noexcept;
-  void borrow_from_neighbours(const RingGrid& grid, std::span<const float> lowest_m) noexcept;
+  void borrow_from_neighbours(const RingGrid& grid, std::span<const LowestReturn> lowest) noexcept;
   [[nodiscard]] float borrowed_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;

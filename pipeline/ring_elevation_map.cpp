@@ -39,7 +39,7 @@ RingElevationMap::RingElevationMap(const Config& config, const calib::RingProfil
     : config_(config),
       grid_(config.grid, profile, shape, memory),
       surface_(config.surface, grid_, memory),
-      lowest_m_(memory.take<float>("ring grid", grid_.cells())) {}
+      lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())) {}
 
 void RingElevationMap::segment(const RangeImage& image, CellPlanes& planes) noexcept {
   find_lowest_returns(image);
@@ -47,12 +47,16 @@ void RingElevationMap::segment(const RangeImage& image, CellPlanes& planes) noex
     label_by_cell_minimum(image, planes);
     return;
   }
-  surface_.estimate(grid_, lowest_m_);
+  surface_.estimate(grid_, lowest_);
   label_by_local_surface(image, planes);
 }
 
 void RingElevationMap::find_lowest_returns(const RangeImage& image) noexcept {
-  std::fill(lowest_m_.begin(), lowest_m_.end(), GroundSurface::kEmpty);
+  std::fill(lowest_.begin(), lowest_.end(), GroundSurface::LowestReturn{});
+  const auto lower = [this](int sector, float range_m, float height_m) noexcept {
+    GroundSurface::LowestReturn& lowest = lowest_[grid_.cell(sector, grid_.band_of(range_m))];
+    if (height_m < lowest.height_m) lowest = {height_m, range_m};
+  };
   const ImageShape& shape = image.shape();
   const auto z_m = image.z_m();
   const auto ground_range_m = image.ground_range_m();
@@ -62,26 +66,22 @@ void RingElevationMap::find_lowest_returns(const RangeImage& image) noexcept {
     for (int column = 0; column < shape.columns; ++column) {
       const std::size_t cell = first + static_cast<std::size_t>(column);
       if (!image.has_return(cell)) continue;
-      float& lowest =
-          lowest_m_[grid_.cell(grid_.sector_of(column), grid_.band_of(ground_range_m[cell]))];
-      lowest = std::min(lowest, z_m[cell]);
+      lower(grid_.sector_of(column), ground_range_m[cell], z_m[cell]);
     }
   }
   for (const OverflowReturn& extra : image.overflow()) {
     const int column = static_cast<int>(extra.cell % static_cast<std::uint32_t>(shape.stride()));
-    float& lowest =
-        lowest_m_[grid_.cell(grid_.sector_of(column), grid_.band_of(extra.echo.ground_range_m))];
-    lowest = std::min(lowest, extra.echo.z_m);
+    lower(grid_.sector_of(column), extra.echo.ground_range_m, extra.echo.z_m);
   }
 }
 
 void RingElevationMap::label_by_cell_minimum(const RangeImage& image,
                                              CellPlanes& planes) const noexcept {
   const auto ground_range_m = image.ground_range_m();
-  label_by_height(image, grid_, config_.obstacle_height_m, planes,
-                  [&](std::size_t cell, int sector) {
-                    return lowest_m_[grid_.cell(sector, grid_.band_of(ground_range_m[cell]))];
-                  });
+  label_by_height(
+      image, grid_, config_.obstacle_height_m, planes, [&](std::size_t cell, int sector) {
+        return lowest_[grid_.cell(sector, grid_.band_of(ground_range_m[cell]))].height_m;
+      });
 }
 
 void RingElevationMap::label_by_local_surface(const RangeImage& image,

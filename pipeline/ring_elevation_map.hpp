@@ -43,7 +43,7 @@ class RingElevationMap {
   Config config_;
   RingGrid grid_;
   GroundSurface surface_;
-  std::span<float> lowest_m_;  // per grid cell
+  std::span<GroundSurface::LowestReturn> lowest_;  // per grid cell
 };
 
 }  // namespace terracut::pipeline

@@ -7,6 +7,13 @@
 #include "pipeline/boundary_term.hpp"
 
 namespace terracut::pipeline {
+namespace {
+
+bool has_expired(const CutBudget& budget) noexcept {
+  return budget.expired != nullptr && budget.expired(budget.context);
+}
+
+}  // namespace
 
 Segmenter::Segmenter(const SegmenterConfig& config, const calib::RingProfile& profile,
                      ImageShape shape, std::size_t return_capacity, rt::FixedMemory& memory)
@@ -36,7 +43,11 @@ SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& 
   done(Stage::kAdjacentPoints);
 
   // Fine: what is not certain yet is labelled together, by the cheapest cut of the range image.
-  if (config_.last_stage >= Stage::kMinCut) {
+  report.last_stage = config_.last_stage;
+  if (config_.last_stage >= Stage::kMinCut && has_expired(budget)) {
+    report.last_stage = Stage::kAdjacentPoints;
+  }
+  if (report.last_stage >= Stage::kMinCut) {
     seeds_.select(planes_);
     region_.evaluate(image, planes_, seeds_.seeds());
     done(Stage::kSeeds);

@@ -18,10 +18,11 @@ namespace terracut::pipeline {
 
 /// What became of one frame.
 struct SegmentationReport {
-  std::uint32_t returns = 0;    ///< In the image, all of them labelled.
-  std::uint32_t ground = 0;     ///< Of them, labelled ground.
-  std::uint32_t obstacles = 0;  ///< Of them, labelled obstacle.
-  CutReport cut;                ///< All zero when the min-cut was not asked for.
+  std::uint32_t returns = 0;          ///< In the image, all of them labelled.
+  std::uint32_t ground = 0;           ///< Of them, labelled ground.
+  std::uint32_t obstacles = 0;        ///< Of them, labelled obstacle.
+  Stage last_stage = Stage::kMinCut;  ///< How far it was refined.
+  CutReport cut;                      ///< All zero where that is before the min-cut.
 };
 
 /// The coarse-to-fine method: a range image goes in, a label for every return comes out.
@@ -36,7 +37,8 @@ class Segmenter {
             std::size_t return_capacity, rt::FixedMemory& memory);
 
   /// Labels one turn; `image` has the shape given at construction. The result of the turn before is
-  /// overwritten. Real-time safe if the observer is.
+  /// overwritten. Where `budget` has expired before the random field, labels stay those of the
+  /// stages before. Real-time safe if the observer is.
   [[nodiscard]] SegmentationReport segment(const RangeImage& image, const CutBudget& budget = {},
                                            StageObserver* observer = nullptr) noexcept;
 

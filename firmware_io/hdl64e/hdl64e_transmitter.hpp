@@ -80,8 +80,9 @@ struct Hdl64eTransmitter {
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config& config) {
     return Geometry(calibration, config.geometry);
   }
-  [[nodiscard]] static Expected<Sender> sender(const Calibration& calibration, const Config&) {
-    return Sender::create(calibration);
+  [[nodiscard]] static Expected<Sender> sender(const Calibration& calibration,
+                                               const Config& config) {
+    return Sender::create(calibration, config.returns);
   }
   [[nodiscard]] static Calibration nominal() { return calib::nominal_hdl64e(); }
   [[nodiscard]] static double metres_per_count(const Calibration& calibration) noexcept {

@@ -14,9 +14,13 @@ constexpr std::uint32_t kBroadcastAddress = 0xC0A803FF;  // 192.168.3.255
 
 }  // namespace
 
-Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
-    const calib::Hdl64eCalibration& calibration) {
-  const auto table = calib::make_stream_table(calibration, calib::UnitInfo{});
+Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(const calib::Hdl64eCalibration& calibration,
+                                                        ReturnMode returns) {
+  calib::UnitInfo unit;
+  if (returns == ReturnMode::kDual) {
+    unit.return_setting = static_cast<std::uint8_t>(calib::ReturnSetting::kBoth);
+  }
+  const auto table = calib::make_stream_table(calibration, unit);
   if (!table) return tl::unexpected(table.error());
   return Hdl64ePacketSender(StatusStreamWriter(*table, StatusFlavour::kS3));
 }

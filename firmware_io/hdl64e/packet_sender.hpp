@@ -6,6 +6,7 @@
 
 #include "calib/hdl64e_calibration.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
+#include "firmware_io/drive/return_mode.hpp"
 #include "firmware_io/hdl64e/status_stream_writer.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/labelled_return.hpp"
@@ -19,7 +20,7 @@ class Hdl64ePacketSender {
  public:
   /// The error is that of a calibration which does not fit into the status stream.
   [[nodiscard]] static Expected<Hdl64ePacketSender> create(
-      const calib::Hdl64eCalibration& calibration);
+      const calib::Hdl64eCalibration& calibration, ReturnMode returns);
 
   /// The next packet. `first_column`: which of its group's columns it begins with.
   [[nodiscard]] Status send(std::span<const FiringColumn, kColumnsPerPacketSingle> columns,

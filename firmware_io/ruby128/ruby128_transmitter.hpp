@@ -37,7 +37,7 @@ struct Ruby128Transmitter {
     RubyTimestamp timestamp = RubyTimestamp::kUtcMicroseconds;
     /// 0 lets decoders find out by the stamps themselves which encoding they are in.
     std::uint16_t protocol_version = 0;
-    Ruby128Unit unit;
+    Ruby128Unit unit{};
   };
 
   static constexpr int kLasers = calib::kRuby128Lasers;

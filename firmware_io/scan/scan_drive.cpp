@@ -51,4 +51,36 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
   return report;
 }
 
+Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folder,
+                                              const std::filesystem::path& pcap_path,
+                                              const ResampleOptions& options) {
+  auto reader = ScanReader::open(folder, options.undo_compensation);
+  if (!reader) return tl::unexpected(std::move(reader.error()));
+  if (auto fitted = reader->fit_rings(); !fitted) {
+    return tl::unexpected(std::move(fitted.error()));
+  }
+  Ruby128Transmitter::Config config;
+  config.unit.rpm = static_cast<std::uint16_t>(60 * ScanResampler::kSpin_hz);
+  config.unit.serial = {'R', 'E', 'S', 'A', 'M', 'P'};
+  auto writer = Ruby128DriveWriter::create(pcap_path, options.calibration, config);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+
+  ScanResampler resampler(options.calibration);
+  const auto rays = resampler.run(
+      static_cast<std::int64_t>(reader->size()), options.first_stamp_ns,
+      [&](std::int64_t turn, ScanResampler::Turn& into) -> Status {
+        const auto index = static_cast<std::size_t>(turn);
+        Status status = reader->read(index, into.scan, into.rings);
+        if (status && options.on_scan) options.on_scan(index + 1, reader->size());
+        return status;
+      },
+      [&](const Ruby128Column& column) {
+        return writer->add_column(column.stamp_ns, column.unwrapped_azimuth_cdeg, column.by_laser);
+      });
+  if (!rays) return tl::unexpected(rays.error());
+  const auto drive = writer->finish();
+  if (!drive) return tl::unexpected(drive.error());
+  return ResampleReport{*drive, *rays};
+}
+
 }  // namespace terracut::firmware_io

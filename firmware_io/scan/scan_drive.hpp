@@ -8,9 +8,11 @@
 #include <optional>
 
 #include "calib/hdl64e_calibration.hpp"
+#include "calib/nominal_ruby128.hpp"
 #include "firmware_io/drive/drive_writer.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "firmware_io/scan/scan_encoder.hpp"
+#include "firmware_io/scan/scan_resampler.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::firmware_io {
@@ -37,5 +39,25 @@ struct ScanDriveReport {
 [[nodiscard]] Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                                            const std::filesystem::path& pcap_path,
                                                            const ScanDriveOptions& options);
+
+/// How scans become the drive of another sensor.
+struct ResampleOptions {
+  calib::Ruby128Calibration calibration = calib::nominal_ruby128();
+  bool undo_compensation = false;  ///< As in ScanDriveOptions.
+  std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;
+  std::function<void(std::size_t done, std::size_t of)> on_scan;
+};
+
+struct ResampleReport {
+  DriveSummary drive;
+  ResampleSummary rays;
+};
+
+/// Writes what an RS-Ruby128 in the place of the recording HDL-64E might have sent of the scans of
+/// a folder, one turn each: synthetic (scan_resampler.hpp), and said to be by the serial number
+/// "RESAMP" of its device packets. Files and errors as encode_scan_folder().
+[[nodiscard]] Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folder,
+                                                            const std::filesystem::path& pcap_path,
+                                                            const ResampleOptions& options);
 
 }  // namespace terracut::firmware_io

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/simulator/beam_spot.hpp"
 
+#include <Eigen/Geometry>
+
 #include <cmath>
 #include <numbers>
 

@@ -14,7 +14,7 @@
 
 #include "calib/angle.hpp"
 #include "firmware_io/simulator/ego_motion.hpp"
-#include "firmware_io/simulator/firing_plan.hpp"
+#include "firmware_io/drive/firing_plan.hpp"
 #include "firmware_io/simulator/object_index.hpp"
 #include "firmware_io/simulator/scan_head.hpp"
 #include "firmware_io/simulator/scene.hpp"

@@ -11,7 +11,7 @@
 #include "firmware_io/drive/transmitter.hpp"
 #include "firmware_io/simulator/drive.hpp"
 #include "firmware_io/simulator/echo.hpp"
-#include "firmware_io/simulator/firing_plan.hpp"
+#include "firmware_io/drive/firing_plan.hpp"
 #include "firmware_io/simulator/object_index.hpp"
 #include "firmware_io/simulator/terrain.hpp"
 

@@ -15,7 +15,8 @@ namespace {
 struct SurfaceOverGrid : testing::Test {
   SurfaceOverGrid()
       : grid(config(), test::even_profile(), {64, 2083}, memory), surface({}, grid, memory) {
-    lowest_m.assign(grid.cells(), 0.0F);
+    lowest.resize(grid.cells());
+    fill([](float) { return 0.0F; });
   }
   static RingGrid::Config config() {
     RingGrid::Config c;
@@ -28,7 +29,7 @@ struct SurfaceOverGrid : testing::Test {
   void fill(F height_of_range) {
     for (int s = 0; s < grid.sectors(); ++s)
       for (int b = 0; b < grid.bands(); ++b)
-        lowest_m[grid.cell(s, b)] = height_of_range(grid.center_m(b));
+        lowest[grid.cell(s, b)] = {height_of_range(grid.center_m(b)), grid.center_m(b)};
   }
   float at(int sector, float range_m) {
     return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
@@ -36,24 +37,40 @@ struct SurfaceOverGrid : testing::Test {
   rt::FixedMemory memory;
   RingGrid grid;
   GroundSurface surface;
-  std::vector<float> lowest_m;
+  std::vector<GroundSurface::LowestReturn> lowest;
 };
 
 TEST_F(SurfaceOverGrid, FollowsAFifteenPercentSlopeThatBeginsNearOrFar) {
   for (const float foot_m : {6.0F, 30.0F}) {
     const auto hill = [foot_m](float range_m) { return 0.15F * std::max(0.0F, range_m - foot_m); };
     fill(hill);
-    surface.estimate(grid, lowest_m);
+    surface.estimate(grid, lowest);
     for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
       EXPECT_NEAR(at(3, range_m), hill(grid.center_m(grid.band_of(range_m))), 0.05F) << range_m;
     }
   }
 }
 
+TEST_F(SurfaceOverGrid, PutsTheLowestReturnWhereItIsNotIntoTheMiddleOfItsCell) {
+  // A bank of 40 %: its lowest return is at the near end of each cell.
+  const auto bank = [](float range_m) { return 0.4F * std::max(0.0F, range_m - 10.0F); };
+  for (int s = 0; s < grid.sectors(); ++s) {
+    float near_m = 0;
+    for (int b = 0; b < grid.bands(); ++b) {
+      lowest[grid.cell(s, b)] = {bank(near_m), near_m};
+      near_m = 2 * grid.center_m(b) - near_m;  // where the next band begins
+    }
+  }
+  surface.estimate(grid, lowest);
+  for (float range_m : {6.0F, 15.0F, 25.0F, 40.0F}) {
+    EXPECT_NEAR(at(3, range_m), bank(grid.center_m(grid.band_of(range_m))), 0.1F) << range_m;
+  }
+}
+
 TEST_F(SurfaceOverGrid, FollowsASensorPitchedByFiveDegrees) {
   for (const float slope : {0.087F, -0.087F}) {
     fill([slope](float range_m) { return slope * range_m; });
-    surface.estimate(grid, lowest_m);
+    surface.estimate(grid, lowest);
     for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
       EXPECT_NEAR(at(3, range_m), slope * grid.center_m(grid.band_of(range_m)), 0.05F) << range_m;
     }
@@ -62,14 +79,14 @@ TEST_F(SurfaceOverGrid, FollowsASensorPitchedByFiveDegrees) {
 
 TEST_F(SurfaceOverGrid, DoesNotClimbOntoAWall) {
   fill([](float range_m) { return range_m < 12 ? 0.0F : 1.5F; });
-  surface.estimate(grid, lowest_m);
+  surface.estimate(grid, lowest);
   EXPECT_NEAR(at(0, 13.0F), 0.0F, 0.01F);
   EXPECT_NEAR(at(0, 30.0F), 0.0F, 0.01F);
 }
 
 TEST_F(SurfaceOverGrid, FindsTheGroundAgainBehindAHiddenStretch) {
   fill([](float range_m) { return range_m > 10 && range_m < 16 ? GroundSurface::kEmpty : 0.05F; });
-  surface.estimate(grid, lowest_m);
+  surface.estimate(grid, lowest);
   EXPECT_NEAR(at(0, 20.0F), 0.05F, 0.001F);
   EXPECT_NEAR(at(0, 13.0F), 0.05F, 0.06F);
 }
@@ -79,13 +96,13 @@ TEST_F(SurfaceOverGrid, FindsABankBehindADitchThatHidesItsFoot) {
   fill([&](float range_m) {
     return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : bank(range_m);
   });
-  surface.estimate(grid, lowest_m);
+  surface.estimate(grid, lowest);
   EXPECT_NEAR(at(5, 25.0F), bank(grid.center_m(grid.band_of(25.0F))), 0.1F);
 }
 
 TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
   fill([](float range_m) { return range_m > 12 && range_m < 20 ? 1.5F : 0.0F; });
-  surface.estimate(grid, lowest_m);
+  surface.estimate(grid, lowest);
   EXPECT_NEAR(at(5, 16.0F), 0.0F, 0.01F);
 }
 
@@ -93,17 +110,17 @@ TEST_F(SurfaceOverGrid, DoesNotTakeARowOfRoofsForGroundThoughNothingShowsBehindI
   fill([](float) { return 0.0F; });
   for (int band = grid.band_of(12.0F); band < grid.bands(); ++band) {
     for (const int sector : {7, 8, 9})
-      lowest_m[grid.cell(sector, band)] = 1.5F;  // 1.1 m wide at 12 m
+      lowest[grid.cell(sector, band)].height_m = 1.5F;  // 1.1 m wide at 12 m
   }
-  surface.estimate(grid, lowest_m);
+  surface.estimate(grid, lowest);
   EXPECT_NEAR(at(8, 16.0F), 0.0F, 0.1F);
 }
 
 TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
   fill([](float) { return 0.0F; });
   const int band = grid.band_of(15.0F);
-  lowest_m[grid.cell(7, band)] = -4.0F;
-  surface.estimate(grid, lowest_m);
+  lowest[grid.cell(7, band)].height_m = -4.0F;
+  surface.estimate(grid, lowest);
   EXPECT_NEAR(at(7, 15.0F), 0.0F, 0.01F);
 }
 
@@ -111,10 +128,10 @@ TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam)
   // Ground that rises slowly with range, hidden behind a wall in the sectors around the seam.
   fill([](float range_m) { return 0.03F * range_m; });
   for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
-    lowest_m[grid.cell(0, band)] = 9.0F;
-    lowest_m[grid.cell(grid.sectors() - 1, band)] = 9.0F;
+    lowest[grid.cell(0, band)].height_m = 9.0F;
+    lowest[grid.cell(grid.sectors() - 1, band)].height_m = 9.0F;
   }
-  surface.estimate(grid, lowest_m);
+  surface.estimate(grid, lowest);
   const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
   EXPECT_NEAR(at(0, 40.0F), true_m, 0.25F);
   EXPECT_NEAR(at(grid.sectors() - 1, 40.0F), true_m, 0.25F);

@@ -98,6 +98,23 @@ TEST_F(SegmenterOnSyntheticTurns, EveryStageCanBeTheLast) {
   }
 }
 
+TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStagesBefore) {
+  SegmenterConfig coarse;
+  coarse.last_stage = Stage::kAdjacentPoints;
+  const auto before = segment(test::ground_with_wall(9, 4, 1.5, 0.05), coarse);
+  const std::vector<Label> expected(before.begin(), before.end());
+  segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
+                                          image.return_capacity(), memory);
+  CutBudget expired;
+  expired.expired = [](void*) noexcept { return true; };
+  report = segmenter->segment(image, expired);
+  EXPECT_EQ(report.last_stage, Stage::kAdjacentPoints);
+  EXPECT_EQ(report.cut.unknown, 0U);
+  const auto labels = segmenter->labels();
+  EXPECT_TRUE(std::equal(labels.begin(), labels.end(), expected.begin(), expected.end()));
+  EXPECT_EQ(segmenter->segment(image).last_stage, Stage::kMinCut);
+}
+
 TEST_F(SegmenterOnSyntheticTurns, AnEmptyTurnHasNoLabels) {
   EXPECT_TRUE(segment([](double, double) { return -1.0; }).empty());
   EXPECT_TRUE(segment([](double, double) { return -1.0; }, paper_profile()).empty());

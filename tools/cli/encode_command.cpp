@@ -2,7 +2,10 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
+#include <string>
+
 #include "calib/hdl64e_file.hpp"
+#include "calib/ruby128_csv.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "firmware_io/scan/scan_drive.hpp"
@@ -12,9 +15,10 @@ namespace {
 
 void print(const EncodeOptions& options, const firmware_io::ScanDriveReport& report) {
   const firmware_io::EncodeSummary& encoded = report.encoded;
-  fmt::print("wrote     {}\n          {}\n          {}/\n", options.output.string(),
-             firmware_io::calibration_path_of(options.output).string(),
-             firmware_io::truth_folder_of(options.output).string());
+  fmt::print(
+      "wrote     {}\n          {}\n          {}/\n", options.output.string(),
+      firmware_io::calibration_path_of<firmware_io::Hdl64eTransmitter>(options.output).string(),
+      firmware_io::truth_folder_of(options.output).string());
   fmt::print("table     {}, fingerprint {:016x}\n",
              report.fitted ? "fitted to the scans" : report.calibration.origin,
              fingerprint(report.calibration));
@@ -33,9 +37,49 @@ void print(const EncodeOptions& options, const firmware_io::ScanDriveReport& rep
              100 * encoded.height.p95_m);
 }
 
+void print(const EncodeOptions& options, const firmware_io::ResampleReport& report,
+           const std::string& table) {
+  const firmware_io::ResampleSummary& rays = report.rays;
+  const auto share = [&](std::uint64_t count) {
+    return rays.rays == 0 ? 0.0
+                          : 100.0 * static_cast<double>(count) / static_cast<double>(rays.rays);
+  };
+  fmt::print("synthetic RS-Ruby128, resampled from an HDL-64E's recording, not recorded\n");
+  fmt::print(
+      "wrote     {}\n          {}\n          {}/\n", options.output.string(),
+      firmware_io::calibration_path_of<firmware_io::Ruby128Transmitter>(options.output).string(),
+      firmware_io::truth_folder_of(options.output).string());
+  fmt::print("table     {}\nframes    {}\nrays      {}\n", table, report.drive.frames, rays.rays);
+  fmt::print("returns   {} ({:.2f} %)\n", rays.returns, share(rays.returns));
+  fmt::print("          {} ({:.2f} %) left out: above or below what was recorded\n", rays.outside,
+             share(rays.outside));
+  fmt::print("          {} ({:.2f} %) left out: nothing recorded near by\n", rays.nothing_near,
+             share(rays.nothing_near));
+  fmt::print("          {} left out: beyond the wire's span\n", rays.out_of_span);
+}
+
+ExitCode resample(const EncodeOptions& options) {
+  firmware_io::ResampleOptions drive;
+  drive.undo_compensation = options.undo_compensation;
+  if (!options.calibration.empty()) {
+    auto calibration = calib::read_ruby128_csv(options.calibration);
+    if (!calibration) return refuse(calibration.error());
+    drive.calibration = *std::move(calibration);
+  }
+  Progress progress("resampling", "scans", 0);
+  drive.on_scan = [&](std::size_t done, std::size_t) {
+    progress.update(static_cast<double>(done));
+  };
+  const auto report = firmware_io::resample_scan_folder(options.scans, options.output, drive);
+  if (!report) return refuse(report.error());
+  print(options, *report, drive.calibration.origin);
+  return kOk;
+}
+
 }  // namespace
 
 ExitCode run(const EncodeOptions& options) {
+  if (options.sensor == "ruby128") return resample(options);
   firmware_io::ScanDriveOptions drive;
   drive.undo_compensation = options.undo_compensation;
   if (!options.calibration.empty()) {

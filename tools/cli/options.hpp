@@ -70,6 +70,9 @@ struct SimulateOptions {
   std::string scene = "street";
   std::uint64_t seed = 1;
   double duration_s = 3;
+  double spin_hz = 10;             ///< --spin-hz, [5, 20]
+  std::string returns = "single";  ///< --returns single|dual
+  std::string timestamp = "us";    ///< --timestamp calendar|us|ns, of a Ruby128
   double noise_m = 0.015;
   std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;
@@ -111,6 +114,19 @@ struct BenchOptions {
   MethodOptions method;
   int repeat = 10;  ///< Passes over the capture's frames.
   int core = -1;    ///< --core: pin to it; -1: the last one allowed.
+  std::filesystem::path json;
+};
+
+struct SendOptions {
+  std::filesystem::path file;
+  std::optional<std::uint16_t> port;  ///< --port
+  std::string from;                   ///< --from, dotted IPv4
+  std::string to;                     ///< --to ADDRESS:PORT
+  std::string interface;              ///< --interface
+  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
+  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
+  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
+  std::string foreign_from;           ///< --foreign-from, dotted IPv4
   std::filesystem::path json;
 };
 

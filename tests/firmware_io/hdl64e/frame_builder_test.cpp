@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 namespace terracut::firmware_io {
@@ -116,6 +117,28 @@ TEST_F(FrameBuilderTest, ATurnWhoseStartOrEndWasNotSeenIsIncomplete) {
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_FALSE(handed[0].info.complete);
   EXPECT_FALSE(handed[1].info.complete);
+}
+
+TEST_F(FrameBuilderTest, GoesOnWithTheImageItIsGivenInExchange) {
+  // A reader that keeps whatever is handed over and gives back what it had before.
+  pipeline::RangeImage* at_the_reader = &builder.images()[2];
+  const auto exchange = [&](const FrameInfo& info,
+                            pipeline::RangeImage& image) noexcept -> pipeline::RangeImage* {
+    handed.push_back({info, &image});
+    return std::exchange(at_the_reader, &image);
+  };
+  builder.start(0, 0);
+  for (std::int64_t turn = 0; turn < 6; ++turn) {
+    for (int i = 0; i <= turn; ++i) builder.place(turn, 0, i, {});
+    builder.roll(exchange);
+    EXPECT_EQ(handed.back().info.returns, turn + 1);
+    builder.place(turn + 1, 3, 19, {});
+    builder.place(turn + 2, 3, 19, {});
+    EXPECT_EQ(at_the_reader->returns(), handed.back().info.returns);  // nobody writes to it
+    ASSERT_EQ(handed.back().image, at_the_reader);
+    builder.flush(exchange);
+    builder.start(turn + 1, 0);
+  }
 }
 
 TEST_F(FrameBuilderTest, AHoleMakesATurnIncompleteUntilItIsFilled) {

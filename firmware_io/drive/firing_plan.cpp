@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/simulator/firing_plan.hpp"
+#include "firmware_io/drive/firing_plan.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -130,15 +130,14 @@ std::size_t stack_left_below(const volatile char* here) {
   return top > bottom ? top - bottom : 0;
 }
 
-/// A page of stack a call, so that the stack grows in order, as the kernel expects it to.
-[[gnu::noinline]] std::size_t touch_pages(std::size_t pages) {
-  constexpr std::size_t kFrame = 4096;
-  [[maybe_unused]] volatile char frame[kFrame];
-  frame[0] = 1;
-  if (pages <= 1) return kFrame * pages;
-  const std::size_t deeper = touch_pages(pages - 1);
-  frame[kFrame - 1] = 1;  // used after the call, so that it cannot become a loop
-  return deeper + kFrame;
+/// In a function of its own, whose frame ends with the call. The size is not known while compiling,
+/// or the compiler would leave out what is not touched.
+[[gnu::noinline]] void touch_stack(std::size_t bytes) {
+  auto* lowest = static_cast<volatile char*>(__builtin_alloca(bytes));
+  const std::size_t page = page_size();
+  // Downwards, as the kernel expects a stack to grow.
+  for (std::size_t left = bytes; left > 0; left -= std::min(left, page)) lowest[left - 1] = 1;
+  lowest[0] = 1;
 }
 
 }  // namespace
@@ -147,10 +146,9 @@ std::size_t prefault_stack(std::size_t bytes) {
   constexpr std::size_t kSpare = std::size_t{64} << 10;  // guard pages, and a signal handler
   const volatile char here = 0;
   const std::size_t left = stack_left_below(&here);
-  // A frame of touch_pages is somewhat larger than the page it holds.
-  const std::size_t room = left > kSpare ? (left - kSpare) / 10 * 9 : 0;
-  const std::size_t pages = (std::min(bytes, room) + 4095) / 4096;
-  return pages == 0 ? 0 : touch_pages(pages);
+  const std::size_t touched = std::min(bytes, left > kSpare ? left - kSpare : 0);
+  if (touched > 0) touch_stack(touched);
+  return touched;
 }
 
 std::size_t locked_bytes() {

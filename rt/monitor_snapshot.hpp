@@ -53,6 +53,8 @@ struct ThreadStatus {
 /// A plain value. A reader must expect any bytes in it where it came from another process; the
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
+  /// To be raised with every change of what lies where.
+  static constexpr std::uint32_t kLayout = 1;
   static constexpr std::size_t kMaxLosses = 40;
   static constexpr std::size_t kMaxThreads = 4;
 

@@ -11,7 +11,8 @@ namespace terracut::cli {
 
 using Command =
     std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
-                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions>;
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
+                 TopOptions>;
 
 /// The command line, read.
 struct Arguments {

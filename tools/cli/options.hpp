@@ -130,4 +130,11 @@ struct SendOptions {
   std::filesystem::path json;
 };
 
+struct TopOptions {
+  std::string name;  ///< Status page of the process to watch; empty: the only one that runs.
+  bool once = false;
+  bool json = false;      ///< --json: print the figures for programs, once.
+  double interval_s = 1;  ///< --interval, [0.1, 3600]
+};
+
 }  // namespace terracut::cli

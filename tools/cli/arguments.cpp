@@ -137,6 +137,15 @@ void add_command(CLI::App& app, std::optional<Command>& command, const char* nam
   sub->callback([&command, options] { command = *options; });
 }
 
+void add_loop(CLI::App& sub, int& loops) {
+  sub.add_option(
+         "--loop", loops,
+         "Passes over the capture (once without this option); no number or 0: until interrupted")
+      ->expected(0, 1)
+      ->default_str("0")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
 void add_replay(CLI::App& sub, ReplayOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
@@ -147,12 +156,7 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(number(0, 1000))
       ->capture_default_str();
-  sub.add_option(
-         "--loop", o.loops,
-         "Passes over the capture (once without this option); no number or 0: until interrupted")
-      ->expected(0, 1)
-      ->default_str("0")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+  add_loop(sub, o.loops);
 }
 
 void add_segment(CLI::App& sub, SegmentOptions& o) {
@@ -223,6 +227,27 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
   sub.add_option("--json", o.json, "The same as a file for programs");
 }
 
+void add_send(CLI::App& sub, SendOptions& o) {
+  sub.add_option("FILE", o.file, "Any capture with UDP, pcap or pcapng")->required();
+  sub.add_option("--to", o.to, "ADDRESS:PORT to send to; a multicast group and broadcast will do")
+      ->required();
+  sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
+  sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
+  sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
+  sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
+      ->check(number(0, 1000))
+      ->capture_default_str();
+  add_loop(sub, o.loops);
+  sub.add_option("--faults", o.faults,
+                 "What goes wrong on the way, by seconds since the first packet:\n"
+                 "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\n"
+                 "foreign@7s:50 clock@8s:+2.0s truncate@9s:5");
+  sub.add_option("--foreign-from", o.foreign_from,
+                 "Address of this machine that foreign packets come from")
+      ->check(CLI::ValidIPV4);
+  sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -267,6 +292,8 @@ Arguments parse_arguments(int argc, char** argv) {
                                  [](CLI::App&, ParametersOptions&) {});
   add_command<BenchOptions>(app, result.command, "bench",
                             "Time decoding and every stage on one core", add_bench);
+  add_command<SendOptions>(app, result.command, "send",
+                           "Send a capture's datagrams by UDP, as its sensor would", add_send);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("error: ") + error.what() +
            "\n`terracut --help` and `terracut COMMAND --help` say what is expected\n";

@@ -11,7 +11,7 @@ namespace terracut::cli {
 
 using Command =
     std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
-                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions>;
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -17,5 +17,6 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const PlanOptions& options);
 [[nodiscard]] ExitCode run(const ParametersOptions& options);
 [[nodiscard]] ExitCode run(const BenchOptions& options);
+[[nodiscard]] ExitCode run(const SendOptions& options);
 
 }  // namespace terracut::cli

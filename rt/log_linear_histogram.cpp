@@ -49,6 +49,13 @@ double LogLinearHistogram::mean_ns() const noexcept {
   return count_ == 0 ? 0.0 : sum_ns_ / static_cast<double>(count_);
 }
 
+std::uint64_t LogLinearHistogram::count_not_above(std::int64_t limit_ns) const noexcept {
+  std::uint64_t sum = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets && highest_in(bucket) <= limit_ns; ++bucket)
+    sum += buckets_[bucket];
+  return sum;
+}
+
 LogLinearHistogram& LogLinearHistogram::operator+=(const LogLinearHistogram& other) noexcept {
   for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
     buckets_[bucket] += other.buckets_[bucket];

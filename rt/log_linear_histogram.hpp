@@ -30,6 +30,12 @@ class LogLinearHistogram {
   [[nodiscard]] std::int64_t min_ns() const noexcept { return count_ == 0 ? 0 : min_ns_; }
   [[nodiscard]] std::int64_t max_ns() const noexcept { return max_ns_; }
   [[nodiscard]] double mean_ns() const noexcept;
+  [[nodiscard]] double sum_ns() const noexcept { return sum_ns_; }
+
+  /// How many values are surely not above `limit_ns`: those of its bucket count only if the whole
+  /// bucket is not above it, so that at most 1/128 of the limit below it is missed and nothing
+  /// slower is ever counted. For cumulative histograms.
+  [[nodiscard]] std::uint64_t count_not_above(std::int64_t limit_ns) const noexcept;
 
   /// Adds all of `other`, as if its values had been recorded here.
   LogLinearHistogram& operator+=(const LogLinearHistogram& other) noexcept;

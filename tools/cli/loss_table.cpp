@@ -30,4 +30,13 @@ std::string loss_sentence(const firmware_io::LossCounters& losses) {
   return sentence.empty() ? "none" : sentence;
 }
 
+void show_losses(const firmware_io::LossCounters& losses, rt::MonitorSnapshot& figures) {
+  static_assert(sizeof(firmware_io::LossCounters) / sizeof(std::uint64_t) <=
+                rt::MonitorSnapshot::kMaxLosses);
+  figures.loss_count = 0;
+  for (const LossCause& cause : causes_of(losses)) {
+    figures.losses[figures.loss_count++] = {cause.name, cause.count};
+  }
+}
+
 }  // namespace terracut::cli

@@ -18,5 +18,6 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const ParametersOptions& options);
 [[nodiscard]] ExitCode run(const BenchOptions& options);
 [[nodiscard]] ExitCode run(const SendOptions& options);
+[[nodiscard]] ExitCode run(const DumpOptions& options);
 
 }  // namespace terracut::cli

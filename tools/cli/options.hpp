@@ -127,4 +127,9 @@ struct SendOptions {
   std::filesystem::path json;
 };
 
+struct DumpOptions {
+  std::string name;    ///< Of the running process; empty: the only one that runs.
+  double wait_s = 30;  ///< --wait, [0, 3600]: for its answer.
+};
+
 }  // namespace terracut::cli

@@ -255,6 +255,15 @@ void add_dump(CLI::App& sub, DumpOptions& o) {
       ->capture_default_str();
 }
 
+void add_top(CLI::App& sub, TopOptions& o) {
+  sub.add_option("NAME", o.name, "Status page of the process (default: the only one that runs)");
+  sub.add_flag("--once", o.once, "Print once and exit");
+  sub.add_flag("--json", o.json, "Print the figures once, for programs");
+  sub.add_option("--interval", o.interval_s, "Seconds between two looks")
+      ->check(number(0.1, 3600))
+      ->capture_default_str();
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -304,6 +313,8 @@ Arguments parse_arguments(int argc, char** argv) {
   add_command<DumpOptions>(app, result.command, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);
+  add_command<TopOptions>(app, result.command, "top",
+                          "Watch a running `terracut live` from another shell", add_top);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("error: ") + error.what() +
            "\n`terracut --help` and `terracut COMMAND --help` say what is expected\n";

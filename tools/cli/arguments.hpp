@@ -11,7 +11,7 @@ namespace terracut::cli {
 
 using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
                              CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
-                             BenchOptions, SendOptions, DumpOptions>;
+                             BenchOptions, SendOptions, DumpOptions, TopOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -28,9 +28,9 @@ double milliseconds(std::int64_t ns) {
 std::int64_t origin_of(std::span<const rt::FrameTiming> frames) {
   std::int64_t origin_ns = INT64_MAX;
   for (const rt::FrameTiming& frame : frames) {
-    for (const std::int64_t stamp_ns : {frame.first_packet_ns, frame.last_packet_ns,
-                                        frame.handed_over_ns, frame.segment_begin_ns,
-                                        frame.labels_ns}) {
+    for (const std::int64_t stamp_ns :
+         {frame.first_packet_ns, frame.last_packet_ns, frame.handed_over_ns, frame.segment_begin_ns,
+          frame.labels_ns}) {
       if (stamp_ns > 0) origin_ns = std::min(origin_ns, stamp_ns);
     }
   }

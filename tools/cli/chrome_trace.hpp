@@ -18,8 +18,8 @@ namespace terracut::cli {
 ///
 /// Stages are measured in processor time, so their slices stand one after another from the start of
 /// their frame at the width of that time; what is left of the frame's slice behind them is time off
-/// the core. A turn's slice begins at its first packet, but not before the turn before it was handed
-/// over, because two turns are open at once around the seam.
+/// the core. A turn's slice begins at its first packet, but not before the turn before it was
+/// handed over, because two turns are open at once around the seam.
 ///
 /// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const rt::MonitorSnapshot& figures,

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace terracut::cli {
 namespace {
@@ -134,8 +135,8 @@ class Dashboard {
     for (std::size_t i = 0; i < figures_.stages(); ++i) {
       longest_ns = std::max(longest_ns, figures_.stage_cpu[i].percentile_ns(99));
     }
-    line("{}", bold(fmt::format("{:<18}{:>10}{:>10}  # p50  - p99", "stage, cpu ms", "p50",
-                                "p99")));
+    line("{}",
+         bold(fmt::format("{:<18}{:>10}{:>10}  # p50  - p99", "stage, cpu ms", "p50", "p99")));
     for (std::size_t i = 0; i < figures_.stages(); ++i) {
       const std::int64_t p50_ns = figures_.stage_cpu[i].percentile_ns(50);
       const std::int64_t p99_ns = figures_.stage_cpu[i].percentile_ns(99);
@@ -154,8 +155,8 @@ class Dashboard {
     std::string lost;
     for (const rt::NamedCount& loss : figures_.losses_in_use()) {
       if (loss.count == 0) continue;
-      lost += fmt::format("{}{} {}", lost.empty() ? "" : ", ", printable(loss.name.view()),
-                          loss.count);
+      lost +=
+          fmt::format("{}{} {}", lost.empty() ? "" : ", ", printable(loss.name.view()), loss.count);
     }
     line("losses    {}", lost.empty() ? "none" : alarm(lost));
   }
@@ -171,8 +172,8 @@ class Dashboard {
   }
 
   template <class... Values>
-  void line(fmt::format_string<Values...> format, const Values&... values) {
-    fmt::format_to(std::back_inserter(text_), format, values...);
+  void line(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
     text_ += '\n';
   }
   [[nodiscard]] std::string bold(const std::string& text) const {

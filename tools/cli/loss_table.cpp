@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace terracut::cli {
 
 std::vector<LossCause> causes_of(const firmware_io::LossCounters& losses) {
@@ -35,7 +37,7 @@ void show_losses(const firmware_io::LossCounters& losses, rt::MonitorSnapshot& f
                 rt::MonitorSnapshot::kMaxLosses);
   figures.loss_count = 0;
   for (const LossCause& cause : causes_of(losses)) {
-    figures.losses[figures.loss_count++] = {cause.name, cause.count};
+    figures.losses[figures.loss_count++] = {std::string_view(cause.name), cause.count};
   }
 }
 

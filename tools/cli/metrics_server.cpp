@@ -78,22 +78,23 @@ Expected<MetricsServer> MetricsServer::start(const std::string& address, std::ui
   server.set_read_timeout(1);
   server.set_write_timeout(1);
   server.set_payload_max_length(4096);
-  server.Get("/metrics", [raw = state.get()](const httplib::Request&,
-                                             httplib::Response& response) { raw->answer(response); });
+  server.Get("/metrics", [raw = state.get()](const httplib::Request&, httplib::Response& response) {
+    raw->answer(response);
+  });
   server.Get("/", [](const httplib::Request&, httplib::Response& response) {
     response.set_content("terracut's figures for Prometheus are at /metrics\n", "text/plain");
   });
 
   errno = 0;
-  const int bound = port == 0 ? server.bind_to_any_port(address)
+  const int bound = port == 0                            ? server.bind_to_any_port(address)
                     : server.bind_to_port(address, port) ? int{port}
                                                          : -1;
   if (bound <= 0) {
     const int reason = errno;
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("cannot serve /metrics on {}:{}: {}; choose another address or port",
-                            address, port,
-                            reason == 0 ? "not an address of this machine" : std::strerror(reason)));
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("cannot serve /metrics on {}:{}: {}; choose another address or port", address,
+                    port, reason == 0 ? "not an address of this machine" : std::strerror(reason)));
   }
   state->port = static_cast<std::uint16_t>(bound);
   std::thread([state] { state->serve(); }).detach();

@@ -26,8 +26,8 @@ class MetricsServer {
 
   /// Listens on `address` (numeric) : `port`, 0 for any free one. Errors: kInvalidArgument with the
   /// system's reason, such as a port in use.
-  [[nodiscard]] static Expected<MetricsServer> start(const std::string& address,
-                                                     std::uint16_t port, Source source);
+  [[nodiscard]] static Expected<MetricsServer> start(const std::string& address, std::uint16_t port,
+                                                     Source source);
 
   MetricsServer(MetricsServer&&) noexcept;
   MetricsServer& operator=(MetricsServer&&) noexcept;

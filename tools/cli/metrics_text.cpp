@@ -7,13 +7,14 @@
 #include <array>
 #include <iterator>
 #include <string_view>
+#include <utility>
 
 namespace terracut::cli {
 namespace {
 
 /// From well below a quick stage to well above a deadline of one turn.
 constexpr std::array<std::int64_t, 19> kLimits_us{
-    100,    250,    500,    1'000,  2'000,  3'000,   5'000,   7'500,   10'000,   15'000,
+    100,    250,    500,    1'000,  2'000,  3'000,  5'000,   7'500,   10'000,   15'000,
     20'000, 25'000, 30'000, 40'000, 50'000, 75'000, 100'000, 200'000, 1'000'000};
 
 double seconds(std::int64_t ns) {
@@ -62,8 +63,8 @@ class MetricsText {
   void histogram(const rt::LogLinearHistogram& histogram, const std::string& labels = {}) {
     const std::string prefix = labels.empty() ? "" : labels + ",";
     for (const std::int64_t limit_us : kLimits_us) {
-      append("{}_bucket{{{}le=\"{}\"}} {}\n", name_, prefix,
-             static_cast<double>(limit_us) / 1e6, histogram.count_not_above(limit_us * 1000));
+      append("{}_bucket{{{}le=\"{}\"}} {}\n", name_, prefix, static_cast<double>(limit_us) / 1e6,
+             histogram.count_not_above(limit_us * 1000));
     }
     append("{}_bucket{{{}le=\"+Inf\"}} {}\n", name_, prefix, histogram.count());
     const std::string braced = labels.empty() ? "" : "{" + labels + "}";
@@ -74,8 +75,8 @@ class MetricsText {
 
  private:
   template <class... Values>
-  void append(fmt::format_string<Values...> format, const Values&... values) {
-    fmt::format_to(std::back_inserter(text_), format, values...);
+  void append(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
   }
 
   std::string text_;
@@ -126,8 +127,8 @@ void add_frames(const rt::MonitorSnapshot& figures, MetricsText& text) {
     text.sample(figures.rungs[i], label("rung", to_string(static_cast<rt::Rung>(i))));
   }
   text.single("terracut_returns_total", "counter", "Returns in these frames.", figures.returns);
-  text.single("terracut_unjudged_frames_total", "counter",
-              "Frames whose stamps give no latency.", figures.unjudged);
+  text.single("terracut_unjudged_frames_total", "counter", "Frames whose stamps give no latency.",
+              figures.unjudged);
   text.begin("terracut_deadline_misses_total", "counter",
              "Frames labelled after the deadline or not at all, by cause.");
   for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
@@ -151,8 +152,7 @@ void add_times(const rt::MonitorSnapshot& figures, MetricsText& text) {
   add("terracut_frame_cpu_seconds", "Processor time of a frame, decoding and segmenting.",
       figures.total_cpu);
   add("terracut_decode_cpu_seconds", "Processor time of decoding a frame.", figures.decode_cpu);
-  add("terracut_segment_cpu_seconds", "Processor time of segmenting a frame.",
-      figures.segment_cpu);
+  add("terracut_segment_cpu_seconds", "Processor time of segmenting a frame.", figures.segment_cpu);
   text.begin("terracut_stage_cpu_seconds", "histogram", "Processor time of a stage in a frame.");
   for (std::size_t i = 0; i < figures.stages(); ++i) {
     text.histogram(figures.stage_cpu[i], label("stage", figures.stage_names[i].view()));

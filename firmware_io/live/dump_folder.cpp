@@ -56,7 +56,7 @@ struct OwnFile {
 
 std::optional<OwnFile> own_file(std::string_view file, std::string_view name) {
   OwnFile own;
-  if (const auto part = file.find(".part-"); part != std::string_view::npos) {
+  if (const auto part = file.rfind(".part-"); part != std::string_view::npos) {
     ::pid_t pid = 0;
     const char* end = file.data() + file.size();
     const auto read = std::from_chars(file.data() + part + 6, end, pid);
@@ -149,7 +149,7 @@ bool is_dump_name(std::string_view name) noexcept {
   return !name.empty() && name.size() <= kLongest &&
          std::all_of(name.begin(), name.end(), [](char c) {
            return is_digit(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
-                  c == '-';
+                  c == '-' || c == '.';
          });
 }
 
@@ -160,8 +160,8 @@ std::filesystem::path frame_times_path(const std::filesystem::path& capture) {
 
 DumpFolder::DumpFolder(DumpFolderLimits limits) : limits_(std::move(limits)) {
   if (!is_dump_name(limits_.name)) {
-    throw std::invalid_argument(
-        fmt::format("dump name '{}': expected 1 to 64 letters, digits, '_' or '-'", limits_.name));
+    throw std::invalid_argument(fmt::format(
+        "dump name '{}': expected 1 to 64 letters, digits, '_', '-' or '.'", limits_.name));
   }
   if (limits_.folder.empty()) throw std::invalid_argument("no folder for dumps");
   if (limits_.most_dumps < 1 || limits_.most_bytes < 1) {

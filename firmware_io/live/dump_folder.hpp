@@ -22,8 +22,8 @@ struct DumpFolderLimits {
   std::uint64_t least_free_bytes = 1ULL << 30;  ///< Left to others on that file system.
 };
 
-/// One of `NAME` may hold letters, digits, '_' and '-', and must not be empty nor longer than 64:
-/// it becomes part of file names.
+/// 1 to 64 letters, digits, '_', '-' and '.', as status pages are named: it becomes part of file
+/// names.
 [[nodiscard]] bool is_dump_name(std::string_view name) noexcept;
 
 /// The folder a recorder keeps its dumps in: names them, and makes room for the next by deleting

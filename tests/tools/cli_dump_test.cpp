@@ -22,7 +22,7 @@ using firmware_io::DumpLimits;
 using firmware_io::DumpPolicy;
 using firmware_io::FlightRecorder;
 using testing::HasSubstr;
-using Page = rt::StatusPage<std::uint64_t>;
+using Page = rt::StatusPagePublisher<std::uint64_t>;
 
 /// A child process that stands for a running `terracut live`. It ends with this object.
 class Child {
@@ -66,11 +66,12 @@ class CliDump : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    fs::create_directory(folder_ / "status");
-    ::setenv("TERRACUT_STATUS_DIR", (folder_ / "status").c_str(), 1);
+    fs::create_directory(pages_);
+    ::setenv("TERRACUT_STATUS_FOLDER", pages_.c_str(), 1);
   }
   void TearDown() override {
-    ::unsetenv("TERRACUT_STATUS_DIR");
+    ::unsetenv("TERRACUT_STATUS_FOLDER");
+    fs::remove_all(pages_);
     Cli::TearDown();
   }
 
@@ -85,8 +86,8 @@ class CliDump : public Cli {
   [[nodiscard]] auto recording(const std::string& name, int datagrams = 50) const {
     return [=, this](const std::function<void()>& ready) {
       DumpSignal signal;
-      const auto page = Page::create(rt::status_folder(), name, 1);
-      DumpAnswers answers(rt::status_folder(), name);
+      const auto page = Page::create(name, 1);
+      DumpAnswers answers(rt::status_page_folder(), name);
       rt::FixedMemory memory;
       FlightRecorder recorder({100, 120'800}, memory);
       const std::vector<std::uint8_t> payload(1206);
@@ -102,6 +103,8 @@ class CliDump : public Cli {
       }
     };
   }
+
+  const fs::path pages_ = "/dev/shm/terracut_cli_dump_test_" + std::to_string(::getpid());
 };
 
 TEST_F(CliDump, HasTheOnlyRunningProcessWriteItsPacketsAndPrintsTheFile) {
@@ -152,7 +155,7 @@ TEST_F(CliDump, SaysWhenNoneIsRunning) {
 
 TEST_F(CliDump, NeverEndsAProcessThatDoesNotListen) {
   Child deaf([&](const std::function<void()>& ready) {
-    const auto page = Page::create(rt::status_folder(), "deaf", 1);
+    const auto page = Page::create("deaf", 1);
     ready();
     ::pause();
   });
@@ -165,7 +168,7 @@ TEST_F(CliDump, NeverEndsAProcessThatDoesNotListen) {
 TEST_F(CliDump, GivesUpWaitingForAnAnswer) {
   Child stuck([&](const std::function<void()>& ready) {
     const DumpSignal signal;
-    const auto page = Page::create(rt::status_folder(), "stuck", 1);
+    const auto page = Page::create("stuck", 1);
     ready();
     ::pause();
   });
@@ -181,7 +184,7 @@ TEST_F(CliDump, ASignalFromAnywhereElseDumpsAsWell) {
   std::optional<DumpAnswer> answer;
   for (int i = 0; i < 2000 && !answer; ++i) {
     ::usleep(10'000);
-    answer = read_dump_answer(rt::status_folder(), "front");
+    answer = read_dump_answer(rt::status_page_folder(), "front");
   }
   ASSERT_TRUE(answer.has_value());
   EXPECT_EQ(answer->serial, 1U);
@@ -191,19 +194,19 @@ TEST_F(CliDump, ASignalFromAnywhereElseDumpsAsWell) {
 
 TEST_F(CliDump, AnAnswerIsTakenAwayWithItsProcess) {
   {
-    DumpAnswers answers(rt::status_folder(), "front");
+    DumpAnswers answers(rt::status_page_folder(), "front");
     ASSERT_TRUE(answers.publish(
         tl::unexpected(firmware_io::RefusedDump{firmware_io::DumpRefusal::kDiskLow, "no room"})));
-    const auto answer = read_dump_answer(rt::status_folder(), "front");
+    const auto answer = read_dump_answer(rt::status_page_folder(), "front");
     ASSERT_TRUE(answer.has_value());
     EXPECT_EQ(answer->refusal, "disk_low");
     EXPECT_EQ(answer->message, "no room");
   }
-  EXPECT_FALSE(read_dump_answer(rt::status_folder(), "front").has_value());
-  write("status/terracut.front.dump", "[1, 2]");
-  EXPECT_FALSE(read_dump_answer(rt::status_folder(), "front").has_value());
-  write("status/terracut.front.dump", R"({"pid": "x", "serial": 1})");
-  EXPECT_FALSE(read_dump_answer(rt::status_folder(), "front").has_value());
+  EXPECT_FALSE(read_dump_answer(rt::status_page_folder(), "front").has_value());
+  std::ofstream(pages_ / "front.terracut-dump") << "[1, 2]";
+  EXPECT_FALSE(read_dump_answer(rt::status_page_folder(), "front").has_value());
+  std::ofstream(pages_ / "front.terracut-dump") << R"({"pid": "x", "serial": 1})";
+  EXPECT_FALSE(read_dump_answer(rt::status_page_folder(), "front").has_value());
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace terracut::cli {
 namespace {
 
 std::filesystem::path answer_path(const std::filesystem::path& folder, const std::string& name) {
-  return folder / ("terracut." + name + ".dump");
+  return folder / (name + ".terracut-dump");
 }
 
 }  // namespace

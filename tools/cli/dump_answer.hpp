@@ -25,7 +25,7 @@ struct DumpAnswer {
 };
 
 /// The running process's side: its last answer lies beside its status page as
-/// `terracut.NAME.dump`, for `terracut dump` to read. One thread; not real-time.
+/// `NAME.terracut-dump`, for `terracut dump` to read. One thread; not real-time.
 class DumpAnswers {
  public:
   DumpAnswers(const std::filesystem::path& folder, const std::string& name);

@@ -9,13 +9,13 @@
 #include "console.hpp"
 #include "dump_answer.hpp"
 #include "live_process.hpp"
-#include "rt/status_page.hpp"
+#include "rt/status_page_file.hpp"
 #include "rt/thread_cpu_clock.hpp"
 
 namespace terracut::cli {
 
 ExitCode run(const DumpOptions& options) {
-  const std::filesystem::path folder = rt::status_folder();
+  const std::filesystem::path folder = rt::status_page_folder();
   const auto process = find_live_process(folder, options.name);
   if (!process) return refuse(process.error());
   const auto before = read_dump_answer(folder, process->name);

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "firmware_io/live/owned_descriptor.hpp"
-#include "rt/status_page.hpp"
+#include "rt/status_page_list.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -24,7 +24,7 @@ namespace {
 std::vector<LiveProcess> running(const std::filesystem::path& folder) {
   std::vector<LiveProcess> processes;
   for (const rt::StatusPageEntry& page : rt::list_status_pages(folder)) {
-    if (page.writer_lives) processes.push_back({page.name, static_cast<::pid_t>(page.pid)});
+    if (page.publisher_lives) processes.push_back({page.name, page.pid});
   }
   return processes;
 }

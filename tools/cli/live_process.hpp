@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// A running `terracut live`, as its status page tells (rt/status_page.hpp).
+/// A running `terracut live`, as its status page tells (rt/status_page_list.hpp).
 struct LiveProcess {
   std::string name;
   ::pid_t pid = 0;

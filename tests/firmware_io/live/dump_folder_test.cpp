@@ -183,12 +183,12 @@ TEST_F(DumpFolderTest, RefusesAFolderThatIsNone) {
 }
 
 TEST_F(DumpFolderTest, RefusesNamesThatAreNoPartOfAFileName) {
-  for (const char* name : {"", "a/b", "..", "a b", "a.b", "\n"}) {
+  for (const char* name : {"", "a/b", "../a", "a b", "\n"}) {
     DumpFolderLimits bad = limits();
     bad.name = name;
     EXPECT_THROW(DumpFolder{bad}, std::invalid_argument) << name;
   }
-  EXPECT_TRUE(firmware_io::is_dump_name("front-left_2"));
+  EXPECT_TRUE(firmware_io::is_dump_name("front-left_2.5"));
   EXPECT_FALSE(firmware_io::is_dump_name(std::string(65, 'a')));
 }
 

@@ -10,6 +10,7 @@
 #include "rt/fixed_memory.hpp"
 #include "rt/frame_timing.hpp"
 #include "rt/monitor_snapshot.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::rt {
 
@@ -40,11 +41,11 @@ class DeadlineMonitor {
   DeadlineMonitor(const Config& config, FixedMemory& memory);
 
   /// Sets frame.missed and frame.cause, counts the frame and keeps it.
-  void judge(FrameTiming& frame) noexcept;
+  void judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
 
   /// Copies the newest frames judged, oldest first; answers how many. At most into.size() and
   /// kept_frames.
-  std::size_t copy_newest(std::span<FrameTiming> into) const noexcept;
+  std::size_t copy_newest(std::span<FrameTiming> into) const noexcept TERRACUT_NONBLOCKING;
 
   /// The figures. judge() keeps everything that comes from frames, deadline_ns and the names of
   /// the stages; the other fields (version, sensor, input, link, losses, threads, times) are the
@@ -53,11 +54,11 @@ class DeadlineMonitor {
   [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
 
  private:
-  void judge_latency(FrameTiming& frame) noexcept;
-  void record_costs(const FrameTiming& frame) noexcept;
-  void keep(const FrameTiming& frame) noexcept;
-  [[nodiscard]] double frames_per_s() const noexcept;
-  [[nodiscard]] const FrameTiming& kept_before(std::size_t age) const noexcept;
+  void judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void keep(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] double frames_per_s() const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] const FrameTiming& kept_before(std::size_t age) const noexcept TERRACUT_NONBLOCKING;
 
   MonitorSnapshot* snapshot_;
   std::span<FrameTiming> kept_;  ///< Ring.

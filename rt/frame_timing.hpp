@@ -19,25 +19,26 @@ enum class Rung : std::uint8_t {
 };
 inline constexpr std::size_t kRungs = static_cast<std::size_t>(Rung::kCount);
 
-/// Whose fault a missed deadline was: what the largest share of the frame's latency went to.
-enum class MissCause : std::uint8_t {
+/// Whose fault a missed deadline was: what the largest share of the frame's latency went to, over
+/// all threads it passed (rt/miss_cause.hpp judges a stretch of one thread's work).
+enum class FrameMissCause : std::uint8_t {
   kOwnWork,         ///< Our computing, and everything that nothing below explains.
   kWaitingForCore,  ///< Ready to run, but the core was given to others.
   kStolenTime,      ///< The hypervisor ran something else on our core.
   kLateInput,       ///< The packet that shows that the turn is over came late.
   kCount,
 };
-inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(MissCause::kCount);
+inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCause::kCount);
 
 /// Stable lower_snake_case names, as in reports; "unknown" for anything else.
 [[nodiscard]] constexpr std::string_view to_string(Rung rung) noexcept {
   constexpr std::array<std::string_view, kRungs> kNames{"full", "cut_stopped", "coarse", "skipped"};
   return rung < Rung::kCount ? kNames[static_cast<std::size_t>(rung)] : "unknown";
 }
-[[nodiscard]] constexpr std::string_view to_string(MissCause cause) noexcept {
+[[nodiscard]] constexpr std::string_view to_string(FrameMissCause cause) noexcept {
   constexpr std::array<std::string_view, kMissCauses> kNames{"own_work", "waiting_for_core",
                                                              "stolen_time", "late_input"};
-  return cause < MissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
+  return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
 }
 
 /// When one frame was where, and what it cost: filled on its way by the threads it passes, judged
@@ -69,8 +70,9 @@ struct FrameTiming {
   std::uint64_t cut_operations = 0;
   Rung rung = Rung::kFull;
 
-  bool missed = false;                    ///< Set by DeadlineMonitor::judge.
-  MissCause cause = MissCause::kOwnWork;  ///< Set by judge; means something only if missed.
+  bool missed = false;  ///< Set by DeadlineMonitor::judge.
+  FrameMissCause cause =
+      FrameMissCause::kOwnWork;  ///< Set by judge; means something only if missed.
 };
 
 }  // namespace terracut::rt

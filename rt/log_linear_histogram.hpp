@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::rt {
 
 /// Counts durations in buckets whose width grows with the value (HdrHistogram's layout), so that
@@ -20,7 +22,7 @@ class LogLinearHistogram {
   static constexpr std::int64_t kMax_ns = (std::int64_t{1} << 40) - 1;  ///< About 18 minutes.
 
   /// Real-time safe, a few instructions.
-  void record(std::int64_t value_ns) noexcept;
+  void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 
   /// The smallest bucket limit that at least `percent` of all values do not exceed, and never more
   /// than max_ns(): exact to 1/128 upwards. percent in [0, 100]; 0 when nothing was recorded.
@@ -45,7 +47,7 @@ class LogLinearHistogram {
   static constexpr std::size_t kHalf = std::size_t{1} << (kLinearBits - 1);
   static constexpr std::size_t kBuckets = 2 * kHalf + (40 - kLinearBits) * kHalf;
 
-  [[nodiscard]] static std::size_t bucket_of(std::uint64_t value) noexcept;
+  [[nodiscard]] static std::size_t bucket_of(std::uint64_t value) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] static std::int64_t highest_in(std::size_t bucket) noexcept;
 
   std::array<std::uint64_t, kBuckets> buckets_{};

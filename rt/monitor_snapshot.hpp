@@ -13,6 +13,7 @@
 #include "rt/fixed_text.hpp"
 #include "rt/frame_timing.hpp"
 #include "rt/log_linear_histogram.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::rt {
 
@@ -93,7 +94,7 @@ struct MonitorSnapshot {
   std::array<FixedText<24>, FrameTiming::kMaxStages> stage_names{};
   std::array<LogLinearHistogram, FrameTiming::kMaxStages> stage_cpu{};
 
-  [[nodiscard]] std::size_t stages() const noexcept {
+  [[nodiscard]] std::size_t stages() const noexcept TERRACUT_NONBLOCKING {
     return std::min<std::size_t>(stage_count, stage_names.size());
   }
   [[nodiscard]] std::span<const NamedCount> losses_in_use() const noexcept {

@@ -44,7 +44,7 @@ class DeadlineMonitorOf50Ms : public testing::Test {
     monitor_.judge(frame);
     return frame;
   }
-  [[nodiscard]] std::uint64_t misses(MissCause cause) const {
+  [[nodiscard]] std::uint64_t misses(FrameMissCause cause) const {
     return monitor_.snapshot().misses[static_cast<std::size_t>(cause)];
   }
   [[nodiscard]] std::uint64_t rungs(Rung rung) const {
@@ -62,43 +62,43 @@ TEST_F(DeadlineMonitorOf50Ms, MissesOnlyWhatIsLaterThanTheDeadline) {
 }
 
 TEST_F(DeadlineMonitorOf50Ms, BlamesOwnWorkForWhatNothingElseExplains) {
-  EXPECT_EQ(judged(frame_of(0, 80)).cause, MissCause::kOwnWork);
-  EXPECT_EQ(misses(MissCause::kOwnWork), 1U);
+  EXPECT_EQ(judged(frame_of(0, 80)).cause, FrameMissCause::kOwnWork);
+  EXPECT_EQ(misses(FrameMissCause::kOwnWork), 1U);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, BlamesTheLargestShareOfTheLatency) {
   FrameTiming frame = frame_of(0, 100);
   frame.run_queue_wait_ns = 60 * kMs;
-  EXPECT_EQ(judged(frame).cause, MissCause::kWaitingForCore);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kWaitingForCore);
   frame.run_queue_wait_ns = 40 * kMs;
-  EXPECT_EQ(judged(frame).cause, MissCause::kOwnWork);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kOwnWork);
   frame.closing_packet_ns += 70 * kMs;
-  EXPECT_EQ(judged(frame).cause, MissCause::kLateInput);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kLateInput);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, TakesAWaitThatTheHypervisorCausedForStolenTimeOnce) {
   FrameTiming frame = frame_of(0, 100);
   frame.steal_ns = 55 * kMs;
   frame.run_queue_wait_ns = 60 * kMs;  // 55 of them are the same
-  EXPECT_EQ(judged(frame).cause, MissCause::kStolenTime);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kStolenTime);
   frame.steal_ns = 15 * kMs;
   frame.run_queue_wait_ns = 75 * kMs;
-  EXPECT_EQ(judged(frame).cause, MissCause::kWaitingForCore);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kWaitingForCore);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, GivesOwnWorkTheBlameWhenSharesAreEqual) {
   FrameTiming frame = frame_of(0, 100);
   frame.steal_ns = 50 * kMs;
-  EXPECT_EQ(judged(frame).cause, MissCause::kOwnWork);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kOwnWork);
   frame.steal_ns += 1;
-  EXPECT_EQ(judged(frame).cause, MissCause::kStolenTime);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kStolenTime);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, SharesOutNoMoreThanTheLatency) {
   FrameTiming frame = frame_of(0, 60);
   frame.closing_packet_ns += 40 * kMs;
   frame.steal_ns = 1000 * kMs;  // of all cores, say: at most the 20 ms that are left count
-  EXPECT_EQ(judged(frame).cause, MissCause::kLateInput);
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kLateInput);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, CountsASkippedFrameAsMissedButNotAsQuick) {
@@ -192,7 +192,7 @@ TEST_F(DeadlineMonitorOf50Ms, SurvivesAnyNumbersInAFrame) {
   wild.run_queue_wait_ns = -1;
   wild.rung = static_cast<Rung>(200);
   EXPECT_TRUE(judged(wild).missed);
-  EXPECT_EQ(wild.cause, MissCause::kOwnWork);
+  EXPECT_EQ(wild.cause, FrameMissCause::kOwnWork);
   EXPECT_EQ(to_string(wild.rung), "unknown");
   EXPECT_EQ(monitor_.snapshot().frames, 1U);
 }

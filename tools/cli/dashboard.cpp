@@ -84,7 +84,7 @@ class Dashboard {
     for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
       if (figures_.misses[i] == 0) continue;
       causes += fmt::format("{} {} {}", causes.empty() ? ":" : ",",
-                            to_string(static_cast<rt::MissCause>(i)), figures_.misses[i]);
+                            to_string(static_cast<rt::FrameMissCause>(i)), figures_.misses[i]);
     }
     const double percent = figures_.frames == 0 ? 0.0
                                                 : 100.0 * static_cast<double>(misses) /

@@ -48,7 +48,7 @@ Json misses_json(const rt::MonitorSnapshot& figures) {
             {"consecutive", figures.consecutive_misses},
             {"longest_run", figures.longest_run_of_misses}};
   for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
-    json["causes"][std::string(to_string(static_cast<rt::MissCause>(i)))] = figures.misses[i];
+    json["causes"][std::string(to_string(static_cast<rt::FrameMissCause>(i)))] = figures.misses[i];
   }
   return json;
 }

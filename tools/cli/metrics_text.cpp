@@ -132,7 +132,7 @@ void add_frames(const rt::MonitorSnapshot& figures, MetricsText& text) {
   text.begin("terracut_deadline_misses_total", "counter",
              "Frames labelled after the deadline or not at all, by cause.");
   for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
-    text.sample(figures.misses[i], label("cause", to_string(static_cast<rt::MissCause>(i))));
+    text.sample(figures.misses[i], label("cause", to_string(static_cast<rt::FrameMissCause>(i))));
   }
   text.single("terracut_consecutive_misses", "gauge",
               "Deadlines missed one after another, up to the newest frame.",

@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cstdio>
 #include <ctime>
-#include <memory>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,11 +17,12 @@
 #include "json_text.hpp"
 #include "live_summary.hpp"
 #include "rt/status_page.hpp"
+#include "rt/status_page_list.hpp"
 
 namespace terracut::cli {
 namespace {
 
-using View = rt::StatusPageView<rt::MonitorSnapshot>;
+using Reader = rt::StatusPageReader<rt::MonitorSnapshot>;
 
 std::int64_t now_ns() {
   timespec now{};
@@ -32,11 +32,11 @@ std::int64_t now_ns() {
 
 /// The name of the one process that runs. Errors: none runs, or several do.
 Expected<std::string> name_of_the_only_one() {
-  const std::string folder = rt::status_folder().string();
+  const std::string folder = rt::status_page_folder().string();
   std::vector<std::string> running;
   std::string left_over;
   for (const rt::StatusPageEntry& page : rt::list_status_pages(folder)) {
-    if (page.writer_lives) {
+    if (page.publisher_lives) {
       running.push_back(page.name);
     } else {
       left_over +=
@@ -53,8 +53,8 @@ Expected<std::string> name_of_the_only_one() {
               fmt::format("several are running, name one of them: {}", fmt::join(running, ", ")));
 }
 
-Expected<View> open_view(const std::string& name) {
-  return View::open(rt::status_folder(), name, rt::MonitorSnapshot::kLayout);
+Expected<Reader> open_page(const std::string& name) {
+  return Reader::open(name, rt::MonitorSnapshot::kLayout);
 }
 
 DashboardStyle style_of_stdout() {
@@ -78,35 +78,34 @@ std::string redrawn(const std::string& text) {
   return result + "\x1b[J";
 }
 
-ExitCode print_once(const View& view, const std::string& name, bool as_json) {
-  const auto figures = std::make_unique<rt::MonitorSnapshot>();
-  if (!view.read(*figures)) {
-    return refuse(kInputRefused,
-                  fmt::format("process {} has not published any figures yet", view.pid()));
+ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
+  const auto figures = page.read();
+  if (!figures) {
+    return refuse(kInputRefused, fmt::format("process {} has not published any figures yet",
+                                             page.publisher_pid()));
   }
   fmt::print("{}", as_json ? json_text(live_summary(*figures))
                            : dashboard(*figures, now_ns(), style_of_stdout()));
-  if (!view.writer_lives()) {
+  if (!page.publisher_lives()) {
     return refuse(kInputRefused, fmt::format("process {} of '{}' is gone; these were its last "
                                              "figures",
-                                             view.pid(), name));
+                                             page.publisher_pid(), name));
   }
   return kOk;
 }
 
-ExitCode watch(const View& view, const std::string& name, double interval_s) {
-  const auto figures = std::make_unique<rt::MonitorSnapshot>();
+ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
   const bool terminal = ::isatty(STDOUT_FILENO) == 1;
   if (terminal) fmt::print("\x1b[2J");
   for (;;) {
-    const bool lives = view.writer_lives();  // asked first: the last figures are shown too
-    if (view.read(*figures)) {
+    const bool lives = page.publisher_lives();  // asked first: the last figures are shown too
+    if (const auto figures = page.read()) {
       const std::string text = dashboard(*figures, now_ns(), style_of_stdout());
       fmt::print("{}", terminal ? redrawn(text) : text + "\n");
       if (std::fflush(stdout) != 0) return refuse(kOutputFailed, "cannot write to stdout");
     }
     if (!lives) {
-      say(fmt::format("process {} of '{}' has ended", view.pid(), name));
+      say(fmt::format("process {} of '{}' has ended", page.publisher_pid(), name));
       return kOk;
     }
     std::this_thread::sleep_for(std::chrono::duration<double>(interval_s));
@@ -120,10 +119,10 @@ ExitCode run(const TopOptions& options) {
   const Expected<std::string> name =
       options.name.empty() ? name_of_the_only_one() : Expected<std::string>(options.name);
   if (!name) return refuse(name.error());
-  const Expected<View> view = open_view(*name);
-  if (!view) return refuse(view.error());
-  if (options.once || options.json) return print_once(*view, *name, options.json);
-  return watch(*view, *name, options.interval_s);
+  const Expected<Reader> page = open_page(*name);
+  if (!page) return refuse(page.error());
+  if (options.once || options.json) return print_once(*page, *name, options.json);
+  return watch(*page, *name, options.interval_s);
 }
 
 }  // namespace terracut::cli

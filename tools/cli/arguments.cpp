@@ -257,6 +257,22 @@ void add_send(CLI::App& sub, SendOptions& o) {
   sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
 }
 
+void add_dump(CLI::App& sub, DumpOptions& o) {
+  sub.add_option("NAME", o.name, "Name of the process (default: the only one that runs)");
+  sub.add_option("--wait", o.wait_s, "Seconds to wait for its answer")
+      ->check(number(0, 3600))
+      ->capture_default_str();
+}
+
+void add_top(CLI::App& sub, TopOptions& o) {
+  sub.add_option("NAME", o.name, "Status page of the process (default: the only one that runs)");
+  sub.add_flag("--once", o.once, "Print once and exit");
+  sub.add_flag("--json", o.json, "Print the figures once, for programs");
+  sub.add_option("--interval", o.interval_s, "Seconds between two looks")
+      ->check(number(0.1, 3600))
+      ->capture_default_str();
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -303,6 +319,11 @@ Arguments parse_arguments(int argc, char** argv) {
                             "Time decoding and every stage on one core", add_bench);
   add_command<SendOptions>(app, result.command, "send",
                            "Send a capture's datagrams by UDP, as its sensor would", add_send);
+  add_command<DumpOptions>(app, result.command, "dump",
+                           "Have a running `terracut live` write its last seconds of packets",
+                           add_dump);
+  add_command<TopOptions>(app, result.command, "top",
+                          "Watch a running `terracut live` from another shell", add_top);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("error: ") + error.what() +
            "\n`terracut --help` and `terracut COMMAND --help` say what is expected\n";

@@ -9,9 +9,9 @@
 
 namespace terracut::cli {
 
-using Command =
-    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
-                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions>;
+using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
+                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
+                             BenchOptions, SendOptions, DumpOptions, TopOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -18,5 +18,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const ParametersOptions& options);
 [[nodiscard]] ExitCode run(const BenchOptions& options);
 [[nodiscard]] ExitCode run(const SendOptions& options);
+[[nodiscard]] ExitCode run(const DumpOptions& options);
+[[nodiscard]] ExitCode run(const TopOptions& options);
 
 }  // namespace terracut::cli

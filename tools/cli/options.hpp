@@ -130,4 +130,16 @@ struct SendOptions {
   std::filesystem::path json;
 };
 
+struct DumpOptions {
+  std::string name;    ///< Of the running process; empty: the only one that runs.
+  double wait_s = 30;  ///< --wait, [0, 3600]: for its answer.
+};
+
+struct TopOptions {
+  std::string name;  ///< Status page of the process to watch; empty: the only one that runs.
+  bool once = false;
+  bool json = false;      ///< --json: print the figures for programs, once.
+  double interval_s = 1;  ///< --interval, [0.1, 3600]
+};
+
 }  // namespace terracut::cli

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/live/live_pcap_source.hpp"
 #include "firmware_io/live/packet_pacer.hpp"
+#include "firmware_io/live/packet_ring.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "wire.hpp"
 
@@ -54,6 +55,22 @@ TEST_F(LiveMemory, ListeningWithLibpcapAllocatesNothing) {
   static_cast<void>(source->receive(600 * kMillisecond_ns));
   EXPECT_EQ(allocations_of_this_thread() - before, 0U);
   EXPECT_EQ(source->counters().delivered, 60U);
+}
+
+TEST_F(LiveMemory, RecordingAndCopyingWhatWasRecordedAllocateNothing) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  const firmware_io::PacketRingSize size{20, 20 * 1208};
+  firmware_io::PacketRing ring(size, memory_);
+  firmware_io::PacketWindow window(size, memory_);
+  Numbered numbered(50);
+  const std::size_t planned = memory_.total_bytes();
+
+  const std::uint64_t before = allocations_of_this_thread();
+  for (const auto& each : numbered.datagrams()) ring.add(each);
+  ring.copy_to(window);
+  EXPECT_EQ(allocations_of_this_thread() - before, 0U);
+  EXPECT_EQ(memory_.total_bytes(), planned);
+  EXPECT_EQ(window.datagrams(), 20U);
 }
 
 }  // namespace

@@ -74,7 +74,8 @@ class Decoder {
         tracker_(Sensor::kClockWrap_us, memory),
         frames_(frame_config(config), memory) {}
 
-  /// One datagram. Nothing when it was decoded, else why it was rejected (and counted).
+  /// One datagram. Nothing when it was decoded, else why it was rejected (and counted, but for
+  /// kDeviceInfo).
   template <class OnFrame>
   std::optional<Reject> decode(const Datagram& datagram, OnFrame&& on_frame) noexcept;
 
@@ -162,6 +163,8 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     } else if (*reason == Reject::kAzimuthOutOfRange || *reason == Reject::kAzimuthMismatch ||
                *reason == Reject::kAzimuthJump) {
       tracker_.note_rejected(heads_.device_stamp_us);
+    } else if (*reason == Reject::kDeviceInfo) {
+      return reason;  // nothing is lost with it
     }
     return reject(*reason);
   }

@@ -58,6 +58,11 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
                                LossCounters& losses) noexcept {
   if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated};
   if (!started_) return restart(heads, host_stamp_ns, losses);
+  if (heads.clock_restarts) {
+    steps_ = 0;  // nor were those between them what they seemed
+    missing_ = 0;
+    return restart(heads, host_stamp_ns, losses);
+  }
 
   const std::int64_t step_us = device_step_us(newest_stamp_us_, heads.device_stamp_us);
   const std::int64_t step_cdeg =

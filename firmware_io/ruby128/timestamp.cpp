@@ -100,8 +100,7 @@ std::array<std::uint8_t, 10> write_ruby_timestamp(std::int64_t time_ns,
   return bytes;
 }
 
-RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp,
-                                         std::uint16_t protocol_version) noexcept {
+RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp) noexcept {
   if (settled_) return encoding_;
   const auto settle = [this](RubyTimestamp encoding) {
     encoding_ = encoding;
@@ -111,8 +110,6 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   if (stamp[0] != 0) return settle(RubyTimestamp::kCalendar);
   const std::uint32_t fraction = sub_second(stamp);
   if (fraction > kMostMicroseconds) return settle(RubyTimestamp::kUtcNanoseconds);
-  if (protocol_version != 0) return encoding_;  // most likely; only nanoseconds could still be seen
-
   const std::uint32_t before = last_sub_second_;
   const bool has_before = has_last_;
   last_sub_second_ = fraction;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #include "calib/angle.hpp"
 #include "pipeline/quality.hpp"
@@ -80,7 +81,8 @@ void ScanSurface::take(std::span<const ScanPoint> points,
 }
 
 void ScanSurface::index(Ring& ring) const {
-  std::ranges::stable_sort(ring.spots, {}, &Spot::azimuth_rad);
+  std::ranges::sort(ring.spots, {},
+                    [](const Spot& spot) { return std::pair(spot.azimuth_rad, spot.point); });
   std::uint32_t next = 0;
   for (std::size_t bin = 0; bin < ring.begin.size(); ++bin) {
     const double from_rad = static_cast<double>(bin) * kBin_rad;
@@ -99,7 +101,9 @@ void ScanSurface::list_candidates() {
       if (!crossing) continue;
       column.push_back({static_cast<float>(crossing->elevation_rad), crossing->ring});
     }
-    std::ranges::stable_sort(column, {}, &Candidate::elevation_rad);
+    std::ranges::sort(column, {}, [](const Candidate& candidate) {
+      return std::pair(candidate.elevation_rad, candidate.ring);
+    });
   }
 }
 

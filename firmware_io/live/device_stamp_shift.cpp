@@ -54,7 +54,7 @@ bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t 
   if (model == SensorModel::kRuby128 || model == SensorModel::kRubyPlus) {
     const auto packet = Ruby128PacketView::of(payload);
     if (!packet) return false;
-    const RubyTimestamp encoding = ruby_encoding_.add(packet->stamp(), packet->protocol_version());
+    const RubyTimestamp encoding = ruby_encoding_.add(packet->stamp());
     if (shift_ns != 0) shift_ruby128(payload, *packet, encoding, shift_ns);
     return true;
   }

@@ -115,11 +115,12 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   last_sub_second_ = fraction;
   has_last_ = true;
   if (!has_before || fraction <= before) return encoding_;
-  // One packet period is 166 (in dual return 55 or 111) microseconds or a thousand times as many
-  // nanoseconds; a few lost packets make no difference between those.
-  constexpr std::uint32_t kPacket_us = kRubyBlocksPerPacket * kRubyBlock_ns / 1000;
-  return settle(fraction - before < 20 * kPacket_us ? RubyTimestamp::kUtcMicroseconds
-                                                    : RubyTimestamp::kUtcNanoseconds);
+  // Packets are 55 to 167 microseconds apart, or a thousand times as many nanoseconds. A step below
+  // the shortest in nanoseconds proves microseconds; a longer one is either nanoseconds, which show
+  // a value of a million before long, or microseconds with a gap of hundreds of packets.
+  constexpr std::uint32_t kShortestPacket_ns = 50'000;
+  if (fraction - before < kShortestPacket_ns) return settle(RubyTimestamp::kUtcMicroseconds);
+  return encoding_ = RubyTimestamp::kUtcNanoseconds;
 }
 
 }  // namespace terracut::firmware_io

@@ -34,9 +34,9 @@ enum class RubyTimestamp : std::uint8_t {
 /// settled() tells whether the answer is proven or still the most common one.
 ///
 /// A first byte other than 0 is a calendar year. A sub-second value above 999,999 can only be
-/// nanoseconds. Else the unit is that in which stamps of successive packets differ by a packet
-/// period or a few; until two packets of one second have come, microseconds. Real-time safe; one
-/// thread.
+/// nanoseconds; a step between two packets too short for a nanosecond's packet period,
+/// microseconds. Until one of these is seen the likelier unit is taken: microseconds, or
+/// nanoseconds after a long step. Real-time safe; one thread.
 class RubyTimestampDetector {
  public:
   /// The encoding by which to read this packet's stamp.

@@ -95,8 +95,21 @@ TEST(RubyTimestampDetector, TellsTheUnitByThePacketPeriod) {
   EXPECT_EQ(us.encoding(), RubyTimestamp::kUtcMicroseconds);
   // In the first millisecond of a second nanoseconds look like microseconds.
   const auto ns = watch(RubyTimestamp::kUtcNanoseconds, 1'795'264'496'000'100'000, 2);
-  EXPECT_TRUE(ns.settled());
+  EXPECT_FALSE(ns.settled());
   EXPECT_EQ(ns.encoding(), RubyTimestamp::kUtcNanoseconds);
+}
+
+TEST(RubyTimestampDetector, IsNotMisledByAGap) {
+  for (const int lost : {1, 18, 19, 100, 299, 400, 1000}) {
+    RubyTimestampDetector detector;
+    const auto us = RubyTimestamp::kUtcMicroseconds;
+    const std::int64_t begin_ns = 1'795'264'496'100'000'000;
+    for (const int n : {0, lost + 1, lost + 2}) {
+      detector.add(write_ruby_timestamp(begin_ns + n * std::int64_t{166'650}, us));
+    }
+    EXPECT_TRUE(detector.settled()) << lost;
+    EXPECT_EQ(detector.encoding(), us) << lost;
+  }
 }
 
 TEST(RubyTimestampDetector, WaitsWhereASecondBegins) {

@@ -106,6 +106,8 @@ class Decoder {
     return steps_ == 0 ? 0 : static_cast<double>(steps_ticks_) / static_cast<double>(steps_) * 1e-5;
   }
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
+  /// All images, for a hand-over by exchange (FrameBuilder); the first two are open at the start.
+  [[nodiscard]] std::span<pipeline::RangeImage> images() noexcept { return frames_.images(); }
 
  private:
   static constexpr int kRows = Sensor::kRows;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <string_view>
 
@@ -16,7 +17,11 @@ template <std::size_t Size>
 class FixedText {
  public:
   FixedText() = default;
-  FixedText(std::string_view text) noexcept {  // NOLINT(google-explicit-constructor): it is a text
+  /// Anything that is a text.
+  template <class Text>
+    requires std::convertible_to<const Text&, std::string_view>
+  FixedText(const Text& any_text) noexcept {  // NOLINT(google-explicit-constructor): it is a text
+    const std::string_view text = any_text;
     std::copy_n(text.begin(), std::min(text.size(), Size), bytes_.begin());
   }
 

@@ -20,12 +20,16 @@ namespace terracut::rt {
 /// Nanoseconds since an arbitrary start (CLOCK_MONOTONIC): what a deadline is measured with.
 [[nodiscard]] inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING;
 
+/// Nanoseconds since 1970 (CLOCK_REALTIME): comparable with the kernel's stamps of packets, but set
+/// by whoever keeps the time.
+[[nodiscard]] inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING;
+
 namespace detail {
 TERRACUT_TRUSTED_CALLS_BEGIN  // reads a page shared with the kernel, or asks it
     [[nodiscard]] inline std::int64_t
     read_clock_ns(clockid_t clock) noexcept TERRACUT_NONBLOCKING {
   timespec now{};
-  ::clock_gettime(clock, &now);  // cannot fail for these two clocks on Linux
+  ::clock_gettime(clock, &now);  // cannot fail for these clocks on Linux
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 TERRACUT_TRUSTED_CALLS_END
@@ -36,6 +40,9 @@ inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING {
 }
 inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING {
   return detail::read_clock_ns(CLOCK_MONOTONIC);
+}
+inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING {
+  return detail::read_clock_ns(CLOCK_REALTIME);
 }
 
 /// The two clocks read together.

@@ -24,7 +24,8 @@ constexpr const char* kAbout =
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
-    "4 an output could not be written; 5 packets were read but no frame came out.\n"
+    "4 an output could not be written; 5 packets were read but no frame came out;\n"
+    "6 deadlines were missed.\n"
     "`terracut COMMAND --help` lists a command's options.";
 
 /// A number in [low, high]. Unlike CLI::Range it lets no NaN through.
@@ -44,13 +45,11 @@ CLI::Validator number(double low, double high) {
 
 constexpr double kLongest_s = 1e9;
 
-void add_capture(CLI::App& app, CaptureOptions& capture) {
-  app.add_option("FILE", capture.file, "Capture of HDL-64E or RS-Ruby128 packets, pcap or pcapng")
-      ->required();
+/// What a capture and a live stream have in common.
+void add_decoding(CLI::App& app, CaptureOptions& capture) {
   app.add_option("--sensor", capture.sensor, "Sensor model (default: the one found)")
       ->check(CLI::IsMember({"auto", "hdl64e", "ruby128"}))
       ->capture_default_str();
-  app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
   app.add_option("--from", capture.from, "Only datagrams of this IPv4 address")
       ->check(CLI::ValidIPV4);
   app.add_option("--calibration", capture.calibration,
@@ -77,6 +76,13 @@ void add_capture(CLI::App& app, CaptureOptions& capture) {
                  "Meaning of the table: the maker's manual, or as ROS drivers take it")
       ->check(CLI::IsMember({"manual", "ros"}))
       ->capture_default_str();
+}
+
+void add_capture(CLI::App& app, CaptureOptions& capture) {
+  app.add_option("FILE", capture.file, "Capture of HDL-64E or RS-Ruby128 packets, pcap or pcapng")
+      ->required();
+  app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
+  add_decoding(app, capture);
   app.add_option("--start", capture.start_s, "Skip this many seconds of the capture")
       ->check(number(0, kLongest_s));
   app.add_option("--duration", capture.duration_s, "Stop after this many seconds of the capture")
@@ -273,6 +279,47 @@ void add_top(CLI::App& sub, TopOptions& o) {
       ->capture_default_str();
 }
 
+void add_live(CLI::App& sub, LiveOptions& o) {
+  sub.add_option("--listen", o.listen.address,
+                 "ADDRESS:PORT; address 0.0.0.0 hears broadcasts, too")
+      ->capture_default_str();
+  sub.add_option("--interface", o.listen.interface, "Only what comes in by this interface");
+  sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);
+  sub.add_flag("--share-port", o.listen.share_port, "Let other programs hear the same port");
+  add_decoding(sub, o.capture);
+  sub.add_option("--duration", o.capture.duration_s, "Stop after this many seconds")
+      ->check(number(1e-6, kLongest_s));
+  add_mount(sub, o.mount);
+  add_method(sub, o.method);
+  sub.add_option("--deadline-ms", o.deadline_ms, "From a turn's last packet to its labels")
+      ->check(number(1, 10'000))
+      ->capture_default_str();
+  sub.add_option("--receive-priority", o.realtime.receive_priority, "SCHED_FIFO, 0: shared")
+      ->check(CLI::Range(0, 99))
+      ->capture_default_str();
+  sub.add_option("--segment-priority", o.realtime.segment_priority, "SCHED_FIFO, 0: shared")
+      ->check(CLI::Range(0, 99))
+      ->capture_default_str();
+  sub.add_option("--receive-core", o.realtime.receive_core, "Core of the receiving thread")
+      ->check(CLI::Range(0, 4095));
+  sub.add_option("--segment-core", o.realtime.segment_core, "Core of the segmenting thread")
+      ->check(CLI::Range(0, 4095));
+  sub.add_flag("!--no-lock-memory", o.realtime.lock_memory, "Leave memory to the system");
+  sub.add_option("--labels", o.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
+  sub.add_option("--recorder-folder", o.recorder.folder,
+                 "Folder for the last seconds of packets, written when a deadline is missed or "
+                 "`terracut dump` asks");
+  sub.add_option("--recorder-seconds", o.recorder.seconds, "How many seconds")
+      ->check(number(0, 600))
+      ->capture_default_str();
+  sub.add_option("--metrics", o.watch.metrics, "ADDRESS:PORT of /metrics for Prometheus, or off")
+      ->capture_default_str();
+  sub.add_option("--name", o.watch.name, "Name for `terracut top` and `terracut dump`")
+      ->capture_default_str();
+  sub.add_option("--json", o.json, "File for the summary at the end");
+  sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -319,6 +366,8 @@ Arguments parse_arguments(int argc, char** argv) {
                             "Time decoding and every stage on one core", add_bench);
   add_command<SendOptions>(app, result.command, "send",
                            "Send a capture's datagrams by UDP, as its sensor would", add_send);
+  add_command<LiveOptions>(app, result.command, "live",
+                           "Label a sensor's packets as they arrive, before a deadline", add_live);
   add_command<DumpOptions>(app, result.command, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);

@@ -130,6 +130,7 @@ TEST(Ruby128Decoder, LosesNothingWhereTheUnitOfItsStampsShowsLate) {
     EXPECT_EQ(heard.losses.rejected_total(), 0U);
     EXPECT_EQ(heard.losses.network_gap_packets, 0U);
     EXPECT_EQ(heard.losses.clock_jumps, 0U);
+    EXPECT_EQ(heard.frames.size(), 4U);  // two turns, beams beyond either end; none torn in two
   }
 }
 

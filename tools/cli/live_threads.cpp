@@ -108,6 +108,12 @@ void LiveThreads::receive() noexcept {
     publish(receive_faults_, at_start);
     return next;
   };
+  // What queued up while this was being built is too old to be labelled in time, and what did not
+  // fit into the kernel's buffer meanwhile is no loss of the run.
+  while (!source_.receive(0).empty()) {
+  }
+  source_.refresh_drops();
+  const std::uint64_t drops_before = source_.counters().kernel_drops;
   while (!stop_.load(std::memory_order_relaxed)) {
     const auto datagrams = source_.receive(kPatience_ns);
     for (const firmware_io::Datagram& datagram : datagrams) {
@@ -116,7 +122,7 @@ void LiveThreads::receive() noexcept {
       chain_.decoder.decode(datagram, on_frame);
     }
     packets_.fetch_add(datagrams.size(), std::memory_order_relaxed);
-    kernel_drops_.store(source_.counters().kernel_drops, std::memory_order_relaxed);
+    kernel_drops_.store(source_.counters().kernel_drops - drops_before, std::memory_order_relaxed);
   }
 }
 

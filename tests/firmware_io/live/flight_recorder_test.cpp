@@ -213,7 +213,7 @@ TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   }
   times[1].labels_ns = 1'155'000'000;
   times[1].missed = true;
-  times[1].cause = rt::MissCause::kStolenTime;
+  times[1].cause = rt::FrameMissCause::kStolenTime;
   times[1].rung = rt::Rung::kCoarse;
   times[1].stage_cpu_ns = {11, 22, 33};
   times[1].cut_operations = 18'446'744'073'709'551'615ULL;

@@ -89,8 +89,8 @@ Expected<SensorModel> sensor_of(const std::string& wanted, const firmware_io::Se
   return fail(ErrorCode::kUnsupported,
               fmt::format("no data packets of {} came within a few seconds: {}",
                           wanted == "auto" ? "an HDL-64E or RS-Ruby128" : wanted,
-                          foreign.empty() ? "nothing that is known here; `terracut doctor` and "
-                                            "tcpdump tell whether anything arrives at all"
+                          foreign.empty() ? "nothing that is known here; "
+                                            "tcpdump tells whether anything arrives at all"
                                           : foreign));
 }
 

@@ -141,7 +141,7 @@ TEST_F(CliSend, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
   const std::string drive = quoted(kDrive);
   expect_refusal(drive, 2, "--to is required");
   expect_refusal(drive + " --to here:2368", 2, "'here' is no IPv4 address");
-  expect_refusal(drive + " --to 127.0.0.1", 2, "ADDRESS:PORT");
+  expect_refusal(drive + " --to 127.0.0.1:", 2, "127.0.0.1:");
   expect_refusal(drive + " --to 127.0.0.1:0", 2, "127.0.0.1:0");
   expect_refusal(drive + to() + " --rate -1", 2, "--rate");
   expect_refusal(drive + to() + " --faults lose@2s:3", 2, "lose@2s:3");

@@ -244,7 +244,9 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
 
 void add_send(CLI::App& sub, SendOptions& o) {
   sub.add_option("FILE", o.file, "Any capture with UDP, pcap or pcapng")->required();
-  sub.add_option("--to", o.to, "ADDRESS:PORT to send to; a multicast group and broadcast will do")
+  sub.add_option("--to", o.to,
+                 "ADDRESS:PORT to send to; a multicast group and broadcast will do.\n"
+                 "ADDRESS alone: every datagram to the port it was captured on")
       ->required();
   sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
   sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
@@ -284,6 +286,18 @@ void add_live(CLI::App& sub, LiveOptions& o) {
                  "ADDRESS:PORT; address 0.0.0.0 hears broadcasts, too")
       ->capture_default_str();
   sub.add_option("--interface", o.listen.interface, "Only what comes in by this interface");
+  sub.add_option("--via", o.listen.via,
+                 "libpcap hears what a socket does not: a mirror port, a port another program "
+                 "holds; it needs --interface and CAP_NET_RAW")
+      ->check(CLI::IsMember({"socket", "libpcap"}))
+      ->capture_default_str();
+  sub.add_option("--device-port", o.listen.device_port,
+                 "Ruby128: port of its device information, heard at the start for its angles; "
+                 "0: do not")
+      ->capture_default_str();
+  sub.add_option("--patience", o.patience_s, "Seconds to wait for the sensor at the start")
+      ->check(number(0.1, kLongest_s))
+      ->capture_default_str();
   sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);
   sub.add_flag("--share-port", o.listen.share_port, "Let other programs hear the same port");
   add_decoding(sub, o.capture);

@@ -121,7 +121,7 @@ struct SendOptions {
   std::filesystem::path file;
   std::optional<std::uint16_t> port;  ///< --port
   std::string from;                   ///< --from, dotted IPv4
-  std::string to;                     ///< --to ADDRESS:PORT
+  std::string to;                     ///< --to ADDRESS[:PORT]
   std::string interface;              ///< --interface
   double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
   int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted

@@ -143,13 +143,30 @@ void add_command(CLI::App& app, std::optional<Command>& command, const char* nam
   sub->callback([&command, options] { command = *options; });
 }
 
-void add_loop(CLI::App& sub, int& loops) {
-  sub.add_option(
-         "--loop", loops,
-         "Passes over the capture (once without this option); no number or 0: until interrupted")
+CLI::Option* add_loop(CLI::App& sub, int& loops) {
+  return sub
+      .add_option("--loop", loops,
+                  "Passes over the packets (once without this option); no number or 0: until "
+                  "interrupted")
       ->expected(0, 1)
       ->default_str("0")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
+/// How datagrams are sent, whatever they are of.
+std::vector<CLI::Option*> add_sending(CLI::App& sub, SendOptions& o) {
+  return {
+      sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)"),
+      add_loop(sub, o.loops),
+      sub.add_option("--faults", o.faults,
+                     "What goes wrong on the way, by seconds since the first packet:\n"
+                     "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s "
+                     "burst@6s:50ms\nforeign@7s:50 clock@8s:+2.0s truncate@9s:5"),
+      sub.add_option("--foreign-from", o.foreign_from,
+                     "Address of this machine that foreign packets come from")
+          ->check(CLI::ValidIPV4),
+      sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did"),
+  };
 }
 
 void add_replay(CLI::App& sub, ReplayOptions& o) {
@@ -180,7 +197,7 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
       ->check(number(0.1, 3600))
       ->capture_default_str();
-  sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
+  sub.add_option("--spin-hz,--rate", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
       ->check(number(5, 20))
       ->capture_default_str();
   sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
@@ -194,8 +211,11 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
-  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
-      ->required();
+  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it");
+  auto* udp = sub.add_option("--udp", o.udp.to,
+                             "ADDRESS[:PORT]: be the sensor, and send the drive in real time once "
+                             "it is computed");
+  for (CLI::Option* option : add_sending(sub, o.udp)) option->needs(udp);
 }
 
 void add_encode(CLI::App& sub, EncodeOptions& o) {
@@ -248,21 +268,12 @@ void add_send(CLI::App& sub, SendOptions& o) {
                  "ADDRESS:PORT to send to; a multicast group and broadcast will do.\n"
                  "ADDRESS alone: every datagram to the port it was captured on")
       ->required();
-  sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
   sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
   sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(number(0, 1000))
       ->capture_default_str();
-  add_loop(sub, o.loops);
-  sub.add_option("--faults", o.faults,
-                 "What goes wrong on the way, by seconds since the first packet:\n"
-                 "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\n"
-                 "foreign@7s:50 clock@8s:+2.0s truncate@9s:5");
-  sub.add_option("--foreign-from", o.foreign_from,
-                 "Address of this machine that foreign packets come from")
-      ->check(CLI::ValidIPV4);
-  sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
+  add_sending(sub, o);
 }
 
 void add_dump(CLI::App& sub, DumpOptions& o) {

@@ -100,6 +100,18 @@ void add_mount(CLI::App& app, MountOptions& mount) {
       ->check(number(-28, 28));
 }
 
+void add_settings(CLI::App& app, std::vector<std::string>& settings) {
+  app.add_option(
+         "--set", settings,
+         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
+      ->check([](const std::string& setting) {
+        pipeline::SegmenterConfig scratch;
+        const Status valid = apply_setting(scratch, setting);
+        return valid ? std::string() : valid.error().message;
+      })
+      ->allow_extra_args(false);
+}
+
 void add_method(CLI::App& app, MethodOptions& method) {
   app.add_option("--profile", method.profile,
                  "paper: the method as printed; terracut: what measured better")
@@ -109,15 +121,7 @@ void add_method(CLI::App& app, MethodOptions& method) {
                  "How far to refine: elevation map, + adjacent points, + random field (mrf)")
       ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
       ->capture_default_str();
-  app.add_option(
-         "--set", method.settings,
-         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
-      ->check([](const std::string& setting) {
-        pipeline::SegmenterConfig scratch;
-        const Status valid = apply_setting(scratch, setting);
-        return valid ? std::string() : valid.error().message;
-      })
-      ->allow_extra_args(false);
+  add_settings(app, method.settings);
 }
 
 void add_outputs(CLI::App& app, OutputOptions& output) {
@@ -345,6 +349,35 @@ void add_live(CLI::App& sub, LiveOptions& o) {
   sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
 }
 
+void add_eval(CLI::App& sub, EvalOptions& o) {
+  sub.add_option("DATASET", o.dataset, "Layout of the dataset")
+      ->required()
+      ->check(CLI::IsMember({"semantickitti"}));
+  sub.add_option("ROOT", o.root, "Its folder: ROOT/sequences/NN/{velodyne,labels}")->required();
+  sub.add_option("--sequences", o.sequences, "Only these, like 00,03 (default: all with labels)")
+      ->delimiter(',');
+  sub.add_option("--frames", o.frames,
+                 "Only these of every sequence: FIRST, FIRST-LAST or FIRST-LAST:STEP, from 0");
+  sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_settings(sub, o.settings);
+  sub.add_option("--through", o.through,
+                 "image: scans straight into the range image; packets: encoded and decoded first")
+      ->check(CLI::IsMember({"image", "packets"}))
+      ->capture_default_str();
+  sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  add_mount(sub, o.mount);
+  sub.add_option("--classes", o.classes,
+                 "What the dataset's classes count as (default: as in the paper)");
+  sub.add_option("--predictions", o.predictions,
+                 "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
+  sub.add_option("--json", o.json,
+                 "File for the results; FILE.journal beside it lets an interrupted run go on");
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -396,6 +429,8 @@ Arguments parse_arguments(int argc, char** argv) {
   add_command<DumpOptions>(app, result.command, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);
+  add_command<EvalOptions>(app, result.command, "eval",
+                           "Measure methods on a labelled dataset, as the paper does", add_eval);
   add_command<TopOptions>(app, result.command, "top",
                           "Watch a running `terracut live` from another shell", add_top);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {

@@ -79,6 +79,17 @@ TEST_F(CliEval, WarnsOfClassesTheTableDoesNotKnow) {
   EXPECT_THAT(outcome.err, HasSubstr("class 72"));
 }
 
+TEST_F(CliEval, IsComparedMethodByMethod) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()) + "--method terracut,ring_map");
+  expect_done("compare eval.json eval.json --json same.json");
+  EXPECT_EQ(json("same.json").at("measures").at("iou_g").at("frames").at("p"), 1.0);
+  const Outcome worse = run("compare eval.json eval.json --method-after ring_map");
+  EXPECT_EQ(worse.exit_code, kGotWorse) << worse.out;
+  EXPECT_THAT(worse.out, HasSubstr("ring_map of eval.json"));
+  EXPECT_EQ(run("compare eval.json none.json").exit_code, kInputRefused);
+}
+
 TEST_F(CliEval, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
   const evaluation::MadeUpDataset made_up;
   const auto expect_refusal = [&](const std::string& options, int exit_code,

@@ -8,18 +8,15 @@
 ///
 ///     void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 ///
-/// Clang 20 and later check it while compiling (-Wfunction-effects) and, with -fsanitize=realtime,
-/// while running; for other compilers it is a remark to the reader.
+/// Clang 22 and later check it while compiling (-Wfunction-effects), 20 and later while running
+/// (-fsanitize=realtime); for other compilers it is a remark to the reader.
 ///
 /// On the declaration it is enough. What is defined where the compiler sees it needs no mark: the
 /// compiler finds out by itself, which is also how templates that call a caller's function are
 /// checked, each with the function it was given.
-#if defined(__clang__) && defined(__has_cpp_attribute)
-#if __has_cpp_attribute(clang::nonblocking)
+#if defined(__clang__) && __clang_major__ >= 20
 #define TERRACUT_NONBLOCKING [[clang::nonblocking]]
-#endif
-#endif
-#ifndef TERRACUT_NONBLOCKING
+#else
 #define TERRACUT_NONBLOCKING
 #endif
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "exit_codes.hpp"
+#include "firmware_io/sinks/stream_address.hpp"
 #include "setup_choice.hpp"
 
 namespace terracut::cli {
@@ -335,6 +336,13 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->check(CLI::Range(0, 4095));
   sub.add_flag("!--no-lock-memory", o.realtime.lock_memory, "Leave memory to the system");
   sub.add_option("--labels", o.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
+  sub.add_option("--stream", o.stream,
+                 "ADDRESS:PORT or socket path where other programs get every turn's labelled "
+                 "points (docs/labelled_stream.md); a port alone: this machine's programs")
+      ->check([](const std::string& text) {
+        const auto address = firmware_io::parse_stream_address(text);
+        return address ? std::string() : address.error().message;
+      });
   sub.add_option("--recorder-folder", o.recorder.folder,
                  "Folder for the last seconds of packets, written when a deadline is missed or "
                  "`terracut dump` asks");

@@ -50,6 +50,11 @@ class LivePcapSource {
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
+  /// From now on only this sender; others count as foreign. From the thread that receives.
+  void accept_only(std::uint32_t source_address) noexcept {
+    config_.source_address = source_address;
+  }
+
   /// kernel_drops is as of the last refresh_drops(), which receive() calls when nothing came for a
   /// while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }

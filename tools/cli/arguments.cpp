@@ -25,7 +25,7 @@ constexpr const char* kAbout =
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
     "4 an output could not be written; 5 packets were read but no frame came out;\n"
-    "6 deadlines were missed.\n"
+    "6 deadlines were missed; 8 a measure got worse.\n"
     "`terracut COMMAND --help` lists a command's options.";
 
 /// A number in [low, high]. Unlike CLI::Range it lets no NaN through.
@@ -100,6 +100,18 @@ void add_mount(CLI::App& app, MountOptions& mount) {
       ->check(number(-28, 28));
 }
 
+void add_settings(CLI::App& app, std::vector<std::string>& settings) {
+  app.add_option(
+         "--set", settings,
+         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
+      ->check([](const std::string& setting) {
+        pipeline::SegmenterConfig scratch;
+        const Status valid = apply_setting(scratch, setting);
+        return valid ? std::string() : valid.error().message;
+      })
+      ->allow_extra_args(false);
+}
+
 void add_method(CLI::App& app, MethodOptions& method) {
   app.add_option("--profile", method.profile,
                  "paper: the method as printed; terracut: what measured better")
@@ -109,15 +121,7 @@ void add_method(CLI::App& app, MethodOptions& method) {
                  "How far to refine: elevation map, + adjacent points, + random field (mrf)")
       ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
       ->capture_default_str();
-  app.add_option(
-         "--set", method.settings,
-         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
-      ->check([](const std::string& setting) {
-        pipeline::SegmenterConfig scratch;
-        const Status valid = apply_setting(scratch, setting);
-        return valid ? std::string() : valid.error().message;
-      })
-      ->allow_extra_args(false);
+  add_settings(app, method.settings);
 }
 
 void add_outputs(CLI::App& app, OutputOptions& output) {
@@ -143,13 +147,30 @@ void add_command(CLI::App& app, std::optional<Command>& command, const char* nam
   sub->callback([&command, options] { command = *options; });
 }
 
-void add_loop(CLI::App& sub, int& loops) {
-  sub.add_option(
-         "--loop", loops,
-         "Passes over the capture (once without this option); no number or 0: until interrupted")
+CLI::Option* add_loop(CLI::App& sub, int& loops) {
+  return sub
+      .add_option("--loop", loops,
+                  "Passes over the packets (once without this option); no number or 0: until "
+                  "interrupted")
       ->expected(0, 1)
       ->default_str("0")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
+/// How datagrams are sent, whatever they are of.
+std::vector<CLI::Option*> add_sending(CLI::App& sub, SendOptions& o) {
+  return {
+      sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)"),
+      add_loop(sub, o.loops),
+      sub.add_option("--faults", o.faults,
+                     "What goes wrong on the way, by seconds since the first packet:\n"
+                     "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s "
+                     "burst@6s:50ms\nforeign@7s:50 clock@8s:+2.0s truncate@9s:5"),
+      sub.add_option("--foreign-from", o.foreign_from,
+                     "Address of this machine that foreign packets come from")
+          ->check(CLI::ValidIPV4),
+      sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did"),
+  };
 }
 
 void add_replay(CLI::App& sub, ReplayOptions& o) {
@@ -180,7 +201,7 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
       ->check(number(0.1, 3600))
       ->capture_default_str();
-  sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
+  sub.add_option("--spin-hz,--rate", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
       ->check(number(5, 20))
       ->capture_default_str();
   sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
@@ -194,8 +215,11 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
-  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
-      ->required();
+  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it");
+  auto* udp = sub.add_option("--udp", o.udp.to,
+                             "ADDRESS[:PORT]: be the sensor, and send the drive in real time once "
+                             "it is computed");
+  for (CLI::Option* option : add_sending(sub, o.udp)) option->needs(udp);
 }
 
 void add_encode(CLI::App& sub, EncodeOptions& o) {
@@ -244,23 +268,16 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
 
 void add_send(CLI::App& sub, SendOptions& o) {
   sub.add_option("FILE", o.file, "Any capture with UDP, pcap or pcapng")->required();
-  sub.add_option("--to", o.to, "ADDRESS:PORT to send to; a multicast group and broadcast will do")
+  sub.add_option("--to", o.to,
+                 "ADDRESS:PORT to send to; a multicast group and broadcast will do.\n"
+                 "ADDRESS alone: every datagram to the port it was captured on")
       ->required();
-  sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
   sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
   sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(number(0, 1000))
       ->capture_default_str();
-  add_loop(sub, o.loops);
-  sub.add_option("--faults", o.faults,
-                 "What goes wrong on the way, by seconds since the first packet:\n"
-                 "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\n"
-                 "foreign@7s:50 clock@8s:+2.0s truncate@9s:5");
-  sub.add_option("--foreign-from", o.foreign_from,
-                 "Address of this machine that foreign packets come from")
-      ->check(CLI::ValidIPV4);
-  sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
+  add_sending(sub, o);
 }
 
 void add_dump(CLI::App& sub, DumpOptions& o) {
@@ -284,6 +301,18 @@ void add_live(CLI::App& sub, LiveOptions& o) {
                  "ADDRESS:PORT; address 0.0.0.0 hears broadcasts, too")
       ->capture_default_str();
   sub.add_option("--interface", o.listen.interface, "Only what comes in by this interface");
+  sub.add_option("--via", o.listen.via,
+                 "libpcap hears what a socket does not: a mirror port, a port another program "
+                 "holds; it needs --interface and CAP_NET_RAW")
+      ->check(CLI::IsMember({"socket", "libpcap"}))
+      ->capture_default_str();
+  sub.add_option("--device-port", o.listen.device_port,
+                 "Ruby128: port of its device information, heard at the start for its angles; "
+                 "0: do not")
+      ->capture_default_str();
+  sub.add_option("--patience", o.patience_s, "Seconds to wait for the sensor at the start")
+      ->check(number(0.1, kLongest_s))
+      ->capture_default_str();
   sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);
   sub.add_flag("--share-port", o.listen.share_port, "Let other programs hear the same port");
   add_decoding(sub, o.capture);
@@ -318,6 +347,47 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->capture_default_str();
   sub.add_option("--json", o.json, "File for the summary at the end");
   sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
+}
+
+void add_eval(CLI::App& sub, EvalOptions& o) {
+  sub.add_option("DATASET", o.dataset, "Layout of the dataset")
+      ->required()
+      ->check(CLI::IsMember({"semantickitti"}));
+  sub.add_option("ROOT", o.root, "Its folder: ROOT/sequences/NN/{velodyne,labels}")->required();
+  sub.add_option("--sequences", o.sequences, "Only these, like 00,03 (default: all with labels)")
+      ->delimiter(',');
+  sub.add_option("--frames", o.frames,
+                 "Only these of every sequence: FIRST, FIRST-LAST or FIRST-LAST:STEP, from 0");
+  sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_settings(sub, o.settings);
+  sub.add_option("--through", o.through,
+                 "image: scans straight into the range image; packets: encoded and decoded first")
+      ->check(CLI::IsMember({"image", "packets"}))
+      ->capture_default_str();
+  sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  add_mount(sub, o.mount);
+  sub.add_option("--classes", o.classes,
+                 "What the dataset's classes count as (default: as in the paper)");
+  sub.add_option("--predictions", o.predictions,
+                 "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
+  sub.add_option("--json", o.json,
+                 "File for the results; FILE.journal beside it lets an interrupted run go on");
+}
+
+void add_compare(CLI::App& sub, CompareOptions& o) {
+  sub.add_option("BEFORE", o.before, "Report of `terracut eval --json`")->required();
+  sub.add_option("AFTER", o.after, "Another one, of the same frames")->required();
+  sub.add_option("--method", o.method, "Method to compare")->capture_default_str();
+  sub.add_option("--method-after", o.method_after, "Method of AFTER (default: the same)");
+  sub.add_option("--significance", o.significance,
+                 "A measure that got worse with a smaller p than this leads to exit code 8")
+      ->check(number(1e-12, 1))
+      ->capture_default_str();
+  sub.add_option("--json", o.json, "File for the same, for programs");
 }
 
 /// CLI11 would say only that a subcommand is required.
@@ -371,6 +441,11 @@ Arguments parse_arguments(int argc, char** argv) {
   add_command<DumpOptions>(app, result.command, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);
+  add_command<EvalOptions>(app, result.command, "eval",
+                           "Measure methods on a labelled dataset, as the paper does", add_eval);
+  add_command<CompareOptions>(app, result.command, "compare",
+                              "What a change did: two reports of eval, frame by frame",
+                              add_compare);
   add_command<TopOptions>(app, result.command, "top",
                           "Watch a running `terracut live` from another shell", add_top);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {

@@ -5,14 +5,15 @@
 #include <optional>
 #include <variant>
 
-#include "live_options.hpp"
+#include "live/live_options.hpp"
 #include "options.hpp"
 
 namespace terracut::cli {
 
-using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
-                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
-                             BenchOptions, SendOptions, DumpOptions, TopOptions, LiveOptions>;
+using Command =
+    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
+                 DumpOptions, TopOptions, EvalOptions, CompareOptions, LiveOptions>;
 
 /// The command line, read.
 struct Arguments {

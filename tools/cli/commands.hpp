@@ -3,7 +3,7 @@
 #pragma once
 
 #include "exit_codes.hpp"
-#include "live_options.hpp"
+#include "live/live_options.hpp"
 #include "options.hpp"
 
 /// The subcommands: each does its work, prints its result and answers the program's exit code.
@@ -21,6 +21,8 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const SendOptions& options);
 [[nodiscard]] ExitCode run(const DumpOptions& options);
 [[nodiscard]] ExitCode run(const TopOptions& options);
+ExitCode run(const EvalOptions& options);
+[[nodiscard]] ExitCode run(const CompareOptions& options);
 [[nodiscard]] ExitCode run(const LiveOptions& options);
 
 }  // namespace terracut::cli

@@ -10,7 +10,7 @@
 #include "rt/frame_timing.hpp"
 #include "rt/nonblocking.hpp"
 #include "rt/thread_cpu_clock.hpp"
-#include "stage_clock.hpp"
+#include "tools/cli/stage_clock.hpp"
 
 namespace terracut::cli {
 

@@ -5,11 +5,17 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
+#include <vector>
 
+#include "configuration.hpp"
+#include "configuration_file.hpp"
+#include "console.hpp"
 #include "exit_codes.hpp"
 #include "setup_choice.hpp"
 
@@ -24,7 +30,9 @@ constexpr const char* kAbout =
 
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
-    "4 an output could not be written; 5 packets were read but no frame came out.\n"
+    "4 an output could not be written; 5 packets were read but no frame came out;\n"
+    "7 doctor found a problem.\n"
+    "`--config FILE` goes with every command (`terracut config --print-default` prints one).\n"
     "`terracut COMMAND --help` lists a command's options.";
 
 /// A number in [low, high]. Unlike CLI::Range it lets no NaN through.
@@ -42,13 +50,21 @@ CLI::Validator number(double low, double high) {
       "");
 }
 
-constexpr double kLongest_s = 1e9;
+/// What the configuration file allows for the same.
+CLI::Validator range_of(std::string_view key) {
+  const Setting* setting = find_setting(key);
+  return number(setting->least, setting->most);
+}
+CLI::IsMember one_of(std::string_view key) {
+  const auto& choices = find_setting(key)->choices;
+  return CLI::IsMember(std::vector<std::string>(choices.begin(), choices.end()));
+}
 
 void add_capture(CLI::App& app, CaptureOptions& capture) {
   app.add_option("FILE", capture.file, "Capture of HDL-64E or RS-Ruby128 packets, pcap or pcapng")
       ->required();
   app.add_option("--sensor", capture.sensor, "Sensor model (default: the one found)")
-      ->check(CLI::IsMember({"auto", "hdl64e", "ruby128"}))
+      ->check(one_of("sensor.model"))
       ->capture_default_str();
   app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
   app.add_option("--from", capture.from, "Only datagrams of this IPv4 address")
@@ -61,47 +77,47 @@ void add_capture(CLI::App& app, CaptureOptions& capture) {
       "Ruby128: take the model's table where there is none of the unit; heights may be off");
   app.add_option("--columns", capture.columns,
                  "Columns of the range image (default: firings a turn at the spin rate found)")
-      ->check(CLI::Range(16, 36000));
+      ->check(range_of("sensor.columns"));
   app.add_option("--cell-owner", capture.cell_owner,
                  "Dual return: which return stands for its cell; all of them are labelled")
-      ->check(CLI::IsMember({"strongest", "last", "first", "both"}))
+      ->check(one_of("sensor.cell_owner"))
       ->capture_default_str();
   app.add_option("--timestamp", capture.timestamp,
                  "Ruby128: how its stamps are encoded (default: found out from the packets)")
-      ->check(CLI::IsMember({"auto", "calendar", "us", "ns"}))
+      ->check(one_of("sensor.timestamp"))
       ->capture_default_str();
   app.add_option("--clock-offset", capture.clock_offset_s,
                  "Seconds to add to the device's clock where it is reported")
-      ->check(number(-kLongest_s, kLongest_s));
+      ->check(range_of("sensor.clock_offset_s"));
   app.add_option("--geometry", capture.geometry,
                  "Meaning of the table: the maker's manual, or as ROS drivers take it")
-      ->check(CLI::IsMember({"manual", "ros"}))
+      ->check(one_of("sensor.geometry"))
       ->capture_default_str();
   app.add_option("--start", capture.start_s, "Skip this many seconds of the capture")
-      ->check(number(0, kLongest_s));
+      ->check(range_of("input.start_s"));
   app.add_option("--duration", capture.duration_s, "Stop after this many seconds of the capture")
-      ->check(number(1e-6, kLongest_s));
+      ->check(range_of("input.duration_s"));
 }
 
 void add_mount(CLI::App& app, MountOptions& mount) {
   app.add_option("--setup", mount.setup, "Mount and ring distances found by `terracut calibrate`");
   app.add_option("--mount-height", mount.height_m,
                  "Metres from the ground to the sensor's origin (default 1.73)")
-      ->check(number(0.2, 6));
+      ->check(range_of("mount.height_m"));
   app.add_option("--mount-roll", mount.roll_deg, "Degrees, left side up (default 0)")
-      ->check(number(-28, 28));
+      ->check(range_of("mount.roll_deg"));
   app.add_option("--mount-pitch", mount.pitch_deg, "Degrees, looking down in front (default 0)")
-      ->check(number(-28, 28));
+      ->check(range_of("mount.pitch_deg"));
 }
 
 void add_method(CLI::App& app, MethodOptions& method) {
   app.add_option("--profile", method.profile,
                  "paper: the method as printed; terracut: what measured better")
-      ->check(CLI::IsMember({"paper", "terracut"}))
+      ->check(one_of("method.profile"))
       ->capture_default_str();
   app.add_option("--stages", method.stages,
                  "How far to refine: elevation map, + adjacent points, + random field (mrf)")
-      ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
+      ->check(one_of("method.stages"))
       ->capture_default_str();
   app.add_option(
          "--set", method.settings,
@@ -127,14 +143,49 @@ void add_sensor(CLI::App& app, std::string& sensor) {
       ->capture_default_str();
 }
 
-/// Makes the subcommand and, when it is used, puts its options into `command`.
+/// The file of --config, before or behind the command, is read before anything else is.
+void add_config_option(CLI::App& app) {
+  app.add_option_function<std::string>(
+         "--config", [](const std::string&) {},
+         "Configuration file; the command line wins over it (docs/configuration.md)")
+      ->type_name("FILE");
+}
+
+/// The command line wins: a setup given there is not moved by the file's height and angles.
+void drop_overruled(const CLI::App& sub, MountOptions& mount) {
+  if (sub.count("--setup") == 0) return;
+  if (sub.count("--mount-height") == 0) mount.height_m.reset();
+  if (sub.count("--mount-roll") == 0) mount.roll_deg.reset();
+  if (sub.count("--mount-pitch") == 0) mount.pitch_deg.reset();
+}
+
+/// What is read, and where to.
+struct Reading {
+  CLI::App& app;
+  const Configuration& configuration;
+  std::optional<Command>& command;
+};
+
+/// Makes the subcommand, whose options start from the configuration, and, when it is used, puts
+/// them into `reading.command`.
 template <class Options, class AddOptions>
-void add_command(CLI::App& app, std::optional<Command>& command, const char* name,
-                 const char* about, AddOptions&& add_options) {
-  CLI::App* sub = app.add_subcommand(name, about);
+void add_command(Reading reading, const char* name, const char* about, AddOptions&& add_options) {
+  CLI::App* sub = reading.app.add_subcommand(name, about);
   auto options = std::make_shared<Options>();
+  if constexpr (requires { start_from(reading.configuration, *options); }) {
+    start_from(reading.configuration, *options);
+  }
   add_options(*sub, *options);
-  sub->callback([&command, options] { command = *options; });
+  add_config_option(*sub);
+  sub->callback([reading, sub, options] {
+    if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
+    if constexpr (requires { options->method; }) {
+      const std::vector<std::string>& of_file = reading.configuration.live.method.settings;
+      std::vector<std::string>& all = options->method.settings;
+      all.insert(all.begin(), of_file.begin(), of_file.end());  // the last one counts
+    }
+    reading.command = *options;
+  });
 }
 
 void add_replay(CLI::App& sub, ReplayOptions& o) {
@@ -145,7 +196,7 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   sub.add_option("--truth", o.output.truth,
                  "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes");
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
-      ->check(number(0, 1000))
+      ->check(range_of("replay.rate"))
       ->capture_default_str();
   sub.add_option(
          "--loop", o.loops,
@@ -168,19 +219,19 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--scene", o.scene, "street, highway, rural, flat or hill")->capture_default_str();
   sub.add_option("--seed", o.seed, "The same seed gives the same drive")->capture_default_str();
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
-      ->check(number(0.1, 3600))
+      ->check(range_of("simulate.duration_s"))
       ->capture_default_str();
   sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
-      ->check(number(5, 20))
+      ->check(range_of("simulate.spin_hz"))
       ->capture_default_str();
   sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
-      ->check(CLI::IsMember({"single", "dual"}))
+      ->check(one_of("simulate.returns"))
       ->capture_default_str();
   sub.add_option("--timestamp", o.timestamp, "Ruby128: how its stamps are encoded")
-      ->check(CLI::IsMember({"calendar", "us", "ns"}))
+      ->check(one_of("simulate.timestamp"))
       ->capture_default_str();
   sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
-      ->check(number(0, 1))
+      ->check(range_of("simulate.noise_m"))
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
@@ -225,11 +276,39 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
   add_mount(sub, o.mount);
   add_method(sub, o.method);
   sub.add_option("--repeat", o.repeat, "Passes over the capture")
-      ->check(CLI::Range(1, 100000))
+      ->check(range_of("bench.repeat"))
       ->capture_default_str();
   sub.add_option("--core", o.core, "Processor core to stay on (default: the last one allowed)")
       ->check(CLI::Range(0, 4095));
   sub.add_option("--json", o.json, "The same as a file for programs");
+}
+
+void add_config(CLI::App& sub, ConfigOptions& o) {
+  sub.add_flag("--print-default", o.print_default,
+               "Print a file with every key, its range and default (else: the one in force)");
+  sub.add_flag("--print-table", o.print_table, "Print the table of docs/configuration.md");
+}
+
+void add_doctor(CLI::App& sub, DoctorOptions& o) {
+  sub.add_option("--interface", o.interface,
+                 "Network interface of the sensor (default: all that are up)");
+  sub.add_option("--port", o.port, "UDP port of the sensor")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  sub.add_flag("--json", o.json, "Print the findings for programs");
+}
+
+/// The file named by --config, wherever it stands; the last one counts.
+std::filesystem::path configuration_file_of(int argc, char** argv) {
+  constexpr std::string_view kOption = "--config";
+  std::filesystem::path file;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--") break;
+    if (word == kOption && i + 1 < argc) file = argv[++i];
+    if (word.starts_with("--config=")) file = word.substr(kOption.size() + 1);
+  }
+  return file;
 }
 
 /// CLI11 would say only that a subcommand is required.
@@ -249,33 +328,47 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 
 Arguments parse_arguments(int argc, char** argv) {
   Arguments result;
+  Configuration configuration;
+  if (const std::filesystem::path file = configuration_file_of(argc, argv); !file.empty()) {
+    Expected<Configuration> read = read_configuration(file);
+    if (!read) {
+      result.exit_code = refuse(kInputRefused, read.error().message);
+      return result;
+    }
+    configuration = *std::move(read);
+  }
   CLI::App app{kAbout, "terracut"};
   app.footer(kExitCodes);
   app.set_version_flag("--version", "terracut " TERRACUT_VERSION);
   app.require_subcommand(1);
+  add_config_option(app);
+  const Reading reading{app, configuration, result.command};
 
-  add_command<ReplayOptions>(app, result.command, "replay",
-                             "Label every return of a capture, frame by frame", add_replay);
-  add_command<SegmentOptions>(app, result.command, "segment",
-                              "Label recorded scans (.bin) without packets", add_segment);
-  add_command<SimulateOptions>(app, result.command, "simulate",
+  add_command<ReplayOptions>(reading, "replay", "Label every return of a capture, frame by frame",
+                             add_replay);
+  add_command<SegmentOptions>(reading, "segment", "Label recorded scans (.bin) without packets",
+                              add_segment);
+  add_command<SimulateOptions>(reading, "simulate",
                                "Drive a simulated sensor: capture, table and truth", add_simulate);
-  add_command<EncodeOptions>(app, result.command, "encode",
-                             "Turn recorded scans into packets with their truth", add_encode);
-  add_command<CalibrateOptions>(app, result.command, "calibrate",
+  add_command<EncodeOptions>(reading, "encode", "Turn recorded scans into packets with their truth",
+                             add_encode);
+  add_command<CalibrateOptions>(reading, "calibrate",
                                 "Find the mount and the rings' ground distances from a capture\n"
                                 "taken on a straight, level, open road",
                                 add_calibrate);
-  add_command<InfoOptions>(app, result.command, "info",
-                           "What a capture holds: streams, sensor, rate, loss, calibration",
-                           add_info);
-  add_command<PlanOptions>(app, result.command, "plan", "Memory the program takes, part by part",
-                           add_plan);
-  add_command<ParametersOptions>(app, result.command, "parameters",
+  add_command<InfoOptions>(
+      reading, "info", "What a capture holds: streams, sensor, rate, loss, calibration", add_info);
+  add_command<PlanOptions>(reading, "plan", "Memory the program takes, part by part", add_plan);
+  add_command<ParametersOptions>(reading, "parameters",
                                  "Every parameter of the method, as a table for docs/parameters.md",
                                  [](CLI::App&, ParametersOptions&) {});
-  add_command<BenchOptions>(app, result.command, "bench",
-                            "Time decoding and every stage on one core", add_bench);
+  add_command<BenchOptions>(reading, "bench", "Time decoding and every stage on one core",
+                            add_bench);
+  add_command<ConfigOptions>(reading, "config",
+                             "Print the configuration in force, or one to start from", add_config);
+  add_command<DoctorOptions>(
+      reading, "doctor", "What of this machine stands in the way of real time, and what mends it",
+      add_doctor);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("error: ") + error.what() +
            "\n`terracut --help` and `terracut COMMAND --help` say what is expected\n";

@@ -9,9 +9,9 @@
 
 namespace terracut::cli {
 
-using Command =
-    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
-                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions>;
+using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
+                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
+                             BenchOptions, ConfigOptions, DoctorOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -17,5 +17,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const PlanOptions& options);
 [[nodiscard]] ExitCode run(const ParametersOptions& options);
 [[nodiscard]] ExitCode run(const BenchOptions& options);
+[[nodiscard]] ExitCode run(const ConfigOptions& options);
+[[nodiscard]] ExitCode run(const DoctorOptions& options);
 
 }  // namespace terracut::cli

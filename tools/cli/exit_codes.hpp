@@ -14,6 +14,7 @@ enum ExitCode : int {
   kInputRefused = 3,    ///< An input is missing, unreadable, malformed, or of a kind not handled.
   kOutputFailed = 4,    ///< An output could not be written whole; nothing is left in its place.
   kNothingCameOut = 5,  ///< Packets were read but no frame came out; the message names the check.
+  kNotReady = 7,        ///< `terracut doctor` found a problem of the machine.
 };
 
 /// The exit code that an error of a library leads to.

@@ -15,10 +15,10 @@ namespace terracut::doctor {
 
 /// What the program will want of the machine.
 struct Wishes {
-  std::string interface;  ///< Of the sensor; empty: every one that is up, except loopback.
+  std::string interface{};  ///< Of the sensor; empty: every one that is up, except loopback.
   std::uint16_t port = 2368;
   std::int64_t buffer_bytes = 8 << 20;  ///< Receive buffer it asks for.
-  std::optional<int> receive_core, segment_core;
+  std::optional<int> receive_core{}, segment_core{};
 };
 
 // checks_kernel.cpp: what runs the threads.

@@ -49,8 +49,8 @@ Finding check_priority(const SystemView& system) {
                      : fmt::format("up to {} only (rtprio)", limit),
           "without them every other program's threads can make frames late",
           "setcap cap_sys_nice,cap_ipc_lock,cap_net_raw+ep $(command -v terracut); or a line "
-          "'@terracut - rtprio "
-          "95' in /etc/security/limits.d/terracut.conf; the service has the right already"};
+          "'$USER - rtprio 95' in "
+          "/etc/security/limits.d/terracut.conf; the service has the right already"};
 }
 
 Finding check_locked_memory(const SystemView& system) {
@@ -62,8 +62,8 @@ Finding check_locked_memory(const SystemView& system) {
   return {"locked memory", Verdict::kProblem, found,
           "memory that is not locked can be taken away, and a frame then waits for the disk",
           "setcap cap_sys_nice,cap_ipc_lock,cap_net_raw+ep $(command -v terracut); or a line "
-          "'@terracut - memlock "
-          "unlimited' in /etc/security/limits.d/terracut.conf; the service has the right already"};
+          "'$USER - memlock unlimited' in "
+          "/etc/security/limits.d/terracut.conf; the service has the right already"};
 }
 
 Finding check_raw_capture(const SystemView& system) {

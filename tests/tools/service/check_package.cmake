@@ -1,7 +1,9 @@
 # Builds the Debian package of this build and looks into it.
 cmake_minimum_required(VERSION 3.22)
-if(NOT DPKG_DEB)
-  message("skipped: dpkg-deb is not installed")
+find_program(SHLIBDEPS dpkg-shlibdeps)
+find_program(FILE_UTILITY file)
+if(NOT DPKG_DEB OR NOT SHLIBDEPS OR NOT FILE_UTILITY)
+  message("skipped: dpkg-deb, dpkg-shlibdeps (dpkg-dev) or file is not installed")
   return()
 endif()
 file(REMOVE_RECURSE ${FOLDER})

@@ -74,7 +74,8 @@ class Decoder {
         tracker_(Sensor::kClockWrap_us, memory),
         frames_(frame_config(config), memory) {}
 
-  /// One datagram. Nothing when it was decoded, else why it was rejected (and counted).
+  /// One datagram. Nothing when it was decoded, else why it was rejected (and counted, but for
+  /// kDeviceInfo).
   template <class OnFrame>
   std::optional<Reject> decode(const Datagram& datagram, OnFrame&& on_frame) noexcept;
 
@@ -105,6 +106,8 @@ class Decoder {
     return steps_ == 0 ? 0 : static_cast<double>(steps_ticks_) / static_cast<double>(steps_) * 1e-5;
   }
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
+  /// All images, for a hand-over by exchange (FrameBuilder); the first two are open at the start.
+  [[nodiscard]] std::span<pipeline::RangeImage> images() noexcept { return frames_.images(); }
 
  private:
   static constexpr int kRows = Sensor::kRows;
@@ -162,6 +165,8 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     } else if (*reason == Reject::kAzimuthOutOfRange || *reason == Reject::kAzimuthMismatch ||
                *reason == Reject::kAzimuthJump) {
       tracker_.note_rejected(heads_.device_stamp_us);
+    } else if (*reason == Reject::kDeviceInfo) {
+      return reason;  // nothing is lost with it
     }
     return reject(*reason);
   }

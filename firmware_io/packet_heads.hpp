@@ -24,6 +24,7 @@ struct PacketHeads {
   /// Device clock, [0, Sensor::kClockWrap_us), at the same place of every packet: it advances
   /// evenly from packet to packet.
   std::int64_t device_stamp_us = 0;
+  bool clock_restarts = false;  ///< Stamps before this packet's are not to be compared with it.
   std::int32_t nominal_period_ns = 0;  ///< By the model's own figures, from packet to packet.
   std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Of each column, [0, 36000).
   int columns = 0;

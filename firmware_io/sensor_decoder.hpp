@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -94,6 +95,9 @@ class SensorDecoder {
   /// The most returns a turn may have (RangeImage::return_capacity()).
   [[nodiscard]] std::size_t return_capacity() const noexcept {
     return visit([](const auto& decoder) { return decoder.return_capacity(); });
+  }
+  [[nodiscard]] std::span<pipeline::RangeImage> images() noexcept {
+    return visit([](auto& decoder) { return decoder.images(); });
   }
   [[nodiscard]] bool dual_return() const noexcept {
     return visit([](const auto& decoder) { return decoder.dual_return(); });

@@ -58,10 +58,18 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
                                LossCounters& losses) noexcept {
   if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated};
   if (!started_) return restart(heads, host_stamp_ns, losses);
-
   const std::int64_t step_us = device_step_us(newest_stamp_us_, heads.device_stamp_us);
   const std::int64_t step_cdeg =
       calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), heads.first_cdeg());
+
+  const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_sweep_ticks_;
+  if (heads.clock_restarts) {
+    steps_ = 0;  // the times between the packets before were not what they seemed
+    missing_ = 0;
+    if (!turns_on) return restart(heads, host_stamp_ns, losses);
+    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg);
+    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
+  }
 
   if (step_us < -kReorder_us || step_us > kOutage_us) {
     const std::int64_t host_step_us = (host_stamp_ns - newest_host_ns_) / 1000;
@@ -72,7 +80,6 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
       return restart(heads, host_stamp_ns, losses);
     }
     ++losses.clock_jumps;
-    const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_sweep_ticks_;
     if (!turns_on) return restart(heads, host_stamp_ns, losses);
     take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg);  // only the clock was set
     return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};

@@ -17,7 +17,7 @@ enum class ErrorCode {
   kUnsupported,       ///< It is well formed, but of a kind terracut does not handle (another model,
                       ///< say).
   kInvalidArgument,   ///< A setting or option outside its documented range.
-  kCapacityExceeded,  ///< It needs more than the memory planned at start.
+  kCapacityExceeded,  ///< It needs more than the memory planned at start, or than the system has.
   kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.
   kNoCalibration,     ///< Neither a calibration file nor a calibration in the packets was found.
   kNothingCameOut,    ///< The input was read to its end, but none of it passed the checks.

@@ -8,7 +8,7 @@
 
 namespace terracut::rt {
 
-std::size_t LogLinearHistogram::bucket_of(std::uint64_t value) noexcept {
+std::size_t LogLinearHistogram::bucket_of(std::uint64_t value) noexcept TERRACUT_NONBLOCKING {
   if (value < 2 * kHalf) return static_cast<std::size_t>(value);
   // value >> shift lies in [kHalf, 2 kHalf): its leading kLinearBits bits.
   const auto shift = static_cast<std::size_t>(std::bit_width(value) - kLinearBits);
@@ -22,7 +22,7 @@ std::int64_t LogLinearHistogram::highest_in(std::size_t bucket) noexcept {
   return static_cast<std::int64_t>(((leading + 1) << shift) - 1);
 }
 
-void LogLinearHistogram::record(std::int64_t value_ns) noexcept {
+void LogLinearHistogram::record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING {
   const std::int64_t value = std::max<std::int64_t>(value_ns, 0);
   ++buckets_[bucket_of(static_cast<std::uint64_t>(std::min(value, kMax_ns)))];
   ++count_;
@@ -47,6 +47,13 @@ std::int64_t LogLinearHistogram::percentile_ns(double percent) const noexcept {
 
 double LogLinearHistogram::mean_ns() const noexcept {
   return count_ == 0 ? 0.0 : sum_ns_ / static_cast<double>(count_);
+}
+
+std::uint64_t LogLinearHistogram::count_not_above(std::int64_t limit_ns) const noexcept {
+  std::uint64_t sum = 0;
+  for (std::size_t bucket = 0; bucket < kBuckets && highest_in(bucket) <= limit_ns; ++bucket)
+    sum += buckets_[bucket];
+  return sum;
 }
 
 LogLinearHistogram& LogLinearHistogram::operator+=(const LogLinearHistogram& other) noexcept {

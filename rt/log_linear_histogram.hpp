@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::rt {
 
 /// Counts durations in buckets whose width grows with the value (HdrHistogram's layout), so that
@@ -20,7 +22,7 @@ class LogLinearHistogram {
   static constexpr std::int64_t kMax_ns = (std::int64_t{1} << 40) - 1;  ///< About 18 minutes.
 
   /// Real-time safe, a few instructions.
-  void record(std::int64_t value_ns) noexcept;
+  void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 
   /// The smallest bucket limit that at least `percent` of all values do not exceed, and never more
   /// than max_ns(): exact to 1/128 upwards. percent in [0, 100]; 0 when nothing was recorded.
@@ -30,6 +32,12 @@ class LogLinearHistogram {
   [[nodiscard]] std::int64_t min_ns() const noexcept { return count_ == 0 ? 0 : min_ns_; }
   [[nodiscard]] std::int64_t max_ns() const noexcept { return max_ns_; }
   [[nodiscard]] double mean_ns() const noexcept;
+  [[nodiscard]] double sum_ns() const noexcept { return sum_ns_; }
+
+  /// How many values are surely not above `limit_ns`: those of its bucket count only if the whole
+  /// bucket is not above it, so that at most 1/128 of the limit below it is missed and nothing
+  /// slower is ever counted. For cumulative histograms.
+  [[nodiscard]] std::uint64_t count_not_above(std::int64_t limit_ns) const noexcept;
 
   /// Adds all of `other`, as if its values had been recorded here.
   LogLinearHistogram& operator+=(const LogLinearHistogram& other) noexcept;
@@ -39,7 +47,7 @@ class LogLinearHistogram {
   static constexpr std::size_t kHalf = std::size_t{1} << (kLinearBits - 1);
   static constexpr std::size_t kBuckets = 2 * kHalf + (40 - kLinearBits) * kHalf;
 
-  [[nodiscard]] static std::size_t bucket_of(std::uint64_t value) noexcept;
+  [[nodiscard]] static std::size_t bucket_of(std::uint64_t value) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] static std::int64_t highest_in(std::size_t bucket) noexcept;
 
   std::array<std::uint64_t, kBuckets> buckets_{};

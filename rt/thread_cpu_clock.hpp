@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::rt {
 
 /// Both clocks never step. Real-time safe, no system call that can block, thread-safe.
@@ -13,24 +15,34 @@ namespace terracut::rt {
 /// Processor time the calling thread has used, nanoseconds (CLOCK_THREAD_CPUTIME_ID): what a
 /// computation costs, whatever else the machine does meanwhile. Only differences within one thread
 /// mean something.
-[[nodiscard]] inline std::int64_t thread_cpu_ns() noexcept;
+[[nodiscard]] inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING;
 
 /// Nanoseconds since an arbitrary start (CLOCK_MONOTONIC): what a deadline is measured with.
-[[nodiscard]] inline std::int64_t monotonic_ns() noexcept;
+[[nodiscard]] inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING;
+
+/// Nanoseconds since 1970 (CLOCK_REALTIME): comparable with the kernel's stamps of packets, but set
+/// by whoever keeps the time.
+[[nodiscard]] inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING;
 
 namespace detail {
-[[nodiscard]] inline std::int64_t read_clock_ns(clockid_t clock) noexcept {
+TERRACUT_TRUSTED_CALLS_BEGIN  // reads a page shared with the kernel, or asks it
+    [[nodiscard]] inline std::int64_t
+    read_clock_ns(clockid_t clock) noexcept TERRACUT_NONBLOCKING {
   timespec now{};
-  ::clock_gettime(clock, &now);  // cannot fail for these two clocks on Linux
+  ::clock_gettime(clock, &now);  // cannot fail for these clocks on Linux
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
+TERRACUT_TRUSTED_CALLS_END
 }  // namespace detail
 
-inline std::int64_t thread_cpu_ns() noexcept {
+inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING {
   return detail::read_clock_ns(CLOCK_THREAD_CPUTIME_ID);
 }
-inline std::int64_t monotonic_ns() noexcept {
+inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING {
   return detail::read_clock_ns(CLOCK_MONOTONIC);
+}
+inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING {
+  return detail::read_clock_ns(CLOCK_REALTIME);
 }
 
 /// The two clocks read together.
@@ -38,8 +50,10 @@ struct ClockPair {
   std::int64_t cpu_ns = 0;
   std::int64_t wall_ns = 0;
 
-  [[nodiscard]] static ClockPair now() noexcept { return {thread_cpu_ns(), monotonic_ns()}; }
-  [[nodiscard]] ClockPair since(const ClockPair& earlier) const noexcept {
+  [[nodiscard]] static ClockPair now() noexcept TERRACUT_NONBLOCKING {
+    return {thread_cpu_ns(), monotonic_ns()};
+  }
+  [[nodiscard]] ClockPair since(const ClockPair& earlier) const noexcept TERRACUT_NONBLOCKING {
     return {cpu_ns - earlier.cpu_ns, wall_ns - earlier.wall_ns};
   }
 };

@@ -94,6 +94,11 @@ void append_record(std::vector<std::uint8_t>& bytes, const Datagram& datagram) {
 
 }  // namespace
 
+bool PcapWriter::can_write(const Datagram& datagram) noexcept {
+  return datagram.payload.size() <= kMaxPayloadBytes && datagram.stamp_ns >= 0 &&
+         datagram.stamp_ns < kStampLimit_ns;
+}
+
 Expected<PcapWriter> PcapWriter::create(std::filesystem::path path) {
   static std::atomic<unsigned> serial{0};  // several captures may be written at once
   std::error_code error;

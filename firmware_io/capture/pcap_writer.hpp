@@ -22,6 +22,8 @@ namespace terracut::firmware_io {
 class PcapWriter {
  public:
   static constexpr std::size_t kMaxPayloadBytes = 65507;  ///< The largest UDP payload over IPv4.
+  static constexpr std::size_t kFileHeaderBytes = 24;
+  static constexpr std::size_t kRecordHeaderBytes = 16 + 14 + 20 + 8;  ///< Beside the payload.
 
   /// Makes missing parent folders. kInvalidArgument when `path` is something other than a file;
   /// kWriteFailed when the temporary file cannot be made.
@@ -30,6 +32,9 @@ class PcapWriter {
   PcapWriter(PcapWriter&& other) noexcept;
   PcapWriter& operator=(PcapWriter&& other) noexcept;
   ~PcapWriter();
+
+  /// A pcap can hold it: payload and stamp are in the ranges of write().
+  [[nodiscard]] static bool can_write(const Datagram& datagram) noexcept;
 
   /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970.
   /// kInvalidArgument for a stamp or payload out of range (the datagram is left out, the capture

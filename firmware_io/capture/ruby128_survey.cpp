@@ -13,7 +13,7 @@ void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stam
   PacketHeads heads;
   const auto reject = check_ruby128_packet(payload, heads);
   if (reject && heads.columns == 0) return;  // not its block ids after all
-  const RubyTimestamp encoding = timestamp_.add(packet->stamp(), packet->protocol_version());
+  const RubyTimestamp encoding = timestamp_.add(packet->stamp());
   const std::int64_t device_ns = read_ruby_timestamp(packet->stamp(), encoding);
   last_.protocol_version = packet->protocol_version();
   last_.ahead_of_capture_s = static_cast<double>(device_ns - stamp_ns) * 1e-9;

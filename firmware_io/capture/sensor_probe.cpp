@@ -58,7 +58,7 @@ void SensorProbe::add(std::span<const std::uint8_t> payload) {
   } else if (model == SensorModel::kRuby128) {
     const auto packet = Ruby128PacketView::of(payload);
     if (!packet || check_ruby128_packet(payload, heads)) return;
-    const RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp(), packet->protocol_version());
+    const RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp());
     heads.device_stamp_us = read_ruby_timestamp(packet->stamp(), encoding) / 1000;
     heads_[model].add(heads);
   }

@@ -39,9 +39,12 @@ std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload
   const auto packet = Ruby128PacketView::of(payload);
   if (!is_of_this_sensor || !packet) return reason;
 
-  const RubyTimestamp detected = timestamp_.add(packet->stamp(), packet->protocol_version());
-  const std::int64_t stamp_ns =
-      read_ruby_timestamp(packet->stamp(), given_timestamp_.value_or(detected));
+  const RubyTimestamp detected = timestamp_.add(packet->stamp());
+  const RubyTimestamp encoding = given_timestamp_.value_or(detected);
+  // On about one start in a thousand the first packet looks like the other unit of UTC.
+  heads.clock_restarts = encoding != last_encoding_.value_or(encoding);
+  last_encoding_ = encoding;
+  const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp(), encoding);
   heads.device_stamp_us = std::clamp<std::int64_t>(
       (stamp_ns + ruby_stamp_delay_ns(heads, !reason)) / 1000, 0, kClockWrap_us - 1);
   return reason;

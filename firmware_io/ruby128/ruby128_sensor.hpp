@@ -59,6 +59,7 @@ class Ruby128Sensor {
  private:
   std::optional<RubyTimestamp> given_timestamp_;
   RubyTimestampDetector timestamp_;
+  std::optional<RubyTimestamp> last_encoding_;
   Ruby128BeamOffsets offsets_;
   Ruby128PointKernel kernel_;
   HeldFiring held_;

@@ -100,8 +100,7 @@ std::array<std::uint8_t, 10> write_ruby_timestamp(std::int64_t time_ns,
   return bytes;
 }
 
-RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp,
-                                         std::uint16_t protocol_version) noexcept {
+RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp) noexcept {
   if (settled_) return encoding_;
   const auto settle = [this](RubyTimestamp encoding) {
     encoding_ = encoding;
@@ -111,18 +110,17 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   if (stamp[0] != 0) return settle(RubyTimestamp::kCalendar);
   const std::uint32_t fraction = sub_second(stamp);
   if (fraction > kMostMicroseconds) return settle(RubyTimestamp::kUtcNanoseconds);
-  if (protocol_version != 0) return encoding_;  // most likely; only nanoseconds could still be seen
-
   const std::uint32_t before = last_sub_second_;
   const bool has_before = has_last_;
   last_sub_second_ = fraction;
   has_last_ = true;
   if (!has_before || fraction <= before) return encoding_;
-  // One packet period is 166 (in dual return 55 or 111) microseconds or a thousand times as many
-  // nanoseconds; a few lost packets make no difference between those.
-  constexpr std::uint32_t kPacket_us = kRubyBlocksPerPacket * kRubyBlock_ns / 1000;
-  return settle(fraction - before < 20 * kPacket_us ? RubyTimestamp::kUtcMicroseconds
-                                                    : RubyTimestamp::kUtcNanoseconds);
+  // Packets are 55 to 167 microseconds apart, or a thousand times as many nanoseconds. A step below
+  // the shortest in nanoseconds proves microseconds; a longer one is either nanoseconds, which show
+  // a value of a million before long, or microseconds with a gap of hundreds of packets.
+  constexpr std::uint32_t kShortestPacket_ns = 50'000;
+  if (fraction - before < kShortestPacket_ns) return settle(RubyTimestamp::kUtcMicroseconds);
+  return encoding_ = RubyTimestamp::kUtcNanoseconds;
 }
 
 }  // namespace terracut::firmware_io

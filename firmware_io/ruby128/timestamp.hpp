@@ -34,14 +34,13 @@ enum class RubyTimestamp : std::uint8_t {
 /// settled() tells whether the answer is proven or still the most common one.
 ///
 /// A first byte other than 0 is a calendar year. A sub-second value above 999,999 can only be
-/// nanoseconds, for good. Else, with protocol version 0 (of which both are known), the unit is that
-/// in which stamps of successive packets differ by one packet period; any other version:
-/// microseconds. Real-time safe; one thread.
+/// nanoseconds; a step between two packets too short for a nanosecond's packet period,
+/// microseconds. Until one of these is seen the likelier unit is taken: microseconds, or
+/// nanoseconds after a long step. Real-time safe; one thread.
 class RubyTimestampDetector {
  public:
   /// The encoding by which to read this packet's stamp.
-  RubyTimestamp add(std::span<const std::uint8_t, 10> stamp,
-                    std::uint16_t protocol_version) noexcept;
+  RubyTimestamp add(std::span<const std::uint8_t, 10> stamp) noexcept;
 
   [[nodiscard]] RubyTimestamp encoding() const noexcept { return encoding_; }
   [[nodiscard]] bool settled() const noexcept { return settled_; }

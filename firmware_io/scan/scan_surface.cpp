@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
+#include <utility>
 
 #include "calib/angle.hpp"
 #include "pipeline/quality.hpp"
@@ -18,9 +19,9 @@ constexpr int kBins = 3600;
 constexpr double kBin_rad = kTurn_rad / kBins;
 
 // The HDL-64E of the recordings fires every 0.17 to 0.18 degrees, its rings are 0.33 to 0.55 apart.
-constexpr double kJoined_rad = calib::deg_to_rad(0.30);      // successive returns of a ring
-constexpr double kBeside_rad = calib::deg_to_rad(0.12);      // a return stands for its ring
-constexpr double kNextRing_rad = calib::deg_to_rad(0.85);    // neighbouring rings
+constexpr double kJoined_rad = calib::deg_to_rad(0.30);    // successive returns of a ring
+constexpr double kBeside_rad = calib::deg_to_rad(0.12);    // a return stands for its ring
+constexpr double kNextRing_rad = calib::deg_to_rad(1.20);  // neighbouring rings; blocks part by 0.9
 constexpr double kAboveBelow_rad = calib::deg_to_rad(0.28);  // a ring stands for its direction
 /// The line through two returns must not run along the ray: flatter than this, it is a leap from
 /// one surface to another. Level ground is seen at 1.5 degrees at 66 m.
@@ -80,7 +81,8 @@ void ScanSurface::take(std::span<const ScanPoint> points,
 }
 
 void ScanSurface::index(Ring& ring) const {
-  std::ranges::stable_sort(ring.spots, {}, &Spot::azimuth_rad);
+  std::ranges::sort(ring.spots, {},
+                    [](const Spot& spot) { return std::pair(spot.azimuth_rad, spot.point); });
   std::uint32_t next = 0;
   for (std::size_t bin = 0; bin < ring.begin.size(); ++bin) {
     const double from_rad = static_cast<double>(bin) * kBin_rad;
@@ -99,7 +101,9 @@ void ScanSurface::list_candidates() {
       if (!crossing) continue;
       column.push_back({static_cast<float>(crossing->elevation_rad), crossing->ring});
     }
-    std::ranges::stable_sort(column, {}, &Candidate::elevation_rad);
+    std::ranges::sort(column, {}, [](const Candidate& candidate) {
+      return std::pair(candidate.elevation_rad, candidate.ring);
+    });
   }
 }
 

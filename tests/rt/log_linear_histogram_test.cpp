@@ -90,6 +90,19 @@ TEST(LogLinearHistogram, CountsValuesOutsideItsRangeAtTheEnds) {
   EXPECT_EQ(histogram.max_ns(), INT64_MAX);
 }
 
+TEST(LogLinearHistogram, NeverCountsASlowerValueAsNotAboveALimit) {
+  LogLinearHistogram histogram;
+  constexpr std::int64_t kLast = 1'000'000;
+  for (std::int64_t value = 1; value <= kLast; ++value) histogram.record(value);
+  EXPECT_EQ(histogram.count_not_above(-1), 0U);
+  for (const std::int64_t limit : {1, 200, 255, 256, 5'000, 65'536, 700'001, 999'999}) {
+    const auto counted = static_cast<std::int64_t>(histogram.count_not_above(limit));
+    EXPECT_LE(counted, limit);
+    EXPECT_GE(counted, limit - limit / 128 - 1);
+  }
+  EXPECT_EQ(histogram.count_not_above(2 * kLast), histogram.count());
+}
+
 TEST(LogLinearHistogram, SumsLikeOneThatSawBoth) {
   LogLinearHistogram early, late, both;
   for (std::int64_t value = 1; value < 100'000; value += 7) {

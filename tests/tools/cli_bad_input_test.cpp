@@ -40,6 +40,9 @@ TEST_F(CliRefusal, OfAWrongCommandLineSaysWhatIsExpected) {
   expect_refusal("replay x.pcap --set region.lambda=-1", kUsage, HasSubstr("from 0.0001 to 1000"));
   expect_refusal("replay x.pcap --from here", kUsage, HasSubstr("--from"));
   expect_refusal("simulate --sensor vlp16 -o x.pcap", kUsage, HasSubstr("hdl64e"));
+  expect_refusal("simulate --returns triple -o x.pcap", kUsage, HasSubstr("--returns"));
+  expect_refusal("simulate --spin-hz 25 -o x.pcap", kUsage, HasSubstr("--spin-hz"));
+  expect_refusal("simulate --timestamp tai -o x.pcap", kUsage, HasSubstr("--timestamp"));
   expect_refusal("simulate --scene moon -o x.pcap", kUsage,
                  AllOf(HasSubstr("moon"), HasSubstr("street")));
   expect_refusal("replay x.pcap --truth t --start 1", kUsage, HasSubstr("--truth"));
@@ -66,6 +69,13 @@ TEST_F(CliRefusal, WithoutACalibrationSaysHowMuchIsMissingAndWhatToDo) {
   expect_refusal(
       "replay short.pcap", kInputRefused,
       AllOf(HasSubstr("no calibration"), HasSubstr("missing"), HasSubstr("--calibration")));
+}
+
+TEST_F(CliRefusal, OfAnotherSensorsCalibrationNamesTheFile) {
+  expect_refusal(
+      "simulate --sensor ruby128 --calibration " + quoted(kDriveCalibration) + " -o x.pcap",
+      kInputRefused, HasSubstr("drive.calibration.xml"));
+  EXPECT_FALSE(fs::exists(folder_ / "x.pcap"));
 }
 
 TEST_F(CliRefusal, OfAnUnusableCalibrationNamesTheFile) {
@@ -104,8 +114,10 @@ TEST_F(CliRefusal, OfOtherSensorsNamesTheirModel) {
   for (const auto& entry : fs::directory_iterator(kCaptures)) {
     const std::string capture = quoted(entry.path());
     for (const std::string option : {"", " --sensor hdl64e", " --sensor ruby128"}) {
-      expect_refusal("replay " + capture + option + " --calibration " + quoted(kDriveCalibration),
-                     kInputRefused, AnyOf(HasSubstr("packets of a Velodyne V"), HasSubstr("packets of a Velodyne HDL-32E")));
+      expect_refusal(
+          "replay " + capture + option + " --calibration " + quoted(kDriveCalibration),
+          kInputRefused,
+          AnyOf(HasSubstr("packets of a Velodyne V"), HasSubstr("packets of a Velodyne HDL-32E")));
     }
     const Outcome info = run("info " + capture);
     EXPECT_EQ(info.exit_code, 0);

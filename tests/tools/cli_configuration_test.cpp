@@ -104,7 +104,7 @@ TEST_F(Configuration, ValuesOutOfRangeAreRefusedWithTheRange) {
   expect_refused("input:\n  from: 192.168.1\n", "2", {"an IPv4 address, found '192.168.1'"});
   expect_refused("input:\n  listen: 0.0.0.0\n", "2", {"an IPv4 ADDRESS:PORT"});
   expect_refused("metrics:\n  address: '127.0.0.1:70000'\n", "2", {"ADDRESS:PORT or off"});
-  expect_refused("metrics:\n  status_page: ../x\n", "2", {"a name of letters, digits"});
+  expect_refused("metrics:\n  name: ../x\n", "2", {"a name of letters, digits"});
   expect_refused("method:\n  region:\n    lambda: 0\n", "3",
                  {"method.region.lambda: expected a number from 0.0001 to 1000, found '0'"});
 }

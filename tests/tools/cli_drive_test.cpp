@@ -100,6 +100,42 @@ TEST_F(Cli, EveryRowOfTableThreeIsOneOption) {
   EXPECT_NE(labels[1], labels[2]);
 }
 
+TEST_F(Cli, SimulatesEitherSensorInEitherReturnModeAtAnySpin) {
+  struct Drive {
+    std::string options;
+    std::size_t frames;
+    const char* info;
+  };
+  for (const Drive& drive :
+       {Drive{"--sensor ruby128 --duration 0.2", 2, "single return, a packet every 166.6 us"},
+        Drive{"--sensor ruby128 --returns dual --timestamp ns --duration 0.1", 1,
+              "UTC seconds and nanoseconds (proven)"},
+        Drive{"--sensor ruby128 --spin-hz 20 --timestamp calendar --duration 0.1", 2, "1200.0 rpm"},
+        Drive{"--sensor hdl64e --returns dual --spin-hz 5 --duration 0.4", 2,
+              "dual return, a packet every 172.8 us"}}) {
+    SCOPED_TRACE(drive.options);
+    const std::string table = drive.options.find("ruby") != std::string::npos ? "csv" : "xml";
+    expect_done("simulate --scene flat -o d.pcap " + drive.options);
+    EXPECT_EQ(files_in(folder_ / "d.truth", ".label"), drive.frames);
+    EXPECT_THAT(run("info d.pcap").out, HasSubstr(drive.info));
+    expect_done("replay d.pcap --calibration d.calibration." + table +
+                " --truth d.truth --json report.json");
+    const auto summary = json("report.json")["summary"];
+    EXPECT_EQ(summary["frames"], drive.frames);
+    EXPECT_EQ(summary["complete_frames"], drive.frames);
+    EXPECT_EQ(summary["returns_in"], summary["returns_labelled"]);
+    EXPECT_EQ(summary["unscored_frames"], 0);
+    EXPECT_GT(summary["iou_g"], 0.95);
+  }
+}
+
+TEST_F(Cli, ARuby128sDriveCarriesItsTable) {
+  expect_done("simulate --sensor ruby128 --scene flat --duration 0.1 -o d.pcap");
+  const Outcome outcome = run("replay d.pcap");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("DIFOP"));
+}
+
 TEST_F(Cli, ReplayWritesCloudsAndPictures) {
   expect_done("replay " + quoted(kDrive) + " --duration 0.15 --pcd clouds --png pictures --truth " +
               quoted(kDriveTruth));

@@ -105,6 +105,25 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
   EXPECT_NEAR(recall_o / count, 0.0, 0.01);
 }
 
+TEST_F(CliScans, BecomeASyntheticRuby128DriveThatSaysSo) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  const Outcome outcome = run("encode scans --sensor ruby128 -o drive.pcap");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("synthetic RS-Ruby128"));
+  EXPECT_THAT(outcome.out, HasSubstr("left out: above or below what was recorded"));
+  expect_done(
+      "replay drive.pcap --calibration drive.calibration.csv --truth drive.truth "
+      "--json report.json");
+  const auto summary = json("report.json")["summary"];
+  EXPECT_EQ(summary["frames"], 1);
+  EXPECT_EQ(summary["complete_frames"], 1);
+  EXPECT_EQ(summary["returns_in"], summary["returns_labelled"]);
+  EXPECT_GT(summary["returns_in"], 100'000);
+  EXPECT_EQ(summary["unscored_frames"], 0);
+  EXPECT_GT(summary["iou_g"], 0.8);
+}
+
 TEST_F(CliScans, ThatAreDamagedAreRefusedByName) {
   fs::create_directories(folder_ / "scans");
   write("scans/000000.bin", "seventeen bytes!!");

@@ -31,7 +31,7 @@ constexpr const char* kAbout =
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
     "4 an output could not be written; 5 packets were read but no frame came out;\n"
-    "7 doctor found a problem.\n"
+    "6 deadlines were missed; 7 doctor found a problem.\n"
     "`--config FILE` goes with every command (`terracut config --print-default` prints one).\n"
     "`terracut COMMAND --help` lists a command's options.";
 
@@ -60,13 +60,11 @@ CLI::IsMember one_of(std::string_view key) {
   return CLI::IsMember(std::vector<std::string>(choices.begin(), choices.end()));
 }
 
-void add_capture(CLI::App& app, CaptureOptions& capture) {
-  app.add_option("FILE", capture.file, "Capture of HDL-64E or RS-Ruby128 packets, pcap or pcapng")
-      ->required();
+/// What a capture and a live stream have in common.
+void add_decoding(CLI::App& app, CaptureOptions& capture) {
   app.add_option("--sensor", capture.sensor, "Sensor model (default: the one found)")
       ->check(one_of("sensor.model"))
       ->capture_default_str();
-  app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
   app.add_option("--from", capture.from, "Only datagrams of this IPv4 address")
       ->check(CLI::ValidIPV4);
   app.add_option("--calibration", capture.calibration,
@@ -93,6 +91,13 @@ void add_capture(CLI::App& app, CaptureOptions& capture) {
                  "Meaning of the table: the maker's manual, or as ROS drivers take it")
       ->check(one_of("sensor.geometry"))
       ->capture_default_str();
+}
+
+void add_capture(CLI::App& app, CaptureOptions& capture) {
+  app.add_option("FILE", capture.file, "Capture of HDL-64E or RS-Ruby128 packets, pcap or pcapng")
+      ->required();
+  app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
+  add_decoding(app, capture);
   app.add_option("--start", capture.start_s, "Skip this many seconds of the capture")
       ->check(range_of("input.start_s"));
   app.add_option("--duration", capture.duration_s, "Stop after this many seconds of the capture")
@@ -188,6 +193,15 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
   });
 }
 
+void add_loop(CLI::App& sub, int& loops) {
+  sub.add_option(
+         "--loop", loops,
+         "Passes over the capture (once without this option); no number or 0: until interrupted")
+      ->expected(0, 1)
+      ->default_str("0")
+      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
 void add_replay(CLI::App& sub, ReplayOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
@@ -198,12 +212,7 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(range_of("replay.rate"))
       ->capture_default_str();
-  sub.add_option(
-         "--loop", o.loops,
-         "Passes over the capture (once without this option); no number or 0: until interrupted")
-      ->expected(0, 1)
-      ->default_str("0")
-      ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+  add_loop(sub, o.loops);
 }
 
 void add_segment(CLI::App& sub, SegmentOptions& o) {
@@ -281,6 +290,84 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
   sub.add_option("--core", o.core, "Processor core to stay on (default: the last one allowed)")
       ->check(CLI::Range(0, 4095));
   sub.add_option("--json", o.json, "The same as a file for programs");
+}
+
+void add_send(CLI::App& sub, SendOptions& o) {
+  sub.add_option("FILE", o.file, "Any capture with UDP, pcap or pcapng")->required();
+  sub.add_option("--to", o.to, "ADDRESS:PORT to send to; a multicast group and broadcast will do")
+      ->required();
+  sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
+  sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
+  sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
+  sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
+      ->check(range_of("replay.rate"))
+      ->capture_default_str();
+  add_loop(sub, o.loops);
+  sub.add_option("--faults", o.faults,
+                 "What goes wrong on the way, by seconds since the first packet:\n"
+                 "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\n"
+                 "foreign@7s:50 clock@8s:+2.0s truncate@9s:5");
+  sub.add_option("--foreign-from", o.foreign_from,
+                 "Address of this machine that foreign packets come from")
+      ->check(CLI::ValidIPV4);
+  sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
+}
+
+void add_dump(CLI::App& sub, DumpOptions& o) {
+  sub.add_option("NAME", o.name, "Name of the process (default: the only one that runs)");
+  sub.add_option("--wait", o.wait_s, "Seconds to wait for its answer")
+      ->check(number(0, 3600))
+      ->capture_default_str();
+}
+
+void add_top(CLI::App& sub, TopOptions& o) {
+  sub.add_option("NAME", o.name, "Status page of the process (default: the only one that runs)");
+  sub.add_flag("--once", o.once, "Print once and exit");
+  sub.add_flag("--json", o.json, "Print the figures once, for programs");
+  sub.add_option("--interval", o.interval_s, "Seconds between two looks")
+      ->check(number(0.1, 3600))
+      ->capture_default_str();
+}
+
+void add_live(CLI::App& sub, LiveOptions& o) {
+  sub.add_option("--listen", o.listen.address,
+                 "ADDRESS:PORT; address 0.0.0.0 hears broadcasts, too")
+      ->capture_default_str();
+  sub.add_option("--interface", o.listen.interface, "Only what comes in by this interface");
+  sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);
+  sub.add_flag("--share-port", o.listen.share_port, "Let other programs hear the same port");
+  add_decoding(sub, o.capture);
+  sub.add_option("--duration", o.capture.duration_s, "Stop after this many seconds")
+      ->check(range_of("input.duration_s"));
+  add_mount(sub, o.mount);
+  add_method(sub, o.method);
+  sub.add_option("--deadline-ms", o.deadline_ms, "From a turn's last packet to its labels")
+      ->check(range_of("deadline.limit_ms"))
+      ->capture_default_str();
+  sub.add_option("--receive-priority", o.realtime.receive_priority, "SCHED_FIFO, 0: shared")
+      ->check(range_of("realtime.receive_priority"))
+      ->capture_default_str();
+  sub.add_option("--segment-priority", o.realtime.segment_priority, "SCHED_FIFO, 0: shared")
+      ->check(range_of("realtime.segment_priority"))
+      ->capture_default_str();
+  sub.add_option("--receive-core", o.realtime.receive_core, "Core of the receiving thread")
+      ->check(range_of("realtime.receive_core"));
+  sub.add_option("--segment-core", o.realtime.segment_core, "Core of the segmenting thread")
+      ->check(range_of("realtime.segment_core"));
+  sub.add_flag("!--no-lock-memory", o.realtime.lock_memory, "Leave memory to the system");
+  sub.add_option("--labels", o.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
+  sub.add_option("--recorder-folder", o.recorder.folder,
+                 "Folder for the last seconds of packets, written when a deadline is missed or "
+                 "`terracut dump` asks");
+  sub.add_option("--recorder-seconds", o.recorder.seconds, "How many seconds")
+      ->check(range_of("recorder.seconds"))
+      ->capture_default_str();
+  sub.add_option("--metrics", o.watch.metrics, "ADDRESS:PORT of /metrics for Prometheus, or off")
+      ->capture_default_str();
+  sub.add_option("--name", o.watch.name, "Name for `terracut top` and `terracut dump`")
+      ->capture_default_str();
+  sub.add_option("--json", o.json, "File for the summary at the end");
+  sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
 }
 
 void add_config(CLI::App& sub, ConfigOptions& o) {
@@ -364,6 +451,15 @@ Arguments parse_arguments(int argc, char** argv) {
                                  [](CLI::App&, ParametersOptions&) {});
   add_command<BenchOptions>(reading, "bench", "Time decoding and every stage on one core",
                             add_bench);
+  add_command<SendOptions>(reading, "send",
+                           "Send a capture's datagrams by UDP, as its sensor would", add_send);
+  add_command<LiveOptions>(reading, "live",
+                           "Label a sensor's packets as they arrive, before a deadline", add_live);
+  add_command<DumpOptions>(reading, "dump",
+                           "Have a running `terracut live` write its last seconds of packets",
+                           add_dump);
+  add_command<TopOptions>(reading, "top", "Watch a running `terracut live` from another shell",
+                          add_top);
   add_command<ConfigOptions>(reading, "config",
                              "Print the configuration in force, or one to start from", add_config);
   add_command<DoctorOptions>(

@@ -5,13 +5,15 @@
 #include <optional>
 #include <variant>
 
+#include "live_options.hpp"
 #include "options.hpp"
 
 namespace terracut::cli {
 
-using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
-                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
-                             BenchOptions, ConfigOptions, DoctorOptions>;
+using Command =
+    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
+                 DumpOptions, TopOptions, LiveOptions, ConfigOptions, DoctorOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "exit_codes.hpp"
+#include "live_options.hpp"
 #include "options.hpp"
 
 /// The subcommands: each does its work, prints its result and answers the program's exit code.
@@ -17,6 +18,10 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const PlanOptions& options);
 [[nodiscard]] ExitCode run(const ParametersOptions& options);
 [[nodiscard]] ExitCode run(const BenchOptions& options);
+[[nodiscard]] ExitCode run(const SendOptions& options);
+[[nodiscard]] ExitCode run(const DumpOptions& options);
+[[nodiscard]] ExitCode run(const TopOptions& options);
+[[nodiscard]] ExitCode run(const LiveOptions& options);
 [[nodiscard]] ExitCode run(const ConfigOptions& options);
 [[nodiscard]] ExitCode run(const DoctorOptions& options);
 

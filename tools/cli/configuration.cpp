@@ -25,7 +25,6 @@ constexpr std::array<std::string_view, 4> kCellOwners{"strongest", "last", "firs
 constexpr std::array<std::string_view, 4> kTimestamps{"auto", "calendar", "us", "ns"};
 constexpr std::array<std::string_view, 3> kSimulatedTimestamps{"calendar", "us", "ns"};
 constexpr std::array<std::string_view, 2> kGeometries{"manual", "ros"};
-constexpr std::array<std::string_view, 2> kReaders{"socket", "pcap"};
 constexpr std::array<std::string_view, 2> kProfiles{"paper", "terracut"};
 constexpr std::array<std::string_view, 3> kStages{"elevation", "adjacent", "mrf"};
 constexpr std::array<std::string_view, 2> kReturns{"single", "dual"};
@@ -69,14 +68,8 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.listen.interface; }},
     Setting{"input.multicast", "--multicast", "", "live: group to join (default: none)", 0, 0, {}, TextForm::kAddress,
             [](C& c) noexcept -> F { return &c.live.listen.multicast; }},
-    Setting{"input.reader", "--reader", "", "live: a UDP socket, or a capture by libpcap where a socket cannot be used", 0, 0, kReaders, kAny,
-            [](C& c) noexcept -> F { return &c.live.listen.reader; }},
     Setting{"input.share_port", "--share-port", "", "live: let other programs that ask for the same hear the port too", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.listen.share_port; }},
-    Setting{"input.buffer_kib", "--receive-buffer", "KiB", "live: receive buffer asked of the kernel", 64, 1048576, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.listen.buffer_kib; }},
-    Setting{"input.busy_poll_us", "--busy-poll", "us", "live: look for packets again and again for so long before sleeping", 0, 100000, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.listen.busy_poll_us; }},
 
     Setting{"mount.setup", "--setup", "", "Mount and ring distances found by `terracut calibrate`", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.mount.setup; }},
@@ -93,15 +86,17 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.method.stages; }},
 
     Setting{"output.labels", "--labels", "", "Folder for NNNNNN.label, SemanticKITTI predictions (replay, segment, live)", 0, 0, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.output.labels; }},
-    Setting{"output.pcd", "--pcd", "", "Folder for NNNNNN.pcd: x y z intensity ring label", 0, 0, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.output.pcd; }},
-    Setting{"output.png", "--png", "", "Folder for pictures: from above and as the sensor sees it", 0, 0, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.output.png; }},
-    Setting{"output.json", "--json", "", "File for the report: returns, losses and times by frame", 0, 0, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.output.json; }},
+            [](C& c) noexcept -> F { return &c.output.labels; }},
+    Setting{"output.pcd", "--pcd", "", "Folder for NNNNNN.pcd: x y z intensity ring label (replay, segment)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.output.pcd; }},
+    Setting{"output.png", "--png", "", "Folder for pictures: from above and as the sensor sees it (replay, segment)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.output.png; }},
+    Setting{"output.json", "--json", "", "File for the report: returns, losses and times (replay, segment, live)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.output.json; }},
     Setting{"output.truth", "--truth", "", "replay: folder of NNNNNN.label to score the labels against", 0, 0, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.output.truth; }},
+            [](C& c) noexcept -> F { return &c.output.truth; }},
+    Setting{"output.trace", "--trace", "", "live: file for the last frames as a trace, for ui.perfetto.dev", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.trace; }},
 
     Setting{"deadline.limit_ms", "--deadline-ms", "ms", "live: from a turn's last packet to its labels", 1, 10000, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.deadline_ms; }},
@@ -114,26 +109,18 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.realtime.receive_core; }},
     Setting{"realtime.segment_core", "--segment-core", "", "live: the only core that thread runs on (default: any)", 0, 4095, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.realtime.segment_core; }},
-    Setting{"realtime.lock_memory", "--lock-memory", "", "live: keep all memory of the process present", 0, 0, {}, kAny,
+    Setting{"realtime.lock_memory", "--no-lock-memory", "", "live: keep all memory of the process present", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.realtime.lock_memory; }},
 
     Setting{"recorder.seconds", "--recorder-seconds", "s", "live: packets kept for a dump; 0: none", 0, 600, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.recorder.seconds; }},
     Setting{"recorder.folder", "--recorder-folder", "", "live: where dumps go (default: none is written)", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.recorder.folder; }},
-    Setting{"recorder.dumps_per_hour", "", "1/h", "live: most dumps for missed deadlines", 1, 3600, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.recorder.dumps_per_hour; }},
-    Setting{"recorder.most_dumps", "", "dumps", "live: kept in the folder; the oldest go first", 1, 100000, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.recorder.most_dumps; }},
-    Setting{"recorder.most_mib", "", "MiB", "live: taken by all dumps of the folder", 1, 1048576, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.recorder.most_mib; }},
-    Setting{"recorder.least_free_mib", "", "MiB", "live: nothing is dumped when less would stay free", 0, 1048576, {}, kAny,
-            [](C& c) noexcept -> F { return &c.live.recorder.least_free_mib; }},
 
     Setting{"metrics.address", "--metrics", "", "live: where Prometheus reads /metrics; off: nowhere", 0, 0, {}, TextForm::kEndpointOrOff,
-            [](C& c) noexcept -> F { return &c.live.metrics.address; }},
-    Setting{"metrics.status_page", "--status-page", "", "live: name under which `terracut top` finds the process", 0, 0, {}, TextForm::kName,
-            [](C& c) noexcept -> F { return &c.live.metrics.status_page; }},
+            [](C& c) noexcept -> F { return &c.live.watch.metrics; }},
+    Setting{"metrics.name", "--name", "", "live: name under which `terracut top` and `dump` find the process", 0, 0, {}, TextForm::kName,
+            [](C& c) noexcept -> F { return &c.live.watch.name; }},
 
     Setting{"replay.rate", "--rate", "", "Pace by the capture's stamps: 1 as recorded, 0 flat out", 0, 1000, {}, kAny,
             [](C& c) noexcept -> F { return &c.replay.rate; }},
@@ -337,7 +324,7 @@ void start_from(const Configuration& configuration, ReplayOptions& options) {
   options.capture = configuration.live.capture;
   options.mount = configuration.live.mount;
   options.method = method_of(configuration);
-  options.output = configuration.live.output;
+  options.output = configuration.output;
   options.rate = configuration.replay.rate;
   options.loops = configuration.replay.loops;
 }
@@ -345,7 +332,7 @@ void start_from(const Configuration& configuration, ReplayOptions& options) {
 void start_from(const Configuration& configuration, SegmentOptions& options) {
   options.mount = configuration.live.mount;
   options.method = method_of(configuration);
-  options.output = configuration.live.output;
+  options.output = configuration.output;
   options.output.truth.clear();
 }
 
@@ -382,6 +369,8 @@ void start_from(const Configuration& configuration, BenchOptions& options) {
 
 void start_from(const Configuration& configuration, LiveOptions& options) {
   options = configuration.live;
+  options.labels = configuration.output.labels;
+  options.json = configuration.output.json;
   options.method = method_of(configuration);
 }
 
@@ -395,7 +384,6 @@ void start_from(const Configuration& configuration, DoctorOptions& options) {
   options.port = static_cast<std::uint16_t>(std::stoi(listen.substr(listen.rfind(':') + 1)));
   options.receive_core = configuration.live.realtime.receive_core;
   options.segment_core = configuration.live.realtime.segment_core;
-  options.buffer_kib = configuration.live.listen.buffer_kib;
 }
 
 }  // namespace terracut::cli

@@ -16,8 +16,7 @@ constexpr std::string_view kHead =
     "# Configuration of terracut, for all its commands: terracut --config FILE COMMAND ...\n"
     "# A key that is a comment has the default shown; the command line wins over this file.\n"
     "# Relative paths are taken from the folder of this file.\n"
-    "# `terracut config --print-default` prints it anew, `terracut --config FILE config` checks "
-    "one.\n";
+    "# `terracut config --print-default` prints this; `terracut --config FILE config` checks it.\n";
 
 /// Text that YAML reads back as it is.
 std::string quoted_if_needed(std::string_view text) {

@@ -11,7 +11,6 @@ namespace terracut::cli {
 ExitCode run(const DoctorOptions& options) {
   const doctor::Wishes wishes{.interface = options.interface,
                               .port = options.port,
-                              .buffer_bytes = std::int64_t{options.buffer_kib} << 10,
                               .receive_core = options.receive_core,
                               .segment_core = options.segment_core};
   const doctor::Findings findings = examine(doctor::SystemView::of_this_machine(), wishes);

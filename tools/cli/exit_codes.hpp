@@ -9,12 +9,13 @@ namespace terracut::cli {
 /// What the program's exit status means; printed by `terracut --help` and stable for scripts.
 enum ExitCode : int {
   kOk = 0,
-  kInternal = 1,        ///< A bug or a lack of memory: nothing the input explains.
-  kUsage = 2,           ///< The command line is wrong: unknown option, value out of range.
-  kInputRefused = 3,    ///< An input is missing, unreadable, malformed, or of a kind not handled.
-  kOutputFailed = 4,    ///< An output could not be written whole; nothing is left in its place.
-  kNothingCameOut = 5,  ///< Packets were read but no frame came out; the message names the check.
-  kNotReady = 7,        ///< `terracut doctor` found a problem of the machine.
+  kInternal = 1,         ///< A bug or a lack of memory: nothing the input explains.
+  kUsage = 2,            ///< The command line is wrong: unknown option, value out of range.
+  kInputRefused = 3,     ///< An input is missing, unreadable, malformed, or of a kind not handled.
+  kOutputFailed = 4,     ///< An output could not be written whole; nothing is left in its place.
+  kNothingCameOut = 5,   ///< Packets were read but no frame came out; the message names the check.
+  kDeadlinesMissed = 6,  ///< A live run was all right but for deadlines it missed.
+  kNotReady = 7,         ///< `terracut doctor` found a problem of the machine.
 };
 
 /// The exit code that an error of a library leads to.

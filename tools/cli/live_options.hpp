@@ -16,10 +16,7 @@ struct ListenOptions {
   std::string address = "0.0.0.0:2368";  ///< --listen, ADDRESS:PORT, IPv4
   std::string interface;                 ///< --interface; empty: anywhere
   std::string multicast;                 ///< --multicast, group to join; empty: none
-  std::string reader = "socket";         ///< --reader socket|pcap
   bool share_port = false;               ///< --share-port
-  int buffer_kib = 8192;                 ///< --receive-buffer, [64, 1048576]
-  int busy_poll_us = 0;                  ///< --busy-poll, [0, 100000]
 };
 
 /// What the threads that have a deadline ask of the system.
@@ -35,29 +32,24 @@ struct RealtimeOptions {
 struct RecorderOptions {
   double seconds = 10;           ///< [0, 600]; 0: nothing is kept.
   std::filesystem::path folder;  ///< Empty: nothing is written.
-  int dumps_per_hour = 60;       ///< For missed deadlines, [1, 3600].
-  int most_dumps = 20;           ///< Kept in the folder, [1, 100000].
-  int most_mib = 2048;           ///< Taken by them, [1, 1048576].
-  int least_free_mib = 1024;     ///< Never written with less than this free, [0, 1048576].
 };
 
 /// How others see what the process does.
-struct MetricsOptions {
-  std::string address = "127.0.0.1:9464";  ///< ADDRESS:PORT of /metrics; "off": none.
-  std::string status_page = "terracut";    ///< Name for `terracut top`, letters, digits, "-_.".
+struct WatchOptions {
+  std::string metrics = "127.0.0.1:9464";  ///< ADDRESS:PORT of /metrics; "off": none.
+  std::string name = "terracut";           ///< Of the status page, for `terracut top`.
 };
 
 struct LiveOptions {
-  /// `sensor` to `geometry`, `from` and `duration_s`; there is no `file`, `port` or `start_s`.
-  CaptureOptions capture;
+  CaptureOptions capture;  ///< `sensor` to `geometry`, `from` and `duration_s` of it.
   ListenOptions listen;
   MountOptions mount;
   MethodOptions method;
-  OutputOptions output;
-  double deadline_ms = 50;  ///< --deadline-ms, from a turn's last packet to its labels, [1, 10000]
+  std::filesystem::path labels, json, trace;
+  double deadline_ms = 50;  ///< From a turn's last packet to its labels, [1, 10000].
   RealtimeOptions realtime;
   RecorderOptions recorder;
-  MetricsOptions metrics;
+  WatchOptions watch;
 };
 
 }  // namespace terracut::cli

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 namespace terracut::cli {
 
 std::vector<LossCause> causes_of(const firmware_io::LossCounters& losses) {
@@ -28,6 +30,15 @@ std::string loss_sentence(const firmware_io::LossCounters& losses) {
     sentence += fmt::format("{}{} {}", sentence.empty() ? "" : ", ", cause.name, cause.count);
   }
   return sentence.empty() ? "none" : sentence;
+}
+
+void show_losses(const firmware_io::LossCounters& losses, rt::MonitorSnapshot& figures) {
+  static_assert(sizeof(firmware_io::LossCounters) / sizeof(std::uint64_t) <=
+                rt::MonitorSnapshot::kMaxLosses);
+  figures.loss_count = 0;
+  for (const LossCause& cause : causes_of(losses)) {
+    figures.losses[figures.loss_count++] = {std::string_view(cause.name), cause.count};
+  }
 }
 
 }  // namespace terracut::cli

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware_io/loss_counters.hpp"
+#include "rt/monitor_snapshot.hpp"
 
 namespace terracut::cli {
 
@@ -21,5 +22,9 @@ struct LossCause {
 
 /// "none", or the causes that happened: "network_gap_packets 12, rejected_late 1".
 [[nodiscard]] std::string loss_sentence(const firmware_io::LossCounters& losses);
+
+/// Puts every cause with its count into the figures that watchers see. Allocates: not for real-time
+/// threads.
+void show_losses(const firmware_io::LossCounters& losses, rt::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

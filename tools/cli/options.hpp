@@ -122,7 +122,6 @@ struct DoctorOptions {
   std::uint16_t port = 2368;        ///< --port
   std::optional<int> receive_core;  ///< From the configuration, as are those below.
   std::optional<int> segment_core;
-  int buffer_kib = 8192;
   bool json = false;
 };
 
@@ -133,6 +132,31 @@ struct BenchOptions {
   int repeat = 10;  ///< Passes over the capture's frames.
   int core = -1;    ///< --core: pin to it; -1: the last one allowed.
   std::filesystem::path json;
+};
+
+struct SendOptions {
+  std::filesystem::path file;
+  std::optional<std::uint16_t> port;  ///< --port
+  std::string from;                   ///< --from, dotted IPv4
+  std::string to;                     ///< --to ADDRESS:PORT
+  std::string interface;              ///< --interface
+  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
+  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
+  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
+  std::string foreign_from;           ///< --foreign-from, dotted IPv4
+  std::filesystem::path json;
+};
+
+struct DumpOptions {
+  std::string name;    ///< Of the running process; empty: the only one that runs.
+  double wait_s = 30;  ///< --wait, [0, 3600]: for its answer.
+};
+
+struct TopOptions {
+  std::string name;  ///< Status page of the process to watch; empty: the only one that runs.
+  bool once = false;
+  bool json = false;      ///< --json: print the figures for programs, once.
+  double interval_s = 1;  ///< --interval, [0.1, 3600]
 };
 
 }  // namespace terracut::cli

@@ -22,14 +22,15 @@ struct PacketChain {
   /// `columns`: of the range image, 0 for the sensor's default.
   PacketChain(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
               int columns, const CaptureOptions& capture, const MethodOptions& method,
-              rt::FixedMemory& memory)
-      : decoder(calibration, profile.mount, decoder_config(columns, capture), memory),
+              rt::FixedMemory& memory, int images = 3)
+      : decoder(calibration, profile.mount, decoder_config(columns, capture, images), memory),
         segmenter(segmenter_config_of(method), profile, decoder.shape(), decoder.return_capacity(),
                   memory) {}
 
   [[nodiscard]] static firmware_io::SensorDecoder::Config decoder_config(
-      int columns, const CaptureOptions& capture) {
+      int columns, const CaptureOptions& capture, int images = 3) {
     firmware_io::SensorDecoder::Config config;
+    config.images = images;
     config.columns = columns;
     config.dual_owner = cell_owner_of(capture.cell_owner);
     if (capture.geometry == "ros") config.hdl64e.geometry = calib::GeometryModel::kRosLike;

@@ -38,6 +38,9 @@ terracut_require(PNG_FOUND "libpng" libpng-dev)
 include(TerracutPcap)
 terracut_require(PCAP_FOUND "libpcap" libpcap-dev)
 
+include(TerracutHttplib)
+terracut_require(HTTPLIB_FOUND "cpp-httplib" libcpp-httplib-dev)
+
 if(TERRACUT_BUILD_TESTS)
   find_package(GTest QUIET)
   terracut_require(GTest_FOUND "GoogleTest" "libgtest-dev libgmock-dev")

@@ -68,7 +68,7 @@ Finding check_locked_memory(const SystemView& system) {
 
 Finding check_raw_capture(const SystemView& system) {
   if (has_capability(system, CAP_NET_RAW)) return ok("capture", "CAP_NET_RAW: allowed");
-  return ok("capture", "not allowed (CAP_NET_RAW); only --reader pcap needs it");
+  return ok("capture", "not allowed (CAP_NET_RAW); only a capture by libpcap needs it");
 }
 
 Finding check_realtime_share(const SystemView& system) {

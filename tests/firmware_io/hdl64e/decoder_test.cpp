@@ -4,11 +4,11 @@
 
 #include <cmath>
 #include <filesystem>
-#include <map>
 
 #include "calib/hdl64e_file.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
-#include "tests/firmware_io/hdl64e/reference_decoder.hpp"
+#include "tests/support/reference/agreement.hpp"
+#include "tests/support/reference/hdl64e_reference.hpp"
 
 namespace terracut::test {
 namespace {
@@ -20,51 +20,29 @@ void expect_same_returns(std::span<const Packet> packets,
                          const calib::Hdl64eCalibration& calibration,
                          const Recorder::Config& config = {}) {
   const calib::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
-  Recorder recorder(config, calibration, mount);
-  recorder.decode_all(packets);
-  recorder.flush();
-
+  std::vector<double> elevations;
+  for (const auto& laser : calibration.lasers) elevations.push_back(laser.vert_correction_rad);
   const bool ros_like = config.sensor.geometry == calib::GeometryModel::kRosLike;
-  ReferenceDecoder reference(calibration, ros_like);
-  std::map<std::int64_t, std::vector<ReferenceReturn>> by_turn;
-  std::size_t total = 0;
+  const reference::Hdl64eReference reference(calibration, ros_like
+                                                              ? reference::Hdl64eOffsets::kRosLike
+                                                              : reference::Hdl64eOffsets::kManual);
+  reference::ExpectedTurns expected(elevations, mount, config.columns);
+  reference::Turns turns;
+  reference::HandedFrames handed;
+  Recorder recorder(config, calibration, mount);
   for (const Packet& packet : packets) {
-    for (const ReferenceReturn& echo : reference.decode(packet.bytes)) {
-      // The product's azimuths are whole ticks of 1e-5 degrees.
-      const double nearest_seam_deg = 360.0 * std::round(echo.beam_deg / 360.0);
-      ASSERT_GT(std::abs(echo.beam_deg - nearest_seam_deg), 3e-5) << "choose another seed";
-      by_turn[static_cast<std::int64_t>(std::floor(echo.beam_deg / 360.0))].push_back(echo);
-      ++total;
+    const reference::Packet plain = reference.decode(packet.bytes);
+    ASSERT_EQ(plain.refusal, reference::Refusal::kNone);
+    for (const reference::Return& echo : plain.returns) {
+      ASSERT_GT(reference::seam_distance_deg(echo.beam_deg), reference::kBorder_deg)
+          << "choose another seed";
     }
+    expected.add(plain, turns.unwrap(plain));
+    ASSERT_FALSE(recorder.decoder.decode(packet.datagram(), handed.keep()));
   }
-
-  ASSERT_EQ(recorder.frames.size(), by_turn.size());
-  EXPECT_EQ(recorder.returns(), total);
-  const auto rows = calib::rows_by_elevation(calibration);
-  const auto T = calib::T_vehicle_lidar(mount);
-  std::size_t n = 0;
-  double worst_m = 0;
-  for (const auto& [turn, expected] : by_turn) {
-    const Frame& frame = recorder.frames[n];
-    ASSERT_EQ(frame.info.number, n++);
-    ASSERT_EQ(frame.echoes.size(), expected.size());
-    ASSERT_EQ(frame.info.returns, expected.size());
-    for (std::size_t i = 0; i < expected.size(); ++i) {
-      const ReferenceReturn& truth = expected[i];
-      const Frame::Echo& echo = frame.echoes[i];
-      const auto v = calib::apply(T, truth.x_m, truth.y_m, truth.z_m);
-      const double range_m = std::hypot(truth.x_m, truth.y_m, truth.z_m);
-      worst_m = std::max(
-          worst_m, std::hypot(echo.point.x_m - v[0], echo.point.y_m - v[1], echo.point.z_m - v[2]) -
-                       1e-6 * range_m);
-      ASSERT_EQ(echo.point.intensity, truth.intensity);
-      ASSERT_EQ(echo.row, static_cast<std::uint32_t>(rows[static_cast<std::size_t>(truth.laser)]));
-      const double column =
-          (truth.beam_deg - 360.0 * static_cast<double>(turn)) * config.columns / 360.0;
-      ASSERT_NEAR(echo.column + 0.5, column, 0.5 + 1e-3);
-    }
-  }
-  EXPECT_LT(worst_m, 0.001);
+  recorder.decoder.flush(handed.keep());
+  EXPECT_GT(handed.returns(), 0U);
+  EXPECT_EQ(reference::first_difference(expected, handed, config.columns), "");
 }
 
 TEST(Hdl64eDecoder, AgreesWithAPlainSlowDecoder) {

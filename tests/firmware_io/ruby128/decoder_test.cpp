@@ -117,6 +117,34 @@ TEST(Ruby128Decoder, EvenAFullSkyInDualReturnFindsRoom) {
   EXPECT_EQ(heard.returns(), returns_in(packets));
 }
 
+TEST(Ruby128Decoder, LosesNothingWhereTheUnitOfItsStampsShowsLate) {
+  // Nanoseconds below a million are microseconds as far as the first packet can tell.
+  for (const std::int64_t into_second_ns : {0, 100'000, 500'000, 990'000}) {
+    const auto packets =
+        test::random_packets({.first_cdeg = 100,
+                              .last_cdeg = 36'000 * 2,
+                              .timestamp = RubyTimestamp::kUtcNanoseconds,
+                              .start_ns = 1'767'225'601'000'000'000 + into_second_ns});
+    const Heard heard = hear(packets);
+    EXPECT_EQ(heard.returns(), returns_in(packets));
+    EXPECT_EQ(heard.losses.rejected_total(), 0U);
+    EXPECT_EQ(heard.losses.network_gap_packets, 0U);
+    EXPECT_EQ(heard.losses.clock_jumps, 0U);
+    EXPECT_EQ(heard.frames.size(), 4U);  // two turns, beams beyond either end; none torn in two
+  }
+}
+
+TEST(Ruby128Decoder, TakesDeviceInformationForNoLoss) {
+  rt::FixedMemory memory;
+  Ruby128Decoder decoder(calib::nominal_ruby128(), {}, {}, memory);
+  std::vector<std::uint8_t> difop(kRubyPacketBytes, 0);
+  const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
+  std::copy(start.begin(), start.end(), difop.begin());
+  const auto nothing = [](const FrameInfo&, const pipeline::RangeImage&) noexcept {};
+  EXPECT_EQ(decoder.decode({.payload = difop}, nothing), Reject::kDeviceInfo);
+  EXPECT_EQ(decoder.losses().rejected_total(), 0U);
+}
+
 class LossIn : public testing::TestWithParam<bool> {};
 
 TEST_P(LossIn, PacketsAreCountedExactly) {

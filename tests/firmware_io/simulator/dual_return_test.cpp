@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // Both sensors in dual return, and the RS-Ruby128, in the simulated world.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iostream>
 #include <map>
 #include <vector>
 
@@ -116,6 +118,8 @@ TYPED_TEST(DualReturn, TwoEchoesComeFromEdgesAndLeavesNotFromTheOpenGround) {
     return static_cast<double>(split[key]) /
            static_cast<double>(std::max<std::size_t>(1, all[key]));
   };
+  std::cout << fmt::format("split: {:.2f} % of beams on the road, {:.1f} % on vegetation\n",
+                           100 * share(Truth::kRoad), 100 * share(Truth::kVegetation));
   EXPECT_LT(share(Truth::kRoad), 0.01);
   EXPECT_GT(share(Truth::kVegetation), 5 * share(Truth::kRoad));
   EXPECT_GT(share(Truth::kVegetation), 0.03);

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "firmware_io/datagram.hpp"
+#include "firmware_io/live/dump_policy.hpp"
+#include "firmware_io/live/dump_record.hpp"
+#include "firmware_io/live/packet_ring.hpp"
+#include "rt/error.hpp"
+#include "rt/fixed_memory.hpp"
+#include "rt/frame_timing.hpp"
+
+namespace terracut::firmware_io {
+
+/// The times of the last frames, to lie beside a dump.
+struct DumpFrames {
+  std::span<const rt::FrameTiming> times;
+  std::span<const std::string_view> stages;  ///< Names for FrameTiming::stage_cpu_ns.
+};
+
+/// Keeps the last seconds of datagrams in fixed memory and writes them to disk when something went
+/// wrong: a pcap that `terracut replay` reads, so that the frame can be looked at again, and the
+/// times of its frames as JSON beside it (`X.pcap` and `X.frames.json`).
+///
+/// Two threads: one adds, another one dumps. A dump first copies the ring to memory of its own (so
+/// twice the ring's size is taken at start), then writes from there: a stalled disk loses nothing.
+class FlightRecorder {
+ public:
+  /// Takes all memory. std::invalid_argument for a size of 0.
+  FlightRecorder(const PacketRingSize& size, rt::FixedMemory& memory)
+      : ring_(size, memory), window_(size, memory) {}
+
+  /// Receive thread: wait-free, allocates nothing, touches no file.
+  void add(const Datagram& datagram) noexcept { ring_.add(datagram); }
+
+  /// Writes both files, whole or not at all; neither is ever seen without its contents, and the
+  /// capture never without its times. Never from a real-time thread: it blocks on the disk.
+  /// kNothingCameOut when no datagram was held; else the errors of PcapWriter.
+  [[nodiscard]] Expected<DumpReport> dump(const std::filesystem::path& capture, DumpReason reason,
+                                          const DumpFrames& frames);
+
+  /// The same, where and if `policy` allows it; the outcome is counted there.
+  [[nodiscard]] tl::expected<DumpReport, RefusedDump> dump(DumpPolicy& policy, DumpReason reason,
+                                                           const DumpFrames& frames);
+
+  [[nodiscard]] const PacketRing& ring() const noexcept { return ring_; }
+
+ private:
+  [[nodiscard]] DumpReport copy();
+  [[nodiscard]] std::uint64_t capture_bytes() const noexcept;
+  [[nodiscard]] Status write(DumpReport& report, std::string_view times) const;
+
+  PacketRing ring_;
+  PacketWindow window_;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "firmware_io/live/receive_counters.hpp"
+
+namespace terracut::firmware_io {
+
+/// What the kernel calls an interface now. A cable adapter that is pulled and put back keeps its
+/// name but gets another index.
+struct InterfaceStatus {
+  LinkState state = LinkState::kGone;
+  int index = 0;  ///< 0 when gone.
+};
+
+/// `socket`: any socket. Allocates nothing, does not block.
+[[nodiscard]] InterfaceStatus interface_status(int socket, const std::string& name) noexcept;
+
+/// "lo, eth0", for error messages.
+[[nodiscard]] std::string interface_names();
+
+/// The most characters a name of an interface has.
+inline constexpr std::size_t kInterfaceNameLength = 15;
+
+}  // namespace terracut::firmware_io

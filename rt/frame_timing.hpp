@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace terracut::rt {
+
+/// How much of the method a frame got before its deadline, best first.
+enum class Rung : std::uint8_t {
+  kFull,        ///< The whole method, the min-cut to its optimum.
+  kCutStopped,  ///< The min-cut stopped at its budget: the best cut so far.
+  kCoarse,      ///< Elevation map and adjacent points only.
+  kSkipped,     ///< No labels at all.
+  kCount,
+};
+inline constexpr std::size_t kRungs = static_cast<std::size_t>(Rung::kCount);
+
+/// Whose fault a missed deadline was: what the largest share of the frame's latency went to, over
+/// all threads it passed (rt/miss_cause.hpp judges a stretch of one thread's work).
+enum class FrameMissCause : std::uint8_t {
+  kOwnWork,         ///< Our computing, and everything that nothing below explains.
+  kWaitingForCore,  ///< Ready to run, but the core was given to others.
+  kStolenTime,      ///< The hypervisor ran something else on our core.
+  kLateInput,       ///< The packet that shows that the turn is over came late.
+  kCount,
+};
+inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCause::kCount);
+
+/// Stable lower_snake_case names, as in reports; "unknown" for anything else.
+[[nodiscard]] constexpr std::string_view to_string(Rung rung) noexcept {
+  constexpr std::array<std::string_view, kRungs> kNames{"full", "cut_stopped", "coarse", "skipped"};
+  return rung < Rung::kCount ? kNames[static_cast<std::size_t>(rung)] : "unknown";
+}
+[[nodiscard]] constexpr std::string_view to_string(FrameMissCause cause) noexcept {
+  constexpr std::array<std::string_view, kMissCauses> kNames{"own_work", "waiting_for_core",
+                                                             "stolen_time", "late_input"};
+  return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
+}
+
+/// When one frame was where, and what it cost: filled on its way by the threads it passes, judged
+/// at the end (rt/deadline_monitor.hpp). Times of day are CLOCK_REALTIME like the kernel's stamps
+/// of packets; 0 means "not known". Trivially copyable, no thread contract of its own.
+struct FrameTiming {
+  static constexpr std::size_t kMaxStages = 8;
+
+  std::uint32_t number = 0;
+  std::uint32_t returns = 0;
+
+  std::int64_t first_packet_ns = 0;    ///< Kernel's stamp of the turn's first packet.
+  std::int64_t last_packet_ns = 0;     ///< Kernel's stamp of the turn's last packet.
+  std::int64_t closing_packet_ns = 0;  ///< Of the packet that showed that the turn is over.
+  std::int64_t handed_over_ns = 0;     ///< Decoded, and given to the segmenting thread.
+  std::int64_t segment_begin_ns = 0;
+  std::int64_t labels_ns = 0;     ///< Labels given to the sinks; when it was given up if skipped.
+  std::int64_t published_ns = 0;  ///< The sinks were done.
+
+  /// Processor time of the threads that did it.
+  std::int64_t decode_cpu_ns = 0;  ///< All packets of the turn.
+  std::array<std::int64_t, kMaxStages> stage_cpu_ns{};
+  std::int64_t segment_cpu_ns = 0;  ///< All stages and what lies between them.
+
+  /// Of the interval from the last packet to the labels, on the frame's threads and their cores.
+  std::int64_t run_queue_wait_ns = 0;
+  std::int64_t steal_ns = 0;
+
+  std::uint64_t cut_operations = 0;
+  Rung rung = Rung::kFull;
+
+  bool missed = false;  ///< Set by DeadlineMonitor::judge.
+  FrameMissCause cause =
+      FrameMissCause::kOwnWork;  ///< Set by judge; means something only if missed.
+};
+
+}  // namespace terracut::rt

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "rt/fixed_text.hpp"
+#include "rt/frame_timing.hpp"
+#include "rt/log_linear_histogram.hpp"
+#include "rt/nonblocking.hpp"
+
+namespace terracut::rt {
+
+/// What is known of the sensor's link.
+enum class LinkState : std::uint8_t {
+  kWaiting,        ///< No packet has come since the start.
+  kReceiving,      ///< Packets are coming.
+  kSilent,         ///< Packets came, but none lately.
+  kInterfaceGone,  ///< The network interface was removed or is down.
+  kCount,
+};
+
+/// Stable lower_snake_case name, as in reports; "unknown" for anything else.
+[[nodiscard]] constexpr std::string_view to_string(LinkState state) noexcept {
+  constexpr std::array<std::string_view, static_cast<std::size_t>(LinkState::kCount)> kNames{
+      "waiting", "receiving", "silent", "interface_gone"};
+  return state < LinkState::kCount ? kNames[static_cast<std::size_t>(state)] : "unknown";
+}
+
+/// A count under the name of what it counts.
+struct NamedCount {
+  FixedText<40> name;
+  std::uint64_t count = 0;
+};
+
+/// A real-time thread as the system runs it.
+struct ThreadStatus {
+  FixedText<16> name;
+  FixedText<32> scheduling;                          ///< What was granted: "FIFO 80, core 2".
+  std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since it was started up.
+};
+
+/// Everything a watcher can know of a running process, in one piece without pointers: it is copied
+/// whole into the status page, and everything that shows figures (terracut top, /metrics, the
+/// summary at exit) reads this alone. It carries the names of what it counts, so that it can be
+/// read by another build. About 460 KiB, nearly all of it histogram buckets.
+///
+/// A plain value. A reader must expect any bytes in it where it came from another process; the
+/// accessors below and to_string are safe then.
+struct MonitorSnapshot {
+  /// To be raised with every change of what lies where.
+  static constexpr std::uint32_t kLayout = 1;
+  static constexpr std::size_t kMaxLosses = 40;
+  static constexpr std::size_t kMaxThreads = 4;
+
+  FixedText<24> version;        ///< Of the program.
+  FixedText<96> sensor;         ///< Model, spin rate, return mode.
+  FixedText<64> input;          ///< Where packets come from: "0.0.0.0:2368".
+  std::int64_t started_ns = 0;  ///< CLOCK_REALTIME, as all times of day here.
+  std::int64_t taken_ns = 0;    ///< When this snapshot was taken.
+  std::int64_t deadline_ns = 0;
+
+  LinkState link = LinkState::kWaiting;
+  std::uint64_t packets = 0;        ///< Datagrams taken in.
+  std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest one.
+
+  std::uint64_t frames = 0;    ///< Judged, whatever their rung.
+  std::uint64_t returns = 0;   ///< In these frames.
+  std::uint64_t unjudged = 0;  ///< Of these frames, those whose stamps give no latency.
+  double frames_per_s = 0;     ///< Of the last few seconds, by the packets' stamps.
+  std::array<std::uint64_t, kRungs> rungs{};
+  std::array<std::uint64_t, kMissCauses> misses{};  ///< By cause.
+  std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
+  std::uint64_t longest_run_of_misses = 0;
+  FrameTiming newest;
+
+  std::uint32_t loss_count = 0;  ///< How many of `losses` are in use.
+  std::array<NamedCount, kMaxLosses> losses{};
+  std::uint32_t thread_count = 0;
+  std::array<ThreadStatus, kMaxThreads> threads{};
+
+  LogLinearHistogram latency;      ///< Wall time from the last packet to the labels.
+  LogLinearHistogram wall;         ///< Wall time from the hand-over to the labels.
+  LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting together.
+  LogLinearHistogram decode_cpu;   ///< Processor time.
+  LogLinearHistogram segment_cpu;  ///< Processor time.
+  std::uint32_t stage_count = 0;
+  std::array<FixedText<24>, FrameTiming::kMaxStages> stage_names{};
+  std::array<LogLinearHistogram, FrameTiming::kMaxStages> stage_cpu{};
+
+  [[nodiscard]] std::size_t stages() const noexcept TERRACUT_NONBLOCKING {
+    return std::min<std::size_t>(stage_count, stage_names.size());
+  }
+  [[nodiscard]] std::span<const NamedCount> losses_in_use() const noexcept {
+    return std::span(losses).first(std::min<std::size_t>(loss_count, losses.size()));
+  }
+  [[nodiscard]] std::span<const ThreadStatus> threads_in_use() const noexcept {
+    return std::span(threads).first(std::min<std::size_t>(thread_count, threads.size()));
+  }
+  [[nodiscard]] std::uint64_t all_misses() const noexcept {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : misses) sum += count;
+    return sum;
+  }
+};
+static_assert(std::is_trivially_copyable_v<MonitorSnapshot>);
+
+}  // namespace terracut::rt

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "rt/status_page_file.hpp"
+
+namespace terracut::rt {
+
+/// A status page that was found.
+struct StatusPageEntry {
+  std::string name;
+  std::int32_t pid = 0;  ///< Of its publisher.
+  bool publisher_lives = false;
+};
+
+/// All status pages of `folder`, of whatever layout, by name. What cannot be read, or is none, is
+/// left out. Reads the headers only; touches neither pages nor locks.
+[[nodiscard]] std::vector<StatusPageEntry> list_status_pages(
+    const std::filesystem::path& folder = status_page_folder());
+
+}  // namespace terracut::rt

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/scan/scan_resampler.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <unordered_set>
+#include <vector>
+
+#include "calib/nominal_ruby128.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/ruby128/difop.hpp"
+#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "firmware_io/scan/scan_drive.hpp"
+#include "firmware_io/scan/scan_reader.hpp"
+#include "recorded_sequences.hpp"
+#include "scratch_folder.hpp"
+#include "synthetic_scan.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+/// Scans of flat ground and nothing else, a centimetre lower each time; label 40 + number.
+void write_ground(const ScratchFolder& folder, int scans) {
+  for (int n = 0; n < scans; ++n) {
+    std::vector<ScanPoint> points;
+    for (const RingLine& ring : synthetic::table()) {
+      const double slope = std::tan(ring.elevation_rad);
+      for (int i = 0; i < 2000; ++i) {
+        const double azimuth = calib::deg_to_rad(0.05 + 0.18 * i);
+        const double d = slope < -0.02 ? (-1.73 - 0.01 * n - ring.vert_offset_m) / slope : 40;
+        points.push_back({static_cast<float>(d * std::cos(azimuth)),
+                          static_cast<float>(d * std::sin(azimuth)),
+                          static_cast<float>(ring.vert_offset_m + d * slope), 0.25F});
+      }
+    }
+    const std::string name = "00000" + std::to_string(n);
+    folder.write_records("scans/velodyne/" + name + ".bin", points);
+    folder.write_records("scans/labels/" + name + ".label",
+                         std::vector<std::uint32_t>(points.size(), 40U + static_cast<unsigned>(n)));
+  }
+}
+
+TEST(ScanResampler, AFolderBecomesADriveOfOneTurnAScan) {
+  const ScratchFolder folder;
+  write_ground(folder, 2);
+  const auto pcap = folder.path() / "drive.pcap";
+  ResampleOptions options;
+  std::size_t progress = 0;
+  options.on_scan = [&](std::size_t done, std::size_t of) {
+    progress = done;
+    EXPECT_EQ(of, 2U);
+  };
+  const auto report = resample_scan_folder(folder.path() / "scans", pcap, options);
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(progress, 2U);
+  EXPECT_EQ(report->drive.frames, 2U);
+  EXPECT_EQ(report->drive.returns, report->rays.returns);
+  const ResampleSummary& rays = report->rays;
+  EXPECT_NEAR(static_cast<double>(rays.rays), 2 * 128 * 1800.18, 300);
+  EXPECT_EQ(rays.rays, rays.returns + rays.outside + rays.nothing_near + rays.out_of_span);
+  // The top ring is seen at some 2.3 degrees from the origin; 26 channels point clearly above it.
+  EXPECT_NEAR(static_cast<double>(rays.outside) / static_cast<double>(rays.rays), 26 / 128.0,
+              0.004);
+
+  rt::FixedMemory memory;
+  Ruby128Decoder decoder(calib::nominal_ruby128(), {.height_m = 0}, {}, memory);
+  int frames = 0;
+  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    EXPECT_TRUE(info.complete);
+    const double ground_m = -1.73 - 0.01 * frames;
+    std::size_t near_ground = 0, ground = 0;
+    for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
+      if (!image.has_return(cell) || image.ground_range_m()[cell] > 30) continue;
+      ++ground;
+      near_ground += std::abs(image.z_m()[cell] - ground_m) < 0.01 ? 1 : 0;
+    }
+    EXPECT_GT(ground, 60'000U);
+    EXPECT_GT(near_ground, ground * 999 / 1000);
+    std::vector<std::uint32_t> truth;
+    const auto labels = truth_folder_of(pcap) / ("00000" + std::to_string(frames) + ".label");
+    EXPECT_TRUE(read_label_file(labels, image.returns(), truth));
+    EXPECT_THAT(truth, testing::Each(40U + static_cast<unsigned>(frames)));
+    ++frames;
+  };
+  auto source = PcapSource::open(pcap, {.port = kRubyDataPort});
+  ASSERT_TRUE(source);
+  for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
+    EXPECT_EQ(decoder.decode(**datagram, on_frame), std::nullopt);
+  }
+  decoder.flush(on_frame);
+  EXPECT_EQ(frames, 2);
+}
+
+TEST(ScanResampler, SaysByItsSerialNumberThatTheDriveIsNotRecorded) {
+  const ScratchFolder folder;
+  write_ground(folder, 1);
+  const auto pcap = folder.path() / "drive.pcap";
+  ASSERT_TRUE(resample_scan_folder(folder.path() / "scans", pcap, {}));
+  auto source = PcapSource::open(pcap, {.port = kRubyDevicePort});
+  ASSERT_TRUE(source);
+  const auto datagram = source->next();
+  ASSERT_TRUE(datagram && *datagram);
+  const auto difop = read_difop((*datagram)->payload);
+  ASSERT_TRUE(difop);
+  EXPECT_EQ(std::string(difop->serial.begin(), difop->serial.end()), "RESAMP");
+}
+
+TEST(ScanResampler, LeavesNothingWhenAScanIsRefused) {
+  const ScratchFolder folder;
+  write_ground(folder, 1);
+  folder.write("scans/velodyne/000001.bin", "seven b");
+  const auto report =
+      resample_scan_folder(folder.path() / "scans", folder.path() / "drive.pcap", {});
+  ASSERT_FALSE(report);
+  EXPECT_THAT(report.error().message, testing::HasSubstr("000001.bin"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "drive.pcap"));
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "drive.truth"));
+}
+
+TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    SCOPED_TRACE(sequence.filename());
+    auto reader = ScanReader::open(sequence);
+    ASSERT_TRUE(reader) << reader.error().message;
+    ASSERT_TRUE(reader->fit_rings());
+    const calib::Ruby128Calibration unit = calib::nominal_ruby128();
+    ScanResampler resampler(unit);
+    KittiScan scan;
+    std::vector<Ruby128Column> columns;
+    const auto rays = resampler.run(
+        1, 0,
+        [&](std::int64_t, ScanResampler::Turn& into) {
+          const Status status = reader->read(0, into.scan, into.rings);
+          scan = into.scan;
+          return status;
+        },
+        [&](const Ruby128Column& column) -> Status {
+          columns.push_back(column);
+          return {};
+        });
+    ASSERT_TRUE(rays) << rays.error().message;
+    EXPECT_GT(rays->returns, rays->rays / 2);
+    EXPECT_EQ(rays->out_of_span, 0U);
+
+    // Cells of half a metre that hold a recorded point, or lie beside one that does.
+    const auto cell = [](double x, double y, double z) {
+      const auto at = [](double v) {
+        return static_cast<std::uint64_t>(std::llround(v * 2) + 4096);
+      };
+      return at(x) << 26 | at(y) << 13 | at(z);
+    };
+    std::unordered_set<std::uint64_t> held;
+    for (const ScanPoint& p : scan.points) {
+      for (const double dx : {-0.5, 0.0, 0.5}) {
+        for (const double dy : {-0.5, 0.0, 0.5}) {
+          for (const double dz : {-0.5, 0.0, 0.5})
+            held.insert(cell(p.x_m + dx, p.y_m + dy, p.z_m + dz));
+        }
+      }
+    }
+    const calib::Ruby128Geometry geometry(unit);
+    std::size_t beside = 0;
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+      GroupAzimuths head_cdeg{};
+      for (std::size_t k = 0; k < 3; ++k) {
+        head_cdeg[k] = calib::wrap_cdeg(columns[i - i % 3 + k].unwrapped_azimuth_cdeg);
+      }
+      const auto step = Ruby128Transmitter::step_ticks(head_cdeg, 0, ReturnMode::kSingle);
+      for (int c = 0; c < calib::kRuby128Lasers; ++c) {
+        const auto raw = columns[i].by_laser[static_cast<std::size_t>(c)].raw;
+        if (raw == 0) continue;
+        const double head_rad =
+            firing_azimuth_rad(columns[i].unwrapped_azimuth_cdeg, ruby_advance_ticks(step, c));
+        const calib::Point at = geometry.point(c, head_rad, raw);
+        beside += held.contains(cell(at.x_m, at.y_m, at.z_m)) ? 1 : 0;
+      }
+    }
+    EXPECT_GT(static_cast<double>(beside) / static_cast<double>(rays->returns), 0.9);
+  }
+}
+
+}  // namespace
+}  // namespace terracut::firmware_io

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Everything of this room that real-time threads call, called from one function that is marked
+// itself: Clang 20 and later then refuse whatever could block while compiling
+// (-Wfunction-effects), and stop it while running (-fsanitize=realtime). Other compilers check
+// that nothing is allocated.
+#include "rt/nonblocking.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "rt/latest_value.hpp"
+#include "rt/log_linear_histogram.hpp"
+#include "rt/miss_cause.hpp"
+#include "rt/page_faults.hpp"
+#include "rt/scheduler_times.hpp"
+#include "rt/spsc_queue.hpp"
+#include "rt/status_page.hpp"
+#include "rt/stolen_time.hpp"
+#include "rt/thread_cpu_clock.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace terracut::rt {
+namespace {
+
+struct Health {
+  std::int64_t frames = 0;
+  std::int64_t wall_ns = 0;
+};
+
+/// What a working thread has beside its frames.
+struct Tools {
+  FixedMemory memory;
+  SpscQueue<std::uint32_t> queue{"queue", 4, memory};
+  LatestValue<std::int64_t> latest;
+  LogLinearHistogram histogram;
+  SchedulerTimes times = SchedulerTimes::of_this_thread();
+  std::optional<StolenTime> stolen;
+  std::optional<StatusPagePublisher<Health>> page;
+  std::optional<StatusPageReader<Health>> reader;
+};
+
+/// Returns how many of its steps went wrong.
+int one_frame(Tools& tools, std::int64_t number) noexcept TERRACUT_NONBLOCKING {
+  int wrong = 0;
+  const PageFaults faults = PageFaults::of_this_thread();
+  const SchedulerReading before = tools.times.read();
+  std::int64_t stolen_ns = 0;
+  if (tools.stolen) stolen_ns = tools.stolen->read_ns().value_or(0);
+  const ClockPair start = ClockPair::now();
+
+  std::uint32_t slot = 0;
+  if (!tools.queue.try_push(7)) ++wrong;
+  if (tools.queue.size_approx() != 1) ++wrong;
+  if (!tools.queue.try_pop(slot) || slot != 7) ++wrong;
+  tools.latest.publish(number);
+  const std::int64_t* newest = tools.latest.take_if_new();
+  if (newest == nullptr || *newest != number) ++wrong;
+
+  const ClockPair spent = ClockPair::now().since(start);
+  tools.histogram.record(spent.wall_ns);
+  const SchedulerReading work = tools.times.read().since(before);
+  if (tools.stolen) stolen_ns = tools.stolen->read_ns().value_or(0) - stolen_ns;
+  if (name_miss_cause(work, stolen_ns, INT64_MAX) != MissCause::kNone) ++wrong;
+  if (PageFaults::of_this_thread().since(faults).minor < 0) ++wrong;
+  if (tools.page) {
+    tools.page->publish({number, spent.wall_ns});
+    const auto health = tools.reader->read();
+    if (!health || health->frames != number) ++wrong;
+  }
+  return wrong;
+}
+
+TEST(NonBlocking, HoldsForEverythingThatRealTimeThreadsCall) {
+  Tools tools;
+  if (auto stolen = StolenTime::open()) tools.stolen.emplace(std::move(*stolen));
+  if (std::filesystem::is_directory("/dev/shm")) {
+    const std::string name = "terracut-test-" + std::to_string(::getpid());
+    auto page = StatusPagePublisher<Health>::create(name, 1, "/dev/shm");
+    ASSERT_TRUE(page.has_value()) << page.error().message;
+    tools.page.emplace(std::move(*page));
+    auto reader = StatusPageReader<Health>::open(name, 1, "/dev/shm");
+    ASSERT_TRUE(reader.has_value()) << reader.error().message;
+    tools.reader.emplace(std::move(*reader));
+  }
+  const std::uint64_t before = test::allocations_of_this_thread();
+  int wrong = 0;
+  for (std::int64_t number = 1; number <= 100; ++number) wrong += one_frame(tools, number);
+  EXPECT_EQ(test::allocations_of_this_thread(), before);
+  EXPECT_EQ(wrong, 0);
+  EXPECT_EQ(tools.histogram.count(), 100U);
+}
+
+}  // namespace
+}  // namespace terracut::rt

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// `terracut send` as a sensor: what it says it sent is what comes.
+#include <algorithm>
+#include <atomic>
+#include <optional>
+#include <thread>
+
+#include "cli_fixture.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/live/udp_source.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using firmware_io::UdpSource;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr std::uint32_t kLocalhost = 0x7F000001;
+
+class CliSend : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    auto source = UdpSource::open({.source_address = kLocalhost}, memory_);
+    ASSERT_TRUE(source) << source.error().message;
+    source_.emplace(*std::move(source));
+  }
+  [[nodiscard]] std::string to() const {
+    return " --to 127.0.0.1:" + std::to_string(source_->local().port);
+  }
+
+  /// Receives beside `work()`, and on until nothing comes any more.
+  template <class Work>
+  void receive_during(Work&& work) {
+    std::atomic<bool> over = false;
+    std::thread receiver([&] {
+      bool quiet = false;
+      while (!over || !quiet) {
+        const auto batch = source_->receive(100'000'000);
+        quiet = batch.empty();
+        for (const auto& each : batch) {
+          payloads_.emplace_back(each.payload.begin(), each.payload.end());
+        }
+      }
+      source_->refresh_drops();
+    });
+    work();
+    over = true;
+    receiver.join();
+  }
+  /// All that came or that the kernel says it dropped: a slow machine must not fail the test.
+  [[nodiscard]] std::uint64_t accounted_for() const {
+    return source_->counters().received + source_->counters().kernel_drops;
+  }
+
+  rt::FixedMemory memory_;
+  std::optional<UdpSource> source_;
+  std::vector<std::vector<std::uint8_t>> payloads_;
+};
+
+TEST_F(CliSend, SendsTheDatagramsOfACaptureAsTheyAre) {
+  auto capture = firmware_io::PcapSource::open(kDrive);
+  ASSERT_TRUE(capture);
+  std::vector<std::vector<std::uint8_t>> expected;
+  while (const auto next = *capture->next()) {
+    expected.emplace_back(next->payload.begin(), next->payload.end());
+  }
+  receive_during([&] { expect_done("send " + quoted(kDrive) + to() + " --json sent.json"); });
+  EXPECT_EQ(accounted_for(), expected.size());
+  if (source_->counters().kernel_drops == 0) {
+    EXPECT_EQ(payloads_, expected);
+  }
+
+  const auto report = json("sent.json");
+  EXPECT_EQ(report["sent"], expected.size());
+  EXPECT_EQ(report["failed"], 0);
+  EXPECT_GE(report["wall_ms"], 1290) << "the drive takes 1.3 s and nothing is sent early";
+  EXPECT_TRUE(report["late_ms"].contains("p99"));
+}
+
+TEST_F(CliSend, ReportsToThePacketWhatItsFaultsDid) {
+  receive_during([&] {
+    expect_done("send " + quoted(kDrive) + to() +
+                " --rate 2 --foreign-from 127.0.0.2 --json sent.json --faults "
+                "'loss@0.2s:20packets duplicate@0.3s:7 foreign@0.4s:50 truncate@0.5s:5 "
+                "reorder@0.6s:3 clock@0.7s:+2s burst@0.8s:50ms'");
+  });
+  const auto report = json("sent.json");
+  const std::uint64_t read = report["read"];
+  EXPECT_EQ(report["sent"], read - 20 + 7 + 50);
+  EXPECT_EQ(accounted_for(), report["sent"]);
+  const std::vector<int> asked = {20, 7, 50, 5, 3};
+  for (std::size_t i = 0; i < asked.size(); ++i) {
+    EXPECT_EQ(report["faults"][i]["packets"], asked[i]) << report["faults"][i];
+  }
+  for (const auto& fault : report["faults"]) EXPECT_EQ(fault["complete"], true) << fault;
+  if (source_->counters().kernel_drops > 0) return;
+  EXPECT_EQ(source_->counters().foreign, 50U);
+  EXPECT_EQ(std::count_if(payloads_.begin(), payloads_.end(),
+                          [](const auto& payload) { return payload.size() == 603; }),
+            5);
+}
+
+TEST_F(CliSend, GoesThroughTheCaptureAsOftenAsItIsTold) {
+  const Outcome outcome =
+      run("send " + quoted(kDrive) + to() + " --rate 0 --loop 3 --json sent.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = json("sent.json");
+  const std::uint64_t read = report["read"];
+  EXPECT_EQ(read % 3, 0U);
+  EXPECT_GT(read, 3U * 4000U);
+  EXPECT_EQ(report["sent"], read);
+  EXPECT_THAT(outcome.out, HasSubstr("sent "));
+}
+
+TEST_F(CliSend, EndsWithASummaryWhenInterrupted) {
+  const std::string command = "cd '" + folder_.string() +
+                              "' && timeout --preserve-status -s INT 1 '" TERRACUT_PROGRAM
+                              "' send " +
+                              quoted(kDrive) + to() + " --loop --json sent.json >/dev/null 2>&1";
+  EXPECT_EQ(std::system(command.c_str()), 0);
+  EXPECT_GT(json("sent.json")["sent"], 0);
+}
+
+TEST_F(CliSend, WarnsOfAFaultThatThePacketsEndBefore) {
+  const Outcome outcome = run("send " + quoted(kDrive) + to() + " --rate 0 --faults pause@9s:1s");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning"), HasSubstr("pause@9s:1s")));
+  EXPECT_THAT(outcome.out, HasSubstr("pause@9s:1s: 0 packets"));
+}
+
+TEST_F(CliSend, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
+  const auto expect_refusal = [&](const std::string& arguments, int exit_code,
+                                  const std::string& message) {
+    const Outcome outcome = run("send " + arguments);
+    EXPECT_EQ(outcome.exit_code, exit_code) << arguments << "\n" << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("error: "), HasSubstr(message))) << arguments;
+  };
+  const std::string drive = quoted(kDrive);
+  expect_refusal(drive, 2, "--to is required");
+  expect_refusal(drive + " --to here:2368", 2, "'here' is no IPv4 address");
+  expect_refusal(drive + " --to 127.0.0.1", 2, "ADDRESS:PORT");
+  expect_refusal(drive + " --to 127.0.0.1:0", 2, "127.0.0.1:0");
+  expect_refusal(drive + to() + " --rate -1", 2, "--rate");
+  expect_refusal(drive + to() + " --faults lose@2s:3", 2, "lose@2s:3");
+  expect_refusal(drive + to() + " --interface nosuch0", 3, "nosuch0");
+  expect_refusal(drive + to() + " --foreign-from 203.0.113.7", 3, "203.0.113.7");
+  expect_refusal("none.pcap" + to(), 3, "no such file");
+  expect_refusal(drive + to() + " --port 9", 5, "terracut info");
+}
+
+}  // namespace
+}  // namespace terracut::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "firmware_io/loss_counters.hpp"
+#include "rt/deadline_monitor.hpp"
+#include "tools/cli/loss_table.hpp"
+
+namespace terracut::cli {
+
+/// The figures of an invented live run at 10 Hz: 100 frames, of which number 40 waited for its
+/// core, 41 was skipped and 42 got coarse labels in time.
+class WatchedRun {
+ public:
+  static constexpr std::int64_t kMs = 1'000'000;
+  static constexpr std::int64_t kStart_ns = 1'700'000'000'000 * kMs;
+  static constexpr std::uint32_t kFrames = 100;
+  static constexpr std::int64_t kEnd_ns = kStart_ns + kFrames * 100 * kMs;
+
+  WatchedRun() {
+    rt::MonitorSnapshot& figures = monitor_->snapshot();
+    figures.version = "1.2.3";
+    figures.sensor = "HDL-64E, 600.0 rpm, \"strongest\"";
+    figures.input = "127.0.0.1:2368";
+    figures.started_ns = kStart_ns;
+    figures.taken_ns = kEnd_ns;
+    figures.link = rt::LinkState::kReceiving;
+    figures.packets = 34'800;
+    for (std::uint32_t number = 0; number < kFrames; ++number) judge(number);
+    figures.last_packet_ns = figures.newest.last_packet_ns;
+    firmware_io::LossCounters losses;
+    losses.network_gap_packets = 12;
+    losses.skipped_frames = 1;
+    show_losses(losses, figures);
+    figures.thread_count = 2;
+    figures.threads[0] = {"receive", "FIFO 80, core 2", 0, 0};
+    figures.threads[1] = {"segment", "FIFO 70, core 3", 5, 0};
+  }
+
+  [[nodiscard]] rt::MonitorSnapshot& figures() { return monitor_->snapshot(); }
+  [[nodiscard]] std::vector<rt::FrameTiming> frames() const {
+    std::vector<rt::FrameTiming> frames(kFrames);
+    frames.resize(monitor_->copy_newest(frames));
+    return frames;
+  }
+
+ private:
+  static constexpr std::array<std::string_view, 3> kStages{"elevation_map", "adjacent_points",
+                                                           "min_cut"};
+
+  void judge(std::uint32_t number) {
+    rt::FrameTiming frame;
+    frame.number = number;
+    frame.returns = 100'000;
+    frame.first_packet_ns = kStart_ns + number * 100 * kMs;
+    frame.last_packet_ns = frame.first_packet_ns + 105 * kMs;  // two turns are open at the seam
+    frame.closing_packet_ns = frame.last_packet_ns;
+    frame.handed_over_ns = frame.last_packet_ns + 1 * kMs;
+    frame.segment_begin_ns = frame.handed_over_ns;
+    frame.labels_ns = frame.segment_begin_ns + 10 * kMs;
+    frame.published_ns = frame.labels_ns + 2 * kMs;
+    frame.decode_cpu_ns = 4 * kMs;
+    frame.stage_cpu_ns = {2 * kMs, 1 * kMs, 5 * kMs};
+    frame.segment_cpu_ns = 8 * kMs;
+    frame.cut_operations = 1000;
+    if (number == 40) {
+      frame.run_queue_wait_ns = 70 * kMs;
+      frame.labels_ns += 70 * kMs;
+      frame.published_ns += 70 * kMs;
+    } else if (number == 41) {
+      frame.rung = rt::Rung::kSkipped;
+      frame.stage_cpu_ns = {};
+      frame.segment_cpu_ns = 0;
+      frame.labels_ns = frame.segment_begin_ns;
+      frame.published_ns = 0;
+    } else if (number == 42) {
+      frame.rung = rt::Rung::kCoarse;
+      frame.stage_cpu_ns[2] = 0;
+      frame.segment_cpu_ns = 3 * kMs;
+    }
+    monitor_->judge(frame);
+  }
+
+  rt::FixedMemory memory_;
+  std::unique_ptr<rt::DeadlineMonitor> monitor_ = std::make_unique<rt::DeadlineMonitor>(
+      rt::DeadlineMonitor::Config{.deadline_ns = 50 * kMs, .stage_names = kStages}, memory_);
+};
+
+}  // namespace terracut::cli

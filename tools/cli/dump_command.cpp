@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <chrono>
+#include <thread>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "dump_answer.hpp"
+#include "live_process.hpp"
+#include "rt/status_page_file.hpp"
+#include "rt/thread_cpu_clock.hpp"
+
+namespace terracut::cli {
+
+ExitCode run(const DumpOptions& options) {
+  const std::filesystem::path folder = rt::status_page_folder();
+  const auto process = find_live_process(folder, options.name);
+  if (!process) return refuse(process.error());
+  const auto before = read_dump_answer(folder, process->name);
+  if (const Status asked = ask_for_dump(folder, *process); !asked) return refuse(asked.error());
+
+  const auto is_new = [&](const DumpAnswer& answer) {
+    return answer.pid == process->pid &&
+           (!before || answer.pid != before->pid || answer.serial != before->serial);
+  };
+  const std::int64_t until_ns =
+      rt::monotonic_ns() + static_cast<std::int64_t>(options.wait_s * 1e9);
+  do {
+    const auto answer = read_dump_answer(folder, process->name);
+    if (answer && is_new(*answer)) {
+      if (answer->capture.empty()) {
+        return refuse(kOutputFailed,
+                      fmt::format("refused ({}): {}", answer->refusal, answer->message));
+      }
+      fmt::print("{}\n", answer->capture);
+      say(fmt::format("{} datagrams of {:.2f} s", answer->datagrams, answer->seconds));
+      return kOk;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  } while (rt::monotonic_ns() < until_ns);
+  return refuse(kOutputFailed,
+                fmt::format("'{}' (process {}) was asked, but has not answered within {} s; its "
+                            "disk may be slow",
+                            process->name, process->pid, options.wait_s));
+}
+
+}  // namespace terracut::cli

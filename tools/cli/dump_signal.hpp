@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "firmware_io/live/owned_descriptor.hpp"
+
+namespace terracut::cli {
+
+/// Takes SIGUSR1, which asks a running process for a dump, without a handler: the signal is blocked
+/// and read from a descriptor, so it interrupts no thread and no system call.
+///
+/// Make it in main() before any other thread: threads inherit the block, and one without it would
+/// let the signal end the process.
+class DumpSignal {
+ public:
+  /// std::system_error when the system has no descriptor left.
+  DumpSignal();
+
+  /// The signal came since the last call. Never waits; any one thread.
+  [[nodiscard]] bool take() noexcept;
+
+  /// Readable when take() would answer true, for poll().
+  [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
+
+ private:
+  firmware_io::OwnedDescriptor descriptor_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "firmware_io/frame_info.hpp"
+#include "pipeline/range_image.hpp"
+#include "rt/frame_timing.hpp"
+#include "rt/latest_value.hpp"
+
+namespace terracut::cli {
+
+/// Hands turns from the receiving thread to the segmenting one: always the newest, never a queue.
+/// A turn that was not taken before the next one came is skipped, and counted by who hands over.
+///
+/// Images change hands one for one. The decoder has two open; here are three more: one being read,
+/// the newest one, and one that the decoder gets back for its next turn.
+class FrameExchange {
+ public:
+  static constexpr std::size_t kImages = 2 + rt::LatestSlot::kSlots;
+
+  struct Turn {
+    pipeline::RangeImage* image = nullptr;
+    firmware_io::FrameInfo info;
+    rt::FrameTiming timing;
+    firmware_io::LossCounters losses;  ///< Of the run so far.
+  };
+
+  /// `images`: the decoder's, kImages of them, of which the first two are open.
+  explicit FrameExchange(std::span<pipeline::RangeImage> images) noexcept {
+    for (std::size_t i = 0; i < turns_.size(); ++i) turns_[i].image = &images[2 + i];
+  }
+
+  /// Receiving thread: hands `turn` over and answers the image to go on with. Where the turn before
+  /// it was never taken, on_skipped(const Turn&) is told.
+  template <class OnSkipped>
+  pipeline::RangeImage* hand_over(const Turn& turn, OnSkipped&& on_skipped) noexcept {
+    Turn& slot = turns_[slots_.writer_slot()];
+    pipeline::RangeImage* next = slot.image;
+    slot = turn;
+    if (slots_.publish()) on_skipped(turns_[slots_.writer_slot()]);
+    return next;
+  }
+  /// Segmenting thread: the newest turn, if there is one it has not had; its own until the next
+  /// call that returns one.
+  [[nodiscard]] Turn* take_if_new() noexcept {
+    return slots_.take_if_new() ? &turns_[slots_.reader_slot()] : nullptr;
+  }
+
+ private:
+  std::array<Turn, rt::LatestSlot::kSlots> turns_{};
+  rt::LatestSlot slots_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "live_process.hpp"
+
+#include <fmt/format.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <csignal>
+#include <cstdint>
+#include <fstream>
+#include <ios>
+#include <limits>
+#include <system_error>
+#include <vector>
+
+#include "firmware_io/live/owned_descriptor.hpp"
+#include "rt/status_page_list.hpp"
+
+namespace terracut::cli {
+namespace {
+
+std::vector<LiveProcess> running(const std::filesystem::path& folder) {
+  std::vector<LiveProcess> processes;
+  for (const rt::StatusPageEntry& page : rt::list_status_pages(folder)) {
+    if (page.publisher_lives) processes.push_back({page.name, page.pid});
+  }
+  return processes;
+}
+
+bool still_runs(const std::filesystem::path& folder, const LiveProcess& process) {
+  for (const LiveProcess& each : running(folder)) {
+    if (each.name == process.name && each.pid == process.pid) return true;
+  }
+  return false;
+}
+
+/// Blocks or catches SIGUSR1, as /proc/PID/status tells in hexadecimal masks. What cannot be read
+/// does not listen: a signal is not sent on a guess.
+bool listens_for_dumps(::pid_t pid) {
+  constexpr std::uint64_t kSignal = std::uint64_t{1} << (SIGUSR1 - 1);
+  std::ifstream status(fmt::format("/proc/{}/status", pid));
+  for (std::string key; status >> key;) {
+    if (key == "SigBlk:" || key == "SigCgt:") {
+      std::uint64_t mask = 0;
+      if (status >> std::hex >> mask && (mask & kSignal) != 0) return true;
+    }
+    status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
+  }
+  return false;
+}
+
+Error system_refusal(const LiveProcess& process, int error_number) {
+  if (error_number == ESRCH) {
+    return {ErrorCode::kNotFound, fmt::format("'{}' has just ended", process.name)};
+  }
+  return {ErrorCode::kUnreadable,
+          fmt::format("'{}' (process {}) could not be signalled: {}; run this as the user that "
+                      "runs it, or as root",
+                      process.name, process.pid, std::generic_category().message(error_number))};
+}
+
+}  // namespace
+
+Expected<LiveProcess> find_live_process(const std::filesystem::path& folder,
+                                        const std::string& name) {
+  const std::vector<LiveProcess> processes = running(folder);
+  std::string names;
+  for (const LiveProcess& process : processes) {
+    if (!name.empty() && process.name == name) return process;
+    names += (names.empty() ? "" : ", ") + process.name;
+  }
+  if (name.empty() && processes.size() == 1) return processes.front();
+  if (processes.empty()) {
+    return fail(ErrorCode::kNotFound,
+                fmt::format("no `terracut live` is running (looked in {})", folder.string()));
+  }
+  if (name.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("several are running, name one of them: {}", names));
+  }
+  return fail(
+      ErrorCode::kNotFound,
+      fmt::format("no `terracut live` is running under the name '{}'; running: {}", name, names));
+}
+
+Status ask_for_dump(const std::filesystem::path& folder, const LiveProcess& process) {
+  // The descriptor stands for this very process: once it is seen to be the right one, the signal
+  // cannot reach another that was given its number later.
+  const firmware_io::OwnedDescriptor held(
+      static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));
+  if (!held) return tl::unexpected(system_refusal(process, errno));
+  if (!still_runs(folder, process)) return tl::unexpected(system_refusal(process, ESRCH));
+  if (!listens_for_dumps(process.pid)) {
+    return fail(ErrorCode::kUnsupported,
+                fmt::format("'{}' (process {}) does not listen for dumps: it is starting, or was "
+                            "told to keep no packets",
+                            process.name, process.pid));
+  }
+  if (::syscall(SYS_pidfd_send_signal, held.get(), SIGUSR1, nullptr, 0) != 0) {
+    return tl::unexpected(system_refusal(process, errno));
+  }
+  return {};
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "live_summary.hpp"
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "json_text.hpp"
+#include "rt/whole_file.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Milliseconds to the microsecond: more digits would only be noise.
+double milliseconds(double ns) {
+  return static_cast<double>(static_cast<std::int64_t>(ns / 1000)) / 1000.0;
+}
+
+double milliseconds(std::int64_t ns) {
+  return static_cast<double>(ns / 1000) / 1000.0;
+}
+
+Json times_json(const rt::LogLinearHistogram& histogram) {
+  return {{"count", histogram.count()},
+          {"mean", milliseconds(histogram.mean_ns())},
+          {"p50", milliseconds(histogram.percentile_ns(50))},
+          {"p90", milliseconds(histogram.percentile_ns(90))},
+          {"p99", milliseconds(histogram.percentile_ns(99))},
+          {"p99.9", milliseconds(histogram.percentile_ns(99.9))},
+          {"max", milliseconds(histogram.max_ns())}};
+}
+
+Json frames_json(const rt::MonitorSnapshot& figures) {
+  Json json{{"count", figures.frames},
+            {"per_second", figures.frames_per_s},
+            {"returns", figures.returns},
+            {"unjudged", figures.unjudged}};
+  for (std::size_t i = 0; i < rt::kRungs; ++i) {
+    json["rungs"][std::string(to_string(static_cast<rt::Rung>(i)))] = figures.rungs[i];
+  }
+  return json;
+}
+
+Json misses_json(const rt::MonitorSnapshot& figures) {
+  Json json{{"total", figures.all_misses()},
+            {"consecutive", figures.consecutive_misses},
+            {"longest_run", figures.longest_run_of_misses}};
+  for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
+    json["causes"][std::string(to_string(static_cast<rt::FrameMissCause>(i)))] = figures.misses[i];
+  }
+  return json;
+}
+
+Json threads_json(const rt::MonitorSnapshot& figures) {
+  Json json = Json::array();
+  for (const rt::ThreadStatus& thread : figures.threads_in_use()) {
+    json.push_back({{"name", thread.name.view()},
+                    {"scheduling", thread.scheduling.view()},
+                    {"minor_faults", thread.minor_faults},
+                    {"major_faults", thread.major_faults}});
+  }
+  return json;
+}
+
+Json all_times_json(const rt::MonitorSnapshot& figures) {
+  Json json{{"latency", times_json(figures.latency)},
+            {"wall", times_json(figures.wall)},
+            {"cpu_total", times_json(figures.total_cpu)},
+            {"cpu_decode", times_json(figures.decode_cpu)},
+            {"cpu_segment", times_json(figures.segment_cpu)}};
+  Json& stages = json["stages"] = Json::object();
+  for (std::size_t i = 0; i < figures.stages(); ++i) {
+    stages[std::string(figures.stage_names[i].view())] = times_json(figures.stage_cpu[i]);
+  }
+  return json;
+}
+
+}  // namespace
+
+Json live_summary(const rt::MonitorSnapshot& figures) {
+  Json json;
+  json["terracut"] = figures.version.view();
+  json["sensor"] = figures.sensor.view();
+  json["input"] = figures.input.view();
+  json["started_ns"] = figures.started_ns;
+  json["taken_ns"] = figures.taken_ns;
+  json["deadline_ms"] = milliseconds(figures.deadline_ns);
+  json["link"] = {{"state", to_string(figures.link)},
+                  {"packets", figures.packets},
+                  {"last_packet_ns", figures.last_packet_ns}};
+  json["frames"] = frames_json(figures);
+  json["misses"] = misses_json(figures);
+  Json& losses = json["losses"] = Json::object();
+  for (const rt::NamedCount& loss : figures.losses_in_use()) {
+    losses[std::string(loss.name.view())] = loss.count;
+  }
+  json["threads"] = threads_json(figures);
+  json["ms"] = all_times_json(figures);
+  return json;
+}
+
+Status write_live_summary(const std::filesystem::path& path, const rt::MonitorSnapshot& figures) {
+  return rt::write_whole_file(path, json_text(live_summary(figures)));
+}
+
+}  // namespace terracut::cli

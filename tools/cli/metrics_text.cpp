@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "metrics_text.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <iterator>
+#include <string_view>
+#include <utility>
+
+namespace terracut::cli {
+namespace {
+
+/// From well below a quick stage to well above a deadline of one turn.
+constexpr std::array<std::int64_t, 19> kLimits_us{
+    100,    250,    500,    1'000,  2'000,  3'000,  5'000,   7'500,   10'000,   15'000,
+    20'000, 25'000, 30'000, 40'000, 50'000, 75'000, 100'000, 200'000, 1'000'000};
+
+double seconds(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-9;
+}
+
+/// Inside the quotes of a label.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char c : text) {
+    if (c == '\\' || c == '"') result += '\\';
+    if (c == '\n') {
+      result += "\\n";
+    } else {
+      result += c;
+    }
+  }
+  return result;
+}
+
+/// `name="value"`.
+std::string label(std::string_view name, std::string_view value) {
+  return fmt::format("{}=\"{}\"", name, escaped(value));
+}
+
+class MetricsText {
+ public:
+  /// What stands before the samples of `name`, once for all of them.
+  void begin(std::string_view name, std::string_view type, std::string_view help) {
+    name_ = name;
+    append("# HELP {} {}\n# TYPE {} {}\n", name, help, name, type);
+  }
+  template <class Number>
+  void sample(Number value, std::string_view labels = {}) {
+    if (labels.empty()) {
+      append("{} {}\n", name_, value);
+    } else {
+      append("{}{{{}}} {}\n", name_, labels, value);
+    }
+  }
+  template <class Number>
+  void single(std::string_view name, std::string_view type, std::string_view help, Number value) {
+    begin(name, type, help);
+    sample(value);
+  }
+  void histogram(const rt::LogLinearHistogram& histogram, const std::string& labels = {}) {
+    const std::string prefix = labels.empty() ? "" : labels + ",";
+    for (const std::int64_t limit_us : kLimits_us) {
+      append("{}_bucket{{{}le=\"{}\"}} {}\n", name_, prefix, static_cast<double>(limit_us) / 1e6,
+             histogram.count_not_above(limit_us * 1000));
+    }
+    append("{}_bucket{{{}le=\"+Inf\"}} {}\n", name_, prefix, histogram.count());
+    const std::string braced = labels.empty() ? "" : "{" + labels + "}";
+    append("{}_sum{} {}\n", name_, braced, histogram.sum_ns() * 1e-9);
+    append("{}_count{} {}\n", name_, braced, histogram.count());
+  }
+  [[nodiscard]] std::string take() && { return std::move(text_); }
+
+ private:
+  template <class... Values>
+  void append(fmt::format_string<Values...> format, Values&&... values) {
+    fmt::format_to(std::back_inserter(text_), format, std::forward<Values>(values)...);
+  }
+
+  std::string text_;
+  std::string_view name_;
+};
+
+void add_process(const rt::MonitorSnapshot& figures, MetricsText& text) {
+  text.begin("terracut_info", "gauge", "Always 1; what is running in its labels.");
+  text.sample(1, label("version", figures.version.view()) + "," +
+                     label("sensor", figures.sensor.view()) + "," +
+                     label("input", figures.input.view()));
+  text.single("terracut_start_time_seconds", "gauge", "Start of the process, since 1970.",
+              seconds(figures.started_ns));
+  text.single("terracut_snapshot_time_seconds", "gauge",
+              "When these figures were taken, since 1970; stands still if the process hangs.",
+              seconds(figures.taken_ns));
+  text.single("terracut_deadline_seconds", "gauge",
+              "Allowed from a turn's last packet to its labels.", seconds(figures.deadline_ns));
+  text.begin("terracut_page_faults_total", "counter",
+             "Page faults of the real-time threads after their start.");
+  for (const rt::ThreadStatus& thread : figures.threads_in_use()) {
+    const std::string name = label("thread", thread.name.view());
+    text.sample(thread.minor_faults, name + ",kind=\"minor\"");
+    text.sample(thread.major_faults, name + ",kind=\"major\"");
+  }
+}
+
+void add_input(const rt::MonitorSnapshot& figures, MetricsText& text) {
+  text.begin("terracut_link_state", "gauge", "1 for the state that the sensor's link is in.");
+  for (std::size_t i = 0; i < static_cast<std::size_t>(rt::LinkState::kCount); ++i) {
+    const auto state = static_cast<rt::LinkState>(i);
+    text.sample(state == figures.link ? 1 : 0, label("state", to_string(state)));
+  }
+  text.single("terracut_packets_total", "counter", "Datagrams taken in.", figures.packets);
+  text.single("terracut_last_packet_time_seconds", "gauge",
+              "Kernel's stamp of the newest packet, since 1970.", seconds(figures.last_packet_ns));
+  text.begin("terracut_losses_total", "counter",
+             "What was lost between sensor and label, by cause; the cause names the unit.");
+  for (const rt::NamedCount& loss : figures.losses_in_use()) {
+    text.sample(loss.count, label("cause", loss.name.view()));
+  }
+}
+
+void add_frames(const rt::MonitorSnapshot& figures, MetricsText& text) {
+  text.begin("terracut_frames_total", "counter",
+             "Frames judged, by the rung of the ladder they got to.");
+  for (std::size_t i = 0; i < rt::kRungs; ++i) {
+    text.sample(figures.rungs[i], label("rung", to_string(static_cast<rt::Rung>(i))));
+  }
+  text.single("terracut_returns_total", "counter", "Returns in these frames.", figures.returns);
+  text.single("terracut_unjudged_frames_total", "counter", "Frames whose stamps give no latency.",
+              figures.unjudged);
+  text.begin("terracut_deadline_misses_total", "counter",
+             "Frames labelled after the deadline or not at all, by cause.");
+  for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
+    text.sample(figures.misses[i], label("cause", to_string(static_cast<rt::FrameMissCause>(i))));
+  }
+  text.single("terracut_consecutive_misses", "gauge",
+              "Deadlines missed one after another, up to the newest frame.",
+              figures.consecutive_misses);
+}
+
+void add_times(const rt::MonitorSnapshot& figures, MetricsText& text) {
+  const auto add = [&](std::string_view name, std::string_view help,
+                       const rt::LogLinearHistogram& histogram) {
+    text.begin(name, "histogram", help);
+    text.histogram(histogram);
+  };
+  add("terracut_latency_seconds", "Wall time from a turn's last packet to its labels.",
+      figures.latency);
+  add("terracut_hand_over_to_labels_seconds", "Wall time from the end of decoding to the labels.",
+      figures.wall);
+  add("terracut_frame_cpu_seconds", "Processor time of a frame, decoding and segmenting.",
+      figures.total_cpu);
+  add("terracut_decode_cpu_seconds", "Processor time of decoding a frame.", figures.decode_cpu);
+  add("terracut_segment_cpu_seconds", "Processor time of segmenting a frame.", figures.segment_cpu);
+  text.begin("terracut_stage_cpu_seconds", "histogram", "Processor time of a stage in a frame.");
+  for (std::size_t i = 0; i < figures.stages(); ++i) {
+    text.histogram(figures.stage_cpu[i], label("stage", figures.stage_names[i].view()));
+  }
+}
+
+}  // namespace
+
+std::string metrics_text(const rt::MonitorSnapshot& figures) {
+  MetricsText text;
+  add_process(figures, text);
+  add_input(figures, text);
+  add_frames(figures, text);
+  add_times(figures, text);
+  return std::move(text).take();
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <csignal>
+#include <cstring>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "commands.hpp"
+#include "console.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/live/device_stamp_shift.hpp"
+#include "firmware_io/live/fault_injector.hpp"
+#include "firmware_io/live/packet_pacer.hpp"
+#include "firmware_io/live/udp_sender.hpp"
+#include "rt/fixed_memory.hpp"
+#include "rt/thread_cpu_clock.hpp"
+#include "rt/whole_file.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using firmware_io::Datagram;
+using firmware_io::FaultInjector;
+using firmware_io::FaultOutcome;
+using firmware_io::Ipv4Endpoint;
+using firmware_io::PacketPacer;
+using firmware_io::PcapSource;
+using firmware_io::UdpSender;
+using Json = nlohmann::ordered_json;
+
+/// What Ctrl-C ends: what was sent so far is reported.
+PacketPacer* interruptible = nullptr;
+
+void end_on_interrupt(PacketPacer& pacer) {
+  interruptible = &pacer;
+  struct sigaction action{};
+  action.sa_handler = [](int) { interruptible->stop(); };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C kills
+  ::sigaction(SIGINT, &action, nullptr);
+}
+
+/// Everything the command line names, opened.
+struct Parts {
+  PcapSource source;
+  firmware_io::FaultScript faults;
+  UdpSender sensor;
+  std::optional<UdpSender> stranger;  ///< Who foreign packets come from, if somebody else.
+};
+
+Expected<Parts> open_parts(const SendOptions& options, rt::FixedMemory& memory) {
+  auto faults = firmware_io::parse_fault_script(options.faults);
+  if (!faults) return tl::unexpected(faults.error());
+  firmware_io::UdpSenderConfig to{.interface = options.interface};
+  const auto destination = firmware_io::parse_ipv4_endpoint(options.to);
+  if (!destination) return tl::unexpected(destination.error());
+  to.to = *destination;
+
+  firmware_io::PcapFilter filter{.port = options.port};
+  if (!options.from.empty()) {
+    const auto from = firmware_io::parse_ipv4_address(options.from);
+    if (!from) return tl::unexpected(from.error());
+    filter.source_address = *from;
+  }
+  auto source = PcapSource::open(options.file, filter);
+  if (!source) return tl::unexpected(source.error());
+  auto sensor = UdpSender::open(to, memory);
+  if (!sensor) return tl::unexpected(sensor.error());
+
+  std::optional<UdpSender> stranger;
+  if (!options.foreign_from.empty()) {
+    const auto address = firmware_io::parse_ipv4_address(options.foreign_from);
+    if (!address) return tl::unexpected(address.error());
+    to.from = Ipv4Endpoint{*address, 0};
+    auto opened = UdpSender::open(to, memory);
+    if (!opened) return tl::unexpected(opened.error());
+    stranger = *std::move(opened);
+  }
+  return Parts{*std::move(source), *std::move(faults), *std::move(sensor), std::move(stranger)};
+}
+
+/// The stamps of one pass after the other, as if the capture went on: passes are as far apart as
+/// its packets are on average.
+class PassStamps {
+ public:
+  std::int64_t place(std::int64_t stamp_ns) noexcept {
+    if (packets_++ == 0) first_ns_ = last_ns_ = stamp_ns;
+    last_ns_ = std::max(last_ns_, stamp_ns);
+    return stamp_ns + shift_ns_;
+  }
+  void next_pass() noexcept {
+    const std::int64_t length_ns = last_ns_ - first_ns_;
+    shift_ns_ += length_ns + (packets_ > 1 ? length_ns / (packets_ - 1) : 0);
+    packets_ = 0;
+  }
+  [[nodiscard]] std::int64_t packets() const noexcept { return packets_; }
+
+ private:
+  std::int64_t packets_ = 0, first_ns_ = 0, last_ns_ = 0, shift_ns_ = 0;
+};
+
+std::string amount_of(const FaultOutcome& outcome) {
+  std::string text = fmt::format("{} packet{}", outcome.packets, outcome.packets == 1 ? "" : "s");
+  if (outcome.fault.kind == firmware_io::FaultKind::kReorder) text = "passed by " + text;
+  if (outcome.runs.empty()) return text;
+  const FaultOutcome::Run& first = outcome.runs.front();
+  const bool several = outcome.runs.size() > 1;
+  return text + fmt::format(", {}{}{}", outcome.runs.front().count > 1 ? "from number " : "number ",
+                            first.first, several ? " on, not all in a row" : "");
+}
+
+/// Plays a capture out of a socket, on one thread.
+class Send {
+ public:
+  Send(const SendOptions& options, Parts parts, rt::FixedMemory& memory)
+      : options_(options),
+        parts_(std::move(parts)),
+        pacer_(options.rate, memory),
+        injector_(
+            parts_.faults,
+            [this](const Datagram& datagram, FaultInjector::Origin origin) {
+              const bool foreign = origin == FaultInjector::Origin::kForeign;
+              pacer_.add(datagram, foreign && parts_.stranger ? *parts_.stranger : parts_.sensor);
+            },
+            firmware_io::DeviceStampShift()),
+        progress_("sending", "packets", 0) {}
+
+  ExitCode run() {
+    end_on_interrupt(pacer_);
+    const std::int64_t begun_ns = rt::monotonic_ns();
+    for (int pass = 0; options_.loops == 0 || pass < options_.loops; ++pass) {
+      if (pass > 0) {
+        if (Status status = parts_.source.rewind(); !status) return refuse(status.error());
+        stamps_.next_pass();
+      }
+      const bool go_on = play_once();
+      if (!go_on || stamps_.packets() == 0) break;  // a pass without packets will stay without
+    }
+    injector_.finish();
+    pacer_.flush();
+    wall_ns_ = rt::monotonic_ns() - begun_ns;
+    return conclude();
+  }
+
+ private:
+  /// False when the sending is over: Ctrl-C, or the capture broke off.
+  bool play_once() {
+    while (!pacer_.stopped()) {
+      const auto next = parts_.source.next();
+      if (!next) {
+        input_warning_ = next.error().message;
+        warn(input_warning_);
+        return false;
+      }
+      if (!*next) return true;
+      Datagram datagram = **next;
+      datagram.stamp_ns = stamps_.place(datagram.stamp_ns);
+      injector_.feed(datagram);
+      progress_.update(static_cast<double>(injector_.fed()));
+    }
+    return false;
+  }
+
+  [[nodiscard]] firmware_io::SendCounters sent() const {
+    firmware_io::SendCounters sum = parts_.sensor.counters();
+    if (parts_.stranger) {
+      const firmware_io::SendCounters& other = parts_.stranger->counters();
+      sum.sent += other.sent;
+      sum.bytes += other.bytes;
+      sum.failed += other.failed;
+      if (sum.last_error == 0) sum.last_error = other.last_error;
+    }
+    return sum;
+  }
+
+  [[nodiscard]] std::string text() const {
+    const firmware_io::SendCounters counters = sent();
+    std::string text =
+        fmt::format("sent      {} datagrams, {:.1f} MB, to {} in {:.2f} s\n", counters.sent,
+                    static_cast<double>(counters.bytes) * 1e-6, to_string(parts_.sensor.to()),
+                    static_cast<double>(wall_ns_) * 1e-9);
+    const auto& late = pacer_.lateness();
+    if (late.count() > 0) {
+      const auto ms = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-6; };
+      text +=
+          fmt::format("late      p50 {:.3f} ms, p99 {:.3f} ms, max {:.3f} ms\n",
+                      ms(late.percentile_ns(50)), ms(late.percentile_ns(99)), ms(late.max_ns()));
+    }
+    for (const FaultOutcome& outcome : injector_.outcomes()) {
+      text += fmt::format("fault     {}: {}\n", to_string(outcome.fault), amount_of(outcome));
+    }
+    return text;
+  }
+
+  [[nodiscard]] Json json() const {
+    const firmware_io::SendCounters counters = sent();
+    const auto milliseconds = [](std::int64_t ns) {
+      return static_cast<double>(ns / 1000) / 1000.0;
+    };
+    Json json{{"terracut", TERRACUT_VERSION},
+              {"command", "send"},
+              {"input", parts_.source.name()},
+              {"to", to_string(parts_.sensor.to())},
+              {"rate", options_.rate},
+              {"read", injector_.fed()},
+              {"sent", counters.sent},
+              {"sent_bytes", counters.bytes},
+              {"failed", counters.failed},
+              {"wall_ms", milliseconds(wall_ns_)},
+              {"unshifted", injector_.unshifted()}};
+    if (!input_warning_.empty()) json["input_warning"] = input_warning_;
+    const auto& late = pacer_.lateness();
+    if (late.count() > 0) {
+      json["late_ms"] = {{"p50", milliseconds(late.percentile_ns(50))},
+                         {"p99", milliseconds(late.percentile_ns(99))},
+                         {"max", milliseconds(late.max_ns())}};
+    }
+    json["faults"] = Json::array();
+    for (const FaultOutcome& outcome : injector_.outcomes()) {
+      Json runs = Json::array();
+      for (const FaultOutcome::Run& run : outcome.runs) runs.push_back({run.first, run.count});
+      json["faults"].push_back({{"fault", to_string(outcome.fault)},
+                                {"complete", outcome.complete()},
+                                {"packets", outcome.packets},
+                                {"runs", runs}});
+    }
+    return json;
+  }
+
+  void warn_of_shortfalls(const firmware_io::SendCounters& counters) const {
+    if (counters.failed > 0) {
+      warn(fmt::format("the system refused {} datagrams; the last because: {}", counters.failed,
+                       std::strerror(counters.last_error)));
+    }
+    for (const FaultOutcome& outcome : injector_.outcomes()) {
+      if (outcome.complete()) continue;
+      warn(
+          fmt::format("{}: the packets ended before all of it was done", to_string(outcome.fault)));
+    }
+    if (injector_.unshifted() > 0) {
+      warn(fmt::format("{} packets are of no sensor whose clock could be shifted",
+                       injector_.unshifted()));
+    }
+  }
+
+  ExitCode conclude() {
+    const firmware_io::SendCounters counters = sent();
+    if (injector_.fed() == 0 && !pacer_.stopped()) {
+      return refuse(kNothingCameOut,
+                    fmt::format("{}: no datagram to send; `terracut info` lists what it holds",
+                                parts_.source.name()));
+    }
+    warn_of_shortfalls(counters);
+    fmt::print("{}", text());
+    if (!options_.json.empty()) {
+      const Status written = rt::write_whole_file(options_.json, json().dump(1) + "\n");
+      if (!written) return refuse(written.error());
+    }
+    return counters.failed > 0 && counters.sent == 0 ? kOutputFailed : kOk;
+  }
+
+  const SendOptions& options_;
+  Parts parts_;
+  PacketPacer pacer_;
+  FaultInjector injector_;
+  Progress progress_;
+  PassStamps stamps_;
+  std::int64_t wall_ns_ = 0;
+  std::string input_warning_;
+};
+
+}  // namespace
+
+ExitCode run(const SendOptions& options) {
+  rt::FixedMemory memory;
+  auto parts = open_parts(options, memory);
+  if (!parts) return refuse(parts.error());
+  return Send(options, *std::move(parts), memory).run();
+}
+
+}  // namespace terracut::cli

@@ -20,7 +20,7 @@ enum class Rung : std::uint8_t {
 inline constexpr std::size_t kRungs = static_cast<std::size_t>(Rung::kCount);
 
 /// Whose fault a missed deadline was: what the largest share of the frame's latency went to, over
-/// all threads it passed (rt/miss_cause.hpp judges a stretch of one thread's work).
+/// all threads it passed.
 enum class FrameMissCause : std::uint8_t {
   kOwnWork,         ///< Our computing, and everything that nothing below explains.
   kWaitingForCore,  ///< Ready to run, but the core was given to others.

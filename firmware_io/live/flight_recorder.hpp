@@ -14,6 +14,7 @@
 #include "rt/error.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/frame_timing.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -36,7 +37,7 @@ class FlightRecorder {
       : ring_(size, memory), window_(size, memory) {}
 
   /// Receive thread: wait-free, allocates nothing, touches no file.
-  void add(const Datagram& datagram) noexcept { ring_.add(datagram); }
+  void add(const Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
 
   /// Writes both files, whole or not at all; neither is ever seen without its contents, and the
   /// capture never without its times. Never from a real-time thread: it blocks on the disk.

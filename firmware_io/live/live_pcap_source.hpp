@@ -48,6 +48,11 @@ class LivePcapSource {
   [[nodiscard]] std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept;
   void wake() const noexcept { wake_.wake(); }
 
+  /// From now on only this sender; others count as foreign. From the thread that receives.
+  void accept_only(std::uint32_t source_address) noexcept {
+    config_.source_address = source_address;
+  }
+
   /// kernel_drops is as of the last refresh_drops(), which receive() calls when nothing came for a
   /// while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }

@@ -71,7 +71,7 @@ PacketRing::PacketRing(const PacketRingSize& size, rt::FixedMemory& memory)
   }
 }
 
-void PacketRing::add(const Datagram& datagram) noexcept {
+void PacketRing::add(const Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
   const std::size_t bytes = datagram.payload.size();
   const std::size_t words = words_of(bytes);
   if (words > words_.size()) {

@@ -9,6 +9,7 @@
 
 #include "firmware_io/datagram.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -78,7 +79,7 @@ class PacketRing {
 
   /// Writer thread only. Wait-free, bounded by the payload's length; allocates nothing. A payload
   /// longer than the whole ring is left out and counted.
-  void add(const Datagram& datagram) noexcept;
+  void add(const Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
 
   /// One reader thread, while the writer goes on. Allocates nothing. `window` must be of this size.
   void copy_to(PacketWindow& window) const noexcept;

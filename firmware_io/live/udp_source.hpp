@@ -63,6 +63,11 @@ class UdpSource {
   [[nodiscard]] std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept;
   void wake() const noexcept { wake_.wake(); }
 
+  /// From now on only this sender; others count as foreign. From the thread that receives.
+  void accept_only(std::uint32_t source_address) noexcept {
+    config_.source_address = source_address;
+  }
+
   /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks
   /// the kernel; receive() does it by itself when nothing comes for a while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }

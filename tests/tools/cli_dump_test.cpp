@@ -13,7 +13,7 @@
 #include "firmware_io/live/flight_recorder.hpp"
 #include "rt/status_page.hpp"
 #include "tools/cli/dump_answer.hpp"
-#include "tools/cli/dump_signal.hpp"
+#include "tools/cli/live/dump_signal.hpp"
 
 namespace terracut::cli {
 namespace {

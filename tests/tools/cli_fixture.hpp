@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <atomic>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -55,13 +56,16 @@ class Cli : public testing::Test {
   }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// Runs `terracut ARGUMENTS` with the test's folder as working directory.
+  /// Runs `terracut ARGUMENTS` with the test's folder as working directory. From any thread.
   [[nodiscard]] Outcome run(const std::string& arguments) const {
+    static std::atomic<int> runs = 0;
+    const std::string number = std::to_string(runs++);
+    const std::string out = "stdout" + number + ".txt", err = "stderr" + number + ".txt";
     const std::string command = "cd '" + folder_.string() + "' && '" TERRACUT_PROGRAM "' " +
-                                arguments + " >stdout.txt 2>stderr.txt";
+                                arguments + " >" + out + " 2>" + err;
     const int status = std::system(command.c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder_ / "stdout.txt"),
-            content_of(folder_ / "stderr.txt")};
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder_ / out),
+            content_of(folder_ / err)};
   }
   void expect_done(const std::string& arguments) const {
     const Outcome outcome = run(arguments);

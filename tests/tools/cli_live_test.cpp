@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // `terracut live` hears what `terracut send` plays. How fast is not tested: a machine may be busy.
+#include <chrono>
 #include <filesystem>
+#include <stdexcept>
 #include <thread>
 
 #include "cli_fixture.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/live/live_pcap_source.hpp"
+#include "firmware_io/live/packet_pacer.hpp"
 #include "firmware_io/live/udp_source.hpp"
 #include "tools/cli/exit_codes.hpp"
 
@@ -32,6 +37,9 @@ class CliLive : public Cli {
   [[nodiscard]] std::string send(const std::string& options) const {
     return "send " + quoted(kDrive) + " --to 127.0.0.1:" + port_ + " " + options;
   }
+  [[nodiscard]] std::uint16_t port_number() const {
+    return static_cast<std::uint16_t>(std::stoi(port_));
+  }
   std::string port_;
 };
 
@@ -58,7 +66,7 @@ TEST_F(CliLive, LabelsWhatIsSentToIt) {
 }
 
 TEST_F(CliLive, SaysWhatItHeardInsteadOfASensor) {
-  const Outcome outcome = run(live("--calibration " + quoted(kDriveCalibration)));
+  const Outcome outcome = run(live("--patience 0.5 --calibration " + quoted(kDriveCalibration)));
   EXPECT_EQ(outcome.exit_code, kInputRefused);
   EXPECT_THAT(outcome.err, HasSubstr("no data packets"));
 }
@@ -71,6 +79,125 @@ TEST_F(CliLive, NamesAPortThatIsTaken) {
       run("live --listen 0.0.0.0:" + std::to_string(taken->local().port) + " --metrics off");
   EXPECT_EQ(outcome.exit_code, kInputRefused);
   EXPECT_THAT(outcome.err, HasSubstr("port"));
+}
+
+/// Sends the drive in real time from all of these addresses, until told to stop.
+class Senders {
+ public:
+  Senders(std::vector<std::uint32_t> addresses, std::uint16_t port) {
+    for (const std::uint32_t address : addresses) {
+      auto sender = firmware_io::UdpSender::open(
+          {.to = {kLocalhost, port}, .from = firmware_io::Ipv4Endpoint{address, 0}}, memory_);
+      if (!sender) throw std::runtime_error(sender.error().message);
+      senders_.push_back(*std::move(sender));
+    }
+    thread_ = std::jthread([this] { play(); });
+  }
+  ~Senders() { pacer_.stop(); }
+
+  static constexpr std::uint32_t kLocalhost = 0x7F000001;
+
+ private:
+  void play() {
+    auto capture = firmware_io::PcapSource::open(kDrive);
+    if (!capture) throw std::runtime_error(capture.error().message);
+    while (!pacer_.stopped()) {
+      const auto next = capture->next();
+      if (!next) throw std::runtime_error(next.error().message);
+      if (!*next) {
+        if (!capture->rewind()) return;
+        continue;
+      }
+      for (auto& sender : senders_) pacer_.add(**next, sender);
+    }
+  }
+
+  rt::FixedMemory memory_;
+  std::vector<firmware_io::UdpSender> senders_;
+  firmware_io::PacketPacer pacer_{1, memory_};
+  std::jthread thread_;
+};
+
+TEST_F(CliLive, NamesTheSensorsWhenSeveralSendToThePort) {
+  const Senders senders({Senders::kLocalhost, Senders::kLocalhost + 1}, port_number());
+  const Outcome outcome = run(live("--calibration " + quoted(kDriveCalibration)));
+  EXPECT_EQ(outcome.exit_code, kUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("127.0.0.1"));
+  EXPECT_THAT(outcome.err, HasSubstr("127.0.0.2"));
+  EXPECT_THAT(outcome.err, HasSubstr("--from"));
+}
+
+TEST_F(CliLive, LabelsOneOfSeveralSensorsAndCountsTheOthersPackets) {
+  const Senders senders({Senders::kLocalhost, Senders::kLocalhost + 1}, port_number());
+  const Outcome outcome = run(live("--from 127.0.0.2 --duration 2 --json live.json --calibration " +
+                                   quoted(kDriveCalibration)));
+  EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("at 127.0.0.2"));
+  const auto summary = json("live.json");
+  EXPECT_GT(summary.at("losses").at("foreign_datagrams").get<int>(), 1000);
+  EXPECT_EQ(summary.at("losses").at("rejected_repeated").get<int>(), 0);
+}
+
+TEST_F(CliLive, LeavesOutASensorThatIsSwitchedOnLater) {
+  const Senders first({Senders::kLocalhost}, port_number());
+  Outcome outcome;
+  std::thread listener([&] {
+    outcome = run(live("--duration 3 --json live.json --calibration " + quoted(kDriveCalibration)));
+  });
+  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
+  {
+    const Senders later({Senders::kLocalhost + 1}, port_number());
+    listener.join();
+  }
+  EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
+  const auto summary = json("live.json");
+  EXPECT_EQ(summary.at("losses").at("rejected_repeated").get<int>(), 0);
+}
+
+TEST_F(CliLive, TakesTheAnglesOfARuby128FromItsOtherPort) {
+  expect_done("simulate --sensor ruby128 --scene flat --duration 1.1 -o ruby.pcap");
+  Outcome heard;
+  std::thread listener([&] {
+    heard = run(
+        "live --sensor ruby128 --listen 127.0.0.1:6699 --metrics off --no-lock-memory --duration 2 "
+        "--deadline-ms 10000 --json live.json --name test-ruby-" +
+        port_);
+  });
+  const Outcome sent = run("send ruby.pcap --to 127.0.0.1 --loop 4");
+  listener.join();
+  EXPECT_EQ(sent.exit_code, kOk) << sent.err;
+  EXPECT_THAT(heard.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << heard.err;
+  EXPECT_THAT(heard.err, HasSubstr("RS-Ruby128 at 127.0.0.1"));
+  EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), 5);
+}
+
+TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
+  rt::FixedMemory memory;
+  if (const auto allowed = firmware_io::LivePcapSource::open({.interface = "lo"}, memory);
+      !allowed) {
+    GTEST_SKIP() << allowed.error().message;
+  }
+  const auto taken = firmware_io::UdpSource::open({.bind = {0, port_number()}}, memory);
+  ASSERT_TRUE(taken) << taken.error().message;
+  const Senders senders({Senders::kLocalhost}, port_number());
+  const Outcome outcome =
+      run(live("--via libpcap --interface lo --duration 2 --json live.json "
+               "--calibration " +
+               quoted(kDriveCalibration)));
+  EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
+  EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), 5);
+}
+
+TEST_F(CliLive, SaysWhichOptionLibpcapNeeds) {
+  const Outcome outcome = run(live("--via libpcap"));
+  EXPECT_EQ(outcome.exit_code, kUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("--interface"));
+}
+
+TEST_F(CliLive, SaysHowLongItWaitedForASensor) {
+  const Outcome outcome = run(live("--patience 0.2"));
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("within 0.2 s"));
 }
 
 }  // namespace

@@ -86,7 +86,7 @@ TEST(Dashboard, SaysWhenThereIsNoNews) {
 TEST(Dashboard, ShowsAProcessThatHasSeenNothingYet) {
   const auto figures = std::make_unique<rt::MonitorSnapshot>();
   const std::string text = dashboard(*figures, kNow_ns, {});
-  EXPECT_THAT(line_of(text, "link"), HasSubstr("waiting on , no packet yet"));
+  EXPECT_THAT(line_of(text, "link"), HasSubstr("waiting, no packet yet"));
   EXPECT_THAT(line_of(text, "losses"), HasSubstr("none"));
 }
 

@@ -193,13 +193,30 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
   });
 }
 
-void add_loop(CLI::App& sub, int& loops) {
-  sub.add_option(
-         "--loop", loops,
-         "Passes over the capture (once without this option); no number or 0: until interrupted")
+CLI::Option* add_loop(CLI::App& sub, int& loops) {
+  return sub
+      .add_option("--loop", loops,
+                  "Passes over the packets (once without this option); no number or 0: until "
+                  "interrupted")
       ->expected(0, 1)
       ->default_str("0")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
+/// How datagrams are sent, whatever they are of.
+std::vector<CLI::Option*> add_sending(CLI::App& sub, SendOptions& o) {
+  return {
+      sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)"),
+      add_loop(sub, o.loops),
+      sub.add_option("--faults", o.faults,
+                     "What goes wrong on the way, by seconds since the first packet:\n"
+                     "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s "
+                     "burst@6s:50ms\nforeign@7s:50 clock@8s:+2.0s truncate@9s:5"),
+      sub.add_option("--foreign-from", o.foreign_from,
+                     "Address of this machine that foreign packets come from")
+          ->check(CLI::ValidIPV4),
+      sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did"),
+  };
 }
 
 void add_replay(CLI::App& sub, ReplayOptions& o) {
@@ -230,7 +247,7 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
       ->check(range_of("simulate.duration_s"))
       ->capture_default_str();
-  sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
+  sub.add_option("--spin-hz,--rate", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
       ->check(range_of("simulate.spin_hz"))
       ->capture_default_str();
   sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
@@ -244,8 +261,11 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
-  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
-      ->required();
+  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it");
+  auto* udp = sub.add_option("--udp", o.udp.to,
+                             "ADDRESS[:PORT]: be the sensor, and send the drive in real time once "
+                             "it is computed");
+  for (CLI::Option* option : add_sending(sub, o.udp)) option->needs(udp);
 }
 
 void add_encode(CLI::App& sub, EncodeOptions& o) {
@@ -294,23 +314,16 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
 
 void add_send(CLI::App& sub, SendOptions& o) {
   sub.add_option("FILE", o.file, "Any capture with UDP, pcap or pcapng")->required();
-  sub.add_option("--to", o.to, "ADDRESS:PORT to send to; a multicast group and broadcast will do")
+  sub.add_option("--to", o.to,
+                 "ADDRESS:PORT to send to; a multicast group and broadcast will do.\n"
+                 "ADDRESS alone: every datagram to the port it was captured on")
       ->required();
-  sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
   sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
   sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(range_of("replay.rate"))
       ->capture_default_str();
-  add_loop(sub, o.loops);
-  sub.add_option("--faults", o.faults,
-                 "What goes wrong on the way, by seconds since the first packet:\n"
-                 "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\n"
-                 "foreign@7s:50 clock@8s:+2.0s truncate@9s:5");
-  sub.add_option("--foreign-from", o.foreign_from,
-                 "Address of this machine that foreign packets come from")
-      ->check(CLI::ValidIPV4);
-  sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
+  add_sending(sub, o);
 }
 
 void add_dump(CLI::App& sub, DumpOptions& o) {
@@ -334,6 +347,18 @@ void add_live(CLI::App& sub, LiveOptions& o) {
                  "ADDRESS:PORT; address 0.0.0.0 hears broadcasts, too")
       ->capture_default_str();
   sub.add_option("--interface", o.listen.interface, "Only what comes in by this interface");
+  sub.add_option("--via", o.listen.via,
+                 "libpcap hears what a socket does not: a mirror port, a port another program "
+                 "holds; it needs --interface and CAP_NET_RAW")
+      ->check(one_of("input.via"))
+      ->capture_default_str();
+  sub.add_option("--device-port", o.listen.device_port,
+                 "Ruby128: port of its device information, heard at the start for its angles; "
+                 "0: do not")
+      ->capture_default_str();
+  sub.add_option("--patience", o.patience_s, "Seconds to wait for the sensor at the start")
+      ->check(range_of("input.patience_s"))
+      ->capture_default_str();
   sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);
   sub.add_flag("--share-port", o.listen.share_port, "Let other programs hear the same port");
   add_decoding(sub, o.capture);

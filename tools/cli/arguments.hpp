@@ -5,7 +5,7 @@
 #include <optional>
 #include <variant>
 
-#include "live_options.hpp"
+#include "live/live_options.hpp"
 #include "options.hpp"
 
 namespace terracut::cli {

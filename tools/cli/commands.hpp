@@ -3,7 +3,7 @@
 #pragma once
 
 #include "exit_codes.hpp"
-#include "live_options.hpp"
+#include "live/live_options.hpp"
 #include "options.hpp"
 
 /// The subcommands: each does its work, prints its result and answers the program's exit code.

@@ -20,6 +20,7 @@ namespace {
 using C = Configuration;
 using F = SettingField;
 
+constexpr std::array<std::string_view, 2> kVias{"socket", "libpcap"};
 constexpr std::array<std::string_view, 3> kModels{"auto", "hdl64e", "ruby128"};
 constexpr std::array<std::string_view, 4> kCellOwners{"strongest", "last", "first", "both"};
 constexpr std::array<std::string_view, 4> kTimestamps{"auto", "calendar", "us", "ns"};
@@ -64,12 +65,18 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.capture.duration_s; }},
     Setting{"input.listen", "--listen", "", "live: address and port the sensor sends to; 0.0.0.0 hears broadcasts too", 0, 0, {}, TextForm::kEndpoint,
             [](C& c) noexcept -> F { return &c.live.listen.address; }},
+    Setting{"input.via", "--via", "", "live: libpcap hears what a socket does not; it needs an interface and CAP_NET_RAW", 0, 0, kVias, kAny,
+            [](C& c) noexcept -> F { return &c.live.listen.via; }},
     Setting{"input.interface", "--interface", "", "live: only what comes in here (default: anywhere)", 0, 0, {}, TextForm::kName,
             [](C& c) noexcept -> F { return &c.live.listen.interface; }},
     Setting{"input.multicast", "--multicast", "", "live: group to join (default: none)", 0, 0, {}, TextForm::kAddress,
             [](C& c) noexcept -> F { return &c.live.listen.multicast; }},
     Setting{"input.share_port", "--share-port", "", "live: let other programs that ask for the same hear the port too", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.listen.share_port; }},
+    Setting{"input.device_port", "--device-port", "", "live: of a Ruby128's device information, heard at the start for its angles; 0: do not", 0, 65535, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.listen.device_port; }},
+    Setting{"input.patience_s", "--patience", "s", "live: how long to wait for the sensor at the start", 0.1, kLongest_s, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.patience_s; }},
 
     Setting{"mount.setup", "--setup", "", "Mount and ring distances found by `terracut calibrate`", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.mount.setup; }},
@@ -304,6 +311,7 @@ Status apply_text(const Setting& setting, std::string_view text, const std::file
           [&](int* value) { return set_number(value, int{}); },
           [&](std::optional<int>* value) { return set_number(value, int{}); },
           [&](std::uint64_t* value) { return set_number(value, std::uint64_t{}); },
+          [&](std::uint16_t* value) { return set_number(value, std::uint16_t{}); },
           [&](std::optional<std::uint16_t>* value) { return set_number(value, std::uint16_t{}); }},
       field);
 }

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <variant>
 
-#include "live_options.hpp"
+#include "live/live_options.hpp"
 #include "options.hpp"
 #include "rt/error.hpp"
 
@@ -27,9 +27,9 @@ struct Configuration {
 };
 
 /// Where a setting's value lives.
-using SettingField =
-    std::variant<double*, std::optional<double>*, int*, std::optional<int>*, std::uint64_t*,
-                 std::optional<std::uint16_t>*, bool*, std::string*, std::filesystem::path*>;
+using SettingField = std::variant<double*, std::optional<double>*, int*, std::optional<int>*,
+                                  std::uint64_t*, std::uint16_t*, std::optional<std::uint16_t>*,
+                                  bool*, std::string*, std::filesystem::path*>;
 
 /// What a setting that is text has to look like.
 enum class TextForm { kAny, kAddress, kEndpoint, kEndpointOrOff, kName };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 #include <utility>
 
@@ -15,11 +16,10 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr const char* kWipeLine = "\r\x1b[K";
-bool progress_line_stands = false;
+std::atomic<bool> progress_line_stands = false;  // say() may come from any thread
 
 void print_line(std::string_view line) {
-  fmt::print(stderr, "{}{}\n", progress_line_stands ? kWipeLine : "", line);
-  progress_line_stands = false;
+  fmt::print(stderr, "{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "", line);
 }
 
 }  // namespace

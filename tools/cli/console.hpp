@@ -12,7 +12,7 @@
 /// What people see: results go to stdout, everything said on the way to stderr.
 namespace terracut::cli {
 
-/// One line on stderr; wipes a progress line that stands there.
+/// One line on stderr; wipes a progress line that stands there. From any thread.
 void say(std::string_view line);
 void warn(std::string_view line);
 

@@ -71,7 +71,8 @@ class Dashboard {
             : fmt::format("last packet {:.3f} s ago",
                           std::max(milliseconds(now_ns_ - figures_.last_packet_ns), 0.0) / 1000.0);
     const std::string state =
-        fmt::format("{} on {}", to_string(figures_.link), printable(figures_.input.view()));
+        fmt::format("{}{}{}", to_string(figures_.link), figures_.input.empty() ? "" : " on ",
+                    printable(figures_.input.view()));
     line("link      {}, {}, {} packets",
          figures_.link == rt::LinkState::kReceiving ? state : alarm(state), age, figures_.packets);
     line("frames    {:.2f} /s, {} so far, {} returns", figures_.frames_per_s, figures_.frames,

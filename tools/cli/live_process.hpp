@@ -23,7 +23,7 @@ struct LiveProcess {
                                                       const std::string& name);
 
 /// Sends it SIGUSR1, unless that could end it: the process must still hold its status page, and
-/// must have made itself ready for the signal (dump_signal.hpp). kNotFound: it has ended;
+/// must have made itself ready for the signal (live/dump_signal.hpp). kNotFound: it has ended;
 /// kUnsupported: it does not listen; kUnreadable: not permitted.
 [[nodiscard]] Status ask_for_dump(const std::filesystem::path& folder, const LiveProcess& process);
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string_view>
 
 namespace terracut::cli {
@@ -32,13 +33,22 @@ std::string loss_sentence(const firmware_io::LossCounters& losses) {
   return sentence.empty() ? "none" : sentence;
 }
 
+void show_loss(std::string_view name, std::uint64_t count, rt::MonitorSnapshot& figures) {
+  if (figures.loss_count >= figures.losses.size()) throw std::length_error("too many loss causes");
+  figures.losses[figures.loss_count++] = {name, count};
+}
+
 void show_losses(const firmware_io::LossCounters& losses, rt::MonitorSnapshot& figures) {
-  static_assert(sizeof(firmware_io::LossCounters) / sizeof(std::uint64_t) <=
-                rt::MonitorSnapshot::kMaxLosses);
-  figures.loss_count = 0;
-  for (const LossCause& cause : causes_of(losses)) {
-    figures.losses[figures.loss_count++] = {std::string_view(cause.name), cause.count};
-  }
+  for (const LossCause& cause : causes_of(losses)) show_loss(cause.name, cause.count, figures);
+}
+
+void show_losses(const firmware_io::ReceiveCounters& counters, rt::MonitorSnapshot& figures) {
+  show_loss("foreign_datagrams", counters.foreign, figures);
+  show_loss("other_interface_datagrams", counters.other_interface, figures);
+  show_loss("overlong_datagrams", counters.truncated, figures);
+  show_loss("unstamped_datagrams", counters.unstamped, figures);
+  show_loss("receive_errors", counters.receive_errors, figures);
+  show_loss("link_losses", counters.link_losses, figures);
 }
 
 }  // namespace terracut::cli

@@ -4,8 +4,10 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "firmware_io/live/receive_counters.hpp"
 #include "firmware_io/loss_counters.hpp"
 #include "rt/monitor_snapshot.hpp"
 
@@ -23,8 +25,14 @@ struct LossCause {
 /// "none", or the causes that happened: "network_gap_packets 12, rejected_late 1".
 [[nodiscard]] std::string loss_sentence(const firmware_io::LossCounters& losses);
 
-/// Puts every cause with its count into the figures that watchers see. Allocates: not for real-time
-/// threads.
+/// Adds a cause to the figures that watchers see. std::length_error when there is no room.
+void show_loss(std::string_view name, std::uint64_t count, rt::MonitorSnapshot& figures);
+
+/// Adds every cause. Allocates: not for real-time threads.
 void show_losses(const firmware_io::LossCounters& losses, rt::MonitorSnapshot& figures);
+
+/// Adds what a live source did not pass on, or not as it should be; kernel_drops is among the other
+/// losses.
+void show_losses(const firmware_io::ReceiveCounters& counters, rt::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

@@ -75,6 +75,7 @@ Expected<MetricsServer> MetricsServer::start(const std::string& address, std::ui
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
   });
   server.set_keep_alive_max_count(1);
+  server.set_keep_alive_timeout(1);  // also how long a client may take to begin its request
   server.set_read_timeout(1);
   server.set_write_timeout(1);
   server.set_payload_max_length(4096);

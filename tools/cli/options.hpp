@@ -66,6 +66,19 @@ struct SegmentOptions {
   OutputOptions output;  ///< truth is not used: it lies beside the scans
 };
 
+struct SendOptions {
+  std::filesystem::path file;
+  std::optional<std::uint16_t> port;  ///< --port
+  std::string from;                   ///< --from, dotted IPv4
+  std::string to;                     ///< --to ADDRESS[:PORT]
+  std::string interface;              ///< --interface
+  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
+  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
+  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
+  std::string foreign_from;           ///< --foreign-from, dotted IPv4
+  std::filesystem::path json;
+};
+
 struct SimulateOptions {
   std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
   std::string scene = "street";
@@ -77,7 +90,8 @@ struct SimulateOptions {
   double noise_m = 0.015;
   std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< Empty: nothing is kept.
+  SendOptions udp;               ///< --udp is its `to`; empty: nothing is sent. `file` is not used.
 };
 
 struct EncodeOptions {
@@ -131,19 +145,6 @@ struct BenchOptions {
   MethodOptions method;
   int repeat = 10;  ///< Passes over the capture's frames.
   int core = -1;    ///< --core: pin to it; -1: the last one allowed.
-  std::filesystem::path json;
-};
-
-struct SendOptions {
-  std::filesystem::path file;
-  std::optional<std::uint16_t> port;  ///< --port
-  std::string from;                   ///< --from, dotted IPv4
-  std::string to;                     ///< --to ADDRESS:PORT
-  std::string interface;              ///< --interface
-  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
-  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
-  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
-  std::string foreign_from;           ///< --foreign-from, dotted IPv4
   std::filesystem::path json;
 };
 

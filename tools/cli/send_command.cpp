@@ -15,7 +15,7 @@
 #include "firmware_io/live/device_stamp_shift.hpp"
 #include "firmware_io/live/fault_injector.hpp"
 #include "firmware_io/live/packet_pacer.hpp"
-#include "firmware_io/live/udp_sender.hpp"
+#include "port_senders.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/thread_cpu_clock.hpp"
 #include "rt/whole_file.hpp"
@@ -47,18 +47,13 @@ void end_on_interrupt(PacketPacer& pacer) {
 struct Parts {
   PcapSource source;
   firmware_io::FaultScript faults;
-  UdpSender sensor;
-  std::optional<UdpSender> stranger;  ///< Who foreign packets come from, if somebody else.
+  PortSenders sensor;
+  std::optional<PortSenders> stranger;  ///< Who foreign packets come from, if somebody else.
 };
 
 Expected<Parts> open_parts(const SendOptions& options, rt::FixedMemory& memory) {
   auto faults = firmware_io::parse_fault_script(options.faults);
   if (!faults) return tl::unexpected(faults.error());
-  firmware_io::UdpSenderConfig to{.interface = options.interface};
-  const auto destination = firmware_io::parse_ipv4_endpoint(options.to);
-  if (!destination) return tl::unexpected(destination.error());
-  to.to = *destination;
-
   firmware_io::PcapFilter filter{.port = options.port};
   if (!options.from.empty()) {
     const auto from = firmware_io::parse_ipv4_address(options.from);
@@ -67,15 +62,16 @@ Expected<Parts> open_parts(const SendOptions& options, rt::FixedMemory& memory) 
   }
   auto source = PcapSource::open(options.file, filter);
   if (!source) return tl::unexpected(source.error());
-  auto sensor = UdpSender::open(to, memory);
+  firmware_io::UdpSenderConfig sender{.interface = options.interface};
+  auto sensor = PortSenders::open(options.to, sender, memory);
   if (!sensor) return tl::unexpected(sensor.error());
 
-  std::optional<UdpSender> stranger;
+  std::optional<PortSenders> stranger;
   if (!options.foreign_from.empty()) {
     const auto address = firmware_io::parse_ipv4_address(options.foreign_from);
     if (!address) return tl::unexpected(address.error());
-    to.from = Ipv4Endpoint{*address, 0};
-    auto opened = UdpSender::open(to, memory);
+    sender.from = Ipv4Endpoint{*address, 0};
+    auto opened = PortSenders::open(options.to, sender, memory);
     if (!opened) return tl::unexpected(opened.error());
     stranger = *std::move(opened);
   }
@@ -123,7 +119,9 @@ class Send {
             parts_.faults,
             [this](const Datagram& datagram, FaultInjector::Origin origin) {
               const bool foreign = origin == FaultInjector::Origin::kForeign;
-              pacer_.add(datagram, foreign && parts_.stranger ? *parts_.stranger : parts_.sensor);
+              PortSenders& sender = foreign && parts_.stranger ? *parts_.stranger : parts_.sensor;
+              UdpSender* socket = sender.sender_for(datagram.destination_port);
+              if (socket != nullptr) pacer_.add(datagram, *socket);
             },
             firmware_io::DeviceStampShift()),
         progress_("sending", "packets", 0) {}
@@ -167,7 +165,7 @@ class Send {
   [[nodiscard]] firmware_io::SendCounters sent() const {
     firmware_io::SendCounters sum = parts_.sensor.counters();
     if (parts_.stranger) {
-      const firmware_io::SendCounters& other = parts_.stranger->counters();
+      const firmware_io::SendCounters other = parts_.stranger->counters();
       sum.sent += other.sent;
       sum.bytes += other.bytes;
       sum.failed += other.failed;
@@ -178,10 +176,9 @@ class Send {
 
   [[nodiscard]] std::string text() const {
     const firmware_io::SendCounters counters = sent();
-    std::string text =
-        fmt::format("sent      {} datagrams, {:.1f} MB, to {} in {:.2f} s\n", counters.sent,
-                    static_cast<double>(counters.bytes) * 1e-6, to_string(parts_.sensor.to()),
-                    static_cast<double>(wall_ns_) * 1e-9);
+    std::string text = fmt::format("sent      {} datagrams, {:.1f} MB, to {} in {:.2f} s\n",
+                                   counters.sent, static_cast<double>(counters.bytes) * 1e-6,
+                                   parts_.sensor.to(), static_cast<double>(wall_ns_) * 1e-9);
     const auto& late = pacer_.lateness();
     if (late.count() > 0) {
       const auto ms = [](std::int64_t ns) { return static_cast<double>(ns) * 1e-6; };
@@ -203,7 +200,7 @@ class Send {
     Json json{{"terracut", TERRACUT_VERSION},
               {"command", "send"},
               {"input", parts_.source.name()},
-              {"to", to_string(parts_.sensor.to())},
+              {"to", parts_.sensor.to()},
               {"rate", options_.rate},
               {"read", injector_.fed()},
               {"sent", counters.sent},

@@ -15,7 +15,8 @@ function(terracut_add_room name)
 endfunction()
 
 # terracut_add_test(NAME SOURCES... LIBS... [LABELS ...] [TIMEOUT seconds])
-#   a GoogleTest program, every case its own ctest entry.
+#   a GoogleTest program, every case its own ctest entry. LABELS is one word; "threads" says that
+#   there is something to find for ThreadSanitizer and adds the program to `threaded_tests`.
 function(terracut_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
@@ -27,6 +28,9 @@ function(terracut_add_test name)
     TERRACUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TERRACUT_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(NOT arg_LABELS)
     set(arg_LABELS unit)  # an empty list would make the next word the label
+  endif()
+  if(arg_LABELS STREQUAL threads)
+    set_property(GLOBAL APPEND PROPERTY TERRACUT_THREADED_TESTS ${name})
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})

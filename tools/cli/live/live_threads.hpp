@@ -12,14 +12,14 @@
 
 #include "deadline_ladder.hpp"
 #include "firmware_io/live/flight_recorder.hpp"
-#include "firmware_io/live/udp_source.hpp"
 #include "firmware_io/live/wake_event.hpp"
 #include "frame_exchange.hpp"
 #include "live_options.hpp"
-#include "packet_chain.hpp"
+#include "live_source.hpp"
 #include "rt/grant.hpp"
 #include "rt/latest_value.hpp"
 #include "rt/spsc_queue.hpp"
+#include "tools/cli/packet_chain.hpp"
 
 namespace terracut::cli {
 
@@ -37,13 +37,20 @@ class LiveThreads {
     std::uint32_t number = 0;
     std::span<pipeline::Label> labels;
   };
-  /// What a thread says of itself, readable at any time.
-  struct Faults {
-    std::atomic<std::int64_t> minor{0}, major{0};
+  /// What a thread says of itself, readable at any time once start() has returned.
+  struct ThreadState {
+    std::string scheduling;  ///< As granted: "SCHED_FIFO priority 80, cores 0-3".
+    std::atomic<std::int64_t> minor_faults{0}, major_faults{0};  ///< Since it began its work.
+  };
+  /// What came in, as of the newest look of the receiving thread.
+  struct Intake {
+    firmware_io::ReceiveCounters counters;  ///< Since the threads were started.
+    firmware_io::LinkState link = firmware_io::LinkState::kUnknown;
+    std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
   };
 
   /// Takes all memory from `memory`. `recorder` may be null. Everything must outlive this.
-  LiveThreads(const LiveOptions& options, PacketChain& chain, firmware_io::UdpSource& source,
+  LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source,
               firmware_io::WakeEvent ready, firmware_io::FlightRecorder* recorder,
               rt::FixedMemory& memory);
 
@@ -59,14 +66,16 @@ class LiveThreads {
   [[nodiscard]] bool take_labels(Labels& labels) noexcept;
   void give_back() noexcept;
 
-  [[nodiscard]] std::uint64_t packets() const noexcept { return packets_.load(); }
-  [[nodiscard]] std::uint64_t kernel_drops() const noexcept { return kernel_drops_.load(); }
+  /// From one thread.
+  [[nodiscard]] const Intake& intake() noexcept;
+  /// Up to the newest turn that was segmented, with what the kernel dropped. From one thread.
+  [[nodiscard]] firmware_io::LossCounters losses() noexcept;
   /// Frames whose labels found no room because the one who takes them was too slow.
   [[nodiscard]] std::uint64_t labels_dropped() const noexcept { return labels_dropped_.load(); }
-  /// Up to the newest turn that was segmented. From one thread.
-  [[nodiscard]] firmware_io::LossCounters losses() noexcept;
-  [[nodiscard]] const Faults& receive_faults() const noexcept { return receive_faults_; }
-  [[nodiscard]] const Faults& segment_faults() const noexcept { return segment_faults_; }
+  /// Frames that nobody judged because the one who takes timings was too slow.
+  [[nodiscard]] std::uint64_t timings_dropped() const noexcept { return timings_dropped_.load(); }
+  [[nodiscard]] const ThreadState& receive_state() const noexcept { return receive_state_; }
+  [[nodiscard]] const ThreadState& segment_state() const noexcept { return segment_state_; }
 
  private:
   static constexpr std::size_t kTimings = 64;
@@ -76,10 +85,11 @@ class LiveThreads {
   void segment() noexcept;
   void segment_turn(FrameExchange::Turn& turn) noexcept;
   void pass_on_labels(std::uint32_t number) noexcept;
+  void pass_on(rt::SpscQueue<rt::FrameTiming>& queue, const rt::FrameTiming& timing) noexcept;
 
   const LiveOptions& options_;
   PacketChain& chain_;
-  firmware_io::UdpSource& source_;
+  LiveSource& source_;
   firmware_io::WakeEvent ready_;  ///< A turn was handed over.
   firmware_io::FlightRecorder* recorder_;
 
@@ -99,8 +109,9 @@ class LiveThreads {
   std::uint32_t taken_slot_ = 0;
 
   std::atomic<bool> stop_{false};
-  std::atomic<std::uint64_t> packets_{0}, kernel_drops_{0}, labels_dropped_{0};
-  Faults receive_faults_, segment_faults_;
+  std::atomic<std::uint64_t> labels_dropped_{0}, timings_dropped_{0};
+  rt::LatestValue<Intake> intake_;
+  ThreadState receive_state_, segment_state_;
   std::jthread receive_thread_, segment_thread_;
 };
 

@@ -2,11 +2,12 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
 
-#include "options.hpp"
+#include "tools/cli/options.hpp"
 
 /// What `terracut live` was asked to do, over what it shares with the commands that read captures.
 namespace terracut::cli {
@@ -14,9 +15,11 @@ namespace terracut::cli {
 /// Where packets come in.
 struct ListenOptions {
   std::string address = "0.0.0.0:2368";  ///< --listen, ADDRESS:PORT, IPv4
-  std::string interface;                 ///< --interface; empty: anywhere
+  std::string via = "socket";            ///< --via socket|libpcap
+  std::string interface;                 ///< --interface; empty: anywhere. libpcap needs one.
   std::string multicast;                 ///< --multicast, group to join; empty: none
   bool share_port = false;               ///< --share-port
+  std::uint16_t device_port = 7788;      ///< --device-port, of a Ruby128's DIFOP; 0: not heard
 };
 
 /// What the threads that have a deadline ask of the system.
@@ -43,6 +46,7 @@ struct WatchOptions {
 struct LiveOptions {
   CaptureOptions capture;  ///< `sensor` to `geometry`, `from` and `duration_s` of it.
   ListenOptions listen;
+  double patience_s = 5;  ///< For a sensor to be heard at the start, [0.1, 1e9].
   MountOptions mount;
   MethodOptions method;
   std::filesystem::path labels, json, trace;

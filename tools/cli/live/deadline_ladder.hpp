@@ -9,7 +9,7 @@
 #include "pipeline/segmenter.hpp"
 #include "rt/frame_timing.hpp"
 #include "rt/thread_cpu_clock.hpp"
-#include "stage_clock.hpp"
+#include "tools/cli/stage_clock.hpp"
 
 namespace terracut::cli {
 

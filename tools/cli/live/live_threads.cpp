@@ -2,7 +2,10 @@
 // Copyright 2026 The terracut authors
 #include "live_threads.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <future>
 #include <utility>
 
@@ -17,6 +20,10 @@ namespace {
 using firmware_io::FrameInfo;
 
 constexpr std::int64_t kPatience_ns = 100'000'000;
+/// Waking up for every packet costs more than decoding it. After a small batch the next one is left
+/// to gather in the kernel's buffer, which stamps packets and holds a thousand times as many.
+constexpr std::size_t kWorthwhileBatch = 16;
+constexpr std::chrono::microseconds kGathering{500};
 
 rt::ThreadWish wish(std::string name, int priority, std::optional<int> core) {
   rt::ThreadWish wish{.name = std::move(name), .scheduling = {}, .core = core};
@@ -24,17 +31,30 @@ rt::ThreadWish wish(std::string name, int priority, std::optional<int> core) {
   return wish;
 }
 
-void publish(LiveThreads::Faults& faults, const rt::PageFaults& at_start) noexcept {
+void publish(LiveThreads::ThreadState& state, const rt::PageFaults& at_start) noexcept {
   const rt::PageFaults now = rt::PageFaults::of_this_thread().since(at_start);
-  faults.minor.store(now.minor, std::memory_order_relaxed);
-  faults.major.store(now.major, std::memory_order_relaxed);
+  state.minor_faults.store(now.minor, std::memory_order_relaxed);
+  state.major_faults.store(now.major, std::memory_order_relaxed);
+}
+
+/// What the source counted since `before`.
+firmware_io::ReceiveCounters since(const firmware_io::ReceiveCounters& before,
+                                   firmware_io::ReceiveCounters now) noexcept {
+  using Counters = firmware_io::ReceiveCounters;
+  for (std::uint64_t Counters::* const count :
+       {&Counters::received, &Counters::delivered, &Counters::foreign, &Counters::other_interface,
+        &Counters::truncated, &Counters::no_datagram, &Counters::kernel_drops, &Counters::unstamped,
+        &Counters::receive_errors, &Counters::link_losses, &Counters::reopened}) {
+    now.*count -= before.*count;
+  }
+  return now;
 }
 
 }  // namespace
 
-LiveThreads::LiveThreads(const LiveOptions& options, PacketChain& chain,
-                         firmware_io::UdpSource& source, firmware_io::WakeEvent ready,
-                         firmware_io::FlightRecorder* recorder, rt::FixedMemory& memory)
+LiveThreads::LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source,
+                         firmware_io::WakeEvent ready, firmware_io::FlightRecorder* recorder,
+                         rt::FixedMemory& memory)
     : options_(options),
       chain_(chain),
       source_(source),
@@ -54,21 +74,26 @@ LiveThreads::LiveThreads(const LiveOptions& options, PacketChain& chain,
 }
 
 std::vector<rt::Grant> LiveThreads::start() {
-  std::promise<std::vector<rt::Grant>> receive_granted, segment_granted;
-  const auto set_up = [](const rt::ThreadWish& wanted, std::promise<std::vector<rt::Grant>>& told) {
+  using Grants = std::vector<rt::Grant>;
+  std::promise<Grants> receive_granted, segment_granted;
+  const auto set_up = [](const rt::ThreadWish& wanted, ThreadState& state,
+                         std::promise<Grants>& told) {
     auto granted = rt::set_up_this_thread(wanted);
-    told.set_value(granted ? *std::move(granted) : std::vector<rt::Grant>{});
+    state.scheduling = fmt::format("{}, core {}", rt::scheduling_in_force(), rt::cores_in_force());
+    told.set_value(granted ? *std::move(granted) : Grants{});
   };
   const RealtimeOptions& wanted = options_.realtime;
   segment_thread_ = std::jthread([&] {
-    set_up(wish("tc-segment", wanted.segment_priority, wanted.segment_core), segment_granted);
+    set_up(wish("tc-segment", wanted.segment_priority, wanted.segment_core), segment_state_,
+           segment_granted);
     segment();
   });
   receive_thread_ = std::jthread([&] {
-    set_up(wish("tc-receive", wanted.receive_priority, wanted.receive_core), receive_granted);
+    set_up(wish("tc-receive", wanted.receive_priority, wanted.receive_core), receive_state_,
+           receive_granted);
     receive();
   });
-  std::vector<rt::Grant> grants = receive_granted.get_future().get();
+  Grants grants = receive_granted.get_future().get();
   for (rt::Grant& grant : segment_granted.get_future().get()) grants.push_back(std::move(grant));
   return grants;
 }
@@ -102,12 +127,18 @@ void LiveThreads::receive() noexcept {
           rt::FrameTiming timing = skipped.timing;
           timing.rung = rt::Rung::kSkipped;
           timing.labels_ns = rt::realtime_ns();
-          (void)skipped_.try_push(timing);
+          pass_on(skipped_, timing);
         });
     ready_.wake();
-    publish(receive_faults_, at_start);
+    publish(receive_state_, at_start);
     return next;
   };
+  // What queued up while this was being built is too old to be labelled in time, and what did not
+  // fit into the kernel's buffer meanwhile is no loss of the run.
+  while (!source_.receive(0).empty()) {
+  }
+  source_.refresh_drops();
+  const firmware_io::ReceiveCounters before = source_.counters();
   while (!stop_.load(std::memory_order_relaxed)) {
     const auto datagrams = source_.receive(kPatience_ns);
     for (const firmware_io::Datagram& datagram : datagrams) {
@@ -115,8 +146,8 @@ void LiveThreads::receive() noexcept {
       if (recorder_ != nullptr) recorder_->add(datagram);
       chain_.decoder.decode(datagram, on_frame);
     }
-    packets_.fetch_add(datagrams.size(), std::memory_order_relaxed);
-    kernel_drops_.store(source_.counters().kernel_drops, std::memory_order_relaxed);
+    intake_.publish({since(before, source_.counters()), source_.link(), newest_packet_ns});
+    if (datagrams.size() < kWorthwhileBatch) std::this_thread::sleep_for(kGathering);
   }
 }
 
@@ -139,8 +170,8 @@ void LiveThreads::segment() noexcept {
     before = now;
     stolen_before_ns = stolen_now_ns;
     losses_.publish(turn->losses);
-    (void)segmented_.try_push(turn->timing);
-    publish(segment_faults_, at_start);
+    pass_on(segmented_, turn->timing);
+    publish(segment_state_, at_start);
   }
 }
 
@@ -194,10 +225,20 @@ void LiveThreads::give_back() noexcept {
   (void)free_slots_.try_push(taken_slot_);
 }
 
+void LiveThreads::pass_on(rt::SpscQueue<rt::FrameTiming>& queue,
+                          const rt::FrameTiming& timing) noexcept {
+  if (!queue.try_push(timing)) timings_dropped_.fetch_add(1, std::memory_order_relaxed);
+}
+
+const LiveThreads::Intake& LiveThreads::intake() noexcept {
+  (void)intake_.take_if_new();
+  return intake_.newest_taken();
+}
+
 firmware_io::LossCounters LiveThreads::losses() noexcept {
   (void)losses_.take_if_new();
   firmware_io::LossCounters losses = losses_.newest_taken();
-  losses.kernel_drops = kernel_drops_.load(std::memory_order_relaxed);
+  losses.kernel_drops = intake().counters.kernel_drops;
   return losses;
 }
 

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "label_writer.hpp"
+
+#include <fmt/format.h>
+
+#include "firmware_io/sinks/label_sink.hpp"
+#include "tools/cli/console.hpp"
+
+namespace terracut::cli {
+
+LabelWriter::LabelWriter(const std::filesystem::path& folder, LiveThreads& threads)
+    : folder_(folder), threads_(threads), thread_([this] { work(); }) {}
+
+bool LabelWriter::finish(std::chrono::milliseconds patience) {
+  finish_ = true;
+  return thread_.ends_within(patience);
+}
+
+void LabelWriter::work() {
+  while (true) {
+    const bool last_round = finish_;
+    for (LiveThreads::Labels labels; threads_.take_labels(labels); threads_.give_back()) {
+      if (!outcome_) continue;
+      outcome_ = firmware_io::write_label_file(folder_ / fmt::format("{:06}.label", labels.number),
+                                               labels.labels);
+      if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
+    }
+    if (last_round) return;
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  }
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+
+#include "background_thread.hpp"
+#include "live_threads.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::cli {
+
+/// Writes the labels of every turn to a folder, on a thread of its own: however long the disk
+/// takes, nothing waits for it. Turns that find no room meanwhile are counted by LiveThreads.
+class LabelWriter {
+ public:
+  /// Both must outlive this.
+  LabelWriter(const std::filesystem::path& folder, LiveThreads& threads);
+
+  /// After LiveThreads::stop(): writes what is left. False when the disk does not answer; then the
+  /// process must end without destroying this.
+  [[nodiscard]] bool finish(std::chrono::milliseconds patience);
+  /// After finish(): the first file that could not be written, after which none was tried.
+  [[nodiscard]] const Status& outcome() const noexcept { return outcome_; }
+
+ private:
+  void work();
+
+  const std::filesystem::path& folder_;
+  LiveThreads& threads_;
+  std::atomic<bool> finish_{false};
+  Status outcome_;
+  BackgroundThread thread_;  ///< Last: it uses all of the above.
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cstdio>
+#include <cstdlib>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "dump_signal.hpp"
+#include "dump_writer.hpp"
+#include "first_seconds.hpp"
+#include "label_writer.hpp"
+#include "live_options.hpp"
+#include "live_report.hpp"
+#include "live_source.hpp"
+#include "live_threads.hpp"
+#include "live_watch.hpp"
+#include "rt/locked_memory.hpp"
+#include "stop_signal.hpp"
+#include "tools/cli/chrome_trace.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/live_summary.hpp"
+#include "tools/cli/setup_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// What a sensor sends a second at most: an RS-Ruby128 in dual return.
+constexpr double kMostPacketsPerSecond = 12'001;
+constexpr std::size_t kLongestPacketBytes = 1248;
+
+void say_refusals(const std::vector<rt::Grant>& grants) {
+  for (const rt::Grant& grant : grants) {
+    if (!grant.granted) warn(to_line(grant));
+  }
+}
+
+Expected<LiveSource> open_source(const LiveOptions& options, rt::FixedMemory& memory) {
+  std::optional<std::uint32_t> sender;
+  if (!options.capture.from.empty()) {
+    const auto address = firmware_io::parse_ipv4_address(options.capture.from);
+    if (!address) return tl::unexpected(address.error());
+    sender = *address;
+  }
+  auto source = LiveSource::open(options.listen, std::nullopt, sender, memory);
+  if (!source) return source;
+  for (const std::string& warning : source->warnings()) warn(warning);
+  say("listening at " + source->name());
+  return source;
+}
+
+std::string describe(const SensorOnAir& sensor) {
+  return fmt::format("{} at {}, {:.1f} Hz, {} return", to_string(sensor.model),
+                     firmware_io::ipv4_text(sensor.address), sensor.spin_hz,
+                     sensor.dual_return ? "dual" : "single");
+}
+
+/// Everything that takes memory, built twice: once to learn how much, once in the locked region.
+struct LiveParts {
+  PacketChain chain;
+  std::optional<firmware_io::FlightRecorder> recorder;
+  LiveThreads threads;
+  LiveWatch watch;
+
+  LiveParts(const LiveOptions& options, const SensorOnAir& sensor,
+            const calib::RingProfile& profile, LiveSource& source, firmware_io::WakeEvent ready,
+            rt::FixedMemory& memory)
+      : chain(sensor.calibration, profile, sensor.columns, options.capture, options.method, memory,
+              FrameExchange::kImages),
+        recorder(recorder_of(options, memory)),
+        threads(options, chain, source, std::move(ready), recorder ? &*recorder : nullptr, memory),
+        watch(options, threads, memory) {}
+
+ private:
+  static std::optional<firmware_io::FlightRecorder> recorder_of(const LiveOptions& options,
+                                                                rt::FixedMemory& memory) {
+    if (options.recorder.seconds <= 0 || options.recorder.folder.empty()) return std::nullopt;
+    return std::make_optional<firmware_io::FlightRecorder>(
+        firmware_io::packet_ring_size(options.recorder.seconds, kMostPacketsPerSecond,
+                                      kLongestPacketBytes),
+        memory);
+  }
+};
+
+/// What a run writes to disk, on threads that nothing waits for.
+class Writers {
+ public:
+  Writers(const LiveOptions& options, LiveParts& parts) {
+    if (!options.labels.empty()) labels_.emplace(options.labels, parts.threads);
+    if (parts.recorder) dumps_.emplace(options, *parts.recorder, LiveWatch::kStageNames);
+  }
+
+  void want_dump(firmware_io::DumpReason reason, const LiveWatch& watch) {
+    if (dumps_) dumps_->want(reason, watch.newest());
+  }
+
+  /// False when the disk does not answer.
+  [[nodiscard]] bool finish() {
+    constexpr std::chrono::seconds kPatience{3};
+    const bool labels_done = !labels_ || labels_->finish(kPatience);
+    const bool dumps_done = !dumps_ || dumps_->finish(kPatience);
+    return labels_done && dumps_done;
+  }
+  /// After finish().
+  [[nodiscard]] bool wrote_all() const { return !labels_ || labels_->outcome().has_value(); }
+
+ private:
+  std::optional<LabelWriter> labels_;
+  std::optional<DumpWriter> dumps_;
+};
+
+void run_until_stopped(const LiveOptions& options, LiveWatch& watch, Writers& writers,
+                       DumpSignal& dump_wanted) {
+  const auto started = SteadyClock::now();
+  const auto is_over = [&] {
+    return options.capture.duration_s &&
+           SteadyClock::now() - started >
+               std::chrono::duration<double>(*options.capture.duration_s);
+  };
+  while (!stop_wanted() && !is_over()) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    const LiveWatch::Round round = watch.turn_round();
+    if (round.missed > 0) writers.want_dump(firmware_io::DumpReason::kMissedDeadline, watch);
+    if (dump_wanted.take()) writers.want_dump(firmware_io::DumpReason::kAsked, watch);
+  }
+}
+
+ExitCode conclude(const LiveOptions& options, const LiveWatch& watch) {
+  const rt::MonitorSnapshot& figures = watch.figures();
+  fmt::print("{}", live_report(figures));
+  if (!options.json.empty()) {
+    const Status written = write_live_summary(options.json, figures);
+    if (!written) return refuse(written.error());
+  }
+  if (!options.trace.empty()) {
+    const Status written = write_chrome_trace(options.trace, figures, watch.newest());
+    if (!written) return refuse(written.error());
+  }
+  if (figures.frames == 0) return kNothingCameOut;
+  return figures.all_misses() > 0 ? kDeadlinesMissed : kOk;
+}
+
+}  // namespace
+
+ExitCode run(const LiveOptions& options) {
+  DumpSignal dump_wanted;  // before any thread: they inherit that the signal is blocked
+  catch_stop_signals();
+  if (options.realtime.lock_memory) say_refusals(rt::hold_memory({}));
+
+  rt::FixedMemory socket_memory;
+  auto source = open_source(options, socket_memory);
+  if (!source) return refuse(source.error());
+  const auto sensor = listen_for_sensor(*source, options);
+  if (!sensor) return refuse(sensor.error());
+  source->accept_only(sensor->address);
+  say("sensor: " + describe(*sensor));
+  say(fmt::format("calibration: {}, fingerprint {:016x}", origin_of(sensor->calibration),
+                  calib::fingerprint(sensor->calibration)));
+  const auto profile = ring_profile_of(sensor->calibration, options.mount);
+  if (!profile) return refuse(profile.error());
+
+  rt::FixedMemory plan, memory;
+  auto idle = firmware_io::WakeEvent::make();
+  auto ready = firmware_io::WakeEvent::make();
+  if (!idle || !ready) return refuse(!idle ? idle.error() : ready.error());
+  LiveParts{options, *sensor, *profile, *source, *std::move(idle), plan};
+  const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});
+  if (!region) return refuse(region.error());
+  say_refusals(*region);
+  LiveParts parts(options, *sensor, *profile, *source, *std::move(ready), memory);
+  if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
+
+  Writers writers(options, parts);
+  say_refusals(parts.threads.start());
+  parts.watch.open(describe(*sensor), source->name());
+  run_until_stopped(options, parts.watch, writers, dump_wanted);
+  parts.threads.stop();
+  parts.watch.turn_round();
+  const bool disk_answers = writers.finish();
+  parts.watch.turn_round();
+  ExitCode code = conclude(options, parts.watch);
+  if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
+  warn("the disk does not answer: what was not written by now is lost");
+  std::fflush(nullptr);
+  std::_Exit(kOutputFailed);  // threads that wait for it cannot be ended otherwise
+}
+
+}  // namespace terracut::cli

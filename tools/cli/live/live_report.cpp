@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "live_report.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+
+namespace terracut::cli {
+namespace {
+
+double ms(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-6;
+}
+
+std::string times(const rt::LogLinearHistogram& histogram) {
+  return fmt::format("{:.2f} ms p50, {:.2f} p99, {:.2f} max", ms(histogram.percentile_ns(50)),
+                     ms(histogram.percentile_ns(99)), ms(histogram.max_ns()));
+}
+
+std::string misses(const rt::MonitorSnapshot& figures) {
+  std::string text =
+      fmt::format("{} deadlines of {:.0f} ms", figures.all_misses(), ms(figures.deadline_ns));
+  const char* before = ": ";
+  for (std::size_t i = 0; i < rt::kMissCauses; ++i) {
+    if (figures.misses[i] == 0) continue;
+    text += fmt::format("{}{} {}", before, to_string(static_cast<rt::FrameMissCause>(i)),
+                        figures.misses[i]);
+    before = ", ";
+  }
+  return text;
+}
+
+std::string rungs(const rt::MonitorSnapshot& figures) {
+  std::string text;
+  for (std::size_t i = 0; i < rt::kRungs; ++i) {
+    if (figures.rungs[i] == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", to_string(static_cast<rt::Rung>(i)),
+                        figures.rungs[i]);
+  }
+  return text.empty() ? "none" : text;
+}
+
+std::string losses(const rt::MonitorSnapshot& figures) {
+  std::string text;
+  for (const rt::NamedCount& loss : figures.losses_in_use()) {
+    if (loss.count == 0) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", loss.name.view(), loss.count);
+  }
+  return text.empty() ? "none" : text;
+}
+
+}  // namespace
+
+std::string live_report(const rt::MonitorSnapshot& figures) {
+  return fmt::format(
+      "frames    {} of {} packets: {}\nmissed    {}\nlatency   {}\nprocessor {}\nlosses    {}\n",
+      figures.frames, figures.packets, rungs(figures), misses(figures), times(figures.latency),
+      times(figures.total_cpu), losses(figures));
+}
+
+}  // namespace terracut::cli

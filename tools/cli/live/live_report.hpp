@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <string>
+
+#include "rt/monitor_snapshot.hpp"
+
+namespace terracut::cli {
+
+/// What `terracut live` prints at its end: frames, misses, latency, losses.
+[[nodiscard]] std::string live_report(const rt::MonitorSnapshot& figures);
+
+}  // namespace terracut::cli

@@ -123,12 +123,4 @@ bool ServiceNotify::stopping() const noexcept {
   return send("STOPPING=1");
 }
 
-bool WatchdogRule::may_feed(const ServiceCounts& now) noexcept {
-  const ServiceCounts before = std::exchange(before_, now);
-  const std::uint64_t on_time = now.on_time - before.on_time;
-  const std::uint64_t missed = now.missed - before.missed;
-  if (now.packets == before.packets && missed == 0) return true;
-  return on_time > 0 && on_time >= missed;
-}
-
 }  // namespace terracut::cli

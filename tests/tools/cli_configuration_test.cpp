@@ -42,10 +42,15 @@ TEST_F(Configuration, PageShowsWhatTheProgramHas) {
       << "print it anew with `terracut config --print-table`";
 }
 
-TEST_F(Configuration, ServiceStartsFromTheDefaultFile) {
-  const Outcome printed = run("config --print-default");
-  EXPECT_EQ(content_of(TERRACUT_SOURCE_DIR "/tools/service/terracut.yaml"), printed.out)
-      << "print it anew with `terracut config --print-default`";
+TEST_F(Configuration, ServicesFileHasEveryKeyAndSaysOnlyWhereDumpsGo) {
+  const fs::path file = TERRACUT_SOURCE_DIR "/tools/service/terracut.yaml";
+  EXPECT_EQ(content_of(file), run("--config " + quoted(file) + " config").out)
+      << "print it anew with `terracut --config FILE config`";
+  std::string defaults = run("config --print-default").out;
+  const std::string dumps = "\n  #folder:\n";
+  ASSERT_NE(defaults.find(dumps), std::string::npos);
+  defaults.replace(defaults.find(dumps), dumps.size(), "\n  folder: /var/lib/terracut/dumps\n");
+  EXPECT_EQ(content_of(file), defaults);
 }
 
 TEST_F(Configuration, DefaultFileChangesNothing) {
@@ -66,7 +71,7 @@ TEST_F(Configuration, EveryDefaultIsAValueThatItsKeyAllows) {
 TEST_F(Configuration, WhatAFileSaysIsPrintedAndReadAgain) {
   const Outcome first = read(
       "sensor: {model: ruby128, nominal_calibration: yes}\n"
-      "input:\n  from: 192.168.1.200\n  listen: '0.0.0.0:6699'\n"
+      "input:\n  from: 192.168.1.200\n  listen: '0.0.0.0:6699'\n  device_port: 7789\n"
       "mount:\n  height_m: 1.9\n  pitch_deg: -1.5\n"
       "method:\n  stages: adjacent\n  elevation_map:\n    obstacle_height_m: 0.25\n"
       "realtime: {segment_core: 3}\n");
@@ -75,10 +80,10 @@ TEST_F(Configuration, WhatAFileSaysIsPrintedAndReadAgain) {
       first.out,
       AllOf(HasSubstr("\n  model: ruby128\n"), HasSubstr("\n  nominal_calibration: yes\n"),
             HasSubstr("\n  from: 192.168.1.200\n"), HasSubstr("\n  listen: '0.0.0.0:6699'\n"),
-            HasSubstr("\n  height_m: 1.9\n"), HasSubstr("\n  pitch_deg: -1.5\n"),
-            HasSubstr("\n  #roll_deg:\n"), HasSubstr("\n  stages: adjacent\n"),
-            HasSubstr("\n    obstacle_height_m: 0.25\n"), HasSubstr("\n  segment_core: 3\n"),
-            HasSubstr("\n  #receive_priority: 80\n")));
+            HasSubstr("\n  device_port: 7789\n"), HasSubstr("\n  height_m: 1.9\n"),
+            HasSubstr("\n  pitch_deg: -1.5\n"), HasSubstr("\n  #roll_deg:\n"),
+            HasSubstr("\n  stages: adjacent\n"), HasSubstr("\n    obstacle_height_m: 0.25\n"),
+            HasSubstr("\n  segment_core: 3\n"), HasSubstr("\n  #receive_priority: 80\n")));
   EXPECT_EQ(read(first.out).out, first.out);
 }
 

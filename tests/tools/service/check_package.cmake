@@ -18,7 +18,9 @@ function(run output)
   set(${output} "${text}" PARENT_SCOPE)
 endfunction()
 
-run(ignored ${CPACK} -G DEB --config ${BUILD_DIR}/CPackConfig.cmake -B ${FOLDER})
+# Compressed quickly: how small it gets is not the question here.
+run(ignored ${CPACK} -G DEB --config ${BUILD_DIR}/CPackConfig.cmake -B ${FOLDER}
+    -D CPACK_DEBIAN_COMPRESSION_TYPE=gzip)
 file(GLOB packages ${FOLDER}/*.deb)
 list(LENGTH packages count)
 if(NOT count EQUAL 1 OR NOT packages MATCHES "/terracut_${VERSION}_[a-z0-9]+\\.deb$")
@@ -64,6 +66,19 @@ endif()
 foreach(script postinst prerm postrm)
   run(ignored sh -n ${FOLDER}/extracted/DEBIAN/${script})
 endforeach()
+# Recordings outlive the package, until it is purged.
+set(root ${FOLDER}/root)
+file(WRITE ${root}/var/lib/private/terracut/dumps/one.pcap "packets")
+foreach(action remove purge)
+  run(ignored ${CMAKE_COMMAND} -E env DPKG_ROOT=${root}
+      sh ${FOLDER}/extracted/DEBIAN/postrm ${action})
+  if(action STREQUAL remove AND NOT EXISTS ${root}/var/lib/private/terracut/dumps/one.pcap)
+    message(FATAL_ERROR "removing the package removed the recordings")
+  endif()
+endforeach()
+if(EXISTS ${root}/var/lib/private/terracut)
+  message(FATAL_ERROR "purging the package left the recordings")
+endif()
 
 if(LINTIAN)
   run(ignored ${LINTIAN} --fail-on error

@@ -182,7 +182,7 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
   }
   add_options(*sub, *options);
   add_config_option(*sub);
-  sub->callback([reading, sub, options] {
+  sub->callback([=] {
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
     if constexpr (requires { options->method; }) {
       const std::vector<std::string>& of_file = reading.configuration.live.method.settings;

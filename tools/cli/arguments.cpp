@@ -115,6 +115,18 @@ void add_mount(CLI::App& app, MountOptions& mount) {
       ->check(range_of("mount.pitch_deg"));
 }
 
+void add_settings(CLI::App& app, std::vector<std::string>& settings) {
+  app.add_option(
+         "--set", settings,
+         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
+      ->check([](const std::string& setting) {
+        pipeline::SegmenterConfig scratch;
+        const Status valid = apply_setting(scratch, setting);
+        return valid ? std::string() : valid.error().message;
+      })
+      ->allow_extra_args(false);
+}
+
 void add_method(CLI::App& app, MethodOptions& method) {
   app.add_option("--profile", method.profile,
                  "paper: the method as printed; terracut: what measured better")
@@ -124,15 +136,7 @@ void add_method(CLI::App& app, MethodOptions& method) {
                  "How far to refine: elevation map, + adjacent points, + random field (mrf)")
       ->check(one_of("method.stages"))
       ->capture_default_str();
-  app.add_option(
-         "--set", method.settings,
-         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
-      ->check([](const std::string& setting) {
-        pipeline::SegmenterConfig scratch;
-        const Status valid = apply_setting(scratch, setting);
-        return valid ? std::string() : valid.error().message;
-      })
-      ->allow_extra_args(false);
+  add_settings(app, method.settings);
 }
 
 void add_outputs(CLI::App& app, OutputOptions& output) {
@@ -164,6 +168,11 @@ void drop_overruled(const CLI::App& sub, MountOptions& mount) {
   if (sub.count("--mount-pitch") == 0) mount.pitch_deg.reset();
 }
 
+/// The same for parameters of the method: of two settings of one, the last counts.
+void put_before(std::vector<std::string>& settings, const std::vector<std::string>& of_file) {
+  settings.insert(settings.begin(), of_file.begin(), of_file.end());
+}
+
 /// What is read, and where to.
 struct Reading {
   CLI::App& app;
@@ -184,11 +193,10 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
   add_config_option(*sub);
   sub->callback([=] {
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
-    if constexpr (requires { options->method; }) {
-      const std::vector<std::string>& of_file = reading.configuration.live.method.settings;
-      std::vector<std::string>& all = options->method.settings;
-      all.insert(all.begin(), of_file.begin(), of_file.end());  // the last one counts
-    }
+    [[maybe_unused]] const std::vector<std::string>& of_file =
+        reading.configuration.live.method.settings;
+    if constexpr (requires { options->method; }) put_before(options->method.settings, of_file);
+    if constexpr (requires { options->settings; }) put_before(options->settings, of_file);
     reading.command = *options;
   });
 }
@@ -410,6 +418,35 @@ void add_doctor(CLI::App& sub, DoctorOptions& o) {
   sub.add_flag("--json", o.json, "Print the findings for programs");
 }
 
+void add_eval(CLI::App& sub, EvalOptions& o) {
+  sub.add_option("DATASET", o.dataset, "Layout of the dataset")
+      ->required()
+      ->check(CLI::IsMember({"semantickitti"}));
+  sub.add_option("ROOT", o.root, "Its folder: ROOT/sequences/NN/{velodyne,labels}")->required();
+  sub.add_option("--sequences", o.sequences, "Only these, like 00,03 (default: all with labels)")
+      ->delimiter(',');
+  sub.add_option("--frames", o.frames,
+                 "Only these of every sequence: FIRST, FIRST-LAST or FIRST-LAST:STEP, from 0");
+  sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_settings(sub, o.settings);
+  sub.add_option("--through", o.through,
+                 "image: scans straight into the range image; packets: encoded and decoded first")
+      ->check(CLI::IsMember({"image", "packets"}))
+      ->capture_default_str();
+  sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  add_mount(sub, o.mount);
+  sub.add_option("--classes", o.classes,
+                 "What the dataset's classes count as (default: as in the paper)");
+  sub.add_option("--predictions", o.predictions,
+                 "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
+  sub.add_option("--json", o.json,
+                 "File for the results; FILE.journal beside it lets an interrupted run go on");
+}
+
 /// The file named by --config, wherever it stands; the last one counts.
 std::filesystem::path configuration_file_of(int argc, char** argv) {
   constexpr std::string_view kOption = "--config";
@@ -483,6 +520,8 @@ Arguments parse_arguments(int argc, char** argv) {
   add_command<DumpOptions>(reading, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);
+  add_command<EvalOptions>(reading, "eval",
+                           "Measure methods on a labelled dataset, as the paper does", add_eval);
   add_command<TopOptions>(reading, "top", "Watch a running `terracut live` from another shell",
                           add_top);
   add_command<ConfigOptions>(reading, "config",

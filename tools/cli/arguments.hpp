@@ -13,7 +13,7 @@ namespace terracut::cli {
 using Command =
     std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
                  InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
-                 DumpOptions, TopOptions, LiveOptions, ConfigOptions, DoctorOptions>;
+                 DumpOptions, TopOptions, EvalOptions, LiveOptions, ConfigOptions, DoctorOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -375,6 +375,10 @@ void start_from(const Configuration& configuration, BenchOptions& options) {
   options.core = configuration.bench.core;
 }
 
+void start_from(const Configuration& configuration, EvalOptions& options) {
+  options.mount = configuration.live.mount;
+}
+
 void start_from(const Configuration& configuration, LiveOptions& options) {
   options = configuration.live;
   options.labels = configuration.output.labels;

@@ -74,6 +74,7 @@ void start_from(const Configuration& configuration, EncodeOptions& options);
 void start_from(const Configuration& configuration, CalibrateOptions& options);
 void start_from(const Configuration& configuration, PlanOptions& options);
 void start_from(const Configuration& configuration, BenchOptions& options);
+void start_from(const Configuration& configuration, EvalOptions& options);
 void start_from(const Configuration& configuration, LiveOptions& options);
 void start_from(const Configuration& configuration, ConfigOptions& options);
 void start_from(const Configuration& configuration, DoctorOptions& options);

@@ -148,6 +148,21 @@ struct BenchOptions {
   std::filesystem::path json;
 };
 
+struct EvalOptions {
+  std::string dataset = "semantickitti";  ///< The only one so far.
+  std::filesystem::path root;
+  std::vector<std::string> sequences;            ///< --sequences; empty: all with labels
+  std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
+  std::vector<std::string> methods{"terracut"};  ///< --method
+  std::vector<std::string> settings;             ///< --set KEY=VALUE, for every method, checked
+  std::string through = "image";                 ///< --through image|packets
+  int jobs = 0;                                  ///< --jobs; 0: one a core
+  MountOptions mount;
+  std::filesystem::path classes;      ///< --classes; empty: the dataset's own table
+  std::filesystem::path predictions;  ///< --predictions
+  std::filesystem::path json;         ///< --json
+};
+
 struct DumpOptions {
   std::string name;    ///< Of the running process; empty: the only one that runs.
   double wait_s = 30;  ///< --wait, [0, 3600]: for its answer.

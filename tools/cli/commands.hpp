@@ -24,5 +24,7 @@ namespace terracut::cli {
 ExitCode run(const EvalOptions& options);
 [[nodiscard]] ExitCode run(const CompareOptions& options);
 [[nodiscard]] ExitCode run(const LiveOptions& options);
+[[nodiscard]] ExitCode run(const ConfigOptions& options);
+[[nodiscard]] ExitCode run(const DoctorOptions& options);
 
 }  // namespace terracut::cli

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -121,6 +122,22 @@ struct PlanOptions {
 };
 
 struct ParametersOptions {};
+
+struct Configuration;  // configuration.hpp
+
+struct ConfigOptions {
+  bool print_default = false;
+  bool print_table = false;  ///< --print-table: for docs/configuration.md.
+  std::shared_ptr<const Configuration> configuration;  ///< The one in force; never null.
+};
+
+struct DoctorOptions {
+  std::string interface;            ///< --interface; empty: every one that is up
+  std::uint16_t port = 2368;        ///< --port
+  std::optional<int> receive_core;  ///< From the configuration, as are those below.
+  std::optional<int> segment_core;
+  bool json = false;
+};
 
 struct BenchOptions {
   CaptureOptions capture;

@@ -97,8 +97,10 @@ class Writers {
   [[nodiscard]] Status open(const LiveOptions& options, const SensorOnAir& sensor,
                             LiveParts& parts) {
     if (parts.threads.points()) {
+      const auto address = firmware_io::parse_stream_address(options.stream);
+      if (!address) return tl::unexpected(address.error());
       auto server = firmware_io::TurnStreamServer::open(
-          {.address = *firmware_io::parse_stream_address(options.stream),  // checked when read
+          {.address = *address,
            .max_points = parts.chain.decoder.return_capacity()},
           stream_memory_);
       if (!server) return tl::unexpected(server.error());
@@ -177,6 +179,7 @@ ExitCode run(const LiveOptions& options) {
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
   const auto sensor = listen_for_sensor(*source, options);
+  if (stop_wanted()) return kOk;
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));

@@ -196,7 +196,8 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
     [[maybe_unused]] const std::vector<std::string>& of_file =
         reading.configuration.live.method.settings;
-    if constexpr (requires { options->method; }) put_before(options->method.settings, of_file);
+    if constexpr (requires { options->method.settings; })
+      put_before(options->method.settings, of_file);
     if constexpr (requires { options->settings; }) put_before(options->settings, of_file);
     reading.command = *options;
   });
@@ -542,9 +543,8 @@ Arguments parse_arguments(int argc, char** argv) {
                            add_dump);
   add_command<EvalOptions>(reading, "eval",
                            "Measure methods on a labelled dataset, as the paper does", add_eval);
-  add_command<CompareOptions>(reading, "compare",
-                              "What a change did: two reports of eval, frame by frame",
-                              add_compare);
+  add_command<CompareOptions>(
+      reading, "compare", "What a change did: two reports of eval, frame by frame", add_compare);
   add_command<TopOptions>(reading, "top", "Watch a running `terracut live` from another shell",
                           add_top);
   add_command<ConfigOptions>(reading, "config",

@@ -30,7 +30,7 @@ TEST_F(CliRefusal, OfAWrongCommandLineSaysWhatIsExpected) {
   expect_refusal("frobnicate", kUsage, AllOf(HasSubstr("'frobnicate'"), HasSubstr("replay")));
   expect_refusal("", kUsage, HasSubstr("subcommand"));
   expect_refusal("replay", kUsage, HasSubstr("FILE is required"));
-  expect_refusal("simulate", kUsage, HasSubstr("--output is required"));
+  expect_refusal("simulate", kUsage, HasSubstr("nothing to do"));
   expect_refusal("replay x.pcap --rate -1", kUsage, HasSubstr("--rate"));
   expect_refusal("replay x.pcap --rate nan", kUsage, HasSubstr("--rate"));
   expect_refusal("replay x.pcap --mount-height nan", kUsage, HasSubstr("--mount-height"));

@@ -116,10 +116,10 @@ TEST_F(CliSend, GoesThroughTheCaptureAsOftenAsItIsTold) {
 }
 
 TEST_F(CliSend, EndsWithASummaryWhenInterrupted) {
-  const std::string command = "cd '" + folder_.string() +
-                              "' && timeout --preserve-status -s INT 1 '" TERRACUT_PROGRAM
-                              "' send " +
-                              quoted(kDrive) + to() + " --loop --json sent.json >/dev/null 2>&1";
+  const std::string command =
+      "cd '" + folder_.string() +
+      "' && timeout --foreground --preserve-status -s INT 1 '" TERRACUT_PROGRAM "' send " +
+      quoted(kDrive) + to() + " --loop --json sent.json >/dev/null 2>&1";
   EXPECT_EQ(std::system(command.c_str()), 0);
   EXPECT_GT(json("sent.json")["sent"], 0);
 }
@@ -129,6 +129,26 @@ TEST_F(CliSend, WarnsOfAFaultThatThePacketsEndBefore) {
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning"), HasSubstr("pause@9s:1s")));
   EXPECT_THAT(outcome.out, HasSubstr("pause@9s:1s: 0 packets"));
+}
+
+TEST_F(CliSend, IsWhatASimulatedSensorDoes) {
+  receive_during([&] {
+    expect_done("simulate --scene flat --duration 0.3 --rate 20 --udp 127.0.0.1:" +
+                std::to_string(source_->local().port) +
+                " --faults loss@0.1s:20packets --json sent.json");
+  });
+  const auto report = json("sent.json");
+  EXPECT_GT(report["sent"], 900);
+  EXPECT_EQ(accounted_for(), report["sent"]);
+  EXPECT_EQ(report["faults"][0]["packets"], 20);
+  EXPECT_EQ(files_in(folder_, ".pcap"), 0U) << "no file was asked for";
+}
+
+TEST_F(CliSend, OfASimulatedSensorNeedsSomewhereToSendTo) {
+  EXPECT_EQ(run("simulate --scene flat --duration 0.1").exit_code, 2);
+  const Outcome outcome = run("simulate --scene flat --duration 0.1 -o a.pcap --faults loss@1s:1");
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("--udp"));
 }
 
 TEST_F(CliSend, RefusesWhatItCannotDoAndSaysWhatIsExpected) {

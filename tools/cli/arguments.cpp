@@ -100,6 +100,18 @@ void add_mount(CLI::App& app, MountOptions& mount) {
       ->check(number(-28, 28));
 }
 
+void add_settings(CLI::App& app, std::vector<std::string>& settings) {
+  app.add_option(
+         "--set", settings,
+         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
+      ->check([](const std::string& setting) {
+        pipeline::SegmenterConfig scratch;
+        const Status valid = apply_setting(scratch, setting);
+        return valid ? std::string() : valid.error().message;
+      })
+      ->allow_extra_args(false);
+}
+
 void add_method(CLI::App& app, MethodOptions& method) {
   app.add_option("--profile", method.profile,
                  "paper: the method as printed; terracut: what measured better")
@@ -109,15 +121,7 @@ void add_method(CLI::App& app, MethodOptions& method) {
                  "How far to refine: elevation map, + adjacent points, + random field (mrf)")
       ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
       ->capture_default_str();
-  app.add_option(
-         "--set", method.settings,
-         "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
-      ->check([](const std::string& setting) {
-        pipeline::SegmenterConfig scratch;
-        const Status valid = apply_setting(scratch, setting);
-        return valid ? std::string() : valid.error().message;
-      })
-      ->allow_extra_args(false);
+  add_settings(app, method.settings);
 }
 
 void add_outputs(CLI::App& app, OutputOptions& output) {
@@ -143,13 +147,30 @@ void add_command(CLI::App& app, std::optional<Command>& command, const char* nam
   sub->callback([&command, options] { command = *options; });
 }
 
-void add_loop(CLI::App& sub, int& loops) {
-  sub.add_option(
-         "--loop", loops,
-         "Passes over the capture (once without this option); no number or 0: until interrupted")
+CLI::Option* add_loop(CLI::App& sub, int& loops) {
+  return sub
+      .add_option("--loop", loops,
+                  "Passes over the packets (once without this option); no number or 0: until "
+                  "interrupted")
       ->expected(0, 1)
       ->default_str("0")
       ->check(CLI::Range(0, std::numeric_limits<int>::max()));
+}
+
+/// How datagrams are sent, whatever they are of.
+std::vector<CLI::Option*> add_sending(CLI::App& sub, SendOptions& o) {
+  return {
+      sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)"),
+      add_loop(sub, o.loops),
+      sub.add_option("--faults", o.faults,
+                     "What goes wrong on the way, by seconds since the first packet:\n"
+                     "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s "
+                     "burst@6s:50ms\nforeign@7s:50 clock@8s:+2.0s truncate@9s:5"),
+      sub.add_option("--foreign-from", o.foreign_from,
+                     "Address of this machine that foreign packets come from")
+          ->check(CLI::ValidIPV4),
+      sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did"),
+  };
 }
 
 void add_replay(CLI::App& sub, ReplayOptions& o) {
@@ -180,7 +201,7 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
       ->check(number(0.1, 3600))
       ->capture_default_str();
-  sub.add_option("--spin-hz", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
+  sub.add_option("--spin-hz,--rate", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
       ->check(number(5, 20))
       ->capture_default_str();
   sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
@@ -194,8 +215,11 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
-  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
-      ->required();
+  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it");
+  auto* udp = sub.add_option("--udp", o.udp.to,
+                             "ADDRESS[:PORT]: be the sensor, and send the drive in real time once "
+                             "it is computed");
+  for (CLI::Option* option : add_sending(sub, o.udp)) option->needs(udp);
 }
 
 void add_encode(CLI::App& sub, EncodeOptions& o) {
@@ -248,21 +272,12 @@ void add_send(CLI::App& sub, SendOptions& o) {
                  "ADDRESS:PORT to send to; a multicast group and broadcast will do.\n"
                  "ADDRESS alone: every datagram to the port it was captured on")
       ->required();
-  sub.add_option("--interface", o.interface, "Send by this interface (default: by the routes)");
   sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
   sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
       ->check(number(0, 1000))
       ->capture_default_str();
-  add_loop(sub, o.loops);
-  sub.add_option("--faults", o.faults,
-                 "What goes wrong on the way, by seconds since the first packet:\n"
-                 "loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\n"
-                 "foreign@7s:50 clock@8s:+2.0s truncate@9s:5");
-  sub.add_option("--foreign-from", o.foreign_from,
-                 "Address of this machine that foreign packets come from")
-      ->check(CLI::ValidIPV4);
-  sub.add_option("--json", o.json, "File for the summary: sent, lateness, what each fault did");
+  add_sending(sub, o);
 }
 
 void add_dump(CLI::App& sub, DumpOptions& o) {
@@ -334,6 +349,35 @@ void add_live(CLI::App& sub, LiveOptions& o) {
   sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
 }
 
+void add_eval(CLI::App& sub, EvalOptions& o) {
+  sub.add_option("DATASET", o.dataset, "Layout of the dataset")
+      ->required()
+      ->check(CLI::IsMember({"semantickitti"}));
+  sub.add_option("ROOT", o.root, "Its folder: ROOT/sequences/NN/{velodyne,labels}")->required();
+  sub.add_option("--sequences", o.sequences, "Only these, like 00,03 (default: all with labels)")
+      ->delimiter(',');
+  sub.add_option("--frames", o.frames,
+                 "Only these of every sequence: FIRST, FIRST-LAST or FIRST-LAST:STEP, from 0");
+  sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_settings(sub, o.settings);
+  sub.add_option("--through", o.through,
+                 "image: scans straight into the range image; packets: encoded and decoded first")
+      ->check(CLI::IsMember({"image", "packets"}))
+      ->capture_default_str();
+  sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  add_mount(sub, o.mount);
+  sub.add_option("--classes", o.classes,
+                 "What the dataset's classes count as (default: as in the paper)");
+  sub.add_option("--predictions", o.predictions,
+                 "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
+  sub.add_option("--json", o.json,
+                 "File for the results; FILE.journal beside it lets an interrupted run go on");
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -385,6 +429,8 @@ Arguments parse_arguments(int argc, char** argv) {
   add_command<DumpOptions>(app, result.command, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);
+  add_command<EvalOptions>(app, result.command, "eval",
+                           "Measure methods on a labelled dataset, as the paper does", add_eval);
   add_command<TopOptions>(app, result.command, "top",
                           "Watch a running `terracut live` from another shell", add_top);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {

@@ -10,9 +10,10 @@
 
 namespace terracut::cli {
 
-using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
-                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
-                             BenchOptions, SendOptions, DumpOptions, TopOptions, LiveOptions>;
+using Command =
+    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
+                 DumpOptions, TopOptions, EvalOptions, LiveOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -21,6 +21,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const SendOptions& options);
 [[nodiscard]] ExitCode run(const DumpOptions& options);
 [[nodiscard]] ExitCode run(const TopOptions& options);
+ExitCode run(const EvalOptions& options);
 [[nodiscard]] ExitCode run(const LiveOptions& options);
 
 }  // namespace terracut::cli

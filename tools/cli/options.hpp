@@ -65,6 +65,19 @@ struct SegmentOptions {
   OutputOptions output;  ///< truth is not used: it lies beside the scans
 };
 
+struct SendOptions {
+  std::filesystem::path file;
+  std::optional<std::uint16_t> port;  ///< --port
+  std::string from;                   ///< --from, dotted IPv4
+  std::string to;                     ///< --to ADDRESS[:PORT]
+  std::string interface;              ///< --interface
+  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
+  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
+  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
+  std::string foreign_from;           ///< --foreign-from, dotted IPv4
+  std::filesystem::path json;
+};
+
 struct SimulateOptions {
   std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
   std::string scene = "street";
@@ -76,7 +89,8 @@ struct SimulateOptions {
   double noise_m = 0.015;
   std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;
-  std::filesystem::path output;
+  std::filesystem::path output;  ///< Empty: nothing is kept.
+  SendOptions udp;               ///< --udp is its `to`; empty: nothing is sent. `file` is not used.
 };
 
 struct EncodeOptions {
@@ -117,17 +131,19 @@ struct BenchOptions {
   std::filesystem::path json;
 };
 
-struct SendOptions {
-  std::filesystem::path file;
-  std::optional<std::uint16_t> port;  ///< --port
-  std::string from;                   ///< --from, dotted IPv4
-  std::string to;                     ///< --to ADDRESS[:PORT]
-  std::string interface;              ///< --interface
-  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
-  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
-  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
-  std::string foreign_from;           ///< --foreign-from, dotted IPv4
-  std::filesystem::path json;
+struct EvalOptions {
+  std::string dataset = "semantickitti";  ///< The only one so far.
+  std::filesystem::path root;
+  std::vector<std::string> sequences;            ///< --sequences; empty: all with labels
+  std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
+  std::vector<std::string> methods{"terracut"};  ///< --method
+  std::vector<std::string> settings;             ///< --set KEY=VALUE, for every method, checked
+  std::string through = "image";                 ///< --through image|packets
+  int jobs = 0;                                  ///< --jobs; 0: one a core
+  MountOptions mount;
+  std::filesystem::path classes;      ///< --classes; empty: the dataset's own table
+  std::filesystem::path predictions;  ///< --predictions
+  std::filesystem::path json;         ///< --json
 };
 
 struct DumpOptions {

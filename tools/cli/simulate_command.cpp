@@ -4,6 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "calib/hdl64e_file.hpp"
@@ -71,11 +77,11 @@ Expected<firmware_io::SimulationConfig<Transmitter>> simulation_config(
 }
 
 template <class Transmitter>
-ExitCode simulate(const SimulateOptions& options) {
+ExitCode simulate(const SimulateOptions& options, const std::filesystem::path& output) {
   const auto config = simulation_config<Transmitter>(options);
   if (!config) return refuse(config.error());
-  auto writer = firmware_io::DriveWriter<Transmitter>::create(options.output, config->calibration,
-                                                              config->sensor);
+  auto writer =
+      firmware_io::DriveWriter<Transmitter>::create(output, config->calibration, config->sensor);
   if (!writer) return refuse(writer.error());
 
   Progress progress("simulating", "seconds", options.duration_s);
@@ -89,21 +95,64 @@ ExitCode simulate(const SimulateOptions& options) {
   const auto written = writer->finish();
   if (!written) return refuse(written.error());
 
-  fmt::print(
-      "scene     {}, seed {}\nwrote     {}\n          {}\n          {}/\n"
-      "frames    {}\nreturns   {}\npackets   {}\n",
-      options.scene, options.seed, options.output.string(),
-      firmware_io::calibration_path_of<Transmitter>(options.output).string(),
-      firmware_io::truth_folder_of(options.output).string(), written->frames, written->returns,
-      written->packets);
+  fmt::print("scene     {}, seed {}\n", options.scene, options.seed);
+  if (!options.output.empty()) {
+    fmt::print("wrote     {}\n          {}\n          {}/\n", output.string(),
+               firmware_io::calibration_path_of<Transmitter>(output).string(),
+               firmware_io::truth_folder_of(output).string());
+  }
+  fmt::print("frames    {}\nreturns   {}\npackets   {}\n", written->frames, written->returns,
+             written->packets);
+  std::fflush(stdout);
   return kOk;
 }
+
+ExitCode simulate_to(const SimulateOptions& options, const std::filesystem::path& output) {
+  return options.sensor == "ruby128" ? simulate<Ruby128Transmitter>(options, output)
+                                     : simulate<Hdl64eTransmitter>(options, output);
+}
+
+/// A folder that is gone, with what is in it, when this is.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::error_code error;
+    std::string name = (std::filesystem::temp_directory_path(error) / "terracut-XXXXXX").string();
+    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  ~TemporaryFolder() {
+    std::error_code gone_or_not;
+    if (!path_.empty()) std::filesystem::remove_all(path_, gone_or_not);
+  }
+  /// Empty where none could be made.
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
 
 }  // namespace
 
 ExitCode run(const SimulateOptions& options) {
-  return options.sensor == "ruby128" ? simulate<Ruby128Transmitter>(options)
-                                     : simulate<Hdl64eTransmitter>(options);
+  if (options.udp.to.empty()) {
+    if (options.output.empty()) {
+      return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");
+    }
+    return simulate_to(options, options.output);
+  }
+  // Rays take longer to trace than a turn lasts: the drive is computed first, then sent on time.
+  std::optional<TemporaryFolder> scratch;
+  SendOptions sending = options.udp;
+  sending.file = options.output;
+  if (sending.file.empty()) {
+    scratch.emplace();
+    if (scratch->path().empty()) return refuse(kOutputFailed, "no temporary folder can be made");
+    sending.file = scratch->path() / "drive.pcap";
+  }
+  const ExitCode simulated = simulate_to(options, sending.file);
+  return simulated == kOk ? run(sending) : simulated;
 }
 
 }  // namespace terracut::cli

@@ -42,7 +42,6 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     sub.add_argument("--seconds", type=float, default=30, help="a run (default 30)")
     sub = add("adversarial", "a min-cut too large for the deadline")
     sub.add_argument("--seconds", type=float, default=8, help="of the drive (default 8)")
-    sub.add_argument("--deadline-ms", type=float, default=10, help="default 10")
     sub = add("faults", "every scripted fault of `terracut send`")
     sub.add_argument("--short", action="store_true", help="all faults in one run")
     sub = add("breakage", "killed readers, a lost interface, a full disk, a taken port")
@@ -57,7 +56,7 @@ def hold(options: argparse.Namespace, program: Program, report: Report) -> None:
     elif options.trial == "stalled":
         stalled.hold(program, report, options.seconds)
     elif options.trial == "adversarial":
-        adversarial.hold(program, report, options.seconds, options.deadline_ms)
+        adversarial.hold(program, report, options.seconds)
     elif options.trial == "faults":
         scripted_faults.hold(program, report, options.short)
     else:

@@ -2,9 +2,10 @@
 # Copyright 2026 The terracut authors
 """A min-cut that is too large for the deadline: the ladder must stop it, say so, and lose nothing by it.
 
-Rough ground in a rural scene, and seeds so strict that nearly every cell is unknown and all of them go
-into the cut. The drive is labelled live under two deadlines: one that the cut must be stopped for, and one
-that it has to be left out for. Its truth judges these labels and those of the coarse stages alone.
+A rural scene, and seeds so strict that nearly every cell is unknown and all of them go into the cut. The
+drive is labelled live under two deadlines: one that leaves time for most of the cut, and one that does not
+even for the part the cut cannot be stopped in. Its truth judges these labels and those of the coarse
+stages alone.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ HARD = {"seeds.ground_share": 1, "seeds.max_ground_height_m": 0, "min_cut.max_un
 SETTINGS = [f"--set={key}={value}" for key, value in HARD.items()]
 SEVERAL_TIMES = 3  # what the hard cut takes at least of the usual one
 WAKING_UP_MS = 1.5  # from the last packet to the segmenter
-SHARE_OF_CUT = {"cut_stopped": 0.8, "coarse": 0.25}  # that the deadline leaves time for
+SHARES_OF_CUT = [0.8, 0.25]  # that the deadline leaves time for
 LOOPS = 2
 LEARNING = 0.02
 TENTH = 0.1
@@ -46,9 +47,9 @@ def hold(program: Program, report: Report, seconds: float) -> None:
 
     before_ms = ms["elevation_map"] + ms["adjacent_points"] + ms["seeds"] + ms["labels"] + WAKING_UP_MS
     rows = []
-    for rung, share in SHARE_OF_CUT.items():
+    for share in SHARES_OF_CUT:
         deadline_ms = round(before_ms + share * ms["min_cut"], 1)
-        rows.append(live_run(program, report, drive, rung, deadline_ms, coarse, full))
+        rows.append(live_run(program, report, drive, deadline_ms, coarse, full))
     report.table(
         f"A cut of {unknown} unknown cells that takes {ms['min_cut']:.1f} ms, under two deadlines; p50 / p99 / p99.9 / max",
         ["deadline, ms", "frames", "full / cut stopped / coarse / skipped", "segmenting, ms of processor time",
@@ -57,7 +58,7 @@ def hold(program: Program, report: Report, seconds: float) -> None:
     )  # fmt: skip
 
 
-def live_run(program: Program, report: Report, drive: Drive, rung: str, deadline_ms: float, coarse: Path,
+def live_run(program: Program, report: Report, drive: Drive, deadline_ms: float, coarse: Path,
              full: Path) -> list:  # fmt: skip
     of, folder = f"{deadline_ms:g} ms: ", fresh_folder(program.scratch / "labels_live")
     with Live(program, drive, *SETTINGS, "--labels", folder, deadline_ms=deadline_ms, limit_s=300) as live:
@@ -68,8 +69,7 @@ def live_run(program: Program, report: Report, drive: Drive, rung: str, deadline
     others = {cause: count for cause, count in losses(summary).items() if cause not in ("skipped_frames", "clock_jumps")}
     report.equal(of + "losses but for skipped frames", others, {})
     lower = rungs["cut_stopped"] + rungs["coarse"]
-    report.check(of + f"most frames are marked as of a lower rung, most of them {rung}",
-                 lower > frames / 2 and 2 * rungs[rung] > lower, rungs)  # fmt: skip
+    report.check(of + "most frames are marked as of a lower rung", lower > frames / 2, rungs)
     own = summary["misses"]["causes"]["own_work"]
     report.check(of + f"misses of its own making, at most {100 * LEARNING:g} %: the frames it learns from",
                  own <= LEARNING * frames, f"{own} of {frames}")  # fmt: skip

@@ -19,7 +19,7 @@ from .program import Program
 from .report import Report
 from .stalled import free_tcp_port, judge_frames, returns_of, whole_labels
 
-DRIVE_S = 3
+DRIVE_S = 2
 
 
 def hold(program: Program, report: Report, seconds: float, deadline_ms: float) -> None:

@@ -22,7 +22,7 @@ STRANGER = "127.0.0.2"
 RECORDER_S = 6
 COLUMNS_A_PACKET = 6  # of an HDL-64E
 # Turns of the drive begin every 100 ms: faults lie in the middle of one, and two turns apart.
-FIRST_S, APART_S = 1.04, 0.3
+FIRST_S, APART_S = 0.54, 0.2
 
 
 @dataclass(frozen=True)

@@ -17,7 +17,7 @@ from .capture import Drive
 from .live import Live, Send
 from .program import Program
 from .report import Report
-from .stalled import free_tcp_port, judge_frames, returns_of, whole_labels
+from .stalled import free_tcp_port, judge_frames, line_with, returns_of, whole_labels
 
 DRIVE_S = 2
 
@@ -142,10 +142,6 @@ def full_disk(program: Program, report: Report, drive: Drive, deadline_ms: float
         left = [path.name for path in dumps.iterdir()] if dumps.exists() else []
         report.equal(of + "files left by the dump", left, [])
     judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
-
-
-def line_with(text: str, word: str) -> str:
-    return next((line for line in text.splitlines() if word in line), "no message")
 
 
 # --- The network interface is removed ---

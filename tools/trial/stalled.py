@@ -97,6 +97,10 @@ def whole_labels(folder: Path, returns: dict[int, int]) -> list[str]:
     return wrong
 
 
+def line_with(text: str, words: str) -> str:
+    return next((line for line in text.splitlines() if words in line), "no message")
+
+
 def returns_of(report: dict) -> dict[int, int]:
     """Of every frame of a replay."""
     return {frame["frame"]: frame["returns_labelled"] for frame in report["frames"]}
@@ -174,7 +178,7 @@ def never_thawed(program: Program, report: Report, seconds: float) -> list:
             while "disk does not answer" not in live.messages() and time.monotonic() < end:
                 time.sleep(0.1)
             report.check(of + "says so at the end", "disk does not answer" in live.messages(),
-                         live.messages().strip().splitlines()[-1])  # fmt: skip
+                         line_with(live.messages(), "disk does not answer"))  # fmt: skip
             disk.thaw()
             live.process.wait(timeout=60)
         summary = json.loads(live.summary_file.read_text())

@@ -25,7 +25,7 @@ constexpr const char* kAbout =
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
     "4 an output could not be written; 5 packets were read but no frame came out;\n"
-    "6 deadlines were missed.\n"
+    "6 deadlines were missed; 8 a measure got worse.\n"
     "`terracut COMMAND --help` lists a command's options.";
 
 /// A number in [low, high]. Unlike CLI::Range it lets no NaN through.
@@ -378,6 +378,18 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
                  "File for the results; FILE.journal beside it lets an interrupted run go on");
 }
 
+void add_compare(CLI::App& sub, CompareOptions& o) {
+  sub.add_option("BEFORE", o.before, "Report of `terracut eval --json`")->required();
+  sub.add_option("AFTER", o.after, "Another one, of the same frames")->required();
+  sub.add_option("--method", o.method, "Method to compare")->capture_default_str();
+  sub.add_option("--method-after", o.method_after, "Method of AFTER (default: the same)");
+  sub.add_option("--significance", o.significance,
+                 "A measure that got worse with a smaller p than this leads to exit code 8")
+      ->check(number(1e-12, 1))
+      ->capture_default_str();
+  sub.add_option("--json", o.json, "File for the same, for programs");
+}
+
 /// CLI11 would say only that a subcommand is required.
 void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
   const std::string first = argc > 1 ? argv[1] : "";
@@ -431,6 +443,9 @@ Arguments parse_arguments(int argc, char** argv) {
                            add_dump);
   add_command<EvalOptions>(app, result.command, "eval",
                            "Measure methods on a labelled dataset, as the paper does", add_eval);
+  add_command<CompareOptions>(app, result.command, "compare",
+                              "What a change did: two reports of eval, frame by frame",
+                              add_compare);
   add_command<TopOptions>(app, result.command, "top",
                           "Watch a running `terracut live` from another shell", add_top);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {

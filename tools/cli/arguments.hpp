@@ -13,7 +13,7 @@ namespace terracut::cli {
 using Command =
     std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
                  InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
-                 DumpOptions, TopOptions, EvalOptions, LiveOptions>;
+                 DumpOptions, TopOptions, EvalOptions, CompareOptions, LiveOptions>;
 
 /// The command line, read.
 struct Arguments {

@@ -22,6 +22,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const DumpOptions& options);
 [[nodiscard]] ExitCode run(const TopOptions& options);
 ExitCode run(const EvalOptions& options);
+[[nodiscard]] ExitCode run(const CompareOptions& options);
 [[nodiscard]] ExitCode run(const LiveOptions& options);
 
 }  // namespace terracut::cli

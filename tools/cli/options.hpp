@@ -146,6 +146,14 @@ struct EvalOptions {
   std::filesystem::path json;         ///< --json
 };
 
+struct CompareOptions {
+  std::filesystem::path before, after;  ///< Reports of eval.
+  std::string method = "terracut";      ///< --method
+  std::string method_after;             ///< --method-after; empty: the same
+  double significance = 0.05;           ///< --significance, (0, 1)
+  std::filesystem::path json;           ///< --json
+};
+
 struct DumpOptions {
   std::string name;    ///< Of the running process; empty: the only one that runs.
   double wait_s = 30;  ///< --wait, [0, 3600]: for its answer.

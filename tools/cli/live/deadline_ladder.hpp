@@ -8,6 +8,7 @@
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/segmenter.hpp"
 #include "rt/frame_timing.hpp"
+#include "rt/nonblocking.hpp"
 #include "rt/thread_cpu_clock.hpp"
 #include "tools/cli/stage_clock.hpp"
 
@@ -22,7 +23,7 @@ class DeadlineLadder {
   explicit DeadlineLadder(std::int64_t deadline_ns) noexcept : deadline_ns_(deadline_ns) {}
 
   /// A frame begins. False when not even the coarse stages would be done in time.
-  [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept {
+  [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
     looks_ = 0;
     stopped_cpu_ns_ = 0;
@@ -33,13 +34,15 @@ class DeadlineLadder {
   /// For the segmenter, for the frame that was begun: expires so early that what follows the cut
   /// still fits, and, when asked before the cut, that what it cannot be stopped in fits too. Valid
   /// while this is.
-  [[nodiscard]] pipeline::CutBudget budget() noexcept {
+  [[nodiscard]] pipeline::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {pipeline::CutBudget::kDefaultOps,
-            [](void* ladder) noexcept { return static_cast<DeadlineLadder*>(ladder)->expired(); },
+            [](void* ladder) noexcept TERRACUT_NONBLOCKING {
+              return static_cast<DeadlineLadder*>(ladder)->expired();
+            },
             this};
   }
   /// The frame is done: learns from it.
-  void end(const StageTimes& times) noexcept {
+  void end(const StageTimes& times) noexcept TERRACUT_NONBLOCKING {
     using pipeline::Stage;
     const auto cost_ns = [&](Stage stage) {
       return times.stage_ns[static_cast<std::size_t>(stage)];
@@ -64,7 +67,7 @@ class DeadlineLadder {
  private:
   /// The first look of a frame comes before the cut, the second one when the cut can be stopped
   /// first: seeds, weights and persistency lie between, however many cells are unknown.
-  [[nodiscard]] bool expired() noexcept {
+  [[nodiscard]] bool expired() noexcept TERRACUT_NONBLOCKING {
     const std::int64_t left_ns = due_ns_ - rt::realtime_ns() - after_cut_ns_;
     if (looks_ == 0) {
       ++looks_;

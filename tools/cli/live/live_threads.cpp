@@ -10,8 +10,6 @@
 #include <utility>
 
 #include "rt/page_faults.hpp"
-#include "rt/scheduler_times.hpp"
-#include "rt/stolen_time.hpp"
 #include "rt/thread_setup.hpp"
 
 namespace terracut::cli {
@@ -29,6 +27,11 @@ rt::ThreadWish wish(std::string name, int priority, std::optional<int> core) {
   rt::ThreadWish wish{.name = std::move(name), .scheduling = {}, .core = core};
   if (priority > 0) wish.scheduling = rt::FifoScheduling{priority};
   return wish;
+}
+
+/// Waits on purpose.
+void gather() noexcept {
+  rt::trusted_call([]() noexcept { std::this_thread::sleep_for(kGathering); });
 }
 
 void publish(LiveThreads::ThreadState& state, const rt::PageFaults& at_start) noexcept {
@@ -147,14 +150,17 @@ void LiveThreads::receive() noexcept {
       chain_.decoder.decode(datagram, on_frame);
     }
     intake_.publish({since(before, source_.counters()), source_.link(), newest_packet_ns});
-    if (datagrams.size() < kWorthwhileBatch) std::this_thread::sleep_for(kGathering);
+    if (datagrams.size() < kWorthwhileBatch) gather();
   }
 }
 
 void LiveThreads::segment() noexcept {
+  segment_turns(rt::SchedulerTimes::of_this_thread(), rt::StolenTime::open());
+}
+
+void LiveThreads::segment_turns(const rt::SchedulerTimes& scheduler,
+                                const Expected<rt::StolenTime>& stolen) noexcept {
   const rt::PageFaults at_start = rt::PageFaults::of_this_thread();
-  const rt::SchedulerTimes scheduler = rt::SchedulerTimes::of_this_thread();
-  const auto stolen = rt::StolenTime::open();
   const auto stolen_ns = [&] { return stolen ? stolen->read_ns().value_or(0) : 0; };
   rt::SchedulerReading before = scheduler.read();
   std::int64_t stolen_before_ns = stolen_ns();

@@ -18,7 +18,10 @@
 #include "live_source.hpp"
 #include "rt/grant.hpp"
 #include "rt/latest_value.hpp"
+#include "rt/nonblocking.hpp"
+#include "rt/scheduler_times.hpp"
 #include "rt/spsc_queue.hpp"
+#include "rt/stolen_time.hpp"
 #include "tools/cli/packet_chain.hpp"
 
 namespace terracut::cli {
@@ -81,8 +84,10 @@ class LiveThreads {
   static constexpr std::size_t kTimings = 64;
   static constexpr std::size_t kLabelSlots = 8;
 
-  void receive() noexcept;
+  void receive() noexcept TERRACUT_NONBLOCKING;
   void segment() noexcept;
+  void segment_turns(const rt::SchedulerTimes& scheduler,
+                     const Expected<rt::StolenTime>& stolen) noexcept TERRACUT_NONBLOCKING;
   void segment_turn(FrameExchange::Turn& turn) noexcept;
   void pass_on_labels(std::uint32_t number) noexcept;
   void pass_on(rt::SpscQueue<rt::FrameTiming>& queue, const rt::FrameTiming& timing) noexcept;

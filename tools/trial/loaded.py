@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 
 from . import machine
 from .beside import CyclicTest, Stress
-from .capture import packet_count
+from .capture import Drive, packet_count
 from .live import Live, faults, losses, misses, times
 from .loopback import DEADLINE_MS, DRIVE_S, SENSORS, TURNS_A_SECOND
 from .program import Program
@@ -60,7 +61,8 @@ def with_rights(program: Program, report: Report, minutes: float, name: str) -> 
         return loaded_run(program, report, of, drive, seconds, metrics, ["--labels", folder], disk.freeze, disk.thaw)
 
 
-def loaded_run(program, report, of, drive, seconds, metrics, options, freeze, thaw) -> list:
+def loaded_run(program: Program, report: Report, of: str, drive: Drive, seconds: float, metrics: int, options: list,
+               freeze: Callable[[], None], thaw: Callable[[], None]) -> list:  # fmt: skip
     options = [*options, "--metrics", f"127.0.0.1:{metrics}"]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=seconds + 180) as live:
         freeze()
@@ -122,7 +124,7 @@ def own_skips(summary: dict) -> int:
     return max(0, summary["frames"]["rungs"]["skipped"] - others)
 
 
-def judged_all(summary: dict, sent: dict, drive) -> bool:
+def judged_all(summary: dict, sent: dict, drive: Drive) -> bool:
     """Frames counted are the turns sent, but for what lies at the end."""
     turns = sent["sent"] / packet_count(drive.pcap) * DRIVE_S * TURNS_A_SECOND
     return turns - 3 <= summary["frames"]["count"] <= turns + 1

@@ -71,11 +71,14 @@ def main(arguments: list[str]) -> int:
         return 2
     report = Report(options.trial, "./tools/live_trial " + shlex.join(arguments))
     print(f"{options.trial}: {machine.line()}", flush=True)
+    program = Program(options.program.resolve(), options.dir.resolve())
+    held = True
     try:
-        program = Program(options.program.resolve(), options.dir.resolve())
         hold(options, program, report)
     except (TrialError, OSError, subprocess.SubprocessError) as error:
-        print(f"error: the trial could not be held: {error}", file=sys.stderr)
-        return 2
+        held = False
+        report.check("held to its end", False, error)
     report.write(program.scratch / "results")
+    if not held:
+        return 2
     return 1 if report.failed else 0

@@ -9,6 +9,7 @@ import shutil
 from bisect import bisect_right
 from collections import Counter
 from dataclasses import dataclass, field
+from pathlib import Path
 
 from .capture import Drive, labels_of, packet_count, records
 from .live import Live, losses
@@ -153,7 +154,8 @@ def unmatched(turns: list[str], touched: set[int], frames: dict[int, str]) -> li
     return missing
 
 
-def against_dump(program, report, of, drive, dumps, frames, summary) -> tuple[list[int], int]:
+def against_dump(program: Program, report: Report, of: str, drive: Drive, dumps: Path, frames: dict[int, str],
+                 summary: dict) -> tuple[list[int], int]:  # fmt: skip
     """Frames that the flight recorder's capture, replayed, labels differently; and how many were compared."""
     captures = list(dumps.glob("*.pcap"))
     report.equal(of + "dumps written", len(captures), 1)

@@ -25,14 +25,19 @@ class DeadlineLadder {
   /// A frame begins. False when not even the coarse stages would be done in time.
   [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
-    return rt::realtime_ns() + coarse_ns_ <= due_ns_;
+    looks_ = 0;
+    stopped_cpu_ns_ = 0;
+    if (rt::realtime_ns() + coarse_ns_ <= due_ns_) return true;
+    coarse_ns_ -= coarse_ns_ / kSlowly;
+    return false;
   }
-  /// For the segmenter: expires so early that what follows the cut still fits. Valid while this is.
+  /// For the segmenter, for the frame that was begun: expires so early that what follows the cut
+  /// still fits, and, when asked before the cut, that what it cannot be stopped in fits too. Valid
+  /// while this is.
   [[nodiscard]] pipeline::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {pipeline::CutBudget::kDefaultOps,
             [](void* ladder) noexcept TERRACUT_NONBLOCKING {
-              const auto& self = *static_cast<const DeadlineLadder*>(ladder);
-              return rt::realtime_ns() + self.after_cut_ns_ > self.due_ns_;
+              return static_cast<DeadlineLadder*>(ladder)->expired();
             },
             this};
   }
@@ -43,7 +48,13 @@ class DeadlineLadder {
       return times.stage_ns[static_cast<std::size_t>(stage)];
     };
     const std::int64_t labels_ns = cost_ns(Stage::kLabels);
-    learn(after_cut_ns_, labels_ns + kMargin_ns);
+    // A cut that was stopped still has to make labels of what it has; one that was not tells
+    // nothing of what that costs.
+    if (stopped_cpu_ns_ != 0) {
+      learn(after_cut_ns_, rt::thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
+    } else {
+      after_cut_ns_ = std::max(labels_ns + kMargin_ns, after_cut_ns_ - after_cut_ns_ / kSlowly);
+    }
     learn(coarse_ns_,
           cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns + kMargin_ns);
   }
@@ -54,6 +65,29 @@ class DeadlineLadder {
   }
 
  private:
+  /// The first look of a frame comes before the cut, the second one when the cut can be stopped
+  /// first: seeds, weights and persistency lie between, however many cells are unknown.
+  [[nodiscard]] bool expired() noexcept TERRACUT_NONBLOCKING {
+    const std::int64_t left_ns = due_ns_ - rt::realtime_ns() - after_cut_ns_;
+    if (looks_ == 0) {
+      ++looks_;
+      if (left_ns < cut_start_ns_) {
+        cut_start_ns_ -= cut_start_ns_ / kSlowly;
+        return true;
+      }
+      cut_begun_cpu_ns_ = rt::thread_cpu_ns();
+    } else if (looks_ == 1) {
+      ++looks_;
+      learn(cut_start_ns_, rt::thread_cpu_ns() - cut_begun_cpu_ns_);
+    }
+    if (left_ns >= 0) return false;
+    stopped_cpu_ns_ = rt::thread_cpu_ns();
+    return true;
+  }
+
+  /// What is left out teaches nothing. It is tried again when what the dearest frame taught has
+  /// faded, by this part a frame: seldom, because the frame it is tried on may miss its deadline.
+  static constexpr std::int64_t kSlowly = 1024;
   /// For waking up late and for handing over.
   static constexpr std::int64_t kMargin_ns = 500'000;
 
@@ -65,6 +99,8 @@ class DeadlineLadder {
   std::int64_t deadline_ns_;
   std::int64_t due_ns_ = 0;
   std::int64_t coarse_ns_ = kMargin_ns, after_cut_ns_ = kMargin_ns;
+  std::int64_t cut_start_ns_ = 0, cut_begun_cpu_ns_ = 0, stopped_cpu_ns_ = 0;
+  int looks_ = 0;  ///< At the clock, in this frame; no more are counted than are told apart.
 };
 
 }  // namespace terracut::cli

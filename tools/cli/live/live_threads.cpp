@@ -21,8 +21,8 @@ using firmware_io::FrameInfo;
 constexpr std::int64_t kPatience_ns = 100'000'000;
 /// Waking up for every packet costs more than decoding it. After a small batch the next one is left
 /// to gather in the kernel's buffer, which stamps packets and holds a thousand times as many.
-constexpr std::size_t kWorthwhileBatch = 16;
-constexpr std::chrono::microseconds kGathering{500};
+constexpr std::size_t kWorthwhileBatch = 32;
+constexpr std::chrono::microseconds kGathering{1000};
 
 rt::ThreadWish wish(std::string name, int priority, std::optional<int> core) {
   rt::ThreadWish wish{.name = std::move(name), .scheduling = {}, .core = core};

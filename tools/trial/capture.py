@@ -1,0 +1,51 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Simulated drives to send, and the little that a trial reads of captures and label files itself."""
+
+from __future__ import annotations
+
+import hashlib
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+
+FILE_HEADER_BYTES = 24
+RECORD_HEADER = struct.Struct("<IIII")
+MICROSECOND_MAGIC = 0xA1B2C3D4
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What `terracut simulate -o PCAP` wrote."""
+
+    pcap: Path
+    calibration: Path
+    truth: Path
+
+
+def records(pcap: Path):
+    """(stamp in nanoseconds, bytes of header and packet) of every record of a classic pcap file."""
+    with pcap.open("rb") as file:
+        magic = struct.unpack("<I", file.read(FILE_HEADER_BYTES)[:4])[0]
+        unit_ns = 1000 if magic == MICROSECOND_MAGIC else 1
+        while header := file.read(RECORD_HEADER.size):
+            seconds, fraction, captured, _ = RECORD_HEADER.unpack(header)
+            yield seconds * 10**9 + fraction * unit_ns, header + file.read(captured)
+
+
+def packet_count(pcap: Path) -> int:
+    return sum(1 for _ in records(pcap))
+
+
+def cut_beginning(pcap: Path, packets: int, into: Path) -> None:
+    """The first packets of a capture as one of its own."""
+    with pcap.open("rb") as file:
+        content = file.read(FILE_HEADER_BYTES)
+    for _, (_, record) in zip(range(packets), records(pcap)):
+        content += record
+    into.write_bytes(content)
+
+
+def labels_of(folder: Path) -> dict[int, str]:
+    """A digest of every frame's label file, by frame number."""
+    return {int(path.stem): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob("*.label"))}

@@ -1,0 +1,84 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Minutes at 10 Hz through a socket of this machine: an HDL-64E, then an RS-Ruby128 in dual return."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+from . import machine
+from .beside import CyclicTest
+from .capture import packet_count
+from .live import Live, faults, losses, misses, times
+from .program import Program
+from .report import Report
+
+DEADLINE_MS = 50
+DRIVE_S = 30
+TURNS_A_SECOND = 10
+
+
+@dataclass(frozen=True)
+class Sensor:
+    name: str
+    returns: str
+    cpu_bar_ms: float  # of the processor time end to end, 99.9th percentile
+
+
+SENSORS = {"hdl64e": Sensor("hdl64e", "single", 15), "ruby128": Sensor("ruby128", "dual", 25)}
+
+
+def hold(program: Program, report: Report, minutes: float, sensors: list[str]) -> None:
+    rows = []
+    for name in sensors:
+        rows.append(hold_one(program, report, minutes, SENSORS[name]))
+    report.table(
+        f"{minutes:g} minutes a sensor at 10 Hz, milliseconds p50 / p99 / p99.9 / max",
+        ["sensor", "frames", "packets", "processor time", "of it decoding", "latency (wall)", "misses of 50 ms",
+         "cyclictest beside", "load average"],
+        rows,
+    )  # fmt: skip
+    report.skip(
+        "0 allocations on the real-time threads",
+        "not measured here: the tests of decoder and segmenter count them; memory is locked, so a heap that grew would "
+        "show as page faults",
+    )
+
+
+def hold_one(program: Program, report: Report, minutes: float, sensor: Sensor) -> list:
+    drive = program.drive(sensor.name, sensor.returns, "street", DRIVE_S)
+    loops = max(1, round(minutes * 60 / DRIVE_S))
+    seconds = loops * DRIVE_S
+    print(f"\n{sensor.name}, {sensor.returns} return, {seconds} s; load average {machine.load()}", flush=True)
+    with Live(program, drive, deadline_ms=DEADLINE_MS, limit_s=seconds + 120) as live:
+        test = CyclicTest(seconds)
+        sending = live.send("--loop", loops)
+        time.sleep(seconds * 0.9)
+        load = machine.load()
+        sent = sending.wait()
+        summary = live.stop()
+        cyclic = test.result()
+    judge(report, sensor, summary, sent, loops, packet_count(drive.pcap))
+    return [f"{sensor.name}, {sensor.returns} return", summary["frames"]["count"], summary["link"]["packets"],
+            times(summary, "cpu_total"), times(summary, "cpu_decode"), times(summary, "latency"), misses(summary),
+            cyclic, load]  # fmt: skip
+
+
+def judge(report: Report, sensor: Sensor, summary: dict, sent: dict, loops: int, packets: int) -> None:
+    frames, of = summary["frames"], f"{sensor.name}: "
+    turns = loops * DRIVE_S * TURNS_A_SECOND
+    report.equal(of + "datagrams sent", (sent["sent"], sent["failed"]), (loops * packets, 0))
+    report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
+    # The drive's clock starts again with every pass; its head turns on. The stamps say so once a pass.
+    expected = {"clock_jumps": loops - 1} if loops > 1 else {}
+    report.equal(of + "losses by cause, but for the clock of a drive that is repeated", losses(summary), expected)
+    # Of the last turn the end is not seen: no packet follows it.
+    report.check(of + f"frames of {turns} turns sent", turns - 2 <= frames["count"] <= turns, frames["count"])
+    report.equal(of + "frames skipped", frames["rungs"]["skipped"], 0)
+    report.equal(of + "page faults of both real-time threads", faults(summary), 0)
+    cpu_ms = summary["ms"]["cpu_total"]["p99.9"]
+    report.check(of + f"processor time end to end, p99.9 <= {sensor.cpu_bar_ms:g} ms", cpu_ms <= sensor.cpu_bar_ms,
+                 f"{cpu_ms:.2f} ms")  # fmt: skip
+    report.check(of + f"no miss of {DEADLINE_MS} ms of its own making", summary["misses"]["causes"]["own_work"] == 0,
+                 misses(summary))  # fmt: skip

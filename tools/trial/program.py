@@ -1,0 +1,57 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Runs `terracut`: makes drives, sends them, replays them. The live process itself: live.py."""
+
+from __future__ import annotations
+
+import json
+import subprocess
+from pathlib import Path
+
+from .capture import Drive
+
+
+class TrialError(Exception):
+    """The trial could not be held; the message says why."""
+
+
+class Program:
+    """`scratch`: a folder for drives, which are kept from one trial to the next, and results."""
+
+    def __init__(self, path: Path, scratch: Path):
+        self.path = path
+        self.scratch = scratch
+        (scratch / "drives").mkdir(parents=True, exist_ok=True)
+
+    def run(self, *arguments: object, limit_s: float = 1800) -> subprocess.CompletedProcess:
+        command = [str(self.path), *map(str, arguments)]
+        return subprocess.run(command, capture_output=True, text=True, timeout=limit_s, check=False)
+
+    def must(self, *arguments: object) -> str:
+        done = self.run(*arguments)
+        if done.returncode != 0:
+            raise TrialError(f"terracut {' '.join(map(str, arguments))}: exit code {done.returncode}\n{done.stderr}")
+        return done.stdout
+
+    def drive(self, sensor: str, returns: str, scene: str, seconds: float) -> Drive:
+        """Simulated once, then kept: delete the folder after a change of the simulator."""
+        pcap = self.scratch / "drives" / f"{sensor}-{returns}-{scene}-{seconds:g}s.pcap"
+        table = pcap.with_suffix(".calibration." + ("csv" if sensor == "ruby128" else "xml"))
+        drive = Drive(pcap, table, pcap.with_suffix(".truth"))
+        if not (pcap.exists() and table.exists()):
+            print(f"Simulating {seconds:g} s of '{scene}' with the {sensor}, {returns} return", flush=True)
+            self.must("simulate", "--sensor", sensor, "--returns", returns, "--scene", scene, "--seed", 1,
+                      "--duration", seconds, "-o", pcap)  # fmt: skip
+        return drive
+
+    def replay(self, pcap: Path, calibration: Path, labels: Path | None = None, *options: object) -> dict:
+        """The report of `terracut replay`."""
+        report = self.scratch / "replay.json"
+        arguments = ["replay", pcap, "--calibration", calibration, "--json", report, *options]
+        if labels is not None:
+            arguments += ["--labels", labels]
+        self.must(*arguments)
+        return json.loads(report.read_text())
+
+    def has_option(self, command: str, option: str) -> bool:
+        return option in self.must(command, "--help")

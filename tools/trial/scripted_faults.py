@@ -1,0 +1,169 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Every fault that `terracut send --faults` knows: the right counter moves, by the right amount, and the
+labels of what was not touched are those of an offline replay, bit for bit."""
+
+from __future__ import annotations
+
+import shutil
+from bisect import bisect_right
+from collections import Counter
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from .capture import Drive, labels_of, packet_count, records
+from .live import Live, losses
+from .program import Program, TrialError
+from .report import Report
+
+# No frame is to be cut short by the clock: what is compared are labels.
+DEADLINE_MS = 10_000
+STRANGER = "127.0.0.2"
+# The recorder's room is for the densest sensor; an HDL-64E's packets fill it more than thrice as slowly.
+RECORDER_S = 6
+COLUMNS_A_PACKET = 6  # of an HDL-64E
+# Turns of the drive begin every 100 ms: faults lie in the middle of one, and two turns apart.
+FIRST_S, APART_S = 0.54, 0.2
+
+
+@dataclass(frozen=True)
+class Fault:
+    """`counters`: what is counted for each packet that `send` says the fault had; `once`: for the fault."""
+
+    name: str
+    kind: str
+    amount: str
+    counters: dict[str, int] = field(default_factory=dict)
+    once: dict[str, int] = field(default_factory=dict)
+    touches: bool = False  # the labels of its turns
+    arriving: int = 0  # packets more, or less, that arrive for each
+    foreign_from: str = ""
+
+
+FAULTS = [
+    Fault("loss", "loss", "20packets", {"network_gap_packets": 1, "azimuth_hole_columns": COLUMNS_A_PACKET},
+          touches=True, arriving=-1),
+    Fault("reorder", "reorder", "3", touches=True),
+    Fault("duplicate", "duplicate", "7", {"rejected_repeated": 1}, arriving=1),
+    Fault("burst", "burst", "50ms"),
+    Fault("truncate", "truncate", "5", {"rejected_wrong_size": 1, "network_gap_packets": 1,
+                                        "azimuth_hole_columns": COLUMNS_A_PACKET}, touches=True),
+    Fault("foreign, from another address", "foreign", "50", {"foreign_datagrams": 1}, foreign_from=STRANGER),
+    Fault("foreign, from the sensor's address", "foreign", "50", {"rejected_wrong_size": 1}, arriving=1),
+    Fault("clock forward", "clock", "+2.0s", once={"clock_jumps": 1}),
+    Fault("clock back", "clock", "-1.5s", once={"clock_jumps": 1}),
+    Fault("pause", "pause", "0.4s", {"network_gap_packets": 1, "azimuth_hole_columns": COLUMNS_A_PACKET},
+          touches=True, arriving=-1),
+]  # fmt: skip
+
+
+def hold(program: Program, report: Report, together: bool) -> None:
+    """One run a fault, or `together`: all in one, which is quicker and says less of which one failed."""
+    seconds = FIRST_S + APART_S * len(FAULTS) + 1
+    drive = program.drive("hdl64e", "single", "street", round(seconds, 1))
+    folder = program.scratch / "labels_replay"
+    shutil.rmtree(folder, ignore_errors=True)
+    turns = Turns(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
+    runs = [[fault] for fault in FAULTS]
+    if together:
+        runs = [[fault for fault in FAULTS if fault.name != "foreign, from the sensor's address"]]
+    rows = [run(program, report, drive, turns, faults) for faults in runs]
+    report.table("Faults of an HDL-64E's stream", ["fault", "packets it had", "counted", "turns touched",
+                 "turns as in the replay of the capture", "frames as in the replay of what was received"], rows)  # fmt: skip
+
+
+class Turns:
+    """The drive's turns, undisturbed: where each begins, and its labels."""
+
+    def __init__(self, replay: dict, drive: Drive, labels: dict[int, str]):
+        self.begin_ns = [frame["first_packet_ns"] for frame in replay["frames"]]
+        self.stamps_ns = [stamp for stamp, _ in records(drive.pcap)]
+        # The end of the last two is only known to a replay, which knows that nothing follows.
+        self.labels = [labels[number] for number in range(len(self.begin_ns) - 2)]
+        if len(set(self.labels)) != len(self.labels):
+            raise TrialError(f"{drive.pcap} has turns with the same labels, which cannot be told apart")
+
+    def of(self, first_packet: int, count: int) -> set[int]:
+        numbers = [bisect_right(self.begin_ns, self.stamps_ns[packet]) - 1
+                   for packet in (first_packet, first_packet + count - 1)]  # fmt: skip
+        return set(range(numbers[0], numbers[1] + 1))
+
+
+def run(program: Program, report: Report, drive: Drive, turns: Turns, faults: list[Fault]) -> list:
+    of = (faults[0].name if len(faults) == 1 else "all at once") + ": "
+    script = " ".join(f"{fault.kind}@{FIRST_S + i * APART_S:.2f}s:{fault.amount}" for i, fault in enumerate(faults))
+    stranger = next((["--foreign-from", fault.foreign_from] for fault in faults if fault.foreign_from), [])
+    labels, dumps = program.scratch / "labels_live", program.scratch / "dumps"
+    for folder in (labels, dumps):
+        shutil.rmtree(folder, ignore_errors=True)
+    options = ["--labels", labels, "--recorder-folder", dumps, "--recorder-seconds", RECORDER_S]
+    with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=120) as live:
+        sent = live.send("--faults", script, *stranger).wait()
+        program.must("dump", live.name)
+        summary = live.stop()
+
+    touched = set()
+    for fault, done in zip(faults, sent["faults"]):
+        if fault.touches:
+            touched |= set().union(*(turns.of(first, count) for first, count in done["runs"]))
+
+    report.check(of + "the fault was done whole", all(done["complete"] for done in sent["faults"]), script)
+    had = [done["packets"] for done in sent["faults"]]
+    arrived = len(turns.stamps_ns) + sum(fault.arriving * count for fault, count in zip(faults, had))
+    report.equal(of + "packets taken in", summary["link"]["packets"], arrived)
+    expected = expected_losses(faults, had)
+    found = losses(summary)
+    if "azimuth_hole_columns" in expected:
+        # A turn has no whole number of columns: one may count as the neighbour's.
+        holes, columns = found.pop("azimuth_hole_columns", 0), expected.pop("azimuth_hole_columns")
+        report.check(of + "columns missing", abs(holes - columns) <= len(touched), f"{holes} of {columns}")
+    report.equal(of + "losses by cause", found, expected)
+    report.equal(of + "misses", summary["misses"]["total"], 0)
+
+    mine = labels_of(labels)
+    lost = unmatched(turns.labels, touched, mine)
+    untouched = len(turns.labels) - len(touched)
+    report.equal(of + "untouched turns not as in the replay of the capture, or not in order", lost, [])
+    differing, compared = against_dump(program, report, of, drive, dumps, mine, summary)
+    report.equal(of + "frames not as in the replay of what was received", differing, [])
+    return [of.rstrip(": "), ", ".join(map(str, had)), ", ".join(f"{k} {v}" for k, v in losses(summary).items()) or "-",
+            ", ".join(map(str, sorted(touched))) or "-", f"{untouched - len(lost)} of {untouched}",
+            f"{compared - len(differing)} of {compared}"]  # fmt: skip
+
+
+def expected_losses(faults: list[Fault], had: list[int]) -> dict[str, int]:
+    expected: Counter = Counter()
+    for fault, packets in zip(faults, had):
+        expected.update({name: each * packets for name, each in fault.counters.items()})
+        expected.update(fault.once)
+    return dict(expected)
+
+
+def unmatched(turns: list[str], touched: set[int], frames: dict[int, str]) -> list[int]:
+    """Untouched turns whose labels are not among the frames', at a later number than those before."""
+    number_of = {labels: number for number, labels in frames.items()}
+    missing, newest = [], -1
+    for turn, labels in enumerate(turns):
+        if turn in touched:
+            continue
+        number = number_of.get(labels, -1)
+        if number <= newest:
+            missing.append(turn)
+        else:
+            newest = number
+    return missing
+
+
+def against_dump(program: Program, report: Report, of: str, drive: Drive, dumps: Path, frames: dict[int, str],
+                 summary: dict) -> tuple[list[int], int]:  # fmt: skip
+    """Frames that the flight recorder's capture, replayed, labels differently; and how many were compared."""
+    captures = list(dumps.glob("*.pcap"))
+    report.equal(of + "dumps written", len(captures), 1)
+    if not captures:
+        return sorted(frames), len(frames)
+    report.equal(of + "packets in the dump", packet_count(captures[0]), summary["link"]["packets"])
+    folder = program.scratch / "labels_dump"
+    shutil.rmtree(folder, ignore_errors=True)
+    program.replay(captures[0], drive.calibration, folder)
+    replayed = labels_of(folder)
+    return [number for number, labels in frames.items() if replayed.get(number) != labels], len(frames)

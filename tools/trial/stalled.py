@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Sinks that stand still: a disk whose writes block, and readers that do not read."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import signal
+import socket
+import subprocess
+import time
+from pathlib import Path
+
+from . import machine
+from .live import Live, losses, misses
+from .loopback import DEADLINE_MS, DRIVE_S
+from .program import Program
+from .report import Report
+
+RETURN_BYTES = 4
+
+
+class FrozenDisk:
+    """A file system of its own whose writes can be made to block, as those of a disk that hangs."""
+
+    def __init__(self, scratch: Path, megabytes: int = 512):
+        self.image, self.folder = scratch / "disk.img", scratch / "disk"
+        self.frozen = False
+        with self.image.open("wb") as file:
+            file.truncate(megabytes << 20)
+        self.folder.mkdir(exist_ok=True)
+        subprocess.run(["mkfs.ext4", "-q", "-F", str(self.image)], check=True, capture_output=True)
+        subprocess.run(["mount", "-o", "loop", str(self.image), str(self.folder)], check=True, capture_output=True)
+
+    @staticmethod
+    def impossible() -> str:
+        """Why this machine cannot have one; empty: it can."""
+        if not machine.is_root():
+            return "needs root, to mount and freeze a file system"
+        if not Path("/dev/loop-control").exists():
+            return "needs loop devices"
+        return machine.lacks("mkfs.ext4", "fsfreeze")
+
+    def __enter__(self) -> "FrozenDisk":
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.thaw()
+        for _ in range(50):
+            if subprocess.run(["umount", str(self.folder)], capture_output=True, check=False).returncode == 0:
+                break
+            time.sleep(0.1)
+        self.image.unlink()
+
+    def freeze(self) -> None:
+        subprocess.run(["fsfreeze", "-f", str(self.folder)], check=True)
+        self.frozen = True
+
+    def thaw(self) -> None:
+        if self.frozen:
+            subprocess.run(["fsfreeze", "-u", str(self.folder)], check=True)
+            self.frozen = False
+
+
+class DeafReaders:
+    """Everyone who may look at a live process, standing still: `terracut top` stopped while attached, and
+    clients of /metrics (and of --stream, where there is one) that connect, ask, and never read."""
+
+    def __init__(self, live: Live, *ports: int):
+        top = [str(live.program.path), "top", live.name, "--interval", "0.1"]
+        self.top = subprocess.Popen(top, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        time.sleep(0.5)
+        self.top.send_signal(signal.SIGSTOP)
+        self.sockets = []
+        for port in ports:
+            client = socket.create_connection(("127.0.0.1", port), timeout=5)
+            client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1)
+            client.sendall(b"GET /metrics HTTP/1.1\r\nHost: here\r\n\r\n")
+            self.sockets.append(client)
+
+    def leave(self) -> None:
+        self.top.kill()
+        self.top.wait()
+        for client in self.sockets:
+            with contextlib.suppress(OSError):
+                client.close()
+
+
+def whole_labels(folder: Path, returns: dict[int, int]) -> list[str]:
+    """The names of label files that do not hold one label a return, and of everything else there."""
+    wrong = []
+    for path in sorted(folder.iterdir()):
+        number = int(path.stem) if path.suffix == ".label" and path.stem.isdigit() else -1
+        if number not in returns or path.stat().st_size != RETURN_BYTES * returns[number]:
+            wrong.append(path.name)
+    return wrong
+
+
+def line_with(text: str, words: str) -> str:
+    return next((line for line in text.splitlines() if words in line), "no message")
+
+
+def returns_of(report: dict) -> dict[int, int]:
+    """Of every frame of a replay."""
+    return {frame["frame"]: frame["returns_labelled"] for frame in report["frames"]}
+
+
+def hold(program: Program, report: Report, seconds: float) -> None:
+    reason = FrozenDisk.impossible()
+    if reason:
+        report.skip("a disk whose writes block", reason)
+    else:
+        report.table("A disk that stands still, milliseconds p99.9 of processor time and of latency",
+                     ["disk", "frames", "labels written", "frames unwritten", "processor time", "latency", "misses"],
+                     [thawed(program, report, seconds), never_thawed(program, report, seconds)])  # fmt: skip
+    deaf(program, report, seconds)
+
+
+def judge_frames(report: Report, of: str, summary: dict, sent: dict, allowed: set[str]) -> None:
+    report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
+    others = {name: count for name, count in losses(summary).items() if name not in allowed | {"clock_jumps"}}
+    report.equal(of + "losses by other causes", others, {})
+    report.equal(of + "misses of its own making", summary["misses"]["causes"]["own_work"], 0)
+
+
+def row(state: str, summary: dict, files: int) -> list:
+    return [state, summary["frames"]["count"], files, summary["losses"]["unwritten_label_frames"],
+            summary["ms"]["cpu_total"]["p99.9"], summary["ms"]["latency"]["p99.9"], misses(summary)]  # fmt: skip
+
+
+def thawed(program: Program, report: Report, seconds: float) -> list:
+    """The disk hangs for the middle third of the run."""
+    of, drive = "disk that hangs for a while: ", program.drive("hdl64e", "single", "street", DRIVE_S)
+    with FrozenDisk(program.scratch) as disk:
+        folder = disk.folder / "labels"
+        folder.mkdir()
+        with Live(program, drive, "--labels", folder, deadline_ms=DEADLINE_MS, limit_s=seconds + 120) as live:
+            sending = live.send("--loop")
+            time.sleep(seconds / 3)
+            disk.freeze()
+            time.sleep(seconds / 3)
+            disk.thaw()
+            time.sleep(seconds / 3)
+            sent = sending.stop()
+            summary = live.stop()
+        judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
+        files = len(list(folder.glob("*.label")))
+        unwritten, rungs = summary["losses"]["unwritten_label_frames"], summary["frames"]["rungs"]
+        labelled = summary["frames"]["count"] - rungs["skipped"]
+        report.check(of + "frames went unwritten", unwritten > 0, unwritten)
+        report.equal(of + "files and unwritten frames together", files + unwritten, labelled)
+        once = returns_of(program.replay(drive.pcap, drive.calibration))
+        period = len(once)
+        expected = {number: once[number % period] for number in range(summary["frames"]["count"])}
+        seam = {number for number in expected if number % period in (0, period - 1)}
+        wrong = [name for name in whole_labels(folder, expected) if int(name.split(".")[0]) not in seam]
+        report.equal(of + "files that are not whole", wrong, [])
+        return row(f"hangs {seconds / 3:.0f} s of {seconds:.0f}", summary, files)
+
+
+def never_thawed(program: Program, report: Report, seconds: float) -> list:
+    """The disk hangs and stays so: the process must say so and end all the same."""
+    of, drive = "disk that hangs for good: ", program.drive("hdl64e", "single", "street", DRIVE_S)
+    with FrozenDisk(program.scratch) as disk:
+        folder = disk.folder / "labels"
+        folder.mkdir()
+        with Live(program, drive, "--labels", folder, deadline_ms=DEADLINE_MS, limit_s=seconds + 120) as live:
+            sending = live.send("--loop")
+            time.sleep(seconds / 3)
+            disk.freeze()
+            time.sleep(2 * seconds / 3)
+            sent = sending.stop()
+            time.sleep(0.5)
+            live.interrupt()
+            # It has ended but for the thread that the kernel holds on to until the disk answers.
+            end = time.monotonic() + 20
+            while "disk does not answer" not in live.messages() and time.monotonic() < end:
+                time.sleep(0.1)
+            report.check(of + "says so at the end", "disk does not answer" in live.messages(),
+                         line_with(live.messages(), "disk does not answer"))  # fmt: skip
+            disk.thaw()
+            live.process.wait(timeout=60)
+        summary = json.loads(live.summary_file.read_text())
+        judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
+        report.equal(of + "exit code (4: an output could not be written)", live.process.returncode, 4)
+        left = [path.name for path in folder.iterdir() if path.suffix == ".label" and path.stat().st_size == 0]
+        report.equal(of + "empty label files", left, [])
+        return row(f"hangs after {seconds / 3:.0f} s of {seconds:.0f}", summary, len(list(folder.glob("*.label"))))
+
+
+def deaf(program: Program, report: Report, seconds: float) -> None:
+    of, drive = "readers that do not read: ", program.drive("hdl64e", "single", "street", DRIVE_S)
+    metrics = free_tcp_port()
+    ports, options = [metrics], ["--metrics", f"127.0.0.1:{metrics}"]
+    if program.has_option("live", "--stream"):
+        stream = free_tcp_port()
+        ports.append(stream)
+        options += ["--stream", f"127.0.0.1:{stream}"]
+    else:
+        report.skip(of + "a client of --stream", "this program has no --stream")
+    with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=seconds + 120) as live:
+        readers = DeafReaders(live, *ports)
+        sending = live.send("--loop")
+        time.sleep(seconds)
+        sent = sending.stop()
+        readers.leave()
+        summary = live.stop()
+    judge_frames(report, of, summary, sent, {name for name in summary["losses"] if "stream" in name})
+    report.equal(of + "frames skipped", summary["frames"]["rungs"]["skipped"], 0)
+
+
+def free_tcp_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]

@@ -9,6 +9,7 @@
 #include <memory>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "exit_codes.hpp"
 #include "setup_choice.hpp"
@@ -113,11 +114,25 @@ void add_method(CLI::App& app, MethodOptions& method) {
          "--set", method.settings,
          "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
       ->check([](const std::string& setting) {
-        pipeline::SegmenterConfig scratch;
+        pipeline::MethodConfig scratch;
         const Status valid = apply_setting(scratch, setting);
         return valid ? std::string() : valid.error().message;
       })
       ->allow_extra_args(false);
+}
+
+/// After add_method(): --profile and --stages choose among ours only.
+void add_rivals(CLI::App& app, MethodOptions& method) {
+  std::string about = "Ours or a rival by name, instead of --profile and --stages:";
+  std::vector<std::string> names;
+  for (const pipeline::MethodName& known : pipeline::method_names()) {
+    names.emplace_back(known.name);
+    about += "\n  " + names.back() + ": " + std::string(known.about);
+  }
+  app.add_option("--method", method.method, about)
+      ->check(CLI::IsMember(names))
+      ->excludes(app.get_option("--profile"))
+      ->excludes(app.get_option("--stages"));
 }
 
 void add_outputs(CLI::App& app, OutputOptions& output) {
@@ -173,6 +188,7 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   add_outputs(sub, o.output);
   sub.add_option("--truth", o.output.truth,
                  "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes");
@@ -187,6 +203,7 @@ void add_segment(CLI::App& sub, SegmentOptions& o) {
       ->required();
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   add_outputs(sub, o.output);
 }
 

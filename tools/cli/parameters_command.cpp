@@ -24,7 +24,7 @@ std::string range(const pipeline::Parameter& parameter) {
   return fmt::format("{} .. {}", limit(parameter.least), limit(parameter.most));
 }
 
-std::string value(const pipeline::Parameter& parameter, const pipeline::SegmenterConfig& config) {
+std::string value(const pipeline::Parameter& parameter, const pipeline::MethodConfig& config) {
   const bool unlimited = parameter.choices.empty() && parameter.get(config) >= kNoLimit;
   return unlimited ? "no limit" : pipeline::value_text(parameter, config);
 }
@@ -33,8 +33,8 @@ std::string value(const pipeline::Parameter& parameter, const pipeline::Segmente
 
 /// The table of docs/parameters.md, in Markdown, from the table the program itself reads.
 ExitCode run(const ParametersOptions&) {
-  const pipeline::SegmenterConfig terracut = pipeline::terracut_profile();
-  const pipeline::SegmenterConfig paper = pipeline::paper_profile();
+  const pipeline::MethodConfig terracut = pipeline::terracut_profile();
+  const pipeline::MethodConfig paper = pipeline::paper_profile();
   fmt::print("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
   for (const pipeline::Parameter& parameter : pipeline::parameters()) {
     fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,

@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <cassert>
 #include <cstdlib>
+#include <utility>
 
 namespace terracut::pipeline {
 
 BeliefPropagation::BeliefPropagation(const Shape& shape, rt::FixedMemory& memory)
     : shape_(shape),
       data_cost_(memory.take<float>("belief propagation", shape.nodes() * labels())),
-      message_(memory.take<float>("belief propagation", shape.nodes() * labels() * kDirections)),
+      message_(memory.take<float>("belief propagation", shape.nodes() * labels() * kSides)),
       between_rows_(
           memory.take<StepCost>("belief propagation", static_cast<std::size_t>(shape.rows))),
       within_row_(
@@ -30,76 +31,109 @@ void BeliefPropagation::run(int iterations) noexcept {
       }
     }
   }
-  Costs belief{};
+  std::array<float, kMaxLabels> belief{};
   for (std::size_t i = 0; i < label_.size(); ++i) {
-    add_up(i, belief);
-    const auto end = belief.begin() + shape_.labels;
-    label_[i] = static_cast<std::uint8_t>(std::min_element(belief.begin(), end) - belief.begin());
+    add_up(i, std::span(belief).first(labels()));
+    label_[i] = static_cast<std::uint8_t>(least_label(std::span(belief).first(labels())));
   }
 }
 
-void BeliefPropagation::add_up(std::size_t node, Costs& belief) noexcept {
+void BeliefPropagation::add_up(std::size_t node, std::span<float> belief) const noexcept {
   const float* data = data_cost_.data() + node * labels();
-  const float* below = message(kBelow, node);
-  const float* above = message(kAbove, node);
-  const float* left = message(kLeft, node);
-  const float* right = message(kRight, node);
-  for (std::size_t l = 0; l < labels(); ++l) {
-    belief[l] = data[l] + ((below[l] + above[l]) + (left[l] + right[l]));
+  const float* heard = message_.data() + node * labels() * kSides;
+  for (std::size_t l = 0; l < belief.size(); ++l) {
+    const float* from = heard + l * kSides;
+    belief[l] = data[l] + ((from[kBelow] + from[kAbove]) + (from[kLeft] + from[kRight]));
   }
 }
 
+/// To every side: message(x) = min over x' of [belief(x') - what came from that side(x') +
+/// cost(x - x')], less its minimum.
 void BeliefPropagation::send_all(int row, int column) noexcept {
-  Costs belief{};
   const std::size_t here = node(row, column);
-  add_up(here, belief);
-  if (row > 0) {
-    send(belief, message(kBelow, here), between_rows_[static_cast<std::size_t>(row - 1)],
-         message(kAbove, node(row - 1, column)));
+  const std::size_t count = labels();
+  std::array<float, kMaxLabels> belief{};
+  add_up(here, std::span(belief).first(count));
+  FourCosts costs{}, wider{};
+  const float* heard = message_.data() + here * count * kSides;
+  for (std::size_t l = 0; l < count; ++l) {
+    for (std::size_t side = 0; side < kSides; ++side) {
+      costs[l * kSides + side] = belief[l] - heard[l * kSides + side];
+    }
   }
-  if (row + 1 < shape_.rows) {
-    send(belief, message(kAbove, here), between_rows_[static_cast<std::size_t>(row)],
-         message(kBelow, node(row + 1, column)));
+
+  const auto at = static_cast<std::size_t>(row);
+  const StepCost nothing{};
+  const StepCost& across = within_row_[at];
+  const std::array<const StepCost*, kSides> step{
+      row > 0 ? &between_rows_[at - 1] : &nothing,
+      row + 1 < shape_.rows ? &between_rows_[at] : &nothing, &across, &across};
+  std::array<float, kSides> per_label{};
+  int most_free = 0;
+  for (std::size_t side = 0; side < kSides; ++side) {
+    per_label[side] = step[side]->per_label;
+    most_free = std::max(most_free, step[side]->free_labels);
   }
-  const StepCost& across = within_row_[static_cast<std::size_t>(row)];
+  // What is free to reach: the least of a window, one label wider on both sides each time.
+  for (int width = 0; width < most_free; ++width) {
+    for (std::size_t l = 0; l < count; ++l) {
+      const std::size_t lower = (l == 0 ? l : l - 1) * kSides;
+      const std::size_t upper = (l + 1 == count ? l : l + 1) * kSides;
+      for (std::size_t side = 0; side < kSides; ++side) {
+        const float mine = costs[l * kSides + side];
+        const float least = std::min(std::min(costs[lower + side], mine), costs[upper + side]);
+        wider[l * kSides + side] = width < step[side]->free_labels ? least : mine;
+      }
+    }
+    std::swap(costs, wider);
+  }
+  // Cones of slope per_label on top of every value: one pass up, one down.
+  for (std::size_t i = kSides; i < count * kSides; i += kSides) {
+    for (std::size_t side = 0; side < kSides; ++side) {
+      costs[i + side] = std::min(costs[i + side], costs[i - kSides + side] + per_label[side]);
+    }
+  }
+  for (std::size_t i = (count - 1) * kSides; i >= kSides; i -= kSides) {
+    for (std::size_t side = 0; side < kSides; ++side) {
+      costs[i - kSides + side] =
+          std::min(costs[i - kSides + side], costs[i + side] + per_label[side]);
+    }
+  }
+
+  if (row > 0) deliver(costs, kBelow, step[kBelow]->limit, node(row - 1, column));
+  if (row + 1 < shape_.rows) deliver(costs, kAbove, step[kAbove]->limit, node(row + 1, column));
   if (column > 0 || shape_.cyclic) {
     const int left = column > 0 ? column - 1 : shape_.columns - 1;
-    send(belief, message(kLeft, here), across, message(kRight, node(row, left)));
+    deliver(costs, kLeft, across.limit, node(row, left));
   }
   if (column + 1 < shape_.columns || shape_.cyclic) {
     const int right = column + 1 < shape_.columns ? column + 1 : 0;
-    send(belief, message(kRight, here), across, message(kLeft, node(row, right)));
+    deliver(costs, kRight, across.limit, node(row, right));
   }
 }
 
-/// message(x) = min over x' of [belief(x') - heard_from_it(x') + cost(x - x')], less its minimum.
-void BeliefPropagation::send(const Costs& belief, const float* heard_from_it, const StepCost& cost,
-                             float* message) const noexcept {
-  const std::size_t count = labels();
-  Costs here{};
-  for (std::size_t l = 0; l < count; ++l) here[l] = belief[l] - heard_from_it[l];
-  const float least = *std::min_element(here.begin(), here.begin() + shape_.labels);
+/// `to`: where the neighbour lies; it hears from the opposite side.
+void BeliefPropagation::deliver(const FourCosts& costs, Side to, float limit,
+                                std::size_t neighbour) noexcept {
+  constexpr std::array<Side, kSides> kOpposite{kAbove, kBelow, kRight, kLeft};
+  float least = costs[to];  // the cones have not changed it
+  for (std::size_t l = 1; l < labels(); ++l) least = std::min(least, costs[l * kSides + to]);
+  float* message = message_.data() + neighbour * labels() * kSides + kOpposite[to];
+  for (std::size_t l = 0; l < labels(); ++l) {
+    message[l * kSides] = std::min(costs[l * kSides + to] - least, limit);
+  }
+}
 
-  // What is free to reach: the least of a window, one label wider on both sides each time.
-  Costs wider{};
-  for (int step = 0; step < cost.free_labels; ++step) {
-    wider[0] = std::min(here[0], here[1]);
-    wider[count - 1] = std::min(here[count - 2], here[count - 1]);
-    for (std::size_t l = 1; l + 1 < count; ++l) {
-      wider[l] = std::min(std::min(here[l - 1], here[l]), here[l + 1]);
-    }
-    here = wider;
-  }
-  // Cones of slope per_label on top of every value: one pass up, one down.
-  for (std::size_t l = 1; l < count; ++l) {
-    here[l] = std::min(here[l], here[l - 1] + cost.per_label);
-  }
-  for (std::size_t l = count - 1; l-- > 0;) {
-    here[l] = std::min(here[l], here[l + 1] + cost.per_label);
-  }
-  for (std::size_t l = 0; l < count; ++l) {
-    message[l] = std::min(here[l] - least, cost.limit);
-  }
+/// Between the ends of a free slope all labels between are equally good but for rounding; the
+/// middle of them leans to neither side.
+int BeliefPropagation::least_label(std::span<const float> belief) const noexcept {
+  constexpr float kEqual = 1e-4F;
+  const auto least = std::min_element(belief.begin(), belief.end());
+  auto last = least;
+  while (last + 1 != belief.end() && *(last + 1) <= *least + kEqual) ++last;
+  auto first = least;
+  while (first != belief.begin() && *(first - 1) <= *least + kEqual) --first;
+  return static_cast<int>(((first - belief.begin()) + (last - belief.begin())) / 2);
 }
 
 double BeliefPropagation::energy() const noexcept {

@@ -168,21 +168,15 @@ void ColumnAngles::spread_from(std::uint32_t start) noexcept {
   }
 }
 
-/// A square of 2 margin_cells + 1 cells around every ground cell.
 void ColumnAngles::grow_ground() noexcept {
-  if (config_.margin_cells == 0) return;
   constexpr std::uint8_t kReached = 1;
   constexpr std::uint8_t kGrown = 2;
-  const int reach = config_.margin_cells;
   for (int row = 0; row < shape_.rows; ++row) {
-    for (int column = 0; column < shape_.columns; ++column) {
-      if (ground_[cell(row, column)] != kReached) continue;
-      for (int r = std::max(0, row - reach); r <= std::min(shape_.rows - 1, row + reach); ++r) {
-        for (int c = column - reach; c <= column + reach; ++c) {
-          const int around = ((c % shape_.columns) + shape_.columns) % shape_.columns;
-          std::uint8_t& mark = ground_[cell(r, around)];
-          if (mark == 0) mark = kGrown;
-        }
+    const int last = std::min(shape_.rows - 1, row + config_.margin_rows);
+    for (int other = std::max(0, row - config_.margin_rows); other <= last; ++other) {
+      for (int column = 0; column < shape_.columns; ++column) {
+        std::uint8_t& mark = ground_[cell(other, column)];
+        if (mark == 0 && ground_[cell(row, column)] == kReached) mark = kGrown;
       }
     }
   }

@@ -28,7 +28,7 @@ class ColumnAngles {
     int smoothing_window = 5;      ///< Rows of the Savitzky-Golay filter, odd, [1, 15].
     int repair_rows = 5;           ///< A hole is bridged from no farther away, [0, 32] ...
     float repair_range_m = 1.0F;   ///< ... between ranges that differ by less, [0, 100].
-    int margin_cells = 0;          ///< Ground grows by so many cells at the end, [0, 16].
+    int margin_rows = 0;           ///< Ground grows so many rows up and down at the end, [0, 16].
   };
 
   /// `profile` is not looked at: the angles are measured. Takes all memory.

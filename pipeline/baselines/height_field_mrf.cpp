@@ -112,8 +112,8 @@ void HeightFieldMrf::put_costs() noexcept {
   }
 }
 
-/// A height is supported by the returns at it, give or take one label. Those above are of obstacles
-/// then, those below cannot be.
+/// A height is supported by the returns at it and, nearly as well, by those one step off. Those
+/// above are of obstacles then, those below cannot be.
 void HeightFieldMrf::put_cost(int band, int sector, float free_above_m) noexcept {
   const auto labels = static_cast<std::size_t>(config_.height_labels);
   const auto cost = field_.data_cost(band, sector);
@@ -132,7 +132,8 @@ void HeightFieldMrf::put_cost(int band, int sector, float free_above_m) noexcept
     }
     const int above = all - below - near;
     cost[l] = say * (config_.below_cost * static_cast<float>(below) +
-                     config_.above_cost * static_cast<float>(above));
+                     config_.above_cost * static_cast<float>(above) +
+                     config_.beside_cost * static_cast<float>(near - at[l]));
     const bool passed_through =
         height_of(static_cast<int>(l)) > free_above_m + config_.height_step_m;
     if (passed_through) cost[l] += config_.hidden_cost;

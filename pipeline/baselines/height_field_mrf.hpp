@@ -32,8 +32,9 @@ class HeightFieldMrf {
     int height_labels = 64;       ///< Heights to choose from, [2, 128] ...
     float height_step_m = 0.1F;   ///< ... so far apart, around the mount's ground plane; [0.01, 1].
 
-    float above_cost = 1.0F;   ///< A column all of whose returns are above the ground, [0, 1000].
+    float above_cost = 0.5F;   ///< A column all of whose returns are above the ground, [0, 1000].
     float below_cost = 5.0F;   ///< A column all of whose returns are below it, [0, 1000].
+    float beside_cost = 0.1F;  ///< A column all of whose returns are one step off it, [0, 1000].
     int full_returns = 5;      ///< Columns of fewer returns have less say, [1, 1000].
     float hidden_cost = 2.0F;  ///< Ground where a beam passed through to something, [0, 1000].
 

@@ -10,7 +10,8 @@ namespace terracut::pipeline {
 namespace {
 
 TEST(ParameterTable, BothProfilesLieWithinTheRanges) {
-  for (const SegmenterConfig& config : {terracut_profile(), paper_profile()}) {
+  for (const MethodConfig& config :
+       {MethodConfig(terracut_profile()), MethodConfig(paper_profile())}) {
     for (const Parameter& p : parameters()) {
       EXPECT_GE(p.get(config), p.least) << p.key;
       EXPECT_LE(p.get(config), p.most) << p.key;
@@ -22,11 +23,11 @@ TEST(ParameterTable, EveryKeyIsUniqueAndSetsAFieldOfItsOwn) {
   std::set<std::string_view> keys;
   for (const Parameter& p : parameters()) {
     EXPECT_TRUE(keys.insert(p.key).second) << p.key;
-    SegmenterConfig config;
+    MethodConfig config;
     const double other = p.get(config) == p.least ? p.most : p.least;
     p.set(config, other);
     for (const Parameter& q : parameters()) {
-      const double expected = q.key == p.key ? other : q.get(SegmenterConfig{});
+      const double expected = q.key == p.key ? other : q.get(MethodConfig{});
       EXPECT_NEAR(q.get(config), expected, 1e-6 * std::abs(expected))
           << p.key << " changed " << q.key;
     }
@@ -35,7 +36,7 @@ TEST(ParameterTable, EveryKeyIsUniqueAndSetsAFieldOfItsOwn) {
 
 TEST(ParameterTable, ReadsBackWhatItPrints) {
   for (const Parameter& p : parameters()) {
-    SegmenterConfig config = paper_profile();
+    MethodConfig config = paper_profile();
     const double before = p.get(config);
     ASSERT_TRUE(set_parameter(config, p.key, value_text(p, config)).has_value()) << p.key;
     EXPECT_EQ(p.get(config), before) << p.key;
@@ -43,7 +44,7 @@ TEST(ParameterTable, ReadsBackWhatItPrints) {
 }
 
 TEST(ParameterTable, NamesWhatWouldHaveBeenValid) {
-  SegmenterConfig config;
+  MethodConfig config;
   const Status range = set_parameter(config, "region.lambda", "-1");
   ASSERT_FALSE(range.has_value());
   EXPECT_NE(range.error().message.find("from 0.0001 to 1000"), std::string::npos)

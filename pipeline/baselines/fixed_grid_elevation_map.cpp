@@ -31,9 +31,10 @@ FixedGridElevationMap::FixedGridElevationMap(const Config& config, const calib::
       return_labels_(second_returns(config), return_capacity, memory) {}
 
 std::uint32_t FixedGridElevationMap::square_of(float x_m, float y_m) const noexcept {
+  const float squares_per_metre = 1.0F / config_.cell_m;
   const auto last = static_cast<float>(side_ - 1);
   const auto step = [&](float along_m) noexcept {
-    const float steps = (along_m + config_.extent_m) / config_.cell_m;
+    const float steps = (along_m + config_.extent_m) * squares_per_metre;
     return steps > 0 ? static_cast<std::uint32_t>(std::min(steps, last)) : 0U;  // NaN too
   };
   return step(y_m) * static_cast<std::uint32_t>(side_) + step(x_m);

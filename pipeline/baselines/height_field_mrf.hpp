@@ -43,7 +43,7 @@ class HeightFieldMrf {
     float max_slope = 0.15F;        ///< What a slope of the ground may be, m/m; [0, 2].
     int iterations = 20;            ///< [0, 1000]
 
-    float obstacle_height_m = 0.25F;  ///< Obstacle from this far above the ground on, (0, 5].
+    float obstacle_height_m = 0.2F;  ///< Obstacle from this far above the ground on, (0, 5].
   };
 
   /// Takes all memory; of `profile` only the mount's height is used.

@@ -88,9 +88,9 @@ TEST(BeliefPropagation, IsExactOnAChainWithinARow) {
   }
 }
 
-TEST(BeliefPropagation, IsExactOnATree) {
-  // A comb: the rows of column 0 are tied to one another, and every row is a chain.
-  // Found by trying every labelling.
+TEST(BeliefPropagation, IsExactWhereCertainNodesCutTheLoops) {
+  // Two rows of four, all but the first column certain: what is left is a pair. Compared with the
+  // best of all 6561 labellings.
   std::mt19937 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const BeliefPropagation::Shape shape{2, 4, 3, false};
@@ -98,7 +98,6 @@ TEST(BeliefPropagation, IsExactOnATree) {
     BeliefPropagation field(shape, memory);
     std::vector<float> data;
     fill(field, shape, random, data);
-    // Data so firm that columns 1.. of the two rows have nothing to tell each other.
     for (int column = 1; column < shape.columns; ++column) {
       for (int row = 0; row < shape.rows; ++row) {
         field.data_cost(row, column)[static_cast<std::size_t>(column % 3)] = -100;

@@ -9,7 +9,7 @@
 
 #include "rt/error.hpp"
 
-// For calib's own .cpp files only: no public header includes this one.
+// For .cpp files only, of calib and of tools: no public header includes this one.
 namespace terracut::calib {
 
 /// Deepest nesting of maps and lists read; calibration and setup files have 3.

@@ -45,7 +45,8 @@ namespace terracut::firmware_io {
 /// flush(), noexcept; how long the image stays valid: frame_builder.hpp.
 ///
 /// One thread. The constructor takes all memory (throws std::invalid_argument on a bad setting);
-/// decode() and flush() allocate nothing, lock nothing and throw nothing.
+/// decode() and flush() allocate nothing, lock nothing and throw nothing: they are nonblocking
+/// (rt/nonblocking.hpp) where on_frame is, which the compiler checks where a marked function calls.
 template <class Sensor>
 class Decoder {
  public:

@@ -12,6 +12,7 @@
 #include "firmware_io/frame_info.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -62,7 +63,7 @@ class FrameBuilder {
 
   /// A stream begins: the first firing is at head azimuth `head_ticks`, its hindmost beam in
   /// `oldest_turn`. Nothing may be open with returns in it (see flush()).
-  void start(std::int64_t oldest_turn, std::int64_t head_ticks) noexcept;
+  void start(std::int64_t oldest_turn, std::int64_t head_ticks) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool started() const noexcept { return started_; }
   [[nodiscard]] std::int64_t oldest() const noexcept { return oldest_; }
@@ -81,14 +82,15 @@ class FrameBuilder {
 
   /// Firings were lost in this interval / arrived after all (reordered). `step_ticks`: from firing
   /// to firing.
-  void lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks) noexcept;
-  void regain(HeadInterval found, const BeamSpread& spread) noexcept;
+  void lose(HeadInterval gap, const BeamSpread& spread,
+            std::int64_t step_ticks) noexcept TERRACUT_NONBLOCKING;
+  void regain(HeadInterval found, const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
   /// A packet with this datagram stamp was decoded; its beams touch turns [first, last].
   /// `step_ticks` and `spread` as they are now; the head has been seen up to `frontier_ticks`.
   void note_packet(std::int64_t stamp_ns, std::int64_t first_turn, std::int64_t last_turn,
                    std::int64_t frontier_ticks, std::int64_t step_ticks,
-                   const BeamSpread& spread) noexcept;
+                   const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
   /// Hands the oldest turn over, if it has returns, and opens the one after the next.
   template <class OnFrame>
@@ -118,7 +120,7 @@ class FrameBuilder {
   /// What was lost since the last frame was handed over; the decoder adds its own causes here.
   [[nodiscard]] LossCounters& losses() noexcept { return losses_; }
   /// Everything lost since construction.
-  [[nodiscard]] LossCounters total_losses() const noexcept;
+  [[nodiscard]] LossCounters total_losses() const noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_; }
   [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return shape_; }
   /// All images; the first two are open at the start.
@@ -134,15 +136,16 @@ class FrameBuilder {
   };
 
   /// The image that nobody has written to for the longest, for the one just handed over.
-  [[nodiscard]] pipeline::RangeImage& exchange(pipeline::RangeImage& handed_over) noexcept;
+  [[nodiscard]] pipeline::RangeImage& exchange(pipeline::RangeImage& handed_over) noexcept
+      TERRACUT_NONBLOCKING;
   void open(std::size_t slot, std::int64_t turn, pipeline::RangeImage& image) noexcept;
   void add_missing(OpenTurn& turn, std::int64_t number, const HeadInterval& interval, int sign,
                    const BeamSpread& spread) noexcept;
   [[nodiscard]] bool seen_whole(const OpenTurn& turn) const noexcept;
   /// Fills info_, or answers false when the turn has no returns.
-  [[nodiscard]] bool close_oldest() noexcept;
+  [[nodiscard]] bool close_oldest() noexcept TERRACUT_NONBLOCKING;
   /// Shifts the open turns by one; the new one goes into `image`.
-  void open_next(pipeline::RangeImage& image) noexcept;
+  void open_next(pipeline::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
 
   pipeline::ImageShape shape_;
   std::int64_t turn_ticks_;

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::firmware_io {
 
 /// Why a packet was not decoded.
@@ -40,7 +42,7 @@ struct LossCounters {
   std::uint64_t clock_jumps =
       0;  ///< Device stamp jumps that no loss explains (replay loop, reset).
 
-  LossCounters& operator+=(const LossCounters& other) noexcept;
+  LossCounters& operator+=(const LossCounters& other) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint64_t rejected_total() const noexcept;
 };
 

@@ -9,6 +9,7 @@
 #include "firmware_io/loss_counters.hpp"
 #include "firmware_io/packet_heads.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -42,15 +43,16 @@ class StreamTracker {
   /// Where this packet belongs. Missing packets and clock jumps go to `losses`; the caller counts
   /// the rejection. `host_stamp_ns` is the datagram's, used only to tell an outage from a jump.
   [[nodiscard]] Placement place(const PacketHeads& heads, std::int64_t host_stamp_ns,
-                                LossCounters& losses) noexcept;
+                                LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// A packet with this stamp arrived but was rejected before place(): it is not missing.
-  void note_rejected(std::int64_t device_stamp_us) noexcept;
+  void note_rejected(std::int64_t device_stamp_us) noexcept TERRACUT_NONBLOCKING;
   /// The head stands still at this azimuth.
-  void note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg) noexcept;
+  void note_stationary(std::int64_t device_stamp_us,
+                       std::int32_t azimuth_cdeg) noexcept TERRACUT_NONBLOCKING;
 
   /// Counts what is still thought to be on its way, and forgets the stream (but not its period).
-  void end_of_stream(LossCounters& losses) noexcept;
+  void end_of_stream(LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Device time from packet to packet, nanoseconds; 0 until enough packets have been seen.
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }

@@ -6,6 +6,7 @@
 #include "pipeline/cell_planes.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -40,7 +41,7 @@ class AdjacentPoints {
                  rt::FixedMemory& memory);
 
   /// Fills `steep` and turns the label of steep returns to kObstacle. Real-time safe.
-  void refine(const RangeImage& image, CellPlanes& planes) noexcept;
+  void refine(const RangeImage& image, CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   /// Bound of Eq. 5 for the pair of `row` and the row `row_step` steps up, metres; 0 (no bound)
   /// where the upper beam never reaches the ground.

@@ -106,7 +106,8 @@ void ConfidenceSeeds::select(const CellPlanes& planes) noexcept {
   const std::size_t cut_cells =
       static_cast<std::size_t>(cut_rows_) * static_cast<std::size_t>(shape_.stride());
   std::transform(planes.label.begin() + static_cast<std::ptrdiff_t>(cut_cells), planes.label.end(),
-                 seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells), kept);
+                 seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells),
+                 [](Label label) noexcept { return kept(label); });
   start_counting();
   for (int row = 0; row < cut_rows_; ++row) {
     count_in_columns(planes, row);

@@ -7,6 +7,7 @@
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -42,7 +43,7 @@ class ConfidenceSeeds {
                   rt::FixedMemory& memory);
 
   /// Seeds of every cell from `planes`. Real-time safe.
-  void select(const CellPlanes& planes) noexcept;
+  void select(const CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::span<const Seed> seeds() const noexcept { return seeds_; }
   /// Rows 0 .. cut_rows() - 1 may hold unknown returns.

@@ -6,6 +6,7 @@
 
 #include "pipeline/ring_grid.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -50,7 +51,8 @@ class GroundSurface {
   GroundSurface(const Config& config, const RingGrid& grid, rt::FixedMemory& memory);
 
   /// Estimates the surface from the lowest return of each grid cell. Real-time safe.
-  void estimate(const RingGrid& grid, std::span<const LowestReturn> lowest) noexcept;
+  void estimate(const RingGrid& grid,
+                std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
 
   /// Ground height above the mount's plane in the middle of each grid cell; meaningful in cells
   /// that had a return and in the bands next to them.

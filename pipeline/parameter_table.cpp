@@ -208,6 +208,12 @@ constexpr std::array kParameters{
 #undef TERRACUT_FIELD
 #undef TERRACUT_FIELD_OF
 
+constexpr std::size_t kRivalsBegin = [] {
+  std::size_t first = 0;
+  while (!kParameters[first].key.starts_with("pfaff.")) ++first;
+  return first;
+}();
+
 std::string number_text(double value) {
   // Fields are float: the shortest text that reads back as the same float.
   return fmt::format("{}", static_cast<float>(value));
@@ -245,7 +251,11 @@ std::vector<std::string_view> keys_of_same_stage(std::string_view key) {
 }  // namespace
 
 std::span<const Parameter> parameters() noexcept {
-  return kParameters;
+  return std::span(kParameters).first(kRivalsBegin);
+}
+
+std::span<const Parameter> rival_parameters() noexcept {
+  return std::span(kParameters).subspan(kRivalsBegin);
 }
 
 Status set_parameter(MethodConfig& config, std::string_view key, std::string_view value) {

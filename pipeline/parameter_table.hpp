@@ -23,12 +23,14 @@ struct Parameter {
   void (*set)(MethodConfig&, double) noexcept = nullptr;
 };
 
-/// Every parameter, grouped by stage in the order the stages run; then the rivals', each under its
-/// method's name.
+/// Every parameter of the method, grouped by stage in the order the stages run.
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// Sets one parameter from text ("0.2", "local_surface"). The error names the key, the value and
-/// what would have been valid; for an unknown key, the keys of the same stage.
+/// Those of its rivals (pipeline/baselines/), grouped by method: "pfaff.cell_m".
+[[nodiscard]] std::span<const Parameter> rival_parameters() noexcept;
+
+/// Sets one parameter, a rival's included, from text ("0.2", "local_surface"). The error names the
+/// key, the value and what would have been valid; for an unknown key, the keys of the same stage.
 [[nodiscard]] Status set_parameter(MethodConfig& config, std::string_view key,
                                    std::string_view value);
 

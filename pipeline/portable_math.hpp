@@ -5,6 +5,8 @@
 #include <array>
 #include <cstddef>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::pipeline {
 
 // exp and log of the standard library differ in the last bit from one machine to the next, and a
@@ -12,7 +14,7 @@ namespace terracut::pipeline {
 // (docs/design.md, promise 5).
 
 /// Natural logarithm of a finite x > 0, error below 1e-9.
-[[nodiscard]] double portable_log(double x) noexcept;
+[[nodiscard]] double portable_log(double x) noexcept TERRACUT_NONBLOCKING;
 
 /// exp(-t) by a table with linear interpolation: error below 4e-5, 0 for t >= 16, 1 for t <= 0.
 class NegativeExp {

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -62,7 +63,7 @@ class RangeImage {
   RangeImage(ImageShape shape, std::size_t overflow_capacity, rt::FixedMemory& memory);
 
   /// Forgets all returns. Real-time safe, O(1) but for one turn in 2^32.
-  void clear() noexcept;
+  void clear() noexcept TERRACUT_NONBLOCKING;
 
   /// Puts a return into its cell. Where that is taken, `owner` says which of the two keeps it (the
   /// earlier one when they are equal); the other goes to the overflow list. Returns are numbered in
@@ -114,8 +115,10 @@ class RangeImage {
     intensity_[cell] = echo.intensity;
     return_index_[cell] = return_index;
   }
-  [[nodiscard]] bool owns(std::size_t cell, const Return& echo, CellOwner owner) const noexcept;
-  bool place_second(std::size_t cell, const Return& echo, CellOwner owner) noexcept;
+  [[nodiscard]] bool owns(std::size_t cell, const Return& echo,
+                          CellOwner owner) const noexcept TERRACUT_NONBLOCKING;
+  bool place_second(std::size_t cell, const Return& echo,
+                    CellOwner owner) noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;
   int stride_;

@@ -10,6 +10,7 @@
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -43,7 +44,7 @@ class RegionTerm {
   /// Costs of all unknown cells, scaled by kCapacityScale; other cells are left as they were.
   /// Real-time safe.
   void evaluate(const RangeImage& image, const CellPlanes& planes,
-                std::span<const Seed> seeds) noexcept;
+                std::span<const Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::span<const std::int32_t> cost_ground() const noexcept { return cost_ground_; }
   [[nodiscard]] std::span<const std::int32_t> cost_obstacle() const noexcept {

@@ -8,6 +8,7 @@
 #include "pipeline/label.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -26,7 +27,7 @@ class ReturnLabels {
   ReturnLabels(const Config& config, std::size_t return_capacity, rt::FixedMemory& memory);
 
   /// Labels every return of `image`. Real-time safe.
-  void assign(const RangeImage& image, const CellPlanes& planes) noexcept;
+  void assign(const RangeImage& image, const CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   /// One label a return, in the order of RangeImage::return_index(); none is kNone.
   [[nodiscard]] std::span<const Label> labels() const noexcept { return labels_.first(returns_); }

@@ -7,6 +7,7 @@
 #include "pipeline/range_image.hpp"
 #include "pipeline/ring_grid.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -30,7 +31,7 @@ class RingElevationMap {
                    rt::FixedMemory& memory);
 
   /// Fills `height_m` and `label` of every cell. Real-time safe.
-  void segment(const RangeImage& image, CellPlanes& planes) noexcept;
+  void segment(const RangeImage& image, CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const GroundSurface& surface() const noexcept { return surface_; }

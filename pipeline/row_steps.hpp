@@ -3,6 +3,7 @@
 #pragma once
 
 #include "calib/ring_profile.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -19,9 +20,9 @@ class RowSteps {
 
   /// The first row at least `steps` rows and `steps` times step_deg above `row`; the number of rows
   /// when there is none. steps >= 0.
-  [[nodiscard]] int up(int row, int steps) const noexcept;
+  [[nodiscard]] int up(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
   /// The same below `row`; -1 when there is none.
-  [[nodiscard]] int down(int row, int steps) const noexcept;
+  [[nodiscard]] int down(int row, int steps) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   [[nodiscard]] int rows() const noexcept { return static_cast<int>(profile_->rings.size()); }

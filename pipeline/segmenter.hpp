@@ -12,6 +12,7 @@
 #include "pipeline/segmentation_report.hpp"
 #include "pipeline/stage.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -30,7 +31,8 @@ class Segmenter {
   /// overwritten. Where `budget` has expired before the random field, labels stay those of the
   /// stages before. Real-time safe if the observer is.
   [[nodiscard]] SegmentationReport segment(const RangeImage& image, const CutBudget& budget = {},
-                                           StageObserver* observer = nullptr) noexcept;
+                                           StageObserver* observer = nullptr) noexcept
+      TERRACUT_NONBLOCKING;
 
   /// One label a return, in order of arrival (RangeImage::return_index()).
   [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::pipeline {
 
 /// The stages of the segmentation in their order. The first three are the rows of the paper's
@@ -43,7 +45,7 @@ class StageObserver {
  public:
   virtual ~StageObserver() = default;
   /// Called on the segmenting thread right after `stage`; must be real-time safe.
-  virtual void stage_done(Stage stage) noexcept = 0;
+  virtual void stage_done(Stage stage) noexcept TERRACUT_NONBLOCKING = 0;
 };
 
 }  // namespace terracut::pipeline

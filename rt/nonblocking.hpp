@@ -8,24 +8,16 @@
 ///
 ///     void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
 ///
-/// Clang 20 and later check it while compiling (-Wfunction-effects) and, with -fsanitize=realtime,
-/// while running; for other compilers it is a remark to the reader.
-#if defined(__clang__) && defined(__has_cpp_attribute)
-#if __has_cpp_attribute(clang::nonblocking)
+/// Clang 22 and later check it while compiling (-Wfunction-effects), 20 and later while running
+/// (-fsanitize=realtime); for other compilers it is a remark to the reader.
+///
+/// On the declaration it is enough. What is defined where the compiler sees it needs no mark: the
+/// compiler finds out by itself, which is also how templates that call a caller's function are
+/// checked, each with the function it was given.
+#if defined(__clang__) && __clang_major__ >= 20
 #define TERRACUT_NONBLOCKING [[clang::nonblocking]]
-#endif
-#endif
-
-/// Between these two lines calls are not checked while compiling: for system calls that are known
-/// not to wait, but that no header marks. Each use says why it may be trusted.
-#ifdef TERRACUT_NONBLOCKING
-#define TERRACUT_TRUSTED_CALLS_BEGIN \
-  _Pragma("clang diagnostic push") _Pragma("clang diagnostic ignored \"-Wfunction-effects\"")
-#define TERRACUT_TRUSTED_CALLS_END _Pragma("clang diagnostic pop")
 #else
 #define TERRACUT_NONBLOCKING
-#define TERRACUT_TRUSTED_CALLS_BEGIN
-#define TERRACUT_TRUSTED_CALLS_END
 #endif
 
 #if defined(__clang__) && defined(__has_feature)
@@ -37,14 +29,23 @@
 
 namespace terracut::rt {
 
-/// The same for checks while running: as long as this lives, the real-time sanitizer lets the
-/// calling thread's system calls pass.
-#ifdef TERRACUT_REALTIME_SANITIZER
-using TrustedCalls = __rtsan::ScopedDisabler;
-#else
-struct TrustedCalls {
-  TrustedCalls() noexcept {}  // not trivial, or each use would be an unused variable
-};
+/// Calls `function` unchecked, while compiling and while running: for system calls that are known
+/// not to wait, but that no header marks, and for the places where a thread waits for its work.
+/// Each use says why it may be trusted, and holds nothing but the calls in question.
+template <class Function>
+decltype(auto) trusted_call(Function&& function) noexcept TERRACUT_NONBLOCKING {
+#ifdef __clang__
+#pragma clang diagnostic push
+#pragma clang diagnostic ignored "-Wunknown-warning-option"
+#pragma clang diagnostic ignored "-Wfunction-effects"
 #endif
+#ifdef TERRACUT_REALTIME_SANITIZER
+  const __rtsan::ScopedDisabler unchecked;
+#endif
+  return function();
+#ifdef __clang__
+#pragma clang diagnostic pop
+#endif
+}
 
 }  // namespace terracut::rt

@@ -6,13 +6,11 @@
 
 namespace terracut::rt {
 
-TERRACUT_TRUSTED_CALLS_BEGIN  // getrusage of the own thread only copies counters
-    PageFaults
-    PageFaults::of_this_thread() noexcept TERRACUT_NONBLOCKING {
+PageFaults PageFaults::of_this_thread() noexcept TERRACUT_NONBLOCKING {
   rusage usage{};
-  ::getrusage(RUSAGE_THREAD, &usage);  // cannot fail with these arguments
+  // Of the own thread it only copies counters, and cannot fail.
+  trusted_call([&]() noexcept { ::getrusage(RUSAGE_THREAD, &usage); });
   return {usage.ru_minflt, usage.ru_majflt};
 }
-TERRACUT_TRUSTED_CALLS_END
 
 }  // namespace terracut::rt

@@ -33,14 +33,12 @@ ProcFile::~ProcFile() {
   if (file_ >= 0) ::close(file_);
 }
 
-TERRACUT_TRUSTED_CALLS_BEGIN  // no device lies behind /proc
-    std::string_view
-    ProcFile::read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING {
-  const TrustedCalls trusted;
-  const ::ssize_t got = ::pread(file_, buffer.data(), buffer.size(), 0);
+std::string_view ProcFile::read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING {
+  // No device lies behind /proc.
+  const ::ssize_t got =
+      trusted_call([&]() noexcept { return ::pread(file_, buffer.data(), buffer.size(), 0); });
   return {buffer.data(), got > 0 ? static_cast<std::size_t>(got) : 0};
 }
-TERRACUT_TRUSTED_CALLS_END
 
 std::int64_t nth_number(std::string_view line, int n) noexcept TERRACUT_NONBLOCKING {
   const char* at = line.data();

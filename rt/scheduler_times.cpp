@@ -31,12 +31,11 @@ SchedulerTimes SchedulerTimes::of_this_thread() {
   return times;
 }
 
-TERRACUT_TRUSTED_CALLS_BEGIN  // getrusage of the own thread only copies counters
-    SchedulerReading
-    SchedulerTimes::read() const noexcept TERRACUT_NONBLOCKING {
+SchedulerReading SchedulerTimes::read() const noexcept TERRACUT_NONBLOCKING {
   SchedulerReading reading;
   rusage usage{};
-  ::getrusage(RUSAGE_THREAD, &usage);
+  // Of the own thread it only copies counters.
+  trusted_call([&]() noexcept { ::getrusage(RUSAGE_THREAD, &usage); });
   reading.voluntary_switches = usage.ru_nvcsw;
   reading.involuntary_switches = usage.ru_nivcsw;
   if (waiting_) {
@@ -47,6 +46,5 @@ TERRACUT_TRUSTED_CALLS_BEGIN  // getrusage of the own thread only copies counter
   reading.wall_ns = monotonic_ns();
   return reading;
 }
-TERRACUT_TRUSTED_CALLS_END
 
 }  // namespace terracut::rt

@@ -25,14 +25,12 @@ namespace terracut::rt {
 [[nodiscard]] inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING;
 
 namespace detail {
-TERRACUT_TRUSTED_CALLS_BEGIN  // reads a page shared with the kernel, or asks it
-    [[nodiscard]] inline std::int64_t
-    read_clock_ns(clockid_t clock) noexcept TERRACUT_NONBLOCKING {
+[[nodiscard]] inline std::int64_t read_clock_ns(clockid_t clock) noexcept TERRACUT_NONBLOCKING {
   timespec now{};
-  ::clock_gettime(clock, &now);  // cannot fail for these clocks on Linux
+  // Reads a page shared with the kernel, or asks it; cannot fail for these clocks on Linux.
+  trusted_call([&]() noexcept { ::clock_gettime(clock, &now); });
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
-TERRACUT_TRUSTED_CALLS_END
 }  // namespace detail
 
 inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING {

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::firmware_io {
 
 /// What sent a UDP payload, as far as the payload itself tells (docs/sensors.md).
@@ -34,7 +36,8 @@ enum class SensorModel : std::uint8_t {
 /// Judged by size, magic numbers and block structure, never by port; never reads outside `payload`.
 /// On Velodyne's 1206 bytes the product number is believed only when the block order is not that of
 /// an HDL-64E, whose last bytes are its status stream. Allocates nothing.
-[[nodiscard]] SensorModel recognise_sensor(std::span<const std::uint8_t> payload) noexcept;
+[[nodiscard]] SensorModel recognise_sensor(std::span<const std::uint8_t> payload) noexcept
+    TERRACUT_NONBLOCKING;
 
 /// What else the payload says of the model, for people: product number and return mode of a
 /// Velodyne, type bytes of a RoboSense and what documents say they mean. Empty when nothing.

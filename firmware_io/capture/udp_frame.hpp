@@ -9,6 +9,7 @@
 #include <tl/expected.hpp>
 
 #include "firmware_io/datagram.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -39,6 +40,7 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 /// IP total length of 0 (segmentation offload) is accepted when the UDP length fits. The payload
 /// points into `captured`. Allocates nothing; callable from the packet path.
 [[nodiscard]] tl::expected<Datagram, FrameReject> parse_udp_frame(
-    int link_type, std::span<const std::uint8_t> captured, std::int64_t stamp_ns) noexcept;
+    int link_type, std::span<const std::uint8_t> captured,
+    std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::firmware_io

@@ -16,6 +16,7 @@
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/hdl64e/point_kernel.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -47,9 +48,10 @@ class Hdl64eSensor {
   [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
-  void begin_packet(const PacketHeads& heads) noexcept;
+  void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
-                                          const PacketHeads& heads, int column) noexcept;
+                                          const PacketHeads& heads,
+                                          int column) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::span<const std::int32_t, calib::kHdl64eLasers> rows() const noexcept {
     return rows_;
   }

@@ -8,6 +8,7 @@
 
 #include "firmware_io/loss_counters.hpp"
 #include "firmware_io/packet_heads.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -30,7 +31,7 @@ inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column
 ///
 /// `heads` holds stamp and azimuths, as far as they exist, for the azimuth reasons and kStationary
 /// too. Real-time safe; any thread.
-[[nodiscard]] std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
-                                                        PacketHeads& heads) noexcept;
+[[nodiscard]] std::optional<Reject> check_hdl64e_packet(
+    std::span<const std::uint8_t> payload, PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::firmware_io

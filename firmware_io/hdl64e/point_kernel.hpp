@@ -14,6 +14,7 @@
 #include "firmware_io/column_returns.hpp"
 #include "firmware_io/head_directions.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -37,11 +38,13 @@ class PointKernel {
   /// `advance_ticks`: how far the head has turned since its column's azimuth when laser j of either
   /// block fires, [0, 1e5]. `offset_ticks`: beam minus column azimuth of each laser.
   void begin_packet(std::span<const std::int32_t, kLasers / 2> advance_ticks,
-                    std::span<const std::int32_t, kLasers> offset_ticks) noexcept;
+                    std::span<const std::int32_t, kLasers> offset_ticks) noexcept
+      TERRACUT_NONBLOCKING;
 
   /// Points, columns and turn offsets from `column.raw`, for a column whose head azimuth is
   /// `azimuth_cdeg`, [0, 36000).
-  void compute(std::int32_t azimuth_cdeg, ColumnReturns<kLasers>& column) const noexcept;
+  void compute(std::int32_t azimuth_cdeg,
+               ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// By laser, taken once from the calibration.

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "rt/error.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -36,7 +37,8 @@ struct Ipv4Endpoint {
 }
 
 /// As the system's calls want it.
-[[nodiscard]] sockaddr_in socket_address(const Ipv4Endpoint& endpoint) noexcept;
-[[nodiscard]] Ipv4Endpoint endpoint_of(const sockaddr_in& address) noexcept;
+[[nodiscard]] sockaddr_in socket_address(const Ipv4Endpoint& endpoint) noexcept
+    TERRACUT_NONBLOCKING;
+[[nodiscard]] Ipv4Endpoint endpoint_of(const sockaddr_in& address) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::firmware_io

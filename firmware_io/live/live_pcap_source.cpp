@@ -200,12 +200,16 @@ std::size_t LivePcapSource::read_batch() noexcept {
     source.take({data, header->caplen}, std::int64_t{header->ts.tv_sec} * 1'000'000'000 +
                                             header->ts.tv_usec * source.stamp_unit_ns_);
   };
-  const int result = ::pcap_dispatch(handle_.get(), static_cast<int>(config_.batch), on_frame,
-                                     reinterpret_cast<unsigned char*>(this));
+  // pcap_setnonblock() has told it not to wait; its buffers are those of pcap_activate().
+  const int result = rt::trusted_call([&]() noexcept {
+    return ::pcap_dispatch(handle_.get(), static_cast<int>(config_.batch), on_frame,
+                           reinterpret_cast<unsigned char*>(this));
+  });
   if (result < 0) {
     ++counters_.receive_errors;
     refresh_drops();
-    handle_.reset();  // look_after() opens it again
+    // Nothing comes by it any more; look_after() opens it again.
+    rt::trusted_call([this]() noexcept { handle_.reset(); });
   }
   counters_.delivered += kept_;
   return kept_;
@@ -231,7 +235,10 @@ void LivePcapSource::take(std::span<const std::uint8_t> frame, std::int64_t stam
 
 void LivePcapSource::refresh_drops() noexcept {
   pcap_stat stats{};
-  if (handle_ && ::pcap_stats(handle_.get(), &stats) == 0) {
+  const bool known = rt::trusted_call([&]() noexcept {  // copies counters
+    return handle_ && ::pcap_stats(handle_.get(), &stats) == 0;
+  });
+  if (known) {
     counters_.kernel_drops += drops_.advance_to(stats.ps_drop);
   }
 }
@@ -245,11 +252,14 @@ void LivePcapSource::look_after(std::int64_t now_ns) noexcept {
   link_ = now.state;
   if (now.state == LinkState::kGone) return;
   if (handle_ && now.index == interface_index_) return;
-  handle_.reset();
-  if (auto handle = activate(config_)) {
-    adopt(*std::move(handle));
-    ++counters_.reopened;
-  }
+  // libpcap allocates what it opens. Nothing comes meanwhile, so there is nothing to be late for.
+  rt::trusted_call([this]() noexcept {
+    handle_.reset();
+    if (auto handle = activate(config_)) {
+      adopt(*std::move(handle));
+      ++counters_.reopened;
+    }
+  });
 }
 
 }  // namespace terracut::firmware_io

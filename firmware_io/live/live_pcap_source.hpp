@@ -16,6 +16,7 @@
 #include "firmware_io/live/wake_event.hpp"
 #include "rt/error.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 struct pcap;  // libpcap's handle, pcap_t
 
@@ -45,7 +46,8 @@ class LivePcapSource {
   [[nodiscard]] static Expected<LivePcapSource> open(LivePcapConfig config,
                                                      rt::FixedMemory& memory);
 
-  [[nodiscard]] std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept;
+  [[nodiscard]] std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
   /// From now on only this sender; others count as foreign. From the thread that receives.
@@ -56,7 +58,7 @@ class LivePcapSource {
   /// kernel_drops is as of the last refresh_drops(), which receive() calls when nothing came for a
   /// while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
-  void refresh_drops() noexcept;
+  void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }
 
  private:
@@ -72,7 +74,8 @@ class LivePcapSource {
   void adopt(Handle handle) noexcept;
 
   [[nodiscard]] std::size_t read_batch() noexcept;
-  void take(std::span<const std::uint8_t> frame, std::int64_t stamp_ns) noexcept;
+  void take(std::span<const std::uint8_t> frame,
+            std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
   void look_after(std::int64_t now_ns) noexcept;
 
   LivePcapConfig config_;

@@ -21,9 +21,14 @@ InterfaceStatus interface_status(int socket, const std::string& name) noexcept {
   static_assert(kInterfaceNameLength == IFNAMSIZ - 1);
   ifreq request{};
   std::copy_n(name.data(), std::min(name.size(), kInterfaceNameLength), request.ifr_name);
-  if (::ioctl(socket, SIOCGIFINDEX, &request) != 0) return {};
+  // The kernel answers from its table, and is asked when nothing came: there is nothing to be late
+  // for.
+  const auto ask = [&](unsigned long what) noexcept {
+    return rt::trusted_call([&]() noexcept { return ::ioctl(socket, what, &request); }) == 0;
+  };
+  if (!ask(SIOCGIFINDEX)) return {};
   const int index = request.ifr_ifindex;
-  if (::ioctl(socket, SIOCGIFFLAGS, &request) != 0) return {};
+  if (!ask(SIOCGIFFLAGS)) return {};
   const unsigned flags = static_cast<unsigned short>(request.ifr_flags);
   const bool up = (flags & IFF_UP) != 0 && (flags & IFF_RUNNING) != 0;
   return {up ? LinkState::kUp : LinkState::kDown, index};

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware_io/live/receive_counters.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -17,7 +18,8 @@ struct InterfaceStatus {
 };
 
 /// `socket`: any socket. Allocates nothing, does not block.
-[[nodiscard]] InterfaceStatus interface_status(int socket, const std::string& name) noexcept;
+[[nodiscard]] InterfaceStatus interface_status(int socket, const std::string& name) noexcept
+    TERRACUT_NONBLOCKING;
 
 /// "lo, eth0", for error messages.
 [[nodiscard]] std::string interface_names();

@@ -248,10 +248,15 @@ std::span<const Datagram> UdpSource::receive(std::int64_t timeout_ns) noexcept {
 /// Takes what lies ready, up to a batch; the datagrams wanted end up at the front of datagrams_.
 std::size_t UdpSource::read_batch() noexcept {
   if (!socket_.descriptor) return 0;
-  const int taken = ::recvmmsg(socket_.descriptor.get(), messages_.data(),
-                               static_cast<unsigned>(messages_.size()), MSG_DONTWAIT, nullptr);
+  int error_number = 0;
+  const int taken = rt::trusted_call([&]() noexcept {  // told not to wait
+    const int result = ::recvmmsg(socket_.descriptor.get(), messages_.data(),
+                                  static_cast<unsigned>(messages_.size()), MSG_DONTWAIT, nullptr);
+    error_number = errno;
+    return result;
+  });
   if (taken < 0) {
-    if (errno != EAGAIN && errno != EINTR) ++counters_.receive_errors;
+    if (error_number != EAGAIN && error_number != EINTR) ++counters_.receive_errors;
     return 0;
   }
   const auto count = static_cast<std::size_t>(taken);
@@ -304,9 +309,7 @@ bool UdpSource::take(std::size_t slot, Datagram& datagram) noexcept {
   }
   if (!stamped) {
     ++counters_.unstamped;
-    timespec now{};
-    ::clock_gettime(CLOCK_REALTIME, &now);
-    datagram.stamp_ns = std::int64_t{now.tv_sec} * kSecond_ns + now.tv_nsec;
+    datagram.stamp_ns = rt::realtime_ns();
   }
   datagram.payload = bytes_.subspan(slot * config_.slot_bytes, messages_[slot].msg_len);
   datagram.source_address = sender.address;
@@ -328,8 +331,10 @@ void UdpSource::refresh_drops() noexcept {
   if (!socket_.descriptor) return;
   std::array<std::uint32_t, SK_MEMINFO_VARS> facts{};
   socklen_t size = sizeof facts;
-  if (::getsockopt(socket_.descriptor.get(), SOL_SOCKET, SO_MEMINFO, facts.data(), &size) == 0 &&
-      size > SK_MEMINFO_DROPS * sizeof facts[0]) {
+  const bool known = rt::trusted_call([&]() noexcept {  // copies counters
+    return ::getsockopt(socket_.descriptor.get(), SOL_SOCKET, SO_MEMINFO, facts.data(), &size) == 0;
+  });
+  if (known && size > SK_MEMINFO_DROPS * sizeof facts[0]) {
     counters_.kernel_drops += drops_.advance_to(facts[SK_MEMINFO_DROPS]);
   }
 }
@@ -342,7 +347,9 @@ void UdpSource::look_after(std::int64_t now_ns) noexcept {
   if (!config_.interface.empty()) look_after_interface();
   // A membership goes away with its interface; joining again where it still stands does nothing.
   if (config_.multicast_group && socket_.descriptor) {
-    join(socket_.descriptor.get(), config_, socket_.interface_index);
+    rt::trusted_call([this]() noexcept {  // nothing came, so there is nothing to be late for
+      join(socket_.descriptor.get(), config_, socket_.interface_index);
+    });
   }
 }
 
@@ -355,10 +362,13 @@ void UdpSource::look_after_interface() noexcept {
   if (now.state == LinkState::kGone) return;
   if (socket_.descriptor && now.index == socket_.interface_index) return;
   refresh_drops();
-  socket_.descriptor.close();
-  auto socket = open_socket(config_, now);
-  if (!socket) return;  // its address or route is not back yet: the next look tries again
-  socket_ = *std::move(socket);
+  const bool opened = rt::trusted_call([&]() noexcept {  // as above: nothing came
+    socket_.descriptor.close();
+    auto socket = open_socket(config_, now);
+    if (socket) socket_ = *std::move(socket);
+    return socket.has_value();
+  });
+  if (!opened) return;  // its address or route is not back yet: the next look tries again
   drops_.restart();
   ++counters_.reopened;
 }

@@ -25,6 +25,7 @@
 #include "firmware_io/live/wake_event.hpp"
 #include "rt/error.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -60,7 +61,8 @@ class UdpSource {
   /// the system; the message says what mends it.
   [[nodiscard]] static Expected<UdpSource> open(UdpSourceConfig config, rt::FixedMemory& memory);
 
-  [[nodiscard]] std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept;
+  [[nodiscard]] std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
   /// From now on only this sender; others count as foreign. From the thread that receives.
@@ -71,7 +73,7 @@ class UdpSource {
   /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks
   /// the kernel; receive() does it by itself when nothing comes for a while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
-  void refresh_drops() noexcept;
+  void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }
 
   /// Where the socket is bound, with the port the system chose.

@@ -24,19 +24,28 @@ Expected<WakeEvent> WakeEvent::make() {
 }
 
 void WakeEvent::wake() const noexcept {
-  const int kept = errno;
-  const std::uint64_t one = 1;
-  // Fails only when the count is full, and then the reader is awake anyway.
-  static_cast<void>(!::write(event_.get(), &one, sizeof one));
-  errno = kept;
+  // An eventfd that is EFD_NONBLOCK takes the number or refuses it, at once. It refuses only when
+  // the count is full, and then the reader is awake anyway.
+  rt::trusted_call([this]() noexcept {
+    const int kept = errno;
+    const std::uint64_t one = 1;
+    static_cast<void>(!::write(event_.get(), &one, sizeof one));
+    errno = kept;
+  });
 }
 
 bool WakeEvent::wait(int descriptor, std::int64_t timeout_ns) const noexcept {
   const timespec timeout = timespec_of(timeout_ns);
   std::array<pollfd, 2> polled{{{event_.get(), POLLIN, 0}, {descriptor, POLLIN, 0}}};
-  if (::ppoll(polled.data(), polled.size(), &timeout, nullptr) <= 0) return false;
-  std::uint64_t count = 0;
-  return polled[0].revents != 0 && ::read(event_.get(), &count, sizeof count) == sizeof count;
+  // Here threads with a deadline wait for their work.
+  const int ready = rt::trusted_call(
+      [&]() noexcept { return ::ppoll(polled.data(), polled.size(), &timeout, nullptr); });
+  if (ready <= 0 || polled[0].revents == 0) return false;
+  // As in wake(): it answers at once.
+  return rt::trusted_call([this]() noexcept {
+    std::uint64_t count = 0;
+    return ::read(event_.get(), &count, sizeof count) == sizeof count;
+  });
 }
 
 }  // namespace terracut::firmware_io

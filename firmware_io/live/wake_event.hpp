@@ -8,6 +8,7 @@
 
 #include "firmware_io/live/owned_descriptor.hpp"
 #include "rt/error.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -18,11 +19,12 @@ class WakeEvent {
   [[nodiscard]] static Expected<WakeEvent> make();
 
   /// From any thread, or a signal handler. Keeps errno.
-  void wake() const noexcept;
+  void wake() const noexcept TERRACUT_NONBLOCKING;
 
   /// Until `descriptor` (-1: none) can be read or has an error, wake() was called, a signal came,
   /// or the time is up. True when woken; that wake() is then used up.
-  [[nodiscard]] bool wait(int descriptor, std::int64_t timeout_ns) const noexcept;
+  [[nodiscard]] bool wait(int descriptor,
+                          std::int64_t timeout_ns) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   explicit WakeEvent(OwnedDescriptor event) noexcept : event_(std::move(event)) {}

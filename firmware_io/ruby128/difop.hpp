@@ -12,6 +12,7 @@
 #include "calib/ruby128_calibration.hpp"
 #include "firmware_io/big_endian.hpp"
 #include "firmware_io/ruby128/wire.hpp"
+#include "rt/nonblocking.hpp"
 
 /// The device packet (DIFOP) of the RS-Ruby128 as it lies in the UDP payload, about one a second;
 /// big endian (RS-Ruby user manual; a public decoder of the maker; docs/sensors.md). Nothing here
@@ -89,7 +90,7 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 
 /// It has the length and the first eight bytes of a DIFOP. Those of the Ruby Lite and the Ruby Plus
 /// have them too. The tail is not looked at: nobody relies on it.
-[[nodiscard]] bool is_difop(std::span<const std::uint8_t> payload) noexcept;
+[[nodiscard]] bool is_difop(std::span<const std::uint8_t> payload) noexcept TERRACUT_NONBLOCKING;
 
 /// A copy of the packet by its fields; nothing unless is_difop().
 [[nodiscard]] std::optional<ruby128_wire::Difop> read_difop(

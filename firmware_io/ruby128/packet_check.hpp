@@ -8,6 +8,7 @@
 
 #include "firmware_io/loss_counters.hpp"
 #include "firmware_io/packet_heads.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -32,13 +33,14 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 ///
 /// `heads` holds the azimuths for the azimuth reasons and kStationary too. Real-time safe; any
 /// thread.
-[[nodiscard]] std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
-                                                         PacketHeads& heads) noexcept;
+[[nodiscard]] std::optional<Reject> check_ruby128_packet(
+    std::span<const std::uint8_t> payload, PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
 
 /// What to add to a packet's stamp, which is its first block's, to get one that advances evenly
 /// from packet to packet: in dual return packets begin with a new firing and with the second return
 /// of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning` when it took
 /// them.
-[[nodiscard]] std::int64_t ruby_stamp_delay_ns(const PacketHeads& heads, bool turning) noexcept;
+[[nodiscard]] std::int64_t ruby_stamp_delay_ns(const PacketHeads& heads,
+                                               bool turning) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::firmware_io

@@ -14,6 +14,7 @@
 #include "firmware_io/head_directions.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -31,11 +32,12 @@ class Ruby128PointKernel {
                      int columns, rt::FixedMemory& memory);
 
   /// How far the head turns from firing to firing, for the firings to come; [0, 1e5] ticks.
-  void set_step(std::int32_t step_ticks) noexcept;
+  void set_step(std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 
   /// Points, columns and turn offsets from `column.raw`, for a firing whose head azimuth is
   /// `azimuth_cdeg`, [0, 36000).
-  void compute(std::int32_t azimuth_cdeg, ColumnReturns<kLasers>& column) const noexcept;
+  void compute(std::int32_t azimuth_cdeg,
+               ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// By channel, taken once from the calibration.

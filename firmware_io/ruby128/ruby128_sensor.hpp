@@ -16,6 +16,7 @@
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/point_kernel.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -43,13 +44,14 @@ class Ruby128Sensor {
                 int columns, rt::FixedMemory& memory);
 
   [[nodiscard]] std::optional<Reject> check(std::span<const std::uint8_t> payload,
-                                            PacketHeads& heads) noexcept;
+                                            PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
-  void begin_packet(const PacketHeads& heads) noexcept;
+  void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
-                                          const PacketHeads& heads, int column) noexcept;
+                                          const PacketHeads& heads,
+                                          int column) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::span<const std::int32_t, calib::kRuby128Lasers> rows() const noexcept {
     return rows_;
   }

@@ -8,6 +8,8 @@
 #include <span>
 #include <string_view>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::firmware_io {
 
 /// What the ten stamp bytes of a RoboSense packet mean: three encodings are in the field
@@ -23,8 +25,8 @@ enum class RubyTimestamp : std::uint8_t {
 
 /// Nanoseconds since 1970 by the device's clock. Calendar fields out of range are taken as they
 /// are: month 13 is the next year's January. Seconds wrap at 2^33 (the year 2242).
-[[nodiscard]] std::int64_t read_ruby_timestamp(std::span<const std::uint8_t, 10> bytes,
-                                               RubyTimestamp encoding) noexcept;
+[[nodiscard]] std::int64_t read_ruby_timestamp(
+    std::span<const std::uint8_t, 10> bytes, RubyTimestamp encoding) noexcept TERRACUT_NONBLOCKING;
 
 /// The inverse, rounded down to the encoding's unit; years 2000..2255 for the calendar.
 [[nodiscard]] std::array<std::uint8_t, 10> write_ruby_timestamp(std::int64_t time_ns,
@@ -40,7 +42,7 @@ enum class RubyTimestamp : std::uint8_t {
 class RubyTimestampDetector {
  public:
   /// The encoding by which to read this packet's stamp.
-  RubyTimestamp add(std::span<const std::uint8_t, 10> stamp) noexcept;
+  RubyTimestamp add(std::span<const std::uint8_t, 10> stamp) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] RubyTimestamp encoding() const noexcept { return encoding_; }
   [[nodiscard]] bool settled() const noexcept { return settled_; }

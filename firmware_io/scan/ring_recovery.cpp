@@ -137,6 +137,7 @@ Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recover
   recovery.ring_of_point.resize(points.size());
   recovery.no_ring = 0;
   recovery.rings = 0;
+  recovery.aligned = false;
   CrossingCounter counter;
   std::size_t in_first = 0;
   int last = -1;
@@ -188,6 +189,7 @@ Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
     if (ring == kNoRing) ++recovery.no_ring;
   }
   recovery.rings = kScanRings;
+  recovery.aligned = true;
   return {};
 }
 

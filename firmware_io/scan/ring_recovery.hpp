@@ -19,6 +19,7 @@ struct RingRecovery {
   std::vector<std::int16_t> ring_of_point;  ///< 0 (top) .. rings - 1; kNoRing for points without.
   int rings = 0;                            ///< Rings found in the file's order.
   std::size_t no_ring = 0;                  ///< Points with kNoRing, the not finite ones included.
+  bool aligned = false;                     ///< Renumbered by align_rings().
 };
 
 /// What the paper calls backtracking: KITTI files hold ring after ring from the top, each counter-

@@ -69,11 +69,9 @@ Expected<FittedRings> ScanReader::fit_rings() {
   Error last{ErrorCode::kMalformed, ""};
   std::size_t used = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Status status = read(i * size() / count, scan, rings);
-    if (!status && status.error().code != ErrorCode::kUnsupported) {
-      return tl::unexpected(status.error());
-    }
-    if (!status) {  // not all rings: of no use for fitting, and aligned with the table later
+    // Without all rings a scan is of no use here, and aligned with the table later. One that cannot
+    // be read says so when its turn comes.
+    if (const Status status = read(i * size() / count, scan, rings); !status) {
       last = status.error();
       continue;
     }

@@ -35,6 +35,7 @@ class ScanReader {
   [[nodiscard]] Status read(std::size_t index, KittiScan& scan, RingRecovery& rings) const;
 
   /// Fits the unit's ring table from the scans that have all 64 rings and uses it from then on.
+  /// Scans that cannot be read are left out; the error is that of the last one where none can.
   [[nodiscard]] Expected<FittedRings> fit_rings();
   void use_rings(const RingTable& table) { table_ = table; }
 

@@ -10,6 +10,7 @@
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "pipeline/min_cut/node_queue.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -27,7 +28,7 @@ class BoykovKolmogorov {
   /// graph then is one that any other solver can go on from, and `side` means nothing. Real-time
   /// safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
-                           OpClock& clock, std::int64_t ops_limit) noexcept;
+                           OpClock& clock, std::int64_t ops_limit) noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// Parent of a node: a direction, or one of these.

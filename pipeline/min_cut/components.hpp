@@ -8,6 +8,7 @@
 
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -19,12 +20,13 @@ class Components {
 
   /// Real-time safe. `ground_range_m` is read at `cells[node]`.
   void find(CutGraph& graph, std::span<const std::uint32_t> cells,
-            std::span<const float> ground_range_m) noexcept;
+            std::span<const float> ground_range_m) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::uint32_t count() const noexcept { return count_; }
   /// Nodes of the i-th component; ordered by the ground range of their nearest cell, ties by their
   /// first node.
-  [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t i) const noexcept;
+  [[nodiscard]] std::span<const std::uint32_t> operator[](std::uint32_t i) const noexcept
+      TERRACUT_NONBLOCKING;
 
  private:
   struct Extent {

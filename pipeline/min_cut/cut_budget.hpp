@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "rt/nonblocking.hpp"
+
 namespace terracut::pipeline {
 
 /// How much work the solvers of one min-cut may do. An operation is one visit of an arc (3-14 ns on
@@ -21,8 +23,9 @@ struct CutBudget {
   static constexpr std::int64_t kOpsPerClockLook = 4096;
 
   std::int64_t ops = kDefaultOps;
-  bool (*expired)(void* context) noexcept = nullptr;  ///< True when the deadline has passed.
-  void* context = nullptr;                            ///< Handed to `expired`.
+  bool (*expired)(void* context) noexcept TERRACUT_NONBLOCKING =
+      nullptr;              ///< True when the deadline has passed.
+  void* context = nullptr;  ///< Handed to `expired`.
 };
 
 /// Counts operations against a CutBudget. Once exhausted it stays so.

@@ -18,6 +18,7 @@
 #include "pipeline/min_cut/push_relabel.hpp"
 #include "pipeline/min_cut/unknown_cells.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -63,9 +64,10 @@ class GridCut {
   }
 
  private:
-  void find_unknown(const GridProblem& problem, std::span<const Label> labels) noexcept;
+  void find_unknown(const GridProblem& problem,
+                    std::span<const Label> labels) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] CutReport solve_contracted(const GridProblem& problem, const CutBudget& budget,
-                                           std::span<Label> labels) noexcept;
+                                           std::span<Label> labels) noexcept TERRACUT_NONBLOCKING;
 
   /// False when the budget ran out before the end.
   [[nodiscard]] bool solve_component(std::span<const std::uint32_t> component, OpClock& clock,

@@ -8,6 +8,7 @@
 
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -27,7 +28,7 @@ class Persistency {
     std::int64_t ops = 0;
   };
   /// Sets `side` of the fixed nodes and takes their edges out of the graph. Real-time safe.
-  [[nodiscard]] Result fix(CutGraph& graph) noexcept;
+  [[nodiscard]] Result fix(CutGraph& graph) noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// Decides `node` if that can be done already; appends it to the worklist then.

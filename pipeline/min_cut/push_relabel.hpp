@@ -9,6 +9,7 @@
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -24,7 +25,7 @@ class PushRelabel {
   /// True when the cut is minimal; `side` then is the answer for each node of the component.
   /// False when the clock's budget is reached; the residual graph is still valid. Real-time safe.
   [[nodiscard]] bool solve(CutGraph& graph, std::span<const std::uint32_t> component,
-                           OpClock& clock) noexcept;
+                           OpClock& clock) noexcept TERRACUT_NONBLOCKING;
 
  private:
   static constexpr std::uint32_t kEnd = 0xFFFFFFFF;  ///< No node: the end of a list.

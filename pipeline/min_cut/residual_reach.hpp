@@ -7,6 +7,7 @@
 #include <span>
 
 #include "pipeline/min_cut/cut_graph.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -18,7 +19,8 @@ inline constexpr std::uint32_t kNoWayToSink = std::numeric_limits<std::uint32_t>
 /// its first entries are the nodes that reach the sink, nearest first. Adds the arcs visited to
 /// `ops`. Real-time safe. Returns how many nodes reach the sink.
 std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t> component,
-                                  std::span<std::uint32_t> queue, std::int64_t& ops) noexcept;
+                                  std::span<std::uint32_t> queue,
+                                  std::int64_t& ops) noexcept TERRACUT_NONBLOCKING;
 
 /// Labels what can be proven of an unfinished component, from the residual graph alone:
 /// nodes from which the sink cannot be reached go to the source side in an optimum, nodes that
@@ -26,6 +28,6 @@ std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t
 /// these labels over any labelling never raises its energy. Sets `side`; kFree where nothing is
 /// proven. Returns the number of nodes proven. Real-time safe, linear in the component.
 std::uint32_t certify(CutGraph& graph, std::span<const std::uint32_t> component,
-                      std::span<std::uint32_t> queue) noexcept;
+                      std::span<std::uint32_t> queue) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::pipeline

@@ -9,6 +9,7 @@
 #include "pipeline/label.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -30,7 +31,8 @@ class UnknownCells {
 
   /// Appends the cells beyond the cap to `dropped`; `labels` are the coarse labels they are pinned
   /// to. Real-time safe.
-  void find(const GridProblem& problem, std::span<const Label> labels, CellList& dropped) noexcept;
+  void find(const GridProblem& problem, std::span<const Label> labels,
+            CellList& dropped) noexcept TERRACUT_NONBLOCKING;
 
   /// Kept cells in row-major order; node i of the graph is cells()[i].
   [[nodiscard]] std::span<const std::uint32_t> cells() const noexcept { return found_.view(); }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // Everything of this room that real-time threads call, called from one function that is marked
-// itself: Clang 20 and later then refuse whatever could block while compiling
-// (-Wfunction-effects), and stop it while running (-fsanitize=realtime). Other compilers check
-// that nothing is allocated.
+// itself: Clang 22 and later then refuse whatever could block while compiling
+// (-Wfunction-effects), 20 and later stop it while running (-fsanitize=realtime). Other compilers
+// check that nothing is allocated.
 #include "rt/nonblocking.hpp"
 
 #include <gtest/gtest.h>

@@ -5,13 +5,19 @@
 
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "configuration.hpp"
+#include "configuration_file.hpp"
+#include "console.hpp"
 #include "exit_codes.hpp"
+#include "firmware_io/sinks/stream_address.hpp"
 #include "setup_choice.hpp"
 
 namespace terracut::cli {
@@ -26,7 +32,8 @@ constexpr const char* kAbout =
 constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
     "4 an output could not be written; 5 packets were read but no frame came out;\n"
-    "6 deadlines were missed.\n"
+    "6 deadlines were missed; 7 doctor found a problem; 8 a measure got worse.\n"
+    "`--config FILE` goes with every command (`terracut config --print-default` prints one).\n"
     "`terracut COMMAND --help` lists a command's options.";
 
 /// A number in [low, high]. Unlike CLI::Range it lets no NaN through.
@@ -44,12 +51,20 @@ CLI::Validator number(double low, double high) {
       "");
 }
 
-constexpr double kLongest_s = 1e9;
+/// What the configuration file allows for the same.
+CLI::Validator range_of(std::string_view key) {
+  const Setting* setting = find_setting(key);
+  return number(setting->least, setting->most);
+}
+CLI::IsMember one_of(std::string_view key) {
+  const auto& choices = find_setting(key)->choices;
+  return CLI::IsMember(std::vector<std::string>(choices.begin(), choices.end()));
+}
 
 /// What a capture and a live stream have in common.
 void add_decoding(CLI::App& app, CaptureOptions& capture) {
   app.add_option("--sensor", capture.sensor, "Sensor model (default: the one found)")
-      ->check(CLI::IsMember({"auto", "hdl64e", "ruby128"}))
+      ->check(one_of("sensor.model"))
       ->capture_default_str();
   app.add_option("--from", capture.from, "Only datagrams of this IPv4 address")
       ->check(CLI::ValidIPV4);
@@ -61,21 +76,21 @@ void add_decoding(CLI::App& app, CaptureOptions& capture) {
       "Ruby128: take the model's table where there is none of the unit; heights may be off");
   app.add_option("--columns", capture.columns,
                  "Columns of the range image (default: firings a turn at the spin rate found)")
-      ->check(CLI::Range(16, 36000));
+      ->check(range_of("sensor.columns"));
   app.add_option("--cell-owner", capture.cell_owner,
                  "Dual return: which return stands for its cell; all of them are labelled")
-      ->check(CLI::IsMember({"strongest", "last", "first", "both"}))
+      ->check(one_of("sensor.cell_owner"))
       ->capture_default_str();
   app.add_option("--timestamp", capture.timestamp,
                  "Ruby128: how its stamps are encoded (default: found out from the packets)")
-      ->check(CLI::IsMember({"auto", "calendar", "us", "ns"}))
+      ->check(one_of("sensor.timestamp"))
       ->capture_default_str();
   app.add_option("--clock-offset", capture.clock_offset_s,
                  "Seconds to add to the device's clock where it is reported")
-      ->check(number(-kLongest_s, kLongest_s));
+      ->check(range_of("sensor.clock_offset_s"));
   app.add_option("--geometry", capture.geometry,
                  "Meaning of the table: the maker's manual, or as ROS drivers take it")
-      ->check(CLI::IsMember({"manual", "ros"}))
+      ->check(one_of("sensor.geometry"))
       ->capture_default_str();
 }
 
@@ -85,33 +100,25 @@ void add_capture(CLI::App& app, CaptureOptions& capture) {
   app.add_option("--port", capture.port, "Only UDP datagrams to this port (default: any)");
   add_decoding(app, capture);
   app.add_option("--start", capture.start_s, "Skip this many seconds of the capture")
-      ->check(number(0, kLongest_s));
+      ->check(range_of("input.start_s"));
   app.add_option("--duration", capture.duration_s, "Stop after this many seconds of the capture")
-      ->check(number(1e-6, kLongest_s));
+      ->check(range_of("input.duration_s"));
 }
 
 void add_mount(CLI::App& app, MountOptions& mount) {
   app.add_option("--setup", mount.setup, "Mount and ring distances found by `terracut calibrate`");
   app.add_option("--mount-height", mount.height_m,
                  "Metres from the ground to the sensor's origin (default 1.73)")
-      ->check(number(0.2, 6));
+      ->check(range_of("mount.height_m"));
   app.add_option("--mount-roll", mount.roll_deg, "Degrees, left side up (default 0)")
-      ->check(number(-28, 28));
+      ->check(range_of("mount.roll_deg"));
   app.add_option("--mount-pitch", mount.pitch_deg, "Degrees, looking down in front (default 0)")
-      ->check(number(-28, 28));
+      ->check(range_of("mount.pitch_deg"));
 }
 
-void add_method(CLI::App& app, MethodOptions& method) {
-  app.add_option("--profile", method.profile,
-                 "paper: the method as printed; terracut: what measured better")
-      ->check(CLI::IsMember({"paper", "terracut"}))
-      ->capture_default_str();
-  app.add_option("--stages", method.stages,
-                 "How far to refine: elevation map, + adjacent points, + random field (mrf)")
-      ->check(CLI::IsMember({"elevation", "adjacent", "mrf"}))
-      ->capture_default_str();
+void add_settings(CLI::App& app, std::vector<std::string>& settings) {
   app.add_option(
-         "--set", method.settings,
+         "--set", settings,
          "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
       ->check([](const std::string& setting) {
         pipeline::MethodConfig scratch;
@@ -119,6 +126,18 @@ void add_method(CLI::App& app, MethodOptions& method) {
         return valid ? std::string() : valid.error().message;
       })
       ->allow_extra_args(false);
+}
+
+void add_method(CLI::App& app, MethodOptions& method) {
+  app.add_option("--profile", method.profile,
+                 "paper: the method as printed; terracut: what measured better")
+      ->check(one_of("method.profile"))
+      ->capture_default_str();
+  app.add_option("--stages", method.stages,
+                 "How far to refine: elevation map, + adjacent points, + random field (mrf)")
+      ->check(one_of("method.stages"))
+      ->capture_default_str();
+  add_settings(app, method.settings);
 }
 
 /// After add_method(): --profile and --stages choose among ours only.
@@ -148,14 +167,53 @@ void add_sensor(CLI::App& app, std::string& sensor) {
       ->capture_default_str();
 }
 
-/// Makes the subcommand and, when it is used, puts its options into `command`.
+/// The file of --config, before or behind the command, is read before anything else is.
+void add_config_option(CLI::App& app) {
+  app.add_option_function<std::string>(
+         "--config", [](const std::string&) {},
+         "Configuration file; the command line wins over it (docs/configuration.md)")
+      ->type_name("FILE");
+}
+
+/// The command line wins: a setup given there is not moved by the file's height and angles.
+void drop_overruled(const CLI::App& sub, MountOptions& mount) {
+  if (sub.count("--setup") == 0) return;
+  if (sub.count("--mount-height") == 0) mount.height_m.reset();
+  if (sub.count("--mount-roll") == 0) mount.roll_deg.reset();
+  if (sub.count("--mount-pitch") == 0) mount.pitch_deg.reset();
+}
+
+/// The same for parameters of the method: of two settings of one, the last counts.
+void put_before(std::vector<std::string>& settings, const std::vector<std::string>& of_file) {
+  settings.insert(settings.begin(), of_file.begin(), of_file.end());
+}
+
+/// What is read, and where to.
+struct Reading {
+  CLI::App& app;
+  const Configuration& configuration;
+  std::optional<Command>& command;
+};
+
+/// Makes the subcommand, whose options start from the configuration, and, when it is used, puts
+/// them into `reading.command`.
 template <class Options, class AddOptions>
-void add_command(CLI::App& app, std::optional<Command>& command, const char* name,
-                 const char* about, AddOptions&& add_options) {
-  CLI::App* sub = app.add_subcommand(name, about);
+void add_command(Reading reading, const char* name, const char* about, AddOptions&& add_options) {
+  CLI::App* sub = reading.app.add_subcommand(name, about);
   auto options = std::make_shared<Options>();
+  if constexpr (requires { start_from(reading.configuration, *options); }) {
+    start_from(reading.configuration, *options);
+  }
   add_options(*sub, *options);
-  sub->callback([&command, options] { command = *options; });
+  add_config_option(*sub);
+  sub->callback([=] {
+    if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
+    [[maybe_unused]] const std::vector<std::string>& of_file =
+        reading.configuration.live.method.settings;
+    if constexpr (requires { options->method; }) put_before(options->method.settings, of_file);
+    if constexpr (requires { options->settings; }) put_before(options->settings, of_file);
+    reading.command = *options;
+  });
 }
 
 CLI::Option* add_loop(CLI::App& sub, int& loops) {
@@ -193,7 +251,7 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   sub.add_option("--truth", o.output.truth,
                  "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes");
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
-      ->check(number(0, 1000))
+      ->check(range_of("replay.rate"))
       ->capture_default_str();
   add_loop(sub, o.loops);
 }
@@ -212,19 +270,19 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--scene", o.scene, "street, highway, rural, flat or hill")->capture_default_str();
   sub.add_option("--seed", o.seed, "The same seed gives the same drive")->capture_default_str();
   sub.add_option("--duration", o.duration_s, "Seconds to drive")
-      ->check(number(0.1, 3600))
+      ->check(range_of("simulate.duration_s"))
       ->capture_default_str();
   sub.add_option("--spin-hz,--rate", o.spin_hz, "Turns a second: 5, 10 and 20 are the sensors' own")
-      ->check(number(5, 20))
+      ->check(range_of("simulate.spin_hz"))
       ->capture_default_str();
   sub.add_option("--returns", o.returns, "single: the strongest; dual: the strongest and the last")
-      ->check(CLI::IsMember({"single", "dual"}))
+      ->check(one_of("simulate.returns"))
       ->capture_default_str();
   sub.add_option("--timestamp", o.timestamp, "Ruby128: how its stamps are encoded")
-      ->check(CLI::IsMember({"calendar", "us", "ns"}))
+      ->check(one_of("simulate.timestamp"))
       ->capture_default_str();
   sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
-      ->check(number(0, 1))
+      ->check(range_of("simulate.noise_m"))
       ->capture_default_str();
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
@@ -272,7 +330,7 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
   add_mount(sub, o.mount);
   add_method(sub, o.method);
   sub.add_option("--repeat", o.repeat, "Passes over the capture")
-      ->check(CLI::Range(1, 100000))
+      ->check(range_of("bench.repeat"))
       ->capture_default_str();
   sub.add_option("--core", o.core, "Processor core to stay on (default: the last one allowed)")
       ->check(CLI::Range(0, 4095));
@@ -288,7 +346,7 @@ void add_send(CLI::App& sub, SendOptions& o) {
   sub.add_option("--port", o.port, "Only UDP datagrams to this port (default: any)");
   sub.add_option("--from", o.from, "Only datagrams of this IPv4 address")->check(CLI::ValidIPV4);
   sub.add_option("--rate", o.rate, "Pace by the capture's stamps: 1 as recorded, 0 flat out")
-      ->check(number(0, 1000))
+      ->check(range_of("replay.rate"))
       ->capture_default_str();
   add_sending(sub, o);
 }
@@ -317,42 +375,49 @@ void add_live(CLI::App& sub, LiveOptions& o) {
   sub.add_option("--via", o.listen.via,
                  "libpcap hears what a socket does not: a mirror port, a port another program "
                  "holds; it needs --interface and CAP_NET_RAW")
-      ->check(CLI::IsMember({"socket", "libpcap"}))
+      ->check(one_of("input.via"))
       ->capture_default_str();
   sub.add_option("--device-port", o.listen.device_port,
                  "Ruby128: port of its device information, heard at the start for its angles; "
                  "0: do not")
       ->capture_default_str();
   sub.add_option("--patience", o.patience_s, "Seconds to wait for the sensor at the start")
-      ->check(number(0.1, kLongest_s))
+      ->check(range_of("input.patience_s"))
       ->capture_default_str();
   sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);
   sub.add_flag("--share-port", o.listen.share_port, "Let other programs hear the same port");
   add_decoding(sub, o.capture);
   sub.add_option("--duration", o.capture.duration_s, "Stop after this many seconds")
-      ->check(number(1e-6, kLongest_s));
+      ->check(range_of("input.duration_s"));
   add_mount(sub, o.mount);
   add_method(sub, o.method);
   sub.add_option("--deadline-ms", o.deadline_ms, "From a turn's last packet to its labels")
-      ->check(number(1, 10'000))
+      ->check(range_of("deadline.limit_ms"))
       ->capture_default_str();
   sub.add_option("--receive-priority", o.realtime.receive_priority, "SCHED_FIFO, 0: shared")
-      ->check(CLI::Range(0, 99))
+      ->check(range_of("realtime.receive_priority"))
       ->capture_default_str();
   sub.add_option("--segment-priority", o.realtime.segment_priority, "SCHED_FIFO, 0: shared")
-      ->check(CLI::Range(0, 99))
+      ->check(range_of("realtime.segment_priority"))
       ->capture_default_str();
   sub.add_option("--receive-core", o.realtime.receive_core, "Core of the receiving thread")
-      ->check(CLI::Range(0, 4095));
+      ->check(range_of("realtime.receive_core"));
   sub.add_option("--segment-core", o.realtime.segment_core, "Core of the segmenting thread")
-      ->check(CLI::Range(0, 4095));
+      ->check(range_of("realtime.segment_core"));
   sub.add_flag("!--no-lock-memory", o.realtime.lock_memory, "Leave memory to the system");
   sub.add_option("--labels", o.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
+  sub.add_option("--stream", o.stream,
+                 "ADDRESS:PORT or socket path where other programs get every turn's labelled "
+                 "points (docs/labelled_stream.md); a port alone: this machine's programs")
+      ->check([](const std::string& text) {
+        const auto address = firmware_io::parse_stream_address(text);
+        return address ? std::string() : address.error().message;
+      });
   sub.add_option("--recorder-folder", o.recorder.folder,
                  "Folder for the last seconds of packets, written when a deadline is missed or "
                  "`terracut dump` asks");
   sub.add_option("--recorder-seconds", o.recorder.seconds, "How many seconds")
-      ->check(number(0, 600))
+      ->check(range_of("recorder.seconds"))
       ->capture_default_str();
   sub.add_option("--metrics", o.watch.metrics, "ADDRESS:PORT of /metrics for Prometheus, or off")
       ->capture_default_str();
@@ -360,6 +425,75 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->capture_default_str();
   sub.add_option("--json", o.json, "File for the summary at the end");
   sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
+}
+
+void add_config(CLI::App& sub, ConfigOptions& o) {
+  sub.add_flag("--print-default", o.print_default,
+               "Print a file with every key, its range and default (else: the one in force)");
+  sub.add_flag("--print-table", o.print_table, "Print the table of docs/configuration.md");
+}
+
+void add_doctor(CLI::App& sub, DoctorOptions& o) {
+  sub.add_option("--interface", o.interface,
+                 "Network interface of the sensor (default: all that are up)");
+  sub.add_option("--port", o.port, "UDP port of the sensor")
+      ->check(CLI::Range(1, 65535))
+      ->capture_default_str();
+  sub.add_flag("--json", o.json, "Print the findings for programs");
+}
+
+void add_eval(CLI::App& sub, EvalOptions& o) {
+  sub.add_option("DATASET", o.dataset, "Layout of the dataset")
+      ->required()
+      ->check(CLI::IsMember({"semantickitti"}));
+  sub.add_option("ROOT", o.root, "Its folder: ROOT/sequences/NN/{velodyne,labels}")->required();
+  sub.add_option("--sequences", o.sequences, "Only these, like 00,03 (default: all with labels)")
+      ->delimiter(',');
+  sub.add_option("--frames", o.frames,
+                 "Only these of every sequence: FIRST, FIRST-LAST or FIRST-LAST:STEP, from 0");
+  sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
+      ->delimiter(',')
+      ->capture_default_str();
+  add_settings(sub, o.settings);
+  sub.add_option("--through", o.through,
+                 "image: scans straight into the range image; packets: encoded and decoded first")
+      ->check(CLI::IsMember({"image", "packets"}))
+      ->capture_default_str();
+  sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  add_mount(sub, o.mount);
+  sub.add_option("--classes", o.classes,
+                 "What the dataset's classes count as (default: as in the paper)");
+  sub.add_option("--predictions", o.predictions,
+                 "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
+  sub.add_option("--json", o.json,
+                 "File for the results; FILE.journal beside it lets an interrupted run go on");
+}
+
+void add_compare(CLI::App& sub, CompareOptions& o) {
+  sub.add_option("BEFORE", o.before, "Report of `terracut eval --json`")->required();
+  sub.add_option("AFTER", o.after, "Another one, of the same frames")->required();
+  sub.add_option("--method", o.method, "Method to compare")->capture_default_str();
+  sub.add_option("--method-after", o.method_after, "Method of AFTER (default: the same)");
+  sub.add_option("--significance", o.significance,
+                 "A measure that got worse with a smaller p than this leads to exit code 8")
+      ->check(number(1e-12, 1))
+      ->capture_default_str();
+  sub.add_option("--json", o.json, "File for the same, for programs");
+}
+
+/// The file named by --config, wherever it stands; the last one counts.
+std::filesystem::path configuration_file_of(int argc, char** argv) {
+  constexpr std::string_view kOption = "--config";
+  std::filesystem::path file;
+  for (int i = 1; i < argc; ++i) {
+    const std::string_view word = argv[i];
+    if (word == "--") break;
+    if (word == kOption && i + 1 < argc) file = argv[++i];
+    if (word.starts_with("--config=")) file = word.substr(kOption.size() + 1);
+  }
+  return file;
 }
 
 /// CLI11 would say only that a subcommand is required.
@@ -379,42 +513,60 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 
 Arguments parse_arguments(int argc, char** argv) {
   Arguments result;
+  Configuration configuration;
+  if (const std::filesystem::path file = configuration_file_of(argc, argv); !file.empty()) {
+    Expected<Configuration> read = read_configuration(file);
+    if (!read) {
+      result.exit_code = refuse(kInputRefused, read.error().message);
+      return result;
+    }
+    configuration = *std::move(read);
+  }
   CLI::App app{kAbout, "terracut"};
   app.footer(kExitCodes);
   app.set_version_flag("--version", "terracut " TERRACUT_VERSION);
   app.require_subcommand(1);
+  add_config_option(app);
+  const Reading reading{app, configuration, result.command};
 
-  add_command<ReplayOptions>(app, result.command, "replay",
-                             "Label every return of a capture, frame by frame", add_replay);
-  add_command<SegmentOptions>(app, result.command, "segment",
-                              "Label recorded scans (.bin) without packets", add_segment);
-  add_command<SimulateOptions>(app, result.command, "simulate",
+  add_command<ReplayOptions>(reading, "replay", "Label every return of a capture, frame by frame",
+                             add_replay);
+  add_command<SegmentOptions>(reading, "segment", "Label recorded scans (.bin) without packets",
+                              add_segment);
+  add_command<SimulateOptions>(reading, "simulate",
                                "Drive a simulated sensor: capture, table and truth", add_simulate);
-  add_command<EncodeOptions>(app, result.command, "encode",
-                             "Turn recorded scans into packets with their truth", add_encode);
-  add_command<CalibrateOptions>(app, result.command, "calibrate",
+  add_command<EncodeOptions>(reading, "encode", "Turn recorded scans into packets with their truth",
+                             add_encode);
+  add_command<CalibrateOptions>(reading, "calibrate",
                                 "Find the mount and the rings' ground distances from a capture\n"
                                 "taken on a straight, level, open road",
                                 add_calibrate);
-  add_command<InfoOptions>(app, result.command, "info",
-                           "What a capture holds: streams, sensor, rate, loss, calibration",
-                           add_info);
-  add_command<PlanOptions>(app, result.command, "plan", "Memory the program takes, part by part",
-                           add_plan);
-  add_command<ParametersOptions>(app, result.command, "parameters",
+  add_command<InfoOptions>(
+      reading, "info", "What a capture holds: streams, sensor, rate, loss, calibration", add_info);
+  add_command<PlanOptions>(reading, "plan", "Memory the program takes, part by part", add_plan);
+  add_command<ParametersOptions>(reading, "parameters",
                                  "Every parameter of the method, as a table for docs/parameters.md",
                                  [](CLI::App&, ParametersOptions&) {});
-  add_command<BenchOptions>(app, result.command, "bench",
-                            "Time decoding and every stage on one core", add_bench);
-  add_command<SendOptions>(app, result.command, "send",
+  add_command<BenchOptions>(reading, "bench", "Time decoding and every stage on one core",
+                            add_bench);
+  add_command<SendOptions>(reading, "send",
                            "Send a capture's datagrams by UDP, as its sensor would", add_send);
-  add_command<LiveOptions>(app, result.command, "live",
+  add_command<LiveOptions>(reading, "live",
                            "Label a sensor's packets as they arrive, before a deadline", add_live);
-  add_command<DumpOptions>(app, result.command, "dump",
+  add_command<DumpOptions>(reading, "dump",
                            "Have a running `terracut live` write its last seconds of packets",
                            add_dump);
-  add_command<TopOptions>(app, result.command, "top",
-                          "Watch a running `terracut live` from another shell", add_top);
+  add_command<EvalOptions>(reading, "eval",
+                           "Measure methods on a labelled dataset, as the paper does", add_eval);
+  add_command<CompareOptions>(
+      reading, "compare", "What a change did: two reports of eval, frame by frame", add_compare);
+  add_command<TopOptions>(reading, "top", "Watch a running `terracut live` from another shell",
+                          add_top);
+  add_command<ConfigOptions>(reading, "config",
+                             "Print the configuration in force, or one to start from", add_config);
+  add_command<DoctorOptions>(
+      reading, "doctor", "What of this machine stands in the way of real time, and what mends it",
+      add_doctor);
   app.failure_message([](const CLI::App*, const CLI::Error& error) {
     return std::string("error: ") + error.what() +
            "\n`terracut --help` and `terracut COMMAND --help` say what is expected\n";

@@ -10,9 +10,11 @@
 
 namespace terracut::cli {
 
-using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
-                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
-                             BenchOptions, SendOptions, DumpOptions, TopOptions, LiveOptions>;
+using Command =
+    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
+                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
+                 DumpOptions, TopOptions, EvalOptions, CompareOptions, LiveOptions, ConfigOptions,
+                 DoctorOptions>;
 
 /// The command line, read.
 struct Arguments {

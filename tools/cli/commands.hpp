@@ -21,6 +21,10 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run(const SendOptions& options);
 [[nodiscard]] ExitCode run(const DumpOptions& options);
 [[nodiscard]] ExitCode run(const TopOptions& options);
+ExitCode run(const EvalOptions& options);
+[[nodiscard]] ExitCode run(const CompareOptions& options);
 [[nodiscard]] ExitCode run(const LiveOptions& options);
+[[nodiscard]] ExitCode run(const ConfigOptions& options);
+[[nodiscard]] ExitCode run(const DoctorOptions& options);
 
 }  // namespace terracut::cli

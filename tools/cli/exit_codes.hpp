@@ -15,6 +15,8 @@ enum ExitCode : int {
   kOutputFailed = 4,     ///< An output could not be written whole; nothing is left in its place.
   kNothingCameOut = 5,   ///< Packets were read but no frame came out; the message names the check.
   kDeadlinesMissed = 6,  ///< A live run was all right but for deadlines it missed.
+  kNotReady = 7,         ///< `terracut doctor` found a problem of the machine.
+  kGotWorse = 8,         ///< `terracut compare`: a measure got worse, and not by chance.
 };
 
 /// The exit code that an error of a library leads to.

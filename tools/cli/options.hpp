@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -123,6 +124,22 @@ struct PlanOptions {
 
 struct ParametersOptions {};
 
+struct Configuration;  // configuration.hpp
+
+struct ConfigOptions {
+  bool print_default = false;
+  bool print_table = false;  ///< --print-table: for docs/configuration.md.
+  std::shared_ptr<const Configuration> configuration;  ///< The one in force; never null.
+};
+
+struct DoctorOptions {
+  std::string interface;            ///< --interface; empty: every one that is up
+  std::uint16_t port = 2368;        ///< --port
+  std::optional<int> receive_core;  ///< From the configuration, as are those below.
+  std::optional<int> segment_core;
+  bool json = false;
+};
+
 struct BenchOptions {
   CaptureOptions capture;
   MountOptions mount;
@@ -130,6 +147,29 @@ struct BenchOptions {
   int repeat = 10;  ///< Passes over the capture's frames.
   int core = -1;    ///< --core: pin to it; -1: the last one allowed.
   std::filesystem::path json;
+};
+
+struct EvalOptions {
+  std::string dataset = "semantickitti";  ///< The only one so far.
+  std::filesystem::path root;
+  std::vector<std::string> sequences;            ///< --sequences; empty: all with labels
+  std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
+  std::vector<std::string> methods{"terracut"};  ///< --method
+  std::vector<std::string> settings;             ///< --set KEY=VALUE, for every method, checked
+  std::string through = "image";                 ///< --through image|packets
+  int jobs = 0;                                  ///< --jobs; 0: one a core
+  MountOptions mount;
+  std::filesystem::path classes;      ///< --classes; empty: the dataset's own table
+  std::filesystem::path predictions;  ///< --predictions
+  std::filesystem::path json;         ///< --json
+};
+
+struct CompareOptions {
+  std::filesystem::path before, after;  ///< Reports of eval.
+  std::string method = "terracut";      ///< --method
+  std::string method_after;             ///< --method-after; empty: the same
+  double significance = 0.05;           ///< --significance, (0, 1)
+  std::filesystem::path json;           ///< --json
 };
 
 struct DumpOptions {

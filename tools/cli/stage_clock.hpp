@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "pipeline/stage.hpp"
+#include "rt/nonblocking.hpp"
 #include "rt/thread_cpu_clock.hpp"
 
 namespace terracut::cli {
@@ -19,11 +20,11 @@ struct StageTimes {
 /// Times the stages of the pipeline, which has no clock of its own. begin(), segment, times().
 class StageClock final : public pipeline::StageObserver {
  public:
-  void begin() noexcept {
+  void begin() noexcept TERRACUT_NONBLOCKING {
     times_ = {};
     begun_ = last_ = rt::ClockPair::now();
   }
-  void stage_done(pipeline::Stage stage) noexcept override {
+  void stage_done(pipeline::Stage stage) noexcept TERRACUT_NONBLOCKING override {
     const rt::ClockPair now = rt::ClockPair::now();
     times_.stage_ns[static_cast<std::size_t>(stage)] += now.since(last_).cpu_ns;
     times_.segment_wall_ns = now.since(begun_).wall_ns;

@@ -12,5 +12,5 @@ endif()
 
 option(TERRACUT_DEVELOPER_MODE "Warnings are errors" OFF)
 option(TERRACUT_BUILD_TESTS "Build tests, benchmarks and fuzz reproducers" ${terracut_is_developed_here})
-set(TERRACUT_SANITIZE "" CACHE STRING "Sanitizers for every target: 'address,undefined', 'thread' or empty")
+set(TERRACUT_SANITIZE "" CACHE STRING "Sanitizers for every target: 'address,undefined', 'thread', 'realtime' or empty")
 option(TERRACUT_LIBFUZZER "Link fuzz targets with libFuzzer (clang) instead of the reproducer main" OFF)

@@ -16,7 +16,8 @@ endfunction()
 
 # terracut_add_test(NAME SOURCES... LIBS... [LABELS ...] [TIMEOUT seconds])
 #   a GoogleTest program, every case its own ctest entry. LABELS is one word; "threads" says that
-#   there is something to find for ThreadSanitizer and adds the program to `threaded_tests`.
+#   there is something to find for ThreadSanitizer and adds the program to `threaded_tests`,
+#   "realtime" the same for RealtimeSanitizer and `realtime_tests`.
 function(terracut_add_test name)
   cmake_parse_arguments(arg "" "TIMEOUT" "SOURCES;LIBS;LABELS" ${ARGN})
   if(NOT arg_TIMEOUT)
@@ -31,6 +32,8 @@ function(terracut_add_test name)
   endif()
   if(arg_LABELS STREQUAL threads)
     set_property(GLOBAL APPEND PROPERTY TERRACUT_THREADED_TESTS ${name})
+  elseif(arg_LABELS STREQUAL realtime)
+    set_property(GLOBAL APPEND PROPERTY TERRACUT_REALTIME_TESTS ${name})
   endif()
   gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60
     PROPERTIES LABELS "${arg_LABELS}" TIMEOUT ${arg_TIMEOUT})

@@ -31,6 +31,18 @@ choose_cxx() {
   fi
 }
 
+# The newest clang++ that has RealtimeSanitizer with its runtime, which clang 20 is the first to have;
+# nothing where there is none.
+realtime_clang() {
+  local compiler
+  while read -r compiler; do
+    if echo 'int main() {}' | "$compiler" -fsanitize=realtime -x c++ - -o /dev/null 2>/dev/null; then
+      echo "$compiler"
+      return
+    fi
+  done < <(compgen -c clang++- | grep -E '^clang\+\+-[0-9]+$' | sort -t- -k2 -rnu)
+}
+
 # Configures (only the first time: CMake notices later changes itself) and builds.
 # configure_and_build PRESET TARGET [cmake options...]
 configure_and_build() {

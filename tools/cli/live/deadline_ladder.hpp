@@ -8,6 +8,7 @@
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/segmenter.hpp"
 #include "rt/frame_timing.hpp"
+#include "rt/nonblocking.hpp"
 #include "rt/thread_cpu_clock.hpp"
 #include "tools/cli/stage_clock.hpp"
 
@@ -22,21 +23,21 @@ class DeadlineLadder {
   explicit DeadlineLadder(std::int64_t deadline_ns) noexcept : deadline_ns_(deadline_ns) {}
 
   /// A frame begins. False when not even the coarse stages would be done in time.
-  [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept {
+  [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
     return rt::realtime_ns() + coarse_ns_ <= due_ns_;
   }
   /// For the segmenter: expires so early that what follows the cut still fits. Valid while this is.
-  [[nodiscard]] pipeline::CutBudget budget() noexcept {
+  [[nodiscard]] pipeline::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {pipeline::CutBudget::kDefaultOps,
-            [](void* ladder) noexcept {
+            [](void* ladder) noexcept TERRACUT_NONBLOCKING {
               const auto& self = *static_cast<const DeadlineLadder*>(ladder);
               return rt::realtime_ns() + self.after_cut_ns_ > self.due_ns_;
             },
             this};
   }
   /// The frame is done: learns from it.
-  void end(const StageTimes& times) noexcept {
+  void end(const StageTimes& times) noexcept TERRACUT_NONBLOCKING {
     using pipeline::Stage;
     const auto cost_ns = [&](Stage stage) {
       return times.stage_ns[static_cast<std::size_t>(stage)];

@@ -10,6 +10,7 @@
 #include "pipeline/range_image.hpp"
 #include "rt/frame_timing.hpp"
 #include "rt/latest_value.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::cli {
 
@@ -46,7 +47,7 @@ class FrameExchange {
   }
   /// Segmenting thread: the newest turn, if there is one it has not had; its own until the next
   /// call that returns one.
-  [[nodiscard]] Turn* take_if_new() noexcept {
+  [[nodiscard]] Turn* take_if_new() noexcept TERRACUT_NONBLOCKING {
     return slots_.take_if_new() ? &turns_[slots_.reader_slot()] : nullptr;
   }
 

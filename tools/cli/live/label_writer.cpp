@@ -9,8 +9,8 @@
 
 namespace terracut::cli {
 
-LabelWriter::LabelWriter(const std::filesystem::path& folder, LiveThreads& threads)
-    : folder_(folder), threads_(threads), thread_([this] { work(); }) {}
+LabelWriter::LabelWriter(const std::filesystem::path& folder, Slots& slots)
+    : folder_(folder), slots_(slots), thread_([this] { work(); }) {}
 
 bool LabelWriter::finish(std::chrono::milliseconds patience) {
   finish_ = true;
@@ -20,10 +20,10 @@ bool LabelWriter::finish(std::chrono::milliseconds patience) {
 void LabelWriter::work() {
   while (true) {
     const bool last_round = finish_;
-    for (LiveThreads::Labels labels; threads_.take_labels(labels); threads_.give_back()) {
+    for (Slots::Frame frame; slots_.take(frame); slots_.give_back()) {
       if (!outcome_) continue;
-      outcome_ = firmware_io::write_label_file(folder_ / fmt::format("{:06}.label", labels.number),
-                                               labels.labels);
+      outcome_ = firmware_io::write_label_file(
+          folder_ / fmt::format("{:06}.label", frame.info.number), frame.items);
       if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
     }
     if (last_round) return;

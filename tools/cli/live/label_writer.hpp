@@ -7,17 +7,20 @@
 #include <filesystem>
 
 #include "background_thread.hpp"
-#include "live_threads.hpp"
+#include "frame_slots.hpp"
+#include "pipeline/label.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::cli {
 
 /// Writes the labels of every turn to a folder, on a thread of its own: however long the disk
-/// takes, nothing waits for it. Turns that find no room meanwhile are counted by LiveThreads.
+/// takes, nothing waits for it. Turns that find no room meanwhile are counted by FrameSlots.
 class LabelWriter {
  public:
+  using Slots = FrameSlots<pipeline::Label>;
+
   /// Both must outlive this.
-  LabelWriter(const std::filesystem::path& folder, LiveThreads& threads);
+  LabelWriter(const std::filesystem::path& folder, Slots& slots);
 
   /// After LiveThreads::stop(): writes what is left. False when the disk does not answer; then the
   /// process must end without destroying this.
@@ -29,7 +32,7 @@ class LabelWriter {
   void work();
 
   const std::filesystem::path& folder_;
-  LiveThreads& threads_;
+  Slots& slots_;
   std::atomic<bool> finish_{false};
   Status outcome_;
   BackgroundThread thread_;  ///< Last: it uses all of the above.

@@ -21,6 +21,7 @@
 #include "live_watch.hpp"
 #include "rt/locked_memory.hpp"
 #include "stop_signal.hpp"
+#include "stream_writer.hpp"
 #include "tools/cli/chrome_trace.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
@@ -70,12 +71,12 @@ struct LiveParts {
   LiveWatch watch;
 
   LiveParts(const LiveOptions& options, const SensorOnAir& sensor,
-            const calib::RingProfile& profile, LiveSource& source, firmware_io::WakeEvent ready,
+            const calib::RingProfile& profile, LiveSource& source, LiveThreads::Events events,
             rt::FixedMemory& memory)
       : chain(sensor.calibration, profile, sensor.columns, options.capture, options.method, memory,
               FrameExchange::kImages),
         recorder(recorder_of(options, memory)),
-        threads(options, chain, source, std::move(ready), recorder ? &*recorder : nullptr, memory),
+        threads(options, chain, source, std::move(events), recorder ? &*recorder : nullptr, memory),
         watch(options, threads, memory) {}
 
  private:
@@ -89,12 +90,29 @@ struct LiveParts {
   }
 };
 
-/// What a run writes to disk, on threads that nothing waits for.
+/// What leaves a run, on threads that nothing waits for.
 class Writers {
  public:
-  Writers(const LiveOptions& options, LiveParts& parts) {
-    if (!options.labels.empty()) labels_.emplace(options.labels, parts.threads);
+  /// The errors of TurnStreamServer::open().
+  [[nodiscard]] Status open(const LiveOptions& options, const SensorOnAir& sensor,
+                            LiveParts& parts) {
+    if (parts.threads.points()) {
+      const auto address = firmware_io::parse_stream_address(options.stream);
+      if (!address) return tl::unexpected(address.error());
+      auto server = firmware_io::TurnStreamServer::open(
+          {.address = *address,
+           .max_points = parts.chain.decoder.return_capacity()},
+          stream_memory_);
+      if (!server) return tl::unexpected(server.error());
+      if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
+      say("labelled points at " + to_string(server->address()));
+      stream_.emplace(*std::move(server), firmware_io::streamed_sensor(sensor.model),
+                      static_cast<std::int64_t>(options.deadline_ms * 1e6), *parts.threads.points(),
+                      parts.threads.points_ready());
+    }
+    if (parts.threads.labels()) labels_.emplace(options.labels, *parts.threads.labels());
     if (parts.recorder) dumps_.emplace(options, *parts.recorder, LiveWatch::kStageNames);
+    return {};
   }
 
   void want_dump(firmware_io::DumpReason reason, const LiveWatch& watch) {
@@ -104,14 +122,17 @@ class Writers {
   /// False when the disk does not answer.
   [[nodiscard]] bool finish() {
     constexpr std::chrono::seconds kPatience{3};
+    const bool stream_done = !stream_ || stream_->finish(kPatience);
     const bool labels_done = !labels_ || labels_->finish(kPatience);
     const bool dumps_done = !dumps_ || dumps_->finish(kPatience);
-    return labels_done && dumps_done;
+    return stream_done && labels_done && dumps_done;
   }
   /// After finish().
   [[nodiscard]] bool wrote_all() const { return !labels_ || labels_->outcome().has_value(); }
 
  private:
+  rt::FixedMemory stream_memory_;  ///< Not locked: no thread with a deadline touches it.
+  std::optional<StreamWriter> stream_;
   std::optional<LabelWriter> labels_;
   std::optional<DumpWriter> dumps_;
 };
@@ -158,6 +179,7 @@ ExitCode run(const LiveOptions& options) {
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
   const auto sensor = listen_for_sensor(*source, options);
+  if (stop_wanted()) return kOk;
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));
@@ -167,17 +189,20 @@ ExitCode run(const LiveOptions& options) {
   if (!profile) return refuse(profile.error());
 
   rt::FixedMemory plan, memory;
-  auto idle = firmware_io::WakeEvent::make();
-  auto ready = firmware_io::WakeEvent::make();
-  if (!idle || !ready) return refuse(!idle ? idle.error() : ready.error());
+  auto idle = LiveThreads::Events::make();
+  auto events = LiveThreads::Events::make();
+  if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
   LiveParts{options, *sensor, *profile, *source, *std::move(idle), plan};
   const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});
   if (!region) return refuse(region.error());
   say_refusals(*region);
-  LiveParts parts(options, *sensor, *profile, *source, *std::move(ready), memory);
+  LiveParts parts(options, *sensor, *profile, *source, *std::move(events), memory);
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 
-  Writers writers(options, parts);
+  Writers writers;
+  if (const Status opened = writers.open(options, *sensor, parts); !opened) {
+    return refuse(opened.error());
+  }
   say_refusals(parts.threads.start());
   parts.watch.open(describe(*sensor), source->name());
   run_until_stopped(options, parts.watch, writers, dump_wanted);

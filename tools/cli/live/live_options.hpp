@@ -50,6 +50,7 @@ struct LiveOptions {
   MountOptions mount;
   MethodOptions method;
   std::filesystem::path labels, json, trace;
+  std::string stream;       ///< --stream, where others get labelled points; empty: nowhere.
   double deadline_ms = 50;  ///< From a turn's last packet to its labels, [1, 10000].
   RealtimeOptions realtime;
   RecorderOptions recorder;

@@ -40,9 +40,11 @@ Expected<LiveSource> LiveSource::open_socket(firmware_io::UdpSourceConfig config
                                              rt::FixedMemory& memory) {
   auto source = UdpSource::open(std::move(config), memory);
   if (!source) return tl::unexpected(source.error());
-  std::string name = to_string(source->local());
-  std::vector<std::string> warnings(source->warnings().begin(), source->warnings().end());
-  return LiveSource(*std::move(source), std::move(name), std::move(warnings));
+  LiveSource opened;
+  opened.name_ = to_string(source->local());
+  opened.warnings_.assign(source->warnings().begin(), source->warnings().end());
+  opened.udp_ = *std::move(source);
+  return opened;
 }
 
 Expected<LiveSource> LiveSource::open_pcap(firmware_io::LivePcapConfig config,
@@ -50,10 +52,12 @@ Expected<LiveSource> LiveSource::open_pcap(firmware_io::LivePcapConfig config,
   if (config.interface.empty()) {
     return fail(ErrorCode::kInvalidArgument, "--via libpcap needs --interface: where to listen");
   }
-  std::string name = fmt::format("port {} on {} by libpcap", *config.port, config.interface);
+  LiveSource opened;
+  opened.name_ = fmt::format("port {} on {} by libpcap", *config.port, config.interface);
   auto source = LivePcapSource::open(std::move(config), memory);
   if (!source) return tl::unexpected(source.error());
-  return LiveSource(*std::move(source), std::move(name), {});
+  opened.pcap_ = *std::move(source);
+  return opened;
 }
 
 }  // namespace terracut::cli

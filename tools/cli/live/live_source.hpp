@@ -6,12 +6,12 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "firmware_io/live/live_pcap_source.hpp"
 #include "firmware_io/live/udp_source.hpp"
 #include "live_options.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::cli {
 
@@ -26,24 +26,26 @@ class LiveSource {
                                                  std::optional<std::uint32_t> sender,
                                                  rt::FixedMemory& memory);
 
-  [[nodiscard]] std::span<const firmware_io::Datagram> receive(std::int64_t timeout_ns) noexcept {
-    return std::visit([&](auto& source) { return source.receive(timeout_ns); }, source_);
+  [[nodiscard]] std::span<const firmware_io::Datagram> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING {
+    if (udp_) return udp_->receive(timeout_ns);
+    // The thread waits here for its work; what libpcap does for it, it does in code nobody marked.
+    return rt::trusted_call([&]() noexcept { return pcap_->receive(timeout_ns); });
   }
-  void wake() const noexcept {
-    std::visit([](const auto& source) { source.wake(); }, source_);
+  void wake() const noexcept { udp_ ? udp_->wake() : pcap_->wake(); }
+  [[nodiscard]] const firmware_io::ReceiveCounters& counters() const noexcept TERRACUT_NONBLOCKING {
+    return udp_ ? udp_->counters() : pcap_->counters();
   }
-  [[nodiscard]] const firmware_io::ReceiveCounters& counters() const noexcept {
-    return *std::visit([](const auto& source) { return &source.counters(); }, source_);
+  void refresh_drops() noexcept TERRACUT_NONBLOCKING {
+    if (udp_) return udp_->refresh_drops();
+    rt::trusted_call([&]() noexcept { pcap_->refresh_drops(); });  // asks the kernel for a count
   }
-  void refresh_drops() noexcept {
-    std::visit([](auto& source) { source.refresh_drops(); }, source_);
-  }
-  [[nodiscard]] firmware_io::LinkState link() const noexcept {
-    return std::visit([](const auto& source) { return source.link(); }, source_);
+  [[nodiscard]] firmware_io::LinkState link() const noexcept TERRACUT_NONBLOCKING {
+    return udp_ ? udp_->link() : pcap_->link();
   }
   /// From now on only this sender; others count as foreign.
   void accept_only(std::uint32_t source_address) noexcept {
-    std::visit([&](auto& source) { source.accept_only(source_address); }, source_);
+    udp_ ? udp_->accept_only(source_address) : pcap_->accept_only(source_address);
   }
 
   /// For people: "0.0.0.0:2368", "port 2368 on eth0 by libpcap".
@@ -52,17 +54,15 @@ class LiveSource {
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
-  using Source = std::variant<firmware_io::UdpSource, firmware_io::LivePcapSource>;
-
-  LiveSource(Source source, std::string name, std::vector<std::string> warnings)
-      : source_(std::move(source)), name_(std::move(name)), warnings_(std::move(warnings)) {}
+  LiveSource() = default;
 
   [[nodiscard]] static Expected<LiveSource> open_socket(firmware_io::UdpSourceConfig config,
                                                         rt::FixedMemory& memory);
   [[nodiscard]] static Expected<LiveSource> open_pcap(firmware_io::LivePcapConfig config,
                                                       rt::FixedMemory& memory);
 
-  Source source_;
+  std::optional<firmware_io::UdpSource> udp_;        ///< This,
+  std::optional<firmware_io::LivePcapSource> pcap_;  ///< or this.
   std::string name_;
   std::vector<std::string> warnings_;
 };

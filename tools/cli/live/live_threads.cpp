@@ -9,9 +9,8 @@
 #include <future>
 #include <utility>
 
+#include "firmware_io/sinks/labelled_points.hpp"
 #include "rt/page_faults.hpp"
-#include "rt/scheduler_times.hpp"
-#include "rt/stolen_time.hpp"
 #include "rt/thread_setup.hpp"
 
 namespace terracut::cli {
@@ -29,6 +28,11 @@ rt::ThreadWish wish(std::string name, int priority, std::optional<int> core) {
   rt::ThreadWish wish{.name = std::move(name), .scheduling = {}, .core = core};
   if (priority > 0) wish.scheduling = rt::FifoScheduling{priority};
   return wish;
+}
+
+/// Waits on purpose.
+void gather() noexcept {
+  rt::trusted_call([]() noexcept { std::this_thread::sleep_for(kGathering); });
 }
 
 void publish(LiveThreads::ThreadState& state, const rt::PageFaults& at_start) noexcept {
@@ -58,19 +62,23 @@ LiveThreads::LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSou
     : options_(options),
       chain_(chain),
       source_(source),
-      ready_(std::move(ready)),
+      events_(std::move(events)),
       recorder_(recorder),
       exchange_(chain.decoder.images()),
       ladder_(static_cast<std::int64_t>(options.deadline_ms * 1e6)),
       segmented_("frame timings", kTimings, memory),
-      skipped_("frame timings", kTimings, memory),
-      full_slots_("label slots", kLabelSlots, memory),
-      free_slots_("label slots", kLabelSlots, memory) {
-  for (std::uint32_t slot = 0; slot < kLabelSlots; ++slot) {
-    label_slots_[slot].labels =
-        memory.take<pipeline::Label>("label slots", chain.decoder.return_capacity());
-    (void)free_slots_.try_push(slot);
-  }
+      skipped_("frame timings", kTimings, memory) {
+  const std::size_t capacity = chain.decoder.return_capacity();
+  if (!options.labels.empty()) labels_.emplace("label slots", kLabelSlots, capacity, memory);
+  if (!options.stream.empty()) points_.emplace("point slots", kPointSlots, capacity, memory);
+}
+
+Expected<LiveThreads::Events> LiveThreads::Events::make() {
+  auto turn_ready = firmware_io::WakeEvent::make();
+  if (!turn_ready) return tl::unexpected(turn_ready.error());
+  auto points_ready = firmware_io::WakeEvent::make();
+  if (!points_ready) return tl::unexpected(points_ready.error());
+  return Events{*std::move(turn_ready), *std::move(points_ready)};
 }
 
 std::vector<rt::Grant> LiveThreads::start() {
@@ -102,7 +110,7 @@ void LiveThreads::stop() {
   stop_ = true;
   source_.wake();
   if (receive_thread_.joinable()) receive_thread_.join();
-  ready_.wake();
+  events_.turn_ready.wake();
   if (segment_thread_.joinable()) segment_thread_.join();
 }
 
@@ -129,7 +137,7 @@ void LiveThreads::receive() noexcept {
           timing.labels_ns = rt::realtime_ns();
           pass_on(skipped_, timing);
         });
-    ready_.wake();
+    events_.turn_ready.wake();
     publish(receive_state_, at_start);
     return next;
   };
@@ -147,19 +155,22 @@ void LiveThreads::receive() noexcept {
       chain_.decoder.decode(datagram, on_frame);
     }
     intake_.publish({since(before, source_.counters()), source_.link(), newest_packet_ns});
-    if (datagrams.size() < kWorthwhileBatch) std::this_thread::sleep_for(kGathering);
+    if (datagrams.size() < kWorthwhileBatch) gather();
   }
 }
 
 void LiveThreads::segment() noexcept {
+  segment_turns(rt::SchedulerTimes::of_this_thread(), rt::StolenTime::open());
+}
+
+void LiveThreads::segment_turns(const rt::SchedulerTimes& scheduler,
+                                const Expected<rt::StolenTime>& stolen) noexcept {
   const rt::PageFaults at_start = rt::PageFaults::of_this_thread();
-  const rt::SchedulerTimes scheduler = rt::SchedulerTimes::of_this_thread();
-  const auto stolen = rt::StolenTime::open();
   const auto stolen_ns = [&] { return stolen ? stolen->read_ns().value_or(0) : 0; };
   rt::SchedulerReading before = scheduler.read();
   std::int64_t stolen_before_ns = stolen_ns();
   while (!stop_.load(std::memory_order_relaxed)) {
-    (void)ready_.wait(-1, kPatience_ns);
+    (void)events_.turn_ready.wait(-1, kPatience_ns);
     FrameExchange::Turn* turn = exchange_.take_if_new();
     if (turn == nullptr) continue;
     segment_turn(*turn);
@@ -189,8 +200,9 @@ void LiveThreads::segment_turn(FrameExchange::Turn& turn) noexcept {
       chain_.segmenter.segment(*turn.image, ladder_.budget(), &clock_);
   timing.rung = DeadlineLadder::rung_of(report);
   ladder_.end(clock_.times());
-  pass_on_labels(timing.number);
   timing.labels_ns = rt::realtime_ns();
+  pass_on_results(turn);
+  timing.labels_ns = rt::realtime_ns();  // judged by when they were handed on
   timing.segment_cpu_ns = rt::thread_cpu_ns() - begun_cpu_ns;
   std::copy(clock_.times().stage_ns.begin(), clock_.times().stage_ns.end(),
             timing.stage_cpu_ns.begin());
@@ -199,30 +211,20 @@ void LiveThreads::segment_turn(FrameExchange::Turn& turn) noexcept {
                                  report.cut.boykov_kolmogorov_ops + report.cut.push_relabel_ops);
 }
 
-void LiveThreads::pass_on_labels(std::uint32_t number) noexcept {
-  if (options_.labels.empty()) return;
-  std::uint32_t slot = 0;
-  if (!free_slots_.try_pop(slot)) {
-    labels_dropped_.fetch_add(1, std::memory_order_relaxed);
-    return;
-  }
+void LiveThreads::pass_on_results(const FrameExchange::Turn& turn) noexcept {
   const auto labels = chain_.segmenter.labels();
-  LabelSlot& filled = label_slots_[slot];
-  filled.number = number;
-  filled.count = labels.size();
-  std::copy(labels.begin(), labels.end(), filled.labels.begin());
-  (void)full_slots_.try_push(slot);  // as many places as slots
-}
-
-bool LiveThreads::take_labels(Labels& labels) noexcept {
-  if (!full_slots_.try_pop(taken_slot_)) return false;
-  const LabelSlot& slot = label_slots_[taken_slot_];
-  labels = {slot.number, slot.labels.first(slot.count)};
-  return true;
-}
-
-void LiveThreads::give_back() noexcept {
-  (void)free_slots_.try_push(taken_slot_);
+  if (labels_) {
+    labels_->pass_on(turn.info, turn.timing, [&](std::span<pipeline::Label> room) noexcept {
+      std::copy(labels.begin(), labels.end(), room.begin());
+    });
+  }
+  if (points_) {
+    points_->pass_on(turn.info, turn.timing,
+                     [&](std::span<firmware_io::LabelledPoint> room) noexcept {
+                       (void)firmware_io::pack_labelled_points(*turn.image, labels, room);
+                     });
+    events_.points_ready.wake();
+  }
 }
 
 void LiveThreads::pass_on(rt::SpscQueue<rt::FrameTiming>& queue,

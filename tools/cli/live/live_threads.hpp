@@ -2,10 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <array>
 #include <atomic>
 #include <cstdint>
-#include <span>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -13,12 +12,17 @@
 #include "deadline_ladder.hpp"
 #include "firmware_io/live/flight_recorder.hpp"
 #include "firmware_io/live/wake_event.hpp"
+#include "firmware_io/sinks/labelled_turn_wire.hpp"
 #include "frame_exchange.hpp"
+#include "frame_slots.hpp"
 #include "live_options.hpp"
 #include "live_source.hpp"
 #include "rt/grant.hpp"
 #include "rt/latest_value.hpp"
+#include "rt/nonblocking.hpp"
+#include "rt/scheduler_times.hpp"
 #include "rt/spsc_queue.hpp"
+#include "rt/stolen_time.hpp"
 #include "tools/cli/packet_chain.hpp"
 
 namespace terracut::cli {
@@ -27,16 +31,12 @@ namespace terracut::cli {
 /// one hears of them. They allocate nothing, lock nothing and write nothing:
 ///
 ///   receive  datagrams -> recorder, decoder --FrameExchange--> segment  turns -> labels
-///      |                                                          |
-///      '-- timings of skipped turns --.      .-- timings, labels -'
-///                                     v      v
-///                              whoever calls take_timing(), take_labels()
+///      |                                                          |          |
+///      '-- timings of skipped turns --.      .---- timings -------'          | FrameSlots
+///                                     v      v                               v
+///                              whoever calls take_timing()      label files, stream of points
 class LiveThreads {
  public:
-  struct Labels {
-    std::uint32_t number = 0;
-    std::span<pipeline::Label> labels;
-  };
   /// What a thread says of itself, readable at any time once start() has returned.
   struct ThreadState {
     std::string scheduling;  ///< As granted: "SCHED_FIFO priority 80, cores 0-3".
@@ -49,10 +49,16 @@ class LiveThreads {
     std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
   };
 
+  struct Events {
+    firmware_io::WakeEvent turn_ready;    ///< A turn was handed over.
+    firmware_io::WakeEvent points_ready;  ///< A turn's labelled points were passed on.
+    /// kCapacityExceeded when the process has no descriptor left.
+    [[nodiscard]] static Expected<Events> make();
+  };
+
   /// Takes all memory from `memory`. `recorder` may be null. Everything must outlive this.
-  LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source,
-              firmware_io::WakeEvent ready, firmware_io::FlightRecorder* recorder,
-              rt::FixedMemory& memory);
+  LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source, Events events,
+              firmware_io::FlightRecorder* recorder, rt::FixedMemory& memory);
 
   /// Starts both; answers what the system granted and refused them.
   [[nodiscard]] std::vector<rt::Grant> start();
@@ -62,16 +68,23 @@ class LiveThreads {
   [[nodiscard]] bool take_timing(rt::FrameTiming& timing) noexcept {
     return segmented_.try_pop(timing) || skipped_.try_pop(timing);
   }
-  /// Labels of the next frame; give_back() before long, or further frames' labels are dropped.
-  [[nodiscard]] bool take_labels(Labels& labels) noexcept;
-  void give_back() noexcept;
+  /// The labels of every turn, by return index; nothing without options.labels.
+  [[nodiscard]] FrameSlots<pipeline::Label>* labels() noexcept {
+    return labels_ ? &*labels_ : nullptr;
+  }
+  /// The labelled points of every turn; nothing without options.stream.
+  [[nodiscard]] FrameSlots<firmware_io::LabelledPoint>* points() noexcept {
+    return points_ ? &*points_ : nullptr;
+  }
+  /// Woken after every turn that points() was given.
+  [[nodiscard]] const firmware_io::WakeEvent& points_ready() const noexcept {
+    return events_.points_ready;
+  }
 
   /// From one thread.
   [[nodiscard]] const Intake& intake() noexcept;
   /// Up to the newest turn that was segmented, with what the kernel dropped. From one thread.
   [[nodiscard]] firmware_io::LossCounters losses() noexcept;
-  /// Frames whose labels found no room because the one who takes them was too slow.
-  [[nodiscard]] std::uint64_t labels_dropped() const noexcept { return labels_dropped_.load(); }
   /// Frames that nobody judged because the one who takes timings was too slow.
   [[nodiscard]] std::uint64_t timings_dropped() const noexcept { return timings_dropped_.load(); }
   [[nodiscard]] const ThreadState& receive_state() const noexcept { return receive_state_; }
@@ -80,17 +93,20 @@ class LiveThreads {
  private:
   static constexpr std::size_t kTimings = 64;
   static constexpr std::size_t kLabelSlots = 8;
+  static constexpr std::size_t kPointSlots = 2;  // the stream wants the newest, not all
 
-  void receive() noexcept;
+  void receive() noexcept TERRACUT_NONBLOCKING;
   void segment() noexcept;
+  void segment_turns(const rt::SchedulerTimes& scheduler,
+                     const Expected<rt::StolenTime>& stolen) noexcept TERRACUT_NONBLOCKING;
   void segment_turn(FrameExchange::Turn& turn) noexcept;
-  void pass_on_labels(std::uint32_t number) noexcept;
+  void pass_on_results(const FrameExchange::Turn& turn) noexcept;
   void pass_on(rt::SpscQueue<rt::FrameTiming>& queue, const rt::FrameTiming& timing) noexcept;
 
   const LiveOptions& options_;
   PacketChain& chain_;
   LiveSource& source_;
-  firmware_io::WakeEvent ready_;  ///< A turn was handed over.
+  Events events_;
   firmware_io::FlightRecorder* recorder_;
 
   FrameExchange exchange_;
@@ -99,17 +115,11 @@ class LiveThreads {
   rt::SpscQueue<rt::FrameTiming> segmented_, skipped_;
   rt::LatestValue<firmware_io::LossCounters> losses_;
 
-  struct LabelSlot {
-    std::uint32_t number = 0;
-    std::size_t count = 0;
-    std::span<pipeline::Label> labels;
-  };
-  std::array<LabelSlot, kLabelSlots> label_slots_;
-  rt::SpscQueue<std::uint32_t> full_slots_, free_slots_;
-  std::uint32_t taken_slot_ = 0;
+  std::optional<FrameSlots<pipeline::Label>> labels_;
+  std::optional<FrameSlots<firmware_io::LabelledPoint>> points_;
 
   std::atomic<bool> stop_{false};
-  std::atomic<std::uint64_t> labels_dropped_{0}, timings_dropped_{0};
+  std::atomic<std::uint64_t> timings_dropped_{0};
   rt::LatestValue<Intake> intake_;
   ThreadState receive_state_, segment_state_;
   std::jthread receive_thread_, segment_thread_;

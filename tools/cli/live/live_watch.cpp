@@ -119,7 +119,12 @@ void LiveWatch::refresh_losses(rt::MonitorSnapshot& figures) {
   show_losses(losses, figures);
   show_losses(threads_.intake().counters, figures);
   show_loss("unjudged_frames", threads_.timings_dropped(), figures);
-  show_loss("unwritten_label_frames", threads_.labels_dropped(), figures);
+  if (threads_.labels()) {
+    show_loss("unwritten_label_frames", threads_.labels()->dropped(), figures);
+  }
+  if (threads_.points()) {
+    show_loss("unstreamed_frames", threads_.points()->dropped(), figures);
+  }
 }
 
 std::vector<rt::FrameTiming> LiveWatch::newest() const {

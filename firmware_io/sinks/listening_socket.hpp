@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <sys/types.h>
+
+#include "firmware_io/live/owned_descriptor.hpp"
+#include "firmware_io/sinks/stream_address.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// A stream socket that listens, non-blocking. The file of a Unix socket goes with it.
+class ListeningSocket {
+ public:
+  /// A Unix socket's file that nobody listens on any more, left behind by kill -9, is replaced;
+  /// anything else in its place is left alone. kNotFound: no such address on this machine, or no
+  /// such folder. kUnreadable: address or path taken, or another refusal of the system.
+  [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address);
+
+  ListeningSocket(ListeningSocket&& other) noexcept;
+  ListeningSocket& operator=(ListeningSocket&& other) noexcept;
+  ~ListeningSocket() { close(); }
+
+  [[nodiscard]] int descriptor() const noexcept { return socket_.get(); }
+  /// With the port the system chose, where it was asked to.
+  [[nodiscard]] const StreamAddress& address() const noexcept { return address_; }
+
+ private:
+  ListeningSocket(OwnedDescriptor socket, StreamAddress address) noexcept
+      : socket_(std::move(socket)), address_(std::move(address)) {}
+  void close() noexcept;
+
+  OwnedDescriptor socket_;
+  StreamAddress address_;
+  ::dev_t device_ = 0;  ///< Of the Unix socket's file, which may have been replaced since.
+  ::ino_t inode_ = 0;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// What the stream of labelled turns costs: packing on the segment thread, as it is done and row by
+// row, and serving on the sink's thread. Reports, asserts nothing.
+#include <benchmark/benchmark.h>
+
+#include <atomic>
+#include <thread>
+#include <vector>
+
+#include "firmware_io/sinks/each_return.hpp"
+#include "firmware_io/sinks/label_sink.hpp"
+#include "firmware_io/sinks/labelled_points.hpp"
+#include "firmware_io/sinks/turn_stream_reader.hpp"
+#include "firmware_io/sinks/turn_stream_server.hpp"
+
+namespace terracut {
+namespace {
+
+using firmware_io::LabelledPoint;
+
+/// A turn of rows x columns that arrives firing by firing, each row shifted against the others as
+/// by its laser's rotational correction; `full_percent` of the cells hold a return.
+struct Turn {
+  Turn(int rows, int columns, int full_percent)
+      : image({.rows = rows, .columns = columns}, 64, memory), points(image.return_capacity()) {
+    for (int firing = 0; firing < columns; ++firing) {
+      for (int laser = 0; laser < rows; ++laser) {
+        // Two rows arrive one after the other that lie half the image apart, as with the HDL-64E.
+        const int row = laser / 2 + (laser % 2) * (rows / 2);
+        if ((firing * 31 + laser * 17) % 100 >= full_percent) continue;
+        const int shift = row * 37 % 41 - 20;
+        const auto x_m = static_cast<float>(firing);
+        (void)image.place(row, (firing + shift + columns) % columns,
+                          {x_m, 1.0F, 0.1F, x_m, static_cast<std::uint8_t>(laser)});
+      }
+    }
+    labels.resize(image.returns());
+    for (std::size_t n = 0; n < labels.size(); ++n) {
+      labels[n] = n % 5 < 3 ? pipeline::Label::kGround : pipeline::Label::kObstacle;
+    }
+  }
+
+  rt::FixedMemory memory;
+  pipeline::RangeImage image;
+  std::vector<pipeline::Label> labels;
+  std::vector<LabelledPoint> points;
+};
+
+void report(benchmark::State& state, const Turn& turn) {
+  state.counters["returns"] = static_cast<double>(turn.image.returns());
+  state.SetItemsProcessed(static_cast<std::int64_t>(turn.image.returns()) *
+                          static_cast<std::int64_t>(state.iterations()));
+}
+
+/// 64 rows: 124,000 returns, an HDL-64E's turn. 128 rows: 256,000, a full RS-Ruby128's in 2,000
+/// columns.
+Turn turn_for(std::int64_t rows) {
+  return rows == 64 ? Turn(64, 2083, 93) : Turn(128, 2000, 100);
+}
+
+void pack_points(benchmark::State& state) {
+  Turn turn = turn_for(state.range(0));
+  for (auto each : state) {
+    benchmark::DoNotOptimize(
+        firmware_io::pack_labelled_points(turn.image, turn.labels, turn.points));
+    benchmark::ClobberMemory();
+  }
+  report(state, turn);
+}
+BENCHMARK(pack_points)->Arg(64)->Arg(128)->Unit(benchmark::kMicrosecond);
+
+/// The other order of walking the image, for comparison.
+void pack_points_row_by_row(benchmark::State& state) {
+  Turn turn = turn_for(state.range(0));
+  for (auto each : state) {
+    firmware_io::for_each_return(turn.image, [&](const firmware_io::PlacedReturn& placed) {
+      const auto label = firmware_io::semantic_kitti_class(turn.labels[placed.return_index]);
+      turn.points[placed.return_index] = {placed.echo.x_m,
+                                          placed.echo.y_m,
+                                          placed.echo.z_m,
+                                          placed.echo.intensity,
+                                          static_cast<std::uint8_t>(label),
+                                          static_cast<std::uint16_t>(placed.row)};
+    });
+    benchmark::ClobberMemory();
+  }
+  report(state, turn);
+}
+BENCHMARK(pack_points_row_by_row)->Arg(64)->Arg(128)->Unit(benchmark::kMicrosecond);
+
+/// One turn to `readers` readers over the loopback, until all of them have it. CPU time is that of
+/// the serving thread alone.
+void serve_turn(benchmark::State& state) {
+  const Turn turn = turn_for(state.range(0));
+  const auto readers = static_cast<std::size_t>(state.range(1));
+  rt::FixedMemory memory;
+  auto server = firmware_io::TurnStreamServer::open(
+      {.max_points = turn.image.returns(), .max_peers = readers}, memory);
+  if (!server) return state.SkipWithError(server.error().message.c_str());
+  std::vector<std::jthread> threads;
+  std::atomic<std::uint64_t> received{0};
+  for (std::size_t n = 0; n < readers; ++n) {
+    threads.emplace_back([&received, address = server->address()] {
+      auto reader = firmware_io::TurnStreamReader::connect(address);
+      firmware_io::ReceivedTurn got;
+      while (reader && reader->next(got, -1).value_or(false)) ++received;
+    });
+  }
+  while (server->peers() < readers) server->turn_round();
+  firmware_io::LabelledTurn labelled;
+  labelled.points = std::span(turn.points).first(turn.image.returns());
+  std::uint64_t expected = 0;
+  for (auto each : state) {
+    server->serve(labelled);
+    state.PauseTiming();
+    expected += readers;
+    while (received < expected && server->figures().missed == 0) {
+      server->turn_round();
+      std::this_thread::yield();
+    }
+    state.ResumeTiming();
+  }
+  if (server->figures().missed > 0) state.SkipWithError("a reader missed a turn");
+  server = firmware_io::TurnStreamServer::open({.max_points = 1}, memory);  // ends the readers
+}
+BENCHMARK(serve_turn)
+    ->ArgsProduct({{64, 128}, {1, 4}})
+    ->Unit(benchmark::kMicrosecond)
+    ->Iterations(200);
+
+}  // namespace
+}  // namespace terracut

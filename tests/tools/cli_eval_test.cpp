@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// `terracut eval`: what its report says is what somebody else finds in its predictions.
+#include <csignal>
+
+#include "cli_fixture.hpp"
+#include "eval/made_up_dataset.hpp"
+#include "tools/cli/exit_codes.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::HasSubstr;
+
+const fs::path kSourceDir = TERRACUT_SOURCE_DIR;
+
+class CliEval : public Cli {
+ protected:
+  /// Runs the scorer in Python over what `eval` wrote into this test's folder.
+  void expect_same_scores(const fs::path& root) const {
+    if (std::system("python3 --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no python3 here";
+    const std::string command =
+        "python3 " + quoted(kSourceDir / "tests/tools/eval/score_predictions.py") + " " +
+        quoted(root) + " " + quoted(folder_ / "predictions") + " " + quoted(folder_ / "eval.json") +
+        " >" + quoted(folder_ / "scores.txt") + " 2>&1";
+    EXPECT_EQ(std::system(command.c_str()), 0) << content_of(folder_ / "scores.txt");
+  }
+  [[nodiscard]] static std::string dataset(const fs::path& root) {
+    return "eval semantickitti " + quoted(root) + " --predictions predictions --json eval.json ";
+  }
+};
+
+TEST_F(CliEval, ReportsWhatAScorerInAnotherLanguageFinds) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()) + "--method terracut,ring_map,paper");
+  EXPECT_EQ(json("eval.json").at("methods").size(), 3U);
+  expect_same_scores(made_up.root());
+}
+
+TEST_F(CliEval, ReportsOfRecordedScansWhatAScorerInAnotherLanguageFinds) {
+  const fs::path root = kSourceDir / "../shared/data/semantickitti";
+  if (!fs::is_directory(root)) GTEST_SKIP() << "no recorded scans at ../shared";
+  expect_done(dataset(root) + "--frames 0 --method terracut,ring_map");
+  expect_same_scores(root);
+}
+
+TEST_F(CliEval, GoesOnAfterItWasKilled) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()));
+  const auto whole = json("eval.json").at("methods").at("terracut").at("pooled");
+  // What a kill leaves behind: some whole lines, and one that was being written.
+  const std::string journal = content_of(folder_ / "eval.json.journal");
+  fs::remove(folder_ / "eval.json");
+  write("eval.json.journal", journal.substr(0, journal.size() / 2));
+  expect_done(dataset(made_up.root()));
+  EXPECT_EQ(json("eval.json").at("methods").at("terracut").at("pooled"), whole);
+}
+
+TEST_F(CliEval, StartsFromTheConfigurationAndTheCommandLineWins) {
+  const evaluation::MadeUpDataset made_up;
+  write("a.yaml", "mount: {height_m: 1.8}\nmethod: {elevation_map: {obstacle_height_m: 0.5}}\n");
+  const std::string eval = "eval semantickitti " + quoted(made_up.root()) + " ";
+  const auto settings_of = [&](const std::string& arguments) {
+    expect_done(arguments + " --json eval.json");
+    const std::string journal = content_of(folder_ / "eval.json.journal");
+    fs::remove(folder_ / "eval.json.journal");
+    return journal.substr(0, journal.find('\n'));
+  };
+  const std::string set = "--set elevation_map.obstacle_height_m=";
+  EXPECT_EQ(settings_of("--config a.yaml " + eval),
+            settings_of(eval + "--mount-height 1.8 " + set + "0.5"));
+  EXPECT_EQ(settings_of("--config a.yaml " + eval + set + "0.4"),
+            settings_of(eval + "--mount-height 1.8 " + set + "0.4"));
+  EXPECT_NE(settings_of("--config a.yaml " + eval), settings_of(eval));
+}
+
+TEST_F(CliEval, SaysWhichFilesItCouldNotEvaluateAndEvaluatesTheRest) {
+  const evaluation::MadeUpDataset made_up;
+  fs::remove(made_up.labels("03", 1));
+  const Outcome outcome = run(dataset(made_up.root()));
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("000001.bin"));
+  EXPECT_THAT(outcome.out, HasSubstr("terracut"));
+  const auto report = json("eval.json");
+  EXPECT_EQ(report.at("faults").size(), 1U);
+  EXPECT_EQ(report.at("methods").at("terracut").at("frames").size(), 5U);
+}
+
+TEST_F(CliEval, WarnsOfClassesTheTableDoesNotKnow) {
+  const evaluation::MadeUpDataset made_up;
+  write("classes.yaml",
+        "classes:\n  - {id: 40, name: road, all: ground, road: ground}\n"
+        "  - {id: 10, name: car, all: key, road: key}\n");
+  const Outcome outcome = run(dataset(made_up.root()) + "--classes classes.yaml");
+  EXPECT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("00/000000: class 50 is not in the class table"));
+  EXPECT_THAT(outcome.err, HasSubstr("class 72"));
+}
+
+TEST_F(CliEval, IsComparedMethodByMethod) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()) + "--method terracut,ring_map");
+  expect_done("compare eval.json eval.json --json same.json");
+  EXPECT_EQ(json("same.json").at("measures").at("iou_g").at("frames").at("p"), 1.0);
+  const Outcome worse = run("compare eval.json eval.json --method-after ring_map");
+  EXPECT_EQ(worse.exit_code, kGotWorse) << worse.out;
+  EXPECT_THAT(worse.out, HasSubstr("ring_map of eval.json"));
+  EXPECT_EQ(run("compare eval.json none.json").exit_code, kInputRefused);
+}
+
+TEST_F(CliEval, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
+  const evaluation::MadeUpDataset made_up;
+  const auto expect_refusal = [&](const std::string& options, int exit_code,
+                                  const std::string& message) {
+    const Outcome outcome = run(dataset(made_up.root()) + options);
+    EXPECT_EQ(outcome.exit_code, exit_code) << options << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << options;
+  };
+  expect_refusal("--method nonsense", kUsage, "there is no method 'nonsense'");
+  expect_refusal("--frames 9-3", kUsage, "--frames");
+  expect_refusal("--frames 1-3:0", kUsage, "--frames");
+  expect_refusal("--set region.nonsense=1", kUsage, "region.nonsense");
+  expect_refusal("--classes none.yaml", kInputRefused, "none.yaml");
+  expect_refusal("--sequences 17", kNothingCameOut, "17");
+  expect_done(dataset(made_up.root()));
+  expect_refusal("--method paper", kUsage, "was begun with other settings");
+  EXPECT_EQ(run("eval semantickitti nowhere").exit_code, kInputRefused);
+}
+
+}  // namespace
+}  // namespace terracut::cli

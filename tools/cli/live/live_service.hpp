@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+#include "rt/monitor_snapshot.hpp"
+#include "tools/cli/service_notify.hpp"
+#include "watchdog_rule.hpp"
+
+namespace terracut::cli {
+
+/// A live run as a systemd service: says when it is ready, how it does, and feeds the watchdog
+/// while frames are in time. Outside a service it does nothing. One thread, the main one; never
+/// blocks.
+class LiveService {
+ public:
+  /// By the environment; a service manager that cannot be reached is warned of, and the run goes
+  /// on without it.
+  [[nodiscard]] static LiveService from_environment();
+  explicit LiveService(ServiceNotify notify) noexcept;
+
+  /// Once, when labels can come. `now_ns`: rt::monotonic_ns(), as below.
+  void ready(const rt::MonitorSnapshot& figures, std::int64_t now_ns);
+  /// As often as one likes: it looks at the figures four times within the watchdog's time, or
+  /// every five seconds where there is none.
+  void turn_round(const rt::MonitorSnapshot& figures, std::int64_t now_ns);
+  /// Once, before the threads end.
+  void stopping() const noexcept { notify_.stopping(); }
+
+ private:
+  ServiceNotify notify_;
+  WatchdogRule rule_;
+  std::int64_t look_every_ns_;
+  std::int64_t next_look_ns_ = 0;
+};
+
+}  // namespace terracut::cli

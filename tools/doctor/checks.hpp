@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "finding.hpp"
+#include "system_view.hpp"
+
+/// The checks of `terracut doctor`. Each looks at one thing and answers one finding; they only
+/// read. What is not found out is said so, and is no problem.
+namespace terracut::doctor {
+
+/// What the program will want of the machine.
+struct Wishes {
+  std::string interface{};  ///< Of the sensor; empty: every one that is up, except loopback.
+  std::uint16_t port = 2368;
+  std::int64_t buffer_bytes = 8 << 20;  ///< Receive buffer it asks for.
+  std::optional<int> receive_core{}, segment_core{};
+};
+
+// checks_kernel.cpp: what runs the threads.
+[[nodiscard]] Finding check_kernel(const SystemView& system);
+[[nodiscard]] Finding check_machine(const SystemView& system);  ///< Real or virtual.
+[[nodiscard]] Finding check_stolen_time(const SystemView& system);
+[[nodiscard]] Finding check_clock_source(const SystemView& system);
+[[nodiscard]] Finding check_time_sync(const SystemView& system);
+
+// checks_rights.cpp: what this user may ask for.
+[[nodiscard]] Finding check_priority(const SystemView& system);
+[[nodiscard]] Finding check_locked_memory(const SystemView& system);
+[[nodiscard]] Finding check_raw_capture(const SystemView& system);
+[[nodiscard]] Finding check_realtime_share(const SystemView& system);
+
+// checks_processor.cpp: what disturbs the threads.
+[[nodiscard]] Finding check_governor(const SystemView& system);
+[[nodiscard]] Finding check_isolated_cores(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_tickless_cores(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_swap(const SystemView& system);
+[[nodiscard]] Finding check_huge_pages(const SystemView& system);
+
+// checks_network.cpp: what packets meet on their way in.
+[[nodiscard]] Finding check_interface(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_receive_buffer(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_interrupts(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_interface_drops(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_socket_drops(const SystemView& system);
+[[nodiscard]] Finding check_port(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_return_path(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_firewall(const SystemView& system, const Wishes& wishes);
+
+/// All of them, in the order of docs/real_time.md.
+[[nodiscard]] Findings examine(const SystemView& system, const Wishes& wishes);
+
+/// Whether this process has a capability, by its number in <linux/capability.h>.
+[[nodiscard]] bool has_capability(const SystemView& system, int capability);
+
+}  // namespace terracut::doctor

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <map>
+#include <vector>
+
+#include "checks.hpp"
+
+namespace terracut::doctor {
+namespace {
+
+constexpr const char* kProcessors = "sys/devices/system/cpu/";
+
+std::set<int> list_in(const SystemView& system, std::string_view file) {
+  return numbers_of_list(system.text(std::string(kProcessors) + std::string(file)).value_or(""));
+}
+
+/// The cores asked for that are not among `cores`.
+std::set<int> missing_of(const Wishes& wishes, const std::set<int>& cores) {
+  std::set<int> missing;
+  for (const std::optional<int>& core : {wishes.receive_core, wishes.segment_core}) {
+    if (core && !cores.contains(*core)) missing.insert(*core);
+  }
+  return missing;
+}
+
+/// The cores to set apart: those asked for, else the last two.
+std::string cores_to_free(const SystemView& system, const Wishes& wishes) {
+  std::set<int> cores = missing_of(wishes, {});
+  if (cores.empty()) {
+    const std::set<int> online = list_in(system, "online");
+    const std::vector<int> all(online.begin(), online.end());
+    for (std::size_t i = all.size() > 2 ? all.size() - 2 : 1; i < all.size(); ++i) {
+      cores.insert(all[i]);
+    }
+  }
+  return fmt::format("{}", fmt::join(cores, ","));
+}
+
+constexpr const char* kThenGrub =
+    " to GRUB_CMDLINE_LINUX in /etc/default/grub, then update-grub and start anew";
+
+}  // namespace
+
+Finding check_governor(const SystemView& system) {
+  std::map<std::string, std::set<int>> cores_of;
+  for (const int core : list_in(system, "online")) {
+    const auto governor =
+        system.text(fmt::format("{}cpu{}/cpufreq/scaling_governor", kProcessors, core));
+    if (governor) cores_of[*governor].insert(core);
+  }
+  if (cores_of.empty()) return ok("governor", "frequencies are not changed from here");
+  std::string found;
+  bool steady = true;
+  for (const auto& [governor, cores] : cores_of) {
+    found += fmt::format("{}{} on {}", found.empty() ? "" : "; ", governor, fmt::join(cores, ","));
+    steady = steady && governor == "performance";
+  }
+  if (steady) return ok("governor", "performance");
+  return {
+      "governor", Verdict::kWarning, found,
+      "work comes in bursts ten times a second; between them the core slows down, and each frame "
+      "begins on a slow one",
+      "cpupower frequency-set -g performance"};
+}
+
+Finding check_isolated_cores(const SystemView& system, const Wishes& wishes) {
+  const std::set<int> isolated = list_in(system, "isolated");
+  const std::set<int> missing = missing_of(wishes, isolated);
+  if (!isolated.empty() && missing.empty()) {
+    return ok("isolated cores", fmt::format("{}", fmt::join(isolated, ",")));
+  }
+  if (list_in(system, "online").size() == 1) {
+    return {"isolated cores", Verdict::kWarning, "there is one core only",
+            "everything on the machine shares it with the frames",
+            "use a machine with two or more"};
+  }
+  return {"isolated cores", Verdict::kWarning,
+          isolated.empty()
+              ? std::string("none")
+              : fmt::format("{}, but not {}", fmt::join(isolated, ","), fmt::join(missing, ",")),
+          "other programs, and the kernel's own work for them, run on the cores of the frames",
+          fmt::format("add isolcpus=managed_irq,domain,{}{}; and name these cores as "
+                      "realtime.receive_core and segment_core",
+                      cores_to_free(system, wishes), kThenGrub)};
+}
+
+Finding check_tickless_cores(const SystemView& system, const Wishes& wishes) {
+  const std::set<int> tickless = list_in(system, "nohz_full");
+  const std::set<int> missing = missing_of(wishes, tickless);
+  if (!tickless.empty() && missing.empty()) {
+    return ok("tickless cores", fmt::format("{}", fmt::join(tickless, ",")));
+  }
+  // Only worth a word where cores are set apart at all; the check before asks for that.
+  if (list_in(system, "isolated").empty()) return ok("tickless cores", "none");
+  return {
+      "tickless cores", Verdict::kWarning,
+      tickless.empty()
+          ? std::string("none")
+          : fmt::format("{}, but not {}", fmt::join(tickless, ","), fmt::join(missing, ",")),
+      "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
+      fmt::format("add nohz_full={0} rcu_nocbs={0}{1}", cores_to_free(system, wishes), kThenGrub)};
+}
+
+Finding check_swap(const SystemView& system) {
+  const std::vector<std::string> lines = lines_of(system.text("proc/swaps").value_or(""));
+  if (lines.size() < 2) return ok("swap", "none");  // a head line only
+  const bool lockable = check_locked_memory(system).verdict == Verdict::kOk;
+  if (lockable) return ok("swap", "in use; locked memory stays out");
+  return {"swap", Verdict::kProblem, "in use, and memory cannot be locked",
+          "a frame that touches memory that was swapped out waits for the disk",
+          "swapoff -a, or mend 'locked memory'"};
+}
+
+Finding check_huge_pages(const SystemView& system) {
+  const std::string modes = system.text("sys/kernel/mm/transparent_hugepage/enabled").value_or("");
+  if (modes.empty()) return ok("huge pages", "not known");
+  const std::size_t begin = modes.find('[');
+  const std::size_t end = modes.find(']');
+  const std::string mode =
+      begin < end && end != std::string::npos ? modes.substr(begin + 1, end - begin - 1) : modes;
+  if (mode != "always") return ok("huge pages", mode);
+  return {"huge pages", Verdict::kWarning, mode,
+          "the kernel moves memory about to make huge pages of it, and holds up whoever uses it",
+          "echo madvise > /sys/kernel/mm/transparent_hugepage/enabled, and "
+          "transparent_hugepage=madvise on the kernel's command line"};
+}
+
+}  // namespace terracut::doctor

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "calib/hdl64e_calibration.hpp"
+#include "calib/ring_profile.hpp"
+#include "firmware_io/scan/ring_recovery.hpp"
+#include "frame_result.hpp"
+#include "method_choice.hpp"
+#include "scan_way.hpp"
+
+namespace terracut::evaluation {
+
+/// Labels scans of one unit with several methods, and counts what came of it. Every scan stands for
+/// itself: what came before makes no difference. One thread.
+class FrameLabeller {
+ public:
+  /// `methods` must outlive this. Takes all memory.
+  FrameLabeller(std::span<const MethodChoice> methods, const calib::Hdl64eCalibration& calibration,
+                const calib::RingProfile& profile, bool through_packets);
+
+  /// The scan that label() is about from now on; both arguments stay as they are meanwhile. The
+  /// errors of PacketWay::place().
+  [[nodiscard]] Status place(const firmware_io::KittiScan& scan,
+                             const firmware_io::RingRecovery& rings);
+
+  /// By methods[index]. Its labels are those of points() until the next call.
+  [[nodiscard]] FrameResult label(std::size_t index);
+
+  /// One label a point of the file: kNone for what is no place, kObstacle, the safe side, for what
+  /// was lost on the way.
+  [[nodiscard]] std::span<const pipeline::Label> points() const noexcept { return labels_; }
+
+ private:
+  [[nodiscard]] const pipeline::ImageShape& shape() const;
+  [[nodiscard]] std::size_t return_capacity() const;
+  void count(FrameResult& result) const;
+
+  rt::FixedMemory memory_;
+  std::variant<std::unique_ptr<DirectWay>, std::unique_ptr<PacketWay>> way_;
+  std::vector<std::unique_ptr<pipeline::GroundMethod>> segmenters_;
+
+  const firmware_io::KittiScan* scan_ = nullptr;
+  const firmware_io::RingRecovery* rings_ = nullptr;
+  PlacedScan placed_;
+  std::vector<pipeline::Label> labels_;
+};
+
+}  // namespace terracut::evaluation

@@ -210,7 +210,8 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
     [[maybe_unused]] const std::vector<std::string>& of_file =
         reading.configuration.live.method.settings;
-    if constexpr (requires { options->method; }) put_before(options->method.settings, of_file);
+    if constexpr (requires { options->method.settings; })
+      put_before(options->method.settings, of_file);
     if constexpr (requires { options->settings; }) put_before(options->settings, of_file);
     reading.command = *options;
   });

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // `terracut live` hears what `terracut send` plays. How fast is not tested: a machine may be busy.
+#include <fmt/format.h>
+
 #include <chrono>
 #include <filesystem>
 #include <stdexcept>
@@ -11,6 +13,7 @@
 #include "firmware_io/live/live_pcap_source.hpp"
 #include "firmware_io/live/packet_pacer.hpp"
 #include "firmware_io/live/udp_source.hpp"
+#include "firmware_io/sinks/turn_stream_reader.hpp"
 #include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
@@ -186,6 +189,35 @@ TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
                quoted(kDriveCalibration)));
   EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
   EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), 5);
+}
+
+TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
+  const Senders senders({Senders::kLocalhost}, port_number());
+  const fs::path socket = folder_ / "turns";
+  Outcome outcome;
+  std::thread listener([&] {
+    outcome = run(live("--duration 4 --labels labels --stream " + quoted(socket) +
+                       " --calibration " + quoted(kDriveCalibration)));
+  });
+  while (!fs::exists(socket)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const auto address = firmware_io::parse_stream_address(socket.string());
+  ASSERT_TRUE(address) << address.error().message;
+  auto reader = firmware_io::TurnStreamReader::connect(*address);
+  ASSERT_TRUE(reader) << reader.error().message;
+  std::vector<firmware_io::ReceivedTurn> turns(3);
+  constexpr std::int64_t kPatience_ns = 10'000'000'000;
+  for (firmware_io::ReceivedTurn& turn : turns) {
+    const auto read = reader->next(turn, kPatience_ns);
+    EXPECT_TRUE(read) << read.error().message;
+  }
+  listener.join();
+  // The points are the label files' returns, in their order.
+  for (const firmware_io::ReceivedTurn& turn : turns) {
+    const auto ids = ids_of(folder_ / "labels" / fmt::format("{:06}.label", turn.header.number));
+    ASSERT_EQ(turn.points.size(), ids.size()) << turn.header.number;
+    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(turn.points[i].label, ids[i]);
+    EXPECT_EQ(turn.header.sensor, 1);
+  }
 }
 
 TEST_F(CliLive, SaysWhichOptionLibpcapNeeds) {

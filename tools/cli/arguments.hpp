@@ -10,11 +10,10 @@
 
 namespace terracut::cli {
 
-using Command =
-    std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions, CalibrateOptions,
-                 InfoOptions, PlanOptions, ParametersOptions, BenchOptions, SendOptions,
-                 DumpOptions, TopOptions, EvalOptions, CompareOptions, LiveOptions, ConfigOptions,
-                 DoctorOptions>;
+using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, EncodeOptions,
+                             CalibrateOptions, InfoOptions, PlanOptions, ParametersOptions,
+                             BenchOptions, SendOptions, DumpOptions, TopOptions, EvalOptions,
+                             CompareOptions, LiveOptions, ConfigOptions, DoctorOptions>;
 
 /// The command line, read.
 struct Arguments {

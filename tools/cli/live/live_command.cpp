@@ -16,10 +16,12 @@
 #include "label_writer.hpp"
 #include "live_options.hpp"
 #include "live_report.hpp"
+#include "live_service.hpp"
 #include "live_source.hpp"
 #include "live_threads.hpp"
 #include "live_watch.hpp"
 #include "rt/locked_memory.hpp"
+#include "rt/thread_cpu_clock.hpp"
 #include "stop_signal.hpp"
 #include "stream_writer.hpp"
 #include "tools/cli/chrome_trace.hpp"
@@ -100,8 +102,7 @@ class Writers {
       const auto address = firmware_io::parse_stream_address(options.stream);
       if (!address) return tl::unexpected(address.error());
       auto server = firmware_io::TurnStreamServer::open(
-          {.address = *address,
-           .max_points = parts.chain.decoder.return_capacity()},
+          {.address = *address, .max_points = parts.chain.decoder.return_capacity()},
           stream_memory_);
       if (!server) return tl::unexpected(server.error());
       if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
@@ -138,7 +139,7 @@ class Writers {
 };
 
 void run_until_stopped(const LiveOptions& options, LiveWatch& watch, Writers& writers,
-                       DumpSignal& dump_wanted) {
+                       DumpSignal& dump_wanted, LiveService& service) {
   const auto started = SteadyClock::now();
   const auto is_over = [&] {
     return options.capture.duration_s &&
@@ -148,6 +149,7 @@ void run_until_stopped(const LiveOptions& options, LiveWatch& watch, Writers& wr
   while (!stop_wanted() && !is_over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const LiveWatch::Round round = watch.turn_round();
+    service.turn_round(watch.figures(), rt::monotonic_ns());
     if (round.missed > 0) writers.want_dump(firmware_io::DumpReason::kMissedDeadline, watch);
     if (dump_wanted.take()) writers.want_dump(firmware_io::DumpReason::kAsked, watch);
   }
@@ -176,6 +178,7 @@ ExitCode run(const LiveOptions& options) {
   if (options.realtime.lock_memory) say_refusals(rt::hold_memory({}));
 
   rt::FixedMemory socket_memory;
+  LiveService service = LiveService::from_environment();
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
   const auto sensor = listen_for_sensor(*source, options);
@@ -205,7 +208,9 @@ ExitCode run(const LiveOptions& options) {
   }
   say_refusals(parts.threads.start());
   parts.watch.open(describe(*sensor), source->name());
-  run_until_stopped(options, parts.watch, writers, dump_wanted);
+  service.ready(parts.watch.figures(), rt::monotonic_ns());
+  run_until_stopped(options, parts.watch, writers, dump_wanted, service);
+  service.stopping();
   parts.threads.stop();
   parts.watch.turn_round();
   const bool disk_answers = writers.finish();

@@ -57,7 +57,7 @@ firmware_io::ReceiveCounters since(const firmware_io::ReceiveCounters& before,
 }  // namespace
 
 LiveThreads::LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source,
-                         firmware_io::WakeEvent ready, firmware_io::FlightRecorder* recorder,
+                         Events events, firmware_io::FlightRecorder* recorder,
                          rt::FixedMemory& memory)
     : options_(options),
       chain_(chain),

@@ -6,31 +6,35 @@
 #include <string>
 #include <string_view>
 
-#include "pipeline/profile.hpp"
+#include "pipeline/ground_method.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::pipeline {
 
-/// One parameter of the method, as users name it (docs/parameters.md is printed from this table).
+/// One parameter of the method or of a rival, as users name it (docs/parameters.md is printed from
+/// this table).
 struct Parameter {
   std::string_view key;   ///< "stage.name_unit"
   std::string_view unit;  ///< "m", "rad", "1/m", ... or empty
   std::string_view help;
   double least = 0, most = 0;                 ///< Valid range, ends included.
   std::span<const std::string_view> choices;  ///< Names of the values 0, 1, ..; empty for a number.
-  double (*get)(const SegmenterConfig&) noexcept = nullptr;
-  void (*set)(SegmenterConfig&, double) noexcept = nullptr;
+  double (*get)(const MethodConfig&) noexcept = nullptr;
+  void (*set)(MethodConfig&, double) noexcept = nullptr;
 };
 
-/// Every parameter, grouped by stage in the order the stages run.
+/// Every parameter of the method, grouped by stage in the order the stages run.
 [[nodiscard]] std::span<const Parameter> parameters() noexcept;
 
-/// Sets one parameter from text ("0.2", "local_surface"). The error names the key, the value and
-/// what would have been valid; for an unknown key, the keys of the same stage.
-[[nodiscard]] Status set_parameter(SegmenterConfig& config, std::string_view key,
+/// Those of its rivals (pipeline/baselines/), grouped by method: "pfaff.cell_m".
+[[nodiscard]] std::span<const Parameter> rival_parameters() noexcept;
+
+/// Sets one parameter, a rival's included, from text ("0.2", "local_surface"). The error names the
+/// key, the value and what would have been valid; for an unknown key, the keys of the same stage.
+[[nodiscard]] Status set_parameter(MethodConfig& config, std::string_view key,
                                    std::string_view value);
 
 /// A parameter's value as set_parameter() takes it.
-[[nodiscard]] std::string value_text(const Parameter& parameter, const SegmenterConfig& config);
+[[nodiscard]] std::string value_text(const Parameter& parameter, const MethodConfig& config);
 
 }  // namespace terracut::pipeline

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/segmenter.hpp"
 
-#include <algorithm>
-
 #include "pipeline/boundary_term.hpp"
 
 namespace terracut::pipeline {
@@ -58,11 +56,7 @@ SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& 
   return_labels_.assign(image, planes_);
   done(Stage::kLabels);
 
-  const auto labels = return_labels_.labels();
-  report.returns = static_cast<std::uint32_t>(labels.size());
-  report.ground =
-      static_cast<std::uint32_t>(std::count(labels.begin(), labels.end(), Label::kGround));
-  report.obstacles = report.returns - report.ground;
+  report.count(return_labels_.labels());
   return report;
 }
 

@@ -2,29 +2,19 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstdint>
 #include <span>
 
 #include "calib/ring_profile.hpp"
 #include "pipeline/cell_planes.hpp"
 #include "pipeline/label.hpp"
-#include "pipeline/min_cut/cut_report.hpp"
 #include "pipeline/profile.hpp"
 #include "pipeline/range_image.hpp"
+#include "pipeline/segmentation_report.hpp"
 #include "pipeline/stage.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
-
-/// What became of one frame.
-struct SegmentationReport {
-  std::uint32_t returns = 0;          ///< In the image, all of them labelled.
-  std::uint32_t ground = 0;           ///< Of them, labelled ground.
-  std::uint32_t obstacles = 0;        ///< Of them, labelled obstacle.
-  Stage last_stage = Stage::kMinCut;  ///< How far it was refined.
-  CutReport cut;                      ///< All zero where that is before the min-cut.
-};
 
 /// The coarse-to-fine method: a range image goes in, a label for every return comes out.
 ///

@@ -5,13 +5,37 @@
 #include <gtest/gtest.h>
 
 #include <set>
+#include <vector>
 
 namespace terracut::pipeline {
 namespace {
 
+/// The method's and its rivals'.
+std::vector<Parameter> all_parameters() {
+  std::vector<Parameter> all(parameters().begin(), parameters().end());
+  all.insert(all.end(), rival_parameters().begin(), rival_parameters().end());
+  return all;
+}
+
+TEST(ParameterTable, KeepsTheRivalsApart) {
+  for (const Parameter& p : parameters()) {
+    MethodConfig config;
+    p.set(config, p.get(config) == p.least ? p.most : p.least);
+    EXPECT_NE(p.get(config), p.get(MethodConfig(terracut_profile())))
+        << p.key << " is not the method's own";
+    EXPECT_EQ(p.get(MethodConfig(config.segmenter)), p.get(config)) << p.key;
+  }
+  for (const Parameter& p : rival_parameters()) {
+    MethodConfig config;
+    p.set(config, p.get(config) == p.least ? p.most : p.least);
+    EXPECT_EQ(p.get(MethodConfig(config.segmenter)), p.get(MethodConfig())) << p.key;
+  }
+}
+
 TEST(ParameterTable, BothProfilesLieWithinTheRanges) {
-  for (const SegmenterConfig& config : {terracut_profile(), paper_profile()}) {
-    for (const Parameter& p : parameters()) {
+  for (const MethodConfig& config :
+       {MethodConfig(terracut_profile()), MethodConfig(paper_profile())}) {
+    for (const Parameter& p : all_parameters()) {
       EXPECT_GE(p.get(config), p.least) << p.key;
       EXPECT_LE(p.get(config), p.most) << p.key;
     }
@@ -20,13 +44,13 @@ TEST(ParameterTable, BothProfilesLieWithinTheRanges) {
 
 TEST(ParameterTable, EveryKeyIsUniqueAndSetsAFieldOfItsOwn) {
   std::set<std::string_view> keys;
-  for (const Parameter& p : parameters()) {
+  for (const Parameter& p : all_parameters()) {
     EXPECT_TRUE(keys.insert(p.key).second) << p.key;
-    SegmenterConfig config;
+    MethodConfig config;
     const double other = p.get(config) == p.least ? p.most : p.least;
     p.set(config, other);
-    for (const Parameter& q : parameters()) {
-      const double expected = q.key == p.key ? other : q.get(SegmenterConfig{});
+    for (const Parameter& q : all_parameters()) {
+      const double expected = q.key == p.key ? other : q.get(MethodConfig{});
       EXPECT_NEAR(q.get(config), expected, 1e-6 * std::abs(expected))
           << p.key << " changed " << q.key;
     }
@@ -34,8 +58,8 @@ TEST(ParameterTable, EveryKeyIsUniqueAndSetsAFieldOfItsOwn) {
 }
 
 TEST(ParameterTable, ReadsBackWhatItPrints) {
-  for (const Parameter& p : parameters()) {
-    SegmenterConfig config = paper_profile();
+  for (const Parameter& p : all_parameters()) {
+    MethodConfig config = paper_profile();
     const double before = p.get(config);
     ASSERT_TRUE(set_parameter(config, p.key, value_text(p, config)).has_value()) << p.key;
     EXPECT_EQ(p.get(config), before) << p.key;
@@ -43,7 +67,7 @@ TEST(ParameterTable, ReadsBackWhatItPrints) {
 }
 
 TEST(ParameterTable, NamesWhatWouldHaveBeenValid) {
-  SegmenterConfig config;
+  MethodConfig config;
   const Status range = set_parameter(config, "region.lambda", "-1");
   ASSERT_FALSE(range.has_value());
   EXPECT_NE(range.error().message.find("from 0.0001 to 1000"), std::string::npos)

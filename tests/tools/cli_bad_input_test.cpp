@@ -36,6 +36,10 @@ TEST_F(CliRefusal, OfAWrongCommandLineSaysWhatIsExpected) {
   expect_refusal("replay x.pcap --mount-height nan", kUsage, HasSubstr("--mount-height"));
   expect_refusal("replay x.pcap --start 1e300", kUsage, HasSubstr("--start"));
   expect_refusal("replay x.pcap --stages all", kUsage, HasSubstr("--stages"));
+  expect_refusal("replay x.pcap --method zang", kUsage, HasSubstr("zhang"));
+  expect_refusal("segment x --method pfaff --stages mrf", kUsage, HasSubstr("--stages"));
+  expect_refusal("segment x --profile paper --method pfaff", kUsage, HasSubstr("--profile"));
+  expect_refusal("segment x --set pfaff.cell_m=0", kUsage, HasSubstr("from 0.05 to 10"));
   expect_refusal("replay x.pcap --set region.lambda", kUsage, HasSubstr("KEY=VALUE"));
   expect_refusal("replay x.pcap --set region.lambda=-1", kUsage, HasSubstr("from 0.0001 to 1000"));
   expect_refusal("replay x.pcap --from here", kUsage, HasSubstr("--from"));

@@ -105,6 +105,24 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
   EXPECT_NEAR(recall_o / count, 0.0, 0.01);
 }
 
+TEST_F(CliScans, AreLabelledByTheRivalThatIsNamedDirectlyAndThroughPackets) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  for (const std::string method : {"pfaff", "bogoslavskyi", "zhang"}) {
+    const std::string chosen = " --set zhang.iterations=8 --method " + method;
+    expect_done("segment scans --json direct.json" + chosen);
+    expect_done("replay " + quoted(kDrive) + " --duration 0.3 --truth " + quoted(kDriveTruth) +
+                " --json packets.json" + chosen);
+    for (const char* way : {"direct.json", "packets.json"}) {
+      const auto report = json(way);
+      EXPECT_EQ(report["method"], method);
+      EXPECT_FALSE(report.contains("profile"));
+      EXPECT_EQ(report["summary"]["returns_in"], report["summary"]["returns_labelled"]);
+      EXPECT_GT(report["summary"]["iou_g"], 0.7) << method;
+    }
+  }
+}
+
 TEST_F(CliScans, BecomeASyntheticRuby128DriveThatSaysSo) {
   expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");

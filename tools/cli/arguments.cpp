@@ -121,7 +121,7 @@ void add_settings(CLI::App& app, std::vector<std::string>& settings) {
          "--set", settings,
          "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
       ->check([](const std::string& setting) {
-        pipeline::SegmenterConfig scratch;
+        pipeline::MethodConfig scratch;
         const Status valid = apply_setting(scratch, setting);
         return valid ? std::string() : valid.error().message;
       })
@@ -138,6 +138,20 @@ void add_method(CLI::App& app, MethodOptions& method) {
       ->check(one_of("method.stages"))
       ->capture_default_str();
   add_settings(app, method.settings);
+}
+
+/// After add_method(): --profile and --stages choose among ours only.
+void add_rivals(CLI::App& app, MethodOptions& method) {
+  std::string about = "Ours or a rival by name, instead of --profile and --stages:";
+  std::vector<std::string> names;
+  for (const pipeline::MethodName& known : pipeline::method_names()) {
+    names.emplace_back(known.name);
+    about += "\n  " + names.back() + ": " + std::string(known.about);
+  }
+  app.add_option("--method", method.method, about)
+      ->check(CLI::IsMember(names))
+      ->excludes(app.get_option("--profile"))
+      ->excludes(app.get_option("--stages"));
 }
 
 void add_outputs(CLI::App& app, OutputOptions& output) {
@@ -233,6 +247,7 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   add_outputs(sub, o.output);
   sub.add_option("--truth", o.output.truth,
                  "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes");
@@ -247,6 +262,7 @@ void add_segment(CLI::App& sub, SegmentOptions& o) {
       ->required();
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   add_outputs(sub, o.output);
 }
 

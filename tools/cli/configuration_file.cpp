@@ -89,7 +89,7 @@ class Reader {
       return applied ? applied : refuse(value, fmt::format("{}: {}", key, applied.error().message));
     }
     std::string text = fmt::format("{}={}", key.substr(kMethod.size()), value.Scalar());
-    pipeline::SegmenterConfig scratch;
+    pipeline::MethodConfig scratch;
     if (const Status valid = apply_setting(scratch, text); !valid) {
       return refuse(value, fmt::format("{}{}", kMethod, valid.error().message));
     }

@@ -53,8 +53,8 @@ std::string_view section_of(std::string_view key) {
 void add_parameters(std::string& text, const Configuration& configuration) {
   MethodOptions without = configuration.live.method;
   without.settings.clear();
-  const pipeline::SegmenterConfig defaults = segmenter_config_of(without);
-  const pipeline::SegmenterConfig current = segmenter_config_of(configuration.live.method);
+  const pipeline::MethodConfig defaults = segmenter_config_of(without);
+  const pipeline::MethodConfig current = segmenter_config_of(configuration.live.method);
   text += fmt::format(
       "  # The parameters of the method hold in either profile; defaults are those of '{}'.\n",
       without.profile);

@@ -98,8 +98,11 @@ std::string settings_line(const EvaluationConfig& config) {
       config.through_packets, config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
   for (const evaluation::MethodChoice& method : config.methods) {
     line += " " + method.name + "{";
-    for (const pipeline::Parameter& parameter : pipeline::parameters()) {
-      line += fmt::format("{}={} ", parameter.key, pipeline::value_text(parameter, method.config));
+    for (const auto part : {pipeline::parameters(), pipeline::rival_parameters()}) {
+      for (const pipeline::Parameter& parameter : part) {
+        line +=
+            fmt::format("{}={} ", parameter.key, pipeline::value_text(parameter, method.config));
+      }
     }
     line.back() = '}';
   }

@@ -38,8 +38,9 @@ struct MountOptions {
 
 /// Which method runs.
 struct MethodOptions {
-  std::string profile = "terracut";   ///< --profile paper|terracut
-  std::string stages = "mrf";         ///< --stages elevation|adjacent|mrf
+  std::string method;                ///< --method, pipeline/ground_method.hpp; empty: by the others
+  std::string profile = "terracut";  ///< --profile paper|terracut
+  std::string stages = "mrf";        ///< --stages elevation|adjacent|mrf
   std::vector<std::string> settings;  ///< --set KEY=VALUE, checked; docs/parameters.md
 };
 

@@ -4,10 +4,12 @@
 
 #include <optional>
 #include <string>
+#include <type_traits>
 
 #include "calib/ring_profile.hpp"
 #include "firmware_io/sensor_decoder.hpp"
 #include "options.hpp"
+#include "pipeline/ground_method.hpp"
 #include "pipeline/segmenter.hpp"
 #include "setup_choice.hpp"
 
@@ -15,16 +17,19 @@ namespace terracut::cli {
 
 /// Decoder and segmenter, sized for each other: all that needs memory of its own on the way from
 /// packets to labels.
-struct PacketChain {
+///
+/// `Labeller`: pipeline::Segmenter, or pipeline::GroundMethod where --method may name another.
+template <class Labeller>
+struct PacketChainOf {
   firmware_io::SensorDecoder decoder;
-  pipeline::Segmenter segmenter;
+  Labeller segmenter;
 
   /// `columns`: of the range image, 0 for the sensor's default.
-  PacketChain(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
-              int columns, const CaptureOptions& capture, const MethodOptions& method,
-              rt::FixedMemory& memory, int images = 3)
+  PacketChainOf(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
+                int columns, const CaptureOptions& capture, const MethodOptions& method,
+                rt::FixedMemory& memory, int images = 3)
       : decoder(calibration, profile.mount, decoder_config(columns, capture, images), memory),
-        segmenter(segmenter_config_of(method), profile, decoder.shape(), decoder.return_capacity(),
+        segmenter(labeller_config(method), profile, decoder.shape(), decoder.return_capacity(),
                   memory) {}
 
   [[nodiscard]] static firmware_io::SensorDecoder::Config decoder_config(
@@ -39,6 +44,13 @@ struct PacketChain {
   }
 
  private:
+  [[nodiscard]] static auto labeller_config(const MethodOptions& method) {
+    if constexpr (std::is_same_v<Labeller, pipeline::Segmenter>) {
+      return segmenter_config_of(method);
+    } else {
+      return method_config_of(method);
+    }
+  }
   [[nodiscard]] static pipeline::CellOwner cell_owner_of(const std::string& name) {
     if (name == "last") return pipeline::CellOwner::kFarthest;
     if (name == "first") return pipeline::CellOwner::kNearest;
@@ -53,5 +65,7 @@ struct PacketChain {
     return std::nullopt;
   }
 };
+
+using PacketChain = PacketChainOf<pipeline::Segmenter>;
 
 }  // namespace terracut::cli

@@ -22,7 +22,7 @@ std::string range_text(const pipeline::Parameter& parameter) {
 }
 
 std::string shown_value(const pipeline::Parameter& parameter,
-                        const pipeline::SegmenterConfig& config) {
+                        const pipeline::MethodConfig& config) {
   const bool unlimited = parameter.choices.empty() && parameter.get(config) >= kNoLimit;
   return unlimited ? "no limit" : pipeline::value_text(parameter, config);
 }

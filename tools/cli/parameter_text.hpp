@@ -13,6 +13,6 @@ namespace terracut::cli {
 
 /// A parameter's value for people: "0.15", "no limit".
 [[nodiscard]] std::string shown_value(const pipeline::Parameter& parameter,
-                                      const pipeline::SegmenterConfig& config);
+                                      const pipeline::MethodConfig& config);
 
 }  // namespace terracut::cli

@@ -9,13 +9,15 @@ namespace terracut::cli {
 
 /// The table of docs/parameters.md, in Markdown, from the table the program itself reads.
 ExitCode run(const ParametersOptions&) {
-  const pipeline::SegmenterConfig terracut = pipeline::terracut_profile();
-  const pipeline::SegmenterConfig paper = pipeline::paper_profile();
+  const pipeline::MethodConfig terracut = pipeline::terracut_profile();
+  const pipeline::MethodConfig paper = pipeline::paper_profile();
   fmt::print("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
-  for (const pipeline::Parameter& parameter : pipeline::parameters()) {
-    fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
-               range_text(parameter), shown_value(parameter, terracut),
-               shown_value(parameter, paper), parameter.help);
+  for (const auto part : {pipeline::parameters(), pipeline::rival_parameters()}) {
+    for (const pipeline::Parameter& parameter : part) {
+      fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
+                 range_text(parameter), shown_value(parameter, terracut),
+                 shown_value(parameter, paper), parameter.help);
+    }
   }
   return kOk;
 }

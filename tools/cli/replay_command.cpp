@@ -102,7 +102,8 @@ class Replay {
         outputs_(options.output),
         truth_(options.output.truth),
         report_({"replay", options.capture.file.string(), capture.sensor_line,
-                 capture.calibration_line, options.method.profile, options.method.stages}),
+                 capture.calibration_line, options.method.profile, options.method.stages,
+                 options.method.method}),
         progress_("replaying", "frames", 0) {}
 
   ExitCode run() {
@@ -167,7 +168,7 @@ class Replay {
   /// no exceptions: a sink that fails is remembered, and play_once() ends the replay.
   void take(const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
     clock_.begin();
-    const pipeline::SegmentationReport segmented = chain_.segmenter.segment(image, {}, &clock_);
+    const pipeline::SegmentationReport segmented = chain_.segmenter.segment(image, &clock_);
     report_.add(record_of(info, segmented, decode_ns_, clock_.times()));
     decode_ns_ = 0;
 
@@ -215,7 +216,7 @@ class Replay {
   const ReplayOptions& options_;
   OpenCapture& capture_;
   rt::FixedMemory memory_;
-  PacketChain chain_;
+  PacketChainOf<pipeline::GroundMethod> chain_;
   firmware_io::StatusStreamReader status_;
   DeviceClock clock_of_device_;
   FrameOutputs outputs_;

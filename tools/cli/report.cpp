@@ -165,8 +165,12 @@ Status Report::write_json(const std::filesystem::path& path) const {
   if (!run_.sensor.empty()) json["sensor"] = run_.sensor;
   json["calibration"] = run_.calibration;
   if (!device_clock_.empty()) json["device_clock"] = device_clock_;
-  json["profile"] = run_.profile;
-  json["stages"] = run_.stages;
+  if (run_.method.empty()) {
+    json["profile"] = run_.profile;
+    json["stages"] = run_.stages;
+  } else {
+    json["method"] = run_.method;
+  }
   Json& frames = json["frames"] = Json::array();
   for (const FrameRecord& frame : records_) {
     frames.push_back({{"frame", frame.number},

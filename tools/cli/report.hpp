@@ -58,6 +58,7 @@ class Report {
     std::string sensor;       ///< Model, spin rate and return mode; empty for scans.
     std::string calibration;  ///< Origin and fingerprint of the table in use.
     std::string profile, stages;
+    std::string method;  ///< Named by --method: instead of profile and stages.
   };
 
   explicit Report(Run run) : run_(std::move(run)) {}
@@ -83,7 +84,8 @@ class Report {
   [[nodiscard]] std::string text() const;
   /// The whole report for programs, whole or not at all:
   ///
-  ///   terracut, command, input, calibration, profile, stages   of what ran on what
+  ///   terracut, command, input, calibration   of what ran on what
+  ///   profile, stages; or method, where --method named it
   ///   input_warning   where the input broke off, if it did
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///                   losses{cause: count}, ms{stage: processor time}, segment_wall_ms,

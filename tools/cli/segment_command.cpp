@@ -22,7 +22,7 @@ struct ScanLabeller {
   rt::FixedMemory memory;
   pipeline::ImageShape shape;
   pipeline::RangeImage image;
-  pipeline::Segmenter segmenter;
+  pipeline::GroundMethod segmenter;
   firmware_io::ScanToImage scan_to_image;
   firmware_io::RingRecovery rings;
   firmware_io::KittiScan scan;
@@ -32,7 +32,7 @@ struct ScanLabeller {
   pipeline::Quality quality;
   std::uint64_t scored = 0;
 
-  ScanLabeller(const pipeline::SegmenterConfig& config, const calib::RingProfile& profile)
+  ScanLabeller(const pipeline::MethodConfig& config, const calib::RingProfile& profile)
       : image(shape, shape.cells(), memory),
         segmenter(config, profile, shape, image.return_capacity(), memory),
         scan_to_image(profile.mount) {}
@@ -41,7 +41,7 @@ struct ScanLabeller {
   void label(FrameRecord& record) {
     const auto placed = scan_to_image.place(scan.points, rings.ring_of_point, image);
     clock.begin();
-    record.cut = segmenter.segment(image, {}, &clock).cut;
+    record.cut = segmenter.segment(image, &clock).cut;
     record.times = clock.times();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
     record.returns_in = static_cast<std::uint32_t>(scan.points.size() - placed.non_finite);
@@ -80,10 +80,10 @@ ExitCode run(const SegmentOptions& options) {
   say(fmt::format("calibration: {}, height residual {:.1f} cm (p95)", calibration_line,
                   100 * fitted->residual.p95_m));
 
-  ScanLabeller labeller(segmenter_config_of(options.method), *profile);
+  ScanLabeller labeller(method_config_of(options.method), *profile);
   FrameOutputs outputs(options.output);
   Report report({"segment", options.scans.string(), "", calibration_line, options.method.profile,
-                 options.method.stages});
+                 options.method.stages, options.method.method});
   Progress progress("labelling", "scans", static_cast<double>(reader->size()));
   for (std::size_t i = 0; i < reader->size(); ++i) {
     const firmware_io::ScanFile& file = reader->file(i);

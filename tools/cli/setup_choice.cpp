@@ -46,7 +46,7 @@ Expected<calib::RingProfile> ring_profile_of(const calib::SensorCalibration& cal
   return profile;
 }
 
-Status apply_setting(pipeline::SegmenterConfig& config, std::string_view setting) {
+Status apply_setting(pipeline::MethodConfig& config, std::string_view setting) {
   const std::size_t equals = setting.find('=');
   if (equals == std::string_view::npos) {
     return fail(ErrorCode::kInvalidArgument,
@@ -55,13 +55,18 @@ Status apply_setting(pipeline::SegmenterConfig& config, std::string_view setting
   return pipeline::set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
 }
 
-pipeline::SegmenterConfig segmenter_config_of(const MethodOptions& options) {
-  pipeline::SegmenterConfig config =
+pipeline::MethodConfig method_config_of(const MethodOptions& options) {
+  pipeline::MethodConfig config =
       options.profile == "paper" ? pipeline::paper_profile() : pipeline::terracut_profile();
-  if (options.stages == "elevation") config.last_stage = pipeline::Stage::kElevationMap;
-  if (options.stages == "adjacent") config.last_stage = pipeline::Stage::kAdjacentPoints;
+  if (options.stages == "elevation") config.segmenter.last_stage = pipeline::Stage::kElevationMap;
+  if (options.stages == "adjacent") config.segmenter.last_stage = pipeline::Stage::kAdjacentPoints;
+  if (!options.method.empty()) config = pipeline::method_named(options.method).value();
   for (const std::string& setting : options.settings) (void)apply_setting(config, setting);
   return config;
+}
+
+pipeline::SegmenterConfig segmenter_config_of(const MethodOptions& options) {
+  return method_config_of(options).segmenter;
 }
 
 }  // namespace terracut::cli

@@ -7,6 +7,7 @@
 #include "calib/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "options.hpp"
+#include "pipeline/ground_method.hpp"
 #include "pipeline/profile.hpp"
 #include "rt/error.hpp"
 
@@ -21,10 +22,13 @@ namespace terracut::cli {
     const calib::SensorCalibration& calibration, const MountOptions& options);
 
 /// Applies one KEY=VALUE of --set.
-[[nodiscard]] Status apply_setting(pipeline::SegmenterConfig& config, std::string_view setting);
+[[nodiscard]] Status apply_setting(pipeline::MethodConfig& config, std::string_view setting);
 
-/// The method's parameters for --profile, --stages and --set, whose settings must have been
+/// The method for --method, or --profile and --stages, and --set; names and settings must have been
 /// checked.
+[[nodiscard]] pipeline::MethodConfig method_config_of(const MethodOptions& options);
+
+/// The same for commands without --method.
 [[nodiscard]] pipeline::SegmenterConfig segmenter_config_of(const MethodOptions& options);
 
 }  // namespace terracut::cli

@@ -130,7 +130,10 @@ class MethodJson {
 
   [[nodiscard]] Json json() const {
     Json json{{"about", method_.about}};
-    for (const pipeline::Parameter& parameter : pipeline::parameters()) {
+    const bool ours = method_.config.kind == pipeline::MethodKind::kSegmenter;
+    const auto own = ours ? pipeline::parameters() : pipeline::rival_parameters();
+    for (const pipeline::Parameter& parameter : own) {
+      if (!ours && !parameter.key.starts_with(method_.name + ".")) continue;
       json["parameters"][std::string(parameter.key)] =
           pipeline::value_text(parameter, method_.config);
     }

@@ -20,8 +20,8 @@ FrameLabeller::FrameLabeller(std::span<const MethodChoice> methods,
     way_ = std::make_unique<DirectWay>(calibration, profile.mount, memory_);
   }
   for (const MethodChoice& method : methods) {
-    segmenters_.push_back(std::make_unique<pipeline::Segmenter>(method.config, profile, shape(),
-                                                                return_capacity(), memory_));
+    segmenters_.push_back(std::make_unique<pipeline::GroundMethod>(method.config, profile, shape(),
+                                                                   return_capacity(), memory_));
   }
 }
 
@@ -48,9 +48,9 @@ FrameResult FrameLabeller::label(std::size_t index) {
   FrameResult result;
   cli::StageClock clock;
   clock.begin();
-  pipeline::Segmenter& segmenter = *segmenters_[index];
+  pipeline::GroundMethod& segmenter = *segmenters_[index];
   const std::int64_t begun_ns = rt::thread_cpu_ns();
-  (void)segmenter.segment(*placed_.image, {}, &clock);
+  (void)segmenter.segment(*placed_.image, &clock);
   result.times.segment_ns = rt::thread_cpu_ns() - begun_ns;
   result.times.stage_ns = clock.times().stage_ns;
   result.times.decode_ns = placed_.decode_ns;

@@ -45,7 +45,7 @@ class FrameLabeller {
 
   rt::FixedMemory memory_;
   std::variant<std::unique_ptr<DirectWay>, std::unique_ptr<PacketWay>> way_;
-  std::vector<std::unique_ptr<pipeline::Segmenter>> segmenters_;
+  std::vector<std::unique_ptr<pipeline::GroundMethod>> segmenters_;
 
   const firmware_io::KittiScan* scan_ = nullptr;
   const firmware_io::RingRecovery* rings_ = nullptr;

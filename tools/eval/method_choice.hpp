@@ -8,8 +8,7 @@
 #include <string_view>
 
 #include "calib/ring_profile.hpp"
-#include "pipeline/profile.hpp"
-#include "pipeline/segmenter.hpp"
+#include "pipeline/ground_method.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::evaluation {
@@ -18,13 +17,10 @@ namespace terracut::evaluation {
 struct MethodChoice {
   std::string name;   ///< "terracut"
   std::string about;  ///< For reports: "Ring-based elevation map"
-  pipeline::SegmenterConfig config;
+  pipeline::MethodConfig config;
 };
 
-/// The names `method_named()` knows, in the order reports show them.
-[[nodiscard]] std::span<const std::string_view> method_names() noexcept;
-
-/// kInvalidArgument, naming those there are, for any other name.
+/// One of pipeline::method_names(); kInvalidArgument, naming them, for any other name.
 [[nodiscard]] Expected<MethodChoice> method_named(std::string_view name);
 
 }  // namespace terracut::evaluation

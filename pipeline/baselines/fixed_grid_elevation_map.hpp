@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "calib/ring_profile.hpp"
+#include "pipeline/cell_planes.hpp"
+#include "pipeline/range_image.hpp"
+#include "pipeline/return_labels.hpp"
+#include "pipeline/segmentation_report.hpp"
+#include "pipeline/stage.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// The extended elevation map of Pfaff, Triebel and Burgard ("An efficient extension to elevation
+/// maps for outdoor terrain mapping and loop closing", IJRR 26(2), 2007): squares of a fixed size,
+/// each with one elevation. Where the heights of a square vary much it looks for a gap the vehicle
+/// fits through; what is above the gap hangs over, and the elevation is that of the lowest
+/// interval. A lowest interval whose heights still vary much is a vertical object standing on its
+/// lowest return. Which sources say what, and what they leave open, is in docs/evaluation.md.
+class FixedGridElevationMap {
+ public:
+  struct Config {
+    float cell_m = 0.5F;             ///< Side of a square, [0.05, 10].
+    float extent_m = 120.0F;         ///< Half the side of the map, [10, 250]; returns farther out
+                                     ///< belong to its outermost squares.
+    float sigma_m = 0.02F;           ///< Standard deviation of a height at range 0, (0, 1] ...
+    float sigma_per_metre = 0.001F;  ///< ... and its growth with range, [0, 0.1].
+    float vertical_sigma_m = 0.06F;  ///< Heights that vary more are not one level, (0, 5].
+    float vehicle_height_m = 2.0F;   ///< A larger gap can be driven through, [0.1, 1e9].
+    float obstacle_height_m = 0.2F;  ///< Obstacle from this far above the elevation on, (0, 5].
+  };
+
+  enum class SquareKind : std::uint8_t {
+    kEmpty,     ///< No return.
+    kLevel,     ///< One level, seen from above.
+    kVertical,  ///< Something upright.
+  };
+  struct Square {
+    SquareKind kind = SquareKind::kEmpty;  ///< Of the lowest interval.
+    /// Elevation, metres above the mount's ground plane: the fused height of a level, the lowest
+    /// return of a vertical object.
+    float elevation_m = 0;
+    /// Lower edge of what hangs over the gap; infinite where there is no gap.
+    float overhang_m = std::numeric_limits<float>::infinity();
+  };
+
+  /// `profile` is not looked at: the map knows no rings. Takes all memory.
+  FixedGridElevationMap(const Config& config, const calib::RingProfile& profile, ImageShape shape,
+                        std::size_t return_capacity, rt::FixedMemory& memory);
+
+  /// Labels one turn of the shape given. Reports kElevationMap and kLabels. Real-time safe.
+  [[nodiscard]] SegmentationReport segment(const RangeImage& image,
+                                           StageObserver* observer = nullptr) noexcept;
+
+  /// As Segmenter::labels() and planes().
+  [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
+  [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
+
+  /// The square a place on the ground belongs to. Real-time safe, any floats.
+  [[nodiscard]] const Square& square_at(float x_m, float y_m) const noexcept {
+    return squares_[square_of(x_m, y_m)];
+  }
+
+ private:
+  struct Sample {
+    float height_m;
+    float weight;  // 1 / variance
+  };
+
+  [[nodiscard]] std::uint32_t square_of(float x_m, float y_m) const noexcept;
+  void sort_returns_into_squares(const RangeImage& image) noexcept;
+  [[nodiscard]] Square fit(std::span<Sample> samples) const noexcept;
+  [[nodiscard]] bool is_level(std::span<const Sample> samples) const noexcept;
+  void label_cells(const RangeImage& image) noexcept;
+
+  Config config_;
+  int side_;  // squares
+  CellPlanes planes_;
+  std::span<std::uint32_t> end_;  // by square: one past its last sample
+  std::span<Sample> samples_;     // of all returns, square by square
+  std::span<Square> squares_;
+  ReturnLabels return_labels_;
+};
+
+}  // namespace terracut::pipeline

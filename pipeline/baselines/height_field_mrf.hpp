@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "calib/ring_profile.hpp"
+#include "pipeline/baselines/belief_propagation.hpp"
+#include "pipeline/cell_planes.hpp"
+#include "pipeline/range_image.hpp"
+#include "pipeline/return_labels.hpp"
+#include "pipeline/segmentation_report.hpp"
+#include "pipeline/stage.hpp"
+#include "rt/fixed_memory.hpp"
+
+namespace terracut::pipeline {
+
+/// The ground as a multi-label Markov random field, after Zhang, Morris and Fu ("Ground
+/// segmentation based on loopy belief propagation for sparse 3D point clouds", 3DV 2015): a polar
+/// map whose cells each ask for the height of the ground among a list of heights. What a column of
+/// returns says of a height is a cost, without any assumed distribution; neighbours ask for a slope
+/// the ground can have, and for not more than a limit where it has a step. Belief propagation
+/// settles it, and a return is ground when it is not far above its cell's height. Which sources say
+/// what, and what they leave open, is in docs/evaluation.md.
+class HeightFieldMrf {
+ public:
+  struct Config {
+    int sectors = 180;            ///< Of the polar map, [3, 2000].
+    float band_m = 1.0F;          ///< Width of its rings, [0.2, 20].
+    float range_limit_m = 80.0F;  ///< Farther returns belong to the last ring, [10, 250].
+    int height_labels = 64;       ///< Heights to choose from, [2, 128] ...
+    float height_step_m = 0.1F;   ///< ... so far apart, around the mount's ground plane; [0.01, 1].
+
+    float above_cost = 0.5F;   ///< A column all of whose returns are above the ground, [0, 1000].
+    float below_cost = 5.0F;   ///< A column all of whose returns are below it, [0, 1000].
+    float beside_cost = 0.1F;  ///< A column all of whose returns are one step off it, [0, 1000].
+    int full_returns = 5;      ///< Columns of fewer returns have less say, [1, 1000].
+    float hidden_cost = 2.0F;  ///< Ground where a beam passed through to something, [0, 1000].
+
+    float step_cost_per_m = 10.0F;  ///< Neighbours that differ more than a slope, [0, 1000] ...
+    float step_cost_limit = 1.0F;   ///< ... up to this, [0, 1000].
+    float max_slope = 0.15F;        ///< What a slope of the ground may be, m/m; [0, 2].
+    int iterations = 20;            ///< [0, 1000]
+
+    float obstacle_height_m = 0.2F;  ///< Obstacle from this far above the ground on, (0, 5].
+  };
+
+  /// Takes all memory; of `profile` only the mount's height is used.
+  HeightFieldMrf(const Config& config, const calib::RingProfile& profile, ImageShape shape,
+                 std::size_t return_capacity, rt::FixedMemory& memory);
+
+  /// Labels one turn of the shape given. Reports kElevationMap when the costs are there, kMinCut
+  /// when the field is solved, and kLabels. Real-time safe.
+  [[nodiscard]] SegmentationReport segment(const RangeImage& image,
+                                           StageObserver* observer = nullptr) noexcept;
+
+  /// As Segmenter::labels() and planes().
+  [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
+  [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
+
+  /// Height of the ground where an image column passes a range, metres above the mount's plane.
+  [[nodiscard]] float ground_m(int column, float ground_range_m) const noexcept {
+    return height_of(field_.label(band_of(ground_range_m), sector_of(column)));
+  }
+
+ private:
+  [[nodiscard]] int band_of(float ground_range_m) const noexcept;
+  [[nodiscard]] int sector_of(int column) const noexcept {
+    return sector_of_column_[static_cast<std::size_t>(column)];
+  }
+  [[nodiscard]] std::size_t map_cell(int band, int sector) const noexcept {
+    return static_cast<std::size_t>(band) * static_cast<std::size_t>(config_.sectors) +
+           static_cast<std::size_t>(sector);
+  }
+  [[nodiscard]] int label_of(float height_m) const noexcept;
+  [[nodiscard]] float height_of(int label) const noexcept;
+  void count_returns(const RangeImage& image) noexcept;
+  void put_costs() noexcept;
+  void put_cost(int band, int sector, float free_above_m) noexcept;
+  void put_slopes() noexcept;
+  void label_cells(const RangeImage& image) noexcept;
+
+  Config config_;
+  ImageShape shape_;
+  float sensor_height_m_;
+  int bands_;
+  CellPlanes planes_;
+  BeliefPropagation field_;              // rows: bands, columns: sectors
+  std::span<std::uint16_t> returns_at_;  // [map cell][height label]
+  std::span<float> least_slope_;         // by map cell: of the beams that end in it
+  std::span<std::uint16_t> sector_of_column_;
+  ReturnLabels return_labels_;
+};
+
+}  // namespace terracut::pipeline

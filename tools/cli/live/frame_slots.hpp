@@ -50,9 +50,10 @@ class FrameSlots {
                Fill&& fill) noexcept {
     std::uint32_t i = 0;
     if (!free_.try_pop(i)) {
-      dropped_.fetch_add(1, std::memory_order_relaxed);
+      unused_.fetch_add(1, std::memory_order_relaxed);
       return;
     }
+    waiting_.fetch_add(1, std::memory_order_relaxed);
     Slot& slot = slots_[i];
     slot.info = info;
     slot.timing = timing;
@@ -67,10 +68,17 @@ class FrameSlots {
     frame = {slot.info, slot.timing, slot.room.first(slot.info.returns)};
     return true;
   }
-  void give_back() noexcept { (void)free_.try_push(taken_); }
+  /// `used`: the turn got where it was to go.
+  void give_back(bool used) noexcept {
+    waiting_.fetch_sub(1, std::memory_order_relaxed);
+    if (!used) unused_.fetch_add(1, std::memory_order_relaxed);
+    (void)free_.try_push(taken_);
+  }
 
-  /// Turns that found no room. From any thread.
-  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(); }
+  /// Turns that found no room, or were given back unused. From any thread, as the next.
+  [[nodiscard]] std::uint64_t unused() const noexcept { return unused_.load(); }
+  /// Turns passed on and not given back yet: lost, too, if the other thread hangs for good.
+  [[nodiscard]] std::uint64_t waiting() const noexcept { return waiting_.load(); }
 
  private:
   struct Slot {
@@ -82,7 +90,7 @@ class FrameSlots {
   rt::SpscQueue<std::uint32_t> full_, free_;
   std::span<Slot> slots_;
   std::uint32_t taken_ = 0;
-  std::atomic<std::uint64_t> dropped_{0};
+  std::atomic<std::uint64_t> unused_{0}, waiting_{0};
 };
 
 }  // namespace terracut::cli

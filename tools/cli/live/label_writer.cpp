@@ -20,15 +20,18 @@ bool LabelWriter::finish(std::chrono::milliseconds patience) {
 void LabelWriter::work() {
   while (true) {
     const bool last_round = finish_;
-    for (Slots::Frame frame; slots_.take(frame); slots_.give_back()) {
-      if (!outcome_) continue;
-      outcome_ = firmware_io::write_label_file(
-          folder_ / fmt::format("{:06}.label", frame.info.number), frame.items);
-      if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
-    }
+    for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(write(frame));
     if (last_round) return;
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
+}
+
+bool LabelWriter::write(const Slots::Frame& frame) {
+  if (!outcome_) return false;
+  outcome_ = firmware_io::write_label_file(folder_ / fmt::format("{:06}.label", frame.info.number),
+                                           frame.items);
+  if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
+  return outcome_.has_value();
 }
 
 }  // namespace terracut::cli

@@ -14,7 +14,7 @@
 namespace terracut::cli {
 
 /// Writes the labels of every turn to a folder, on a thread of its own: however long the disk
-/// takes, nothing waits for it. Turns that find no room meanwhile are counted by FrameSlots.
+/// takes, nothing waits for it. Turns that are not written are counted by FrameSlots.
 class LabelWriter {
  public:
   using Slots = FrameSlots<pipeline::Label>;
@@ -30,6 +30,7 @@ class LabelWriter {
 
  private:
   void work();
+  [[nodiscard]] bool write(const Slots::Frame& frame);
 
   const std::filesystem::path& folder_;
   Slots& slots_;

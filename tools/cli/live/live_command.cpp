@@ -214,7 +214,7 @@ ExitCode run(const LiveOptions& options) {
   parts.threads.stop();
   parts.watch.turn_round();
   const bool disk_answers = writers.finish();
-  parts.watch.turn_round();
+  parts.watch.last_round();
   ExitCode code = conclude(options, parts.watch);
   if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
   warn("the disk does not answer: what was not written by now is lost");

@@ -115,9 +115,15 @@ void LiveThreads::stop() {
 }
 
 void LiveThreads::receive() noexcept {
+  receive_turns(rt::SchedulerTimes::of_this_thread());
+}
+
+void LiveThreads::receive_turns(const rt::SchedulerTimes& scheduler) noexcept {
   const rt::PageFaults at_start = rt::PageFaults::of_this_thread();
   std::int64_t spent_ns = rt::thread_cpu_ns();
   std::int64_t newest_packet_ns = 0;
+  // Before this and the last fetching of packets: a turn's last packet came with one of the two.
+  rt::SchedulerReading before_fetch = scheduler.read(), before_last_fetch = before_fetch;
   const auto on_frame = [&](const FrameInfo& info,
                             pipeline::RangeImage& image) noexcept -> pipeline::RangeImage* {
     FrameExchange::Turn turn{&image, info, {}, chain_.decoder.losses()};
@@ -128,6 +134,7 @@ void LiveThreads::receive() noexcept {
     turn.timing.last_packet_ns = info.last_packet_ns;
     turn.timing.closing_packet_ns = newest_packet_ns;
     turn.timing.decode_cpu_ns = now_ns - spent_ns;
+    turn.timing.run_queue_wait_ns = scheduler.read().since(before_last_fetch).waited_ns;
     turn.timing.handed_over_ns = rt::realtime_ns();
     spent_ns = now_ns;
     pipeline::RangeImage* next =
@@ -148,6 +155,8 @@ void LiveThreads::receive() noexcept {
   source_.refresh_drops();
   const firmware_io::ReceiveCounters before = source_.counters();
   while (!stop_.load(std::memory_order_relaxed)) {
+    before_last_fetch = before_fetch;
+    before_fetch = scheduler.read();
     const auto datagrams = source_.receive(kPatience_ns);
     for (const firmware_io::Datagram& datagram : datagrams) {
       newest_packet_ns = datagram.stamp_ns;
@@ -176,7 +185,7 @@ void LiveThreads::segment_turns(const rt::SchedulerTimes& scheduler,
     segment_turn(*turn);
     const rt::SchedulerReading now = scheduler.read();
     const std::int64_t stolen_now_ns = stolen_ns();
-    turn->timing.run_queue_wait_ns = now.since(before).waited_ns;
+    turn->timing.run_queue_wait_ns += now.since(before).waited_ns;
     turn->timing.steal_ns = stolen_now_ns - stolen_before_ns;
     before = now;
     stolen_before_ns = stolen_now_ns;

@@ -95,7 +95,8 @@ class LiveThreads {
   static constexpr std::size_t kLabelSlots = 8;
   static constexpr std::size_t kPointSlots = 2;  // the stream wants the newest, not all
 
-  void receive() noexcept TERRACUT_NONBLOCKING;
+  void receive() noexcept;
+  void receive_turns(const rt::SchedulerTimes& scheduler) noexcept TERRACUT_NONBLOCKING;
   void segment() noexcept;
   void segment_turns(const rt::SchedulerTimes& scheduler,
                      const Expected<rt::StolenTime>& stolen) noexcept TERRACUT_NONBLOCKING;

@@ -83,6 +83,11 @@ LiveWatch::Round LiveWatch::turn_round() {
   return round;
 }
 
+void LiveWatch::last_round() {
+  over_ = true;
+  (void)turn_round();
+}
+
 void LiveWatch::refresh() {
   rt::MonitorSnapshot& figures = monitor_.snapshot();
   figures.taken_ns = rt::realtime_ns();
@@ -119,12 +124,12 @@ void LiveWatch::refresh_losses(rt::MonitorSnapshot& figures) {
   show_losses(losses, figures);
   show_losses(threads_.intake().counters, figures);
   show_loss("unjudged_frames", threads_.timings_dropped(), figures);
-  if (threads_.labels()) {
-    show_loss("unwritten_label_frames", threads_.labels()->dropped(), figures);
-  }
-  if (threads_.points()) {
-    show_loss("unstreamed_frames", threads_.points()->dropped(), figures);
-  }
+  // At the end nothing waits any more that was not held up for good.
+  const auto lost = [&](const auto* slots) {
+    return slots->unused() + (over_ ? slots->waiting() : 0);
+  };
+  if (threads_.labels()) show_loss("unwritten_label_frames", lost(threads_.labels()), figures);
+  if (threads_.points()) show_loss("unstreamed_frames", lost(threads_.points()), figures);
 }
 
 std::vector<rt::FrameTiming> LiveWatch::newest() const {

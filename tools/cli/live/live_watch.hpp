@@ -40,6 +40,8 @@ class LiveWatch {
   };
   /// Takes what has come since the last round.
   Round turn_round();
+  /// After everything that takes results has ended, or will not.
+  void last_round();
 
   [[nodiscard]] const rt::MonitorSnapshot& figures() const noexcept { return monitor_.snapshot(); }
   /// The times of the newest frames, oldest first.
@@ -56,6 +58,7 @@ class LiveWatch {
 
   const LiveOptions& options_;
   LiveThreads& threads_;
+  bool over_ = false;
   rt::DeadlineMonitor monitor_;
   std::optional<rt::StatusPagePublisher<rt::MonitorSnapshot>> page_;
   std::mutex

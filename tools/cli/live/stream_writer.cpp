@@ -26,23 +26,23 @@ void StreamWriter::work() {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   while (!finish_) {
     (void)ready_.wait(server_.descriptor(), kSecond_ns);
-    for (Slots::Frame frame; slots_.take(frame); slots_.give_back()) serve(frame);
+    for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(serve(frame));
     server_.turn_round();
     missed_ = server_.figures().missed;
     cut_short_ = server_.figures().cut_short;
   }
 }
 
-void StreamWriter::serve(const Slots::Frame& frame) {
-  (void)server_.serve({.number = frame.info.number,
-                       .first_packet_ns = frame.info.first_packet_ns,
-                       .last_packet_ns = frame.info.last_packet_ns,
-                       .labels_ns = frame.timing.labels_ns,
-                       .sensor = sensor_,
-                       .rung = frame.timing.rung,
-                       .complete = frame.info.complete,
-                       .late = frame.timing.labels_ns - frame.info.last_packet_ns > deadline_ns_,
-                       .points = frame.items});
+bool StreamWriter::serve(const Slots::Frame& frame) {
+  return server_.serve({.number = frame.info.number,
+                        .first_packet_ns = frame.info.first_packet_ns,
+                        .last_packet_ns = frame.info.last_packet_ns,
+                        .labels_ns = frame.timing.labels_ns,
+                        .sensor = sensor_,
+                        .rung = frame.timing.rung,
+                        .complete = frame.info.complete,
+                        .late = frame.timing.labels_ns - frame.info.last_packet_ns > deadline_ns_,
+                        .points = frame.items});
 }
 
 }  // namespace terracut::cli

@@ -30,7 +30,7 @@ class StreamWriter {
 
  private:
   void work();
-  void serve(const Slots::Frame& frame);
+  [[nodiscard]] bool serve(const Slots::Frame& frame);
 
   firmware_io::TurnStreamServer server_;
   firmware_io::StreamedSensor sensor_;

@@ -8,6 +8,7 @@
 #include "pipeline/label.hpp"
 #include "pipeline/min_cut/cut_report.hpp"
 #include "pipeline/stage.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -20,7 +21,7 @@ struct SegmentationReport {
   CutReport cut;                      ///< All zero where that is before the min-cut.
 
   /// Fills the three counts from one label a return.
-  void count(std::span<const Label> labels) noexcept;
+  void count(std::span<const Label> labels) noexcept TERRACUT_NONBLOCKING;
 };
 
 }  // namespace terracut::pipeline

@@ -2,6 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "firmware_io/sinks/frame_colours.hpp"
 #include "firmware_io/sinks/png_picture.hpp"
 
@@ -18,5 +21,13 @@ struct BirdEyeView {
 /// an arrow, and at the lower left a scale bar of one ring spacing. Higher returns lie over lower
 /// ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
+
+/// The same in colours of one's own, one a return. Returns with `on_top` lie over all others.
+struct ColouredFrame {
+  const pipeline::RangeImage& image;
+  std::span<const Colour> colours;       ///< By return index.
+  std::span<const std::uint8_t> on_top;  ///< By return index, 0 or 1; or empty for none.
+};
+[[nodiscard]] Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view = {});
 
 }  // namespace terracut::firmware_io

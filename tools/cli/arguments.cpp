@@ -470,6 +470,8 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
                  "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
   sub.add_option("--json", o.json,
                  "File for the results; FILE.journal beside it lets an interrupted run go on");
+  sub.add_option("--report", o.report,
+                 "Folder for index.html: the paper's tables and figures, and where methods fail");
 }
 
 void add_compare(CLI::App& sub, CompareOptions& o) {

@@ -18,6 +18,7 @@
 #include "tools/eval/evaluation.hpp"
 #include "tools/eval/evaluation_json.hpp"
 #include "tools/eval/journal.hpp"
+#include "tools/eval/report/report.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -126,6 +127,14 @@ void say_outcome(const evaluation::EvaluationOutcome& outcome, const nlohmann::o
   }
 }
 
+Status draw_report(const std::filesystem::path& folder, const evaluation::ReportInput& input) {
+  std::optional<Progress> progress;
+  return evaluation::write_report(folder, input, [&](std::size_t done, std::size_t of) {
+    if (!progress) progress.emplace("drawing the report", "frames", static_cast<double>(of));
+    progress->update(static_cast<double>(done));
+  });
+}
+
 }  // namespace
 
 ExitCode run(const EvalOptions& options) {
@@ -165,6 +174,10 @@ ExitCode run(const EvalOptions& options) {
     if (!written) return refuse(written.error());
   }
   if (outcome->results.empty()) return kNothingCameOut;
+  if (!options.report.empty()) {
+    const Status written = draw_report(options.report, {json, *config, *classes});
+    if (!written) return refuse(written.error());
+  }
   return outcome->interrupted || !outcome->faults.empty() ? kInputRefused : kOk;
 }
 

@@ -162,6 +162,7 @@ struct EvalOptions {
   std::filesystem::path classes;      ///< --classes; empty: the dataset's own table
   std::filesystem::path predictions;  ///< --predictions
   std::filesystem::path json;         ///< --json
+  std::filesystem::path report;       ///< --report
 };
 
 struct CompareOptions {

@@ -36,6 +36,11 @@ std::optional<std::size_t> least(const Json& frames, const std::vector<std::size
 
 }  // namespace
 
+std::string method_in_question(const Json& evaluation) {
+  const Json& methods = evaluation.at("methods");
+  return methods.contains("terracut") ? "terracut" : methods.items().begin().key();
+}
+
 std::vector<ChosenFrame> middle_frames(const Json& method) {
   const Json& frames = method.at("frames");
   std::vector<ChosenFrame> list;

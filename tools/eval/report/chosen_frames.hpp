@@ -16,6 +16,9 @@ struct ChosenFrame {
   std::string why;  ///< "middle", "lowest Recall_o"; for people.
 };
 
+/// Whose worst frames are shown: `terracut` where it was measured, else the first method.
+[[nodiscard]] std::string method_in_question(const Json& evaluation);
+
 /// `method`: one of `methods` of the evaluation, whose frames lie sequence by sequence.
 
 /// The middle frame of every sequence.

@@ -76,14 +76,14 @@ constexpr std::array kKoblenzTime{PaperRow{"zhang", kKoblenzTimeZhang, 1510.76},
 constexpr std::array kDatasets{PaperDataset{"semantickitti",
                                             kKittiSequences,
                                             kKittiScans,
-                                            {"IV", "IoU_g by sequence", kKittiIou},
-                                            {"V", "Recall_o by sequence", kKittiRecall},
+                                            {"IV", "IoU<sub>g</sub> by sequence", kKittiIou},
+                                            {"V", "Recall<sub>o</sub> by sequence", kKittiRecall},
                                             {"VI", "Time a frame by sequence", kKittiTime}},
                                PaperDataset{"koblenz",
                                             kKoblenzSequences,
                                             kKoblenzScans,
-                                            {"VII", "IoU_g by map", kKoblenzIou},
-                                            {"VIII", "Recall_o by map", kKoblenzRecall},
+                                            {"VII", "IoU<sub>g</sub> by map", kKoblenzIou},
+                                            {"VIII", "Recall<sub>o</sub> by map", kKoblenzRecall},
                                             {"IX", "Time a frame by map", kKoblenzTime}}};
 
 }  // namespace

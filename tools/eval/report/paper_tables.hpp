@@ -26,7 +26,7 @@ struct PaperRow {
 
 struct PaperTable {
   std::string_view number;   ///< "IV"
-  std::string_view caption;  ///< What it shows, in our words.
+  std::string_view caption;  ///< What it shows, in our words, as HTML.
   std::span<const PaperRow> rows;
 
   /// Null for a method the table does not have.

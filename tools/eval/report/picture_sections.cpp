@@ -104,7 +104,7 @@ std::string comparison_section(const Json& evaluation, const std::vector<ChosenF
 
 std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>& frames,
                           FramePictures& pictures, const OnFrame& on_frame) {
-  const std::string method = evaluation.at("methods").items().begin().key();
+  const std::string method = method_in_question(evaluation);
   std::string html = fmt::format(
       "<section id=\"worst\"><h2>Where it fails (Fig. 16, 17)</h2>\n<p>Of every sequence the "
       "frames where <b>{}</b> has its lowest Recall<sub>o</sub> and its lowest IoU<sub>g</sub>, "

@@ -21,7 +21,7 @@ using OnFrame = std::function<void()>;
                                              const std::vector<ChosenFrame>& frames,
                                              FramePictures& pictures, const OnFrame& on_frame);
 
-/// Fig. 16, 17: the worst frames of the first method.
+/// Fig. 16, 17: the worst frames of method_in_question().
 [[nodiscard]] std::string worst_section(const Json& evaluation,
                                         const std::vector<ChosenFrame>& frames,
                                         FramePictures& pictures, const OnFrame& on_frame);

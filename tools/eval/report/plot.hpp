@@ -39,7 +39,7 @@ class Plot {
   void x_label(double value, std::string_view text);
 
  private:
-  static constexpr double kLeft = 56, kRight = 10, kTop = 10, kBottom = 42;
+  static constexpr double kLeft = 56, kRight = 18, kTop = 10, kBottom = 42;
 
   double width_, height_;
   AxisRange x_, y_;

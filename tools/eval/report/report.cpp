@@ -111,7 +111,8 @@ Expected<std::string> report_page(
   const Json& method = evaluation.at("methods").front();
   const auto counted = report::spread_frames(method, kFramesToCount);
   const auto middle = report::middle_frames(method);
-  const auto worst = report::worst_frames(method);
+  const auto worst =
+      report::worst_frames(evaluation.at("methods").at(report::method_in_question(evaluation)));
   std::size_t done = 0;
   const auto on_frame = [&] { on_progress(++done, counted.size() + middle.size() + worst.size()); };
 
@@ -121,8 +122,8 @@ Expected<std::string> report_page(
   const auto counted_frames = report::count_cells(counted, reader, grids, on_frame);
 
   const std::string title = "Ground segmentation on " + text_of(evaluation, "dataset");
-  return fmt::format(kHead, title, report::kPageStyle) + facts(evaluation) +
-         std::string(kContents) + "</header>\n<main>\n" + report::average_section(evaluation) +
+  return fmt::format(kHead, title, report::kPageStyle) + facts(evaluation) + "</header>\n" +
+         std::string(kContents) + "<main>\n" + report::average_section(evaluation) +
          report::sequence_section(evaluation) + report::range_section(evaluation) +
          report::recall_section(evaluation) + report::time_section(evaluation) +
          report::cell_section(grids, counted_frames, method.at("frames").size()) +

@@ -39,8 +39,10 @@ void draw_returns(Canvas& canvas, const ColouredFrame& frame) {
     const double line = canvas.line(static_cast<double>(placed.echo.x_m));
     if (!(column >= 0 && column < width && line >= 0 && line < height)) return;
     const Colour colour = frame.colours[placed.return_index];
-    const bool on_top = !frame.on_top.empty() && frame.on_top[placed.return_index] != 0;
-    const float rank = on_top ? std::numeric_limits<float>::max() : placed.echo.z_m;
+    const float level =
+        frame.level.empty() ? 0.0F : static_cast<float>(frame.level[placed.return_index]);
+    constexpr float kLevel_m = 1e5F;  // more than any height
+    const float rank = level * kLevel_m + placed.echo.z_m;
     const int x = static_cast<int>(column), y = static_cast<int>(line);
     for (int py = std::max(y - 1, 0); py <= std::min(y + 1, height - 1); ++py) {
       for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px) {

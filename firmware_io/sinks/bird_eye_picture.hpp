@@ -22,11 +22,13 @@ struct BirdEyeView {
 /// ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
 
-/// The same in colours of one's own, one a return. Returns with `on_top` lie over all others.
+/// The same in colours of one's own, one a return.
 struct ColouredFrame {
   const pipeline::RangeImage& image;
-  std::span<const Colour> colours;       ///< By return index.
-  std::span<const std::uint8_t> on_top;  ///< By return index, 0 or 1; or empty for none.
+  std::span<const Colour> colours;  ///< By return index.
+  /// By return index: returns of a higher level lie over those of a lower one, however high these
+  /// are. Empty: all of one level.
+  std::span<const std::uint8_t> level;
 };
 [[nodiscard]] Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view = {});
 

@@ -44,6 +44,17 @@ TEST_F(CliEval, ReportsOfRecordedScansWhatAScorerInAnotherLanguageFinds) {
   expect_same_scores(root);
 }
 
+TEST_F(CliEval, WritesAPageForPeople) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()) + "--method terracut,ring_map --report report/today");
+  EXPECT_THAT(content_of(folder_ / "report/today/index.html"), HasSubstr("Table IV"));
+  write("taken", "a file where a folder is wanted");
+  const Outcome outcome =
+      run(dataset(made_up.root()) + "--method terracut,ring_map --report taken");
+  EXPECT_EQ(outcome.exit_code, kOutputFailed) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("taken"));
+}
+
 TEST_F(CliEval, GoesOnAfterItWasKilled) {
   const evaluation::MadeUpDataset made_up;
   expect_done(dataset(made_up.root()));

@@ -175,7 +175,7 @@ ExitCode run(const EvalOptions& options) {
   }
   if (outcome->results.empty()) return kNothingCameOut;
   if (!options.report.empty()) {
-    const Status written = draw_report(options.report, {json, *config, *classes});
+    const Status written = draw_report(options.report, {json, *config, *classes, true});
     if (!written) return refuse(written.error());
   }
   return outcome->interrupted || !outcome->faults.empty() ? kInputRefused : kOk;

@@ -13,6 +13,24 @@ using firmware_io::Mistake;
 using firmware_io::Picture;
 using pipeline::Label;
 
+namespace {
+
+/// What matters most lies on top.
+std::uint8_t level_of(Verdict verdict) noexcept {
+  switch (verdict) {
+    case Verdict::kMissedKey:
+      return 3;
+    case Verdict::kMissedOrdinary:
+      return 2;
+    case Verdict::kFalseObstacle:
+      return 1;
+    default:
+      return 0;
+  }
+}
+
+}  // namespace
+
 Verdict verdict_of(Role truth, Label label) noexcept {
   const bool called_ground = label == Label::kGround;
   switch (truth) {
@@ -92,14 +110,13 @@ void FramePictures::label(std::string_view method) {
 Picture FramePictures::result(std::string_view method, const firmware_io::BirdEyeView& view) {
   label(method);
   std::vector<Colour> colours;
-  std::vector<std::uint8_t> mistaken;
+  std::vector<std::uint8_t> level;
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     const Verdict verdict = verdict_of(reader_.truth()[i], labels_[i]);
     colours.push_back(colour_of(verdict));
-    mistaken.push_back(verdict == Verdict::kMissedKey || verdict == Verdict::kMissedOrdinary ||
-                       verdict == Verdict::kFalseObstacle);
+    level.push_back(level_of(verdict));
   }
-  return bird_eye_picture(firmware_io::ColouredFrame{reader_.image(), colours, mistaken}, view);
+  return bird_eye_picture(firmware_io::ColouredFrame{reader_.image(), colours, level}, view);
 }
 
 Picture FramePictures::panorama(std::string_view method) {

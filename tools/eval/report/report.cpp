@@ -46,6 +46,12 @@ constexpr std::string_view kContents = R"(<nav><a href="#average">averages</a>
 <a href="#settings">settings</a></nav>
 )";
 
+/// In place of everything that needs them.
+constexpr std::string_view kNoFrames =
+    "<section id=\"cells\"><h2>Pictures and cells</h2>\n<p id=\"comparison\">The frames were not "
+    "kept, so none can be shown, <span id=\"worst\">not even the worst</span>, and no returns be "
+    "counted over cells.</p></section>\n";
+
 std::string text_of(const Json& evaluation, const char* key) {
   return escaped(evaluation.at(key).get<std::string>());
 }
@@ -98,16 +104,10 @@ std::string settings_section(const Json& evaluation) {
          messages(evaluation.at("warnings"), "Warnings") + "</section>\n";
 }
 
-}  // namespace
-
-Expected<std::string> report_page(
-    const ReportInput& input, const std::function<void(std::size_t, std::size_t)>& on_progress) {
+/// What needs the frames themselves.
+std::string frame_sections(const ReportInput& input,
+                           const std::function<void(std::size_t, std::size_t)>& on_progress) {
   const Json& evaluation = input.evaluation;
-  for (const auto& [name, method] : evaluation.at("methods").items()) {
-    if (!method.at("frames").empty()) continue;
-    return fail(ErrorCode::kNothingCameOut,
-                fmt::format("there is no report without frames, and {} has none", name));
-  }
   const Json& method = evaluation.at("methods").front();
   const auto counted = report::spread_frames(method, kFramesToCount);
   const auto middle = report::middle_frames(method);
@@ -120,15 +120,27 @@ Expected<std::string> report_page(
   report::FramePictures pictures(input.config, reader);
   auto grids = report::grids_to_count();
   const auto counted_frames = report::count_cells(counted, reader, grids, on_frame);
+  return report::cell_section(grids, counted_frames, method.at("frames").size()) +
+         report::comparison_section(evaluation, middle, pictures, on_frame) +
+         report::worst_section(evaluation, worst, pictures, on_frame);
+}
 
+}  // namespace
+
+Expected<std::string> report_page(
+    const ReportInput& input, const std::function<void(std::size_t, std::size_t)>& on_progress) {
+  const Json& evaluation = input.evaluation;
+  for (const auto& [name, method] : evaluation.at("methods").items()) {
+    if (!method.at("frames").empty()) continue;
+    return fail(ErrorCode::kNothingCameOut,
+                fmt::format("there is no report without frames, and {} has none", name));
+  }
   const std::string title = "Ground segmentation on " + text_of(evaluation, "dataset");
   return fmt::format(kHead, title, report::kPageStyle) + facts(evaluation) + "</header>\n" +
          std::string(kContents) + "<main>\n" + report::average_section(evaluation) +
          report::sequence_section(evaluation) + report::range_section(evaluation) +
          report::recall_section(evaluation) + report::time_section(evaluation) +
-         report::cell_section(grids, counted_frames, method.at("frames").size()) +
-         report::comparison_section(evaluation, middle, pictures, on_frame) +
-         report::worst_section(evaluation, worst, pictures, on_frame) +
+         (input.on_disk ? frame_sections(input, on_progress) : std::string(kNoFrames)) +
          settings_section(evaluation) + "</main>\n</body>\n</html>\n";
 }
 

@@ -19,6 +19,9 @@ struct ReportInput {
   const nlohmann::ordered_json& evaluation;  ///< evaluation_json()
   const EvaluationConfig& config;            ///< Frames are read and labelled again for pictures.
   const ClassTable& classes;
+  /// False: there are no files from which frames could be read again (simulated drives). The page
+  /// then says so in place of pictures and cells.
+  bool on_disk = true;
 };
 
 /// The evaluation as one HTML page for people, that loads nothing from anywhere: the paper's tables

@@ -188,7 +188,7 @@ std::string average_section(const Json& evaluation) {
       "can be held against the column <em>road alone</em> only, and only as far as the scans are "
       "the same. Its times can be compared in their order, not in their size.</p>\n"
       "<div class=\"wide\"><table><thead><tr><th rowspan=\"2\">method</th>"
-      "<th rowspan=\"2\">what it is</th><th colspan=\"5\">measured here</th>"
+      "<th rowspan=\"2\" class=\"what\">what it is</th><th colspan=\"5\">measured here</th>"
       "<th colspan=\"3\" class=\"paper\">the paper, Table III</th></tr>\n<tr>";
   for (const std::string_view title :
        {"IoU<sub>g</sub> [%]<br>all ground", "IoU<sub>g</sub> [%]<br>road alone",

@@ -127,6 +127,18 @@ TEST_F(ReportTest, SaysWhereThePaperHasNothingToCompareWith) {
   }
 }
 
+TEST_F(ReportTest, SaysSoWhereFramesWereNotKept) {
+  evaluate_all("simulated");
+  const auto html = report_page({json_, config_, classes_, false}, [](std::size_t, std::size_t) {});
+  ASSERT_TRUE(html);
+  EXPECT_THAT(*html, HasSubstr("The frames were not kept"));
+  EXPECT_THAT(*html, Not(HasSubstr("<img")));
+  if (!has_python()) return;
+  fs::create_directories(folder());
+  std::ofstream(page(), std::ios::binary) << *html;
+  EXPECT_EQ(faults_of(page()), "");
+}
+
 TEST_F(ReportTest, NamesFramesThatCannotBeShownAnyMore) {
   evaluate_all();
   fs::remove(dataset_.labels("03", 1));

@@ -3,7 +3,11 @@
 #include "frame_pictures.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
 
+#include "firmware_io/sinks/each_return.hpp"
 #include "firmware_io/sinks/range_image_picture.hpp"
 
 namespace terracut::evaluation::report {
@@ -117,6 +121,47 @@ Picture FramePictures::result(std::string_view method, const firmware_io::BirdEy
     level.push_back(level_of(verdict));
   }
   return bird_eye_picture(firmware_io::ColouredFrame{reader_.image(), colours, level}, view);
+}
+
+std::vector<pipeline::Return> FramePictures::missed_key() const {
+  std::vector<pipeline::Return> missed;
+  firmware_io::for_each_return(reader_.image(), [&](const firmware_io::PlacedReturn& placed) {
+    const std::size_t i = placed.return_index;
+    if (verdict_of(reader_.truth()[i], labels_[i]) == Verdict::kMissedKey) {
+      missed.push_back(placed.echo);
+    }
+  });
+  return missed;
+}
+
+firmware_io::BirdEyeView FramePictures::view_of_misses(std::string_view method, int side) {
+  constexpr double kLeast_m = 60, kMost_m = 160, kStep_m = 10, kMargin_m = 3;
+  label(method);
+  double farthest_m = 0;
+  for (const pipeline::Return& missed : missed_key()) {
+    farthest_m = std::max<double>(farthest_m, std::max(std::abs(missed.x_m), std::abs(missed.y_m)));
+  }
+  const double side_m = std::ceil(2 * (farthest_m + kMargin_m) / kStep_m) * kStep_m;
+  firmware_io::BirdEyeView view;
+  view.side_m = std::clamp(side_m, kLeast_m, kMost_m);
+  view.pixels_per_m = side / view.side_m;
+  return view;
+}
+
+Picture FramePictures::marked_result(std::string_view method,
+                                     const firmware_io::BirdEyeView& view) {
+  constexpr double kRadius = 9;  // pixels
+  Picture picture = result(method, view);
+  std::set<std::pair<int, int>> marked;  // one ring for those that lie close together
+  for (const pipeline::Return& missed : missed_key()) {
+    const double x = picture.width() / 2.0 - static_cast<double>(missed.y_m) * view.pixels_per_m;
+    const double y = picture.height() / 2.0 - static_cast<double>(missed.x_m) * view.pixels_per_m;
+    if (!(x >= 0 && x < picture.width() && y >= 0 && y < picture.height())) continue;
+    if (!marked.emplace(static_cast<int>(x / kRadius), static_cast<int>(y / kRadius)).second)
+      continue;
+    picture.circle(x, y, kRadius, 1.5, colour_of(Verdict::kMissedKey), 0.8);
+  }
+  return picture;
 }
 
 Picture FramePictures::panorama(std::string_view method) {

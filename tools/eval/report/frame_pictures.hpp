@@ -44,11 +44,19 @@ class FramePictures {
   /// By one of config.methods, with its mistakes on top.
   [[nodiscard]] firmware_io::Picture result(std::string_view method,
                                             const firmware_io::BirdEyeView& view);
+  /// What to look at to see all key obstacles that the method missed: the sensor in the middle,
+  /// 60 to 160 m wide, drawn in about `side` pixels.
+  [[nodiscard]] firmware_io::BirdEyeView view_of_misses(std::string_view method, int side);
+  /// result() with a ring around missed key obstacles: single returns are hard to see.
+  [[nodiscard]] firmware_io::Picture marked_result(std::string_view method,
+                                                   const firmware_io::BirdEyeView& view);
   /// The same as a panorama (range_image_picture.hpp); missed obstacles red, false ones yellow.
   [[nodiscard]] firmware_io::Picture panorama(std::string_view method);
 
  private:
   void label(std::string_view method);
+  /// Where the last label() missed key obstacles.
+  [[nodiscard]] std::vector<pipeline::Return> missed_key() const;
 
   const EvaluationConfig& config_;
   FrameReader& reader_;

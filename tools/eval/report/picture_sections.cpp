@@ -17,7 +17,7 @@ using firmware_io::Colour;
 using firmware_io::Picture;
 
 constexpr BirdEyeView kSmall{.side_m = 60, .pixels_per_m = 6, .ring_spacing_m = 10};
-constexpr BirdEyeView kLarge{.side_m = 80, .pixels_per_m = 8, .ring_spacing_m = 10};
+constexpr int kLargeSide = 640;  // pixels
 
 std::string swatch(Colour colour, std::string_view what) {
   return fmt::format(R"(<span><i style="background:#{:02x}{:02x}{:02x}"></i>{}</span> )",
@@ -107,9 +107,10 @@ std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>
   const std::string method = method_in_question(evaluation);
   std::string html = fmt::format(
       "<section id=\"worst\"><h2>Where it fails (Fig. 16, 17)</h2>\n<p>Of every sequence the "
-      "frames where <b>{}</b> has its lowest Recall<sub>o</sub> and its lowest IoU<sub>g</sub>, "
-      "80 m wide. Below, the view from the sensor, straight ahead in the middle: every missed "
-      "obstacle red, ground called obstacle yellow.</p>\n",
+      "frames where <b>{}</b> has its lowest Recall<sub>o</sub> and its lowest IoU<sub>g</sub>; "
+      "rings of red are around key obstacles it missed. Below, the view from the sensor, straight "
+      "ahead in the middle: every missed obstacle red, ground "
+      "called obstacle yellow.</p>\n",
       escaped(method));
   html += truth_legend() + verdict_legend();
   for (const ChosenFrame& frame : frames) {
@@ -121,10 +122,12 @@ std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>
       on_frame();
       continue;
     }
+    const BirdEyeView view = pictures.view_of_misses(method, kLargeSide);
     const std::string place = " of " + frame.sequence + "/" + frame.frame;
     html += "<div class=\"pictures large\">\n" +
-            figure(pictures.truth(kLarge), "truth", "truth" + place) +
-            figure(pictures.result(method, kLarge), escaped(method), method + place) +
+            figure(pictures.truth(view), fmt::format("truth, {:.0f} m wide", view.side_m),
+                   "truth" + place) +
+            figure(pictures.marked_result(method, view), escaped(method), method + place) +
             "</div>\n<div class=\"pictures panorama\">\n" +
             figure(pictures.panorama(method), "from the sensor", "panorama" + place) + "</div>\n";
     on_frame();

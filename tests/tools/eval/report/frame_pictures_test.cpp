@@ -72,6 +72,25 @@ TEST_F(FramePicturesTest, ShowWhatWasMissedInRed) {
   EXPECT_GT(pixels_of(pictures_.panorama("blind"), firmware_io::kMissedObstacleColour), 1000U);
 }
 
+TEST_F(FramePicturesTest, MarkMissedKeyObstaclesAndHaveThemInView) {
+  ASSERT_TRUE(pictures_.open("00", "000001"));
+  const auto view = pictures_.view_of_misses("blind", 480);
+  EXPECT_EQ(view.side_m, 60);  // cars are within 5 m
+  const Picture marked = pictures_.marked_result("blind", view);
+  EXPECT_EQ(marked.width(), 480);
+  const auto reddish = [](const Picture& picture) {
+    std::size_t count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const Colour colour = picture.at(x, y);
+        count += colour.red > 180 && colour.green < 80 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(reddish(marked), reddish(pictures_.result("blind", view)) + 100);
+}
+
 TEST_F(FramePicturesTest, GoFromSequenceToSequence) {
   ASSERT_TRUE(pictures_.open("00", "000000"));
   const auto first = pictures_.truth(view_).png().value();

@@ -174,7 +174,7 @@ ExitCode run(const EvalOptions& options) {
     if (!written) return refuse(written.error());
   }
   if (outcome->results.empty()) return kNothingCameOut;
-  if (!options.report.empty()) {
+  if (!options.report.empty() && !outcome->interrupted) {
     const Status written = draw_report(options.report, {json, *config, *classes, true});
     if (!written) return refuse(written.error());
   }

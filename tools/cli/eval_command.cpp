@@ -92,7 +92,9 @@ Expected<EvaluationConfig> config_of(const EvalOptions& options) {
   config.root = options.root;
   if (!is_simulated(options)) {
     std::error_code error;
-    auto canonical = std::filesystem::weakly_canonical(options.root, error);
+    // Absolute first: of what does not exist, it leaves the relative name as it is.
+    const auto absolute = std::filesystem::absolute(options.root, error);
+    auto canonical = std::filesystem::weakly_canonical(absolute, error);
     if (!error) config.root = std::move(canonical);
   }
   config.sequences = options.sequences;

@@ -3,6 +3,7 @@
 #include "simulated_evaluation.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/sensor_decoder.hpp"
 #include "firmware_io/simulator/drive.hpp"
+#include "firmware_io/simulator/scene_names.hpp"
 #include "firmware_io/sinks/each_return.hpp"
 #include "method_bench.hpp"
 #include "pinned_thread.hpp"
@@ -45,6 +47,23 @@ bool is_wanted(const FrameRange& frames, std::size_t frame) {
 
 std::string name_of(std::size_t frame) {
   return fmt::format("{:06}", frame);
+}
+
+/// Before anything is simulated, which takes its time.
+Status check_scenes(const std::vector<std::string>& scenes) {
+  const auto known = firmware_io::scene_names();
+  for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
+    if (std::ranges::find(known, *scene) == known.end()) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("there is no scene '{}'; expected one or more of: {}", *scene,
+                              fmt::join(known, ",")));
+    }
+    if (std::find(scenes.begin(), scene, *scene) != scene) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("scene '{}' stands there a second time", *scene));
+    }
+  }
+  return {};
 }
 
 /// One drive on disk, from packets to counts. Used by one thread.
@@ -271,6 +290,9 @@ class Run {
 Expected<EvaluationOutcome> evaluate_simulated(const SimulatedConfig& config, Journal* journal,
                                                const SimulatedProgress& progress,
                                                const std::function<bool()>& stop_wanted) {
+  if (const Status checked = check_scenes(config.drives.scenes); !checked) {
+    return tl::unexpected(checked.error());
+  }
   if (config.drives.sensor == "ruby128") {
     return Run<Ruby128Transmitter>(config, journal, progress, stop_wanted).run();
   }

@@ -19,7 +19,7 @@ namespace terracut::evaluation {
 
 /// Drives to simulate, one a scene, with the sensor's nominal calibration, at 10 Hz.
 struct SimulatedDrives {
-  std::vector<std::string> scenes;  ///< firmware_io::scene_names(); each is a sequence.
+  std::vector<std::string> scenes;  ///< firmware_io::scene_names(), each once; each is a sequence.
   std::string sensor = "hdl64e";    ///< "hdl64e", "ruby128"
   bool dual_return = false;
   double duration_s = 3;  ///< (0, 3600]

@@ -139,12 +139,18 @@ TEST_F(SimulatedEvaluationTest, WritesALabelAReturn) {
   }
 }
 
-TEST_F(SimulatedEvaluationTest, RefusesScenesThereAreNot) {
-  config_.drives.scenes = {"moon"};
-  const auto outcome = try_to_run();
-  ASSERT_FALSE(outcome);
-  EXPECT_EQ(outcome.error().code, ErrorCode::kInvalidArgument);
-  EXPECT_THAT(outcome.error().message, HasSubstr("moon"));
+TEST_F(SimulatedEvaluationTest, RefusesImpossibleScenesBeforeItSimulatesAny) {
+  const auto expect_refusal = [&](std::vector<std::string> scenes, const std::string& message) {
+    config_.drives.scenes = std::move(scenes);
+    const auto outcome = try_to_run();
+    ASSERT_FALSE(outcome);
+    EXPECT_EQ(outcome.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_THAT(outcome.error().message, HasSubstr(message));
+    EXPECT_EQ(simulated_s_, 0);
+  };
+  expect_refusal({"flat", "moon"}, "no scene 'moon'");
+  expect_refusal({"flat", ""}, "no scene ''");
+  expect_refusal({"flat", "flat"}, "a second time");
 }
 
 }  // namespace

@@ -47,8 +47,8 @@ struct SimulatedProgress {
 /// are labelled one after the other on one pinned core, rays cast on all.
 ///
 /// kInvalidArgument: of the simulator. kWriteFailed: predictions, journal, or the drive under way,
-/// which lies in the temporary folder (about 10 MB a second of the HDL-64E, 17 of the RS-Ruby128,
-/// twice that in dual return).
+/// which lies in the temporary folder (about 10 MB a second of the HDL-64E, 16 of the RS-Ruby128,
+/// up to twice that in dual return).
 [[nodiscard]] Expected<EvaluationOutcome> evaluate_simulated(
     const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,
     const std::function<bool()>& stop_wanted);

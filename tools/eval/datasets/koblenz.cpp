@@ -132,8 +132,9 @@ class LaserElevations {
       elevation_rad[laser] = typical_elevation_rad(samples_[laser]);
       lasers.push_back(laser);
     }
-    std::ranges::stable_sort(
-        lasers, [&](std::size_t a, std::size_t b) { return elevation_rad[a] > elevation_rad[b]; });
+    std::ranges::sort(lasers, [&](std::size_t a, std::size_t b) {
+      return elevation_rad[a] != elevation_rad[b] ? elevation_rad[a] > elevation_rad[b] : a < b;
+    });
     RingOfLaser ring_of_laser;
     ring_of_laser.fill(kNoRing);
     for (std::size_t ring = 0; ring < lasers.size(); ++ring) {

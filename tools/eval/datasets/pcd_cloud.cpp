@@ -28,6 +28,9 @@ class PcdReader {
   Expected<PcdCloud> read() {
     if (const Status header = read_header(); !header) return tl::unexpected(header.error());
     if (const Status checked = check_header(); !checked) return tl::unexpected(checked.error());
+    if (const Status checked = check_size_of_data(); !checked) {
+      return tl::unexpected(checked.error());
+    }
     PcdCloud cloud;
     cloud.points_ = points_;
     for (const Field& field : fields_) {
@@ -35,8 +38,11 @@ class PcdReader {
       cloud.names_.push_back(field.name);
       cloud.values_.emplace_back().reserve(points_);
     }
-    const Status data = data_ == "binary" ? read_binary(cloud) : read_ascii(cloud);
-    if (!data) return tl::unexpected(data.error());
+    if (data_ == "binary") {
+      read_binary(cloud);
+    } else if (const Status data = read_ascii(cloud); !data) {
+      return tl::unexpected(data.error());
+    }
     return cloud;
   }
 
@@ -48,8 +54,14 @@ class PcdReader {
     std::size_t count = 1;
   };
 
-  [[nodiscard]] tl::unexpected<Error> refuse(const std::string& what,
+  static bool is_printable(char c) { return c >= ' ' && c <= '~'; }
+
+  /// `what` may quote the file, which may hold anything.
+  [[nodiscard]] tl::unexpected<Error> refuse(std::string what,
                                              ErrorCode code = ErrorCode::kMalformed) const {
+    constexpr std::size_t kMostCharacters = 200;
+    if (what.size() > kMostCharacters) what.replace(kMostCharacters, std::string::npos, "...");
+    std::ranges::replace_if(what, [](char c) { return !is_printable(c); }, '?');
     return fail(code, name_ + ": " + what);
   }
 
@@ -92,7 +104,12 @@ class PcdReader {
 
   Status take_header_line(std::string_view key, std::span<const std::string_view> values) {
     if (key == "FIELDS") {
-      for (const std::string_view value : values) fields_.push_back({.name = std::string(value)});
+      for (const std::string_view value : values) {
+        if (value.size() > kLongestName || !std::ranges::all_of(value, is_printable)) {
+          return refuse(fmt::format("line {}: a field is named '{}'", line_, value));
+        }
+        fields_.push_back({.name = std::string(value)});
+      }
       return {};
     }
     if (key == "SIZE" || key == "TYPE" || key == "COUNT") return take_field_line(key, values);
@@ -141,6 +158,9 @@ class PcdReader {
 
   Status check_header() const {
     if (fields_.empty()) return refuse("its header names no FIELDS");
+    if (fields_.size() > kMostFields) {
+      return refuse(fmt::format("{} FIELDS, expected at most {}", fields_.size(), kMostFields));
+    }
     if (!has_points_) return refuse("its header has no line POINTS");
     if (points_ == 0) return refuse("no points");
     if (points_ > firmware_io::kMaxScanPoints) {
@@ -154,6 +174,27 @@ class PcdReader {
       if (field.type == 'F' && field.bytes < 4) {
         return refuse(fmt::format("field {} is a float of {} bytes", field.name, field.bytes));
       }
+    }
+    return {};
+  }
+
+  /// Before memory is taken for them.
+  Status check_size_of_data() const {
+    std::size_t point_bytes = 0, values = 0;
+    for (const Field& field : fields_) {
+      point_bytes += field.bytes * field.count;
+      values += field.count;
+    }
+    if (data_ == "binary" && rest_.size() < points_ * point_bytes) {
+      return refuse(
+          fmt::format("truncated: {} bytes of data, expected {} for {} points of {} "
+                      "bytes",
+                      rest_.size(), points_ * point_bytes, points_, point_bytes));
+    }
+    // A digit and what separates it from the next, but for the last.
+    if (data_ == "ascii" && rest_.size() + 1 < points_ * values * 2) {
+      return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
+                                rest_.size(), points_, values));
     }
     return {};
   }
@@ -181,15 +222,7 @@ class PcdReader {
     }
   }
 
-  Status read_binary(PcdCloud& cloud) const {
-    std::size_t point_bytes = 0;
-    for (const Field& field : fields_) point_bytes += field.bytes * field.count;
-    if (rest_.size() < points_ * point_bytes) {
-      return refuse(
-          fmt::format("truncated: {} bytes of data, expected {} for {} points of {} "
-                      "bytes",
-                      rest_.size(), points_ * point_bytes, points_, point_bytes));
-    }
+  void read_binary(PcdCloud& cloud) const {
     const char* at = rest_.data();
     for (std::size_t i = 0; i < points_; ++i) {
       std::size_t kept = 0;
@@ -198,7 +231,6 @@ class PcdReader {
         at += field.bytes * field.count;
       }
     }
-    return {};
   }
 
   Status read_ascii(PcdCloud& cloud) {
@@ -229,6 +261,8 @@ class PcdReader {
     return {};
   }
 
+  static constexpr std::size_t kLongestName = 64;
+  static constexpr std::size_t kMostFields = 64;
   static constexpr std::size_t kMostValues = 4096;  ///< Of one field; a histogram has hundreds.
 
   std::string_view rest_;

@@ -56,7 +56,9 @@ TEST(PcdCloud, HasNoFieldThatIsNotThereOrHasSeveralValues) {
 }
 
 TEST(PcdCloud, SaysWhereDataAreBroken) {
-  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n"), HasSubstr("1 lines of data, expected 2"));
+  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n"), HasSubstr("truncated: 8 bytes"));
+  EXPECT_THAT(error_of(header("ascii") + "1.2345678 1 1 1"),
+              HasSubstr("1 lines of data, expected 2"));
   EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 2\n"), HasSubstr("line 13: 2 values"));
   EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 2 2 w\n"), HasSubstr("line 13: n is 'w'"));
   EXPECT_THAT(error_of(header("binary") + "1234567"), HasSubstr("truncated: 7 bytes"));
@@ -73,6 +75,10 @@ TEST(PcdCloud, SaysWhatIsWrongWithAHeader) {
   EXPECT_THAT(error_of("FIELDS x\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("lacks SIZE or TYPE"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 2\nTYPE F\nPOINTS 1\nDATA ascii\n1\n"),
               HasSubstr("a float of 2 bytes"));
+  EXPECT_THAT(error_of("FIELDS x\x1b[2J\n"), HasSubstr("named 'x?[2J'"));
+  std::string many = "FIELDS";
+  for (int i = 0; i < 65; ++i) many += " x";
+  EXPECT_THAT(error_of(many + "\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("65 FIELDS"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 0\nDATA ascii\n"), HasSubstr("no points"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 99999999999\nDATA binary\n"),
               HasSubstr("expected at most"));

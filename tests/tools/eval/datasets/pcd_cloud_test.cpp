@@ -59,7 +59,7 @@ TEST(PcdCloud, SaysWhereDataAreBroken) {
   EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n"), HasSubstr("truncated: 8 bytes"));
   EXPECT_THAT(error_of(header("ascii") + "1.2345678 1 1 1"),
               HasSubstr("1 lines of data, expected 2"));
-  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 2\n"), HasSubstr("line 13: 2 values"));
+  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 22222\n"), HasSubstr("line 13: 2 values"));
   EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 2 2 w\n"), HasSubstr("line 13: n is 'w'"));
   EXPECT_THAT(error_of(header("binary") + "1234567"), HasSubstr("truncated: 7 bytes"));
 }

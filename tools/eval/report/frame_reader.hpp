@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <span>
@@ -11,11 +10,11 @@
 #include <vector>
 
 #include "calib/ring_profile.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/error.hpp"
 #include "rt/fixed_memory.hpp"
 #include "tools/eval/class_table.hpp"
+#include "tools/eval/datasets/dataset.hpp"
 #include "tools/eval/scan_way.hpp"
 
 namespace terracut::evaluation::report {
@@ -25,12 +24,12 @@ namespace terracut::evaluation::report {
 /// evaluation used.
 class FrameReader {
  public:
-  /// `root` as in EvaluationConfig; `classes` must outlive this.
-  FrameReader(std::filesystem::path root, const calib::Mount& mount, const ClassTable& classes)
-      : root_(std::move(root)), mount_(mount), classes_(classes) {}
+  /// `dataset` and `classes` must outlive this.
+  FrameReader(const Dataset& dataset, const calib::Mount& mount, const ClassTable& classes)
+      : dataset_(dataset), mount_(mount), classes_(classes) {}
 
-  /// `frame`: its name, "000009". After an error there is no frame. kNotFound: no such sequence,
-  /// frame or label file; else as ScanReader.
+  /// `frame`: its name, "000009". After an error there is no frame. kNotFound: no such sequence
+  /// or frame; else as Sequence::read().
   [[nodiscard]] Status read(const std::string& sequence, const std::string& frame);
 
   /// Of the last frame that was read; valid until the next.
@@ -40,31 +39,29 @@ class FrameReader {
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return placed_.point_of_return;
   }
-  [[nodiscard]] const firmware_io::KittiScan& scan() const noexcept { return scan_; }
-  [[nodiscard]] const firmware_io::RingRecovery& rings() const noexcept { return rings_; }
+  [[nodiscard]] const firmware_io::KittiScan& scan() const noexcept { return labelled_.scan; }
+  [[nodiscard]] const firmware_io::RingRecovery& rings() const noexcept { return labelled_.rings; }
   [[nodiscard]] const std::string& sequence() const noexcept { return sequence_; }
   [[nodiscard]] const calib::Hdl64eCalibration& calibration() const noexcept {
-    return calibration_;
+    return open_->calibration();
   }
   [[nodiscard]] const calib::RingProfile& profile() const noexcept { return profile_; }
 
  private:
   [[nodiscard]] Status open(const std::string& sequence);
 
-  std::filesystem::path root_;
+  const Dataset& dataset_;
   calib::Mount mount_;
   const ClassTable& classes_;
 
   std::string sequence_;  ///< That is open; empty: none.
-  std::unique_ptr<firmware_io::ScanReader> reader_;
+  std::unique_ptr<Sequence> open_;
   std::map<std::string, std::size_t> scan_of_frame_;
-  calib::Hdl64eCalibration calibration_;
   calib::RingProfile profile_;
   std::unique_ptr<rt::FixedMemory> memory_;
   std::unique_ptr<DirectWay> way_;
 
-  firmware_io::KittiScan scan_;
-  firmware_io::RingRecovery rings_;
+  LabelledScan labelled_;
   PlacedScan placed_;
   std::vector<Role> truth_;
 };

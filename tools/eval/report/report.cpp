@@ -116,7 +116,8 @@ std::string frame_sections(const ReportInput& input,
   std::size_t done = 0;
   const auto on_frame = [&] { on_progress(++done, counted.size() + middle.size() + worst.size()); };
 
-  report::FrameReader reader(input.config.root, input.config.mount, input.classes);
+  const auto dataset = dataset_at(input.config.layout, input.config.root);
+  report::FrameReader reader(*dataset, input.config.mount, input.classes);
   report::FramePictures pictures(input.config, reader);
   auto grids = report::grids_to_count();
   const auto counted_frames = report::count_cells(counted, reader, grids, on_frame);

@@ -38,7 +38,8 @@ class FramePicturesTest : public testing::Test {
   MadeUpDataset dataset_;
   EvaluationConfig config_ = config_of(dataset_);
   ClassTable classes_ = *ClassTable::parse(kSemanticKittiClasses, "built-in");
-  FrameReader reader_{config_.root, config_.mount, classes_};
+  std::unique_ptr<Dataset> files_ = dataset_at(config_.layout, config_.root);
+  FrameReader reader_{*files_, config_.mount, classes_};
   FramePictures pictures_{config_, reader_};
   firmware_io::BirdEyeView view_{.side_m = 40, .pixels_per_m = 8};
 };

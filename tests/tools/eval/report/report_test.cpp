@@ -18,6 +18,7 @@ namespace terracut::evaluation {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ContainsRegex;
 using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
@@ -144,8 +145,8 @@ TEST_F(ReportTest, NamesFramesThatCannotBeShownAnyMore) {
   fs::remove(dataset_.labels("03", 1));
   ASSERT_TRUE(write());
   const std::string html = content_of(page());
-  EXPECT_THAT(html, HasSubstr("Not counted: 03/000001"));
-  EXPECT_THAT(html, HasSubstr("Not shown: 03/000001"));
+  EXPECT_THAT(html, ContainsRegex("Not counted: .*000001"));
+  EXPECT_THAT(html, ContainsRegex("Not shown: .*000001"));
   EXPECT_EQ(done_, of_);
 }
 

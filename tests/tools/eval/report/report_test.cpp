@@ -12,6 +12,7 @@
 
 #include "browser.hpp"
 #include "tests/tools/eval/made_up_dataset.hpp"
+#include "tests/tools/eval/made_up_koblenz.hpp"
 #include "tools/eval/evaluation_json.hpp"
 
 namespace terracut::evaluation {
@@ -117,6 +118,23 @@ TEST_F(ReportTest, SetsThePapersNumbersBesideThem) {
   EXPECT_THAT(html, HasSubstr(R"(<td class="paper">1477.63</td>)"));  // Table VI, not measured here
   // The paper's mean of the sequences that were evaluated, 00 and 03.
   EXPECT_THAT(html, HasSubstr(R"(<td class="paper">43.78</td>)"));
+}
+
+TEST_F(ReportTest, KnowsTheMapsOfKoblenzByTheirFolders) {
+  const MadeUpKoblenz koblenz;
+  config_.root = koblenz.root();
+  config_.layout = DatasetLayout::kKoblenz;
+  classes_ = *ClassTable::parse(kKoblenzClasses, "built-in");
+  evaluate_all("koblenz");
+  ASSERT_TRUE(write());
+  const std::string html = content_of(page());
+  EXPECT_THAT(html, HasSubstr("Table VII"));
+  EXPECT_THAT(html, HasSubstr("/methods/paper/sequences/KoblenzFarmMap/road/iou_g"));
+  EXPECT_THAT(html, HasSubstr(R"(<td class="paper">44.20</td>)"));  // the mean of Forest and Farm
+  EXPECT_THAT(html, Not(HasSubstr("Not shown")));
+  if (has_python()) {
+    EXPECT_EQ(faults_of(page()), "");
+  }
 }
 
 TEST_F(ReportTest, SaysWhereThePaperHasNothingToCompareWith) {

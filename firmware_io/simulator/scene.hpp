@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_io/simulator/scene_names.hpp"
 #include "firmware_io/simulator/scene_object.hpp"
 #include "firmware_io/simulator/terrain.hpp"
 #include "rt/error.hpp"
@@ -29,15 +30,9 @@ struct SceneExtent {
   double speed_mps = -1;  ///< < 0: what is usual in the scene.
 };
 
-/// "street"   kerbs of 6 to 20 cm, parked cars, people, cyclists, houses, trees; 30 km/h
-/// "highway"  two carriageways at 3 % grade, barriers, trucks, banks up and down; 97 km/h
-/// "rural"    narrow bending road, ditches, banks, rough grass, hedges, fences; 43 km/h
-/// "flat"     a plane at z = 0 with the boxes of flat_scene_boxes(), which do not vary; 18 km/h
-/// "hill"     onto a 15 % slope across a hillside; 29 km/h
-[[nodiscard]] std::span<const std::string_view> scene_names() noexcept;
-
 /// The same name and seed give the same world, in which a longer drive sees the same things as a
-/// shorter one, and then more. kInvalidArgument for an unknown name, saying which there are.
+/// shorter one, and then more. kInvalidArgument for a name not in scene_names(), saying which there
+/// are.
 [[nodiscard]] Expected<Scene> make_scene(std::string_view name, const SceneExtent& extent);
 
 /// A box of the scene "flat", standing on the plane.

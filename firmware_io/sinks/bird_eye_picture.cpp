@@ -30,7 +30,7 @@ struct Canvas {
 };
 
 /// Dots of 3 x 3 oversampled pixels; where several returns fall together the highest is seen.
-void draw_returns(Canvas& canvas, const LabelledFrame& frame) {
+void draw_returns(Canvas& canvas, const ColouredFrame& frame) {
   const int width = canvas.picture.width(), height = canvas.picture.height();
   std::vector<float> top_m(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                            std::numeric_limits<float>::lowest());
@@ -38,11 +38,11 @@ void draw_returns(Canvas& canvas, const LabelledFrame& frame) {
     const double column = canvas.column(static_cast<double>(placed.echo.y_m));
     const double line = canvas.line(static_cast<double>(placed.echo.x_m));
     if (!(column >= 0 && column < width && line >= 0 && line < height)) return;
-    const Colour colour = colour_of_return(frame, placed.return_index, placed.echo);
-    // Mistakes lie on top of everything: they are what such a picture is looked at for.
-    const bool mistaken =
-        !frame.mistakes.empty() && frame.mistakes[placed.return_index] != Mistake::kNone;
-    const float rank = mistaken ? std::numeric_limits<float>::max() : placed.echo.z_m;
+    const Colour colour = frame.colours[placed.return_index];
+    const float level =
+        frame.level.empty() ? 0.0F : static_cast<float>(frame.level[placed.return_index]);
+    constexpr float kLevel_m = 1e5F;  // more than any height
+    const float rank = level * kLevel_m + placed.echo.z_m;
     const int x = static_cast<int>(column), y = static_cast<int>(line);
     for (int py = std::max(y - 1, 0); py <= std::min(y + 1, height - 1); ++py) {
       for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px) {
@@ -93,6 +93,17 @@ void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
 }  // namespace
 
 Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
+  std::vector<Colour> colours(frame.labels.size());
+  for_each_return(frame.image, [&](const PlacedReturn& placed) {
+    colours[placed.return_index] = colour_of_return(frame, placed.return_index, placed.echo);
+  });
+  // Mistakes lie on top of everything: they are what such a picture is looked at for.
+  std::vector<std::uint8_t> mistaken;
+  for (const Mistake mistake : frame.mistakes) mistaken.push_back(mistake != Mistake::kNone);
+  return bird_eye_picture(ColouredFrame{frame.image, colours, mistaken}, view);
+}
+
+Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view) {
   const double pixels_per_m = kOversampling * std::clamp(view.pixels_per_m, 2.0, 40.0);
   const int side =
       static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));

@@ -2,6 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "firmware_io/sinks/frame_colours.hpp"
 #include "firmware_io/sinks/png_picture.hpp"
 
@@ -18,5 +21,15 @@ struct BirdEyeView {
 /// an arrow, and at the lower left a scale bar of one ring spacing. Higher returns lie over lower
 /// ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
+
+/// The same in colours of one's own, one a return.
+struct ColouredFrame {
+  const pipeline::RangeImage& image;
+  std::span<const Colour> colours;  ///< By return index.
+  /// By return index: returns of a higher level lie over those of a lower one, however high these
+  /// are. Empty: all of one level.
+  std::span<const std::uint8_t> level;
+};
+[[nodiscard]] Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view = {});
 
 }  // namespace terracut::firmware_io

@@ -75,7 +75,7 @@ Picture Picture::halved() const {
   return half;
 }
 
-Status Picture::write_png(const std::filesystem::path& path) const {
+Expected<std::vector<std::byte>> Picture::png() const {
   png_image image{};
   image.version = PNG_IMAGE_VERSION;
   image.width = static_cast<png_uint_32>(width_);
@@ -84,12 +84,20 @@ Status Picture::write_png(const std::filesystem::path& path) const {
   std::vector<std::byte> file(pixels_.size() * sizeof(Colour) + 65536);
   png_alloc_size_t size = file.size();
   if (png_image_write_to_memory(&image, file.data(), &size, 0, pixels_.data(), 0, nullptr) == 0) {
-    return fail(
-        ErrorCode::kWriteFailed,
-        fmt::format("could not compress the {} x {} picture for {}: libpng says '{}'", width_,
-                    height_, path.string(), static_cast<const char*>(image.message)));
+    return fail(ErrorCode::kWriteFailed,
+                fmt::format("could not compress a {} x {} picture: libpng says '{}'", width_,
+                            height_, static_cast<const char*>(image.message)));
   }
-  return rt::write_whole_file(path, std::span(file).first(size));
+  file.resize(size);
+  return file;
+}
+
+Status Picture::write_png(const std::filesystem::path& path) const {
+  const auto file = png();
+  if (!file) {
+    return fail(file.error().code, fmt::format("{}: {}", path.string(), file.error().message));
+  }
+  return rt::write_whole_file(path, *file);
 }
 
 }  // namespace terracut::firmware_io

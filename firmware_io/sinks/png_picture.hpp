@@ -44,7 +44,9 @@ class Picture {
   /// size.
   [[nodiscard]] Picture halved() const;
 
-  /// Writes a PNG file (8-bit RGB), whole or not at all.
+  /// The bytes of a PNG file (8-bit RGB). kWriteFailed when libpng cannot make it.
+  [[nodiscard]] Expected<std::vector<std::byte>> png() const;
+  /// Writes that file, whole or not at all.
   [[nodiscard]] Status write_png(const std::filesystem::path& path) const;
 
  private:

@@ -5,6 +5,7 @@
 
 #include "cli_fixture.hpp"
 #include "eval/made_up_dataset.hpp"
+#include "eval/made_up_koblenz.hpp"
 #include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
@@ -42,6 +43,17 @@ TEST_F(CliEval, ReportsOfRecordedScansWhatAScorerInAnotherLanguageFinds) {
   if (!fs::is_directory(root)) GTEST_SKIP() << "no recorded scans at ../shared";
   expect_done(dataset(root) + "--frames 0 --method terracut,ring_map");
   expect_same_scores(root);
+}
+
+TEST_F(CliEval, WritesAPageForPeople) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()) + "--method terracut,ring_map --report report/today");
+  EXPECT_THAT(content_of(folder_ / "report/today/index.html"), HasSubstr("Table IV"));
+  write("taken", "a file where a folder is wanted");
+  const Outcome outcome =
+      run(dataset(made_up.root()) + "--method terracut,ring_map --report taken");
+  EXPECT_EQ(outcome.exit_code, kOutputFailed) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("taken"));
 }
 
 TEST_F(CliEval, GoesOnAfterItWasKilled) {
@@ -125,6 +137,58 @@ TEST_F(CliEval, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
   expect_done(dataset(made_up.root()));
   expect_refusal("--method paper", kUsage, "was begun with other settings");
   EXPECT_EQ(run("eval semantickitti nowhere").exit_code, kInputRefused);
+}
+
+TEST_F(CliEval, EvaluatesKoblenzDataUnderTheirClassesAndSaysWhatFormatItTookThemFor) {
+  const evaluation::MadeUpKoblenz made_up;
+  const Outcome outcome =
+      run("eval koblenz " + quoted(made_up.root()) + " --method terracut,paper --json eval.json");
+  EXPECT_EQ(outcome.exit_code, kOk) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("published could not be found; PCD files are read"));
+  const auto report = json("eval.json");
+  EXPECT_EQ(report.at("dataset"), "koblenz");
+  EXPECT_EQ(report.at("warnings").size(), 1U);
+  EXPECT_EQ(report.at("classes").at(2).at("name"), "rough");
+  for (const auto& [name, method] : report.at("methods").items()) {
+    EXPECT_TRUE(method.at("sequences").contains("KoblenzForestMap")) << name;
+    EXPECT_GT(method.at("mean_over_sequences").at("all").at("iou_g"), 0.9) << name;
+  }
+  EXPECT_EQ(run("eval koblenz nowhere").exit_code, kInputRefused);
+}
+
+TEST_F(CliEval, EvaluatesSimulatedDrivesAndComparesTheirMethods) {
+  const std::string eval =
+      "eval simulated flat,hill --duration 0.1 --sensor ruby128 --returns dual --json eval.json ";
+  expect_done(eval + "--method terracut,pfaff");
+  const auto report = json("eval.json");
+  EXPECT_EQ(report.at("dataset"), "simulated");
+  EXPECT_EQ(report.at("simulated").at("sensor"), "ruby128");
+  EXPECT_EQ(report.at("simulated").at("returns"), "dual");
+  const auto& sequences = report.at("methods").at("terracut").at("sequences");
+  EXPECT_EQ(sequences.at("flat").at("frames"), 1);
+  EXPECT_EQ(sequences.at("hill").at("frames"), 1);
+  expect_done("compare eval.json eval.json");
+  // What it was of belongs to the journal's settings.
+  const Outcome other = run(eval + "--method terracut,pfaff --seed 2");
+  EXPECT_EQ(other.exit_code, kUsage);
+  EXPECT_THAT(other.err, HasSubstr("was begun with other settings"));
+}
+
+TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotHeed) {
+  const auto expect_refusal = [&](const std::string& arguments, const std::string& message) {
+    const Outcome outcome = run("eval " + arguments);
+    EXPECT_EQ(outcome.exit_code, kUsage) << arguments << outcome.err;
+    EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;
+  };
+  expect_refusal("simulated flat --sequences 00", "--sequences");
+  expect_refusal("simulated flat,moon", "no scene 'moon'");
+  expect_refusal("simulated flat --duration 0", "--duration");
+  expect_refusal("simulated flat --sensor vlp16", "vlp16");
+  expect_refusal("koblenz . --seed 3", "--seed");
+  expect_refusal("semantickitti . --sensor ruby128", "--sensor");
+  expect_refusal("semantickitti . --returns dual", "--returns");
+  expect_refusal("semantickitti . --duration 3", "--duration");
+  expect_refusal("nuscenes .", "nuscenes");
 }
 
 }  // namespace

@@ -444,10 +444,14 @@ void add_doctor(CLI::App& sub, DoctorOptions& o) {
 }
 
 void add_eval(CLI::App& sub, EvalOptions& o) {
-  sub.add_option("DATASET", o.dataset, "Layout of the dataset")
+  sub.add_option("DATASET", o.dataset, "Layout of the dataset, or drives to simulate")
       ->required()
-      ->check(CLI::IsMember({"semantickitti"}));
-  sub.add_option("ROOT", o.root, "Its folder: ROOT/sequences/NN/{velodyne,labels}")->required();
+      ->check(CLI::IsMember({"semantickitti", "koblenz", "simulated"}));
+  sub.add_option("ROOT", o.root,
+                 "semantickitti: the folder of sequences/NN/{velodyne,labels}\n"
+                 "koblenz: the folder of KoblenzForestMap/*.pcd and its like\n"
+                 "simulated: scenes, like street,hill")
+      ->required();
   sub.add_option("--sequences", o.sequences, "Only these, like 00,03 (default: all with labels)")
       ->delimiter(',');
   sub.add_option("--frames", o.frames,
@@ -464,12 +468,21 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   add_mount(sub, o.mount);
+  sub.add_option("--sensor", o.sensor, "Of simulated: sensor model (default: hdl64e)")
+      ->check(CLI::IsMember({"hdl64e", "ruby128"}));
+  sub.add_option("--returns", o.returns, "Of simulated (default: single)")
+      ->check(CLI::IsMember({"single", "dual"}));
+  sub.add_option("--duration", o.duration_s, "Of simulated: seconds a scene (default: 3)")
+      ->check(number(0.001, 3600));
+  sub.add_option("--seed", o.seed, "Of simulated: the same seed gives the same drive (default: 1)");
   sub.add_option("--classes", o.classes,
                  "What the dataset's classes count as (default: as in the paper)");
   sub.add_option("--predictions", o.predictions,
                  "Folder for METHOD/sequences/NN/predictions/NNNNNN.label");
   sub.add_option("--json", o.json,
                  "File for the results; FILE.journal beside it lets an interrupted run go on");
+  sub.add_option("--report", o.report,
+                 "Folder for index.html: the paper's tables and figures, and where methods fail");
 }
 
 void add_compare(CLI::App& sub, CompareOptions& o) {

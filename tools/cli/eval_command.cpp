@@ -3,9 +3,12 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -15,9 +18,12 @@
 #include "rt/whole_file.hpp"
 #include "setup_choice.hpp"
 #include "tools/eval/class_table.hpp"
+#include "tools/eval/datasets/koblenz.hpp"
 #include "tools/eval/evaluation.hpp"
 #include "tools/eval/evaluation_json.hpp"
 #include "tools/eval/journal.hpp"
+#include "tools/eval/report/report.hpp"
+#include "tools/eval/simulated_evaluation.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -58,13 +64,42 @@ Expected<FrameRange> frame_range_of(const std::string& text) {
   return range;
 }
 
+bool is_simulated(const EvalOptions& options) {
+  return options.dataset == "simulated";
+}
+
+/// That no option was given which this kind of dataset would not heed.
+Status check_fit(const EvalOptions& options) {
+  const auto refuse = [&](std::string_view what) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("`eval {}` does not know {}", options.dataset, what));
+  };
+  if (is_simulated(options)) {
+    if (!options.sequences.empty()) return refuse("--sequences: it takes scenes, like street,hill");
+    return {};
+  }
+  if (options.sensor) return refuse("--sensor, only `eval simulated` does");
+  if (options.returns) return refuse("--returns, only `eval simulated` does");
+  if (options.duration_s) return refuse("--duration, only `eval simulated` does");
+  if (options.seed) return refuse("--seed, only `eval simulated` does");
+  return {};
+}
+
+/// Of any dataset; of simulated drives `root` is their scenes.
 Expected<EvaluationConfig> config_of(const EvalOptions& options) {
+  if (const Status fits = check_fit(options); !fits) return tl::unexpected(fits.error());
   EvaluationConfig config;
-  std::error_code error;
-  config.root = std::filesystem::weakly_canonical(options.root, error);
-  if (error) config.root = options.root;
+  if (options.dataset == "koblenz") config.layout = evaluation::DatasetLayout::kKoblenz;
+  config.root = options.root;
+  if (!is_simulated(options)) {
+    std::error_code error;
+    // Absolute first: of what does not exist, it leaves the relative name as it is.
+    const auto absolute = std::filesystem::absolute(options.root, error);
+    auto canonical = std::filesystem::weakly_canonical(absolute, error);
+    if (!error) config.root = std::move(canonical);
+  }
   config.sequences = options.sequences;
-  config.through_packets = options.through == "packets";
+  config.through_packets = options.through == "packets" || is_simulated(options);
   config.jobs = options.jobs;
   config.predictions = options.predictions;
   const auto frames = frame_range_of(options.frames);
@@ -86,16 +121,40 @@ Expected<EvaluationConfig> config_of(const EvalOptions& options) {
   return config;
 }
 
+/// The drives that `eval simulated` was asked for.
+evaluation::SimulatedDrives drives_of(const EvalOptions& options) {
+  evaluation::SimulatedDrives drives;
+  const std::string scenes = options.root.string();
+  for (std::size_t begin = 0; begin <= scenes.size();) {
+    const std::size_t end = std::min(scenes.find(',', begin), scenes.size());
+    drives.scenes.push_back(scenes.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (options.sensor) drives.sensor = *options.sensor;
+  drives.dual_return = options.returns == "dual";
+  if (options.duration_s) drives.duration_s = *options.duration_s;
+  if (options.seed) drives.seed = *options.seed;
+  return drives;
+}
+
 Expected<evaluation::ClassTable> classes_of(const EvalOptions& options) {
   if (!options.classes.empty()) return evaluation::ClassTable::read(options.classes);
-  return evaluation::ClassTable::parse(evaluation::kSemanticKittiClasses, "built-in class table");
+  const char* const table = options.dataset == "koblenz" ? evaluation::kKoblenzClasses
+                                                         : evaluation::kSemanticKittiClasses;
+  return evaluation::ClassTable::parse(table, "built-in class table");
 }
 
 /// Everything the counts of a frame depend on: a journal of other settings is not gone on with.
-std::string settings_line(const EvaluationConfig& config) {
-  std::string line = fmt::format(
-      "{} root={} through_packets={} mount={},{},{}", TERRACUT_VERSION, config.root.string(),
-      config.through_packets, config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
+std::string settings_line(const EvalOptions& options, const EvaluationConfig& config) {
+  std::string line =
+      fmt::format("{} dataset={} root={} through_packets={} mount={},{},{}", TERRACUT_VERSION,
+                  options.dataset, config.root.string(), config.through_packets,
+                  config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
+  if (is_simulated(options)) {
+    const auto drives = drives_of(options);
+    line += fmt::format(" sensor={} dual_return={} duration_s={} seed={}", drives.sensor,
+                        drives.dual_return, drives.duration_s, drives.seed);
+  }
   for (const evaluation::MethodChoice& method : config.methods) {
     line += " " + method.name + "{";
     for (const auto part : {pipeline::parameters(), pipeline::rival_parameters()}) {
@@ -126,6 +185,59 @@ void say_outcome(const evaluation::EvaluationOutcome& outcome, const nlohmann::o
   }
 }
 
+Status draw_report(const std::filesystem::path& folder, const evaluation::ReportInput& input) {
+  std::optional<Progress> progress;
+  return evaluation::write_report(folder, input, [&](std::size_t done, std::size_t of) {
+    if (!progress) progress.emplace("drawing the report", "frames", static_cast<double>(of));
+    progress->update(static_cast<double>(done));
+  });
+}
+
+Expected<evaluation::EvaluationOutcome> evaluate_scans(
+    const EvaluationConfig& config, std::optional<evaluation::Journal>& journal) {
+  std::optional<Progress> progress;
+  return evaluation::evaluate(
+      config, journal ? &*journal : nullptr,
+      [&](std::size_t done, std::size_t of) {
+        if (!progress) progress.emplace("evaluating", "frames", static_cast<double>(of));
+        progress->update(static_cast<double>(done));
+      },
+      stop_wanted);
+}
+
+Expected<evaluation::EvaluationOutcome> evaluate_drives(
+    const EvalOptions& options, const EvaluationConfig& config,
+    std::optional<evaluation::Journal>& journal) {
+  std::optional<Progress> simulating, evaluating;
+  const evaluation::SimulatedProgress progress{
+      [&](double done_s, double of_s) {
+        evaluating.reset();
+        if (!simulating) simulating.emplace("simulating", "seconds", of_s);
+        simulating->update(done_s);
+      },
+      [&](std::size_t done, std::size_t of) {
+        simulating.reset();
+        if (!evaluating) evaluating.emplace("evaluating", "frames", static_cast<double>(of));
+        evaluating->update(static_cast<double>(done));
+      }};
+  return evaluation::evaluate_simulated(
+      {drives_of(options), config.frames, config.methods, config.mount, config.predictions},
+      journal ? &*journal : nullptr, progress, stop_wanted);
+}
+
+/// What a report's reader has to know of this dataset besides.
+void add_facts_of_dataset(const EvalOptions& options, nlohmann::ordered_json& json) {
+  if (options.dataset == "koblenz") {
+    json["warnings"].push_back({{"where", "koblenz"}, {"what", evaluation::kKoblenzFormatNote}});
+  }
+  if (!is_simulated(options)) return;
+  const auto drives = drives_of(options);
+  json["simulated"] = {{"sensor", drives.sensor},
+                       {"returns", drives.dual_return ? "dual" : "single"},
+                       {"duration_s", drives.duration_s},
+                       {"seed", drives.seed}};
+}
+
 }  // namespace
 
 ExitCode run(const EvalOptions& options) {
@@ -135,26 +247,20 @@ ExitCode run(const EvalOptions& options) {
   if (!classes) return refuse(classes.error());
   std::optional<evaluation::Journal> journal;
   if (!options.json.empty()) {
-    auto opened = evaluation::Journal::open(journal_path(options), settings_line(*config));
+    auto opened = evaluation::Journal::open(journal_path(options), settings_line(options, *config));
     if (!opened) return refuse(opened.error());
     journal.emplace(*std::move(opened));
   }
 
   catch_stop_signals();
-  std::optional<Progress> progress;
-  const auto outcome = evaluation::evaluate(
-      *config, journal ? &*journal : nullptr,
-      [&](std::size_t done, std::size_t of) {
-        if (!progress) progress.emplace("evaluating", "frames", static_cast<double>(of));
-        progress->update(static_cast<double>(done));
-      },
-      stop_wanted);
-  progress.reset();
+  const auto outcome = is_simulated(options) ? evaluate_drives(options, *config, journal)
+                                             : evaluate_scans(*config, journal);
   if (!outcome) return refuse(outcome.error());
 
-  const auto json = evaluation::evaluation_json(
+  auto json = evaluation::evaluation_json(
       {options.dataset, config->root.string(), config->methods, config->through_packets}, *classes,
       *outcome);
+  add_facts_of_dataset(options, json);
   say_outcome(*outcome, json);
   fmt::print("{}", evaluation::evaluation_text(json));
   if (outcome->interrupted) {
@@ -165,6 +271,11 @@ ExitCode run(const EvalOptions& options) {
     if (!written) return refuse(written.error());
   }
   if (outcome->results.empty()) return kNothingCameOut;
+  if (!options.report.empty() && !outcome->interrupted) {
+    const Status written =
+        draw_report(options.report, {json, *config, *classes, !is_simulated(options)});
+    if (!written) return refuse(written.error());
+  }
   return outcome->interrupted || !outcome->faults.empty() ? kInputRefused : kOk;
 }
 

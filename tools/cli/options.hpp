@@ -150,8 +150,8 @@ struct BenchOptions {
 };
 
 struct EvalOptions {
-  std::string dataset = "semantickitti";  ///< The only one so far.
-  std::filesystem::path root;
+  std::string dataset = "semantickitti";         ///< semantickitti|koblenz|simulated
+  std::filesystem::path root;                    ///< Of simulated: scenes, separated by commas.
   std::vector<std::string> sequences;            ///< --sequences; empty: all with labels
   std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
   std::vector<std::string> methods{"terracut"};  ///< --method
@@ -159,9 +159,14 @@ struct EvalOptions {
   std::string through = "image";                 ///< --through image|packets
   int jobs = 0;                                  ///< --jobs; 0: one a core
   MountOptions mount;
-  std::filesystem::path classes;      ///< --classes; empty: the dataset's own table
-  std::filesystem::path predictions;  ///< --predictions
-  std::filesystem::path json;         ///< --json
+  std::optional<std::string> sensor;   ///< --sensor hdl64e|ruby128; these four: of simulated
+  std::optional<std::string> returns;  ///< --returns single|dual
+  std::optional<double> duration_s;    ///< --duration, (0, 3600]
+  std::optional<std::uint64_t> seed;   ///< --seed
+  std::filesystem::path classes;       ///< --classes; empty: the dataset's own table
+  std::filesystem::path predictions;   ///< --predictions
+  std::filesystem::path json;          ///< --json
+  std::filesystem::path report;        ///< --report
 };
 
 struct CompareOptions {

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <thread>
 
 #include "calib/hdl64e_file.hpp"
@@ -19,6 +17,7 @@
 #include "firmware_io/drive/drive_writer.hpp"
 #include "firmware_io/simulator/drive.hpp"
 #include "setup_choice.hpp"
+#include "temporary_folder.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -111,27 +110,6 @@ ExitCode simulate_to(const SimulateOptions& options, const std::filesystem::path
   return options.sensor == "ruby128" ? simulate<Ruby128Transmitter>(options, output)
                                      : simulate<Hdl64eTransmitter>(options, output);
 }
-
-/// A folder that is gone, with what is in it, when this is.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::error_code error;
-    std::string name = (std::filesystem::temp_directory_path(error) / "terracut-XXXXXX").string();
-    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  ~TemporaryFolder() {
-    std::error_code gone_or_not;
-    if (!path_.empty()) std::filesystem::remove_all(path_, gone_or_not);
-  }
-  /// Empty where none could be made.
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "calib/mount.hpp"
+#include "datasets/dataset.hpp"
 #include "frame_result.hpp"
 #include "journal.hpp"
 #include "method_choice.hpp"
@@ -26,7 +27,8 @@ struct FrameRange {
 };
 
 struct EvaluationConfig {
-  std::filesystem::path root;          ///< Of the dataset: `sequences/NN/{velodyne,labels}`.
+  DatasetLayout layout = DatasetLayout::kSemanticKitti;
+  std::filesystem::path root;          ///< Of the dataset.
   std::vector<std::string> sequences;  ///< Empty: all that have labels.
   FrameRange frames;
   std::vector<MethodChoice> methods;
@@ -48,7 +50,7 @@ struct EvaluationOutcome {
   bool interrupted = false;
 };
 
-/// Labels every frame of a SemanticKITTI dataset with every method and counts what came of it.
+/// Labels every frame of a dataset with every method and counts what came of it.
 /// A file that cannot be read is a fault, and the rest goes on. Frames that `journal` has are not
 /// done again; those that were faulty are not in it. Predictions are at
 /// `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.

@@ -15,7 +15,7 @@ namespace terracut::evaluation {
 
 /// What an evaluation was of, for its report.
 struct EvaluationFacts {
-  std::string dataset;  ///< "semantickitti"
+  std::string dataset;  ///< "semantickitti", "koblenz", "simulated"
   std::string root;
   std::vector<MethodChoice> methods;
   bool through_packets = false;
@@ -38,6 +38,9 @@ struct EvaluationFacts {
 ///   oracles{everything_ground, perfect_ground}   mean_over_sequences of each
 ///   faults[]    {where, what}
 ///   warnings[]  classes the table does not know, by the file they were first met in
+///
+/// `terracut eval` adds to it: simulated{sensor, returns, duration_s, seed}, a warning of Koblenz
+/// data.
 [[nodiscard]] nlohmann::ordered_json evaluation_json(const EvaluationFacts& facts,
                                                      const ClassTable& classes,
                                                      const EvaluationOutcome& outcome);

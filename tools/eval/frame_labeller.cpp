@@ -4,8 +4,6 @@
 
 #include <cmath>
 
-#include "tools/cli/stage_clock.hpp"
-
 namespace terracut::evaluation {
 
 using firmware_io::ScanPoint;
@@ -19,10 +17,7 @@ FrameLabeller::FrameLabeller(std::span<const MethodChoice> methods,
   } else {
     way_ = std::make_unique<DirectWay>(calibration, profile.mount, memory_);
   }
-  for (const MethodChoice& method : methods) {
-    segmenters_.push_back(std::make_unique<pipeline::GroundMethod>(method.config, profile, shape(),
-                                                                   return_capacity(), memory_));
-  }
+  bench_ = std::make_unique<MethodBench>(methods, profile, shape(), return_capacity(), memory_);
 }
 
 const pipeline::ImageShape& FrameLabeller::shape() const {
@@ -46,20 +41,14 @@ Status FrameLabeller::place(const firmware_io::KittiScan& scan,
 
 FrameResult FrameLabeller::label(std::size_t index) {
   FrameResult result;
-  cli::StageClock clock;
-  clock.begin();
-  pipeline::GroundMethod& segmenter = *segmenters_[index];
-  const std::int64_t begun_ns = rt::thread_cpu_ns();
-  (void)segmenter.segment(*placed_.image, &clock);
-  result.times.segment_ns = rt::thread_cpu_ns() - begun_ns;
-  result.times.stage_ns = clock.times().stage_ns;
+  result.times = bench_->segment(index, *placed_.image);
   result.times.decode_ns = placed_.decode_ns;
 
   labels_.resize(scan_->points.size());
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     labels_[i] = is_place(scan_->points[i]) ? Label::kObstacle : Label::kNone;
   }
-  const auto of_returns = segmenter.labels();
+  const auto of_returns = bench_->labels(index);
   for (std::size_t i = 0; i < placed_.point_of_return.size(); ++i) {
     labels_[placed_.point_of_return[i]] = of_returns[i];
   }

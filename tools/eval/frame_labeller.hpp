@@ -13,7 +13,7 @@
 #include "calib/ring_profile.hpp"
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "frame_result.hpp"
-#include "method_choice.hpp"
+#include "method_bench.hpp"
 #include "scan_way.hpp"
 
 namespace terracut::evaluation {
@@ -45,7 +45,7 @@ class FrameLabeller {
 
   rt::FixedMemory memory_;
   std::variant<std::unique_ptr<DirectWay>, std::unique_ptr<PacketWay>> way_;
-  std::vector<std::unique_ptr<pipeline::GroundMethod>> segmenters_;
+  std::unique_ptr<MethodBench> bench_;  ///< Never null.
 
   const firmware_io::KittiScan* scan_ = nullptr;
   const firmware_io::RingRecovery* rings_ = nullptr;

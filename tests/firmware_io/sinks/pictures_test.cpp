@@ -35,6 +35,11 @@ TEST_F(Pictures, SurviveThePngFile) {
   ASSERT_NE(png_image_finish_read(&header, nullptr, pixels.data(), 0, nullptr), 0);
   EXPECT_EQ(pixels.front(), (Colour{1, 2, 3}));
   EXPECT_EQ(pixels.back(), (Colour{200, 100, 50}));
+
+  const auto bytes = picture.png();
+  ASSERT_TRUE(bytes.has_value());
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()),
+            content_of(folder_ / "a.png"));
 }
 
 TEST_F(Pictures, DrawingOutsideThePictureLeavesNoTrace) {
@@ -92,6 +97,21 @@ TEST_F(Pictures, BirdsEyeViewShowsTheHighestOfReturnsThatFallTogether) {
   high_last.add(1, 0, 7, 7, 1.5F, Label::kObstacle);
   EXPECT_EQ(colour_at(bird_eye_picture(high_first.frame(), view), view, 7, 7),
             colour_at(bird_eye_picture(high_last.frame(), view), view, 7, 7));
+}
+
+TEST_F(Pictures, BirdsEyeViewShowsHigherLevelsOverHigherReturns) {
+  SmallFrame small;
+  small.add(1, 0, 7, 7, 1.5F, Label::kObstacle);
+  small.add(0, 0, 7, 7, 0.0F, Label::kGround);
+  const BirdEyeView view{.side_m = 40, .pixels_per_m = 10};
+  const std::vector<Colour> colours{{250, 0, 0}, {0, 250, 0}};
+  const auto shown = [&](const std::vector<std::uint8_t>& level) {
+    return colour_at(bird_eye_picture(ColouredFrame{small.image, colours, level}, view), view, 7,
+                     7);
+  };
+  EXPECT_GT(shown({}).red, shown({}).green);
+  EXPECT_GT(shown({0, 1}).green, shown({0, 1}).red);
+  EXPECT_GT(shown({3, 2}).red, shown({3, 2}).green);
 }
 
 TEST_F(Pictures, MistakesHaveTheirOwnColours) {

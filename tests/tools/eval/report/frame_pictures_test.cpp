@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "tools/eval/report/frame_pictures.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/tools/eval/made_up_dataset.hpp"
+
+namespace terracut::evaluation::report {
+namespace {
+
+using firmware_io::Colour;
+using firmware_io::Picture;
+using pipeline::Label;
+using testing::HasSubstr;
+
+std::size_t pixels_of(const Picture& picture, Colour colour) {
+  std::size_t count = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 0; x < picture.width(); ++x) count += picture.at(x, y) == colour ? 1 : 0;
+  }
+  return count;
+}
+
+class FramePicturesTest : public testing::Test {
+ protected:
+  /// With a method that calls everything ground.
+  [[nodiscard]] static EvaluationConfig config_of(const MadeUpDataset& dataset) {
+    EvaluationConfig config;
+    config.root = dataset.root();
+    config.methods = {*method_named("terracut"), *method_named("ring_map")};
+    MethodChoice& blind = config.methods.back();
+    blind.name = "blind";
+    blind.config.segmenter.elevation_map.obstacle_height_m = 1000;
+    return config;
+  }
+
+  MadeUpDataset dataset_;
+  EvaluationConfig config_ = config_of(dataset_);
+  ClassTable classes_ = *ClassTable::parse(kSemanticKittiClasses, "built-in");
+  std::unique_ptr<Dataset> files_ = dataset_at(config_.layout, config_.root);
+  FrameReader reader_{*files_, config_.mount, classes_};
+  FramePictures pictures_{config_, reader_};
+  firmware_io::BirdEyeView view_{.side_m = 40, .pixels_per_m = 8};
+};
+
+TEST(Verdict, SaysWhatBecameOfAReturn) {
+  EXPECT_EQ(verdict_of(Role::kGround, Label::kGround), Verdict::kGround);
+  EXPECT_EQ(verdict_of(Role::kGround, Label::kObstacle), Verdict::kFalseObstacle);
+  EXPECT_EQ(verdict_of(Role::kKeyObstacle, Label::kGround), Verdict::kMissedKey);
+  EXPECT_EQ(verdict_of(Role::kOrdinaryObstacle, Label::kGround), Verdict::kMissedOrdinary);
+  EXPECT_EQ(verdict_of(Role::kKeyObstacle, Label::kObstacle), Verdict::kObstacle);
+  EXPECT_EQ(verdict_of(Role::kIgnored, Label::kGround), Verdict::kIgnored);
+}
+
+TEST_F(FramePicturesTest, ShowTheTruthInItsColours) {
+  ASSERT_TRUE(pictures_.open("00", "000001"));
+  const Picture truth = pictures_.truth(view_);
+  for (const Role role : {Role::kGround, Role::kOrdinaryObstacle, Role::kKeyObstacle}) {
+    EXPECT_GT(pixels_of(truth, colour_of(role)), 50U) << static_cast<int>(role);
+  }
+}
+
+TEST_F(FramePicturesTest, ShowWhatWasMissedInRed) {
+  ASSERT_TRUE(pictures_.open("00", "000001"));
+  const Colour red = colour_of(Verdict::kMissedKey), orange = colour_of(Verdict::kMissedOrdinary);
+  const Picture good = pictures_.result("terracut", view_), bad = pictures_.result("blind", view_);
+  EXPECT_GT(pixels_of(bad, red), 30U);
+  EXPECT_GT(pixels_of(bad, orange), 100U);
+  EXPECT_EQ(pixels_of(bad, colour_of(Verdict::kObstacle)), 0U);
+  EXPECT_LT(pixels_of(good, red), pixels_of(bad, red) / 10);
+  EXPECT_GT(pixels_of(good, colour_of(Verdict::kObstacle)), 100U);
+  EXPECT_GT(pixels_of(pictures_.panorama("blind"), firmware_io::kMissedObstacleColour), 1000U);
+}
+
+TEST_F(FramePicturesTest, MarkMissedKeyObstaclesAndHaveThemInView) {
+  ASSERT_TRUE(pictures_.open("00", "000001"));
+  const auto view = pictures_.view_of_misses("blind", 480);
+  EXPECT_EQ(view.side_m, 60);  // cars are within 5 m
+  const Picture marked = pictures_.marked_result("blind", view);
+  EXPECT_EQ(marked.width(), 480);
+  const auto reddish = [](const Picture& picture) {
+    std::size_t count = 0;
+    for (int y = 0; y < picture.height(); ++y) {
+      for (int x = 0; x < picture.width(); ++x) {
+        const Colour colour = picture.at(x, y);
+        count += colour.red > 180 && colour.green < 80 ? 1 : 0;
+      }
+    }
+    return count;
+  };
+  EXPECT_GT(reddish(marked), reddish(pictures_.result("blind", view)) + 100);
+}
+
+TEST_F(FramePicturesTest, GoFromSequenceToSequence) {
+  ASSERT_TRUE(pictures_.open("00", "000000"));
+  const auto first = pictures_.truth(view_).png().value();
+  ASSERT_TRUE(pictures_.open("03", "000002"));
+  EXPECT_NE(pictures_.truth(view_).png().value(), first);
+  ASSERT_TRUE(pictures_.open("00", "000000"));
+  EXPECT_EQ(pictures_.truth(view_).png().value(), first);
+}
+
+TEST_F(FramePicturesTest, NameFramesThatCannotBeRead) {
+  dataset_.write(dataset_.points("00", 1), "torn");
+  const auto torn = pictures_.open("00", "000001");
+  ASSERT_FALSE(torn);
+  EXPECT_THAT(torn.error().message, HasSubstr("000001.bin"));
+  const auto missing = pictures_.open("00", "000017");
+  ASSERT_FALSE(missing);
+  EXPECT_THAT(missing.error().message, HasSubstr("00/000017"));
+  EXPECT_FALSE(pictures_.open("17", "000000"));
+  EXPECT_TRUE(pictures_.open("00", "000002"));
+}
+
+}  // namespace
+}  // namespace terracut::evaluation::report

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "result_keeper.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "firmware_io/sinks/label_sink.hpp"
+
+namespace terracut::evaluation {
+
+ResultKeeper::ResultKeeper(std::span<const MethodChoice> methods, std::filesystem::path predictions,
+                           Journal* journal)
+    : methods_(methods), predictions_(std::move(predictions)), journal_(journal) {
+  if (journal_ == nullptr) return;
+  for (auto& [key, result] : journal_->take_results()) {
+    const bool asked = std::ranges::any_of(
+        methods_, [&](const MethodChoice& method) { return method.name == key.method; });
+    if (asked) results_.emplace(key, result);
+  }
+}
+
+std::vector<std::size_t> ResultKeeper::methods_left(const std::string& sequence,
+                                                    const std::string& frame) const {
+  std::vector<std::size_t> left;
+  const std::scoped_lock lock(mutex_);
+  for (std::size_t i = 0; i < methods_.size(); ++i) {
+    if (!results_.contains({sequence, frame, methods_[i].name})) left.push_back(i);
+  }
+  return left;
+}
+
+bool ResultKeeper::keep(const FrameKey& key, std::span<const pipeline::Label> labels,
+                        FrameResult result) {
+  Status kept;
+  if (!predictions_.empty()) {
+    kept = firmware_io::write_label_file(predictions_ / key.method / "sequences" / key.sequence /
+                                             "predictions" / (key.frame + ".label"),
+                                         labels);
+  }
+  if (kept && journal_ != nullptr) kept = journal_->add(key, result);
+  const std::scoped_lock lock(mutex_);
+  if (kept) {
+    results_.insert_or_assign(key, std::move(result));
+  } else if (!failure_) {
+    failure_ = kept.error();
+  }
+  return kept.has_value();
+}
+
+std::optional<Error> ResultKeeper::failure() const {
+  const std::scoped_lock lock(mutex_);
+  return failure_;
+}
+
+FrameResults ResultKeeper::take_results() {
+  const std::scoped_lock lock(mutex_);
+  return std::move(results_);
+}
+
+}  // namespace terracut::evaluation

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "frame_result.hpp"
+#include "journal.hpp"
+#include "method_choice.hpp"
+#include "pipeline/label.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::evaluation {
+
+/// Puts the results of frames where they belong as they come: into memory, the journal, and, their
+/// labels, into `<predictions>/<method>/sequences/<sequence>/predictions/<frame>.label`. From any
+/// thread.
+class ResultKeeper {
+ public:
+  /// Begins with what `journal` has of these methods. `journal`: may be null; it and `methods` must
+  /// outlive this. `predictions`: empty: none are written.
+  ResultKeeper(std::span<const MethodChoice> methods, std::filesystem::path predictions,
+               Journal* journal);
+
+  /// The methods, by index, that have not labelled this frame yet.
+  [[nodiscard]] std::vector<std::size_t> methods_left(const std::string& sequence,
+                                                      const std::string& frame) const;
+
+  /// False, from then on, when something could not be written: failure().
+  bool keep(const FrameKey& key, std::span<const pipeline::Label> labels, FrameResult result);
+
+  [[nodiscard]] std::optional<Error> failure() const;
+  [[nodiscard]] FrameResults take_results();
+
+ private:
+  std::span<const MethodChoice> methods_;
+  std::filesystem::path predictions_;
+  Journal* journal_;
+
+  mutable std::mutex mutex_;  ///< Guards what follows.
+  FrameResults results_;
+  std::optional<Error> failure_;
+};
+
+}  // namespace terracut::evaluation

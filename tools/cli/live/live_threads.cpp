@@ -209,11 +209,13 @@ void LiveThreads::segment_turn(FrameExchange::Turn& turn) noexcept {
   const pipeline::SegmentationReport report =
       chain_.segmenter.segment(*turn.image, ladder_.budget(), &clock_);
   timing.rung = DeadlineLadder::rung_of(report);
-  ladder_.end(clock_.times());
   timing.labels_ns = rt::realtime_ns();
+  const std::int64_t labelled_cpu_ns = rt::thread_cpu_ns();
   pass_on_results(turn);
   timing.labels_ns = rt::realtime_ns();  // judged by when they were handed on
-  timing.segment_cpu_ns = rt::thread_cpu_ns() - begun_cpu_ns;
+  const std::int64_t handed_on_cpu_ns = rt::thread_cpu_ns();
+  timing.segment_cpu_ns = handed_on_cpu_ns - begun_cpu_ns;
+  ladder_.end(clock_.times(), report, handed_on_cpu_ns - labelled_cpu_ns);
   std::copy(clock_.times().stage_ns.begin(), clock_.times().stage_ns.end(),
             timing.stage_cpu_ns.begin());
   timing.cut_operations =

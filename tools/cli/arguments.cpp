@@ -154,6 +154,13 @@ void add_rivals(CLI::App& app, MethodOptions& method) {
       ->excludes(app.get_option("--stages"));
 }
 
+/// Where only ours can run: whoever looks for --method learns why.
+void refuse_rivals(CLI::App& app, const std::string& why) {
+  app.add_option_function<std::string>(
+         "--method", [why](const std::string&) { throw CLI::ValidationError("--method", why); })
+      ->group("");
+}
+
 void add_outputs(CLI::App& app, OutputOptions& output) {
   app.add_option("--labels", output.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
   app.add_option("--pcd", output.pcd, "Folder for NNNNNN.pcd: x y z intensity ring label");
@@ -188,6 +195,28 @@ void put_before(std::vector<std::string>& settings, const std::vector<std::strin
   settings.insert(settings.begin(), of_file.begin(), of_file.end());
 }
 
+/// The kinds of method that these options let run; a name that is none is refused elsewhere.
+std::vector<pipeline::MethodKind> kinds_of(const MethodOptions& method) {
+  return {method_config_of(method).kind};
+}
+std::vector<pipeline::MethodKind> kinds_of(const EvalOptions& options) {
+  std::vector<pipeline::MethodKind> kinds;
+  for (const std::string& name : options.methods) {
+    if (const auto method = pipeline::method_named(name)) kinds.push_back(method->kind);
+  }
+  return kinds;
+}
+
+/// Of the command line's settings alone: the file's are for all commands, whatever runs in them.
+template <class Options>
+void refuse_unheeded(const std::vector<std::string>& settings, const Options& options) {
+  const auto kinds = kinds_of(options);
+  if (kinds.empty()) return;
+  if (const Status heeded = check_heeded(settings, kinds); !heeded) {
+    throw CLI::ValidationError("--set", heeded.error().message);
+  }
+}
+
 /// What is read, and where to.
 struct Reading {
   CLI::App& app;
@@ -210,9 +239,14 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
     [[maybe_unused]] const std::vector<std::string>& of_file =
         reading.configuration.live.method.settings;
-    if constexpr (requires { options->method.settings; })
+    if constexpr (requires { options->method.settings; }) {
+      refuse_unheeded(options->method.settings, options->method);
       put_before(options->method.settings, of_file);
-    if constexpr (requires { options->settings; }) put_before(options->settings, of_file);
+    }
+    if constexpr (requires { options->settings; }) {
+      refuse_unheeded(options->settings, *options);
+      put_before(options->settings, of_file);
+    }
     reading.command = *options;
   });
 }
@@ -310,6 +344,7 @@ void add_calibrate(CLI::App& sub, CalibrateOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  refuse_rivals(sub, "a setup is measured with the method that `terracut live` runs with it: ours");
   sub.add_flag("--keep-mount", o.keep_mount,
                "Take the mount as given; only measure the rings' ground distances");
   sub.add_option("-o,--output", o.output, "Setup file to write, for --setup")->required();
@@ -323,6 +358,7 @@ void add_info(CLI::App& sub, InfoOptions& o) {
 void add_plan(CLI::App& sub, PlanOptions& o) {
   add_sensor(sub, o.sensor);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   sub.add_option("--json", o.json, "The same as a file for programs");
 }
 
@@ -330,6 +366,7 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   sub.add_option("--repeat", o.repeat, "Passes over the capture")
       ->check(range_of("bench.repeat"))
       ->capture_default_str();
@@ -392,6 +429,9 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->check(range_of("input.duration_s"));
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  refuse_rivals(sub,
+                "a rival cannot stop at a deadline with the best labels so far, so only ours runs "
+                "live; `terracut replay FILE --method` shows what it does");
   sub.add_option("--deadline-ms", o.deadline_ms, "From a turn's last packet to its labels")
       ->check(range_of("deadline.limit_ms"))
       ->capture_default_str();
@@ -459,6 +499,10 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
   sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
       ->delimiter(',')
       ->capture_default_str();
+  sub.add_option("--profile", o.methods, "The same, of our own profiles alone: terracut,paper")
+      ->delimiter(',')
+      ->check(one_of("method.profile"))
+      ->excludes("--method");
   add_settings(sub, o.settings);
   sub.add_option("--through", o.through,
                  "image: scans straight into the range image; packets: encoded and decoded first")

@@ -186,6 +186,7 @@ TEST_F(CliEval, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
   expect_refusal("--set region.nonsense=1", kUsage, "region.nonsense");
   expect_refusal("--classes none.yaml", kInputRefused, "none.yaml");
   expect_refusal("--sequences 17", kNothingCameOut, "17");
+  expect_refusal("--frames 50-60", kNothingCameOut, "no frame was evaluated");
   expect_done(dataset(made_up.root()));
   expect_refusal("--method paper", kUsage, "was begun with other settings");
   EXPECT_EQ(run("eval semantickitti nowhere").exit_code, kInputRefused);
@@ -233,6 +234,8 @@ TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotHeed) {
     EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;
   };
   expect_refusal("simulated flat --sequences 00", "--sequences");
+  expect_refusal("simulated flat --through image", "--through image");
+  expect_refusal("simulated flat --jobs 2", "--jobs");
   expect_refusal("simulated flat,moon", "no scene 'moon'");
   expect_refusal("simulated flat --duration 0", "--duration");
   expect_refusal("simulated flat --sensor vlp16", "vlp16");

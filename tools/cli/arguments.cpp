@@ -507,7 +507,7 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
   sub.add_option("--through", o.through,
                  "image: scans straight into the range image; packets: encoded and decoded first")
       ->check(CLI::IsMember({"image", "packets"}))
-      ->capture_default_str();
+      ->default_str("image");
   sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

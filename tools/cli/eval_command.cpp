@@ -77,6 +77,8 @@ Status check_fit(const EvalOptions& options) {
   };
   if (is_simulated(options)) {
     if (!options.sequences.empty()) return refuse("--sequences: it takes scenes, like street,hill");
+    if (options.through == "image") return refuse("--through image: a drive is made of packets");
+    if (options.jobs > 0) return refuse("--jobs: drives are evaluated on one core, one by one");
     return {};
   }
   if (options.sensor) return refuse("--sensor, only `eval simulated` does");
@@ -274,7 +276,10 @@ ExitCode run(const EvalOptions& options) {
     const Status written = rt::write_whole_file(options.json, json_text(json));
     if (!written) return refuse(written.error());
   }
-  if (outcome->results.empty()) return kNothingCameOut;
+  if (outcome->results.empty()) {
+    return refuse(kNothingCameOut,
+                  "no frame was evaluated; see the warnings, --sequences, --frames");
+  }
   if (!options.report.empty() && !outcome->interrupted) {
     const Status written =
         draw_report(options.report, {json, *config, *classes, !is_simulated(options)});

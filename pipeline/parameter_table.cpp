@@ -257,6 +257,13 @@ std::span<const Parameter> rival_parameters() noexcept {
   return std::span(kParameters).subspan(kRivalsBegin);
 }
 
+MethodKind kind_that_heeds(std::string_view key) noexcept {
+  if (key.starts_with("pfaff.")) return MethodKind::kPfaff;
+  if (key.starts_with("bogoslavskyi.")) return MethodKind::kBogoslavskyi;
+  if (key.starts_with("zhang.")) return MethodKind::kZhang;
+  return MethodKind::kSegmenter;
+}
+
 Status set_parameter(MethodConfig& config, std::string_view key, std::string_view value) {
   const auto parameter = std::find_if(kParameters.begin(), kParameters.end(),
                                       [&](const Parameter& p) { return p.key == key; });

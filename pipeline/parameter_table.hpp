@@ -34,6 +34,10 @@ struct Parameter {
 [[nodiscard]] Status set_parameter(MethodConfig& config, std::string_view key,
                                    std::string_view value);
 
+/// The kind of method that looks at a parameter of parameters() or rival_parameters(); for the
+/// others it changes nothing.
+[[nodiscard]] MethodKind kind_that_heeds(std::string_view key) noexcept;
+
 /// A parameter's value as set_parameter() takes it.
 [[nodiscard]] std::string value_text(const Parameter& parameter, const MethodConfig& config);
 

@@ -40,7 +40,9 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const fs::path& path = entry->path();
     std::error_code ignored;
-    if (path.extension() != ".bin" || !entry->is_regular_file(ignored)) continue;
+    if (path.extension() != ".bin") continue;
+    // A link that leads nowhere is a scan all the same: reading it says what is wrong.
+    if (!entry->is_regular_file(ignored) && !entry->is_symlink(ignored)) continue;
     const std::string name = path.stem().string();
     found.scans.push_back(
         {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)});

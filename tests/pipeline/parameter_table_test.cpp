@@ -32,6 +32,18 @@ TEST(ParameterTable, KeepsTheRivalsApart) {
   }
 }
 
+TEST(ParameterTable, TellsWhichMethodLooksAtAParameter) {
+  for (const Parameter& p : parameters()) {
+    EXPECT_EQ(kind_that_heeds(p.key), MethodKind::kSegmenter) << p.key;
+  }
+  for (const Parameter& p : rival_parameters()) {
+    // The methods are called as the keys begin.
+    const auto method = method_named(p.key.substr(0, p.key.find('.')));
+    ASSERT_TRUE(method) << p.key;
+    EXPECT_EQ(kind_that_heeds(p.key), method->kind) << p.key;
+  }
+}
+
 TEST(ParameterTable, BothProfilesLieWithinTheRanges) {
   for (const MethodConfig& config :
        {MethodConfig(terracut_profile()), MethodConfig(paper_profile())}) {

@@ -42,6 +42,15 @@ TEST_F(CliRefusal, OfAWrongCommandLineSaysWhatIsExpected) {
   expect_refusal("segment x --set pfaff.cell_m=0", kUsage, HasSubstr("from 0.05 to 10"));
   expect_refusal("replay x.pcap --set region.lambda", kUsage, HasSubstr("KEY=VALUE"));
   expect_refusal("replay x.pcap --set region.lambda=-1", kUsage, HasSubstr("from 0.0001 to 1000"));
+  expect_refusal("segment x --set pfaff.cell_m=1", kUsage,
+                 AllOf(HasSubstr("pfaff.cell_m=1"), HasSubstr("would change nothing")));
+  expect_refusal("segment x --method pfaff --set region.lambda=2", kUsage,
+                 AllOf(HasSubstr("region.lambda=2"), HasSubstr("would change nothing")));
+  expect_refusal("plan --set zhang.sectors=90", kUsage, HasSubstr("the method zhang"));
+  expect_refusal("eval simulated flat --method terracut,pfaff --set zhang.sectors=90", kUsage,
+                 HasSubstr("the method zhang"));
+  expect_refusal("live --method pfaff", kUsage, HasSubstr("cannot stop at a deadline"));
+  expect_refusal("calibrate x.pcap -o x.yaml --method pfaff", kUsage, HasSubstr("ours"));
   expect_refusal("replay x.pcap --from here", kUsage, HasSubstr("--from"));
   expect_refusal("simulate --sensor vlp16 -o x.pcap", kUsage, HasSubstr("hdl64e"));
   expect_refusal("simulate --returns triple -o x.pcap", kUsage, HasSubstr("--returns"));

@@ -198,6 +198,19 @@ TEST_F(Cli, BenchTimesDecodingAndEveryStage) {
   EXPECT_GT(bench["ms"]["total"]["p50"], 0.0);
   EXPECT_EQ(bench["returns_unlabelled"], 0);
   EXPECT_GE(bench["frames"], 6);
+  EXPECT_EQ(bench["profile"], "terracut");
+}
+
+TEST_F(Cli, BenchTimesARivalAndPlanCountsItsMemory) {
+  expect_done("bench " + quoted(kDrive) + " --repeat 1 --duration 0.3 --calibration " +
+              quoted(kDriveCalibration) + " --method bogoslavskyi --json bench.json");
+  const auto bench = json("bench.json");
+  EXPECT_EQ(bench["method"], "bogoslavskyi");
+  EXPECT_FALSE(bench.contains("profile"));
+  EXPECT_EQ(bench["returns_unlabelled"], 0);
+  expect_done("plan --json ours.json");
+  expect_done("plan --method zhang --json zhang.json");
+  EXPECT_NE(json("zhang.json")["total_bytes"], json("ours.json")["total_bytes"]);
 }
 
 TEST_F(Cli, PlanAddsUpItsParts) {

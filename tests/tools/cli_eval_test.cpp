@@ -14,6 +14,8 @@ namespace {
 using testing::HasSubstr;
 
 const fs::path kSourceDir = TERRACUT_SOURCE_DIR;
+const std::string kAllMethods =
+    "terracut,paper,ring_map_adjacent,ring_map,pfaff,bogoslavskyi,zhang";
 
 class CliEval : public Cli {
  protected:
@@ -41,7 +43,11 @@ TEST_F(CliEval, ReportsWhatAScorerInAnotherLanguageFinds) {
 TEST_F(CliEval, ReportsOfRecordedScansWhatAScorerInAnotherLanguageFinds) {
   const fs::path root = kSourceDir / "../shared/data/semantickitti";
   if (!fs::is_directory(root)) GTEST_SKIP() << "no recorded scans at ../shared";
-  expect_done(dataset(root) + "--frames 0 --method terracut,ring_map");
+  const std::string eval = dataset(root) + "--sequences 00,03 --frames 0 --method " + kAllMethods;
+  expect_done(eval);
+  expect_same_scores(root);
+  fs::remove(folder_ / "eval.json.journal");
+  expect_done(eval + " --through packets");
   expect_same_scores(root);
 }
 
@@ -66,6 +72,52 @@ TEST_F(CliEval, GoesOnAfterItWasKilled) {
   write("eval.json.journal", journal.substr(0, journal.size() / 2));
   expect_done(dataset(made_up.root()));
   EXPECT_EQ(json("eval.json").at("methods").at("terracut").at("pooled"), whole);
+}
+
+TEST_F(CliEval, GoesOnWithFewerFramesWithoutThoseItIsNotAskedFor) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()));
+  expect_done(dataset(made_up.root()) + "--sequences 03 --frames 0-1");
+  EXPECT_EQ(json("eval.json").at("methods").at("terracut").at("frames").size(), 2U);
+  expect_done(dataset(made_up.root()));
+  EXPECT_EQ(json("eval.json").at("methods").at("terracut").at("frames").size(), 6U);
+}
+
+TEST_F(CliEval, WritesPredictionsThatGotLostAnew) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()));
+  const fs::path lost = folder_ / "predictions/terracut/sequences/03/predictions/000001.label";
+  const auto labels = ids_of(lost);
+  ASSERT_TRUE(fs::remove(lost));
+  expect_done(dataset(made_up.root()));
+  EXPECT_EQ(ids_of(lost), labels);
+  expect_same_scores(made_up.root());
+}
+
+TEST_F(CliEval, DoesNotGoOnWithWhatAnotherBuildBegan) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()));
+  // Another build, as far as anybody can tell by its file.
+  fs::copy_file(TERRACUT_PROGRAM, folder_ / "other_build");
+  std::ofstream(folder_ / "other_build", std::ios::binary | std::ios::app) << '\n';
+  const std::string command = "cd " + quoted(folder_) + " && ./other_build " +
+                              dataset(made_up.root()) + " >/dev/null 2>said.txt";
+  const int status = std::system(command.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  EXPECT_EQ(WEXITSTATUS(status), kUsage);
+  const std::string said = content_of(folder_ / "said.txt");
+  EXPECT_THAT(said, HasSubstr("was begun with other settings"));
+  EXPECT_THAT(said, HasSubstr("build="));
+}
+
+TEST_F(CliEval, MeasuresTheProfileItIsToldOrTheConfigurationNames) {
+  const evaluation::MadeUpDataset made_up;
+  const std::string eval = "eval semantickitti " + quoted(made_up.root()) + " --frames 0 --json ";
+  expect_done(eval + "both.json --profile paper,terracut");
+  EXPECT_EQ(json("both.json").at("methods").size(), 2U);
+  write("paper.yaml", "method: {profile: paper}\n");
+  expect_done("--config paper.yaml " + eval + "file.json");
+  EXPECT_TRUE(json("file.json").at("methods").contains("paper"));
 }
 
 TEST_F(CliEval, StartsFromTheConfigurationAndTheCommandLineWins) {
@@ -134,6 +186,7 @@ TEST_F(CliEval, RefusesWhatItCannotDoAndSaysWhatIsExpected) {
   expect_refusal("--set region.nonsense=1", kUsage, "region.nonsense");
   expect_refusal("--classes none.yaml", kInputRefused, "none.yaml");
   expect_refusal("--sequences 17", kNothingCameOut, "17");
+  expect_refusal("--frames 50-60", kNothingCameOut, "no frame was evaluated");
   expect_done(dataset(made_up.root()));
   expect_refusal("--method paper", kUsage, "was begun with other settings");
   EXPECT_EQ(run("eval semantickitti nowhere").exit_code, kInputRefused);
@@ -181,6 +234,8 @@ TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotHeed) {
     EXPECT_THAT(outcome.err, HasSubstr(message)) << arguments;
   };
   expect_refusal("simulated flat --sequences 00", "--sequences");
+  expect_refusal("simulated flat --through image", "--through image");
+  expect_refusal("simulated flat --jobs 2", "--jobs");
   expect_refusal("simulated flat,moon", "no scene 'moon'");
   expect_refusal("simulated flat --duration 0", "--duration");
   expect_refusal("simulated flat --sensor vlp16", "vlp16");

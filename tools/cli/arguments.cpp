@@ -15,6 +15,7 @@
 #include "configuration_file.hpp"
 #include "console.hpp"
 #include "exit_codes.hpp"
+#include "setup_choice.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -53,6 +54,28 @@ void put_before(std::vector<std::string>& settings, const std::vector<std::strin
   settings.insert(settings.begin(), of_file.begin(), of_file.end());
 }
 
+/// The kinds of method that these options let run; a name that is none is refused elsewhere.
+std::vector<pipeline::MethodKind> kinds_of(const MethodOptions& method) {
+  return {method_config_of(method).kind};
+}
+std::vector<pipeline::MethodKind> kinds_of(const EvalOptions& options) {
+  std::vector<pipeline::MethodKind> kinds;
+  for (const std::string& name : options.methods) {
+    if (const auto method = pipeline::method_named(name)) kinds.push_back(method->kind);
+  }
+  return kinds;
+}
+
+/// Of the command line's settings alone: the file's are for all commands, whatever runs in them.
+template <class Options>
+void refuse_unheeded(const std::vector<std::string>& settings, const Options& options) {
+  const auto kinds = kinds_of(options);
+  if (kinds.empty()) return;
+  if (const Status heeded = check_heeded(settings, kinds); !heeded) {
+    throw CLI::ValidationError("--set", heeded.error().message);
+  }
+}
+
 /// What is read, and where to.
 struct Reading {
   CLI::App& app;
@@ -75,9 +98,14 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
     [[maybe_unused]] const std::vector<std::string>& of_file =
         reading.configuration.live.method.settings;
-    if constexpr (requires { options->method.settings; })
+    if constexpr (requires { options->method.settings; }) {
+      refuse_unheeded(options->method.settings, options->method);
       put_before(options->method.settings, of_file);
-    if constexpr (requires { options->settings; }) put_before(options->settings, of_file);
+    }
+    if constexpr (requires { options->settings; }) {
+      refuse_unheeded(options->settings, *options);
+      put_before(options->settings, of_file);
+    }
     reading.command = *options;
   });
 }

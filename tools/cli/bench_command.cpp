@@ -19,6 +19,7 @@ namespace terracut::cli {
 namespace {
 
 using firmware_io::FrameInfo;
+using Chain = PacketChainOf<pipeline::GroundMethod>;
 
 /// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when
 /// the system does not allow it.
@@ -68,14 +69,14 @@ struct BenchResult {
 };
 
 /// One pass over the packets: decoding and segmenting, timed frame by frame.
-void run_frames(PacketChain& chain, const PacketStore& packets, BenchResult* result) {
+void run_frames(Chain& chain, const PacketStore& packets, BenchResult* result) {
   StageClock clock;
   std::int64_t decode_ns = 0;
   std::int64_t resumed_ns = rt::thread_cpu_ns();
   const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
     decode_ns += rt::thread_cpu_ns() - resumed_ns;
     clock.begin();
-    const pipeline::SegmentationReport segmented = chain.segmenter.segment(image, {}, &clock);
+    const pipeline::SegmentationReport segmented = chain.segmenter.segment(image, &clock);
     if (result != nullptr && info.complete) {
       const FrameRecord record = record_of(info, segmented, decode_ns, clock.times());
       result->times.add(record);
@@ -91,7 +92,7 @@ void run_frames(PacketChain& chain, const PacketStore& packets, BenchResult* res
 }
 
 /// One pass of decoding alone: nanoseconds a column of 64 lasers.
-double run_decoding(PacketChain& chain, const PacketStore& packets) {
+double run_decoding(Chain& chain, const PacketStore& packets) {
   const auto nothing = [](const FrameInfo&, const pipeline::RangeImage&) noexcept {};
   const std::uint64_t columns_before = chain.decoder.columns_decoded();
   const std::int64_t start_ns = rt::thread_cpu_ns();
@@ -120,8 +121,12 @@ ExitCode print(const BenchOptions& options, const BenchResult& result, int core)
   json["input"] = options.capture.file.string();
   json["processor"] = processor_name();
   json["core"] = core;
-  json["profile"] = options.method.profile;
-  json["stages"] = options.method.stages;
+  if (options.method.method.empty()) {
+    json["profile"] = options.method.profile;
+    json["stages"] = options.method.stages;
+  } else {
+    json["method"] = options.method.method;
+  }
   json["frames"] = result.frames;
   json["returns_per_frame"] = returns_per_frame;
   json["returns_unlabelled"] = result.unlabelled;
@@ -144,8 +149,8 @@ ExitCode run(const BenchOptions& options) {
   if (!packets) return refuse(packets.error());
 
   rt::FixedMemory memory;
-  PacketChain chain(capture->calibration, *profile, capture->sensor.columns, options.capture,
-                    options.method, memory);
+  Chain chain(capture->calibration, *profile, capture->sensor.columns, options.capture,
+              options.method, memory);
   const int core = stay_on_core(options.core);
   if (core < 0) warn("could not stay on one core; times include moves between cores");
 

@@ -71,6 +71,7 @@ void start_from(const Configuration& configuration, BenchOptions& options) {
 
 void start_from(const Configuration& configuration, EvalOptions& options) {
   options.mount = configuration.live.mount;
+  options.methods = {configuration.live.method.profile};
 }
 
 void start_from(const Configuration& configuration, LiveOptions& options) {

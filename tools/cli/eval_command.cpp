@@ -15,6 +15,7 @@
 #include "json_text.hpp"
 #include "live/stop_signal.hpp"
 #include "pipeline/parameter_table.hpp"
+#include "program_identity.hpp"
 #include "rt/whole_file.hpp"
 #include "setup_choice.hpp"
 #include "tools/eval/class_table.hpp"
@@ -76,6 +77,8 @@ Status check_fit(const EvalOptions& options) {
   };
   if (is_simulated(options)) {
     if (!options.sequences.empty()) return refuse("--sequences: it takes scenes, like street,hill");
+    if (options.through == "image") return refuse("--through image: a drive is made of packets");
+    if (options.jobs > 0) return refuse("--jobs: drives are evaluated on one core, one by one");
     return {};
   }
   if (options.sensor) return refuse("--sensor, only `eval simulated` does");
@@ -85,23 +88,25 @@ Status check_fit(const EvalOptions& options) {
   return {};
 }
 
+/// One name for one folder, wherever it is named from; what has none keeps the one it was given.
+std::filesystem::path canonical_path(const std::filesystem::path& path) {
+  std::error_code error;
+  // Absolute first: of what does not exist, it leaves the relative name as it is.
+  const auto absolute = std::filesystem::absolute(path, error);
+  auto canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? path : std::move(canonical);
+}
+
 /// Of any dataset; of simulated drives `root` is their scenes.
 Expected<EvaluationConfig> config_of(const EvalOptions& options) {
   if (const Status fits = check_fit(options); !fits) return tl::unexpected(fits.error());
   EvaluationConfig config;
   if (options.dataset == "koblenz") config.layout = evaluation::DatasetLayout::kKoblenz;
-  config.root = options.root;
-  if (!is_simulated(options)) {
-    std::error_code error;
-    // Absolute first: of what does not exist, it leaves the relative name as it is.
-    const auto absolute = std::filesystem::absolute(options.root, error);
-    auto canonical = std::filesystem::weakly_canonical(absolute, error);
-    if (!error) config.root = std::move(canonical);
-  }
+  config.root = is_simulated(options) ? options.root : canonical_path(options.root);
   config.sequences = options.sequences;
   config.through_packets = options.through == "packets" || is_simulated(options);
   config.jobs = options.jobs;
-  config.predictions = options.predictions;
+  if (!options.predictions.empty()) config.predictions = canonical_path(options.predictions);
   const auto frames = frame_range_of(options.frames);
   if (!frames) return tl::unexpected(frames.error());
   config.frames = *frames;
@@ -146,10 +151,11 @@ Expected<evaluation::ClassTable> classes_of(const EvalOptions& options) {
 
 /// Everything the counts of a frame depend on: a journal of other settings is not gone on with.
 std::string settings_line(const EvalOptions& options, const EvaluationConfig& config) {
-  std::string line =
-      fmt::format("{} dataset={} root={} through_packets={} mount={},{},{}", TERRACUT_VERSION,
-                  options.dataset, config.root.string(), config.through_packets,
-                  config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
+  std::string line = fmt::format(
+      "{} build={} dataset={} root={} through_packets={} mount={},{},{}", TERRACUT_VERSION,
+      program_identity(), options.dataset, config.root.string(), config.through_packets,
+      config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
+  if (!config.predictions.empty()) line += " predictions=" + config.predictions.string();
   if (is_simulated(options)) {
     const auto drives = drives_of(options);
     line += fmt::format(" sensor={} dual_return={} duration_s={} seed={}", drives.sensor,
@@ -270,7 +276,10 @@ ExitCode run(const EvalOptions& options) {
     const Status written = rt::write_whole_file(options.json, json_text(json));
     if (!written) return refuse(written.error());
   }
-  if (outcome->results.empty()) return kNothingCameOut;
+  if (outcome->results.empty()) {
+    return refuse(kNothingCameOut,
+                  "no frame was evaluated; see the warnings, --sequences, --frames");
+  }
   if (!options.report.empty() && !outcome->interrupted) {
     const Status written =
         draw_report(options.report, {json, *config, *classes, !is_simulated(options)});

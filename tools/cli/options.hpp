@@ -156,7 +156,7 @@ struct EvalOptions {
   std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
   std::vector<std::string> methods{"terracut"};  ///< --method
   std::vector<std::string> settings;             ///< --set KEY=VALUE, for every method, checked
-  std::string through = "image";                 ///< --through image|packets
+  std::optional<std::string> through;            ///< --through image|packets; else the former
   int jobs = 0;                                  ///< --jobs; 0: one a core
   MountOptions mount;
   std::optional<std::string> sensor;   ///< --sensor hdl64e|ruby128; these four: of simulated

@@ -22,7 +22,8 @@ ExitCode run(const PlanOptions& options) {
                                   : calib::SensorCalibration(calib::nominal_hdl64e());
   const auto profile = ring_profile_of(calibration, {});
   if (!profile) return refuse(profile.error());
-  const PacketChain chain(calibration, *profile, 0, {}, options.method, memory);
+  const PacketChainOf<pipeline::GroundMethod> chain(calibration, *profile, 0, {}, options.method,
+                                                    memory);
 
   nlohmann::ordered_json json;
   fmt::print("{:<24}{:>14}\n", "part", "bytes");

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "calib/angle.hpp"
 #include "calib/sensor_setup_file.hpp"
 #include "pipeline/parameter_table.hpp"
@@ -53,6 +55,23 @@ Status apply_setting(pipeline::MethodConfig& config, std::string_view setting) {
                 fmt::format("expected KEY=VALUE, found '{}'", setting));
   }
   return pipeline::set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
+}
+
+Status check_heeded(std::span<const std::string> settings,
+                    std::span<const pipeline::MethodKind> kinds) {
+  for (const std::string& setting : settings) {
+    const std::string key = setting.substr(0, setting.find('='));
+    const pipeline::MethodKind kind = pipeline::kind_that_heeds(key);
+    if (std::ranges::find(kinds, kind) != kinds.end()) continue;
+    const std::string whose = kind == pipeline::MethodKind::kSegmenter
+                                  ? "our own method"
+                                  : "the method " + key.substr(0, key.find('.'));
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("'{}' would change nothing: it is a parameter of {}, which does not "
+                            "run here",
+                            setting, whose));
+  }
+  return {};
 }
 
 pipeline::MethodConfig method_config_of(const MethodOptions& options) {

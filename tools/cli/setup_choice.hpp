@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <span>
+#include <string>
 #include <string_view>
 
 #include "calib/ring_profile.hpp"
@@ -23,6 +25,11 @@ namespace terracut::cli {
 
 /// Applies one KEY=VALUE of --set.
 [[nodiscard]] Status apply_setting(pipeline::MethodConfig& config, std::string_view setting);
+
+/// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
+/// silently without effect. kInvalidArgument, naming it and whose it is.
+[[nodiscard]] Status check_heeded(std::span<const std::string> settings,
+                                  std::span<const pipeline::MethodKind> kinds);
 
 /// The method for --method, or --profile and --stages, and --set; names and settings must have been
 /// checked.

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -65,11 +66,18 @@ class Run {
   }
 
  private:
+  [[nodiscard]] bool wants_whole_sequences() const {
+    return config_.frames.first == 0 && config_.frames.last == SIZE_MAX;
+  }
+
   void open_sequence(const std::string& name) {
     auto scans = dataset_->open(name);
     if (!scans) {
       faults_[{name, ""}] = {dataset_->folder(name).string(), scans.error().message};
       return;
+    }
+    if (const Status whole = (*scans)->check_whole(); !whole && wants_whole_sequences()) {
+      faults_[{name, ""}] = {dataset_->folder(name).string(), whole.error().message};
     }
     const auto profile = calib::ring_profile((*scans)->calibration(), config_.mount);
     sequences_.push_back(
@@ -82,6 +90,7 @@ class Run {
       for (std::size_t i = frames.first; i < sequence->scans->size() && i <= frames.last;
            i += frames.step) {
         work_.push_back({sequence.get(), i});
+        keeper_.expect(sequence->name, sequence->scans->frame(i));
       }
     }
   }

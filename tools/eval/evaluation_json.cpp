@@ -142,7 +142,8 @@ class MethodJson {
       json["pooled"][std::string(named.name)] =
           measures_json(quality_of(total_, classes_, named.scope));
     }
-    json["by_range"] = by_range();
+    json["by_range"] = by_range(GroundDefinition::kAll);
+    json["by_range_road"] = by_range(GroundDefinition::kRoad);
     json["by_class"] = by_class();
     json["ms"] = times();
     json["lost"] = lost();
@@ -151,6 +152,21 @@ class MethodJson {
     return json;
   }
 
+  /// What `judge` would have made of the same points: means(), and the same by sequence.
+  template <class Judge>
+  [[nodiscard]] Json oracle(Judge&& judge) const {
+    Json json = means(judge);
+    Json& sequences = json["sequences"] = Json::object();
+    for (const NamedScope& named : kScopes) {
+      for (const auto& [name, counts] : counts_) {
+        sequences[name][std::string(named.name)] =
+            measures_json(judge(counts, classes_, named.scope));
+      }
+    }
+    return json;
+  }
+
+ private:
   /// Every measure in every scope as the mean over sequences of what `judge` says of each.
   template <class Judge>
   [[nodiscard]] Json means(Judge&& judge) const {
@@ -169,12 +185,11 @@ class MethodJson {
     return json;
   }
 
- private:
-  [[nodiscard]] Json by_range() const {
+  [[nodiscard]] Json by_range(GroundDefinition ground) const {
     Json json = Json::object();
     for (std::size_t band = 0; band < kRangeBands; ++band) {
       json[std::string(kRangeBandNames[band])] =
-          measures_json(quality_of(total_, classes_, {.band = band}));
+          measures_json(quality_of(total_, classes_, {.ground = ground, .band = band}));
     }
     return json;
   }
@@ -185,10 +200,13 @@ class MethodJson {
     Json list = Json::array();
     for (const auto& [id, labels] : classes) {
       const ClassEntry* const entry = classes_.find(id);
-      list.push_back({{"id", id},
-                      {"name", entry == nullptr ? "" : entry->name},
-                      {"points", labels.ground + labels.obstacle},
-                      {"as_ground", labels.ground}});
+      list.push_back(
+          {{"id", id},
+           {"name", entry == nullptr ? "" : entry->name},
+           {"points", labels.ground + labels.obstacle},
+           {"as_ground", labels.ground},
+           {"share_as_ground", static_cast<double>(labels.ground) /
+                                   static_cast<double>(labels.ground + labels.obstacle)}});
     }
     return list;
   }
@@ -241,12 +259,15 @@ class MethodJson {
     for (const auto& [name, frames] : frames_) {
       Json& sequence = json[name];
       std::uint64_t points = 0;
-      std::vector<Json> iou, recall;
+      std::vector<Json> iou, recall, road_iou;
       for (const auto* frame : frames) {
         points += frame->second.points;
         const Quality quality = quality_of(frame->second.counts, classes_, {});
         iou.push_back(share(has_ground(quality), quality.iou_ground()));
         recall.push_back(share(has_key_obstacles(quality), quality.recall_key_obstacles()));
+        const Quality road =
+            quality_of(frame->second.counts, classes_, {.ground = GroundDefinition::kRoad});
+        road_iou.push_back(share(has_ground(road), road.iou_ground()));
       }
       sequence["frames"] = frames.size();
       sequence["points"] = points;
@@ -256,6 +277,7 @@ class MethodJson {
       }
       sequence["frame_iou_g"] = spread(iou);
       sequence["frame_recall_o"] = spread(recall);
+      sequence["frame_iou_road"] = spread(road_iou);
       std::vector<std::int64_t> times_ns;
       for (const auto* frame : frames) times_ns.push_back(frame->second.times.segment_ns);
       sequence["ms"] = times_json(std::move(times_ns));
@@ -350,8 +372,8 @@ Json evaluation_json(const EvaluationFacts& facts, const ClassTable& classes,
     const MethodJson of_method(method, classes, outcome.results);
     json["methods"][method.name] = of_method.json();
     if (json.contains("oracles")) continue;  // the same whichever method's frames are taken
-    json["oracles"] = {{"everything_ground", of_method.means(everything_ground)},
-                       {"perfect_ground", of_method.means(perfect_ground)}};
+    json["oracles"] = {{"everything_ground", of_method.oracle(everything_ground)},
+                       {"perfect_ground", of_method.oracle(perfect_ground)}};
   }
   json["faults"] = Json::array();
   for (const Fault& fault : outcome.faults) {

@@ -29,13 +29,14 @@ struct EvaluationFacts {
 ///     about, parameters{key}
 ///     mean_over_sequences, pooled   {all, road, all_vegetation_ignored}, each {iou_g, recall_o,
 ///                                   precision, recall, f1}
-///     by_range{"<20m"}, by_class[]  under `all`
+///     by_range{"<20m"}              the measures under `all`; by_range_road{} under `road`
+///     by_class[]                    id, name, points, as_ground, share_as_ground
 ///     sequences{name}               frames, points, the measures, and over frames
-///                                   frame_iou_g, frame_recall_o {min, mean, max}
+///                                   frame_iou_g, frame_iou_road, frame_recall_o {min, mean, max}
 ///     frames[]                      sequence, frame, points, iou_g, recall_o, iou_road, ms{}
 ///     ms{stage}                     {mean, p50, p99, max}
 ///     lost                          points no_ring, not_placed, non_finite; frames realigned
-///   oracles{everything_ground, perfect_ground}   mean_over_sequences of each
+///   oracles{everything_ground, perfect_ground}   mean_over_sequences of each, and sequences{name}
 ///   faults[]    {where, what}
 ///   warnings[]  classes the table does not know, by the file they were first met in
 ///

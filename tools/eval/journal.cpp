@@ -4,15 +4,19 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 namespace terracut::evaluation {
 namespace {
@@ -43,6 +47,25 @@ std::string header_line(const std::string& settings) {
   return Json{{"kind", kKind}, {"version", kVersion}, {"settings", settings}}.dump();
 }
 
+std::vector<std::string> words_of(const std::string& text) {
+  std::istringstream stream(text);
+  return {std::istream_iterator<std::string>(stream), {}};
+}
+
+/// The words of `text` that `other` has not, as many as a person wants to read.
+std::string words_missing(const std::string& text, const std::string& other) {
+  constexpr std::size_t kShown = 8;
+  const std::vector<std::string> others = words_of(other);
+  std::string missing;
+  std::size_t count = 0;
+  for (const std::string& word : words_of(text)) {
+    if (std::ranges::find(others, word) != others.end()) continue;
+    if (++count <= kShown) missing += (missing.empty() ? "" : " ") + word;
+  }
+  if (count > kShown) missing += fmt::format(" and {} more", count - kShown);
+  return missing.empty() ? "nothing else" : missing;
+}
+
 Status check_header(const std::filesystem::path& path, const std::string& line,
                     const std::string& settings) {
   const Json header = Json::parse(line, nullptr, false);
@@ -55,10 +78,11 @@ Status check_header(const std::filesystem::path& path, const std::string& line,
   }
   const std::string found = header.value("settings", "");
   if (found == settings) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              fmt::format("{} was begun with other settings; go on with those, remove it, or "
-                          "choose another --json.\n  there: {}\n  now:   {}",
-                          path.string(), found, settings));
+  return fail(
+      ErrorCode::kInvalidArgument,
+      fmt::format("{} was begun with other settings; go on with those, remove it, or "
+                  "choose another --json.\n  there: {}\n  now:   {}",
+                  path.string(), words_missing(found, settings), words_missing(settings, found)));
 }
 
 Json counts_json(const FrameCounts& counts) {
@@ -117,10 +141,20 @@ Expected<std::pair<FrameKey, FrameResult>> parse_journal_line(const std::string&
 }
 
 Expected<Journal> Journal::open(const std::filesystem::path& path, const std::string& settings) {
+  std::error_code ignored;  // the open() below says it better
+  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
+  firmware_io::OwnedDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
+  if (file.get() < 0) return tl::unexpected(write_failed(path));
+  if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: another evaluation is writing it; wait for it, or choose another "
+                            "--json",
+                            path.string()));
+  }
   std::string text;
   {
-    std::ifstream file(path, std::ios::binary);
-    text.assign(std::istreambuf_iterator<char>(file), {});
+    std::ifstream written(path, std::ios::binary);
+    text.assign(std::istreambuf_iterator<char>(written), {});
   }
   const std::size_t whole = text.rfind('\n') + 1;  // npos + 1 is 0
   FrameResults results;
@@ -142,10 +176,6 @@ Expected<Journal> Journal::open(const std::filesystem::path& path, const std::st
     results.insert_or_assign(std::move(entry->first), std::move(entry->second));
   }
 
-  std::error_code ignored;  // the open() below says it better
-  if (path.has_parent_path()) std::filesystem::create_directories(path.parent_path(), ignored);
-  firmware_io::OwnedDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666));
-  if (file.get() < 0) return tl::unexpected(write_failed(path));
   const auto length = static_cast<::off_t>(whole);
   if (::ftruncate(file.get(), length) != 0 || ::lseek(file.get(), length, SEEK_SET) != length) {
     return tl::unexpected(write_failed(path));

@@ -21,8 +21,9 @@ namespace terracut::evaluation {
 class Journal {
  public:
   /// Reads what is there, cuts off a line that was not finished, and goes on behind it.
-  /// `settings`: everything results depend on, one line of text. kInvalidArgument: the file is of
-  /// other settings. kMalformed: a whole line that is no result. kWriteFailed.
+  /// `settings`: everything results depend on, words in one line of text. kInvalidArgument: the
+  /// file is of other settings (the message names the words that differ), or another process is
+  /// writing it. kMalformed: a whole line that is no result. kWriteFailed.
   [[nodiscard]] static Expected<Journal> open(const std::filesystem::path& path,
                                               const std::string& settings);
 

@@ -2,12 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <memory>
-#include <span>
 #include <string>
 #include <string_view>
 
-#include "calib/ring_profile.hpp"
 #include "pipeline/ground_method.hpp"
 #include "rt/error.hpp"
 

@@ -20,23 +20,35 @@ ResultKeeper::ResultKeeper(std::span<const MethodChoice> methods, std::filesyste
   }
 }
 
+void ResultKeeper::expect(const std::string& sequence, const std::string& frame) {
+  const std::scoped_lock lock(mutex_);
+  expected_.emplace(sequence, frame);
+}
+
 std::vector<std::size_t> ResultKeeper::methods_left(const std::string& sequence,
                                                     const std::string& frame) const {
   std::vector<std::size_t> left;
   const std::scoped_lock lock(mutex_);
   for (std::size_t i = 0; i < methods_.size(); ++i) {
-    if (!results_.contains({sequence, frame, methods_[i].name})) left.push_back(i);
+    const FrameKey key{sequence, frame, methods_[i].name};
+    std::error_code ignored;  // what cannot be looked at is written, which says why it cannot
+    const bool done = results_.contains(key) &&
+                      (predictions_.empty() || std::filesystem::exists(prediction(key), ignored));
+    if (!done) left.push_back(i);
   }
   return left;
+}
+
+std::filesystem::path ResultKeeper::prediction(const FrameKey& key) const {
+  return predictions_ / key.method / "sequences" / key.sequence / "predictions" /
+         (key.frame + ".label");
 }
 
 bool ResultKeeper::keep(const FrameKey& key, std::span<const pipeline::Label> labels,
                         FrameResult result) {
   Status kept;
   if (!predictions_.empty()) {
-    kept = firmware_io::write_label_file(predictions_ / key.method / "sequences" / key.sequence /
-                                             "predictions" / (key.frame + ".label"),
-                                         labels);
+    kept = firmware_io::write_label_file(prediction(key), labels);
   }
   if (kept && journal_ != nullptr) kept = journal_->add(key, result);
   const std::scoped_lock lock(mutex_);
@@ -55,6 +67,9 @@ std::optional<Error> ResultKeeper::failure() const {
 
 FrameResults ResultKeeper::take_results() {
   const std::scoped_lock lock(mutex_);
+  std::erase_if(results_, [&](const auto& entry) {
+    return !expected_.contains({entry.first.sequence, entry.first.frame});
+  });
   return std::move(results_);
 }
 

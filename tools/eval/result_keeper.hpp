@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "frame_result.hpp"
@@ -27,7 +29,12 @@ class ResultKeeper {
   ResultKeeper(std::span<const MethodChoice> methods, std::filesystem::path predictions,
                Journal* journal);
 
-  /// The methods, by index, that have not labelled this frame yet.
+  /// A frame that this run is about. The journal may have others, of a run over more of the
+  /// dataset: they are not among take_results().
+  void expect(const std::string& sequence, const std::string& frame);
+
+  /// The methods, by index, that have not labelled this frame yet, or whose prediction is wanted
+  /// and not there.
   [[nodiscard]] std::vector<std::size_t> methods_left(const std::string& sequence,
                                                       const std::string& frame) const;
 
@@ -38,12 +45,15 @@ class ResultKeeper {
   [[nodiscard]] FrameResults take_results();
 
  private:
+  [[nodiscard]] std::filesystem::path prediction(const FrameKey& key) const;
+
   std::span<const MethodChoice> methods_;
   std::filesystem::path predictions_;
   Journal* journal_;
 
   mutable std::mutex mutex_;  ///< Guards what follows.
   FrameResults results_;
+  std::set<std::pair<std::string, std::string>> expected_;  ///< By sequence and frame.
   std::optional<Error> failure_;
 };
 

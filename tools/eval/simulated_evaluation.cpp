@@ -177,7 +177,9 @@ class Run {
         stop_wanted_(stop_wanted),
         keeper_(config.methods, config.predictions, journal) {
     for (std::size_t i = 0; i < turns_of(config.drives); ++i) {
-      if (is_wanted(config.frames, i)) ++frames_per_drive_;
+      if (!is_wanted(config.frames, i)) continue;
+      ++frames_per_drive_;
+      for (const std::string& scene : config.drives.scenes) keeper_.expect(scene, name_of(i));
     }
   }
 

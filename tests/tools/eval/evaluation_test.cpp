@@ -17,6 +17,7 @@
 namespace terracut::evaluation {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
 
 class EvaluationTest : public testing::Test {
@@ -178,6 +179,26 @@ TEST_F(FaultyDataset, WithATruncatedScan) {
 TEST_F(FaultyDataset, WithAnEmptyScan) {
   dataset_.write(dataset_.points("03", 2), "");
   EXPECT_THAT(the_fault().what, HasSubstr("000002.bin"));
+}
+
+TEST_F(FaultyDataset, WithAScanThatIsALinkToNowhere) {
+  std::filesystem::remove(dataset_.points("03", 2));
+  std::filesystem::create_symlink(dataset_.root() / "nowhere", dataset_.points("03", 2));
+  EXPECT_THAT(the_fault().what, HasSubstr("000002.bin"));
+}
+
+TEST_F(FaultyDataset, WithAScanOfZeros) {
+  dataset_.write(dataset_.points("00", 1),
+                 std::string(bytes_of(dataset_.points("00", 1)).size(), 0));
+  EXPECT_THAT(the_fault().what, AllOf(HasSubstr("000001.bin"), HasSubstr("the laser")));
+}
+
+TEST_F(FaultyDataset, WithLabelsThatHaveNoScan) {
+  std::filesystem::remove(dataset_.points("03", 1));
+  EXPECT_THAT(the_fault().what, HasSubstr("000001.label: there is no scan for it"));
+  // Who asks for certain frames does not ask whether the rest is there.
+  config_.frames = {.first = 0, .last = 0};
+  EXPECT_TRUE(run().faults.empty());
 }
 
 TEST_F(FaultyDataset, WithASequenceThatHasNoScans) {

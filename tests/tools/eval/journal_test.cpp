@@ -14,6 +14,7 @@ namespace terracut::evaluation {
 namespace {
 
 using testing::HasSubstr;
+using testing::Not;
 
 class JournalTest : public testing::Test {
  protected:
@@ -78,10 +79,12 @@ TEST_F(JournalTest, LosesOnlyTheLineThatWasTornAndGoesOnBehindTheRest) {
   const std::size_t first_two_lines = whole.find('\n', whole.find('\n') + 1) + 1;
   for (std::size_t bytes = first_two_lines; bytes < whole.size(); bytes += 13) {
     std::ofstream(path_, std::ios::binary) << whole.substr(0, bytes);
-    auto journal = Journal::open(path_, "settings");
-    ASSERT_TRUE(journal) << journal.error().message;
-    EXPECT_EQ(journal->take_results().size(), 1U) << bytes;
-    ASSERT_TRUE(journal->add({"00", "000003", "paper"}, result(300)));
+    {
+      auto journal = Journal::open(path_, "settings");
+      ASSERT_TRUE(journal) << journal.error().message;
+      EXPECT_EQ(journal->take_results().size(), 1U) << bytes;
+      ASSERT_TRUE(journal->add({"00", "000003", "paper"}, result(300)));
+    }
     EXPECT_EQ(reopened().size(), 2U) << bytes;
   }
 }
@@ -107,6 +110,27 @@ TEST_F(JournalTest, OfOtherSettingsIsRefusedAndLeftAlone) {
   EXPECT_EQ(other.error().code, ErrorCode::kInvalidArgument);
   EXPECT_THAT(other.error().message, HasSubstr("other settings"));
   EXPECT_EQ(content(), before);
+}
+
+TEST_F(JournalTest, SaysWhichSettingsDiffer) {
+  ASSERT_TRUE(Journal::open(path_, "0.1.0 mount=1.73,0,0 zhang{sectors=180 band_m=1}"));
+  const auto other = Journal::open(path_, "0.1.0 mount=1.73,0,0 zhang{sectors=90 band_m=1}");
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().message, HasSubstr("there: zhang{sectors=180\n"));
+  EXPECT_THAT(other.error().message, HasSubstr("now:   zhang{sectors=90"));
+  EXPECT_THAT(other.error().message, Not(HasSubstr("mount")));
+}
+
+TEST_F(JournalTest, IsWrittenByOneEvaluationAtATime) {
+  {
+    const auto first = Journal::open(path_, "settings");
+    ASSERT_TRUE(first) << first.error().message;
+    const auto second = Journal::open(path_, "settings");
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_THAT(second.error().message, HasSubstr("another evaluation is writing it"));
+  }
+  EXPECT_TRUE(Journal::open(path_, "settings"));
 }
 
 TEST_F(JournalTest, IsNotWrittenOverAFileOfSomebodyElse) {

@@ -16,6 +16,7 @@ from pathlib import Path
 KEY = {10, 11, 13, 15, 16, 18, 20, 30, 31, 32} | set(range(252, 260))
 ALL_GROUND = {40, 44, 48, 49, 60, 72}
 VEGETATION = 70
+KNOWN = KEY | ALL_GROUND | {0, 1, 50, 51, 52, VEGETATION, 71, 80, 81, 99}
 SCOPES = {
     "all": (ALL_GROUND, {0, 1}),
     "road": ({40}, set()),
@@ -46,7 +47,7 @@ def count_frame(points, truth, predicted):
 def measures(counts, ground, ignored, only_band=None):
     tp = fp = fn = key_found = key_missed = 0
     for (class_id, band, called_ground), n in counts.items():
-        if class_id in ignored or (only_band is not None and band != only_band):
+        if class_id not in KNOWN or class_id in ignored or (only_band is not None and band != only_band):
             continue
         if class_id in ground:
             tp, fn = (tp + n, fn) if called_ground else (tp, fn + n)
@@ -76,6 +77,20 @@ def mean(values):
     return total / len(values) if values else None
 
 
+def spread(values):
+    values = [value for value in values if value is not None]
+    return {"min": min(values, default=None), "mean": mean(values), "max": max(values, default=None)}
+
+
+def judged_by(oracle, counts):
+    """What the oracle would have called the same points."""
+    judged = Counter()
+    for (class_id, band, _), n in counts.items():
+        # What no physical ground is known of is its obstacle.
+        judged[class_id, band, oracle == "everything_ground" or class_id in ALL_GROUND] += n
+    return judged
+
+
 def main():
     root, predictions, report_path = map(Path, sys.argv[1:4])
     report = json.loads(report_path.read_text())
@@ -89,6 +104,7 @@ def main():
 
     for method, reported in report["methods"].items():
         by_sequence = defaultdict(Counter)
+        of_frames = defaultdict(lambda: defaultdict(list))
         frames = 0
         for path in sorted((predictions / method / "sequences").glob("*/predictions/*.label")):
             name = path.parts[-3]
@@ -105,9 +121,15 @@ def main():
             compare(f"{method} {name}/{path.stem} recall_o", of_frame["recall_o"], theirs["recall_o"])
             road = measures(counts, *SCOPES["road"])["iou_g"]
             compare(f"{method} {name}/{path.stem} iou_road", road, theirs["iou_road"])
+            for key, value in (("iou_g", of_frame["iou_g"]), ("recall_o", of_frame["recall_o"]), ("iou_road", road)):
+                of_frames[name]["frame_" + key].append(value)
             by_sequence[name].update(counts)
             frames += 1
         compare(f"{method} frames", frames, len(reported["frames"]))
+
+        for name, spreads in of_frames.items():
+            for key, values in spreads.items():
+                compare(f"{method} {name} {key}", spread(values), reported["sequences"][name][key])
 
         pooled = sum(by_sequence.values(), Counter())
         for scope, (ground, ignored) in SCOPES.items():
@@ -119,7 +141,22 @@ def main():
             compare(f"{method} mean {scope}", means, reported["mean_over_sequences"][scope])
             compare(f"{method} pooled {scope}", measures(pooled, ground, ignored), reported["pooled"][scope])
         for band, name in enumerate(BANDS):
-            compare(f"{method} {name}", measures(pooled, *SCOPES["all"], only_band=band), reported["by_range"][name])
+            for scope, place in (("all", "by_range"), ("road", "by_range_road")):
+                compare(f"{method} {name} {scope}", measures(pooled, *SCOPES[scope], only_band=band), reported[place][name])
+        by_class = defaultdict(lambda: [0, 0])
+        for (class_id, _, called_ground), n in pooled.items():
+            by_class[class_id][0] += n
+            by_class[class_id][1] += n if called_ground else 0
+        compare(f"{method} by class", [(each, *by_class[each], by_class[each][1] / by_class[each][0]) for each in sorted(by_class)],
+                [(each["id"], each["points"], each["as_ground"], each["share_as_ground"]) for each in reported["by_class"]])
+        for oracle, scores in report["oracles"].items():
+            for scope, (ground, ignored) in SCOPES.items():
+                of_sequences = {name: measures(judged_by(oracle, counts), ground, ignored) for name, counts in by_sequence.items()}
+                for name, of_sequence in of_sequences.items():
+                    compare(f"{oracle} {name} {scope}", of_sequence, scores["sequences"][name][scope])
+                means = {key: mean([each[key] for each in of_sequences.values()])
+                         for key in ("iou_g", "recall_o", "precision", "recall", "f1")}
+                compare(f"{oracle} mean {scope}", means, scores[scope])
 
     print(*differences, sep="\n", end="\n" if differences else "")
     print(f"{compared} compared, {len(differences)} different")

@@ -48,6 +48,7 @@ void add_calibrate(CLI::App& sub, CalibrateOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  refuse_rivals(sub, "a setup is measured with the method that `terracut live` runs with it: ours");
   sub.add_flag("--keep-mount", o.keep_mount,
                "Take the mount as given; only measure the rings' ground distances");
   sub.add_option("-o,--output", o.output, "Setup file to write, for --setup")->required();
@@ -61,6 +62,7 @@ void add_info(CLI::App& sub, InfoOptions& o) {
 void add_plan(CLI::App& sub, PlanOptions& o) {
   add_sensor(sub, o.sensor);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   sub.add_option("--json", o.json, "The same as a file for programs");
 }
 
@@ -68,6 +70,7 @@ void add_bench(CLI::App& sub, BenchOptions& o) {
   add_capture(sub, o.capture);
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  add_rivals(sub, o.method);
   sub.add_option("--repeat", o.repeat, "Passes over the capture")
       ->check(range_of("bench.repeat"))
       ->capture_default_str();

@@ -25,11 +25,15 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
   sub.add_option("--method", o.methods, "Methods to compare, like terracut,paper,ring_map")
       ->delimiter(',')
       ->capture_default_str();
+  sub.add_option("--profile", o.methods, "The same, of our own profiles alone: terracut,paper")
+      ->delimiter(',')
+      ->check(one_of("method.profile"))
+      ->excludes("--method");
   add_settings(sub, o.settings);
   sub.add_option("--through", o.through,
                  "image: scans straight into the range image; packets: encoded and decoded first")
       ->check(CLI::IsMember({"image", "packets"}))
-      ->capture_default_str();
+      ->default_str("image");
   sub.add_option("--jobs", o.jobs, "Threads, each on a core of its own; 0: one a core")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();

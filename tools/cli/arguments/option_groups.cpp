@@ -102,6 +102,12 @@ void add_rivals(CLI::App& app, MethodOptions& method) {
       ->excludes(app.get_option("--stages"));
 }
 
+void refuse_rivals(CLI::App& app, const std::string& why) {
+  app.add_option_function<std::string>(
+         "--method", [why](const std::string&) { throw CLI::ValidationError("--method", why); })
+      ->group("");
+}
+
 void add_outputs(CLI::App& app, OutputOptions& output) {
   app.add_option("--labels", output.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
   app.add_option("--pcd", output.pcd, "Folder for NNNNNN.pcd: x y z intensity ring label");

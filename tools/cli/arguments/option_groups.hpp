@@ -27,6 +27,8 @@ void add_settings(CLI::App& app, std::vector<std::string>& settings);
 void add_method(CLI::App& app, MethodOptions& method);
 /// --method. After add_method(): --profile and --stages choose among ours only.
 void add_rivals(CLI::App& app, MethodOptions& method);
+/// Where only ours can run: whoever looks for --method learns why.
+void refuse_rivals(CLI::App& app, const std::string& why);
 void add_outputs(CLI::App& app, OutputOptions& output);
 /// --sensor, where there is none to be found out.
 void add_sensor(CLI::App& app, std::string& sensor);

@@ -34,6 +34,9 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->check(range_of("input.duration_s"));
   add_mount(sub, o.mount);
   add_method(sub, o.method);
+  refuse_rivals(sub,
+                "a rival cannot stop at a deadline with the best labels so far, so only ours runs "
+                "live; `terracut replay FILE --method` shows what it does");
   sub.add_option("--deadline-ms", o.deadline_ms, "From a turn's last packet to its labels")
       ->check(range_of("deadline.limit_ms"))
       ->capture_default_str();

@@ -37,6 +37,8 @@ class Sequence {
   [[nodiscard]] virtual std::filesystem::path file(std::size_t index) const = 0;
   /// From any thread. Errors name the file.
   [[nodiscard]] virtual Status read(std::size_t index, LabelledScan& scan) const = 0;
+  /// kMalformed, naming them, when there are labels of scans that are not there.
+  [[nodiscard]] virtual Status check_whole() const { return {}; }
   /// Of the unit, as far as its scans tell.
   [[nodiscard]] virtual const calib::Hdl64eCalibration& calibration() const = 0;
 };

@@ -12,7 +12,8 @@ namespace terracut::evaluation::report {
 /// table of the numbers.
 [[nodiscard]] std::string recall_section(const Json& evaluation);
 
-/// Fig. 18: the time of every frame, how times are distributed, and the worst, by method.
+/// Fig. 18 and 21: the time of every frame, how times are distributed, the worst, and every stage's
+/// median, by method.
 [[nodiscard]] std::string time_section(const Json& evaluation);
 
 }  // namespace terracut::evaluation::report

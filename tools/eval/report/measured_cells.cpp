@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstddef>
+
 #include "html.hpp"
 
 namespace terracut::evaluation::report {
@@ -15,6 +18,18 @@ Json::json_pointer pointer_to(const Path& path) {
   return pointer;
 }
 
+/// By key, or, in a list, by place; null where there is no such value.
+const Json* value_at(const Json& json, const std::string& key) {
+  if (json.is_array()) {
+    std::size_t place = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), place);
+    const bool whole = error == std::errc{} && end == key.data() + key.size();
+    return whole && place < json.size() ? &json[place] : nullptr;
+  }
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  return found == json.end() ? nullptr : &*found;
+}
+
 std::string cell(const Path& path, const std::string& text) {
   return fmt::format(R"(<td data-path="{}">{}</td>)", escaped(pointer_to(path).to_string()), text);
 }
@@ -24,10 +39,9 @@ std::string cell(const Path& path, const std::string& text) {
 std::optional<double> number_at(const Json& evaluation, const Path& path) {
   const Json* at = &evaluation;
   for (const std::string& key : path) {
-    if (!at->is_object()) return {};
-    const auto next = at->find(key);
-    if (next == at->end()) return {};
-    at = &*next;
+    const Json* const next = value_at(*at, key);
+    if (next == nullptr) return {};
+    at = next;
   }
   return at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
 }

@@ -11,7 +11,7 @@ namespace terracut::evaluation::report {
 
 using Json = nlohmann::ordered_json;
 
-/// Where a number lies in the evaluation: the keys from its root on.
+/// Where a number lies in the evaluation: the keys, or places in a list, from its root on.
 using Path = std::vector<std::string>;
 
 /// The number there; none where it is null or there is no such place.

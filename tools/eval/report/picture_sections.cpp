@@ -66,6 +66,18 @@ std::string not_shown(const Error& error) {
   return fmt::format("<p class=\"fault\">Not shown: {}</p>\n", escaped(error.message));
 }
 
+/// The reason with its measures set as everywhere on the page.
+std::string why_text(const ChosenFrame& frame) {
+  std::string html = escaped(frame.why);
+  for (const std::string_view measure : {"Recall_o", "IoU_g"}) {
+    const std::size_t at = html.find(measure);
+    if (at == std::string::npos) continue;
+    const std::size_t underscore = at + measure.size() - 2;
+    html.replace(underscore, 2, fmt::format("<sub>{}</sub>", measure.back()));
+  }
+  return html;
+}
+
 std::string frame_title(const ChosenFrame& frame) {
   return escaped(frame.sequence + "/" + frame.frame);
 }
@@ -114,7 +126,7 @@ std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>
       escaped(method));
   html += truth_legend() + verdict_legend();
   for (const ChosenFrame& frame : frames) {
-    html += fmt::format("<h3>{}: {}</h3>\n<p>{}</p>\n", frame_title(frame), escaped(frame.why),
+    html += fmt::format("<h3>{}: {}</h3>\n<p>{}</p>\n", frame_title(frame), why_text(frame),
                         score(evaluation, method, frame));
     const Status opened = pictures.open(frame.sequence, frame.frame);
     if (!opened) {

@@ -10,6 +10,7 @@
 #include "charts.hpp"
 #include "chosen_frames.hpp"
 #include "html.hpp"
+#include "measure_sections.hpp"
 #include "page_style.hpp"
 #include "picture_sections.hpp"
 #include "rt/whole_file.hpp"
@@ -40,7 +41,8 @@ constexpr std::string_view kHead = R"(<!DOCTYPE html>
 )";
 
 constexpr std::string_view kContents = R"(<nav><a href="#average">averages</a>
-<a href="#sequences">by sequence</a> <a href="#range">by distance</a>
+<a href="#sequences">by sequence</a> <a href="#measures">other measures</a>
+<a href="#range">by distance</a> <a href="#classes">by class</a>
 <a href="#recall">every frame</a> <a href="#time">times</a> <a href="#cells">cells</a>
 <a href="#comparison">side by side</a> <a href="#worst">where it fails</a>
 <a href="#settings">settings</a></nav>
@@ -85,8 +87,24 @@ std::string messages(const Json& list, std::string_view title) {
   return html + "</ul>\n";
 }
 
+/// Points that no method could be asked about; those of the first, as they are the same for all.
+std::string lost_text(const Json& evaluation) {
+  const Json& lost = evaluation.at("methods").front().at("lost");
+  return fmt::format(
+      "<p>Points without a recovered laser: {}; that the sensor could not have sent: {}; both "
+      "count "
+      "as called obstacle. Points that are no place, not finite or absurdly far: {}; they count "
+      "nowhere. Frames without 64 rings in order, whose rings were told by their elevations: "
+      "{}.</p>\n",
+      lost.at("points_without_ring").get<std::uint64_t>(),
+      lost.at("points_not_placed").get<std::uint64_t>(),
+      lost.at("points_not_finite").get<std::uint64_t>(),
+      lost.at("frames_realigned").get<std::uint64_t>());
+}
+
 std::string settings_section(const Json& evaluation) {
-  std::string html = "<section id=\"settings\"><h2>Settings and what went wrong</h2>\n";
+  std::string html =
+      "<section id=\"settings\"><h2>Settings and what went wrong</h2>\n" + lost_text(evaluation);
   for (const auto& [name, method] : evaluation.at("methods").items()) {
     html += fmt::format("<details><summary>Parameters of {}</summary><table>\n<tbody>\n",
                         escaped(name));
@@ -139,7 +157,8 @@ Expected<std::string> report_page(
   const std::string title = "Ground segmentation on " + text_of(evaluation, "dataset");
   return fmt::format(kHead, title, report::kPageStyle) + facts(evaluation) + "</header>\n" +
          std::string(kContents) + "<main>\n" + report::average_section(evaluation) +
-         report::sequence_section(evaluation) + report::range_section(evaluation) +
+         report::sequence_section(evaluation) + report::measure_section(evaluation) +
+         report::range_section(evaluation) + report::class_section(evaluation) +
          report::recall_section(evaluation) + report::time_section(evaluation) +
          (input.on_disk ? frame_sections(input, on_progress) : std::string(kNoFrames)) +
          settings_section(evaluation) + "</main>\n</body>\n</html>\n";

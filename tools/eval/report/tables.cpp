@@ -10,44 +10,26 @@
 
 #include "html.hpp"
 #include "paper_tables.hpp"
+#include "table_parts.hpp"
 
 namespace terracut::evaluation::report {
 namespace {
 
-std::string header(std::string_view text) {
-  return fmt::format("<th>{}</th>", text);
+/// For datasets that the paper does not measure on.
+const PaperDataset kNotInThePaper{.name = "",
+                                  .sequences = {},
+                                  .scans = {},
+                                  .iou_g = {"", "IoU<sub>g</sub> by sequence", {}},
+                                  .recall_o = {"", "Recall<sub>o</sub> by sequence", {}},
+                                  .time = {"", "Time a frame by sequence", {}}};
+
+/// Whether an evaluated sequence is the paper's, which calls its KoblenzForestMap ForestMap, too.
+bool is_paper_sequence(std::string_view name, std::string_view printed) {
+  constexpr std::string_view kPrefix = "Koblenz";
+  return name == printed || (name.starts_with(kPrefix) && name.substr(kPrefix.size()) == printed);
 }
 
-/// A row's first cells: whose, and what of it.
-std::string row_name(std::string_view name, std::string_view what) {
-  return fmt::format(R"(<th scope="row">{}</th><td class="what">{}</td>)", escaped(name), what);
-}
-
-std::string oracle_title(std::string_view name) {
-  return name == "everything_ground" ? "oracle: everything is ground"
-                                     : "oracle: perfect on all physical ground";
-}
-
-constexpr std::string_view kAllGround = "IoU<sub>g</sub>, all ground";
-constexpr std::string_view kRoadGround = "IoU<sub>g</sub>, road alone";
-
-/// All methods in the order of the evaluation.
-std::vector<std::string> method_names(const Json& evaluation) {
-  std::vector<std::string> names;
-  for (const auto& [name, method] : evaluation.at("methods").items()) names.push_back(name);
-  return names;
-}
-
-/// Which of the evaluated sequences is the paper's, whose maps are called ForestMap for short;
-/// none: empty.
-std::string evaluated_name(const Json& sequences, std::string_view printed) {
-  for (const auto& [name, sequence] : sequences.items()) {
-    if (name.ends_with(printed)) return name;
-  }
-  return "";
-}
-
-/// One of Tables IV to IX.
+/// One of Tables IV to IX: the paper's sequences, then what was evaluated besides.
 class SequenceTable {
  public:
   /// A line of measured numbers of a method: what it shows, and where in a sequence and in the
@@ -65,17 +47,28 @@ class SequenceTable {
         table_(table),
         share_(share),
         sequences_(evaluation.at("methods").front().at("sequences")) {
-    for (const auto& printed : dataset.sequences)
-      names_.push_back(evaluated_name(sequences_, printed));
+    for (const std::string_view printed : dataset.sequences) {
+      titles_.emplace_back(printed);
+      names_.emplace_back();
+      for (const auto& [name, sequence] : sequences_.items()) {
+        if (is_paper_sequence(name, printed)) names_.back() = name;
+      }
+    }
+    for (const auto& [name, sequence] : sequences_.items()) {
+      if (std::ranges::find(names_, name) != names_.end()) continue;
+      titles_.push_back(name);
+      names_.push_back(name);
+    }
   }
 
   [[nodiscard]] std::string html(const std::vector<Line>& lines, const std::vector<Line>& oracle,
                                  std::string_view unit) const {
     std::string html = fmt::format(
-        "<h3>Table {}: {} [{}]</h3>\n<div class=\"wide\"><table><thead><tr><th></th><th></th>",
-        table_.number, table_.caption, unit);
-    for (const auto& sequence : dataset_.sequences) html += header(escaped(sequence));
-    html += "<th>mean</th><th>mean of those<br>measured here</th></tr></thead>\n<tbody>\n";
+        "<h3>{}{} [{}]</h3>\n<div class=\"wide\"><table><thead><tr><th></th><th></th>",
+        in_paper() ? fmt::format("Table {}: ", table_.number) : "", table_.caption, unit);
+    for (const std::string& title : titles_) html += header(escaped(title));
+    if (in_paper()) html += "<th>mean</th>";
+    html += "<th>mean of those<br>measured here</th></tr></thead>\n<tbody>\n";
     html += scans();
     for (const std::string& method : method_names(evaluation_)) {
       html += measured_rows(method, lines);
@@ -91,6 +84,10 @@ class SequenceTable {
   }
 
  private:
+  [[nodiscard]] bool in_paper() const { return !dataset_.sequences.empty(); }
+  /// Under the paper's mean of all its sequences, which nothing here is.
+  [[nodiscard]] std::string under_mean() const { return in_paper() ? empty_cell() : ""; }
+
   [[nodiscard]] std::string scans() const {
     const std::string first = evaluation_.at("methods").items().begin().key();
     std::string html = "<tr>" + row_name("scans", "measured here");
@@ -98,9 +95,13 @@ class SequenceTable {
       html += name.empty() ? empty_cell()
                            : cells_.count({"methods", first, "sequences", name, "frames"});
     }
-    html += empty_cell() + empty_cell() + "</tr>\n<tr>" + row_name("", "the paper");
-    for (const int scans : dataset_.scans) {
-      html += fmt::format(R"(<td class="paper">{}</td>)", scans);
+    html += under_mean() + empty_cell() + "</tr>\n";
+    if (!in_paper()) return html;
+    html += "<tr>" + row_name("", "the paper");
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      html += i < dataset_.scans.size()
+                  ? fmt::format(R"(<td class="paper">{}</td>)", dataset_.scans[i])
+                  : empty_cell();
     }
     return html + empty_cell() + empty_cell() + "</tr>\n";
   }
@@ -122,7 +123,7 @@ class SequenceTable {
       }
       Path mean{"methods", method};
       mean.insert(mean.end(), line.in_method.begin(), line.in_method.end());
-      html += empty_cell() + cell(mean) + "</tr>\n";
+      html += under_mean() + cell(mean) + "</tr>\n";
     }
     return html;
   }
@@ -134,7 +135,11 @@ class SequenceTable {
     std::string html = "<tr>" + row_name(measured ? "" : method, "the paper");
     double sum = 0;
     int count = 0;
-    for (std::size_t i = 0; i < row.values.size(); ++i) {
+    for (std::size_t i = 0; i < names_.size(); ++i) {
+      if (i >= row.values.size()) {
+        html += empty_cell();
+        continue;
+      }
       html += paper_cell(row.values[i]);
       if (names_[i].empty()) continue;
       sum += row.values[i];
@@ -150,10 +155,14 @@ class SequenceTable {
       for (const Line& line : lines) {
         html += fmt::format("<tr class=\"oracle{}\">", &line == &lines.front() ? " first" : "");
         html += row_name(&line == &lines.front() ? oracle_title(name) : "", line.what);
-        for (std::size_t i = 0; i <= names_.size(); ++i) html += empty_cell();
-        Path path{"oracles", name};
-        path.insert(path.end(), line.in_method.begin(), line.in_method.end());
-        html += cell(path) + "</tr>\n";
+        for (const std::string& sequence : names_) {
+          Path path{"oracles", name, "sequences", sequence};
+          path.insert(path.end(), line.in_sequence.begin(), line.in_sequence.end());
+          html += sequence.empty() ? empty_cell() : cell(path);
+        }
+        Path mean{"oracles", name};
+        mean.insert(mean.end(), line.in_method.begin(), line.in_method.end());
+        html += under_mean() + cell(mean) + "</tr>\n";
       }
     }
     return html;
@@ -165,7 +174,8 @@ class SequenceTable {
   const PaperTable& table_;
   bool share_;
   const Json& sequences_;
-  std::vector<std::string> names_;  ///< By the paper's sequence; empty: not evaluated.
+  std::vector<std::string> titles_;  ///< Of the columns.
+  std::vector<std::string> names_;   ///< Of their sequences; empty: not evaluated.
 };
 
 const PaperAverage* average_of(std::string_view method) {
@@ -190,7 +200,9 @@ std::string average_section(const Json& evaluation) {
       "<em>both</em> "
       "datasets on an i7-3770, with what its numbers imply is the road alone as ground: its IoU "
       "can be held against the column <em>road alone</em> only, and only as far as the scans are "
-      "the same. Its times can be compared in their order, not in their size.</p>\n"
+      "the same. Its times can be compared in their order, not in their size. Its Table III has "
+      "the stages of its "
+      "own method and the fixed grid; Bogoslavskyi and Zhang stand in the tables by sequence.</p>\n"
       "<div class=\"wide\"><table><thead><tr><th rowspan=\"2\">method</th>"
       "<th rowspan=\"2\" class=\"what\">what it is</th><th colspan=\"5\">measured here</th>"
       "<th colspan=\"3\" class=\"paper\">the paper, Table III</th></tr>\n<tr>";
@@ -236,57 +248,37 @@ std::string average_section(const Json& evaluation) {
 
 std::string sequence_section(const Json& evaluation) {
   const auto name = evaluation.at("dataset").get<std::string>();
-  const PaperDataset* const dataset = paper_dataset(name);
-  if (dataset == nullptr) {
-    return fmt::format(
-        "<section id=\"sequences\"><h2>By sequence (Tables IV to IX)</h2>\n<p>The paper does not "
-        "measure on {}: there is nothing to set beside these numbers.</p></section>\n",
-        escaped(name));
-  }
-  std::string html = fmt::format(
-      "<section id=\"sequences\"><h2>By sequence (Tables {} to {})</h2>\n"
-      "<p>Grey: as the paper prints it. Its IoU<sub>g</sub> can be held against <em>road "
-      "alone</em> only. Its means are over all its sequences; the last column is the mean of those "
-      "that were measured here, the paper's too, from its printed numbers. Sequences of few scans "
-      "say little: look at the first two rows.</p>\n",
-      dataset->iou_g.number, dataset->time.number);
-  const SequenceTable iou(evaluation, *dataset, dataset->iou_g, true);
+  const PaperDataset* const printed = paper_dataset(name);
+  const PaperDataset& dataset = printed == nullptr ? kNotInThePaper : *printed;
+  std::string html =
+      printed == nullptr
+          ? fmt::format(
+                "<section id=\"sequences\"><h2>By sequence</h2>\n<p>The paper does not "
+                "measure on {}: there is nothing to set beside these numbers.</p>\n",
+                escaped(name))
+          : fmt::format(
+                "<section id=\"sequences\"><h2>By sequence (Tables {} to {})</h2>\n"
+                "<p>Grey: as the paper prints it. Its IoU<sub>g</sub> can be held against "
+                "<em>road alone</em> only. Its means are over all its sequences; the last column "
+                "is the mean of those that were measured here, the paper's too, from its printed "
+                "numbers. Sequences of few scans say little: look at the first two rows.</p>\n",
+                dataset.iou_g.number, dataset.time.number);
+  const SequenceTable iou(evaluation, dataset, dataset.iou_g, true);
   html += iou.html({{kAllGround, {"all", "iou_g"}, {"mean_over_sequences", "all", "iou_g"}},
                     {kRoadGround, {"road", "iou_g"}, {"mean_over_sequences", "road", "iou_g"}}},
-                   {{kAllGround, {}, {"all", "iou_g"}}, {kRoadGround, {}, {"road", "iou_g"}}}, "%");
-  const SequenceTable recall(evaluation, *dataset, dataset->recall_o, true);
+                   {{kAllGround, {"all", "iou_g"}, {"all", "iou_g"}},
+                    {kRoadGround, {"road", "iou_g"}, {"road", "iou_g"}}},
+                   "%");
+  const SequenceTable recall(evaluation, dataset, dataset.recall_o, true);
   html += recall.html(
       {{"measured here", {"all", "recall_o"}, {"mean_over_sequences", "all", "recall_o"}}},
-      {{"", {}, {"all", "recall_o"}}}, "%");
-  const SequenceTable time(evaluation, *dataset, dataset->time, false);
+      {{"", {"all", "recall_o"}, {"all", "recall_o"}}}, "%");
+  const SequenceTable time(evaluation, dataset, dataset.time, false);
   html += time.html({{"measured here", {"ms", "mean"}, {"ms", "segment", "mean"}}}, {}, "ms");
   return html +
          "<p>Key obstacles are the same classes under both definitions of ground, so "
          "Recall<sub>o</sub> "
          "has one row. The mean time is over all frames.</p></section>\n";
-}
-
-std::string range_section(const Json& evaluation) {
-  const MeasuredCells cells(evaluation);
-  const Json& bands = evaluation.at("methods").front().at("by_range");
-  std::string html =
-      "<section id=\"range\"><h2>By distance</h2>\n<p>All frames together, all ground. Not in "
-      "the paper.</p>\n<div class=\"wide\"><table><thead><tr><th></th><th></th>";
-  for (const auto& [band, measures] : bands.items()) html += header(escaped(band));
-  html += "</tr></thead>\n<tbody>\n";
-  for (const std::string& method : method_names(evaluation)) {
-    for (const std::string measure : {"iou_g", "recall_o"}) {
-      const bool first = measure == "iou_g";
-      html += first ? "<tr class=\"first\">" : "<tr>";
-      html +=
-          row_name(first ? method : "", first ? "IoU<sub>g</sub> [%]" : "Recall<sub>o</sub> [%]");
-      for (const auto& [band, measures] : bands.items()) {
-        html += cells.percent({"methods", method, "by_range", band, measure});
-      }
-      html += "</tr>\n";
-    }
-  }
-  return html + "</tbody></table></div></section>\n";
 }
 
 }  // namespace terracut::evaluation::report

@@ -15,7 +15,5 @@ namespace terracut::evaluation::report {
 [[nodiscard]] std::string average_section(const Json& evaluation);
 /// Tables IV to VI, or VII to IX, by sequence; says so where the paper has no such table.
 [[nodiscard]] std::string sequence_section(const Json& evaluation);
-/// By distance, which the paper does not show.
-[[nodiscard]] std::string range_section(const Json& evaluation);
 
 }  // namespace terracut::evaluation::report

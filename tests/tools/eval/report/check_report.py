@@ -76,7 +76,7 @@ def number_at(evaluation, pointer):
 
 def shown(pointer, value):
     keys = pointer.split("/")
-    if keys[-1] == "frames":
+    if keys[-1] in ("frames", "points"):
         return f"{value}"
     if "ms" in keys:
         return f"{value:.2f}"
@@ -89,18 +89,27 @@ def wanted(evaluation):
         for scope in ("all", "road"):
             yield f"/methods/{method}/mean_over_sequences/{scope}/iou_g"
         yield f"/methods/{method}/mean_over_sequences/all/recall_o"
+        for scope, measure in (("all", "precision"), ("road", "f1"), ("all_vegetation_ignored", "iou_g")):
+            yield f"/methods/{method}/mean_over_sequences/{scope}/{measure}"
+        for band in results["by_range"]:
+            yield f"/methods/{method}/by_range_road/{band}/iou_g"
+        for place in range(len(results["by_class"])):
+            yield f"/methods/{method}/by_class/{place}/share_as_ground"
+        for stage in results["ms"]:
+            yield f"/methods/{method}/ms/{stage}/p50"
         yield f"/methods/{method}/ms/segment/max"
         for sequence in results["sequences"]:
             for which in ("min", "mean", "max"):
                 yield f"/methods/{method}/sequences/{sequence}/frame_recall_o/{which}"
-            if evaluation["dataset"] in ("semantickitti", "koblenz"):
-                for scope in ("all", "road"):
-                    yield f"/methods/{method}/sequences/{sequence}/{scope}/iou_g"
-                yield f"/methods/{method}/sequences/{sequence}/all/recall_o"
-                yield f"/methods/{method}/sequences/{sequence}/ms/mean"
-    for oracle in evaluation["oracles"]:
+            for scope in ("all", "road"):
+                yield f"/methods/{method}/sequences/{sequence}/{scope}/iou_g"
+            yield f"/methods/{method}/sequences/{sequence}/all/recall_o"
+            yield f"/methods/{method}/sequences/{sequence}/ms/mean"
+    for oracle, results in evaluation["oracles"].items():
         for scope in ("all", "road"):
             yield f"/oracles/{oracle}/{scope}/iou_g"
+            for sequence in results["sequences"]:
+                yield f"/oracles/{oracle}/sequences/{sequence}/{scope}/iou_g"
 
 
 def main():

@@ -146,6 +146,20 @@ TEST_F(ReportTest, SaysWhereThePaperHasNothingToCompareWith) {
   }
 }
 
+TEST_F(ReportTest, ShowsSequencesThePaperDoesNotHaveBesideItsOwn) {
+  // Ends like one of the paper's, and is none.
+  fs::rename(dataset_.root() / "sequences/03", dataset_.root() / "sequences/103");
+  evaluate_all();
+  ASSERT_TRUE(write());
+  const std::string html = content_of(page());
+  EXPECT_THAT(html, HasSubstr("<th>10</th><th>103</th>"));
+  EXPECT_THAT(html, HasSubstr(R"(<td class="paper">43.67</td>)"));       // the paper's mean of 00
+  EXPECT_THAT(html, Not(HasSubstr(R"(<td class="paper">43.78</td>)")));  // ... of 00 and 03
+  if (has_python()) {
+    EXPECT_EQ(faults_of(page()), "");
+  }
+}
+
 TEST_F(ReportTest, SaysSoWhereFramesWereNotKept) {
   evaluate_all("simulated");
   const auto html = report_page({json_, config_, classes_, false}, [](std::size_t, std::size_t) {});

@@ -69,7 +69,8 @@ Expected<MotionSignals::Figure> MotionSignals::make_figure(
     figure.units[figure.count] = *factor;
     ++figure.count;
   }
-  const auto track = [&](const std::string& signal, std::optional<Tracked>& tracked) -> Status {
+  const auto track = [&](const std::string& signal,
+                         std::optional<TrackedSignal>& tracked) -> Status {
     if (signal.empty()) return {};
     const auto plan = SignalPlan::make(file, signal);
     if (!plan) return in_context(plan.error());
@@ -164,7 +165,7 @@ void MotionSignals::note_sample(std::int64_t stamp_ns) noexcept {
 
 void MotionSignals::forget() noexcept {
   for (Figure* figure : {&speed_, &yaw_rate_}) {
-    for (Tracked& signal : figure->signals) signal.heard = false;
+    for (TrackedSignal& signal : figure->signals) signal.heard = false;
     if (figure->sign) figure->sign->heard = false;
     if (figure->valid) figure->valid->heard = false;
   }
@@ -179,7 +180,7 @@ bool MotionSignals::update(Figure& figure, const CanFrame& frame) noexcept {
   return any;
 }
 
-bool MotionSignals::update(Tracked& signal, const CanFrame& frame) noexcept {
+bool MotionSignals::update(TrackedSignal& signal, const CanFrame& frame) noexcept {
   if (signal.plan.id() != frame.id) return false;
   const auto value = signal.plan.value(frame);
   if (!value) {
@@ -192,7 +193,7 @@ bool MotionSignals::update(Tracked& signal, const CanFrame& frame) noexcept {
   return true;
 }
 
-bool MotionSignals::fresh(const Tracked& signal, std::int64_t now_ns) const noexcept {
+bool MotionSignals::fresh(const TrackedSignal& signal, std::int64_t now_ns) const noexcept {
   return signal.heard && now_ns - signal.stamp_ns <= max_age_ns_;
 }
 

@@ -55,6 +55,14 @@ struct MotionCounters {
   std::uint64_t timeouts = 0;          ///< Times the motion was lost for longer than timeout_s.
 };
 
+/// A signal and what it was last.
+struct TrackedSignal {
+  SignalPlan plan;
+  double value = 0;
+  std::int64_t stamp_ns = 0;
+  bool heard = false;
+};
+
 /// The vehicle's motion out of CAN frames: a MotionSample each time a new yaw rate came, with the
 /// newest speed. (Speed changes little between two frames: braking hard, 0.1 m/s in 10 ms, which
 /// moves a turn's points by less than a centimetre. Yaw rate turns them about a hundred metres.)
@@ -86,19 +94,12 @@ class MotionSignals {
   [[nodiscard]] const MotionCounters& counters() const noexcept { return counters_; }
 
  private:
-  /// A signal and what it was last.
-  struct Tracked {
-    SignalPlan plan;
-    double value = 0;
-    std::int64_t stamp_ns = 0;
-    bool heard = false;
-  };
   struct Figure {
-    std::array<Tracked, kMostSignals> signals{};
+    std::array<TrackedSignal, kMostSignals> signals{};
     std::array<double, kMostSignals> units{};  ///< Of each signal, in SI.
     std::size_t count = 0;
     double scale = 1;
-    std::optional<Tracked> sign, valid;
+    std::optional<TrackedSignal> sign, valid;
     double valid_value = 1;
   };
   enum class Judgement : std::uint8_t { kGood, kInvalid, kStale };
@@ -110,10 +111,10 @@ class MotionSignals {
   void add_ids(const Figure& figure);
   /// True when the frame had one of the signals that the figure is the mean of.
   bool update(Figure& figure, const CanFrame& frame) noexcept;
-  bool update(Tracked& signal, const CanFrame& frame) noexcept;
+  bool update(TrackedSignal& signal, const CanFrame& frame) noexcept;
   void note_sample(std::int64_t stamp_ns) noexcept;
   void forget() noexcept;
-  [[nodiscard]] bool fresh(const Tracked& signal, std::int64_t now_ns) const noexcept;
+  [[nodiscard]] bool fresh(const TrackedSignal& signal, std::int64_t now_ns) const noexcept;
   [[nodiscard]] Judgement judge(const Figure& figure, std::int64_t now_ns,
                                 double& value) const noexcept;
 

@@ -3,84 +3,20 @@
 #include "firmware_io/capture/pcap_source.hpp"
 
 #include <fmt/format.h>
-#include <pcap/pcap.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <numeric>
-#include <string_view>
-#include <system_error>
-
-#include "firmware_io/capture/file_kind.hpp"
+#include <utility>
 
 namespace terracut::firmware_io {
 namespace {
 
-struct CloseFile {
-  void operator()(std::FILE* file) const noexcept { std::fclose(file); }
-};
-using File = std::unique_ptr<std::FILE, CloseFile>;
-
-std::string reason_of(int error_number) {
-  return std::generic_category().message(error_number);
-}
-
-Expected<File> open_file(const std::filesystem::path& path) {
-  std::error_code error;
-  const auto kind = std::filesystem::status(path, error).type();
-  if (kind == std::filesystem::file_type::not_found) {
-    return fail(ErrorCode::kNotFound,
-                fmt::format("{}: no such file; expected a pcap or pcapng capture", path.string()));
-  }
-  if (kind == std::filesystem::file_type::directory) {
-    return fail(ErrorCode::kUnreadable,
-                fmt::format("{}: is a folder; name the capture file inside it", path.string()));
-  }
-  File file(std::fopen(path.c_str(), "rb"));
-  if (!file) {
-    return fail(ErrorCode::kUnreadable,
-                fmt::format("{}: cannot be read: {}", path.string(), reason_of(errno)));
-  }
-  return file;
-}
-
-/// libpcap refused the file: says why in terms of what the file is.
-Error no_capture(const std::string& name, std::FILE* file, std::string_view libpcap_says) {
-  std::array<std::uint8_t, 16> first{};
-  std::rewind(file);
-  const std::size_t count = std::fread(first.data(), 1, first.size(), file);
-  if (count == 0) {
-    return {ErrorCode::kMalformed,
-            fmt::format("{}: is empty; expected a pcap or pcapng capture. Was the "
-                        "recording or the copy interrupted?",
-                        name)};
-  }
-  return {ErrorCode::kMalformed,
-          fmt::format(
-              "{}: is not a capture libpcap can read ({}); expected pcap or pcapng, found first "
-              "bytes {}",
-              name, libpcap_says, describe_first_bytes(std::span(first).first(count)))};
-}
-
-std::string link_name(int link_type) {
-  const char* name = ::pcap_datalink_val_to_name(link_type);
-  return fmt::format("{} ({})", name == nullptr ? "unknown" : name, link_type);
-}
-
-/// With nanosecond precision asked for, tv_usec holds nanoseconds. libpcap takes the unsigned
-/// seconds of a pcap for signed ones (from 2038 on), which is undone. pcapng stamps may be absurd;
-/// they are held inside the range instead of overflowing.
-std::int64_t stamp_of(const timeval& stamp) noexcept {
-  constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
-  constexpr std::int64_t kLastSecond = 9'000'000'000;  // year 2255
-  constexpr std::int64_t kWrap = std::int64_t{1} << 32;
-  const std::int64_t signed_seconds = stamp.tv_sec;
-  const bool wrapped = signed_seconds < 0 && signed_seconds >= -kWrap / 2;
-  const std::int64_t seconds = wrapped ? signed_seconds + kWrap : signed_seconds;
-  const std::int64_t fraction = stamp.tv_usec;
-  if (seconds < 0 || fraction < 0) return 0;
-  if (seconds > kLastSecond) return kLastSecond * kNanosecondsPerSecond;
-  return seconds * kNanosecondsPerSecond + fraction % kNanosecondsPerSecond;
+Status check_link_type(const PcapFile& file) {
+  if (is_supported_link_type(file.link_type())) return {};
+  return fail(
+      ErrorCode::kUnsupported,
+      fmt::format("{}: link layer {} carries no UDP that terracut reads; expected Ethernet, Linux "
+                  "cooked (v1, v2), raw IP, IPv4, NULL or LOOP",
+                  file.name(), file.link_name()));
 }
 
 }  // namespace
@@ -89,104 +25,28 @@ std::uint64_t PcapCounters::refused_total() const noexcept {
   return std::accumulate(refused.begin(), refused.end(), std::uint64_t{0});
 }
 
-void PcapSource::Close::operator()(::pcap* handle) const noexcept {
-  ::pcap_close(handle);
-}
-
 Expected<PcapSource> PcapSource::open(std::filesystem::path path, PcapFilter filter) {
-  PcapSource source;
-  source.name_ = path.string();
-  source.path_ = std::move(path);
-  source.filter_ = filter;
-  if (Status opened = source.reopen(); !opened) return tl::unexpected(opened.error());
-  return source;
+  return over(PcapFile::open(std::move(path)), filter);
 }
 
 Expected<PcapSource> PcapSource::open_memory(std::span<const std::uint8_t> capture,
                                              std::string name, PcapFilter filter) {
-  PcapSource source;
-  source.name_ = std::move(name);
-  source.memory_ = capture;
-  source.filter_ = filter;
-  if (Status opened = source.reopen(); !opened) return tl::unexpected(opened.error());
-  return source;
+  return over(PcapFile::open_memory(capture, std::move(name)), filter);
 }
 
-Status PcapSource::reopen() {
-  handle_.reset();
-  frames_this_pass_ = 0;
-  end_ = CaptureEnd::kNotReached;
-  break_off_.reset();
-
-  File file;
-  if (!path_.empty()) {
-    Expected<File> opened = open_file(path_);
-    if (!opened) return tl::unexpected(opened.error());
-    file = std::move(*opened);
-  } else {
-    if (memory_.empty()) {
-      return fail(ErrorCode::kMalformed, fmt::format("{}: is empty; expected a capture", name_));
-    }
-    // Opened for reading only, so the bytes stay as they are.
-    file.reset(::fmemopen(const_cast<std::uint8_t*>(memory_.data()), memory_.size(), "r"));
-    if (!file) {
-      return fail(ErrorCode::kUnreadable, fmt::format("{}: {}", name_, reason_of(errno)));
-    }
-  }
-
-  std::array<char, PCAP_ERRBUF_SIZE> message{};
-  handle_.reset(::pcap_fopen_offline_with_tstamp_precision(file.get(), PCAP_TSTAMP_PRECISION_NANO,
-                                                           message.data()));
-  if (!handle_) return tl::unexpected(no_capture(name_, file.get(), message.data()));
-  static_cast<void>(file.release());  // pcap_close() closes it
-
-  link_type_ = ::pcap_datalink(handle_.get());
-  if (!is_supported_link_type(link_type_)) {
-    return fail(
-        ErrorCode::kUnsupported,
-        fmt::format(
-            "{}: link layer {} carries no UDP that terracut reads; expected Ethernet, Linux "
-            "cooked (v1, v2), raw IP, IPv4, NULL or LOOP",
-            name_, link_name(link_type_)));
-  }
-  return {};
-}
-
-Error PcapSource::broken_off(const char* reason) {
-  const long offset = std::ftell(::pcap_file(handle_.get()));
-  const std::string_view text = reason;
-  const bool mixed = text.find("different from the type of the first interface") != text.npos ||
-                     text.find("different from the snapshot length") != text.npos;
-  std::string what = fmt::format("{}: breaks off after packet {} (read up to byte {}): {}", name_,
-                                 frames_this_pass_, offset, text);
-  if (mixed) {
-    what +=
-        "; libpcap reads one kind of interface a file. Write each interface to a file of its own: "
-        "tshark -r FILE -Y frame.interface_id==0 -F nsecpcap -w one.pcap";
-  } else {
-    what += "; the packets before it are good. Was the recording or the copy interrupted?";
-  }
-  end_ = CaptureEnd::kBrokeOff;
-  return {mixed ? ErrorCode::kUnsupported : ErrorCode::kMalformed, std::move(what)};
+Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, const PcapFilter& filter) {
+  if (!file) return tl::unexpected(file.error());
+  if (Status valid = check_link_type(*file); !valid) return tl::unexpected(valid.error());
+  return PcapSource(*std::move(file), filter);
 }
 
 Expected<std::optional<Datagram>> PcapSource::next() {
-  if (break_off_) return tl::unexpected(*break_off_);
-  while (end_ == CaptureEnd::kNotReached) {
-    ::pcap_pkthdr* header = nullptr;
-    const unsigned char* data = nullptr;
-    const int result = ::pcap_next_ex(handle_.get(), &header, &data);
-    if (result == PCAP_ERROR_BREAK) {
-      end_ = CaptureEnd::kClean;
-      break;
-    }
-    if (result != 1) {
-      break_off_ = broken_off(::pcap_geterr(handle_.get()));
-      return tl::unexpected(*break_off_);
-    }
-    ++frames_this_pass_;
+  for (;;) {
+    const auto record = file_.next();
+    if (!record) return tl::unexpected(record.error());
+    if (!*record) return std::nullopt;
     ++counters_.frames;
-    const auto datagram = parse_udp_frame(link_type_, {data, header->caplen}, stamp_of(header->ts));
+    const auto datagram = parse_udp_frame(file_.link_type(), (*record)->bytes, (*record)->stamp_ns);
     if (!datagram) {
       ++counters_.refused[static_cast<std::size_t>(datagram.error())];
     } else if (filter_.port && datagram->destination_port != *filter_.port) {
@@ -198,16 +58,11 @@ Expected<std::optional<Datagram>> PcapSource::next() {
       return *datagram;
     }
   }
-  return std::nullopt;
 }
 
 Status PcapSource::rewind() {
-  if (Status opened = reopen(); !opened) {
-    end_ = CaptureEnd::kBrokeOff;
-    break_off_ = opened.error();
-    return opened;
-  }
-  return {};
+  if (Status rewound = file_.rewind(); !rewound) return rewound;
+  return check_link_type(file_);
 }
 
 }  // namespace terracut::firmware_io

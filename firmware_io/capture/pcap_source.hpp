@@ -6,16 +6,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 
+#include "firmware_io/capture/pcap_file.hpp"
 #include "firmware_io/capture/udp_frame.hpp"
 #include "firmware_io/datagram.hpp"
 #include "rt/error.hpp"
-
-struct pcap;  // libpcap's handle, pcap_t
 
 namespace terracut::firmware_io {
 
@@ -34,13 +33,6 @@ struct PcapCounters {
   std::uint64_t other_source = 0;  ///< Datagrams of the right port from another sender.
 
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
-};
-
-/// How reading ended.
-enum class CaptureEnd : std::uint8_t {
-  kNotReached,
-  kClean,     ///< After the last whole record.
-  kBrokeOff,  ///< Inside a record, or at one that cannot be read on from. What came before is good.
 };
 
 /// UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte order, or
@@ -69,29 +61,17 @@ class PcapSource {
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
-  [[nodiscard]] CaptureEnd end() const noexcept { return end_; }
-  [[nodiscard]] int link_type() const noexcept { return link_type_; }  ///< libpcap's DLT_ number.
-  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  [[nodiscard]] CaptureEnd end() const noexcept { return file_.end(); }
+  [[nodiscard]] int link_type() const noexcept { return file_.link_type(); }  ///< libpcap's DLT_
+  [[nodiscard]] const std::string& name() const noexcept { return file_.name(); }
 
  private:
-  struct Close {
-    void operator()(::pcap* handle) const noexcept;
-  };
+  PcapSource(PcapFile file, const PcapFilter& filter) : file_(std::move(file)), filter_(filter) {}
+  [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, const PcapFilter& filter);
 
-  PcapSource() = default;
-  [[nodiscard]] Status reopen();
-  [[nodiscard]] Error broken_off(const char* reason);
-
-  std::string name_;
-  std::filesystem::path path_;  ///< Empty when reading from memory.
-  std::span<const std::uint8_t> memory_;
+  PcapFile file_;
   PcapFilter filter_;
-  std::unique_ptr<::pcap, Close> handle_;
-  int link_type_ = 0;
   PcapCounters counters_;
-  std::uint64_t frames_this_pass_ = 0;
-  CaptureEnd end_ = CaptureEnd::kNotReached;
-  std::optional<Error> break_off_;
 };
 
 }  // namespace terracut::firmware_io

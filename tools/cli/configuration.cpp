@@ -23,6 +23,9 @@ constexpr std::array<std::string_view, 3> kStages{"elevation", "adjacent", "mrf"
 constexpr std::array<std::string_view, 2> kReturns{"single", "dual"};
 constexpr std::array<std::string_view, 5> kScenes{"street", "highway", "rural", "flat", "hill"};
 
+constexpr std::array<std::string_view, 4> kSpeedUnits{"file", "m/s", "km/h", "mph"};
+constexpr std::array<std::string_view, 3> kYawRateUnits{"file", "rad/s", "deg/s"};
+
 constexpr double kLongest_s = 1e9;
 constexpr double kMostLoops = std::numeric_limits<int>::max();
 constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to here
@@ -83,6 +86,39 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.method.profile; }},
     Setting{"method.stages", "--stages", "", "How far to refine: elevation map, + adjacent points, + random field (mrf)", 0, 0, kStages, kAny,
             [](C& c) noexcept -> F { return &c.live.method.stages; }},
+
+    Setting{"motion.can", "", "", "live: CAN interface on which the vehicle tells its motion (default: none)", 0, 0, {}, TextForm::kName,
+            [](C& c) noexcept -> F { return &c.live.motion.can; }},
+    Setting{"motion.dbc", "", "", "DBC file that says what the vehicle's CAN frames mean (replay, live)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.dbc; }},
+    Setting{"motion.speed", "", "", "Speed: its signal in the DBC file, SIGNAL or MESSAGE.SIGNAL; several, with commas between: their mean", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.speed.signals; }},
+    Setting{"motion.speed_unit", "", "", "Unit of these signals; file: as the DBC file says", 0, 0, kSpeedUnits, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.speed.unit; }},
+    Setting{"motion.speed_scale", "", "", "Factor on top; -1 turns the sign round", -1000, 1000, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.speed.scale; }},
+    Setting{"motion.speed_sign", "", "", "Signal by which it is negative, when not 0 (default: none)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.speed.sign; }},
+    Setting{"motion.speed_valid", "", "", "Signal that says whether it is valid (default: none, it always is)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.speed.valid; }},
+    Setting{"motion.speed_valid_value", "", "", "What that signal has to be", -1e9, 1e9, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.speed.valid_value; }},
+    Setting{"motion.yaw_rate", "", "", "Yaw rate, to the left positive: its signal in the DBC file, SIGNAL or MESSAGE.SIGNAL; several, with commas between: their mean", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.yaw_rate.signals; }},
+    Setting{"motion.yaw_rate_unit", "", "", "Unit of these signals; file: as the DBC file says", 0, 0, kYawRateUnits, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.yaw_rate.unit; }},
+    Setting{"motion.yaw_rate_scale", "", "", "Factor on top; -1 turns the sign round", -1000, 1000, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.yaw_rate.scale; }},
+    Setting{"motion.yaw_rate_sign", "", "", "Signal by which it is negative, when not 0 (default: none)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.yaw_rate.sign; }},
+    Setting{"motion.yaw_rate_valid", "", "", "Signal that says whether it is valid (default: none, it always is)", 0, 0, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.yaw_rate.valid; }},
+    Setting{"motion.yaw_rate_valid_value", "", "", "What that signal has to be", -1e9, 1e9, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.yaw_rate.valid_value; }},
+    Setting{"motion.max_age_ms", "", "ms", "Signals older than this are not used", 1, 10000, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.max_age_ms; }},
+    Setting{"motion.timeout_ms", "", "ms", "Without speed and yaw rate for so long, the motion is lost", 1, 60000, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.motion.timeout_ms; }},
 
     Setting{"output.labels", "--labels", "", "Folder for NNNNNN.label, SemanticKITTI predictions (replay, segment, live)", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.output.labels; }},

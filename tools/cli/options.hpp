@@ -51,10 +51,30 @@ struct OutputOptions {
   std::filesystem::path truth;             ///< Folder of NNNNNN.label: scores the labels.
 };
 
+/// One figure of the vehicle's motion: which signals of the DBC file it is made of.
+struct MotionFigureOptions {
+  std::string signals{};      ///< MESSAGE.SIGNAL or SIGNAL; several, with commas between: the mean.
+  std::string unit = "file";  ///< "file": as the DBC file says.
+  double scale = 1;           ///< On top; -1 turns the sign round.
+  std::string sign{};         ///< Signal: negative when not 0. Empty: none.
+  std::string valid{};        ///< Signal that says whether it is valid. Empty: none.
+  double valid_value = 1;     ///< What that has to be.
+};
+
+/// The vehicle's motion on its CAN bus. The signals are named as in the DBC file that simulated
+/// drives have beside them.
+struct MotionOptions {
+  std::string can;            ///< Interface of live; empty: none.
+  std::filesystem::path dbc;  ///< What the frames mean.
+  MotionFigureOptions speed{.signals = "SPEED"}, yaw_rate{.signals = "YAW_RATE"};
+  double max_age_ms = 100, timeout_ms = 500;
+};
+
 struct ReplayOptions {
   CaptureOptions capture;
   MountOptions mount;
   MethodOptions method;
+  MotionOptions motion;
   OutputOptions output;
   double rate = 0;  ///< --rate: 0 as fast as possible, 1 as recorded
   int loops = 1;    ///< --loop: passes over the capture, 0 until interrupted

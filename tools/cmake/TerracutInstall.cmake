@@ -9,6 +9,8 @@ install(TARGETS ${terracut_libraries} EXPORT terracut_targets
 install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY ${terracut_rooms} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/terracut
   FILES_MATCHING PATTERN "*.hpp")
+install(FILES ${PROJECT_SOURCE_DIR}/firmware_io/can/terracut_health.dbc
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
 
 set(terracut_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/terracut)
 install(EXPORT terracut_targets FILE terracut-targets.cmake NAMESPACE terracut::

@@ -35,6 +35,7 @@ foreach(path
     ./usr/share/doc/terracut/real_time.md
     ./usr/share/doc/terracut/configuration.md
     ./usr/share/doc/terracut/copyright
+    ./usr/share/terracut/terracut_health.dbc
     ./usr/include/terracut/pipeline/segmenter.hpp
     libterracut_pipeline.a
     terracut/terracut-config.cmake)

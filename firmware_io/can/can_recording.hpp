@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "firmware_io/can/can_frame.hpp"
+#include "firmware_io/can/can_log_counters.hpp"
+#include "firmware_io/can/can_pcap_source.hpp"
+#include "firmware_io/can/candump_source.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::firmware_io {
+
+/// A recorded CAN bus, whichever way it was recorded: a candump log or a capture file. Which of the
+/// two, its first bytes tell. Not thread-safe; blocks on the disk.
+class CanRecording {
+ public:
+  /// Frames of `interface` only, where the recording tells (a log does); empty: of any. Errors as
+  /// CandumpSource::open or CanPcapSource::open.
+  [[nodiscard]] static Expected<CanRecording> open(const std::filesystem::path& path,
+                                                   std::string interface = {});
+
+  /// The next frame; nothing at the end. Errors as the two sources' next().
+  [[nodiscard]] Expected<std::optional<CanFrame>> next() {
+    return std::visit([](auto& source) { return source.next(); }, source_);
+  }
+
+  [[nodiscard]] const CanLogCounters& counters() const noexcept {
+    return std::visit([](const auto& source) -> auto& { return source.counters(); }, source_);
+  }
+  [[nodiscard]] const std::string& first_fault() const noexcept {
+    return std::visit([](const auto& source) -> auto& { return source.first_fault(); }, source_);
+  }
+
+ private:
+  explicit CanRecording(CandumpSource source) : source_(std::move(source)) {}
+  explicit CanRecording(CanPcapSource source) : source_(std::move(source)) {}
+
+  std::variant<CandumpSource, CanPcapSource> source_;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/can/can_sender.hpp"
+
+#include <sys/socket.h>
+
+#include <array>
+#include <cerrno>
+#include <utility>
+
+#include "firmware_io/can/can_socket.hpp"
+#include "firmware_io/can/can_wire.hpp"
+#include "firmware_io/live/network_interface.hpp"
+#include "rt/thread_cpu_clock.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+constexpr std::int64_t kLookEvery_ns = 500'000'000;
+
+}  // namespace
+
+Expected<CanSender> CanSender::open(std::string interface) {
+  CanSender sender;
+  sender.probe_ = OwnedDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const InterfaceStatus status = interface_status(sender.probe_.get(), interface);
+  if (status.state == LinkState::kGone) return tl::unexpected(no_such_can_interface(interface));
+  auto socket = open_can_socket(status.index, {}, false);
+  if (!socket) return tl::unexpected(explain(socket.error(), interface));
+  sender.socket_ = *std::move(socket);
+  sender.interface_index_ = status.index;
+  sender.interface_ = std::move(interface);
+  return sender;
+}
+
+CanSender CanSender::adopt(OwnedDescriptor descriptor) {
+  CanSender sender;
+  sender.socket_ = std::move(descriptor);
+  return sender;
+}
+
+std::size_t CanSender::send(std::span<const CanFrame> frames) noexcept {
+  std::size_t sent_now = 0;
+  for (const CanFrame& frame : frames) {
+    if (send(frame)) ++sent_now;
+  }
+  counters_.sent += sent_now;
+  return sent_now;
+}
+
+bool CanSender::send(const CanFrame& frame) noexcept {
+  std::array<std::uint8_t, kFdWireBytes> bytes;
+  const std::size_t size = write_can_wire(frame, bytes);
+  const auto written = ::send(socket_.get(), bytes.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL);
+  if (written == static_cast<::ssize_t>(size)) return true;
+  counters_.last_error = errno;
+  switch (errno) {
+    case ENOBUFS:
+    case EAGAIN:
+      ++counters_.queue_full;
+      return false;
+    case ENETDOWN:
+    case ENODEV:
+    case ENXIO:
+      ++counters_.link_down;
+      look_after_interface();
+      return false;
+    default:
+      ++counters_.failed;
+      return false;
+  }
+}
+
+/// A socket stays tied to an interface that went away; see SocketCanSource.
+void CanSender::look_after_interface() noexcept {
+  const std::int64_t now_ns = rt::monotonic_ns();
+  if (interface_.empty() || now_ns < next_look_ns_) return;
+  next_look_ns_ = now_ns + kLookEvery_ns;
+  const InterfaceStatus now = interface_status(probe_.get(), interface_);
+  if (now.state == LinkState::kGone || now.index == interface_index_) return;
+  auto socket = open_can_socket(now.index, {}, false);
+  if (!socket) return;
+  socket_ = *std::move(socket);
+  interface_index_ = now.index;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/can/socketcan_source.hpp"
+
+#include <fmt/format.h>
+#include <linux/can/error.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "firmware_io/can/can_socket.hpp"
+#include "rt/thread_cpu_clock.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::int64_t kLookEvery_ns = kSecond_ns / 2;
+constexpr std::size_t kMostBatch = 1024;
+
+Status check(const SocketCanConfig& config) {
+  if (config.batch < 1 || config.batch > kMostBatch) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("batch {}: expected a number from 1 to {}", config.batch, kMostBatch));
+  }
+  if (config.ids.empty() || config.ids.size() > kMostCanFilters) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{} CAN ids: expected 1 to {}", config.ids.size(), kMostCanFilters));
+  }
+  const auto wrong = std::ranges::find_if_not(config.ids, &CanId::valid);
+  if (wrong != config.ids.end()) {
+    return fail(ErrorCode::kInvalidArgument, fmt::format("CAN id {:#x} has more than {} bits",
+                                                         wrong->number, wrong->extended ? 29 : 11));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<SocketCanSource> SocketCanSource::open(SocketCanConfig config, rt::FixedMemory& memory) {
+  if (Status valid = check(config); !valid) return tl::unexpected(valid.error());
+  OwnedDescriptor probe(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const InterfaceStatus interface = interface_status(probe.get(), config.interface);
+  if (interface.state == LinkState::kGone) {
+    return tl::unexpected(no_such_can_interface(config.interface));
+  }
+  auto socket = open_can_socket(interface.index, config.ids, true);
+  if (!socket) return tl::unexpected(explain(socket.error(), config.interface));
+  auto source = adopt(*std::move(socket), std::move(config), memory);
+  if (!source) return source;
+  source->probe_ = std::move(probe);
+  source->interface_index_ = interface.index;
+  source->link_ = interface.state;
+  return source;
+}
+
+Expected<SocketCanSource> SocketCanSource::adopt(OwnedDescriptor descriptor, SocketCanConfig config,
+                                                 rt::FixedMemory& memory) {
+  if (Status valid = check(config); !valid) return tl::unexpected(valid.error());
+  auto wake = WakeEvent::make();
+  if (!wake) return tl::unexpected(wake.error());
+  SocketCanSource source(std::move(config), *std::move(wake), memory);
+  source.buffer_ = request_receive_buffer(descriptor.get(), source.config_.receive_buffer_bytes);
+  const int on = 1;
+  ::setsockopt(descriptor.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
+  source.socket_ = std::move(descriptor);
+  return source;
+}
+
+SocketCanSource::SocketCanSource(SocketCanConfig config, WakeEvent wake, rt::FixedMemory& memory)
+    : config_(std::move(config)),
+      wake_(std::move(wake)),
+      wires_(memory.take<Wire>("can source", config_.batch)),
+      messages_(memory.take<::mmsghdr>("can source", config_.batch)),
+      vectors_(memory.take<::iovec>("can source", config_.batch)),
+      controls_(memory.take<Control>("can source", config_.batch)),
+      frames_(memory.take<CanFrame>("can source", config_.batch)) {
+  for (std::size_t slot = 0; slot < config_.batch; ++slot) {
+    vectors_[slot] = {wires_[slot].data(), wires_[slot].size()};
+    ::msghdr& header = messages_[slot].msg_hdr;
+    header.msg_iov = &vectors_[slot];
+    header.msg_iovlen = 1;
+    header.msg_control = &controls_[slot];
+  }
+  prepare(config_.batch);
+}
+
+std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noexcept {
+  const std::int64_t begun_ns = rt::monotonic_ns();
+  const std::int64_t deadline_ns =
+      begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
+  for (;;) {
+    if (const std::size_t count = read_batch(); count > 0) {
+      // It was empty when the link was found down, so this came since.
+      if (link_ != LinkState::kUnknown) link_ = LinkState::kUp;
+      return frames_.first(count);
+    }
+    const std::int64_t now_ns = rt::monotonic_ns();
+    look_after_interface(now_ns);
+    if (now_ns >= deadline_ns) return {};
+    const std::int64_t until_ns = std::min(deadline_ns, next_look_ns_);
+    if (wake_.wait(socket_.get(), until_ns - now_ns)) return {};
+  }
+}
+
+/// Takes what lies ready, up to a batch; the frames wanted end up at the front of frames_.
+std::size_t SocketCanSource::read_batch() noexcept {
+  if (!socket_) return 0;
+  int error_number = 0;
+  const int taken = rt::trusted_call([&]() noexcept {  // told not to wait
+    const int result = ::recvmmsg(socket_.get(), messages_.data(),
+                                  static_cast<unsigned>(messages_.size()), MSG_DONTWAIT, nullptr);
+    error_number = errno;
+    return result;
+  });
+  if (taken < 0) {
+    // Said once when the interface goes down or away, which look_after_interface() counts.
+    const bool link_is_the_reason = error_number == ENETDOWN || error_number == ENODEV;
+    if (link_is_the_reason) next_look_ns_ = 0;
+    if (!link_is_the_reason && error_number != EAGAIN && error_number != EINTR) {
+      ++counters_.receive_errors;
+    }
+    return 0;
+  }
+  const auto count = static_cast<std::size_t>(taken);
+  std::size_t kept = 0;
+  for (std::size_t slot = 0; slot < count; ++slot) {
+    if (take(slot, frames_[kept])) ++kept;
+  }
+  prepare(count);
+  counters_.received += count;
+  counters_.delivered += kept;
+  return kept;
+}
+
+/// False for a frame that is not to be delivered, which is then counted.
+bool SocketCanSource::take(std::size_t slot, CanFrame& frame) noexcept {
+  ::msghdr& header = messages_[slot].msg_hdr;
+  std::int64_t stamp_ns = 0;
+  bool stamped = false;
+  for (cmsghdr* part = CMSG_FIRSTHDR(&header); part != nullptr; part = CMSG_NXTHDR(&header, part)) {
+    if (part->cmsg_level != SOL_SOCKET) continue;
+    if (part->cmsg_type == SCM_TIMESTAMPNS) {
+      timespec stamp{};
+      std::memcpy(&stamp, CMSG_DATA(part), sizeof stamp);
+      stamp_ns = std::int64_t{stamp.tv_sec} * kSecond_ns + stamp.tv_nsec;
+      stamped = true;
+    } else if (part->cmsg_type == SO_RXQ_OVFL) {
+      std::uint32_t dropped = 0;
+      std::memcpy(&dropped, CMSG_DATA(part), sizeof dropped);
+      counters_.kernel_drops += drops_.advance_to(dropped);
+    }
+  }
+  const auto parsed =
+      parse_can_wire(std::span(wires_[slot]).first(messages_[slot].msg_len), CanIdOrder::kNative);
+  if (!parsed || (header.msg_flags & MSG_TRUNC) != 0) {
+    ++counters_.malformed;
+    return false;
+  }
+  if (parsed->error) {
+    note_error_frame(*parsed);
+    return false;
+  }
+  if (!stamped) {
+    ++counters_.unstamped;
+    stamp_ns = rt::realtime_ns();
+  }
+  bus_off_ = false;  // it takes part in the bus again
+  frame = *parsed;
+  frame.stamp_ns = stamp_ns;
+  return true;
+}
+
+void SocketCanSource::note_error_frame(const CanFrame& frame) noexcept {
+  ++counters_.error_frames;
+  if ((frame.id.number & CAN_ERR_RESTARTED) != 0) {
+    ++counters_.restarts;
+    bus_off_ = false;
+  }
+  if ((frame.id.number & CAN_ERR_BUSOFF) != 0) {
+    ++counters_.bus_off;
+    bus_off_ = true;
+  }
+}
+
+/// The kernel writes the lengths it used over those it was offered.
+void SocketCanSource::prepare(std::size_t slots) noexcept {
+  for (::mmsghdr& message : messages_.first(slots)) {
+    message.msg_hdr.msg_controllen = Control::kBytes;
+    message.msg_hdr.msg_flags = 0;
+  }
+}
+
+/// A socket stays tied to an interface that went away, so a new one by the same name needs a new
+/// socket. Looks only when nothing came, and then not often.
+void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
+  if (now_ns < next_look_ns_) return;
+  next_look_ns_ = now_ns + kLookEvery_ns;
+  if (!probe_) return;
+  const InterfaceStatus now = interface_status(probe_.get(), config_.interface);
+  if (now.state != LinkState::kUp && link_ == LinkState::kUp) ++counters_.link_losses;
+  link_ = now.state;
+  if (now.state == LinkState::kGone) return;
+  if (socket_ && now.index == interface_index_) return;
+  const bool opened = rt::trusted_call([&]() noexcept {  // nothing came: nothing to be late for
+    auto socket = open_can_socket(now.index, config_.ids, true);
+    if (!socket) return false;
+    buffer_ = request_receive_buffer(socket->get(), config_.receive_buffer_bytes);
+    socket_ = *std::move(socket);
+    return true;
+  });
+  if (!opened) return;  // the next look tries again
+  interface_index_ = now.index;
+  drops_.restart();
+  ++counters_.reopened;
+}
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <sys/socket.h>
+
+#include <ctime>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware_io/can/can_frame.hpp"
+#include "firmware_io/can/can_receive_counters.hpp"
+#include "firmware_io/can/can_wire.hpp"
+#include "firmware_io/live/drop_counter.hpp"
+#include "firmware_io/live/network_interface.hpp"
+#include "firmware_io/live/owned_descriptor.hpp"
+#include "firmware_io/live/receive_buffer.hpp"
+#include "firmware_io/live/receive_counters.hpp"
+#include "firmware_io/live/wake_event.hpp"
+#include "rt/error.hpp"
+#include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
+
+namespace terracut::firmware_io {
+
+struct SocketCanConfig {
+  std::string interface{};   ///< "can0"
+  std::vector<CanId> ids{};  ///< The messages wanted, [1, 512] of them; the kernel sorts out.
+  std::size_t batch = 64;    ///< Frames a receive() returns at most, [1, 1024].
+  std::size_t receive_buffer_bytes = 1U << 20;  ///< About 1300 frames.
+};
+
+/// Frames of a CAN interface as they arrive, many for one system call, with the kernel's time
+/// stamps and its count of those it had to drop.
+///
+/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. When
+/// the interface goes down, or goes away and comes back under its name, receive() goes on returning
+/// empty, looks twice a second, takes the socket up again when it can, and counts. Everything but
+/// wake() from one thread.
+class SocketCanSource {
+ public:
+  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, or it is no CAN
+  /// interface. kUnsupported: the kernel has no CAN. kUnreadable: another refusal of the system. An
+  /// interface that is down is no error.
+  [[nodiscard]] static Expected<SocketCanSource> open(SocketCanConfig config,
+                                                      rt::FixedMemory& memory);
+
+  /// The same over any datagram socket that carries the kernel's frames (can_wire.hpp), one a
+  /// datagram: one end of a socket pair, say. `config.interface` is not looked at: the descriptor
+  /// stays what it is, and so does link(), kUnknown.
+  [[nodiscard]] static Expected<SocketCanSource> adopt(OwnedDescriptor descriptor,
+                                                       SocketCanConfig config,
+                                                       rt::FixedMemory& memory);
+
+  /// Waits at most so long and returns what came, [1, batch] data frames in order of arrival, or
+  /// none: time is up, or somebody called wake(). Valid until the next call. Error frames are
+  /// counted, not returned.
+  [[nodiscard]] std::span<const CanFrame> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING;
+
+  /// Ends the receive() under way, or the next one that would have to wait, with an empty result.
+  /// From any thread or a signal handler.
+  void wake() const noexcept { wake_.wake(); }
+
+  [[nodiscard]] const CanReceiveCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] LinkState link() const noexcept { return link_; }
+  /// The controller has taken itself off the bus, as far as its error frames tell.
+  [[nodiscard]] bool bus_off() const noexcept { return bus_off_; }
+  [[nodiscard]] const ReceiveBuffer& receive_buffer() const noexcept { return buffer_; }
+
+ private:
+  /// Room for what the kernel says beside a frame: its stamp and the count of drops.
+  struct Control {
+    static constexpr std::size_t kBytes =
+        CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
+    alignas(cmsghdr) std::array<std::uint8_t, kBytes> bytes;
+  };
+  using Wire = std::array<std::uint8_t, kFdWireBytes>;
+
+  SocketCanSource(SocketCanConfig config, WakeEvent wake, rt::FixedMemory& memory);
+
+  [[nodiscard]] std::size_t read_batch() noexcept;
+  [[nodiscard]] bool take(std::size_t slot, CanFrame& frame) noexcept;
+  void note_error_frame(const CanFrame& frame) noexcept;
+  void prepare(std::size_t slots) noexcept;
+  void look_after_interface(std::int64_t now_ns) noexcept;
+
+  SocketCanConfig config_;
+  WakeEvent wake_;
+  OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with; none when adopted.
+  OwnedDescriptor socket_;
+  ReceiveBuffer buffer_;
+  int interface_index_ = 0;
+
+  std::span<Wire> wires_;
+  std::span<::mmsghdr> messages_;
+  std::span<::iovec> vectors_;
+  std::span<Control> controls_;
+  std::span<CanFrame> frames_;
+
+  CanReceiveCounters counters_;
+  DropCounter drops_;
+  LinkState link_ = LinkState::kUnknown;
+  bool bus_off_ = false;
+  std::int64_t next_look_ns_ = 0;
+};
+
+}  // namespace terracut::firmware_io

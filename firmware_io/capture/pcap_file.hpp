@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "rt/error.hpp"
+
+struct pcap;  // libpcap's handle, pcap_t
+
+namespace terracut::firmware_io {
+
+/// How reading ended.
+enum class CaptureEnd : std::uint8_t {
+  kNotReached,
+  kClean,     ///< After the last whole record.
+  kBrokeOff,  ///< Inside a record, or at one that cannot be read on from. What came before is good.
+};
+
+/// One record of a capture file, as it was captured.
+struct PcapRecord {
+  std::span<const std::uint8_t> bytes;  ///< From the link layer on; valid until the next record.
+  std::int64_t stamp_ns = 0;            ///< Since 1970 (UTC), [0, year 2255].
+};
+
+/// The records of a capture file (pcap with micro- or nanosecond stamps in either byte order, or
+/// pcapng) in file order, whatever is in them. Not thread-safe; blocks on the disk.
+class PcapFile {
+ public:
+  /// kNotFound, kUnreadable or kMalformed (empty, or no capture: the message names what it looks
+  /// like).
+  [[nodiscard]] static Expected<PcapFile> open(std::filesystem::path path);
+
+  /// The same from memory, which must outlive this object; `name` stands for the path in messages.
+  [[nodiscard]] static Expected<PcapFile> open_memory(std::span<const std::uint8_t> capture,
+                                                      std::string name);
+
+  /// The next record; nothing at the end.
+  ///
+  /// An error (kMalformed or kUnsupported: interfaces of different link types in one pcapng) means
+  /// that the file breaks off: end() is then kBrokeOff, the message says after which packet and at
+  /// which byte, and every further call returns the same error. Allocates nothing a record.
+  [[nodiscard]] Expected<std::optional<PcapRecord>> next();
+
+  /// Back to the first record (a file is opened anew).
+  [[nodiscard]] Status rewind();
+
+  [[nodiscard]] CaptureEnd end() const noexcept { return end_; }
+  [[nodiscard]] int link_type() const noexcept { return link_type_; }  ///< libpcap's DLT_ number.
+  [[nodiscard]] std::string link_name() const;                         ///< "EN10MB (1)"
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+
+ private:
+  struct Close {
+    void operator()(::pcap* handle) const noexcept;
+  };
+
+  PcapFile() = default;
+  [[nodiscard]] Status reopen();
+  [[nodiscard]] Error broken_off(const char* reason);
+
+  std::string name_;
+  std::filesystem::path path_;  ///< Empty when reading from memory.
+  std::span<const std::uint8_t> memory_;
+  std::unique_ptr<::pcap, Close> handle_;
+  int link_type_ = 0;
+  std::uint64_t records_this_pass_ = 0;
+  CaptureEnd end_ = CaptureEnd::kNotReached;
+  std::optional<Error> break_off_;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,50 @@
+# Boots a small virtual machine whose kernel has CAN, runs can_bus_trial in it on a virtual CAN
+# interface, and reads the health frames that candump saw there.
+cmake_minimum_required(VERSION 3.22)
+if(NOT EXISTS ${VM_SCRIPT})
+  message("skipped: ../shared/tools/vcan_vm.sh, which boots the machine, is not there")
+  return()
+endif()
+foreach(tool bash qemu-system-x86_64 busybox candump cpio apt-get python3)
+  find_program(path_of_${tool} ${tool})
+  if(NOT path_of_${tool})
+    message("skipped: ${tool} is not installed (./tools/setup --all installs it)")
+    return()
+  endif()
+endforeach()
+# A Python that has canmatrix, if there is one: the first of the path need not be the distribution's.
+set(python ${path_of_python3})
+execute_process(COMMAND /usr/bin/python3 -c "import canmatrix"
+  RESULT_VARIABLE result OUTPUT_QUIET ERROR_QUIET)
+if(result EQUAL 0)
+  set(python /usr/bin/python3)
+endif()
+
+file(READ ${CMAKE_CURRENT_LIST_DIR}/can_bus_in_vm.sh commands)
+execute_process(COMMAND ${path_of_bash} ${VM_SCRIPT} -t 300 -a ${TRIAL} -c "${commands}"
+  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+message("${output}")
+if(NOT output MATCHES "VM-UP")
+  # The script keeps the kernel where it was unpacked once.
+  if(DEFINED ENV{XDG_CACHE_HOME})
+    set(cache $ENV{XDG_CACHE_HOME})
+  else()
+    set(cache $ENV{HOME}/.cache)
+  endif()
+  if(NOT EXISTS ${cache}/vcan_vm/kernel-std/.ok)
+    message("skipped: the kernel's package could not be downloaded")
+    return()
+  endif()
+  message(FATAL_ERROR "the virtual machine did not come up: ${result}")
+endif()
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "the trial failed in the virtual machine: ${result}")
+endif()
+
+file(WRITE ${FOLDER}/console.txt "${output}")
+execute_process(COMMAND ${python} ${CMAKE_CURRENT_LIST_DIR}/read_health.py ${DBC} ${FOLDER}/console.txt
+  RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
+message("${output}")
+if(NOT result EQUAL 0)
+  message(FATAL_ERROR "the health frames are not what was sent")
+endif()

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "motion_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace terracut::cli {
+namespace {
+
+/// "A.B, C" taken apart at the commas, without the space around.
+std::vector<std::string> names_in(std::string_view text) {
+  std::vector<std::string> names;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    std::string_view name = text.substr(begin, end - begin);
+    name.remove_prefix(std::min(name.find_first_not_of(' '), name.size()));
+    name = name.substr(0, name.find_last_not_of(' ') + 1);
+    names.emplace_back(name);
+    begin = end + 1;
+  }
+  return names;
+}
+
+firmware_io::MotionFigure figure_of(const MotionFigureOptions& options) {
+  return {.signals = names_in(options.signals),
+          .unit = options.unit == "file" ? std::string() : options.unit,
+          .scale = options.scale,
+          .sign = options.sign,
+          .valid = options.valid,
+          .valid_value = options.valid_value};
+}
+
+}  // namespace
+
+Expected<firmware_io::MotionSignals> motion_signals_of(const MotionOptions& options) {
+  if (options.dbc.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "no DBC file is given (motion.dbc): it says what the vehicle's CAN frames mean");
+  }
+  const auto file = firmware_io::read_dbc(options.dbc);
+  if (!file) return tl::unexpected(file.error());
+  auto motion = firmware_io::MotionSignals::make(*file, {.speed = figure_of(options.speed),
+                                                         .yaw_rate = figure_of(options.yaw_rate),
+                                                         .max_age_s = options.max_age_ms / 1000,
+                                                         .timeout_s = options.timeout_ms / 1000});
+  if (!motion) {
+    return fail(motion.error().code,
+                fmt::format("{}; the keys below motion of the configuration say which signals are "
+                            "meant, and how",
+                            motion.error().message));
+  }
+  return motion;
+}
+
+}  // namespace terracut::cli

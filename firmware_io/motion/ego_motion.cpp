@@ -94,7 +94,7 @@ bool EgoMotion::add(const MotionSample& sample) noexcept {
   return true;
 }
 
-MotionCounters EgoMotion::counters() const noexcept {
+EgoMotionCounters EgoMotion::counters() const noexcept {
   return {accepted_.load(std::memory_order_relaxed), implausible_.load(std::memory_order_relaxed),
           out_of_order_.load(std::memory_order_relaxed),
           not_taken_.load(std::memory_order_relaxed)};

@@ -17,7 +17,7 @@
 namespace terracut::firmware_io {
 
 /// What became of the samples given to an EgoMotion.
-struct MotionCounters {
+struct EgoMotionCounters {
   std::uint64_t accepted = 0;
   std::uint64_t implausible = 0;   ///< Not finite, or faster than any car.
   std::uint64_t out_of_order = 0;  ///< Not after the one before.
@@ -65,7 +65,7 @@ class EgoMotion {
   /// Writer only. False when the sample is not used, which is counted.
   bool add(const MotionSample& sample) noexcept TERRACUT_NONBLOCKING;
   /// Any thread.
-  [[nodiscard]] MotionCounters counters() const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] EgoMotionCounters counters() const noexcept TERRACUT_NONBLOCKING;
 
   /// Reader only: takes over what was added since.
   void take_new() noexcept TERRACUT_NONBLOCKING;

@@ -136,7 +136,7 @@ TEST_F(EgoMotionTest, SamplesThatNobodyShouldUseAreCountedByTheirCause) {
   EXPECT_FALSE(motion_.add({at_ms(60), 200, 0}));
   EXPECT_FALSE(motion_.add({at_ms(50), 20, 0}));
   EXPECT_FALSE(motion_.add({at_ms(20), 20, 0}));
-  const MotionCounters counters = motion_.counters();
+  const EgoMotionCounters counters = motion_.counters();
   EXPECT_EQ(counters.accepted, 6U);
   EXPECT_EQ(counters.implausible, 4U);
   EXPECT_EQ(counters.out_of_order, 2U);
@@ -185,8 +185,8 @@ double speed_at(std::int64_t stamp_ns) {
 }
 
 TEST_F(EgoMotionTest, SamplesOfAnotherThreadArriveWholeAndInOrder) {
-  EgoMotion motion({.waiting = 32, .kept = 64}, memory_);
-  constexpr int kSamples = 100'000;
+  EgoMotion motion({.waiting = 256, .kept = 512}, memory_);
+  constexpr int kSamples = 20'000;
   std::atomic<bool> done = false;
   std::thread writer([&] {
     for (int i = 0; i < kSamples; ++i) {

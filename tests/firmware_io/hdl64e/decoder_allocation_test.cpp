@@ -40,7 +40,9 @@ TEST(Hdl64eDecoderMemory, TakingTheMotionOutAllocatesNothing) {
   const auto packets = random_packets({.last_cdeg = 37'100 + 3 * 36'000});
   rt::FixedMemory memory;
   firmware_io::EgoMotion motion({}, memory);
-  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, {.motion = &motion}, memory);
+  firmware_io::Hdl64eDecoder::Config config;
+  config.motion = &motion;
+  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, config, memory);
   std::uint64_t frames = 0, deskewed = 0;
   const auto on_frame = [&](const firmware_io::FrameInfo& info,
                             const pipeline::RangeImage&) noexcept {

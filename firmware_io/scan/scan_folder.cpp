@@ -5,21 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <system_error>
+
+#include "rt/number_of.hpp"
 
 namespace terracut::firmware_io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<std::uint32_t> number_of(const std::string& name) {
-  std::uint32_t number = 0;
-  const char* const end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data(), end, number);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return number;
-}
 
 std::optional<fs::path> if_file(const fs::path& path) {
   std::error_code error;
@@ -49,7 +42,8 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
     std::error_code ignored;
     if (path.extension() != ".bin" || !entry->is_regular_file(ignored)) continue;
     const std::string name = path.stem().string();
-    found.scans.push_back({path, if_file(labels / (name + ".label")), name, number_of(name)});
+    found.scans.push_back(
+        {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)});
   }
   if (error) {
     return fail(ErrorCode::kUnreadable,

@@ -14,6 +14,8 @@
 #include "firmware_io/datagram.hpp"
 #include "firmware_io/frame_builder.hpp"
 #include "firmware_io/frame_info.hpp"
+#include "firmware_io/motion/deskewer.hpp"
+#include "firmware_io/motion/host_clock.hpp"
 #include "firmware_io/packet_heads.hpp"
 #include "firmware_io/stream_tracker.hpp"
 #include "pipeline/range_image.hpp"
@@ -31,6 +33,7 @@ namespace terracut::firmware_io {
 ///   rt::FixedMemory&);
 /// - `check(payload, PacketHeads&)`: the reason to reject a payload, or nothing and its heads;
 /// - `spread(step_ticks)`: the BeamSpread around the head;
+/// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
 /// - `begin_packet(heads)`, then `read_column(payload, heads, column)` for each column in turn: its
 ///   ColumnReturns<kRows>;
 /// - `rows()`: the range image row of each laser.
@@ -62,6 +65,11 @@ class Decoder {
     /// packets reordered by as many still find their frame. Costs their time as latency, and one
     /// firing's.
     int reorder_packets = 2;
+    /// Takes the vehicle's motion out of every turn before it is handed over (FrameInfo::deskew).
+    /// This decoder's thread is its reader, and the motion must outlive the decoder. Null: returns
+    /// are handed over as seen.
+    EgoMotion* motion = nullptr;
+    TurnInstant deskew_at = TurnInstant::kEnd;
     typename Sensor::Config sensor;
   };
 
@@ -73,7 +81,18 @@ class Decoder {
                          frame_config(config).overflow_capacity),
         sensor_(calibration, mount, config.sensor, config.columns, memory),
         tracker_(Sensor::kClockWrap_us, memory),
-        frames_(frame_config(config), memory) {}
+        frames_(frame_config(config), memory),
+        clock_(Sensor::kClockWrap_us) {
+    if (config.motion == nullptr) return;
+    std::array<std::int32_t, kLasers> beam_ticks{};
+    for (std::size_t i = 0; i < kLasers; ++i) {
+      beam_ticks[static_cast<std::size_t>(sensor_.rows()[i])] =
+          sensor_.beam_ticks(static_cast<int>(i));
+    }
+    deskewer_.emplace(
+        Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), kTurn_ticks}, beam_ticks,
+        memory);
+  }
 
   /// One datagram. Nothing when it was decoded, else why it was rejected (and counted, but for
   /// kDeviceInfo).
@@ -85,7 +104,7 @@ class Decoder {
   template <class OnFrame>
   void flush(OnFrame&& on_frame) noexcept {
     tracker_.end_of_stream(frames_.losses());
-    frames_.flush(on_frame);
+    frames_.flush(deskewed(on_frame));
   }
 
   /// Since construction. Packets still expected out of order become losses a few packets later.
@@ -143,6 +162,15 @@ class Decoder {
     return reason;
   }
   void place_columns(std::span<const std::uint8_t> payload, std::int64_t head_cdeg) noexcept;
+  /// on_frame, the motion taken out before it where that is wanted.
+  template <class OnFrame>
+  [[nodiscard]] auto deskewed(OnFrame& on_frame) noexcept {
+    return
+        [this, &on_frame](FrameInfo& info, pipeline::RangeImage& image) noexcept -> decltype(auto) {
+          if (deskewer_) info.deskew = deskewer_->apply(frames_.oldest(), image);
+          return on_frame(info, image);
+        };
+  }
 
   int reorder_packets_;
   pipeline::CellOwner dual_owner_;
@@ -150,6 +178,8 @@ class Decoder {
   Sensor sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;
+  HostClock clock_;
+  std::optional<Deskewer> deskewer_;
   PacketHeads heads_;
   std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to here.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
@@ -188,7 +218,11 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   const std::int64_t last_turn = turn_of(most_ticks + spread.foremost_ticks);
 
   if (placed.arrival == Arrival::kRestart) {
-    frames_.flush(on_frame);
+    frames_.flush(deskewed(on_frame));
+    if (deskewer_) {
+      deskewer_->restart();
+      clock_.forget();
+    }
     frames_.start(first_turn, first_ticks);
     frontier_ticks_ = first_ticks;
     steps_ticks_ = steps_ = 0;
@@ -202,8 +236,12 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     frames_.lose({frontier_ticks_, first_ticks}, spread, step_ticks);
   }
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
+  if (deskewer_ && placed.arrival != Arrival::kReordered) {
+    const std::int64_t sent_ns = clock_.sent_ns(heads_.device_stamp_us, datagram.stamp_ns);
+    deskewer_->note(first_ticks, sent_ns - heads_.nominal_period_ns);
+  }
 
-  while (last_turn > frames_.oldest() + 1) frames_.roll(on_frame);
+  while (last_turn > frames_.oldest() + 1) frames_.roll(deskewed(on_frame));
   frames_.note_packet(datagram.stamp_ns, first_turn, last_turn, frontier_ticks_, step_ticks,
                       spread);
   place_columns(datagram.payload, placed.head_cdeg);
@@ -212,7 +250,7 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   const std::int64_t settled_ticks =
       std::max(most_ticks, frontier_ticks_ - heads_.step_ticks) + spread.hindmost_ticks -
       std::int64_t{reorder_packets_} * heads_.sweep_ticks - heads_.step_ticks;
-  while (turn_of(settled_ticks) > frames_.oldest()) frames_.roll(on_frame);
+  while (turn_of(settled_ticks) > frames_.oldest()) frames_.roll(deskewed(on_frame));
   return std::nullopt;
 }
 

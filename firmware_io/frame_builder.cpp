@@ -121,7 +121,8 @@ bool FrameBuilder::close_oldest() noexcept {
                       .packets = packets_,
                       .returns = closing.image->returns(),
                       .complete = seen_whole(closing),
-                      .losses = losses_};
+                      .losses = losses_,
+                      .deskew = {}};
     losses_handed_over_ += losses_;
     losses_ = {};
     packets_ = 0;

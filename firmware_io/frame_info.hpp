@@ -5,6 +5,7 @@
 #include <cstdint>
 
 #include "firmware_io/loss_counters.hpp"
+#include "firmware_io/motion/deskew_info.hpp"
 
 namespace terracut::firmware_io {
 
@@ -18,6 +19,7 @@ struct FrameInfo {
   std::uint32_t returns = 0;  ///< Returns placed; equals RangeImage::returns().
   bool complete = false;      ///< Every firing of the turn was seen, from seam to seam.
   LossCounters losses;        ///< What was lost since the frame before was handed over.
+  DeskewInfo deskew;          ///< Whether the vehicle's motion was taken out of it.
 };
 
 }  // namespace terracut::firmware_io

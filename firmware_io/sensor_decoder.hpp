@@ -26,6 +26,8 @@ class SensorDecoder {
     int images = 3;
     int reorder_packets = 2;
     pipeline::CellOwner dual_owner = pipeline::CellOwner::kStrongest;
+    EgoMotion* motion = nullptr;  ///< As Decoder::Config::motion.
+    TurnInstant deskew_at = TurnInstant::kEnd;
     Hdl64eSensor::Config hdl64e;
     Ruby128Sensor::Config ruby128;
   };
@@ -39,6 +41,8 @@ class SensorDecoder {
     result.images = config.images;
     result.reorder_packets = config.reorder_packets;
     result.dual_owner = config.dual_owner;
+    result.motion = config.motion;
+    result.deskew_at = config.deskew_at;
     result.sensor = sensor;
     return result;
   }

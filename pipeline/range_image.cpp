@@ -3,6 +3,7 @@
 #include "pipeline/range_image.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace terracut::pipeline {
 
@@ -30,6 +31,35 @@ void RangeImage::clear() noexcept {
   if (++generation_ == 0) {  // stamps of 2^32 turns ago would look alive
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     generation_ = 1;
+  }
+}
+
+void RangeImage::move(std::span<const PlanarMotions> by_row) noexcept {
+  const auto columns = static_cast<std::size_t>(shape_.columns);
+  const auto stride = static_cast<std::size_t>(stride_);
+  for (std::size_t row = 0; row < by_row.size(); ++row) {
+    // Left-overs of earlier turns are moved with the rest: to leave them out costs more.
+    float* const __restrict x_m = x_m_.subspan(row * stride, columns).data();
+    float* const __restrict y_m = y_m_.subspan(row * stride, columns).data();
+    float* const __restrict ground_range_m = ground_range_m_.subspan(row * stride, columns).data();
+    const PlanarMotions& motion = by_row[row];
+    for (std::size_t i = 0; i < columns; ++i) {
+      const float x = motion.cosine[i] * x_m[i] - motion.sine[i] * y_m[i] + motion.x_m[i];
+      const float y = motion.sine[i] * x_m[i] + motion.cosine[i] * y_m[i] + motion.y_m[i];
+      x_m[i] = x;
+      y_m[i] = y;
+      ground_range_m[i] = std::sqrt(x * x + y * y);
+    }
+  }
+  for (OverflowReturn& extra : overflow_.first(overflow_used_)) {
+    const PlanarMotions& motion = by_row[extra.cell / stride];
+    const std::size_t i = extra.cell % stride;
+    Return& echo = extra.echo;
+    const float x = motion.cosine[i] * echo.x_m - motion.sine[i] * echo.y_m + motion.x_m[i];
+    const float y = motion.sine[i] * echo.x_m + motion.cosine[i] * echo.y_m + motion.y_m[i];
+    echo.x_m = x;
+    echo.y_m = y;
+    echo.ground_range_m = std::sqrt(x * x + y * y);
   }
 }
 

@@ -30,7 +30,7 @@ struct ImageShape {
 struct Return {
   float x_m = 0, y_m = 0;
   float z_m = 0;             ///< Height above the mount's ground plane.
-  float ground_range_m = 0;  ///< Horizontal distance from the sensor, sqrt(x^2 + y^2).
+  float ground_range_m = 0;  ///< Horizontal distance from the frame's origin, sqrt(x^2 + y^2).
   std::uint8_t intensity = 0;
 };
 
@@ -48,6 +48,11 @@ struct OverflowReturn {
   Return echo;
   std::uint32_t cell = 0;          ///< The taken cell, row * stride + column.
   std::uint32_t return_index = 0;  ///< As in RangeImage::return_index().
+};
+
+/// Rigid motions in the ground plane, one for each column: x' = c x - s y + t_x and so on.
+struct PlanarMotions {
+  std::span<const float> cosine, sine, x_m, y_m;
 };
 
 /// One turn of returns as an image: structure of arrays, rows x columns, row-major with stride
@@ -81,6 +86,10 @@ class RangeImage {
     write(cell, echo, returns_++);
     return true;
   }
+
+  /// Moves all returns, each as its cell's row and column say; cells and heights stay. One of
+  /// `by_row` for each row. Real-time safe.
+  void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }

@@ -48,6 +48,9 @@ class Ruby128Sensor {
   [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
+  [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
+    return offsets_.offset_ticks(0, laser);
+  }
   void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
                                           const PacketHeads& heads,

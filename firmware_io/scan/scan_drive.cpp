@@ -2,15 +2,41 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/scan/scan_drive.hpp"
 
+#include <cstddef>
+#include <span>
 #include <utility>
 
+#include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
+#include "firmware_io/scan/turn_motion_log.hpp"
 
 namespace terracut::firmware_io {
+namespace {
+
+/// Half a turn about the sensor's axis.
+void turn_round(std::span<ScanPoint> points) {
+  for (ScanPoint& point : points) {
+    point.x_m = -point.x_m;
+    point.y_m = -point.y_m;
+  }
+}
+SensorTwist turned_round(SensorTwist twist) {
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    twist.velocity_m_s[axis] = -twist.velocity_m_s[axis];
+    twist.turning_rad_s[axis] = -twist.turning_rad_s[axis];
+  }
+  return twist;
+}
+
+}  // namespace
 
 Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                              const std::filesystem::path& pcap_path,
                                              const ScanDriveOptions& options) {
+  if (options.can_log && !options.undo_compensation) {
+    return fail(ErrorCode::kInvalidArgument,
+                "a CAN log is of the motion that is put back: it needs undo_compensation");
+  }
   auto reader = ScanReader::open(folder, options.undo_compensation);
   if (!reader) return tl::unexpected(std::move(reader.error()));
 
@@ -28,7 +54,9 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
 
   auto writer = Hdl64eDriveWriter::create(pcap_path, report.calibration);
   if (!writer) return tl::unexpected(std::move(writer.error()));
+  TurnMotionLog log(options.first_stamp_ns);
   ScanEncoder encoder(report.calibration, options.first_stamp_ns, [&](const EncodedFiring& firing) {
+    log.note_firing(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg);
     return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
                               firing.column.by_laser);
   });
@@ -37,6 +65,12 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
   for (std::size_t i = 0; i < reader->size(); ++i) {
     if (const Status status = reader->read(i, scan, rings); !status) {
       return tl::unexpected(status.error());
+    }
+    if (options.can_log) {
+      const auto twist = reader->twist(i);
+      if (!twist) return tl::unexpected(twist.error());
+      turn_round(scan.points);
+      log.add_turn(turned_round(**twist));
     }
     const Status status = encoder.add_turn(scan.points, rings.ring_of_point, scan.labels);
     if (!status) return tl::unexpected(status.error());
@@ -48,6 +82,10 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
   const auto drive = writer->finish();
   if (!drive) return tl::unexpected(drive.error());
   report.drive = *drive;
+  if (options.can_log) {
+    const Status logged = write_vehicle_log(pcap_path, log.samples());
+    if (!logged) return tl::unexpected(logged.error());
+  }
   return report;
 }
 

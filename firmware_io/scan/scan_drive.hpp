@@ -22,6 +22,12 @@ struct ScanDriveOptions {
   /// The unit's table; without one it is fitted from the scans themselves.
   std::optional<calib::Hdl64eCalibration> calibration;
   bool undo_compensation = false;  ///< Put the sensor's motion back (needs poses.txt, times.txt).
+  /// Write the motion put back as a CAN log beside the capture (motion/vehicle_log.hpp), too; only
+  /// with undo_compensation. A recorded turn begins behind, a turn of packets straight ahead, so
+  /// the sensor is turned round: it looks backwards, and its vehicle drives backwards. Each turn
+  /// then is one scan, as it was measured; brought to its middle it is the recorded one, half a
+  /// turn round.
+  bool can_log = false;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;  ///< Capture time of the first firing.
   std::function<void(std::size_t done, std::size_t of)> on_scan;  ///< Progress; may be empty.
 };

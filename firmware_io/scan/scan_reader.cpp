@@ -48,7 +48,15 @@ Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings)
   // Rings first: putting the motion back moves points over the line that separates them.
   Status recovered = recover_rings(scan.points, table_ ? &*table_ : nullptr, rings);
   if (!recovered) return tl::unexpected(in_file(file.points, std::move(recovered.error())));
-  if (!motion_) return {};
+  const auto twist = this->twist(index);
+  if (!twist) return tl::unexpected(twist.error());
+  if (*twist) undo_motion_compensation(**twist, scan.points);
+  return {};
+}
+
+Expected<std::optional<SensorTwist>> ScanReader::twist(std::size_t index) const {
+  if (!motion_) return std::nullopt;
+  const ScanFile& file = folder_.scans[index];
   if (!file.frame) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{}: undoing the motion compensation needs scans named by their frame "
@@ -57,8 +65,7 @@ Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings)
   }
   const auto twist = motion_->twist(*file.frame);
   if (!twist) return tl::unexpected(twist.error());
-  undo_motion_compensation(*twist, scan.points);
-  return {};
+  return *twist;
 }
 
 Expected<FittedRings> ScanReader::fit_rings() {

@@ -34,6 +34,9 @@ class ScanReader {
   /// points. Scans with other than 64 rings need a table: fit_rings() or use_rings() first.
   [[nodiscard]] Status read(std::size_t index, KittiScan& scan, RingRecovery& rings) const;
 
+  /// The motion that was put back into scan `index`; nothing where none was.
+  [[nodiscard]] Expected<std::optional<SensorTwist>> twist(std::size_t index) const;
+
   /// Fits the unit's ring table from the scans that have all 64 rings and uses it from then on.
   /// Scans that cannot be read are left out; the error is that of the last one where none can.
   [[nodiscard]] Expected<FittedRings> fit_rings();

@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "calib/angle.hpp"
-#include "firmware_io/simulator/ego_motion.hpp"
 #include "firmware_io/drive/firing_plan.hpp"
+#include "firmware_io/simulator/ego_motion.hpp"
 #include "firmware_io/simulator/object_index.hpp"
 #include "firmware_io/simulator/scan_head.hpp"
 #include "firmware_io/simulator/scene.hpp"
@@ -39,6 +39,7 @@ Status check(const DriveConfig& config) {
       in_range("duration_s", config.duration_s, 1e-3, 3600),
       in_range("spin_hz", config.spin_hz, 5, 20),
       in_range("speed_mps", config.speed_mps, -1, 60),
+      in_range("yaw_rate_radps", config.yaw_rate_radps, -1, 1),
       in_range("mount.height_m", config.mount.height_m, 0.2, 6),
       in_range("mount.roll_rad", config.mount.roll_rad, -0.5, 0.5),
       in_range("mount.pitch_rad", config.mount.pitch_rad, -0.5, 0.5),
@@ -157,27 +158,92 @@ class Drive {
   std::vector<Column> columns_;
 };
 
+/// What a valid configuration describes.
+template <class Transmitter>
+struct DrivePlan {
+  std::int64_t turns = 0;
+  Scene scene;
+
+  [[nodiscard]] static Expected<DrivePlan> of(const SimulationConfig<Transmitter>& config) {
+    for (const Status& status : {calib::validate(config.calibration), check(config)}) {
+      if (!status) return tl::unexpected(status.error());
+    }
+    const std::int64_t turns =
+        std::max<std::int64_t>(1, std::llround(config.duration_s * config.spin_hz));
+    const double duration_s = static_cast<double>(turns) / config.spin_hz;
+    Expected<Scene> scene = make_scene(config.scene, {config.seed, duration_s, config.speed_mps});
+    if (!scene) return tl::unexpected(scene.error());
+    if (config.yaw_rate_radps != 0) scene->ego_arc = {config.yaw_rate_radps, duration_s / 2};
+    return DrivePlan{turns, *std::move(scene)};
+  }
+
+  [[nodiscard]] FiringPlan<Transmitter> firings(const SimulationConfig<Transmitter>& config) const {
+    return {config.calibration, config.sensor.returns, config.spin_hz, turns};
+  }
+};
+
+/// From a stamp of the drive to the time that its world has.
+template <class Transmitter>
+double world_time_s(const SimulationConfig<Transmitter>& config,
+                    const FiringPlan<Transmitter>& firings, std::int64_t stamp_ns) {
+  return firings.firing(0).time_s + static_cast<double>(stamp_ns - config.start_ns) * 1e-9;
+}
+
 }  // namespace
 
 template <class Transmitter>
 Expected<SimulationSummary> simulate_drive(
     const SimulationConfig<Transmitter>& config,
     const std::type_identity_t<ColumnSink<Transmitter>>& sink) {
-  for (const Status& status : {calib::validate(config.calibration), check(config)}) {
-    if (!status) return tl::unexpected(status.error());
+  const auto plan = DrivePlan<Transmitter>::of(config);
+  if (!plan) return tl::unexpected(plan.error());
+  return Drive<Transmitter>(config, plan->scene, plan->turns).run(sink);
+}
+
+template <class Transmitter>
+Expected<std::vector<MotionSample>> simulated_motion(const SimulationConfig<Transmitter>& config,
+                                                     std::int64_t period_ns) {
+  const auto plan = DrivePlan<Transmitter>::of(config);
+  if (!plan) return tl::unexpected(plan.error());
+  const Status status = in_range("period_ns", static_cast<double>(period_ns), 1e5, 1e9);
+  if (!status) return tl::unexpected(status.error());
+  const FiringPlan<Transmitter> firings = plan->firings(config);
+  const std::int64_t end_ns = config.start_ns + firings.after_ns(firings.firings()) + period_ns;
+  std::vector<MotionSample> samples;
+  for (std::int64_t stamp_ns = config.start_ns - period_ns; stamp_ns <= end_ns;
+       stamp_ns += period_ns) {
+    samples.push_back(ego_motion(plan->scene, world_time_s(config, firings, stamp_ns)));
+    samples.back().stamp_ns = stamp_ns;
   }
-  const std::int64_t turns =
-      std::max<std::int64_t>(1, std::llround(config.duration_s * config.spin_hz));
-  const double duration_s = static_cast<double>(turns) / config.spin_hz;
-  const Expected<Scene> scene =
-      make_scene(config.scene, {config.seed, duration_s, config.speed_mps});
-  if (!scene) return tl::unexpected(scene.error());
-  return Drive<Transmitter>(config, *scene, turns).run(sink);
+  return samples;
+}
+
+template <class Transmitter>
+Expected<std::function<calib::RigidTransform(std::int64_t)>> simulated_poses(
+    const SimulationConfig<Transmitter>& config) {
+  auto plan = DrivePlan<Transmitter>::of(config);
+  if (!plan) return tl::unexpected(plan.error());
+  const FiringPlan<Transmitter> firings = plan->firings(config);
+  return [config, firings, scene = std::move(plan->scene)](std::int64_t stamp_ns) {
+    const Eigen::Isometry3d pose = ego_pose(scene, world_time_s(config, firings, stamp_ns));
+    calib::RigidTransform T{};
+    for (int i = 0; i < 12; ++i) T[static_cast<std::size_t>(i)] = pose(i / 4, i % 4);
+    return T;
+  };
 }
 
 template Expected<SimulationSummary> simulate_drive(const Hdl64eSimulation&,
                                                     const ColumnSink<Hdl64eTransmitter>&);
 template Expected<SimulationSummary> simulate_drive(const Ruby128Simulation&,
                                                     const ColumnSink<Ruby128Transmitter>&);
+
+template Expected<std::vector<MotionSample>> simulated_motion(const Hdl64eSimulation&,
+                                                              std::int64_t);
+template Expected<std::vector<MotionSample>> simulated_motion(const Ruby128Simulation&,
+                                                              std::int64_t);
+template Expected<std::function<calib::RigidTransform(std::int64_t)>> simulated_poses(
+    const Hdl64eSimulation&);
+template Expected<std::function<calib::RigidTransform(std::int64_t)>> simulated_poses(
+    const Ruby128Simulation&);
 
 }  // namespace terracut::firmware_io

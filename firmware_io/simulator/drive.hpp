@@ -8,11 +8,13 @@
 #include <functional>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "calib/beam.hpp"
 #include "calib/mount.hpp"
 #include "firmware_io/drive/transmitter.hpp"
 #include "firmware_io/labelled_return.hpp"
+#include "firmware_io/motion/motion_sample.hpp"
 #include "firmware_io/simulator/sensor_effects.hpp"
 #include "rt/error.hpp"
 
@@ -27,6 +29,9 @@ struct DriveConfig {
   double duration_s = 5.0;       ///< Rounded to whole turns, at least one; (0, 3600].
   double spin_hz = 10.0;         ///< [5, 20]
   double speed_mps = -1;         ///< Of the vehicle; < 0: what is usual in the scene; at most 60.
+  /// Not 0: the vehicle turns at this rate all the time, on an arc that follows the road in the
+  /// middle of the drive and leaves it towards both ends; [-1, 1], to the left is positive.
+  double yaw_rate_radps = 0;
   calib::Mount mount;
   SensorEffects effects;
   /// The vehicle and everything else move on while the head turns, as in life. When off, they stand
@@ -81,6 +86,17 @@ template <class Transmitter>
 [[nodiscard]] Expected<SimulationSummary> simulate_drive(
     const SimulationConfig<Transmitter>& config,
     const std::type_identity_t<ColumnSink<Transmitter>>& sink);
+
+/// How the vehicle of a drive moves, every `period_ns` from before its first firing to after its
+/// last, stamped as its firings are. Errors as simulate_drive().
+template <class Transmitter>
+[[nodiscard]] Expected<std::vector<MotionSample>> simulated_motion(
+    const SimulationConfig<Transmitter>& config, std::int64_t period_ns = 10'000'000);
+
+/// T_world_vehicle by stamps of the drive. Errors as simulate_drive().
+template <class Transmitter>
+[[nodiscard]] Expected<std::function<calib::RigidTransform(std::int64_t)>> simulated_poses(
+    const SimulationConfig<Transmitter>& config);
 
 using Hdl64eSimulation = SimulationConfig<Hdl64eTransmitter>;
 using Ruby128Simulation = SimulationConfig<Ruby128Transmitter>;

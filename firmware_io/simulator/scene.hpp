@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,12 +16,20 @@
 
 namespace terracut::firmware_io {
 
-/// A world and the way of the sensor's vehicle through it: from s = 0 at time 0 along the road.
+/// An arc that touches the road's direction at one moment of a drive.
+struct EgoArc {
+  double yaw_rate_radps = 0;  ///< To the left is positive.
+  double touches_s = 0;       ///< Since the start of the drive.
+};
+
+/// A world and the way of the sensor's vehicle through it: from s = 0 at time 0 along the road, or
+/// along an arc, which leaves the road in the end.
 struct Scene {
   Terrain terrain;
   std::vector<SceneObject> objects;
   double ego_d_m = 0;  ///< The vehicle's distance from the centre line, left positive.
   double ego_speed_mps = 0;
+  std::optional<EgoArc> ego_arc = std::nullopt;
 };
 
 /// How much of the world a drive will see.

@@ -4,8 +4,12 @@
 // RS-Ruby128). Reports, asserts nothing.
 #include <benchmark/benchmark.h>
 
+#include <cstdint>
+#include <vector>
+
 #include "calib/nominal_ruby128.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/motion/deskewer.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
@@ -70,6 +74,40 @@ void decode_ruby128_turns(benchmark::State& state) {
   report(state, packets.size(), 3);
 }
 BENCHMARK(decode_ruby128_turns)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+
+/// One turn at 20 m/s and 0.5 rad/s moved to its end: 64 rows of 2083 columns (0), 128 of 1800 (1).
+void deskew_turn(benchmark::State& state) {
+  const bool ruby = state.range(0) == 1;
+  const pipeline::ImageShape shape{ruby ? 128 : 64, ruby ? 1800 : 2083};
+  rt::FixedMemory memory;
+  firmware_io::EgoMotion motion({}, memory);
+  for (std::int64_t i = -1; i < 14; ++i) motion.add({i * 10'000'000, 20, 0.5});
+  std::vector<std::int32_t> beam_ticks;
+  for (int row = 0; row < shape.rows; ++row) beam_ticks.push_back((row % 4 - 2) * 300'000);
+  firmware_io::Deskewer deskewer(
+      {&motion, firmware_io::TurnInstant::kEnd, shape, firmware_io::kTurn_ticks}, beam_ticks,
+      memory);
+  for (std::int64_t i = -20; i < 380; ++i) {
+    deskewer.note(i * firmware_io::kTurn_ticks / 360, i * 100'000'000 / 360);
+  }
+  pipeline::RangeImage image(shape, 100, memory);
+  for (auto _ : state) {
+    // The places of a turn, as they are not to move away.
+    state.PauseTiming();
+    image.clear();
+    for (int row = 0; row < shape.rows; ++row) {
+      for (int column = 0; column < shape.columns; ++column) {
+        image.place(row, column, {10.0F + static_cast<float>(row), 5, 0, 11, 1});
+      }
+    }
+    state.ResumeTiming();
+    if (deskewer.apply(0, image).state != firmware_io::DeskewState::kDone) {
+      state.SkipWithError("no ego motion");
+      break;
+    }
+  }
+}
+BENCHMARK(deskew_turn)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 /// Points only, nothing placed.
 void compute_points(benchmark::State& state) {

@@ -9,6 +9,7 @@
 
 #include "firmware_io/frame_info.hpp"
 #include "firmware_io/loss_counters.hpp"
+#include "firmware_io/motion/ego_motion.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
 #include "tests/fuzz/input.hpp"
@@ -28,7 +29,7 @@ class DecoderRun {
   DecoderRun(const Calibration& calibration, ReturnsIn returns_in, float farthest_m)
       : returns_in_(returns_in),
         farthest_m_(farthest_m),
-        decoder_(calibration, {}, config(), memory_) {}
+        decoder_(calibration, {}, config(&motion_), memory_) {}
 
   [[nodiscard]] auto keep() {
     return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
@@ -58,7 +59,11 @@ class DecoderRun {
       accepted_returns_ += returns_in_(payload);
     }
   }
-  void advance(std::int64_t ns) { stamp_ns_ += ns; }
+  /// The vehicle turns on the spot, which leaves distances as they are; at times nobody knows.
+  void advance(std::int64_t ns) {
+    stamp_ns_ += ns;
+    motion_.add({stamp_ns_, 0, 1});
+  }
   void flush() { decoder_.flush(keep()); }
 
   void check() const {
@@ -70,8 +75,9 @@ class DecoderRun {
   }
 
  private:
-  static typename Decoder::Config config() {
+  static typename Decoder::Config config(firmware_io::EgoMotion* motion) {
     typename Decoder::Config config;
+    config.motion = motion;
     config.columns = 64;
     config.returns_per_cell = 3;
     return config;
@@ -79,6 +85,7 @@ class DecoderRun {
   ReturnsIn returns_in_;
   float farthest_m_;
   rt::FixedMemory memory_;
+  firmware_io::EgoMotion motion_{{.waiting = 16, .kept = 16}, memory_};
   Decoder decoder_;
   std::int64_t stamp_ns_ = 1'000'000'000;
   std::uint64_t fed_ = 0, rejected_ = 0, accepted_returns_ = 0, handed_returns_ = 0;

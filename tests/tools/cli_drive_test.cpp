@@ -25,6 +25,19 @@ TEST_F(Cli, SimulateIsTheSameForTheSameSeedOnly) {
   EXPECT_NE(content_of(folder_ / "a.pcap"), content_of(folder_ / "c.pcap"));
 }
 
+TEST_F(Cli, SimulateWritesTheVehiclesMotionBesideTheDriveWhenAsked) {
+  expect_done(
+      "simulate --scene flat --duration 0.1 --speed 20 --yaw-rate 28.65 --can-log -o a.pcap");
+  const std::string log = content_of(folder_ / "a.can.log");
+  // 72.00 km/h and 28.65 deg/s, every 10 ms of the 0.2 s with run-up and run-out.
+  EXPECT_THAT(log, HasSubstr(") can0 1A0#1C200B3100000003\n"));
+  EXPECT_THAT(content_of(folder_ / "a.can.dbc"), HasSubstr("BO_ 416 VEHICLE_MOTION"));
+  expect_done("simulate --scene flat --duration 0.1 -o b.pcap");
+  EXPECT_FALSE(fs::exists(folder_ / "b.can.log"));
+  EXPECT_EQ(run("simulate --duration 0.1 --can-log").exit_code, 2);
+  EXPECT_EQ(run("encode scans -o x.pcap --can-log").exit_code, 2);
+}
+
 TEST_F(Cli, InfoNamesTheSensorItsRateAndTheTableInTheStream) {
   const Outcome outcome = run("info --json info.json " + quoted(kDrive));
   EXPECT_EQ(outcome.exit_code, 0);

@@ -8,6 +8,7 @@
 #include "calib/ruby128_csv.hpp"
 #include "commands.hpp"
 #include "console.hpp"
+#include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/scan/scan_drive.hpp"
 
 namespace terracut::cli {
@@ -19,6 +20,11 @@ void print(const EncodeOptions& options, const firmware_io::ScanDriveReport& rep
       "wrote     {}\n          {}\n          {}/\n", options.output.string(),
       firmware_io::calibration_path_of<firmware_io::Hdl64eTransmitter>(options.output).string(),
       firmware_io::truth_folder_of(options.output).string());
+  if (options.can_log) {
+    fmt::print("          {}\n          {}\n",
+               firmware_io::can_log_path_of(options.output).string(),
+               firmware_io::can_dbc_path_of(options.output).string());
+  }
   fmt::print("table     {}, fingerprint {:016x}\n",
              report.fitted ? "fitted to the scans" : report.calibration.origin,
              fingerprint(report.calibration));
@@ -79,9 +85,15 @@ ExitCode resample(const EncodeOptions& options) {
 }  // namespace
 
 ExitCode run(const EncodeOptions& options) {
-  if (options.sensor == "ruby128") return resample(options);
+  if (options.sensor == "ruby128") {
+    if (options.can_log) {
+      return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled turns begin ahead");
+    }
+    return resample(options);
+  }
   firmware_io::ScanDriveOptions drive;
   drive.undo_compensation = options.undo_compensation;
+  drive.can_log = options.can_log;
   if (!options.calibration.empty()) {
     auto calibration = calib::load_hdl64e_calibration(options.calibration);
     if (!calibration) return refuse(calibration.error());

@@ -109,6 +109,9 @@ struct SimulateOptions {
   std::string returns = "single";  ///< --returns single|dual
   std::string timestamp = "us";    ///< --timestamp calendar|us|ns, of a Ruby128
   double noise_m = 0.015;
+  double speed_mps = -1;    ///< --speed; < 0: what is usual in the scene
+  double yaw_rate_dps = 0;  ///< --yaw-rate, [-57, 57]; not 0: on an arc
+  bool can_log = false;     ///< The vehicle's motion beside the capture, as a CAN log and its DBC.
   std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
   MountOptions mount;
   std::filesystem::path output;  ///< Empty: nothing is kept.
@@ -120,6 +123,7 @@ struct EncodeOptions {
   std::filesystem::path scans;
   std::filesystem::path calibration;  ///< Empty: fitted from the scans.
   bool undo_compensation = false;
+  bool can_log = false;  ///< The motion that was put back, as a CAN log and its DBC.
   std::filesystem::path output;
 };
 

@@ -10,11 +10,13 @@
 #include <string>
 #include <thread>
 
+#include "calib/angle.hpp"
 #include "calib/hdl64e_file.hpp"
 #include "calib/ruby128_csv.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "firmware_io/drive/drive_writer.hpp"
+#include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/simulator/drive.hpp"
 #include "setup_choice.hpp"
 #include "temporary_folder.hpp"
@@ -63,6 +65,8 @@ Expected<firmware_io::SimulationConfig<Transmitter>> simulation_config(
   config.seed = options.seed;
   config.duration_s = options.duration_s;
   config.spin_hz = options.spin_hz;
+  config.speed_mps = options.speed_mps;
+  config.yaw_rate_radps = calib::deg_to_rad(options.yaw_rate_dps);
   config.effects.range_noise_m = options.noise_m;
   config.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
   config.sensor = sensor_config(options, Transmitter{});
@@ -93,12 +97,22 @@ ExitCode simulate(const SimulateOptions& options, const std::filesystem::path& o
   if (!simulated) return refuse(simulated.error());
   const auto written = writer->finish();
   if (!written) return refuse(written.error());
+  if (options.can_log) {
+    const auto samples = firmware_io::simulated_motion(*config);
+    if (!samples) return refuse(samples.error());
+    const Status logged = firmware_io::write_vehicle_log(output, *samples);
+    if (!logged) return refuse(logged.error());
+  }
 
   fmt::print("scene     {}, seed {}\n", options.scene, options.seed);
   if (!options.output.empty()) {
     fmt::print("wrote     {}\n          {}\n          {}/\n", output.string(),
                firmware_io::calibration_path_of<Transmitter>(output).string(),
                firmware_io::truth_folder_of(output).string());
+    if (options.can_log) {
+      fmt::print("          {}\n          {}\n", firmware_io::can_log_path_of(output).string(),
+                 firmware_io::can_dbc_path_of(output).string());
+    }
   }
   fmt::print("frames    {}\nreturns   {}\npackets   {}\n", written->frames, written->returns,
              written->packets);

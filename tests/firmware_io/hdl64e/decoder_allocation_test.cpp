@@ -35,6 +35,38 @@ TEST(Hdl64eDecoderMemory, DecodingAllocatesNothing) {
   EXPECT_GT(returns, 700'000U);
 }
 
+TEST(Hdl64eDecoderMemory, TakingTheMotionOutAllocatesNothing) {
+  if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  const auto packets = random_packets({.last_cdeg = 37'100 + 3 * 36'000});
+  rt::FixedMemory memory;
+  firmware_io::EgoMotion motion({}, memory);
+  firmware_io::Hdl64eDecoder::Config config;
+  config.motion = &motion;
+  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, config, memory);
+  std::uint64_t frames = 0, deskewed = 0;
+  const auto on_frame = [&](const firmware_io::FrameInfo& info,
+                            const pipeline::RangeImage&) noexcept {
+    ++frames;
+    deskewed += info.deskew.state == firmware_io::DeskewState::kDone ? 1U : 0U;
+  };
+  const std::size_t planned = memory.total_bytes();
+  const std::uint64_t before = allocations_of_this_thread();
+  std::int64_t sampled_ns = 0;
+  for (const Packet& packet : packets) {
+    const firmware_io::Datagram datagram = packet.datagram();
+    if (datagram.stamp_ns - sampled_ns > 10'000'000) {
+      sampled_ns = datagram.stamp_ns;
+      motion.add({sampled_ns, 20, 0.5});
+    }
+    decoder.decode(datagram, on_frame);
+  }
+  decoder.flush(on_frame);
+  EXPECT_EQ(allocations_of_this_thread() - before, 0U);
+  EXPECT_EQ(memory.total_bytes(), planned);
+  EXPECT_GE(frames, 3U);
+  EXPECT_EQ(deskewed, frames);
+}
+
 TEST(Hdl64eDecoderMemory, TheCounterCounts) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
   const std::uint64_t before = allocations_of_this_thread();

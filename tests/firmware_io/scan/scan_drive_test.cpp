@@ -28,6 +28,14 @@ void write_sequence(const ScratchFolder& folder, int scans) {
   }
 }
 
+TEST(ScanDrive, ACanLogIsRefusedWhereNoMotionIsPutBack) {
+  ScanDriveOptions options;
+  options.can_log = true;
+  const auto refused = encode_scan_folder("nowhere", "nowhere.pcap", options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+}
+
 TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
   const ScratchFolder folder;
   write_sequence(folder, 2);

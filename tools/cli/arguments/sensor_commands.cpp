@@ -131,9 +131,18 @@ void add_simulate(CLI::App& sub, SimulateOptions& o) {
   sub.add_option("--noise", o.noise_m, "Standard deviation of the range noise, metres")
       ->check(range_of("simulate.noise_m"))
       ->capture_default_str();
+  sub.add_option("--speed", o.speed_mps, "Of the vehicle, m/s (default: what is usual there)")
+      ->check(CLI::Range(0.0, 60.0));
+  sub.add_option("--yaw-rate", o.yaw_rate_dps,
+                 "Degrees a second, left positive: drive on an arc instead of along the road")
+      ->check(CLI::Range(-57.0, 57.0));
   sub.add_option("--calibration", o.calibration, "Unit to simulate (default: a nominal one)");
   add_mount(sub, o.mount);
-  sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it");
+  auto* output =
+      sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it");
+  sub.add_flag("--can-log", o.can_log,
+               "Write the vehicle's speed and yaw rate beside it: NAME.can.log, NAME.can.dbc")
+      ->needs(output);
   auto* udp = sub.add_option("--udp", o.udp.to,
                              "ADDRESS[:PORT]: be the sensor, and send the drive in real time once "
                              "it is computed");

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "firmware_io/motion/motion_sample.hpp"
+#include "firmware_io/motion/planar_pose.hpp"
+#include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
+#include "rt/spsc_queue.hpp"
+
+namespace terracut::firmware_io {
+
+/// What became of the samples given to an EgoMotion.
+struct EgoMotionCounters {
+  std::uint64_t accepted = 0;
+  std::uint64_t implausible = 0;   ///< Not finite, or faster than any car.
+  std::uint64_t out_of_order = 0;  ///< Not after the one before.
+  std::uint64_t not_taken = 0;     ///< The reader was away and the queue is full.
+};
+
+/// Where the sensor was, from the vehicle's speed and turn rate: one thread gives samples, one
+/// other asks for poses.
+///
+///   CAN thread --add()--> SpscQueue --take_new()--> history --poses()--> decoder thread
+///
+/// Between two samples speed and turn rate are constant, the mean of both; before the first and
+/// behind the newest they are those of the nearest stretch. There is an answer only where samples
+/// follow each other within `max_age_ns`, from that long before the first instant asked for to the
+/// last, which may be as long after the newest sample; else there is no ego motion, and old values
+/// are never used. A stamp more than a second older than the newest is a new beginning (a log
+/// starts over): what was before is forgotten.
+///
+/// Why it is right between threads: only the queue is shared, and its release of a pushed sample
+/// and acquire before it is popped (rt/spsc_queue.hpp) order all there is to order. The history is
+/// the reader's alone, the stamp of the last sample the writer's; counters are single relaxed
+/// numbers that nothing else hangs on. A reader that stays away makes the queue run full: then the
+/// newest samples are refused and counted, and what it finds on its return is too old to be used
+/// until samples arrive again.
+///
+/// Memory is taken in the constructor (std::invalid_argument on a bad setting); nothing else
+/// allocates, locks or waits.
+class EgoMotion {
+ public:
+  struct Config {
+    /// A sample this much older than what is asked for is of no use any more; (0, 1 s].
+    std::int64_t max_age_ns = 100'000'000;
+    /// The sensor's place from the middle of the rear axle, whose speed the samples give and which
+    /// does not slip sideways: the turn moves a sensor 1.5 m ahead of it 7.5 cm to the side in
+    /// 0.1 s at 0.5 rad/s.
+    double sensor_ahead_m = 0, sensor_left_m = 0;
+    std::size_t waiting = 256;  ///< Samples on their way to the reader; > 0.
+    std::size_t kept = 1024;    ///< Of the newest; a turn and a half of them are needed; > 1.
+  };
+
+  EgoMotion(const Config& config, rt::FixedMemory& memory);
+  EgoMotion(const EgoMotion&) = delete;
+  EgoMotion& operator=(const EgoMotion&) = delete;
+
+  /// Writer only. False when the sample is not used, which is counted.
+  bool add(const MotionSample& sample) noexcept TERRACUT_NONBLOCKING;
+  /// Any thread.
+  [[nodiscard]] EgoMotionCounters counters() const noexcept TERRACUT_NONBLOCKING;
+
+  /// Reader only: takes over what was added since.
+  void take_new() noexcept TERRACUT_NONBLOCKING;
+
+  /// Reader only: the sensor's poses at `instants_ns`, which do not fall, in the frame it has at
+  /// `reference_ns`. `poses` is as long. False, and `poses` untouched, where there is no ego motion
+  /// for the whole span.
+  [[nodiscard]] bool poses(std::span<const std::int64_t> instants_ns, std::int64_t reference_ns,
+                           std::span<PlanarPose> poses) const noexcept TERRACUT_NONBLOCKING;
+
+  /// Reader only: stamp of the newest sample taken; nothing without one.
+  [[nodiscard]] std::optional<std::int64_t> newest_ns() const noexcept TERRACUT_NONBLOCKING;
+
+ private:
+  class Path;
+
+  /// Of those kept, 0 is the oldest.
+  [[nodiscard]] const MotionSample& kept(std::size_t number) const noexcept;
+  /// The last sample at or before this instant; the first where none is.
+  [[nodiscard]] std::size_t last_before(std::int64_t instant_ns) const noexcept;
+  [[nodiscard]] bool covers(std::int64_t first_ns, std::int64_t last_ns) const noexcept;
+
+  std::int64_t max_age_ns_;
+  PlanarPose axle_sensor_;
+  rt::SpscQueue<MotionSample> waiting_;
+
+  // The writer's.
+  std::optional<std::int64_t> last_added_ns_;
+  std::atomic<std::uint64_t> accepted_{0}, implausible_{0}, out_of_order_{0}, not_taken_{0};
+
+  // The reader's: a ring.
+  std::span<MotionSample> ring_;
+  std::size_t oldest_ = 0, count_ = 0;
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Recorded scans as they were measured, from a moving sensor, with the vehicle's motion on a CAN
+// log beside their packets: brought back to one instant they are the compensated scans again.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/mount.hpp"
+#include "calib/ring_profile.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/motion/ego_motion.hpp"
+#include "firmware_io/motion/vehicle_log.hpp"
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "firmware_io/scan/scan_drive.hpp"
+#include "firmware_io/scan/scan_folder.hpp"
+#include "firmware_io/sinks/each_return.hpp"
+#include "pipeline/profile.hpp"
+#include "pipeline/quality.hpp"
+#include "pipeline/segmenter.hpp"
+#include "tests/firmware_io/scan/recorded_sequences.hpp"
+#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "tests/support/vehicle_log_reader.hpp"
+
+namespace terracut::firmware_io {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Drive {
+  fs::path pcap;
+  calib::Hdl64eCalibration calibration;
+};
+
+/// Decodes, moved to each turn's middle where there is a CAN log and `deskew`; visits every turn.
+template <class Visit>
+void decode(const Drive& drive, bool deskew, Visit&& visit) {
+  rt::FixedMemory memory;
+  EgoMotion motion({}, memory);
+  std::vector<MotionSample> samples;
+  Hdl64eDecoder::Config config;
+  if (deskew) {
+    config.motion = &motion;
+    config.deskew_at = TurnInstant::kMiddle;
+    std::ifstream log(can_log_path_of(drive.pcap));
+    samples = test::samples_of({std::istreambuf_iterator<char>(log), {}});
+  }
+  Hdl64eDecoder decoder(drive.calibration, {}, config, memory);
+  auto source = PcapSource::open(drive.pcap);
+  ASSERT_TRUE(source);
+  auto next = samples.begin();
+  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    EXPECT_EQ(info.deskew.state, deskew ? DeskewState::kDone : DeskewState::kOff);
+    visit(info, image);
+  };
+  for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
+    for (; next != samples.end() && next->stamp_ns <= (*datagram)->stamp_ns; ++next) {
+      EXPECT_TRUE(motion.add(*next));
+    }
+    decoder.decode(**datagram, on_frame);
+  }
+  decoder.flush(on_frame);
+}
+
+pipeline::Quality label(const Drive& drive, bool deskew) {
+  pipeline::Quality quality;
+  rt::FixedMemory memory;
+  std::unique_ptr<pipeline::Segmenter> segmenter;
+  const auto profile = calib::ring_profile(drive.calibration, {});
+  decode(drive, deskew, [&](const FrameInfo& info, const pipeline::RangeImage& image) {
+    if (!segmenter) {
+      segmenter = std::make_unique<pipeline::Segmenter>(
+          pipeline::terracut_profile(), profile, image.shape(), image.return_capacity(), memory);
+    }
+    std::vector<std::uint32_t> truth;
+    const fs::path file = truth_folder_of(drive.pcap) / fmt::format("{:06}.label", info.number);
+    EXPECT_TRUE(read_label_file(file, image.returns(), truth));
+    (void)segmenter->segment(image);
+    quality += pipeline::measure(segmenter->labels(), truth);
+  });
+  return quality;
+}
+
+Drive encode(const fs::path& sequence, const fs::path& pcap, bool twisted) {
+  ScanDriveOptions options;
+  options.undo_compensation = options.can_log = twisted;
+  const auto report = encode_scan_folder(sequence, pcap, options);
+  EXPECT_TRUE(report) << report.error().message;
+  return {pcap, report->calibration};
+}
+
+/// The points of a scan in boxes, to find the nearest.
+class Cloud {
+ public:
+  /// Half a turn round, as the sensor of a drive with a CAN log is; in the vehicle frame.
+  explicit Cloud(const std::vector<ScanPoint>& points) {
+    for (const ScanPoint& p : points) {
+      const Point at{-p.x_m, -p.y_m, p.z_m + static_cast<float>(calib::Mount{}.height_m)};
+      boxes_[box_of(at, 0, 0, 0)].push_back(at);
+    }
+  }
+  /// To the nearest point; no more than about kBox_m.
+  [[nodiscard]] double distance_m(const pipeline::Return& echo) const {
+    double nearest_m = kBox_m;
+    for (int i = 0; i < 27; ++i) {
+      const auto box =
+          boxes_.find(box_of({echo.x_m, echo.y_m, echo.z_m}, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+      if (box == boxes_.end()) continue;
+      for (const Point& p : box->second) {
+        nearest_m = std::min<double>(nearest_m,
+                                     std::hypot(p[0] - echo.x_m, p[1] - echo.y_m, p[2] - echo.z_m));
+      }
+    }
+    return nearest_m;
+  }
+
+ private:
+  using Point = std::array<float, 3>;
+  static constexpr double kBox_m = 2;
+  static std::array<int, 3> box_of(const Point& p, int dx, int dy, int dz) {
+    const auto at = [](float m) { return static_cast<int>(std::floor(m / kBox_m)); };
+    return {at(p[0]) + dx, at(p[1]) + dy, at(p[2]) + dz};
+  }
+  std::map<std::array<int, 3>, std::vector<Point>> boxes_;
+};
+
+/// How far the returns of a drive lie from the points of their scans, 95th percentile.
+double distance_p95_m(const Drive& drive, const fs::path& sequence, bool deskew) {
+  const auto folder = list_scan_folder(sequence);
+  EXPECT_TRUE(folder);
+  std::vector<double> distances_m;
+  decode(drive, deskew, [&](const FrameInfo& info, const pipeline::RangeImage& image) {
+    if (info.number % 5 != 1) return;
+    KittiScan scan;
+    EXPECT_TRUE(read_kitti_scan(folder->scans[info.number].points, scan));
+    const Cloud cloud(scan.points);
+    for_each_return(image, [&](const PlacedReturn& placed) {
+      // Poles, walls and bumpers near by: there the nearest point is as good as the same.
+      const pipeline::Return& echo = placed.echo;
+      if (placed.return_index % 5 != 0 || echo.ground_range_m > 20 || echo.z_m < 0.5F) return;
+      distances_m.push_back(cloud.distance_m(echo));
+    });
+  });
+  const auto p95 = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() * 95 / 100);
+  std::nth_element(distances_m.begin(), p95, distances_m.end());
+  return *p95;
+}
+
+TEST(DeskewedScans, ReturnsLieWhereTheCompensatedScansHaveThem) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    const ScratchFolder folder;
+    const Drive twisted = encode(sequence, folder.path() / "twisted.pcap", true);
+    const double as_seen_m = distance_p95_m(twisted, sequence, false);
+    const double deskewed_m = distance_p95_m(twisted, sequence, true);
+    std::cout << fmt::format("{}: p95 {:.3f} m as seen, {:.3f} m deskewed\n",
+                             sequence.filename().string(), as_seen_m, deskewed_m);
+    EXPECT_LT(deskewed_m, 0.5 * as_seen_m);
+  }
+}
+
+TEST(DeskewedScans, TwistedPacketsAndTheCanLogGiveTheLabelsOfTheCompensatedScans) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  double compensated_iou = 0, compensated_recall = 0, deskewed_iou = 0, deskewed_recall = 0;
+  const auto share = 1 / static_cast<double>(sequences.size());
+  for (const auto& sequence : sequences) {
+    const ScratchFolder folder;
+    const Drive recorded = encode(sequence, folder.path() / "recorded.pcap", false);
+    const Drive twisted = encode(sequence, folder.path() / "twisted.pcap", true);
+    const pipeline::Quality compensated = label(recorded, false);
+    const pipeline::Quality as_seen = label(twisted, false);
+    const pipeline::Quality deskewed = label(twisted, true);
+    for (const auto& [name, quality] :
+         {std::pair{"compensated", compensated}, std::pair{"as seen", as_seen},
+          std::pair{"deskewed", deskewed}}) {
+      std::cout << fmt::format("{}, {}: IoU_g {:.2f}, Recall_o {:.2f}\n",
+                               sequence.filename().string(), name, 100 * quality.iou_ground(),
+                               100 * quality.recall_key_obstacles());
+    }
+    compensated_iou += share * compensated.iou_ground();
+    compensated_recall += share * compensated.recall_key_obstacles();
+    deskewed_iou += share * deskewed.iou_ground();
+    deskewed_recall += share * deskewed.recall_key_obstacles();
+  }
+  std::cout << fmt::format(
+      "mean of the sequences: IoU_g {:.2f} compensated, {:.2f} deskewed; Recall_o {:.2f}, {:.2f}\n",
+      100 * compensated_iou, 100 * deskewed_iou, 100 * compensated_recall, 100 * deskewed_recall);
+  EXPECT_GT(deskewed_iou, compensated_iou - 0.005);
+  EXPECT_GT(deskewed_recall, compensated_recall - 0.005);
+}
+
+}  // namespace
+}  // namespace terracut::firmware_io

@@ -188,7 +188,8 @@ class MethodJson {
       list.push_back({{"id", id},
                       {"name", entry == nullptr ? "" : entry->name},
                       {"points", labels.ground + labels.obstacle},
-                      {"as_ground", labels.ground}});
+                      {"as_ground", labels.ground},
+                      {"as_other_ground", labels.other_ground}});
     }
     return list;
   }

@@ -17,11 +17,10 @@ KEY = {10, 11, 13, 15, 16, 18, 20, 30, 31, 32} | set(range(252, 260))
 ALL_GROUND = {40, 44, 48, 49, 60, 72}
 VEGETATION = 70
 SCOPES = {
-    "all": (ALL_GROUND, {0, 1}),
-    "road": ({40}, set()),
-    "all_vegetation_ignored": (ALL_GROUND, {0, 1, VEGETATION}),
-}
-PREDICTED_GROUND = {40, 49}
+    "all": (ALL_GROUND, {0, 1}, {40, 49}),
+    "road": ({40}, set(), {40}),
+    "all_vegetation_ignored": (ALL_GROUND, {0, 1, VEGETATION}, {40, 49}),
+}  # true ground, ignored, and what labels count as having called it ground
 BANDS = ("<20m", "20-40m", ">40m")
 
 
@@ -32,22 +31,23 @@ def records(path, code):
 
 
 def count_frame(points, truth, predicted):
-    """Counter of (class, band, called ground) over the points that have a label."""
+    """Counter of (class, band, label) over the points that have a label."""
     counts = Counter()
     for i, label in enumerate(predicted):
         if label == 0:
             continue
         distance = math.hypot(points[4 * i], points[4 * i + 1])
         band = 0 if distance < 20 else 1 if distance < 40 else 2
-        counts[truth[i] & 0xFFFF, band, label in PREDICTED_GROUND] += 1
+        counts[truth[i] & 0xFFFF, band, label] += 1
     return counts
 
 
-def measures(counts, ground, ignored, only_band=None):
+def measures(counts, ground, ignored, predicted_ground, only_band=None):
     tp = fp = fn = key_found = key_missed = 0
-    for (class_id, band, called_ground), n in counts.items():
+    for (class_id, band, label), n in counts.items():
         if class_id in ignored or (only_band is not None and band != only_band):
             continue
+        called_ground = label in predicted_ground
         if class_id in ground:
             tp, fn = (tp + n, fn) if called_ground else (tp, fn + n)
             continue
@@ -110,14 +110,14 @@ def main():
         compare(f"{method} frames", frames, len(reported["frames"]))
 
         pooled = sum(by_sequence.values(), Counter())
-        for scope, (ground, ignored) in SCOPES.items():
-            of_sequences = {name: measures(counts, ground, ignored) for name, counts in by_sequence.items()}
+        for scope, definition in SCOPES.items():
+            of_sequences = {name: measures(counts, *definition) for name, counts in by_sequence.items()}
             for name, of_sequence in of_sequences.items():
                 compare(f"{method} {name} {scope}", of_sequence, reported["sequences"][name][scope])
             means = {key: mean([each[key] for each in of_sequences.values()])
                      for key in ("iou_g", "recall_o", "precision", "recall", "f1")}
             compare(f"{method} mean {scope}", means, reported["mean_over_sequences"][scope])
-            compare(f"{method} pooled {scope}", measures(pooled, ground, ignored), reported["pooled"][scope])
+            compare(f"{method} pooled {scope}", measures(pooled, *definition), reported["pooled"][scope])
         for band, name in enumerate(BANDS):
             compare(f"{method} {name}", measures(pooled, *SCOPES["all"], only_band=band), reported["by_range"][name])
 

@@ -26,7 +26,7 @@ class AdjacentPoints {
  public:
   struct Config {
     AdjacentRule rule = AdjacentRule::kSlope;
-    float max_slope_rad = 0.5236F;  ///< K: the steepest ground, (0, pi/2).
+    float max_slope_rad = 0.60F;  ///< K: the steepest ground, (0, pi/2).
     int first_row_step = 1;      ///< Row steps up from .. to; the paper compares l with l + 2 only.
     int last_row_step = 2;       ///< [first_row_step, 4]
     float row_step_deg = 0.25F;  ///< A row step covers at least this elevation (RowSteps), [0, 5].

@@ -31,7 +31,7 @@ class BoundaryTerm {
         0.05F;  ///< Floor of d: on walls d goes to 0 and the exponent to infinity.
     // kNearness
     float scale_m = 0.10F;  ///< Distance at which the weight has fallen to 1/e, at range 0 ...
-    float scale_per_metre = 0.02F;  ///< ... and how much it grows per metre of range.
+    float scale_per_metre = 0.01F;  ///< ... and how much it grows per metre of range.
   };
 
   BoundaryTerm(const Config& config, const NegativeExp& negative_exp,

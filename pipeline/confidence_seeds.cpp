@@ -37,6 +37,7 @@ Seed kept(Label label) noexcept {
     case Label::kNone:
       return Seed::kNone;
     case Label::kGround:
+    case Label::kOtherGround:
       return Seed::kGround;
     case Label::kObstacle:
       return Seed::kObstacle;

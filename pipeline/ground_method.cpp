@@ -19,6 +19,7 @@ constexpr std::array kMethods{
     MethodName{"ring_map_adjacent", "+ spatiotemporal adjacent points, as printed"},
     MethodName{"paper", "+ random field: the whole method as printed"},
     MethodName{"terracut", "The default profile"},
+    MethodName{"terracut_road", "The default profile, road surface told from other ground"},
 };
 
 MethodConfig paper_up_to(Stage last) {
@@ -47,6 +48,11 @@ Expected<MethodConfig> method_named(std::string_view name) {
   if (name == "ring_map_adjacent") return paper_up_to(Stage::kAdjacentPoints);
   if (name == "paper") return paper_up_to(Stage::kMinCut);
   if (name == "terracut") return MethodConfig(terracut_profile());
+  if (name == "terracut_road") {
+    MethodConfig config(terracut_profile());
+    config.segmenter.road.enabled = true;
+    return config;
+  }
   std::array<std::string_view, kMethods.size()> names;
   std::transform(kMethods.begin(), kMethods.end(), names.begin(),
                  [](const MethodName& method) { return method.name; });

@@ -43,7 +43,7 @@ class GroundSurface {
         4.0F;  ///< Lost ground is found again after so many metres of passable steps ...
     float regain_slope = 0.55F;   ///< ... that begin no steeper than this from the last ground ...
     float regain_width_m = 4.0F;  ///< ... on a strip at least so wide.
-    int borrow_sectors = 10;      ///< How many sectors to each side a cell may borrow from.
+    int borrow_sectors = 14;      ///< How many sectors to each side a cell may borrow from.
     float walked_weight =
         0.30F;  ///< Weight of the walked prediction against a neighbour's 1/distance.
   };

@@ -12,6 +12,7 @@
 #include "pipeline/region_term.hpp"
 #include "pipeline/return_labels.hpp"
 #include "pipeline/ring_elevation_map.hpp"
+#include "pipeline/road_surface.hpp"
 #include "pipeline/stage.hpp"
 
 namespace terracut::pipeline {
@@ -27,6 +28,7 @@ struct SegmenterConfig {
   BoundaryTerm::Config boundary;
   GridCut::Config min_cut;
   ReturnLabels::Config returns;
+  RoadSurface::Config road;
 
   [[nodiscard]] static RingElevationMap::Config terracut_elevation_map() noexcept;
 };

@@ -51,7 +51,7 @@ TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept {
 
 void Quality::add(Label label, std::uint32_t semantic_kitti_id) noexcept {
   const TruthClass truth = truth_class(semantic_kitti_id);
-  const bool as_ground = label == Label::kGround;
+  const bool as_ground = is_ground(label);
   switch (truth) {
     case TruthClass::kIgnored:
       return;

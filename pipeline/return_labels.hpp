@@ -31,6 +31,8 @@ class ReturnLabels {
 
   /// One label a return, in the order of RangeImage::return_index(); none is kNone.
   [[nodiscard]] std::span<const Label> labels() const noexcept { return labels_.first(returns_); }
+  /// The same, for the stage that tells one ground from another.
+  [[nodiscard]] std::span<Label> mutable_labels() noexcept { return labels_.first(returns_); }
 
  private:
   Config config_;

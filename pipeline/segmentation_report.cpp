@@ -8,7 +8,11 @@ namespace terracut::pipeline {
 
 void SegmentationReport::count(std::span<const Label> labels) noexcept {
   returns = static_cast<std::uint32_t>(labels.size());
-  ground = static_cast<std::uint32_t>(std::count(labels.begin(), labels.end(), Label::kGround));
+  const auto of = [&](Label label) {
+    return static_cast<std::uint32_t>(std::count(labels.begin(), labels.end(), label));
+  };
+  other_ground = of(Label::kOtherGround);
+  ground = of(Label::kGround) + other_ground;
   obstacles = returns - ground;
 }
 

@@ -23,7 +23,9 @@ Segmenter::Segmenter(const SegmenterConfig& config, const calib::RingProfile& pr
       seeds_(config.seeds, profile, shape, memory),
       region_(config.region, shape, memory),
       min_cut_(shape, config.min_cut, memory),
-      return_labels_(config.returns, return_capacity, memory) {}
+      return_labels_(config.returns, return_capacity, memory) {
+  if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
+}
 
 SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& budget,
                                       StageObserver* observer) noexcept {
@@ -55,6 +57,7 @@ SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& 
   }
 
   return_labels_.assign(image, planes_);
+  if (road_surface_) road_surface_->mark(image, planes_, return_labels_.mutable_labels());
   done(Stage::kLabels);
 
   report.count(return_labels_.labels());

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "calib/ring_profile.hpp"
@@ -34,7 +35,8 @@ class Segmenter {
                                            StageObserver* observer = nullptr) noexcept
       TERRACUT_NONBLOCKING;
 
-  /// One label a return, in order of arrival (RangeImage::return_index()).
+  /// One label a return, in order of arrival (RangeImage::return_index()). kGround is all ground,
+  /// unless the road surface is asked for; then what is none of it is kOtherGround.
   [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
   /// The same by cell, with the heights they were judged by; for pictures and measurements.
   [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
@@ -52,6 +54,7 @@ class Segmenter {
   RegionTerm region_;
   GridCut min_cut_;
   ReturnLabels return_labels_;
+  std::optional<RoadSurface> road_surface_;  // where it is asked for
 };
 
 }  // namespace terracut::pipeline

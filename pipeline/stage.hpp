@@ -16,7 +16,7 @@ enum class Stage : std::uint8_t {
   kAdjacentPoints,  ///< + spatiotemporal adjacent points.
   kSeeds,           ///< + confidence seeds of the MRF.
   kMinCut,          ///< + energy, min-cut: the whole method.
-  kLabels,          ///< Labels of cells brought back to the returns.
+  kLabels,  ///< Labels of cells brought back to the returns, and the road surface told apart.
   kCount,
 };
 inline constexpr int kStages = static_cast<int>(Stage::kCount);

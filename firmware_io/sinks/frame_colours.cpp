@@ -10,6 +10,8 @@ namespace {
 
 constexpr Colour kDarkSand{84, 74, 58};
 constexpr Colour kBrightSand{238, 222, 186};
+constexpr Colour kDarkMoss{52, 74, 52};
+constexpr Colour kBrightMoss{170, 206, 150};
 constexpr Colour kSlate{92, 128, 170};
 
 struct HeightStop {
@@ -46,6 +48,9 @@ Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
   if (frame.labels[return_index] == pipeline::Label::kGround) {
     // The square root opens up the dark end, where asphalt lies.
     return mix(kDarkSand, kBrightSand, std::sqrt(echo.intensity / 255.0));
+  }
+  if (frame.labels[return_index] == pipeline::Label::kOtherGround) {
+    return mix(kDarkMoss, kBrightMoss, std::sqrt(echo.intensity / 255.0));
   }
   return truth_known ? kSlate : by_height(static_cast<double>(echo.z_m));
 }

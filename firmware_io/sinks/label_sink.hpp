@@ -12,17 +12,21 @@
 namespace terracut::firmware_io {
 
 /// The SemanticKITTI class that stands for a label in prediction files: 40 (road) for ground that
-/// is road or undecided, 99 (other-object) for obstacles, 0 (unlabelled) for kNone, which no return
-/// has. Ground the pipeline knows not to be road is written as kOtherGround.
+/// is road or undecided, 49 (other-ground) for ground that is no road, 99 (other-object) for
+/// obstacles, 0 (unlabelled) for kNone, which no return has.
 [[nodiscard]] constexpr std::uint32_t semantic_kitti_class(pipeline::Label label) noexcept {
   switch (label) {
-    case pipeline::Label::kGround: return 40;
-    case pipeline::Label::kObstacle: return 99;
-    case pipeline::Label::kNone: break;
+    case pipeline::Label::kGround:
+      return 40;
+    case pipeline::Label::kObstacle:
+      return 99;
+    case pipeline::Label::kOtherGround:
+      return 49;
+    case pipeline::Label::kNone:
+      break;
   }
   return 0;
 }
-inline constexpr std::uint32_t kOtherGround = 49;
 
 /// Writes one frame's labels as a SemanticKITTI prediction: one little-endian uint32 a return, in
 /// the order of `labels` (order of arrival for packets, point order for scans). Whole or not at

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 
 const fs::path kSourceDir = TERRACUT_SOURCE_DIR;
 const std::string kAllMethods =
-    "terracut,paper,ring_map_adjacent,ring_map,pfaff,bogoslavskyi,zhang";
+    "terracut,terracut_road,paper,ring_map_adjacent,ring_map,pfaff,bogoslavskyi,zhang";
 
 class CliEval : public Cli {
  protected:
@@ -35,8 +35,8 @@ class CliEval : public Cli {
 
 TEST_F(CliEval, ReportsWhatAScorerInAnotherLanguageFinds) {
   const evaluation::MadeUpDataset made_up;
-  expect_done(dataset(made_up.root()) + "--method terracut,ring_map,paper");
-  EXPECT_EQ(json("eval.json").at("methods").size(), 3U);
+  expect_done(dataset(made_up.root()) + "--method terracut,terracut_road,ring_map,paper");
+  EXPECT_EQ(json("eval.json").at("methods").size(), 4U);
   expect_same_scores(made_up.root());
 }
 

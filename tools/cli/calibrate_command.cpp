@@ -99,8 +99,7 @@ Expected<calib::RingProfileEstimate> measure_rings(OpenCapture& capture,
         (void)chain.segmenter.segment(image);
         observations.clear();
         firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
-          const bool is_ground =
-              chain.segmenter.labels()[placed.return_index] == pipeline::Label::kGround;
+          const bool is_ground = pipeline::is_ground(chain.segmenter.labels()[placed.return_index]);
           observations.push_back({placed.row, placed.echo.ground_range_m, is_ground});
         });
         rings.add(observations);

@@ -27,7 +27,7 @@ Mistake mistake_of(Label label, std::uint32_t truth) noexcept {
     case TruthClass::kKeyObstacle:
       break;
   }
-  return label == Label::kGround ? Mistake::kMissedObstacle : Mistake::kNone;
+  return is_ground(label) ? Mistake::kMissedObstacle : Mistake::kNone;
 }
 
 }  // namespace

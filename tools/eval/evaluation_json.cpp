@@ -205,6 +205,7 @@ class MethodJson {
            {"name", entry == nullptr ? "" : entry->name},
            {"points", labels.ground + labels.obstacle},
            {"as_ground", labels.ground},
+           {"as_other_ground", labels.other_ground},
            {"share_as_ground", static_cast<double>(labels.ground) /
                                    static_cast<double>(labels.ground + labels.obstacle)}});
     }

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "pipeline/label.hpp"
+
 namespace terracut::evaluation {
 
 /// Horizontal distance from the sensor: below 20 m, 20 to 40 m, beyond.
@@ -22,10 +24,12 @@ inline constexpr std::array<std::string_view, kRangeBands> kRangeBandNames{"<20m
 /// How many points of one class and range band got which label.
 struct LabelCounts {
   std::uint64_t ground = 0, obstacle = 0;
+  std::uint64_t other_ground = 0;  ///< Of the ground: told to be no road surface.
 
   LabelCounts& operator+=(const LabelCounts& other) noexcept {
     ground += other.ground;
     obstacle += other.obstacle;
+    other_ground += other.other_ground;
     return *this;
   }
   friend bool operator==(const LabelCounts&, const LabelCounts&) = default;
@@ -41,9 +45,10 @@ class FrameCounts {
     friend auto operator<=>(const Key&, const Key&) = default;
   };
 
-  void add(std::uint16_t class_id, std::size_t band, bool as_ground) {
+  void add(std::uint16_t class_id, std::size_t band, pipeline::Label label) {
     LabelCounts& counts = counts_[{class_id, static_cast<std::uint8_t>(band)}];
-    ++(as_ground ? counts.ground : counts.obstacle);
+    ++(pipeline::is_ground(label) ? counts.ground : counts.obstacle);
+    counts.other_ground += label == pipeline::Label::kOtherGround ? 1 : 0;
   }
   void add(const Key& key, const LabelCounts& counts) { counts_[key] += counts; }
   FrameCounts& operator+=(const FrameCounts& other) {

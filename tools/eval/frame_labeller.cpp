@@ -67,8 +67,7 @@ void FrameLabeller::count(FrameResult& result) const {
     const ScanPoint& point = scan_->points[i];
     constexpr std::uint32_t kClass = 0xFFFF;  // the instance stands above it
     result.counts.add(static_cast<std::uint16_t>(scan_->labels[i] & kClass),
-                      range_band(std::hypot(double{point.x_m}, double{point.y_m})),
-                      labels_[i] == Label::kGround);
+                      range_band(std::hypot(double{point.x_m}, double{point.y_m})), labels_[i]);
   }
 }
 

@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kKind = "terracut evaluation journal";
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 
 Error write_failed(const std::filesystem::path& path) {
   return {ErrorCode::kWriteFailed, fmt::format("{}: {}", path.string(), std::strerror(errno))};
@@ -88,7 +88,7 @@ Status check_header(const std::filesystem::path& path, const std::string& line,
 Json counts_json(const FrameCounts& counts) {
   Json list = Json::array();
   for (const auto& [key, labels] : counts.by_class_and_band()) {
-    list.push_back({key.class_id, key.band, labels.ground, labels.obstacle});
+    list.push_back({key.class_id, key.band, labels.ground, labels.obstacle, labels.other_ground});
   }
   return list;
 }
@@ -97,7 +97,8 @@ FrameCounts counts_of(const Json& list) {
   FrameCounts counts;
   for (const Json& entry : list) {
     counts.add({entry.at(0).get<std::uint16_t>(), entry.at(1).get<std::uint8_t>()},
-               {entry.at(2).get<std::uint64_t>(), entry.at(3).get<std::uint64_t>()});
+               {entry.at(2).get<std::uint64_t>(), entry.at(3).get<std::uint64_t>(),
+                entry.at(4).get<std::uint64_t>()});
   }
   return counts;
 }

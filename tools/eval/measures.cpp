@@ -44,8 +44,13 @@ pipeline::Quality score(const FrameCounts& counts, const ClassTable& classes, co
 
 pipeline::Quality quality_of(const FrameCounts& counts, const ClassTable& classes,
                              const Scope& scope) {
-  return score(counts, classes, scope,
-               [](const ClassEntry&, const LabelCounts& counted) { return counted; });
+  return score(counts, classes, scope, [&](const ClassEntry&, LabelCounts counted) {
+    if (scope.ground == GroundDefinition::kRoad) {
+      counted.ground -= counted.other_ground;
+      counted.obstacle += counted.other_ground;
+    }
+    return counted;
+  });
 }
 
 pipeline::Quality everything_ground(const FrameCounts& counts, const ClassTable& classes,

@@ -17,7 +17,8 @@ struct Scope {
   std::optional<std::size_t> band{};  ///< Only this range band.
 };
 
-/// The counts as the class table sees them. Classes it does not know count nowhere.
+/// The counts as the class table sees them. Classes it does not know count nowhere. Under kRoad
+/// ground that was told to be no road surface counts as called obstacle.
 [[nodiscard]] pipeline::Quality quality_of(const FrameCounts& counts, const ClassTable& classes,
                                            const Scope& scope);
 

@@ -146,8 +146,7 @@ class DriveEvaluation {
              FrameCounts& counts) const {
     firmware_io::for_each_return(image, [&](const firmware_io::PlacedReturn& placed) {
       counts.add(firmware_io::semantic_class(truth_[placed.return_index]),
-                 range_band(placed.echo.ground_range_m),
-                 labels[placed.return_index] == pipeline::Label::kGround);
+                 range_band(placed.echo.ground_range_m), labels[placed.return_index]);
     });
   }
 

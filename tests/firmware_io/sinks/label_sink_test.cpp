@@ -12,9 +12,9 @@ using pipeline::Label;
 class LabelSink : public OutputFolder {};
 
 TEST_F(LabelSink, WritesOneLittleEndianClassAReturnInOrder) {
-  const std::vector labels{Label::kGround, Label::kObstacle, Label::kGround};
+  const std::vector labels{Label::kGround, Label::kObstacle, Label::kOtherGround};
   ASSERT_TRUE(write_label_file(folder_ / "000000.label", labels).has_value());
-  const std::string expected("\x28\0\0\0\x63\0\0\0\x28\0\0\0", 12);  // 40, 99, 40
+  const std::string expected("\x28\0\0\0\x63\0\0\0\x31\0\0\0", 12);  // 40, 99, 49
   EXPECT_EQ(content_of(folder_ / "000000.label"), expected);
 }
 

@@ -39,7 +39,7 @@ FrameResult result(std::uint64_t points) {
   result.no_ring = 2;
   result.not_placed = 3;
   result.rings_realigned = true;
-  result.counts.add({40, 2}, {points, 7});
+  result.counts.add({40, 2}, {points, 7, 3});
   result.times.stage_ns = {1, 2, 3, 4, 5};
   result.times.decode_ns = 6;
   result.times.segment_ns = 15;

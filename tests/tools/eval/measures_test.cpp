@@ -39,6 +39,27 @@ TEST(MeasuresTest, CountTheRoadAloneAndUnlabelledPointsAgainstIt) {
   EXPECT_DOUBLE_EQ(quality.recall_key_obstacles(), 19.0 / 20);
 }
 
+TEST(MeasuresTest, BelieveOfTheRoadWhatIsToldFromOtherGround) {
+  FrameCounts told;
+  told.add({40, 0}, {80, 20, 10});
+  told.add({72, 2}, {30, 30, 25});
+  told.add({10, 2}, {5, 15, 4});
+  const auto road = quality_of(told, classes(), {.ground = GroundDefinition::kRoad});
+  EXPECT_DOUBLE_EQ(road.iou_ground(), 70.0 / (70 + 30 + 5 + 1));
+  EXPECT_DOUBLE_EQ(road.recall_key_obstacles(), 19.0 / 20);
+  const auto all = quality_of(told, classes(), {});
+  EXPECT_DOUBLE_EQ(all.iou_ground(), 110.0 / (110 + 50 + 5)) << "no matter here";
+}
+
+TEST(MeasuresTest, CountALabelledPointByItsLabel) {
+  FrameCounts counts;
+  for (const auto label : {pipeline::Label::kGround, pipeline::Label::kOtherGround,
+                           pipeline::Label::kOtherGround, pipeline::Label::kObstacle}) {
+    counts.add(48, 1, label);
+  }
+  EXPECT_EQ(counts.by_class_and_band().at({48, 1}), (LabelCounts{3, 1, 2}));
+}
+
 TEST(MeasuresTest, LeaveVegetationOut) {
   const auto quality = quality_of(counts(), classes(), {.vegetation = false});
   EXPECT_DOUBLE_EQ(quality.iou_ground(), 110.0 / (110 + 50 + 1));

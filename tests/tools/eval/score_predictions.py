@@ -17,12 +17,13 @@ KEY = {10, 11, 13, 15, 16, 18, 20, 30, 31, 32} | set(range(252, 260))
 ALL_GROUND = {40, 44, 48, 49, 60, 72}
 VEGETATION = 70
 KNOWN = KEY | ALL_GROUND | {0, 1, 50, 51, 52, VEGETATION, 71, 80, 81, 99}
+ROAD, OTHER_GROUND, OBSTACLE = 40, 49, 99
+GROUND_LABELS = {ROAD, OTHER_GROUND}
 SCOPES = {
-    "all": (ALL_GROUND, {0, 1}),
-    "road": ({40}, set()),
-    "all_vegetation_ignored": (ALL_GROUND, {0, 1, VEGETATION}),
-}
-PREDICTED_GROUND = {40, 49}
+    "all": (ALL_GROUND, {0, 1}, GROUND_LABELS),
+    "road": ({40}, set(), {ROAD}),
+    "all_vegetation_ignored": (ALL_GROUND, {0, 1, VEGETATION}, GROUND_LABELS),
+}  # true ground, ignored, and what labels count as having called it ground
 BANDS = ("<20m", "20-40m", ">40m")
 
 
@@ -33,22 +34,23 @@ def records(path, code):
 
 
 def count_frame(points, truth, predicted):
-    """Counter of (class, band, called ground) over the points that have a label."""
+    """Counter of (class, band, label) over the points that have a label."""
     counts = Counter()
     for i, label in enumerate(predicted):
         if label == 0:
             continue
         distance = math.hypot(points[4 * i], points[4 * i + 1])
         band = 0 if distance < 20 else 1 if distance < 40 else 2
-        counts[truth[i] & 0xFFFF, band, label in PREDICTED_GROUND] += 1
+        counts[truth[i] & 0xFFFF, band, label] += 1
     return counts
 
 
-def measures(counts, ground, ignored, only_band=None):
+def measures(counts, ground, ignored, predicted_ground, only_band=None):
     tp = fp = fn = key_found = key_missed = 0
-    for (class_id, band, called_ground), n in counts.items():
+    for (class_id, band, label), n in counts.items():
         if class_id not in KNOWN or class_id in ignored or (only_band is not None and band != only_band):
             continue
+        called_ground = label in predicted_ground
         if class_id in ground:
             tp, fn = (tp + n, fn) if called_ground else (tp, fn + n)
             continue
@@ -87,7 +89,7 @@ def judged_by(oracle, counts):
     judged = Counter()
     for (class_id, band, _), n in counts.items():
         # What no physical ground is known of is its obstacle.
-        judged[class_id, band, oracle == "everything_ground" or class_id in ALL_GROUND] += n
+        judged[class_id, band, ROAD if oracle == "everything_ground" or class_id in ALL_GROUND else OBSTACLE] += n
     return judged
 
 
@@ -132,26 +134,28 @@ def main():
                 compare(f"{method} {name} {key}", spread(values), reported["sequences"][name][key])
 
         pooled = sum(by_sequence.values(), Counter())
-        for scope, (ground, ignored) in SCOPES.items():
-            of_sequences = {name: measures(counts, ground, ignored) for name, counts in by_sequence.items()}
+        for scope, definition in SCOPES.items():
+            of_sequences = {name: measures(counts, *definition) for name, counts in by_sequence.items()}
             for name, of_sequence in of_sequences.items():
                 compare(f"{method} {name} {scope}", of_sequence, reported["sequences"][name][scope])
             means = {key: mean([each[key] for each in of_sequences.values()])
                      for key in ("iou_g", "recall_o", "precision", "recall", "f1")}
             compare(f"{method} mean {scope}", means, reported["mean_over_sequences"][scope])
-            compare(f"{method} pooled {scope}", measures(pooled, ground, ignored), reported["pooled"][scope])
+            compare(f"{method} pooled {scope}", measures(pooled, *definition), reported["pooled"][scope])
         for band, name in enumerate(BANDS):
             for scope, place in (("all", "by_range"), ("road", "by_range_road")):
                 compare(f"{method} {name} {scope}", measures(pooled, *SCOPES[scope], only_band=band), reported[place][name])
-        by_class = defaultdict(lambda: [0, 0])
-        for (class_id, _, called_ground), n in pooled.items():
+        by_class = defaultdict(lambda: [0, 0, 0])
+        for (class_id, _, label), n in pooled.items():
             by_class[class_id][0] += n
-            by_class[class_id][1] += n if called_ground else 0
+            by_class[class_id][1] += n if label in GROUND_LABELS else 0
+            by_class[class_id][2] += n if label == OTHER_GROUND else 0
         compare(f"{method} by class", [(each, *by_class[each], by_class[each][1] / by_class[each][0]) for each in sorted(by_class)],
-                [(each["id"], each["points"], each["as_ground"], each["share_as_ground"]) for each in reported["by_class"]])
+                [(each["id"], each["points"], each["as_ground"], each["as_other_ground"], each["share_as_ground"])
+                 for each in reported["by_class"]])
         for oracle, scores in report["oracles"].items():
-            for scope, (ground, ignored) in SCOPES.items():
-                of_sequences = {name: measures(judged_by(oracle, counts), ground, ignored) for name, counts in by_sequence.items()}
+            for scope, definition in SCOPES.items():
+                of_sequences = {name: measures(judged_by(oracle, counts), *definition) for name, counts in by_sequence.items()}
                 for name, of_sequence in of_sequences.items():
                     compare(f"{oracle} {name} {scope}", of_sequence, scores["sequences"][name][scope])
                 means = {key: mean([each[key] for each in of_sequences.values()])

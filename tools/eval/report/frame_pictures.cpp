@@ -36,7 +36,7 @@ std::uint8_t level_of(Verdict verdict) noexcept {
 }  // namespace
 
 Verdict verdict_of(Role truth, Label label) noexcept {
-  const bool called_ground = label == Label::kGround;
+  const bool called_ground = is_ground(label);
   switch (truth) {
     case Role::kGround:
       return called_ground ? Verdict::kGround : Verdict::kFalseObstacle;

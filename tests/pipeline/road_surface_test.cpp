@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/road_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "pipeline/segmenter.hpp"
+#include "tests/pipeline/baselines/rival_scenes.hpp"
+
+namespace terracut::pipeline {
+namespace {
+
+constexpr double kKerb_m = 0.12;
+
+struct RoadSurfaceOfATurn : testing::Test, test::RivalScene {
+  RoadSurfaceOfATurn() { config.road.enabled = true; }
+
+  std::span<const Label> segment(const test::BeamCast& beams) {
+    cast(beams);
+    return resegment();
+  }
+  std::span<const Label> resegment() {
+    segmenter =
+        std::make_unique<Segmenter>(config, profile, kShape, image.return_capacity(), memory);
+    report = segmenter->segment(image);
+    return segmenter->labels();
+  }
+  /// Share of the returns of a rectangle, as far as they are ground, that are road surface.
+  double road_share(double near_m, double far_m, double right_m, double left_m) const {
+    const auto within = [=](float x, float y, float) {
+      return x > near_m && x < far_m && y > right_m && y < left_m;
+    };
+    const double road = share(segmenter->labels(), Label::kGround, within);
+    const double other = share(segmenter->labels(), Label::kOtherGround, within);
+    return road / (road + other);
+  }
+  /// A road 7 m wide; a pavement 2 m wide on the left with a gap, level ground behind it; the same
+  /// on the right without a gap.
+  static test::BeamCast street(double gap_m) {
+    return test::ground_with_boxes({{-60, 8, 3.5, 5.5, -1, kKerb_m},
+                                    {8 + gap_m, 60, 3.5, 5.5, -1, kKerb_m},
+                                    {-60, 60, -5.5, -3.5, -1, kKerb_m}});
+  }
+  /// The same world with the sensor's ground plane inclined: rises by so much a metre.
+  static test::BeamCast inclined(const test::BeamCast& beams, double rise) {
+    return [=](double azimuth_rad, double elevation_rad) {
+      // Pitched by the angle of the slope, about the point on the ground below the sensor.
+      const double pitch_rad = std::atan(rise);
+      const double x = std::cos(elevation_rad) * std::cos(azimuth_rad);
+      const double y = -std::cos(elevation_rad) * std::sin(azimuth_rad);
+      const double z = std::sin(elevation_rad);
+      const double along = x * std::cos(pitch_rad) + z * std::sin(pitch_rad);
+      const double up = z * std::cos(pitch_rad) - x * std::sin(pitch_rad);
+      return beams(std::atan2(-y, along), std::asin(up));
+    };
+  }
+
+  SegmenterConfig config;
+  std::unique_ptr<Segmenter> segmenter;
+  SegmentationReport report;
+};
+
+TEST_F(RoadSurfaceOfATurn, EndsAtTheKerb) {
+  segment(street(0));
+  EXPECT_GT(road_share(4, 25, -3, 3), 0.99);
+  EXPECT_EQ(road_share(-15, 20, 3.8, 5.5), 0.0) << "the pavement";
+  EXPECT_EQ(road_share(-15, 20, 6, 12), 0.0) << "level with the road, but behind the pavement";
+  EXPECT_EQ(road_share(-15, 20, -12, -3.8), 0.0);
+}
+
+TEST_F(RoadSurfaceOfATurn, LeadsThroughAGapInTheKerbThatIsWideEnoughForTheVehicle) {
+  segment(street(6));
+  EXPECT_GT(road_share(0, 15, 7, 12), 0.8);
+  EXPECT_EQ(road_share(-15, 20, -12, -3.8), 0.0) << "the other side";
+}
+
+TEST_F(RoadSurfaceOfATurn, DoesNotLeadThroughAGapThatIsNot) {
+  segment(street(1.5));
+  EXPECT_EQ(road_share(-15, 20, 6, 12), 0.0);
+  config.road.vehicle_width_m = 0.4F;
+  resegment();
+  EXPECT_GT(road_share(0, 15, 7, 12), 0.8) << "for a narrower vehicle it is one";
+}
+
+TEST_F(RoadSurfaceOfATurn, IsTheSameUphillDownhillAndUnderATiltedSensor) {
+  for (const double rise : {0.15, -0.15, 0.087}) {
+    segment(inclined(street(0), rise));
+    EXPECT_GT(road_share(5, 15, -2.5, 2.5), 0.99) << rise;
+    EXPECT_LT(road_share(-8, 15, 3.9, 5.4), 0.05) << rise;
+  }
+}
+
+TEST_F(RoadSurfaceOfATurn, EndsWhereTheGroundIsRough) {
+  // Ground beyond y = 4 that is up and down by 2 cm from one beam to the next: mown grass.
+  const auto grass = [](double azimuth_rad, double elevation_rad) {
+    const double level = test::flat_ground()(azimuth_rad, elevation_rad);
+    const double y = -level * std::cos(elevation_rad) * std::sin(azimuth_rad);
+    const bool odd = static_cast<int>(azimuth_rad * 1000 / 6.2831853) % 2 != 0;
+    return level > 0 && y > 4 && odd ? test::flat_ground(1.71)(azimuth_rad, elevation_rad) : level;
+  };
+  segment(grass);
+  EXPECT_GT(road_share(4, 20, -10, 3), 0.99);
+  EXPECT_EQ(road_share(-10, 20, 5, 15), 0.0);
+}
+
+TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
+  // One laser that sees a step of 10 cm in the middle of nowhere.
+  constexpr int kRow = 30;
+  for (int row = 0; row < kShape.rows; ++row) {
+    for (int column = 0; column < kShape.columns; ++column) {
+      const double azimuth_rad = 2 * std::numbers::pi * (column + 0.5) / kShape.columns;
+      const double elevation_rad = profile.rings[static_cast<std::size_t>(row)].elevation_rad;
+      const double d = test::flat_ground()(azimuth_rad, elevation_rad);
+      if (!(d > 0) || d > 60) continue;
+      const bool step = row == kRow && column > 980;
+      const double across_m = d * std::cos(elevation_rad);
+      image.place(row, column,
+                  {static_cast<float>(across_m * std::cos(azimuth_rad)),
+                   static_cast<float>(-across_m * std::sin(azimuth_rad)), step ? 0.1F : 0.0F,
+                   static_cast<float>(across_m), 0});
+    }
+  }
+  resegment();
+  EXPECT_GT(road_share(4, 30, -2, 2), 0.97);
+}
+
+TEST_F(RoadSurfaceOfATurn, DoesNotGoOnBehindAWall) {
+  // Walls around the vehicle, low enough for the ground behind them to be seen.
+  segment(test::ground_with_boxes({{8, 8.3, -60, 60, -1, 0.8},
+                                   {-8.3, -8, -60, 60, -1, 0.8},
+                                   {-60, 60, 8, 8.3, -1, 0.8},
+                                   {-60, 60, -8.3, -8, -1, 0.8}}));
+  EXPECT_GT(road_share(4, 6, -3, 3), 0.99);
+  EXPECT_EQ(road_share(16, 40, -20, 20), 0.0);
+}
+
+TEST_F(RoadSurfaceOfATurn, ChangesNothingButWhichGroundItIs) {
+  const auto beams = street(6);
+  segment(beams);
+  const std::vector<Label> with(segmenter->labels().begin(), segmenter->labels().end());
+  const SegmentationReport report_with = report;
+  config.road.enabled = false;
+  const auto without = resegment();
+  ASSERT_EQ(with.size(), without.size());
+  for (std::size_t i = 0; i < with.size(); ++i) {
+    ASSERT_NE(without[i], Label::kOtherGround);
+    ASSERT_EQ(is_ground(with[i]), is_ground(without[i]));
+  }
+  EXPECT_EQ(report.other_ground, 0U);
+  EXPECT_EQ(report_with.ground, report.ground);
+  EXPECT_EQ(report_with.other_ground, std::count(with.begin(), with.end(), Label::kOtherGround));
+  EXPECT_GT(report_with.other_ground, 0U);
+}
+
+TEST_F(RoadSurfaceOfATurn, CountsTheSecondReturnOfACellWhereTheCellIs) {
+  cast(street(0));
+  const auto double_up = [&](float least_y, float most_y) {
+    std::vector<Return> echoes;
+    std::vector<std::pair<int, int>> cells;
+    for (int row = 5; row < 30; ++row) {
+      for (int column = 0; column < kShape.columns; ++column) {
+        const auto cell = static_cast<std::size_t>(row * kShape.stride() + column);
+        const Return echo{image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
+                          image.ground_range_m()[cell], 0};
+        if (echo.x_m < 5 || echo.x_m > 12 || echo.y_m < least_y || echo.y_m > most_y) continue;
+        echoes.push_back(echo);
+        cells.emplace_back(row, column);
+      }
+    }
+    for (std::size_t i = 0; i < std::min<std::size_t>(echoes.size(), 100); ++i) {
+      ASSERT_TRUE(image.place(cells[i].first, cells[i].second, echoes[i]));
+    }
+  };
+  double_up(-1, 1);
+  double_up(4, 5);
+  const auto labels = resegment();
+  ASSERT_GT(image.overflow().size(), 50U);
+  for (const OverflowReturn& extra : image.overflow()) {
+    const Label expected = extra.echo.y_m < 2 ? Label::kGround : Label::kOtherGround;
+    EXPECT_EQ(labels[extra.return_index], expected) << extra.echo.y_m;
+  }
+}
+
+TEST_F(RoadSurfaceOfATurn, AnEmptyTurnAndOneOfAFewColumnsAreNoTrouble) {
+  EXPECT_TRUE(segment([](double, double) { return -1.0; }).empty());
+  for (const int columns : {3, 7, 40}) {
+    const ImageShape shape{64, columns};
+    RangeImage small(shape, 0, memory);
+    Segmenter of_small(config, profile, shape, small.return_capacity(), memory);
+    test::cast_turn(profile, street(0), small);
+    EXPECT_EQ(of_small.segment(small).returns, small.returns());
+  }
+}
+
+}  // namespace
+}  // namespace terracut::pipeline

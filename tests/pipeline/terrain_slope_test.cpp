@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/terrain_slope.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::pipeline {
+namespace {
+
+struct SlopeOfATurn : testing::Test {
+  static constexpr ImageShape kShape{64, 1000};
+
+  /// Fits a world of ground whose height is a function of the place, seen from right above it.
+  void fit(const std::function<float(float x, float y)>& height) {
+    image.clear();
+    const calib::RingProfile profile = test::even_profile();
+    test::cast_turn(profile, test::flat_ground(), image);
+    RangeImage raised(kShape, 0, memory);
+    for (int row = 0; row < kShape.rows; ++row) {
+      for (int column = 0; column < kShape.columns; ++column) {
+        const auto cell = static_cast<std::size_t>(row * kShape.stride() + column);
+        planes.label[cell] = Label::kNone;
+        planes.height_m[cell] = NAN;
+        if (!image.has_return(cell)) continue;
+        const float x = image.x_m()[cell], y = image.y_m()[cell];
+        raised.place(row, column, {x, y, height(x, y), image.ground_range_m()[cell], 0});
+        planes.label[cell] = Label::kGround;
+        planes.height_m[cell] = 0;
+      }
+    }
+    ground.collect(raised, planes);
+    slope.fit(ground);
+  }
+
+  rt::FixedMemory memory;
+  RangeImage image{kShape, 0, memory};
+  CellPlanes planes{kShape, memory};
+  GroundPatches ground{{}, kShape, memory};
+  TerrainSlope slope{{}, memory};
+};
+
+TEST_F(SlopeOfATurn, IsThatOfAPlane) {
+  fit([](float x, float y) { return 0.1F * x - 0.05F * y; });
+  for (const float x : {-25.0F, 0.0F, 12.0F, 30.0F}) {
+    EXPECT_NEAR(slope.at(x, 3).along_x, 0.1F, 0.015F) << x;
+    EXPECT_NEAR(slope.at(x, 3).along_y, -0.05F, 0.015F) << x;
+  }
+  EXPECT_NEAR(slope.at(10, 0).rise_m(2, 2), 0.1F, 0.03F);
+}
+
+TEST_F(SlopeOfATurn, FollowsAHillThatBeginsAhead) {
+  fit([](float x, float) { return x > 15 ? 0.15F * (x - 15) : 0.0F; });
+  EXPECT_NEAR(slope.at(-20, 0).along_x, 0, 0.01F);
+  EXPECT_NEAR(slope.at(35, 0).along_x, 0.15F, 0.02F);
+}
+
+TEST_F(SlopeOfATurn, DoesNotListenToRoughGround) {
+  fit([](float x, float y) {
+    // Grass: steep, and up and down by more than a road is.
+    return y > 4 ? 0.4F * (y - 4) + 0.03F * (std::sin(97 * y) + std::sin(89 * x)) : 0.0F;
+  });
+  EXPECT_NEAR(slope.at(5, 0).along_y, 0, 0.05F);
+}
+
+TEST_F(SlopeOfATurn, IsLevelWhereNothingIsSeen) {
+  fit([](float x, float) { return 0.1F * x; });
+  image.clear();
+  for (Label& label : planes.label) label = Label::kNone;
+  for (float& height : planes.height_m) height = NAN;
+  ground.collect(image, planes);
+  slope.fit(ground);
+  EXPECT_EQ(slope.at(5, 0).along_x, 0);
+}
+
+TEST_F(SlopeOfATurn, IsKnownEverywhere) {
+  fit([](float x, float) { return 0.1F * x; });
+  for (const float far_m : {-1e9F, -100.0F, 100.0F, 1e9F, INFINITY, -INFINITY}) {
+    EXPECT_TRUE(std::isfinite(slope.at(far_m, far_m).along_x)) << far_m;
+  }
+  EXPECT_TRUE(std::isfinite(slope.at(NAN, NAN).along_x));
+}
+
+}  // namespace
+}  // namespace terracut::pipeline

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
-#include <cmath>
 #include <type_traits>
 #include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include "rt/number_of.hpp"
 
 namespace terracut::pipeline {
 namespace {
@@ -137,6 +137,8 @@ constexpr std::array kParameters{
 
     Parameter{"min_cut.max_unknown", "cells", "Unknown cells solved at most; the farthest stay coarse", 0, 262144, {},
               TERRACUT_FIELD(min_cut.max_unknown)},
+    Parameter{"min_cut.least_finished", "", "Share of them finished when time is up; with less all stay coarse", 0, 1, {},
+              TERRACUT_FIELD(min_cut.least_finished)},
 
     Parameter{"returns.same_surface_range_m", "m", "A second return this near in range shares its cell's label", 0, 10, {},
               TERRACUT_FIELD(returns.same_surface_range_m)},
@@ -228,11 +230,8 @@ Expected<double> parse_value(const Parameter& parameter, std::string_view value)
                 fmt::format("{}: expected one of {}, found '{}'", parameter.key,
                             fmt::join(parameter.choices, ", "), value));
   }
-  double number = 0;
-  const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), number);
-  const bool whole =
-      error == std::errc{} && end == value.data() + value.size() && std::isfinite(number);
-  if (whole && number >= parameter.least && number <= parameter.most) return number;
+  const auto number = rt::number_of<double>(value);
+  if (number && *number >= parameter.least && *number <= parameter.most) return *number;
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: expected a number from {} to {}{}{}, found '{}'", parameter.key,
                           number_text(parameter.least), number_text(parameter.most),

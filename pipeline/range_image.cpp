@@ -16,7 +16,13 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, rt::Fixe
       ground_range_m_(memory.take<float>("range images", shape.cells())),
       intensity_(memory.take<std::uint8_t>("range images", shape.cells())),
       return_index_(memory.take<std::uint32_t>("range images", shape.cells())),
-      overflow_(memory.take<OverflowReturn>("range images", overflow_capacity)) {}
+      overflow_(memory.take<OverflowReturn>("range images", overflow_capacity)) {
+  const auto plane = [](const auto& cells) {
+    return Plane{reinterpret_cast<const std::byte*>(cells.data()), sizeof(cells[0])};
+  };
+  planes_ = {plane(stamp_),          plane(x_m_),          plane(y_m_),       plane(z_m_),
+             plane(ground_range_m_), plane(return_index_), plane(intensity_), plane(stamp_)};
+}
 
 void RangeImage::clear() noexcept {
   returns_ = 0;

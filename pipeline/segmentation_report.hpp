@@ -17,8 +17,8 @@ struct SegmentationReport {
   std::uint32_t returns = 0;          ///< In the image, all of them labelled.
   std::uint32_t ground = 0;           ///< Of them, labelled ground.
   std::uint32_t obstacles = 0;        ///< Of them, labelled obstacle.
-  Stage last_stage = Stage::kMinCut;  ///< How far it was refined.
-  CutReport cut;                      ///< All zero where that is before the min-cut.
+  Stage last_stage = Stage::kMinCut;  ///< How far the labels were refined.
+  CutReport cut;                      ///< All zero where none was tried.
 
   /// Fills the three counts from one label a return.
   void count(std::span<const Label> labels) noexcept TERRACUT_NONBLOCKING;

@@ -51,6 +51,7 @@ SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& 
     done(Stage::kSeeds);
     report.cut = cut(image, budget);
     done(Stage::kMinCut);
+    if (report.cut.discarded) report.last_stage = Stage::kAdjacentPoints;
   }
 
   return_labels_.assign(image, planes_);

@@ -28,8 +28,8 @@ class Segmenter {
             std::size_t return_capacity, rt::FixedMemory& memory);
 
   /// Labels one turn; `image` has the shape given at construction. The result of the turn before is
-  /// overwritten. Where `budget` has expired before the random field, labels stay those of the
-  /// stages before. Real-time safe if the observer is.
+  /// overwritten. Where `budget` has expired before the random field, or too soon in its cut,
+  /// labels stay those of the stages before. Real-time safe if the observer is.
   [[nodiscard]] SegmentationReport segment(const RangeImage& image, const CutBudget& budget = {},
                                            StageObserver* observer = nullptr) noexcept
       TERRACUT_NONBLOCKING;

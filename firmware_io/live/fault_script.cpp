@@ -5,12 +5,15 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <optional>
 
+#include "rt/number_of.hpp"
+
 namespace terracut::firmware_io {
 namespace {
+
+using rt::number_of;
 
 constexpr double kLongest_s = 1e6;
 constexpr std::uint64_t kMostPackets = 1'000'000'000;
@@ -48,14 +51,6 @@ bool drop_suffix(std::string_view& text, std::string_view suffix) {
   if (!text.ends_with(suffix)) return false;
   text.remove_suffix(suffix.size());
   return true;
-}
-
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 /// "2.5s", "400ms", "3" (seconds).

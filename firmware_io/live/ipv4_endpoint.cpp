@@ -5,7 +5,7 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 
-#include <charconv>
+#include "rt/number_of.hpp"
 
 namespace terracut::firmware_io {
 
@@ -29,13 +29,14 @@ Expected<Ipv4Endpoint> parse_ipv4_endpoint(std::string_view text) {
       endpoint.address = *address;
     }
   }
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), endpoint.port);
-  if (error != std::errc{} || end != port.data() + port.size()) {
+  const auto number = rt::number_of<std::uint16_t>(port);
+  if (!number) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("'{}' is no UDP address; expected ADDRESS:PORT like 192.168.3.43:2368, "
                             "ports from 0 to 65535",
                             text));
   }
+  endpoint.port = *number;
   return endpoint;
 }
 

@@ -13,6 +13,14 @@
 
 namespace terracut::firmware_io {
 
+SendCounters& SendCounters::operator+=(const SendCounters& other) noexcept {
+  sent += other.sent;
+  bytes += other.bytes;
+  failed += other.failed;
+  if (other.last_error != 0) last_error = other.last_error;
+  return *this;
+}
+
 Expected<UdpSender> UdpSender::open(const UdpSenderConfig& config, rt::FixedMemory& memory) {
   if (config.to.address == 0 || config.to.port == 0) {
     return fail(ErrorCode::kInvalidArgument,

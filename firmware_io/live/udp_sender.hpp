@@ -30,6 +30,9 @@ struct SendCounters {
   std::uint64_t bytes = 0;  ///< Payload.
   std::uint64_t failed = 0;
   int last_error = 0;  ///< errno of the newest failure.
+
+  /// Of several senders; `last_error` is of one that has any.
+  SendCounters& operator+=(const SendCounters& other) noexcept;
 };
 
 /// Sends datagrams as a sensor would: whether anybody listens makes no difference. One thread.

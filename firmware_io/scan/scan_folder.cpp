@@ -5,21 +5,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <system_error>
+
+#include "rt/number_of.hpp"
 
 namespace terracut::firmware_io {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<std::uint32_t> number_of(const std::string& name) {
-  std::uint32_t number = 0;
-  const char* const end = name.data() + name.size();
-  const auto [stop, error] = std::from_chars(name.data(), end, number);
-  if (error != std::errc{} || stop != end) return std::nullopt;
-  return number;
-}
 
 std::optional<fs::path> if_file(const fs::path& path) {
   std::error_code error;
@@ -51,7 +44,8 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
     // A link that leads nowhere is a scan all the same: reading it says what is wrong.
     if (!entry->is_regular_file(ignored) && !entry->is_symlink(ignored)) continue;
     const std::string name = path.stem().string();
-    found.scans.push_back({path, if_file(labels / (name + ".label")), name, number_of(name)});
+    found.scans.push_back(
+        {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)});
   }
   if (error) {
     return fail(ErrorCode::kUnreadable,

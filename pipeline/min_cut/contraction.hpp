@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "pipeline/min_cut/eight_lanes.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
@@ -62,15 +63,17 @@ inline void contract_cell(const GridProblem& problem, const UnknownCells& unknow
 
 /// Builds the graph of the unknown cells. An edge to a hard seed is cut exactly when the cell gets
 /// the other label, so its weight is added to the cost of that label: hard seeds never become
-/// nodes, and nothing is approximated. `graph.nodes` has one node per kept cell.
+/// nodes, and nothing is approximated. `graph.nodes` has one node per kept cell. False when the
+/// caller's clock expired first: the graph is not whole then.
 template <EdgeWeights Weights>
-void contract(const GridProblem& problem, const UnknownCells& unknown, const Weights& weights,
-              CutGraph& graph) noexcept {
+[[nodiscard]] bool contract(const GridProblem& problem, const UnknownCells& unknown,
+                            const Weights& weights, OpClock& clock, CutGraph& graph) noexcept {
   const std::span<const std::uint32_t> cells = unknown.cells();
   const auto stride = static_cast<std::uint32_t>(problem.shape.stride());
   std::uint32_t row = 0;
   graph.flow = 0;
   for (std::size_t i = 0; i < cells.size(); ++i) {
+    if (i % CutBudget::kNodesPerClockLook == 0 && clock.expired()) return false;
     const std::uint32_t cell = cells[i];
     while (cell >= (row + 1) * stride) ++row;
     const auto column = static_cast<int>(cell - row * stride);
@@ -80,6 +83,7 @@ void contract(const GridProblem& problem, const UnknownCells& unknown, const Wei
     contract_cell(problem, unknown, cell, static_cast<int>(row), around, weight, graph.nodes[i],
                   graph.flow);
   }
+  return true;
 }
 
 }  // namespace terracut::pipeline

@@ -14,13 +14,16 @@ namespace terracut::pipeline {
 /// cells, are the steps before them and one linear pass over the component that was interrupted.
 ///
 /// Without `expired` the result depends on the input alone: the deterministic mode, for replays and
-/// tests. With it the solver also stops when the caller's clock says so: live mode.
+/// tests. With it the caller's clock also stops the solvers, and the dear ones of the steps before
+/// them (weights, persistency): live mode.
 struct CutBudget {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
   /// 10 to 25 ms; fifty to two hundred times what a typical street frame takes.
   static constexpr std::int64_t kDefaultOps = 2'500'000;
   /// Operations between two looks at the clock: some 40 microseconds.
   static constexpr std::int64_t kOpsPerClockLook = 4096;
+  /// Nodes between two looks at the clock, where nodes are what is gone through: as long.
+  static constexpr std::uint32_t kNodesPerClockLook = 1024;
 
   std::int64_t ops = kDefaultOps;
   bool (*expired)(void* context) noexcept TERRACUT_NONBLOCKING =
@@ -39,11 +42,18 @@ class OpClock {
   /// True when the whole budget is gone.
   [[nodiscard]] bool exhausted() noexcept {
     if (ops_ >= limit_) return true;
-    if (budget_.expired != nullptr && ops_ >= next_look_) {
-      next_look_ = ops_ + CutBudget::kOpsPerClockLook;
-      if (budget_.expired(budget_.context)) limit_ = ops_;
+    if (ops_ < next_look_) return false;
+    next_look_ = ops_ + CutBudget::kOpsPerClockLook;
+    return expired();
+  }
+
+  /// True when the caller's clock has run out, whatever is left of the operations. Asks it.
+  [[nodiscard]] bool expired() noexcept {
+    if (!expired_ && budget_.expired != nullptr && budget_.expired(budget_.context)) {
+      expired_ = true;
+      limit_ = ops_;
     }
-    return ops_ >= limit_;
+    return expired_;
   }
 
  private:
@@ -51,6 +61,7 @@ class OpClock {
   std::int64_t limit_;
   std::int64_t ops_ = 0;
   std::int64_t next_look_ = 0;
+  bool expired_ = false;
 };
 
 }  // namespace terracut::pipeline

@@ -10,6 +10,7 @@ namespace terracut::pipeline {
 ///
 /// unknown = fixed_by_persistency + solved + certified + coarse_by_cap + coarse_by_budget
 /// The first three carry the label of a global optimum, the coarse ones the label they came with.
+/// Where the cut was discarded those are all.
 struct CutReport {
   std::uint32_t unknown = 0;
   std::uint32_t fixed_by_persistency = 0;  ///< Decided by their own excess alone.
@@ -28,12 +29,14 @@ struct CutReport {
   std::int64_t boykov_kolmogorov_ops = 0;
   std::int64_t push_relabel_ops = 0;  ///< The last two count against CutBudget::ops.
   bool budget_hit = false;            ///< Operations or clock ran out before the last component.
+  /// They ran out before GridCut::Config::least_finished: nothing of the cut is in the labels.
+  bool discarded = false;
 
-  /// GridProblem's E of the labels returned. Cells beyond the cap count as hard seeds of their
-  /// coarse label.
+  /// GridProblem's E of the labels returned; 0 where the cut was discarded, because not even the
+  /// weights need be known then. Cells beyond the cap count as hard seeds of their coarse label.
   std::int64_t energy = 0;
   /// Flow found, a lower bound of the least energy; equal to `energy` when nothing is coarse by
-  /// budget.
+  /// budget. 0 where the cut was discarded.
   std::int64_t flow = 0;
 
   /// Every unknown cell carries the label of one global optimum.

@@ -22,6 +22,9 @@ GridCut::Config checked(const ImageShape& shape, GridCut::Config config) {
       throw std::invalid_argument("GridCut expects bk_ops_per_node and bk_ops_base in [0, 1e9]");
     }
   }
+  if (!(config.least_finished >= 0 && config.least_finished <= 1)) {
+    throw std::invalid_argument("GridCut expects least_finished in [0, 1]");
+  }
   config.max_unknown = static_cast<std::uint32_t>(
       std::min<std::size_t>(config.max_unknown, shape.cells()));  // more are never needed
   return config;
@@ -59,27 +62,42 @@ GridCut::GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory&
       boykov_kolmogorov_(config_.max_unknown, memory),
       push_relabel_(config_.max_unknown, memory) {}
 
-void GridCut::find_unknown(const GridProblem& problem, std::span<const Label> labels) noexcept {
+CutReport GridCut::find_unknown(const GridProblem& problem,
+                                std::span<const Label> labels) noexcept {
   assert(problem.seeds.size() >= problem.shape.cells() && labels.size() >= problem.shape.cells());
   coarse_.size = 0;
   unknown_.find(problem, labels, coarse_);
   graph_.nodes = node_storage_.first(unknown_.cells().size());
-}
-
-CutReport GridCut::solve_contracted(const GridProblem& problem, const CutBudget& budget,
-                                    std::span<Label> labels) noexcept {
   CutReport report;
   report.coarse_by_cap = coarse_.size;
   report.unknown = coarse_.size + static_cast<std::uint32_t>(graph_.nodes.size());
+  return report;
+}
 
-  const Persistency::Result persistency = persistency_.fix(graph_);
+bool GridCut::is_worth_keeping(const CutReport& report) const noexcept {
+  return static_cast<float>(report.fixed_by_persistency + report.solved) >=
+         config_.least_finished * static_cast<float>(graph_.nodes.size());
+}
+
+CutReport GridCut::discard(CutReport report) noexcept {
+  for (const std::uint32_t cell : unknown_.cells()) coarse_.push_back(cell);
+  report.fixed_by_persistency = report.solved = report.certified = 0;
+  report.coarse_by_budget = static_cast<std::uint32_t>(graph_.nodes.size());
+  report.budget_hit = report.discarded = true;
+  return report;
+}
+
+CutReport GridCut::solve_contracted(const GridProblem& problem, OpClock& clock,
+                                    std::span<Label> labels, CutReport report) noexcept {
+  const Persistency::Result persistency = persistency_.fix(graph_, clock);
   report.fixed_by_persistency = persistency.fixed;
   report.persistency_ops = persistency.ops;
+  if (!persistency.finished) return discard(report);
+  if (clock.expired() && !is_worth_keeping(report)) return discard(report);
   report.greedy_push_ops = push_one_hop(graph_);
   components_.find(graph_, unknown_.cells(), problem.ground_range_m);
   report.components = components_.count();
 
-  OpClock clock(budget);
   std::int64_t cost_beyond_flow = 0;
   for (std::uint32_t i = 0; i < components_.count(); ++i) {
     const std::span<const std::uint32_t> component = components_[i];
@@ -91,6 +109,7 @@ CutReport GridCut::solve_contracted(const GridProblem& problem, const CutBudget&
       report.solved += cells;
     } else {
       report.budget_hit = true;
+      if (!is_worth_keeping(report)) return discard(report);
       cost_beyond_flow += settle_unfinished(component, started, labels, report);
     }
   }

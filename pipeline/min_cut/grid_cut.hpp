@@ -23,8 +23,8 @@
 namespace terracut::pipeline {
 
 /// The minimum of GridProblem's energy: exact, or, when the budget runs out, exact where finished
-/// and coarse, listed and counted elsewhere. At no point is the result worse than the coarse
-/// labels.
+/// and coarse, listed and counted elsewhere. At no point is its energy above that of the coarse
+/// labels; where too little is finished, these are the result.
 ///
 /// Among labellings of equal energy it returns the one with the most obstacle cells (there is
 /// exactly one: the largest source side). So the labels of a finished component depend on the
@@ -40,6 +40,9 @@ class GridCut {
     /// `bk_ops_per_node` * its nodes + `bk_ops_base` is finished by push-relabel. Each in [0, 1e9].
     std::int64_t bk_ops_per_node = 100;
     std::int64_t bk_ops_base = 20'000;
+    /// Share of the unknown cells solved that must be finished (fixed or in solved components) when
+    /// the budget runs out; with less, all of them keep their coarse label. [0, 1].
+    float least_finished = 0.5F;
   };
 
   /// shape.columns >= 3 and shape.rows >= 1. Throws std::invalid_argument when these or the config
@@ -52,22 +55,30 @@ class GridCut {
   template <EdgeWeights Weights>
   [[nodiscard]] CutReport solve(const GridProblem& problem, const Weights& weights,
                                 const CutBudget& budget, std::span<Label> labels) noexcept {
-    find_unknown(problem, labels);
-    contract(problem, unknown_, weights, graph_);
-    return solve_contracted(problem, budget, labels);
+    OpClock clock(budget);
+    const CutReport report = find_unknown(problem, labels);
+    if (!contract(problem, unknown_, weights, clock, graph_)) return discard(report);
+    return solve_contracted(problem, clock, labels, report);
   }
 
   /// The cells the last solve() left coarse: first those beyond the cap in row-major order, then
-  /// those the budget did not reach, nearest component first.
+  /// those the budget did not reach, nearest component first, or where the cut was discarded all
+  /// others in row-major order.
   [[nodiscard]] std::span<const std::uint32_t> coarse_cells() const noexcept {
     return coarse_.view();
   }
 
  private:
-  void find_unknown(const GridProblem& problem,
-                    std::span<const Label> labels) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] CutReport solve_contracted(const GridProblem& problem, const CutBudget& budget,
-                                           std::span<Label> labels) noexcept TERRACUT_NONBLOCKING;
+  /// Counts them.
+  [[nodiscard]] CutReport find_unknown(const GridProblem& problem,
+                                       std::span<const Label> labels) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] CutReport solve_contracted(const GridProblem& problem, OpClock& clock,
+                                           std::span<Label> labels,
+                                           CutReport report) noexcept TERRACUT_NONBLOCKING;
+
+  [[nodiscard]] bool is_worth_keeping(const CutReport& report) const noexcept;
+  /// What `report` says once the labels stay as they came.
+  [[nodiscard]] CutReport discard(CutReport report) noexcept TERRACUT_NONBLOCKING;
 
   /// False when the budget ran out before the end.
   [[nodiscard]] bool solve_component(std::span<const std::uint32_t> component, OpClock& clock,

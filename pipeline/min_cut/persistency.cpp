@@ -21,12 +21,17 @@ void Persistency::decide(CutNode& node, std::uint32_t index) noexcept {
   worklist_[worklist_size_++] = index;  // each node at most once: only free nodes come here
 }
 
-Persistency::Result Persistency::fix(CutGraph& graph) noexcept {
-  worklist_size_ = 0;
-  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) decide(graph.nodes[i], i);
-
+Persistency::Result Persistency::fix(CutGraph& graph, OpClock& clock) noexcept {
+  constexpr std::uint32_t kPerLook = CutBudget::kNodesPerClockLook;
   Result result;
+  worklist_size_ = 0;
+  for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
+    if (i % kPerLook == 0 && clock.expired()) return result;
+    decide(graph.nodes[i], i);
+  }
+
   while (result.fixed < worklist_size_) {
+    if (result.fixed % kPerLook == 0 && clock.expired()) return result;
     CutNode& node = graph.nodes[worklist_[result.fixed++]];
     for_each_edge(node.edges, [&](int direction) {
       const auto d = static_cast<std::size_t>(direction);
@@ -41,6 +46,7 @@ Persistency::Result Persistency::fix(CutGraph& graph) noexcept {
     });
     node.edges = 0;
   }
+  result.finished = true;
   return result;
 }
 

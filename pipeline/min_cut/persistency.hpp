@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/nonblocking.hpp"
@@ -26,9 +27,11 @@ class Persistency {
   struct Result {
     std::uint32_t fixed = 0;
     std::int64_t ops = 0;
+    bool finished = false;
   };
-  /// Sets `side` of the fixed nodes and takes their edges out of the graph. Real-time safe.
-  [[nodiscard]] Result fix(CutGraph& graph) noexcept TERRACUT_NONBLOCKING;
+  /// Sets `side` of the fixed nodes and takes their edges out of the graph. Where the caller's
+  /// clock expires first it is not finished, and the graph is of no use. Real-time safe.
+  [[nodiscard]] Result fix(CutGraph& graph, OpClock& clock) noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// Decides `node` if that can be done already; appends it to the worklist then.

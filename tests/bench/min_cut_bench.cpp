@@ -74,12 +74,14 @@ void typical_frame_up_to_stage(benchmark::State& state) {
   for (auto _ : state) {
     unknown.find(view, labels, dropped);
     CutGraph graph{nodes.first(unknown.cells().size())};
-    if (stage >= 1) contract(view, unknown, problem.weights(), graph);
-    if (stage >= 2) benchmark::DoNotOptimize(persistency.fix(graph));
+    OpClock clock({CutBudget::kUnlimited});
+    if (stage >= 1) {
+      benchmark::DoNotOptimize(contract(view, unknown, problem.weights(), clock, graph));
+    }
+    if (stage >= 2) benchmark::DoNotOptimize(persistency.fix(graph, clock));
     if (stage >= 3) benchmark::DoNotOptimize(push_one_hop(graph));
     if (stage >= 4) components.find(graph, unknown.cells(), view.ground_range_m);
     if (stage >= 5) {
-      OpClock clock({CutBudget::kUnlimited});
       for (std::uint32_t i = 0; i < components.count(); ++i) {
         benchmark::DoNotOptimize(
             boykov_kolmogorov.solve(graph, components[i], clock, CutBudget::kUnlimited));

@@ -115,6 +115,27 @@ TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStage
   EXPECT_EQ(segmenter->segment(image).last_stage, Stage::kMinCut);
 }
 
+TEST_F(SegmenterOnSyntheticTurns, ACutStoppedTooSoonLeavesTheLabelsOfTheStagesBefore) {
+  SegmenterConfig coarse;
+  coarse.last_stage = Stage::kAdjacentPoints;
+  const auto before = segment(test::ground_with_wall(9, 4, 1.5, 0.05), coarse);
+  const std::vector<Label> expected(before.begin(), before.end());
+  segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
+                                          image.return_capacity(), memory);
+  int looks = 0;
+  CutBudget from_the_second_look;  // the first one comes before the seeds
+  from_the_second_look.context = &looks;
+  from_the_second_look.expired = [](void* so_far) noexcept {
+    return ++*static_cast<int*>(so_far) > 1;
+  };
+  report = segmenter->segment(image, from_the_second_look);
+  EXPECT_TRUE(report.cut.discarded);
+  EXPECT_GT(report.cut.coarse_by_budget, 0U);
+  EXPECT_EQ(report.last_stage, Stage::kAdjacentPoints);
+  const auto labels = segmenter->labels();
+  EXPECT_TRUE(std::equal(labels.begin(), labels.end(), expected.begin(), expected.end()));
+}
+
 TEST_F(SegmenterOnSyntheticTurns, AnEmptyTurnHasNoLabels) {
   EXPECT_TRUE(segment([](double, double) { return -1.0; }).empty());
   EXPECT_TRUE(segment([](double, double) { return -1.0; }, paper_profile()).empty());

@@ -18,7 +18,7 @@
 #include "rt/latest_value.hpp"
 #include "rt/log_linear_histogram.hpp"
 #include "rt/page_faults.hpp"
-#include "rt/scheduler_times.hpp"
+#include "rt/run_queue_wait.hpp"
 #include "rt/spsc_queue.hpp"
 #include "rt/status_page.hpp"
 #include "rt/stolen_time.hpp"
@@ -39,7 +39,7 @@ struct Tools {
   SpscQueue<std::uint32_t> queue{"queue", 4, memory};
   LatestValue<std::int64_t> latest;
   LogLinearHistogram histogram;
-  SchedulerTimes times = SchedulerTimes::of_this_thread();
+  RunQueueWait wait = RunQueueWait::of_this_thread();
   std::optional<StolenTime> stolen;
   std::optional<StatusPagePublisher<Health>> page;
   std::optional<StatusPageReader<Health>> reader;
@@ -49,7 +49,7 @@ struct Tools {
 int one_frame(Tools& tools, std::int64_t number) noexcept TERRACUT_NONBLOCKING {
   int wrong = 0;
   const PageFaults faults = PageFaults::of_this_thread();
-  const SchedulerReading before = tools.times.read();
+  const std::int64_t waited_before_ns = tools.wait.read_ns();
   std::int64_t stolen_ns = 0;
   if (tools.stolen) stolen_ns = tools.stolen->read_ns().value_or(0);
   const ClockPair start = ClockPair::now();
@@ -64,9 +64,9 @@ int one_frame(Tools& tools, std::int64_t number) noexcept TERRACUT_NONBLOCKING {
 
   const ClockPair spent = ClockPair::now().since(start);
   tools.histogram.record(spent.wall_ns);
-  const SchedulerReading work = tools.times.read().since(before);
+  const std::int64_t waited_ns = tools.wait.read_ns() - waited_before_ns;
   if (tools.stolen) stolen_ns = tools.stolen->read_ns().value_or(0) - stolen_ns;
-  if (work.wall_ns < 0 || stolen_ns < 0) ++wrong;
+  if (waited_ns < 0 || stolen_ns < 0) ++wrong;
   if (PageFaults::of_this_thread().since(faults).minor < 0) ++wrong;
   if (tools.page) {
     tools.page->publish({number, spent.wall_ns});

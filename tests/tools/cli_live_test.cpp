@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// `terracut live` hears what `terracut send` plays. How fast is not tested: a machine may be busy.
+// `terracut live` hears sensors that play captures. How fast is not tested: a machine may be busy.
 #include <fmt/format.h>
 
+#include <atomic>
 #include <chrono>
 #include <filesystem>
+#include <map>
 #include <stdexcept>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "cli_fixture.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
@@ -23,38 +27,89 @@ using testing::AnyOf;
 using testing::Eq;
 using testing::HasSubstr;
 
+/// Sends a capture in real time from all of these addresses, over and over, until it is destroyed.
+class Senders {
+ public:
+  /// Every datagram to `ports.at(its own port)`, or to the only port there is.
+  Senders(std::vector<std::uint32_t> addresses, std::map<std::uint16_t, std::uint16_t> ports,
+          fs::path capture = kDrive)
+      : capture_(std::move(capture)) {
+    for (const std::uint32_t address : addresses) {
+      for (const auto& [recorded, port] : ports) {
+        auto sender = firmware_io::UdpSender::open(
+            {.to = {kLocalhost, port}, .from = firmware_io::Ipv4Endpoint{address, 0}}, memory_);
+        if (!sender) throw std::runtime_error(sender.error().message);
+        senders_.push_back({recorded, *std::move(sender)});
+      }
+    }
+    thread_ = std::jthread([this] { play(); });
+  }
+  ~Senders() { pacer_.stop(); }
+
+  static constexpr std::uint32_t kLocalhost = 0x7F000001;
+  static constexpr std::uint16_t kAnyPort = 0;
+
+ private:
+  struct Sender {
+    std::uint16_t recorded_port;
+    firmware_io::UdpSender socket;
+  };
+
+  void play() {
+    auto capture = firmware_io::PcapSource::open(capture_);
+    if (!capture) throw std::runtime_error(capture.error().message);
+    while (!pacer_.stopped()) {
+      const auto next = capture->next();
+      if (!next) throw std::runtime_error(next.error().message);
+      if (!*next) {
+        if (!capture->rewind()) return;
+        continue;
+      }
+      for (Sender& sender : senders_) {
+        const bool is_its = sender.recorded_port == (**next).destination_port;
+        if (is_its || sender.recorded_port == kAnyPort) pacer_.add(**next, sender.socket);
+      }
+    }
+  }
+
+  fs::path capture_;
+  rt::FixedMemory memory_;
+  std::vector<Sender> senders_;
+  firmware_io::PacketPacer pacer_{1, memory_};
+  std::jthread thread_;
+};
+
 class CliLive : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    // A port that was free a moment ago.
+    port_ = std::to_string(free_port());
+  }
+  /// A port that was free a moment ago.
+  [[nodiscard]] static std::uint16_t free_port() {
     rt::FixedMemory memory;
-    auto source = firmware_io::UdpSource::open({}, memory);
-    ASSERT_TRUE(source) << source.error().message;
-    port_ = std::to_string(source->local().port);
+    const auto source = firmware_io::UdpSource::open({}, memory);
+    if (!source) throw std::runtime_error(source.error().message);
+    return source->local().port;
   }
   [[nodiscard]] std::string live(const std::string& options) const {
     return "live --listen 127.0.0.1:" + port_ + " --metrics off --no-lock-memory --name test-" +
            port_ + " --deadline-ms 10000 " + options;
   }
-  [[nodiscard]] std::string send(const std::string& options) const {
-    return "send " + quoted(kDrive) + " --to 127.0.0.1:" + port_ + " " + options;
-  }
   [[nodiscard]] std::uint16_t port_number() const {
     return static_cast<std::uint16_t>(std::stoi(port_));
+  }
+  /// A sensor at each of these addresses, as long as it lives.
+  [[nodiscard]] Senders sensors_at(std::vector<std::uint32_t> addresses) const {
+    return {std::move(addresses), {{Senders::kAnyPort, port_number()}}};
   }
   std::string port_;
 };
 
 TEST_F(CliLive, LabelsWhatIsSentToIt) {
-  Outcome heard;
-  std::thread listener([&] {
-    heard = run(live("--duration 4 --calibration " + quoted(kDriveCalibration) +
-                     " --labels labels --json live.json --trace trace.json"));
-  });
-  const Outcome sent = run(send("--loop 4"));
-  listener.join();
-  EXPECT_EQ(sent.exit_code, 0) << sent.err;
+  const Senders sensor = sensors_at({Senders::kLocalhost});
+  const Outcome heard = run(live("--duration 3 --calibration " + quoted(kDriveCalibration) +
+                                 " --labels labels --json live.json --trace trace.json"));
   EXPECT_THAT(heard.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << heard.err;
   EXPECT_THAT(heard.err, HasSubstr("HDL-64E"));
   const auto summary = json("live.json");
@@ -84,45 +139,8 @@ TEST_F(CliLive, NamesAPortThatIsTaken) {
   EXPECT_THAT(outcome.err, HasSubstr("port"));
 }
 
-/// Sends the drive in real time from all of these addresses, until told to stop.
-class Senders {
- public:
-  Senders(std::vector<std::uint32_t> addresses, std::uint16_t port) {
-    for (const std::uint32_t address : addresses) {
-      auto sender = firmware_io::UdpSender::open(
-          {.to = {kLocalhost, port}, .from = firmware_io::Ipv4Endpoint{address, 0}}, memory_);
-      if (!sender) throw std::runtime_error(sender.error().message);
-      senders_.push_back(*std::move(sender));
-    }
-    thread_ = std::jthread([this] { play(); });
-  }
-  ~Senders() { pacer_.stop(); }
-
-  static constexpr std::uint32_t kLocalhost = 0x7F000001;
-
- private:
-  void play() {
-    auto capture = firmware_io::PcapSource::open(kDrive);
-    if (!capture) throw std::runtime_error(capture.error().message);
-    while (!pacer_.stopped()) {
-      const auto next = capture->next();
-      if (!next) throw std::runtime_error(next.error().message);
-      if (!*next) {
-        if (!capture->rewind()) return;
-        continue;
-      }
-      for (auto& sender : senders_) pacer_.add(**next, sender);
-    }
-  }
-
-  rt::FixedMemory memory_;
-  std::vector<firmware_io::UdpSender> senders_;
-  firmware_io::PacketPacer pacer_{1, memory_};
-  std::jthread thread_;
-};
-
 TEST_F(CliLive, NamesTheSensorsWhenSeveralSendToThePort) {
-  const Senders senders({Senders::kLocalhost, Senders::kLocalhost + 1}, port_number());
+  const Senders senders = sensors_at({Senders::kLocalhost, Senders::kLocalhost + 1});
   const Outcome outcome = run(live("--calibration " + quoted(kDriveCalibration)));
   EXPECT_EQ(outcome.exit_code, kUsage);
   EXPECT_THAT(outcome.err, HasSubstr("127.0.0.1"));
@@ -131,44 +149,43 @@ TEST_F(CliLive, NamesTheSensorsWhenSeveralSendToThePort) {
 }
 
 TEST_F(CliLive, LabelsOneOfSeveralSensorsAndCountsTheOthersPackets) {
-  const Senders senders({Senders::kLocalhost, Senders::kLocalhost + 1}, port_number());
+  const Senders senders = sensors_at({Senders::kLocalhost, Senders::kLocalhost + 1});
   const Outcome outcome = run(live("--from 127.0.0.2 --duration 2 --json live.json --calibration " +
                                    quoted(kDriveCalibration)));
   EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("at 127.0.0.2"));
   const auto summary = json("live.json");
-  EXPECT_GT(summary.at("losses").at("foreign_datagrams").get<int>(), 1000);
+  EXPECT_GT(summary.at("losses").at("foreign_datagrams").get<int>(), 100);
   EXPECT_EQ(summary.at("losses").at("rejected_repeated").get<int>(), 0);
 }
 
 TEST_F(CliLive, LeavesOutASensorThatIsSwitchedOnLater) {
-  const Senders first({Senders::kLocalhost}, port_number());
+  const Senders first = sensors_at({Senders::kLocalhost});
+  const fs::path socket = folder_ / "turns";
   Outcome outcome;
-  std::thread listener([&] {
-    outcome = run(live("--duration 3 --json live.json --calibration " + quoted(kDriveCalibration)));
+  std::atomic<bool> ended = false;
+  std::jthread listener([&] {
+    outcome = run(live("--duration 3 --json live.json --stream " + quoted(socket) +
+                       " --calibration " + quoted(kDriveCalibration)));
+    ended = true;
   });
-  std::this_thread::sleep_for(std::chrono::milliseconds(2000));
-  {
-    const Senders later({Senders::kLocalhost + 1}, port_number());
-    listener.join();
-  }
+  // It is there once the program knows its sensor.
+  while (!fs::exists(socket) && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  const Senders later = sensors_at({Senders::kLocalhost + 1});
+  listener.join();
   EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
   const auto summary = json("live.json");
+  EXPECT_GT(summary.at("losses").at("foreign_datagrams").get<int>(), 0);
   EXPECT_EQ(summary.at("losses").at("rejected_repeated").get<int>(), 0);
 }
 
 TEST_F(CliLive, TakesTheAnglesOfARuby128FromItsOtherPort) {
   expect_done("simulate --sensor ruby128 --scene flat --duration 1.1 -o ruby.pcap");
-  Outcome heard;
-  std::thread listener([&] {
-    heard = run(
-        "live --sensor ruby128 --listen 127.0.0.1:6699 --metrics off --no-lock-memory --duration 2 "
-        "--deadline-ms 10000 --json live.json --name test-ruby-" +
-        port_);
-  });
-  const Outcome sent = run("send ruby.pcap --to 127.0.0.1 --loop 4");
-  listener.join();
-  EXPECT_EQ(sent.exit_code, kOk) << sent.err;
+  const std::uint16_t device_port = free_port();
+  const Senders sensor({Senders::kLocalhost}, {{6699, port_number()}, {7788, device_port}},
+                       folder_ / "ruby.pcap");
+  const Outcome heard = run(live("--sensor ruby128 --device-port " + std::to_string(device_port) +
+                                 " --duration 2 --json live.json"));
   EXPECT_THAT(heard.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << heard.err;
   EXPECT_THAT(heard.err, HasSubstr("RS-Ruby128 at 127.0.0.1"));
   EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), 5);
@@ -182,7 +199,7 @@ TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
   }
   const auto taken = firmware_io::UdpSource::open({.bind = {0, port_number()}}, memory);
   ASSERT_TRUE(taken) << taken.error().message;
-  const Senders senders({Senders::kLocalhost}, port_number());
+  const Senders senders = sensors_at({Senders::kLocalhost});
   const Outcome outcome =
       run(live("--via libpcap --interface lo --duration 2 --json live.json "
                "--calibration " +
@@ -192,14 +209,16 @@ TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
 }
 
 TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
-  const Senders senders({Senders::kLocalhost}, port_number());
+  const Senders senders = sensors_at({Senders::kLocalhost});
   const fs::path socket = folder_ / "turns";
   Outcome outcome;
-  std::thread listener([&] {
+  std::atomic<bool> ended = false;
+  std::jthread listener([&] {
     outcome = run(live("--duration 4 --labels labels --stream " + quoted(socket) +
                        " --calibration " + quoted(kDriveCalibration)));
+    ended = true;
   });
-  while (!fs::exists(socket)) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  while (!fs::exists(socket) && !ended) std::this_thread::sleep_for(std::chrono::milliseconds(10));
   const auto address = firmware_io::parse_stream_address(socket.string());
   ASSERT_TRUE(address) << address.error().message;
   auto reader = firmware_io::TurnStreamReader::connect(*address);

@@ -82,9 +82,7 @@ Error no_calibration(const PcapSource& source, const StreamSearch& search) {
                   source.name(), missing, search.broke_off.empty() ? "" : "; " + search.broke_off)};
 }
 
-Expected<calib::SensorCalibration> hdl64e_calibration(const CaptureOptions& options,
-                                                      PcapSource& source) {
-  if (!options.calibration.empty()) return calib::load_hdl64e_calibration(options.calibration);
+Expected<calib::SensorCalibration> told_by_hdl64e(PcapSource& source) {
   StreamSearch search = search_status_stream(source);
   if (!search.found) return tl::unexpected(no_calibration(source, search));
   return *std::move(search.found);
@@ -105,12 +103,9 @@ Expected<calib::Ruby128Calibration> search_difop(PcapSource& source) {
   return device.calibration();
 }
 
-Expected<calib::SensorCalibration> ruby128_calibration(const CaptureOptions& options,
-                                                       PcapSource& source) {
-  if (!options.calibration.empty()) return calib::read_ruby128_csv(options.calibration);
+Expected<calib::SensorCalibration> told_by_ruby128(PcapSource& source) {
   auto found = search_difop(source);
   if (found) return *std::move(found);
-  if (options.nominal_calibration) return calib::nominal_ruby128();
   return fail(
       ErrorCode::kNoCalibration,
       fmt::format("{}: no calibration: none was given, and the packets do not hold one: {}. "
@@ -123,10 +118,25 @@ Expected<calib::SensorCalibration> ruby128_calibration(const CaptureOptions& opt
 }  // namespace
 
 Expected<calib::SensorCalibration> choose_calibration(const CaptureOptions& options,
+                                                      firmware_io::SensorModel model,
+                                                      const ToldCalibration& told) {
+  const bool ruby128 = model == firmware_io::SensorModel::kRuby128;
+  if (!options.calibration.empty()) {
+    if (ruby128) return calib::read_ruby128_csv(options.calibration);
+    return calib::load_hdl64e_calibration(options.calibration);
+  }
+  auto calibration = told();
+  if (!calibration && ruby128 && options.nominal_calibration) return calib::nominal_ruby128();
+  return calibration;
+}
+
+Expected<calib::SensorCalibration> choose_calibration(const CaptureOptions& options,
                                                       const SensorChoice& sensor,
                                                       PcapSource& source) {
-  return sensor.model == firmware_io::SensorModel::kRuby128 ? ruby128_calibration(options, source)
-                                                            : hdl64e_calibration(options, source);
+  return choose_calibration(options, sensor.model, [&] {
+    return sensor.model == firmware_io::SensorModel::kRuby128 ? told_by_ruby128(source)
+                                                              : told_by_hdl64e(source);
+  });
 }
 
 }  // namespace terracut::cli

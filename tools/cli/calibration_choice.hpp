@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <functional>
+
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "options.hpp"
@@ -10,13 +12,23 @@
 
 namespace terracut::cli {
 
+/// What the unit's packets say of its calibration; else why they do not, and what to do.
+using ToldCalibration = std::function<Expected<calib::SensorCalibration>()>;
+
 /// The unit's calibration, from the first of these that there is:
 ///
-///   HDL-64E      the file of --calibration (xml, yaml); the table in the packets' status stream
-///   RS-Ruby128   the file of --calibration (csv); the angles in the DIFOP packets; the model's
-///                nominal table, only with --nominal-calibration
+///   HDL-64E      the file of --calibration (xml, yaml); what its packets tell
+///   RS-Ruby128   the file of --calibration (csv); what its packets tell; the model's nominal
+///   table,
+///                only with --nominal-calibration
 ///
-/// Else kNoCalibration, with what was found instead and what to do. Leaves `source` anywhere.
+/// Else the error of `told`, which is only asked where there is no file.
+[[nodiscard]] Expected<calib::SensorCalibration> choose_calibration(const CaptureOptions& options,
+                                                                    firmware_io::SensorModel model,
+                                                                    const ToldCalibration& told);
+
+/// The same for a capture, whose packets tell in the HDL-64E's status stream and in DIFOP packets.
+/// Where they do not: kNoCalibration, with what was found instead. Leaves `source` anywhere.
 [[nodiscard]] Expected<calib::SensorCalibration> choose_calibration(
     const CaptureOptions& options, const SensorChoice& sensor, firmware_io::PcapSource& source);
 

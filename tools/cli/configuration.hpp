@@ -54,29 +54,4 @@ struct Setting {
 /// The setting of that key; null: there is none.
 [[nodiscard]] const Setting* find_setting(std::string_view key) noexcept;
 
-/// What is valid for a setting: "0.2 .. 6", "auto, hdl64e, ruby128", "file or folder".
-[[nodiscard]] std::string allowed_text(const Setting& setting);
-
-/// Sets one setting from text. Relative paths are taken from `base`. The error, kInvalidArgument,
-/// says what was expected and what was found, without the key.
-[[nodiscard]] Status apply_text(const Setting& setting, std::string_view text,
-                                const std::filesystem::path& base, Configuration& configuration);
-
-/// A setting's value as apply_text() takes it; empty: not given.
-[[nodiscard]] std::string value_text(const Setting& setting, const Configuration& configuration);
-
-/// What a command starts from before its command line is read. The method's parameters are left
-/// out: they are set before those of --set, see arguments.cpp.
-void start_from(const Configuration& configuration, ReplayOptions& options);
-void start_from(const Configuration& configuration, SegmentOptions& options);
-void start_from(const Configuration& configuration, SimulateOptions& options);
-void start_from(const Configuration& configuration, EncodeOptions& options);
-void start_from(const Configuration& configuration, CalibrateOptions& options);
-void start_from(const Configuration& configuration, PlanOptions& options);
-void start_from(const Configuration& configuration, BenchOptions& options);
-void start_from(const Configuration& configuration, EvalOptions& options);
-void start_from(const Configuration& configuration, LiveOptions& options);
-void start_from(const Configuration& configuration, ConfigOptions& options);
-void start_from(const Configuration& configuration, DoctorOptions& options);
-
 }  // namespace terracut::cli

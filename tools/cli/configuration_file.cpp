@@ -13,6 +13,7 @@
 #include "calib/bounded_file.hpp"
 #include "calib/yaml_document.hpp"
 #include "pipeline/parameter_table.hpp"
+#include "setting_text.hpp"
 #include "setup_choice.hpp"
 
 namespace terracut::cli {

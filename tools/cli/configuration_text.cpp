@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "parameter_text.hpp"
+#include "setting_text.hpp"
 #include "setup_choice.hpp"
 
 namespace terracut::cli {

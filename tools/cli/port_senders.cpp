@@ -48,13 +48,7 @@ firmware_io::SendCounters PortSenders::counters() const noexcept {
   firmware_io::SendCounters sum;
   sum.failed = refused_;
   if (refused_ > 0) sum.last_error = EMFILE;  // what else was wrong open() has found
-  for (const auto& [port, sender] : by_port_) {
-    const firmware_io::SendCounters& counters = sender.counters();
-    sum.sent += counters.sent;
-    sum.bytes += counters.bytes;
-    sum.failed += counters.failed;
-    if (counters.last_error != 0) sum.last_error = counters.last_error;
-  }
+  for (const auto& [port, sender] : by_port_) sum += sender.counters();
   return sum;
 }
 

@@ -164,13 +164,7 @@ class Send {
 
   [[nodiscard]] firmware_io::SendCounters sent() const {
     firmware_io::SendCounters sum = parts_.sensor.counters();
-    if (parts_.stranger) {
-      const firmware_io::SendCounters other = parts_.stranger->counters();
-      sum.sent += other.sent;
-      sum.bytes += other.bytes;
-      sum.failed += other.failed;
-      if (sum.last_error == 0) sum.last_error = other.last_error;
-    }
+    if (parts_.stranger) sum += parts_.stranger->counters();
     return sum;
   }
 

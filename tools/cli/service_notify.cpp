@@ -8,12 +8,13 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <charconv>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
 #include <system_error>
 #include <utility>
+
+#include "rt/number_of.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -24,11 +25,7 @@ std::string_view environment(const char* name) {
 }
 
 std::optional<std::int64_t> number_in(const char* name) {
-  const std::string_view text = environment(name);
-  std::int64_t number = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
+  return rt::number_of<std::int64_t>(environment(name));
 }
 
 std::optional<std::int64_t> watchdog_of_environment() {

@@ -5,13 +5,16 @@
 #include <sys/timex.h>
 
 #include <algorithm>
-#include <charconv>
 #include <fstream>
 #include <sstream>
 #include <system_error>
 
+#include "rt/number_of.hpp"
+
 namespace terracut::doctor {
 namespace {
+
+using rt::number_of;
 
 constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 constexpr int kMostCores = 8192;  // the kernel's own limit
@@ -22,14 +25,6 @@ std::optional<ClockState> clock_of_this_machine() {
   if (answer < 0) return std::nullopt;
   return ClockState{.synchronised = answer != TIME_ERROR && (state.status & STA_UNSYNC) == 0,
                     .max_error_s = static_cast<double>(state.maxerror) * 1e-6};
-}
-
-template <class Number>
-std::optional<Number> number_of(std::string_view text) {
-  Number number{};
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  if (error != std::errc{} || end != text.data() + text.size()) return std::nullopt;
-  return number;
 }
 
 }  // namespace

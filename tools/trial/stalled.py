@@ -129,9 +129,10 @@ def row(state: str, summary: dict, files: int) -> list:
             summary["ms"]["cpu_total"]["p99.9"], summary["ms"]["latency"]["p99.9"], misses(summary)]  # fmt: skip
 
 
-def thawed(program: Program, report: Report, seconds: float) -> list:
-    """The disk hangs for the middle third of the run."""
-    of, drive = "disk that hangs for a while: ", program.drive("hdl64e", "single", "street", DRIVE_S)
+@contextlib.contextmanager
+def writing_to_a_disk_that_hangs(program: Program, seconds: float):
+    """A live process after a third of its run: its disk has just been frozen. (disk, folder, live, sending)"""
+    drive = program.drive("hdl64e", "single", "street", DRIVE_S)
     with FrozenDisk(program.scratch) as disk:
         folder = disk.folder / "labels"
         folder.mkdir()
@@ -139,18 +140,25 @@ def thawed(program: Program, report: Report, seconds: float) -> list:
             sending = live.send("--loop")
             time.sleep(seconds / 3)
             disk.freeze()
-            time.sleep(seconds / 3)
-            disk.thaw()
-            time.sleep(seconds / 3)
-            sent = sending.stop()
-            summary = live.stop()
+            yield disk, folder, live, sending
+
+
+def thawed(program: Program, report: Report, seconds: float) -> list:
+    """The disk hangs for the middle third of the run."""
+    of = "disk that hangs for a while: "
+    with writing_to_a_disk_that_hangs(program, seconds) as (disk, folder, live, sending):
+        time.sleep(seconds / 3)
+        disk.thaw()
+        time.sleep(seconds / 3)
+        sent = sending.stop()
+        summary = live.stop()
         judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
         files = len(list(folder.glob("*.label")))
         unwritten, rungs = summary["losses"]["unwritten_label_frames"], summary["frames"]["rungs"]
         labelled = summary["frames"]["count"] - rungs["skipped"]
         report.check(of + "frames went unwritten", unwritten > 0, unwritten)
         report.equal(of + "files and unwritten frames together", files + unwritten, labelled)
-        once = returns_of(program.replay(drive.pcap, drive.calibration))
+        once = returns_of(program.replay(live.drive.pcap, live.drive.calibration))
         period = len(once)
         expected = {number: once[number % period] for number in range(summary["frames"]["count"])}
         seam = {number for number in expected if number % period in (0, period - 1)}
@@ -161,26 +169,20 @@ def thawed(program: Program, report: Report, seconds: float) -> list:
 
 def never_thawed(program: Program, report: Report, seconds: float) -> list:
     """The disk hangs and stays so: the process must say so and end all the same."""
-    of, drive = "disk that hangs for good: ", program.drive("hdl64e", "single", "street", DRIVE_S)
-    with FrozenDisk(program.scratch) as disk:
-        folder = disk.folder / "labels"
-        folder.mkdir()
-        with Live(program, drive, "--labels", folder, deadline_ms=DEADLINE_MS, limit_s=seconds + 120) as live:
-            sending = live.send("--loop")
-            time.sleep(seconds / 3)
-            disk.freeze()
-            time.sleep(2 * seconds / 3)
-            sent = sending.stop()
-            time.sleep(0.5)
-            live.interrupt()
-            # It has ended but for the thread that the kernel holds on to until the disk answers.
-            end = time.monotonic() + 20
-            while "disk does not answer" not in live.messages() and time.monotonic() < end:
-                time.sleep(0.1)
-            report.check(of + "says so at the end", "disk does not answer" in live.messages(),
-                         line_with(live.messages(), "disk does not answer"))  # fmt: skip
-            disk.thaw()
-            live.process.wait(timeout=60)
+    of = "disk that hangs for good: "
+    with writing_to_a_disk_that_hangs(program, seconds) as (disk, folder, live, sending):
+        time.sleep(2 * seconds / 3)
+        sent = sending.stop()
+        time.sleep(0.5)
+        live.interrupt()
+        # It has ended but for the thread that the kernel holds on to until the disk answers.
+        end = time.monotonic() + 20
+        while "disk does not answer" not in live.messages() and time.monotonic() < end:
+            time.sleep(0.1)
+        report.check(of + "says so at the end", "disk does not answer" in live.messages(),
+                     line_with(live.messages(), "disk does not answer"))  # fmt: skip
+        disk.thaw()
+        live.process.wait(timeout=60)
         summary = json.loads(live.summary_file.read_text())
         judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
         report.equal(of + "exit code (4: an output could not be written)", live.process.returncode, 4)

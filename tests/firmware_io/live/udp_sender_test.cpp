@@ -30,6 +30,17 @@ TEST_F(UdpSenderTest, SendsMoreThanABatchInOrder) {
   EXPECT_EQ(sender.counters().failed, 0U);
 }
 
+TEST(SendCounters, OfSeveralSendersAddUp) {
+  firmware_io::SendCounters sum{.sent = 1, .bytes = 20, .failed = 3, .last_error = ENOBUFS};
+  sum += {.sent = 400, .bytes = 5000, .failed = 60000, .last_error = 0};
+  EXPECT_EQ(sum.sent, 401U);
+  EXPECT_EQ(sum.bytes, 5020U);
+  EXPECT_EQ(sum.failed, 60003U);
+  EXPECT_EQ(sum.last_error, ENOBUFS) << "the other had none";
+  sum += {.last_error = ENETUNREACH};
+  EXPECT_EQ(sum.last_error, ENETUNREACH);
+}
+
 TEST_F(UdpSenderTest, DoesNotMindThatNobodyListens) {
   std::uint16_t port = 0;
   {

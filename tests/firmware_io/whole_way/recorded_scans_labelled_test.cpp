@@ -67,7 +67,7 @@ struct Accuracy {
 
 /// Mean over sequences of each sequence's pooled value, as the paper averages.
 Accuracy accuracy(const std::vector<std::filesystem::path>& sequences, SegmenterConfig config,
-                  Stage last_stage) {
+                  Stage last_stage, const pipeline::CutBudget& budget = {}) {
   config.last_stage = last_stage;
   Accuracy mean;
   for (const auto& sequence : sequences) {
@@ -77,7 +77,7 @@ Accuracy accuracy(const std::vector<std::filesystem::path>& sequences, Segmenter
                                   turns.image().return_capacity(), memory);
     pipeline::Quality quality;
     turns.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>& truth) {
-      const auto report = segmenter.segment(image);
+      const auto report = segmenter.segment(image, budget);
       EXPECT_EQ(report.returns, image.returns());
       quality += pipeline::measure(segmenter.labels(), truth);
     });
@@ -156,6 +156,48 @@ TEST(RecordedScansLabelled, AreCutAtTheEnergyOfAnIndependentSolver) {
       });
     }
   }
+}
+
+/// Wherever a cut is stopped: with next to nothing, with most of it finished, and between.
+constexpr std::int64_t kStops[] = {0, 500, 2'000, 8'000, 16'000};
+
+TEST(RecordedScansLabelled, AreNoWorseByAStoppedCutThanByTheCoarseStages) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const float least_finished : {0.0F, 0.5F}) {
+    SegmenterConfig config = pipeline::terracut_profile();
+    config.min_cut.least_finished = least_finished;
+    const Accuracy coarse = accuracy(sequences, config, Stage::kAdjacentPoints);
+    for (const std::int64_t ops : kStops) {
+      SCOPED_TRACE(ops);
+      const Accuracy stopped = accuracy(sequences, config, Stage::kMinCut, {ops});
+      EXPECT_GE(stopped.iou_g, coarse.iou_g);
+      EXPECT_GE(stopped.recall_o, coarse.recall_o);
+    }
+  }
+}
+
+TEST(RecordedScansLabelled, AreCutToNoMoreThanTheCoarseEnergyWhereverItIsStopped) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  int stopped = 0;
+  for (const auto& sequence : sequences) {
+    RecordedTurns turns(sequence);
+    for (SegmenterConfig config : {pipeline::terracut_profile(), pipeline::paper_profile()}) {
+      config.min_cut.least_finished = 0;
+      rt::FixedMemory memory;
+      pipeline::GridCut cut(turns.image().shape(), config.min_cut, memory);
+      turns.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>&) {
+        const auto problem = cut_problem(config, turns.profile(), image);
+        const std::int64_t coarse_energy = problem.energy(problem.coarse_labelling());
+        for (const std::int64_t ops : kStops) {
+          std::vector<pipeline::Label> labels = problem.coarse_labelling();
+          const auto report = cut.solve(problem.view(), problem.weights(), {ops}, labels);
+          EXPECT_LE(problem.energy(labels), coarse_energy) << "after " << ops << " operations";
+          stopped += report.budget_hit ? 1 : 0;
+        }
+      });
+    }
+  }
+  EXPECT_GT(stopped, 18 * 4);
 }
 
 }  // namespace

@@ -19,6 +19,7 @@ TEST(GridCutMemory, SolvingAllocatesNothing) {
       random_problem(shape, {.ground_seeds = 5, .obstacle_seeds = 5}, random);
   GridCut::Config config = push_relabel_only();
   config.max_unknown = 2000;  // the cap, both solvers and the certificate all have their turn
+  config.least_finished = 0;
   rt::FixedMemory memory;
   GridCut cut(shape, config, memory);
   const std::size_t bytes_planned = memory.total_bytes();

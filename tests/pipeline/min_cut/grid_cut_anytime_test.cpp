@@ -36,7 +36,7 @@ TEST(GridCutAnytime, AnyBudgetGivesAnEnergyBetweenOptimumAndCoarse) {
   for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
-    const GridCut::Config config = i % 2 == 0 ? GridCut::Config{} : push_relabel_only();
+    const GridCut::Config config = keep_all(i % 2 == 0 ? GridCut::Config{} : push_relabel_only());
     const Solution best = solve(problem, config);
     const Solution solution = solve(problem, config, {uniform(random, 0, 1500)});
     ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
@@ -55,7 +55,7 @@ TEST(GridCutAnytime, EveryCellNotCoarseIsPartOfOneOptimum) {
   for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     TestProblem problem = any_problem(random);
-    const GridCut::Config config = i % 2 == 0 ? GridCut::Config{} : push_relabel_only();
+    const GridCut::Config config = keep_all(i % 2 == 0 ? GridCut::Config{} : push_relabel_only());
     const Solution solution = solve(problem, config, {uniform(random, 0, 1500)});
     certified += solution.report.certified;
     const std::int64_t optimum = boost_optimum(problem).energy;
@@ -79,7 +79,7 @@ TEST(GridCutAnytime, MoreOperationsNeverSolveFewerCells) {
     const TestProblem problem = random_problem({10, 40}, kManyHoles, random);
     std::uint32_t exact = 0;
     for (std::int64_t ops = 0; ops < 6000; ops = ops + 1 + ops / 4) {
-      const Solution solution = solve(problem, {}, {ops});
+      const Solution solution = solve(problem, keep_all(), {ops});
       ASSERT_GE(exact_cells(solution.report), exact) << ops;
       exact = exact_cells(solution.report);
     }
@@ -90,7 +90,7 @@ TEST(GridCutAnytime, MoreOperationsNeverSolveFewerCells) {
 TEST(GridCutAnytime, NoOperationsStillGiveWhatPersistencyFixes) {
   Random random(24);
   const TestProblem problem = random_problem({10, 40}, kManyHoles, random);
-  const Solution solution = solve(problem, {}, {0});
+  const Solution solution = solve(problem, keep_all(), {0});
   EXPECT_TRUE(solution.report.budget_hit);
   EXPECT_GT(solution.report.fixed_by_persistency, 0U);
   EXPECT_EQ(solution.report.solved + solution.report.certified, 0U);
@@ -167,6 +167,43 @@ TEST(GridCutAnytime, TheCapHoldsWithoutUsableRanges) {
   EXPECT_EQ(solution.report.unknown - solution.report.coarse_by_cap, 50U);
 }
 
+TEST(GridCutAnytime, WithTooLittleFinishedAllStaysCoarse) {
+  Random random(30);
+  int kept = 0, discarded = 0;
+  for (int i = 0; i < 1500; ++i) {
+    SCOPED_TRACE(i);
+    const TestProblem problem = any_problem(random);
+    GridCut::Config config;
+    if (i % 3 == 0) config.max_unknown = 100;
+    const CutBudget budget{uniform(random, 0, 1500)};
+    const Solution whatever = solve(problem, keep_all(config), budget);
+    const Solution solution = solve(problem, config, budget);
+    ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
+    if (!whatever.report.budget_hit) continue;
+    const std::uint32_t solved_for = whatever.report.unknown - whatever.report.coarse_by_cap;
+    ASSERT_EQ(solution.report.discarded, 2 * exact_cells(whatever.report) < solved_for);
+    ASSERT_FALSE(whatever.report.discarded);
+    if (solution.report.discarded) {
+      ++discarded;
+      ASSERT_TRUE(solution.report.budget_hit);
+      ASSERT_EQ(solution.labels, problem.coarse_labelling());
+      ASSERT_EQ(solution.coarse_cells.size(), problem.unknown());
+    } else {
+      ++kept;
+      ASSERT_EQ(solution.labels, whatever.labels);
+    }
+  }
+  EXPECT_GT(discarded, 100);
+  EXPECT_GT(kept, 50);
+}
+
+TEST(GridCutAnytime, AShareThatIsNoneIsRefused) {
+  for (const float share : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN()}) {
+    rt::FixedMemory memory;
+    EXPECT_THROW(GridCut({4, 8}, {.least_finished = share}, memory), std::invalid_argument);
+  }
+}
+
 struct FakeClock {
   int looks_left;
   static bool expired(void* context) noexcept {
@@ -174,20 +211,40 @@ struct FakeClock {
   }
 };
 
-TEST(GridCutAnytime, TheClockStopsTheWork) {
+TEST(GridCutAnytime, TheClockStopsItAnywhereAndNeverAboveTheEnergyOfTheCoarseLabels) {
   Random random(27);
   const TestProblem problem =
       random_problem({32, 256}, {.holes = 5, .ground_seeds = 0, .obstacle_seeds = 0}, random);
-  const Solution whole = solve(problem);
-  FakeClock clock{2};
-  const Solution stopped = solve(problem, {}, {CutBudget::kUnlimited, &FakeClock::expired, &clock});
-  EXPECT_TRUE(stopped.report.budget_hit);
-  EXPECT_FALSE(stopped.report.exact());
+  const std::int64_t coarse_energy = problem.energy(problem.coarse_labelling());
   const auto ops = [](const CutReport& r) { return r.boykov_kolmogorov_ops + r.push_relabel_ops; };
-  EXPECT_LT(ops(stopped.report), ops(whole.report));
-  EXPECT_LT(ops(stopped.report), 4 * CutBudget::kOpsPerClockLook);
-  EXPECT_LT(clock.looks_left, 0);
-  EXPECT_EQ(problem.energy(stopped.labels), stopped.report.energy);
+  // From the first look, at the weights, to the last one, in the solvers.
+  int before_solvers = 0, in_solvers = 0;
+  std::int64_t last_ops = 0;
+  Solution solution;
+  for (int looks = 0; looks == 0 || solution.report.budget_hit; ++looks) {
+    SCOPED_TRACE(looks);
+    ASSERT_LT(looks, 10'000);
+    FakeClock clock{looks};
+    solution = solve(problem, keep_all(), {CutBudget::kUnlimited, &FakeClock::expired, &clock});
+    ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
+    ASSERT_LE(problem.energy(solution.labels), coarse_energy);
+    ASSERT_EQ(clock.looks_left < 0, solution.report.budget_hit)
+        << "it is asked no more once it expired";
+    ASSERT_GE(clock.looks_left, -1);
+    if (solution.report.discarded) {
+      ++before_solvers;
+      ASSERT_EQ(solution.labels, problem.coarse_labelling());
+      ASSERT_EQ(ops(solution.report), 0);
+    } else {
+      ++in_solvers;
+      ASSERT_EQ(problem.energy(solution.labels), solution.report.energy);
+      ASSERT_LE(ops(solution.report), last_ops + 2 * CutBudget::kOpsPerClockLook);
+      last_ops = ops(solution.report);
+    }
+  }
+  EXPECT_TRUE(solution.report.exact());
+  EXPECT_GT(before_solvers, 8) << "stopped in the weights and in persistency";
+  EXPECT_GT(in_solvers, 2);
 }
 
 TEST(GridCutAnytime, AClockThatNeverExpiresChangesNothing) {

@@ -123,7 +123,8 @@ struct Contracted {
         components(nodes_at_most(problem), memory) {
     unknown.find(problem.view(), problem.coarse, dropped);
     graph.nodes = memory.take<CutNode>("nodes", unknown.cells().size());
-    contract(problem.view(), unknown, problem.weights(), graph);
+    OpClock clock(kNoLimit);
+    EXPECT_TRUE(contract(problem.view(), unknown, problem.weights(), clock, graph));
   }
   static std::uint32_t nodes_at_most(const TestProblem& problem) {
     return static_cast<std::uint32_t>(problem.shape.cells());

@@ -11,15 +11,13 @@
 #include <utility>
 #include <vector>
 
-#include "calib/hdl64e_file.hpp"
 #include "calib/hdl64e_stream_table.hpp"
-#include "calib/nominal_ruby128.hpp"
-#include "calib/ruby128_csv.hpp"
 #include "firmware_io/capture/sensor_probe.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/ruby128/device_reader.hpp"
 #include "stop_signal.hpp"
+#include "tools/cli/calibration_choice.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -168,17 +166,14 @@ class Listening {
 
   [[nodiscard]] Expected<calib::SensorCalibration> calibration_of(SensorModel model,
                                                                   const Sender& sender) const {
-    const CaptureOptions& capture = options_.capture;
-    return model == SensorModel::kRuby128 ? ruby128_calibration(capture, sender)
-                                          : hdl64e_calibration(capture, sender);
+    return choose_calibration(options_.capture, model, [&] {
+      return model == SensorModel::kRuby128 ? told_by_ruby128(sender) : told_by_hdl64e(sender);
+    });
   }
 
-  [[nodiscard]] Expected<calib::SensorCalibration> ruby128_calibration(
-      const CaptureOptions& capture, const Sender& sender) const {
-    if (!capture.calibration.empty()) return calib::read_ruby128_csv(capture.calibration);
+  [[nodiscard]] Expected<calib::SensorCalibration> told_by_ruby128(const Sender& sender) const {
     auto told = sender.ruby128_device.calibration();
     if (told) return *std::move(told);
-    if (capture.nominal_calibration) return calib::nominal_ruby128();
     return fail(ErrorCode::kNoCalibration,
                 fmt::format("no angles of this RS-Ruby128: none were given, and what it says of "
                             "itself to port {} does not hold them: {}. Give the unit's angle.csv "
@@ -187,9 +182,7 @@ class Listening {
                             options_.listen.device_port, told.error().message));
   }
 
-  [[nodiscard]] static Expected<calib::SensorCalibration> hdl64e_calibration(
-      const CaptureOptions& capture, const Sender& sender) {
-    if (!capture.calibration.empty()) return calib::load_hdl64e_calibration(capture.calibration);
+  [[nodiscard]] static Expected<calib::SensorCalibration> told_by_hdl64e(const Sender& sender) {
     if (!sender.hdl64e_status.has_table()) {
       return fail(ErrorCode::kNoCalibration,
                   fmt::format("none was given, and {} bytes of the table in the packets are "

@@ -115,15 +115,16 @@ void LiveThreads::stop() {
 }
 
 void LiveThreads::receive() noexcept {
-  receive_turns(rt::SchedulerTimes::of_this_thread());
+  receive_turns(rt::RunQueueWait::of_this_thread());
 }
 
-void LiveThreads::receive_turns(const rt::SchedulerTimes& scheduler) noexcept {
+void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
   const rt::PageFaults at_start = rt::PageFaults::of_this_thread();
   std::int64_t spent_ns = rt::thread_cpu_ns();
   std::int64_t newest_packet_ns = 0;
   // Before this and the last fetching of packets: a turn's last packet came with one of the two.
-  rt::SchedulerReading before_fetch = scheduler.read(), before_last_fetch = before_fetch;
+  std::int64_t waited_before_fetch_ns = wait.read_ns();
+  std::int64_t waited_before_last_fetch_ns = waited_before_fetch_ns;
   const auto on_frame = [&](const FrameInfo& info,
                             pipeline::RangeImage& image) noexcept -> pipeline::RangeImage* {
     FrameExchange::Turn turn{&image, info, {}, chain_.decoder.losses()};
@@ -134,7 +135,7 @@ void LiveThreads::receive_turns(const rt::SchedulerTimes& scheduler) noexcept {
     turn.timing.last_packet_ns = info.last_packet_ns;
     turn.timing.closing_packet_ns = newest_packet_ns;
     turn.timing.decode_cpu_ns = now_ns - spent_ns;
-    turn.timing.run_queue_wait_ns = scheduler.read().since(before_last_fetch).waited_ns;
+    turn.timing.run_queue_wait_ns = wait.read_ns() - waited_before_last_fetch_ns;
     turn.timing.handed_over_ns = rt::realtime_ns();
     spent_ns = now_ns;
     pipeline::RangeImage* next =
@@ -155,8 +156,8 @@ void LiveThreads::receive_turns(const rt::SchedulerTimes& scheduler) noexcept {
   source_.refresh_drops();
   const firmware_io::ReceiveCounters before = source_.counters();
   while (!stop_.load(std::memory_order_relaxed)) {
-    before_last_fetch = before_fetch;
-    before_fetch = scheduler.read();
+    waited_before_last_fetch_ns = waited_before_fetch_ns;
+    waited_before_fetch_ns = wait.read_ns();
     const auto datagrams = source_.receive(kPatience_ns);
     for (const firmware_io::Datagram& datagram : datagrams) {
       newest_packet_ns = datagram.stamp_ns;
@@ -169,25 +170,25 @@ void LiveThreads::receive_turns(const rt::SchedulerTimes& scheduler) noexcept {
 }
 
 void LiveThreads::segment() noexcept {
-  segment_turns(rt::SchedulerTimes::of_this_thread(), rt::StolenTime::open());
+  segment_turns(rt::RunQueueWait::of_this_thread(), rt::StolenTime::open());
 }
 
-void LiveThreads::segment_turns(const rt::SchedulerTimes& scheduler,
+void LiveThreads::segment_turns(const rt::RunQueueWait& wait,
                                 const Expected<rt::StolenTime>& stolen) noexcept {
   const rt::PageFaults at_start = rt::PageFaults::of_this_thread();
   const auto stolen_ns = [&] { return stolen ? stolen->read_ns().value_or(0) : 0; };
-  rt::SchedulerReading before = scheduler.read();
+  std::int64_t waited_before_ns = wait.read_ns();
   std::int64_t stolen_before_ns = stolen_ns();
   while (!stop_.load(std::memory_order_relaxed)) {
     (void)events_.turn_ready.wait(-1, kPatience_ns);
     FrameExchange::Turn* turn = exchange_.take_if_new();
     if (turn == nullptr) continue;
     segment_turn(*turn);
-    const rt::SchedulerReading now = scheduler.read();
+    const std::int64_t waited_now_ns = wait.read_ns();
     const std::int64_t stolen_now_ns = stolen_ns();
-    turn->timing.run_queue_wait_ns += now.since(before).waited_ns;
+    turn->timing.run_queue_wait_ns += waited_now_ns - waited_before_ns;
     turn->timing.steal_ns = stolen_now_ns - stolen_before_ns;
-    before = now;
+    waited_before_ns = waited_now_ns;
     stolen_before_ns = stolen_now_ns;
     losses_.publish(turn->losses);
     pass_on(segmented_, turn->timing);
@@ -208,11 +209,13 @@ void LiveThreads::segment_turn(FrameExchange::Turn& turn) noexcept {
   const pipeline::SegmentationReport report =
       chain_.segmenter.segment(*turn.image, ladder_.budget(), &clock_);
   timing.rung = DeadlineLadder::rung_of(report);
-  ladder_.end(clock_.times());
   timing.labels_ns = rt::realtime_ns();
+  const std::int64_t labelled_cpu_ns = rt::thread_cpu_ns();
   pass_on_results(turn);
   timing.labels_ns = rt::realtime_ns();  // judged by when they were handed on
-  timing.segment_cpu_ns = rt::thread_cpu_ns() - begun_cpu_ns;
+  const std::int64_t handed_on_cpu_ns = rt::thread_cpu_ns();
+  timing.segment_cpu_ns = handed_on_cpu_ns - begun_cpu_ns;
+  ladder_.end(clock_.times(), report, handed_on_cpu_ns - labelled_cpu_ns);
   std::copy(clock_.times().stage_ns.begin(), clock_.times().stage_ns.end(),
             timing.stage_cpu_ns.begin());
   timing.cut_operations =

@@ -20,7 +20,7 @@
 #include "rt/grant.hpp"
 #include "rt/latest_value.hpp"
 #include "rt/nonblocking.hpp"
-#include "rt/scheduler_times.hpp"
+#include "rt/run_queue_wait.hpp"
 #include "rt/spsc_queue.hpp"
 #include "rt/stolen_time.hpp"
 #include "tools/cli/packet_chain.hpp"
@@ -96,9 +96,9 @@ class LiveThreads {
   static constexpr std::size_t kPointSlots = 2;  // the stream wants the newest, not all
 
   void receive() noexcept;
-  void receive_turns(const rt::SchedulerTimes& scheduler) noexcept TERRACUT_NONBLOCKING;
+  void receive_turns(const rt::RunQueueWait& wait) noexcept TERRACUT_NONBLOCKING;
   void segment() noexcept;
-  void segment_turns(const rt::SchedulerTimes& scheduler,
+  void segment_turns(const rt::RunQueueWait& wait,
                      const Expected<rt::StolenTime>& stolen) noexcept TERRACUT_NONBLOCKING;
   void segment_turn(FrameExchange::Turn& turn) noexcept;
   void pass_on_results(const FrameExchange::Turn& turn) noexcept;

@@ -21,7 +21,7 @@ namespace terracut::cli {
 struct Configuration {
   LiveOptions live;          ///< Also the capture, mount and method of other commands.
   OutputOptions output;      ///< Of live too, whose own `labels` and `json` are not used here.
-  ReplayOptions replay;      ///< `rate` and `loops`.
+  ReplayOptions replay;      ///< `motion`, `rate` and `loops`.
   SimulateOptions simulate;  ///< All but the calibration, mount and output.
   BenchOptions bench;        ///< `repeat` and `core`.
 };

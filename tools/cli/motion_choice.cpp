@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -41,7 +42,7 @@ firmware_io::MotionFigure figure_of(const MotionFigureOptions& options) {
 Expected<firmware_io::MotionSignals> motion_signals_of(const MotionOptions& options) {
   if (options.dbc.empty()) {
     return fail(ErrorCode::kInvalidArgument,
-                "no DBC file is given (motion.dbc): it says what the vehicle's CAN frames mean");
+                "no DBC file is given (--dbc, motion.dbc): it says what the vehicle's CAN frames mean");
   }
   const auto file = firmware_io::read_dbc(options.dbc);
   if (!file) return tl::unexpected(file.error());
@@ -56,6 +57,20 @@ Expected<firmware_io::MotionSignals> motion_signals_of(const MotionOptions& opti
                             motion.error().message));
   }
   return motion;
+}
+
+firmware_io::EgoMotion::Config ego_motion_config_of(const MotionOptions& options) {
+  firmware_io::EgoMotion::Config config;
+  config.max_age_ns = static_cast<std::int64_t>(options.max_age_ms * 1e6);
+  config.sensor_ahead_m = options.sensor_ahead_m;
+  config.sensor_left_m = options.sensor_left_m;
+  return config;
+}
+
+firmware_io::TurnInstant turn_instant_of(const MotionOptions& options) {
+  if (options.deskew_to == "start") return firmware_io::TurnInstant::kStart;
+  if (options.deskew_to == "middle") return firmware_io::TurnInstant::kMiddle;
+  return firmware_io::TurnInstant::kEnd;
 }
 
 }  // namespace terracut::cli

@@ -64,10 +64,11 @@ struct MotionFigureOptions {
 /// The vehicle's motion on its CAN bus. The signals are named as in the DBC file that simulated
 /// drives have beside them.
 struct MotionOptions {
-  std::string can;            ///< Interface of live; empty: none.
-  std::filesystem::path dbc;  ///< What the frames mean.
+  std::filesystem::path dbc;  ///< --dbc: what the frames mean.
   MotionFigureOptions speed{.signals = "SPEED"}, yaw_rate{.signals = "YAW_RATE"};
   double max_age_ms = 100, timeout_ms = 500;
+  double sensor_ahead_m = 0, sensor_left_m = 0;  ///< From the middle of the rear axle.
+  std::string deskew_to = "end";                 ///< --deskew-to start|middle|end
 };
 
 struct ReplayOptions {
@@ -75,6 +76,7 @@ struct ReplayOptions {
   MountOptions mount;
   MethodOptions method;
   MotionOptions motion;
+  std::filesystem::path can;  ///< --can: recording of the vehicle's bus; empty: none.
   OutputOptions output;
   double rate = 0;  ///< --rate: 0 as fast as possible, 1 as recorded
   int loops = 1;    ///< --loop: passes over the capture, 0 until interrupted

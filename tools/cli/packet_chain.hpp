@@ -15,6 +15,12 @@
 
 namespace terracut::cli {
 
+/// The vehicle's motion, where it is to be taken out of every turn.
+struct Deskewing {
+  firmware_io::EgoMotion* motion = nullptr;  ///< Null: returns lie where the sensor saw them.
+  firmware_io::TurnInstant at = firmware_io::TurnInstant::kEnd;
+};
+
 /// Decoder and segmenter, sized for each other: all that needs memory of its own on the way from
 /// packets to labels.
 ///
@@ -27,14 +33,17 @@ struct PacketChainOf {
   /// `columns`: of the range image, 0 for the sensor's default.
   PacketChainOf(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
                 int columns, const CaptureOptions& capture, const MethodOptions& method,
-                rt::FixedMemory& memory, int images = 3)
-      : decoder(calibration, profile.mount, decoder_config(columns, capture, images), memory),
+                rt::FixedMemory& memory, int images = 3, const Deskewing& deskewing = {})
+      : decoder(calibration, profile.mount, decoder_config(columns, capture, images, deskewing),
+                memory),
         segmenter(labeller_config(method), profile, decoder.shape(), decoder.return_capacity(),
                   memory) {}
 
   [[nodiscard]] static firmware_io::SensorDecoder::Config decoder_config(
-      int columns, const CaptureOptions& capture, int images = 3) {
+      int columns, const CaptureOptions& capture, int images = 3, const Deskewing& deskewing = {}) {
     firmware_io::SensorDecoder::Config config;
+    config.motion = deskewing.motion;
+    config.deskew_at = deskewing.at;
     config.images = images;
     config.columns = columns;
     config.dual_owner = cell_owner_of(capture.cell_owner);

@@ -8,6 +8,7 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -18,8 +19,10 @@
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "frame_outputs.hpp"
+#include "motion_choice.hpp"
 #include "open_capture.hpp"
 #include "packet_chain.hpp"
+#include "recorded_motion.hpp"
 #include "report.hpp"
 #include "setup_choice.hpp"
 
@@ -93,11 +96,15 @@ class FrameTruth {
 /// A capture's way to labels, on one thread: source, decoder, segmenter, sinks.
 class Replay {
  public:
-  Replay(const ReplayOptions& options, OpenCapture& capture, const calib::RingProfile& profile)
+  /// `motion` may be null: returns then lie where the sensor saw them.
+  Replay(const ReplayOptions& options, OpenCapture& capture, const calib::RingProfile& profile,
+         RecordedMotion* motion)
       : options_(options),
         capture_(capture),
+        motion_(motion),
         chain_(capture.calibration, profile, capture.sensor.columns, options.capture,
-               options.method, memory_),
+               options.method, memory_, 3,
+               {motion == nullptr ? nullptr : &motion->motion(), turn_instant_of(options.motion)}),
         clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
         truth_(options.output.truth),
@@ -111,6 +118,9 @@ class Replay {
     for (int pass = 0; options_.loops == 0 || pass < options_.loops; ++pass) {
       if (pass > 0) {
         if (Status status = capture_.source.rewind(); !status) return refuse(status.error());
+        if (motion_ != nullptr) {
+          if (Status status = motion_->restart(); !status) return refuse(status.error());
+        }
       }
       pace.restart();
       const std::uint64_t offered_before = offered_;
@@ -141,6 +151,7 @@ class Replay {
       if (place == CaptureWindow::Place::kBefore) continue;
       if (place == CaptureWindow::Place::kAfter) return true;
       pace.wait_for(datagram.stamp_ns);
+      if (motion_ != nullptr) motion_->hear_until(datagram.stamp_ns);
       decode(datagram);
     }
     return false;
@@ -206,6 +217,10 @@ class Replay {
       report_.set_device_clock(clock_of_device_.text());
       if (const std::string warning = clock_of_device_.warning(); !warning.empty()) warn(warning);
     }
+    if (motion_ != nullptr) {
+      report_.set_motion_samples(motion_->samples());
+      if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
+    }
     if (scored_ > 0) report_.set_quality(quality_, report_.frames() - scored_);
     fmt::print("{}", report_.text());
     if (options_.output.json.empty()) return kOk;
@@ -215,6 +230,7 @@ class Replay {
 
   const ReplayOptions& options_;
   OpenCapture& capture_;
+  RecordedMotion* motion_;
   rt::FixedMemory memory_;
   PacketChainOf<pipeline::GroundMethod> chain_;
   firmware_io::StatusStreamReader status_;
@@ -249,8 +265,15 @@ ExitCode run(const ReplayOptions& options) {
   if (!capture) return refuse(capture.error());
   const auto profile = ring_profile_of(capture->calibration, options.mount);
   if (!profile) return refuse(profile.error());
+  rt::FixedMemory motion_memory;
+  std::optional<RecordedMotion> motion;
+  if (!options.can.empty()) {
+    auto opened = RecordedMotion::open(options, motion_memory);
+    if (!opened) return refuse(opened.error());
+    motion.emplace(*std::move(opened));
+  }
   end_on_interrupt();
-  return Replay(options, *capture, *profile).run();
+  return Replay(options, *capture, *profile, motion ? &*motion : nullptr).run();
 }
 
 }  // namespace terracut::cli

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "loss_table.hpp"
@@ -81,6 +82,38 @@ Totals totals_of(const std::vector<FrameRecord>& records) {
   return totals;
 }
 
+/// How the vehicle's motion and the turns fit together in time.
+struct MotionSummary {
+  std::uint64_t deskewed = 0;
+  double least_ms = 0, median_ms = 0, most_ms = 0;  ///< Newest sample after the turn's last firing.
+};
+
+MotionSummary motion_of(const std::vector<FrameRecord>& records) {
+  MotionSummary summary;
+  std::vector<std::int64_t> newest_ns;
+  for (const FrameRecord& frame : records) {
+    summary.deskewed += frame.deskew.state == firmware_io::DeskewState::kDone ? 1 : 0;
+    newest_ns.push_back(frame.deskew.newest_motion_ns);
+  }
+  if (newest_ns.empty()) return summary;
+  std::ranges::sort(newest_ns);
+  summary.least_ms = milliseconds(newest_ns.front());
+  summary.median_ms = milliseconds(newest_ns[newest_ns.size() / 2]);
+  summary.most_ms = milliseconds(newest_ns.back());
+  return summary;
+}
+
+std::string motion_sentence(std::uint64_t samples, const std::vector<FrameRecord>& records) {
+  const MotionSummary motion = motion_of(records);
+  std::string text = fmt::format("{} samples; taken out of {} turns, {} without ego motion",
+                                 samples, motion.deskewed, records.size() - motion.deskewed);
+  if (samples == 0) return text;
+  return text + fmt::format(
+                    "\n          newest sample {:+.1f} ms from a turn's end (median; {:+.1f} "
+                    "to {:+.1f})",
+                    motion.median_ms, motion.least_ms, motion.most_ms);
+}
+
 }  // namespace
 
 FrameRecord record_of(const firmware_io::FrameInfo& info,
@@ -95,6 +128,7 @@ FrameRecord record_of(const firmware_io::FrameInfo& info,
   record.decode_ns = decode_ns;
   record.times = times;
   record.cut = segmented.cut;
+  record.deskew = info.deskew;
   record.losses = info.losses;
   return record;
 }
@@ -151,6 +185,7 @@ std::string Report::text() const {
                         100 * quality_->iou_ground(), 100 * quality_->recall_key_obstacles(),
                         unscored_ == 0 ? "" : fmt::format(" ({} frames not scored)", unscored_));
   }
+  if (motion_samples_) text += "motion    " + motion_sentence(*motion_samples_, records_) + "\n";
   text += "losses    " + loss_sentence(losses()) + "\n";
   text += times_.text();
   return text;
@@ -182,6 +217,9 @@ Status Report::write_json(const std::filesystem::path& path) const {
                       {"ms", milliseconds_json(frame)},
                       {"segment_wall_ms", milliseconds(frame.times.segment_wall_ns)},
                       {"min_cut", min_cut_json(frame.cut)}});
+    if (motion_samples_) {
+      frames.back()["deskewed"] = frame.deskew.state == firmware_io::DeskewState::kDone;
+    }
   }
   const Totals totals = totals_of(records_);
   Json& summary = json["summary"];
@@ -196,6 +234,14 @@ Status Report::write_json(const std::filesystem::path& path) const {
     summary["iou_g"] = quality_->iou_ground();
     summary["recall_o"] = quality_->recall_key_obstacles();
     summary["unscored_frames"] = unscored_;
+  }
+  if (motion_samples_) {
+    const MotionSummary motion = motion_of(records_);
+    summary["motion"] = {
+        {"samples", *motion_samples_},
+        {"deskewed_frames", motion.deskewed},
+        {"newest_sample_after_turn_ms",
+         {{"min", motion.least_ms}, {"median", motion.median_ms}, {"max", motion.most_ms}}}};
   }
   return rt::write_whole_file(path, json.dump(1) + "\n");
 }

@@ -30,6 +30,7 @@ struct FrameRecord {
   std::int64_t decode_ns = 0;  ///< Processor time of decoding the packets since the frame before.
   StageTimes times;
   pipeline::CutReport cut;
+  firmware_io::DeskewInfo deskew;
   firmware_io::LossCounters losses;
 };
 
@@ -72,6 +73,8 @@ class Report {
   /// Everything lost in the run, where that is more than the frames' sum (losses after the last
   /// one).
   void set_losses(const firmware_io::LossCounters& losses) { losses_ = losses; }
+  /// Samples of the vehicle's motion there were; set where it was to be taken out of the turns.
+  void set_motion_samples(std::uint64_t samples) { motion_samples_ = samples; }
   /// What is known of the sensor's clock, for people.
   void set_device_clock(std::string text) { device_clock_ = std::move(text); }
   /// The input broke off, and where.
@@ -89,10 +92,11 @@ class Report {
   ///   input_warning   where the input broke off, if it did
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///                   losses{cause: count}, ms{stage: processor time}, segment_wall_ms,
-  ///                   min_cut{unknown, coarse, ops}
+  ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
-  ///                   with truth iou_g, recall_o, unscored_frames
+  ///                   with truth iou_g, recall_o, unscored_frames; with a CAN recording motion{
+  ///                   samples, deskewed_frames, newest_sample_after_turn_ms{min, median, max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
  private:
@@ -102,6 +106,7 @@ class Report {
   std::optional<firmware_io::LossCounters> losses_;
   std::optional<pipeline::Quality> quality_;
   std::uint64_t unscored_ = 0;
+  std::optional<std::uint64_t> motion_samples_;
   std::string device_clock_;
   std::string input_warning_;
 };

@@ -21,6 +21,11 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
       ->check(range_of("replay.rate"))
       ->capture_default_str();
   add_loop(sub, o.loops);
+  CLI::Option* can = sub.add_option(
+      "--can", o.can,
+      "Recording of the vehicle's CAN bus (candump log or capture) on the clock of the "
+      "packets' stamps: its motion is taken out of every turn");
+  add_motion(sub, can, o.motion);
 }
 
 void add_segment(CLI::App& sub, SegmentOptions& o) {

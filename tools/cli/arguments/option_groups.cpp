@@ -89,6 +89,18 @@ void add_method(CLI::App& app, MethodOptions& method) {
   add_settings(app, method.settings);
 }
 
+void add_motion(CLI::App& app, CLI::Option* can, MotionOptions& motion) {
+  app.add_option("--dbc", motion.dbc,
+                 "DBC file that says what the CAN frames mean; section motion of the configuration "
+                 "names the signals (default: as `terracut simulate --can-log` does)")
+      ->needs(can);
+  app.add_option("--deskew-to", motion.deskew_to,
+                 "Instant of the turn at which all its returns are to lie where they were")
+      ->needs(can)
+      ->check(one_of("motion.deskew_to"))
+      ->capture_default_str();
+}
+
 void add_rivals(CLI::App& app, MethodOptions& method) {
   std::string about = "Ours or a rival by name, instead of --profile and --stages:";
   std::vector<std::string> names;

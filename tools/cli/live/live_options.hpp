@@ -49,7 +49,6 @@ struct LiveOptions {
   double patience_s = 5;  ///< For a sensor to be heard at the start, [0.1, 1e9].
   MountOptions mount;
   MethodOptions method;
-  MotionOptions motion;
   std::filesystem::path labels, json, trace;
   std::string stream;       ///< --stream, where others get labelled points; empty: nowhere.
   double deadline_ms = 50;  ///< From a turn's last packet to its labels, [1, 10000].

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "recorded_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "motion_choice.hpp"
+
+namespace terracut::cli {
+
+Expected<RecordedMotion> RecordedMotion::open(const ReplayOptions& options,
+                                              rt::FixedMemory& memory) {
+  auto signals = motion_signals_of(options.motion);
+  if (!signals) return tl::unexpected(signals.error());
+  auto recording = firmware_io::CanRecording::open(options.can);
+  if (!recording) return tl::unexpected(recording.error());
+  return RecordedMotion(options.can, *std::move(recording), *std::move(signals),
+                        ego_motion_config_of(options.motion), memory);
+}
+
+RecordedMotion::RecordedMotion(std::filesystem::path path, firmware_io::CanRecording recording,
+                               firmware_io::MotionSignals signals,
+                               const firmware_io::EgoMotion::Config& config,
+                               rt::FixedMemory& memory)
+    : path_(std::move(path)),
+      recording_(std::move(recording)),
+      signals_(std::move(signals)),
+      motion_(std::make_unique<firmware_io::EgoMotion>(config, memory)) {
+  read_on();
+}
+
+Status RecordedMotion::restart() {
+  auto recording = firmware_io::CanRecording::open(path_);
+  if (!recording) return tl::unexpected(recording.error());
+  recording_ = *std::move(recording);
+  read_on();
+  return {};
+}
+
+void RecordedMotion::hear_until(std::int64_t stamp_ns) {
+  for (; next_ && next_->stamp_ns <= stamp_ns; read_on()) {
+    if (const auto sample = signals_.take(*next_)) (void)motion_->add(*sample);
+    motion_->take_new();  // writer and reader are one here, so nothing ever waits
+  }
+}
+
+void RecordedMotion::read_on() {
+  next_.reset();
+  auto frame = recording_.next();
+  if (frame) {
+    next_ = *std::move(frame);
+  } else {
+    fault_ = frame.error().message;
+  }
+}
+
+std::string RecordedMotion::warnings() const {
+  std::string text;
+  const auto add = [&](const std::string& line) { text += (text.empty() ? "" : "\n") + line; };
+  if (!fault_.empty()) add(fault_);
+  if (const auto& log = recording_.counters(); log.malformed > 0) {
+    add(fmt::format("{}: {} of {} records are malformed; the first: {}", path_.string(),
+                    log.malformed, log.records, recording_.first_fault()));
+  }
+  const firmware_io::MotionCounters& counters = signals_.counters();
+  if (counters.frames == 0) {
+    add(
+        fmt::format("{}: none of its frames up to the capture's end holds the signals that "
+                    "motion.speed and motion.yaw_rate name",
+                    path_.string()));
+  }
+  for (const auto& [what, count] :
+       {std::pair{"frames are too short for their signals", counters.too_short},
+        std::pair{"signals came out of order", counters.out_of_order},
+        std::pair{"yaw rates were marked invalid", counters.yaw_rate_invalid},
+        std::pair{"speeds were marked invalid", counters.speed_invalid},
+        std::pair{"yaw rates came without a fresh speed", counters.stale},
+        std::pair{"samples are faster than any car", motion_->counters().implausible}}) {
+    if (count > 0) add(fmt::format("{}: {} {}", path_.string(), count, what));
+  }
+  return text;
+}
+
+}  // namespace terracut::cli

@@ -276,9 +276,10 @@ std::string sequence_section(const Json& evaluation) {
   const SequenceTable time(evaluation, dataset, dataset.time, false);
   html += time.html({{"measured here", {"ms", "mean"}, {"ms", "segment", "mean"}}}, {}, "ms");
   return html +
-         "<p>Key obstacles are the same classes under both definitions of ground, so "
+         "<p>Key obstacles are the same classes under both definitions of ground; "
          "Recall<sub>o</sub> "
-         "has one row. The mean time is over all frames.</p></section>\n";
+         "is that of all ground, which differs from that of the road only where a method tells the "
+         "two apart. The mean time is over all frames.</p></section>\n";
 }
 
 }  // namespace terracut::evaluation::report

@@ -13,11 +13,11 @@ namespace terracut::firmware_io {
 /// One frame as a line of the log format of can-utils (`candump -l`, `candump -L`), which most
 /// tools for CAN read and write:
 ///
-///     (1700000000.123456) can0 0AA#1A2B3C            11-bit id, 3 bytes
-///     (1700000000.123456) can0 18FEF100#R8           29-bit id (8 digits), remote, asks for 8
-///     bytes (1700000000.123456) can0 20000040#00...        error frame: bit 29 of the number is
-///     set (1700000000.123456789) can0 123##5AABBCC       FD; the digit holds its flags: 1 bit rate
-///                                                    switch, 2 sender passive, 4 FD
+///     (1700000000.123456) can0 0AA#1A2B3C       11-bit id, 3 bytes
+///     (1700000000.123456) can0 18FEF100#R8      29-bit id (8 digits), remote, asks for 8
+///     (1700000000.123456) can0 20000040#00      error frame: bit 29 of the number is set
+///     (1700000000.123456) can0 123##5AABBCC     FD; the digit holds its flags:
+///                                               1 bit rate switch, 2 sender passive, 4 FD
 ///
 /// The stamp has 1 to 9 decimals; data may be separated by dots; a last word " R" or " T" tells
 /// received from sent.

@@ -2,15 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/motion/vehicle_log.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <iterator>
 #include <string_view>
 
 #include "calib/angle.hpp"
+#include "firmware_io/can/candump_line.hpp"
 #include "rt/whole_file.hpp"
 
 namespace terracut::firmware_io {
@@ -33,12 +31,26 @@ constexpr std::string_view kDbc =
     "CM_ BO_ 416 \"Motion of the vehicle that a drive was made for\";\n"
     "CM_ SG_ 416 SPEED \"Of the rear axle; backwards is negative\";\n"
     "CM_ SG_ 416 YAW_RATE \"To the left is positive\";\n";
-constexpr std::uint32_t kMotionId = 416;
+constexpr CanId kMotionId{416, false};
 
-/// Hundredths as the two's complement that is on the bus.
-std::uint16_t hundredths(double value) {
-  return static_cast<std::uint16_t>(
+/// Hundredths as the two's complement that is on the bus, high byte first.
+void put_hundredths(double value, std::span<std::uint8_t, 2> bytes) {
+  const auto whole = static_cast<std::uint16_t>(
       static_cast<std::int16_t>(std::lround(std::clamp(100 * value, -32767.0, 32767.0))));
+  bytes[0] = static_cast<std::uint8_t>(whole >> 8);
+  bytes[1] = static_cast<std::uint8_t>(whole);
+}
+
+CanFrame motion_frame(const MotionSample& sample, std::uint8_t counter) {
+  CanFrame frame;
+  frame.stamp_ns = (sample.stamp_ns + 500) / 1000 * 1000;
+  frame.id = kMotionId;
+  frame.length = 8;
+  const std::span data(frame.data);
+  put_hundredths(3.6 * sample.speed_mps, data.subspan<0, 2>());
+  put_hundredths(calib::rad_to_deg(sample.yaw_rate_radps), data.subspan<2, 2>());
+  data[7] = counter;
+  return frame;
 }
 
 std::filesystem::path beside(const std::filesystem::path& pcap_path, const char* suffix) {
@@ -57,11 +69,7 @@ std::string vehicle_log(std::span<const MotionSample> samples) {
   std::string text;
   std::uint8_t counter = 0;
   for (const MotionSample& sample : samples) {
-    const std::int64_t stamp_us = (sample.stamp_ns + 500) / 1000;
-    fmt::format_to(std::back_inserter(text),
-                   "({:010}.{:06}) can0 {:03X}#{:04X}{:04X}000000{:02X}\n", stamp_us / 1'000'000,
-                   stamp_us % 1'000'000, kMotionId, hundredths(3.6 * sample.speed_mps),
-                   hundredths(calib::rad_to_deg(sample.yaw_rate_radps)), counter++);
+    text += candump_line(motion_frame(sample, counter++), "can0");
   }
   return text;
 }

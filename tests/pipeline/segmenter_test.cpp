@@ -23,6 +23,13 @@ struct SegmenterOnSyntheticTurns : testing::Test {
     test::cast_turn(profile, cast, image);
     return resegment(config);
   }
+  /// What the stages before the cut say, under the defaults otherwise.
+  std::vector<Label> coarse_labels(const test::BeamCast& cast) {
+    SegmenterConfig coarse;
+    coarse.last_stage = Stage::kAdjacentPoints;
+    const auto labels = segment(cast, coarse);
+    return {labels.begin(), labels.end()};
+  }
   std::span<const Label> resegment(const SegmenterConfig& config = {}) {
     segmenter =
         std::make_unique<Segmenter>(config, profile, kShape, image.return_capacity(), memory);
@@ -99,10 +106,7 @@ TEST_F(SegmenterOnSyntheticTurns, EveryStageCanBeTheLast) {
 }
 
 TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStagesBefore) {
-  SegmenterConfig coarse;
-  coarse.last_stage = Stage::kAdjacentPoints;
-  const auto before = segment(test::ground_with_wall(9, 4, 1.5, 0.05), coarse);
-  const std::vector<Label> expected(before.begin(), before.end());
+  const std::vector<Label> expected = coarse_labels(test::ground_with_wall(9, 4, 1.5, 0.05));
   segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
                                           image.return_capacity(), memory);
   CutBudget expired;
@@ -116,10 +120,7 @@ TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStage
 }
 
 TEST_F(SegmenterOnSyntheticTurns, ACutStoppedTooSoonLeavesTheLabelsOfTheStagesBefore) {
-  SegmenterConfig coarse;
-  coarse.last_stage = Stage::kAdjacentPoints;
-  const auto before = segment(test::ground_with_wall(9, 4, 1.5, 0.05), coarse);
-  const std::vector<Label> expected(before.begin(), before.end());
+  const std::vector<Label> expected = coarse_labels(test::ground_with_wall(9, 4, 1.5, 0.05));
   segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
                                           image.return_capacity(), memory);
   int looks = 0;

@@ -22,19 +22,21 @@ class HostClock {
   [[nodiscard]] std::int64_t sent_ns(std::int64_t device_us, std::int64_t arrived_ns) noexcept {
     std::int64_t step_us = device_us - device_us_;
     if (step_us < 0) step_us += wrap_us_;
-    const std::int64_t step_ns = step_us * 1000;
     device_us_ = device_us;
+    if (!known_ || step_us > kLongestStep_us) return start_at(arrived_ns);
+    const std::int64_t step_ns = step_us * 1000;
     const std::int64_t late_ns = arrived_ns - sent_ns_ - step_ns;
-    if (!known_ || step_us > kLongestStep_us || late_ns > kLatest_ns || late_ns < -kLatest_ns) {
-      known_ = true;
-      sent_ns_ = arrived_ns;
-    } else {
-      sent_ns_ += step_ns + std::min(late_ns, step_ns / kDrift);
-    }
+    if (late_ns > kLatest_ns || late_ns < -kLatest_ns) return start_at(arrived_ns);
+    sent_ns_ += step_ns + std::min(late_ns, step_ns / kDrift);
     return sent_ns_;
   }
 
  private:
+  std::int64_t start_at(std::int64_t arrived_ns) noexcept {
+    known_ = true;
+    return sent_ns_ = arrived_ns;
+  }
+
   static constexpr std::int64_t kLatest_ns = 20'000'000;        // more: a clock was set
   static constexpr std::int64_t kLongestStep_us = 100'000'000;  // more: outages, backward steps
   static constexpr std::int64_t kDrift = 2'000;                 // 500 ppm

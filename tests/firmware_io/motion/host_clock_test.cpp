@@ -54,5 +54,13 @@ TEST(HostClock, TheHostClockMayBeSetToo) {
   EXPECT_EQ(clock.sent_ns(576, kStart_ns + 500'000'000), kStart_ns + 500'000'000);
 }
 
+TEST(HostClock, TheDeviceClockMayBeSetByMoreThanNanosecondsCanCount) {
+  constexpr std::int64_t kWrap_us = std::int64_t{1} << 56;  // an RS-Ruby128's
+  HostClock clock(kWrap_us);
+  EXPECT_EQ(clock.sent_ns(1'000'000, kStart_ns), kStart_ns);
+  EXPECT_EQ(clock.sent_ns(999'000, kStart_ns + 50'000), kStart_ns + 50'000);
+  EXPECT_EQ(clock.sent_ns(kWrap_us - 1, kStart_ns + 90'000), kStart_ns + 90'000);
+}
+
 }  // namespace
 }  // namespace terracut::firmware_io

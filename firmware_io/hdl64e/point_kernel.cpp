@@ -8,6 +8,7 @@
 
 #include "calib/angle.hpp"
 #include "firmware_io/packet_heads.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::firmware_io {
 
@@ -70,12 +71,10 @@ void PointKernel::begin_packet(std::span<const std::int32_t, kLasers / 2> advanc
   }
 }
 
-void PointKernel::compute(std::int32_t azimuth_cdeg,
-                          ColumnReturns<kLasers>& column) const noexcept {
-  const Constants& __restrict k = constants_[0];
-  const Offsets& __restrict offset = offsets_[0];
-  ColumnReturns<kLasers>& __restrict out = column;
-  const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
+TERRACUT_VECTOR_CLONES void PointKernel::find_points(
+    const Constants& __restrict k, const Offsets& __restrict offset, SinCos head,
+    ColumnReturns<kLasers>& __restrict out) const noexcept {
+  const auto [sin_head, cos_head] = head;
   const float resolution_m = resolution_m_, end_m = interpolation_end_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
 
@@ -105,8 +104,12 @@ void PointKernel::compute(std::int32_t azimuth_cdeg,
     out.z_m[i] = T[8] * x + T[9] * y + T[10] * z + T[11];
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
+}
 
-  columns_.compute(azimuth_cdeg, offset.ticks, out);
+void PointKernel::compute(std::int32_t azimuth_cdeg,
+                          ColumnReturns<kLasers>& column) const noexcept {
+  find_points(constants_[0], offsets_[0], head_.at(azimuth_cdeg), column);
+  columns_.compute(azimuth_cdeg, offsets_[0].ticks, column);
 }
 
 }  // namespace terracut::firmware_io

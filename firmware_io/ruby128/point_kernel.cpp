@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calib/ruby128_geometry.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::firmware_io {
 
@@ -51,12 +52,10 @@ void Ruby128PointKernel::set_step(std::int32_t step_ticks) noexcept {
   }
 }
 
-void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
-                                 ColumnReturns<kLasers>& column) const noexcept {
-  const Constants& __restrict k = constants_[0];
-  const Offsets& __restrict offset = offsets_[0];
-  ColumnReturns<kLasers>& __restrict out = column;
-  const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
+TERRACUT_VECTOR_CLONES void Ruby128PointKernel::find_points(
+    const Constants& __restrict k, const Offsets& __restrict offset, SinCos head,
+    ColumnReturns<kLasers>& __restrict out) const noexcept {
+  const auto [sin_head, cos_head] = head;
   constexpr auto kCount_m = static_cast<float>(calib::kRuby128MetresPerCount);
   constexpr auto kAhead_m = static_cast<float>(calib::kRuby128LensAhead_m);
   const std::array<float, 12> T = T_vehicle_lidar_;
@@ -80,7 +79,12 @@ void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
     out.z_m[i] = T[8] * x + T[9] * y + T[10] * z + T[11];
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
-  columns_.compute(azimuth_cdeg, offset.ticks, out);
+}
+
+void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
+                                 ColumnReturns<kLasers>& column) const noexcept {
+  find_points(constants_[0], offsets_[0], head_.at(azimuth_cdeg), column);
+  columns_.compute(azimuth_cdeg, offsets_[0].ticks, column);
 }
 
 }  // namespace terracut::firmware_io

@@ -52,10 +52,10 @@ void Ruby128PointKernel::set_step(std::int32_t step_ticks) noexcept {
   }
 }
 
-TERRACUT_VECTOR_CLONES void Ruby128PointKernel::find_points(
-    const Constants& __restrict k, const Offsets& __restrict offset, SinCos head,
+TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
+    const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
     ColumnReturns<kLasers>& __restrict out) const noexcept {
-  const auto [sin_head, cos_head] = head;
+  const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
   constexpr auto kCount_m = static_cast<float>(calib::kRuby128MetresPerCount);
   constexpr auto kAhead_m = static_cast<float>(calib::kRuby128LensAhead_m);
   const std::array<float, 12> T = T_vehicle_lidar_;
@@ -79,12 +79,12 @@ TERRACUT_VECTOR_CLONES void Ruby128PointKernel::find_points(
     out.z_m[i] = T[8] * x + T[9] * y + T[10] * z + T[11];
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
+  columns_.compute(azimuth_cdeg, offset.ticks, out);
 }
 
 void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
                                  ColumnReturns<kLasers>& column) const noexcept {
-  find_points(constants_[0], offsets_[0], head_.at(azimuth_cdeg), column);
-  columns_.compute(azimuth_cdeg, offsets_[0].ticks, column);
+  compute(constants_[0], offsets_[0], azimuth_cdeg, column);
 }
 
 }  // namespace terracut::firmware_io

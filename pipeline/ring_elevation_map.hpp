@@ -2,6 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
+#include <span>
+
 #include "pipeline/cell_planes.hpp"
 #include "pipeline/ground_surface.hpp"
 #include "pipeline/range_image.hpp"
@@ -45,6 +48,10 @@ class RingElevationMap {
   RingGrid grid_;
   GroundSurface surface_;
   std::span<GroundSurface::LowestReturn> lowest_;  // per grid cell
+  std::span<std::int64_t> lowest_key_;             // the same while it is being found
+  // Of one row, by column: its returns' keys, and their ranges in the grid's steps.
+  std::span<std::int64_t> row_keys_;
+  std::span<std::uint16_t> row_steps_;
 };
 
 }  // namespace terracut::pipeline

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <vector>
 
+#include "rt/vector_clones.hpp"
+
 namespace terracut::pipeline {
 namespace {
 
@@ -42,6 +44,18 @@ std::vector<double> band_ends_m(const RingGrid::Config& config, const calib::Rin
   return ends;
 }
 
+TERRACUT_VECTOR_CLONES void find_steps_up_to(float last_step,
+                                             const float* __restrict ground_range_m,
+                                             std::span<std::uint16_t> steps) noexcept {
+  const std::size_t count = steps.size();
+  std::uint16_t* const __restrict out = steps.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float step = ground_range_m[i] * RingGrid::kStepsPerMetre;
+    out[i] =
+        static_cast<std::uint16_t>(static_cast<std::int32_t>(step < last_step ? step : last_step));
+  }
+}
+
 }  // namespace
 
 RingGrid::RingGrid(const Config& config, const calib::RingProfile& profile, ImageShape shape,
@@ -74,11 +88,19 @@ RingGrid::RingGrid(const Config& config, const calib::RingProfile& profile, Imag
   sectors_ = (shape.columns + config.columns_per_sector - 1) / config.columns_per_sector;
   sector_of_column_ =
       memory.take<std::uint16_t>("ring grid", static_cast<std::size_t>(shape.columns));
-  for (int column = 0; column < shape.columns; ++column) {
+  first_column_ = memory.take<std::uint16_t>("ring grid", static_cast<std::size_t>(sectors_) + 1);
+  for (int column = shape.columns - 1; column >= 0; --column) {
     // Spread evenly, so that the last sector is no sliver.
     sector_of_column_[static_cast<std::size_t>(column)] =
         static_cast<std::uint16_t>(std::int64_t{column} * sectors_ / shape.columns);
+    first_column_[static_cast<std::size_t>(sector_of(column))] = static_cast<std::uint16_t>(column);
   }
+  first_column_.back() = static_cast<std::uint16_t>(shape.columns);
+}
+
+void RingGrid::find_steps(std::span<const float> ground_range_m,
+                          std::span<std::uint16_t> steps) const noexcept {
+  find_steps_up_to(last_step_, ground_range_m.data(), steps);
 }
 
 }  // namespace terracut::pipeline

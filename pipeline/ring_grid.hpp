@@ -8,6 +8,7 @@
 #include "calib/ring_profile.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::pipeline {
 
@@ -27,7 +28,8 @@ class RingGrid {
     float range_limit_m = 100.0F;  ///< (0, 250]
     int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
   };
-  static constexpr int kMaxBands = 250;  ///< More would not fit the 8-bit band numbers.
+  static constexpr float kStepsPerMetre = 32.0F;  ///< Boundaries are met to within 3 cm.
+  static constexpr int kMaxBands = 250;           ///< More would not fit the 8-bit band numbers.
 
   /// Where a range lies between the middles of two bands, for linear interpolation.
   struct BandMix {
@@ -62,14 +64,24 @@ class RingGrid {
   [[nodiscard]] const BandMix& mix_of(float ground_range_m) const noexcept {
     return mix_of_step_[step_of(ground_range_m)];
   }
+  /// Ranges in steps of 1 / kStepsPerMetre, for band_of_step(): many at once.
+  void find_steps(std::span<const float> ground_range_m,
+                  std::span<std::uint16_t> steps) const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int band_of_step(std::uint16_t step) const noexcept { return band_of_step_[step]; }
   /// Sector of an image column.
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
   }
+  /// Image columns of a sector, [begin, end).
+  struct Columns {
+    std::size_t begin, end;
+  };
+  [[nodiscard]] Columns columns_of(int sector) const noexcept {
+    const auto i = static_cast<std::size_t>(sector);
+    return {first_column_[i], first_column_[i + 1]};
+  }
 
  private:
-  static constexpr float kStepsPerMetre = 32.0F;  // boundaries are met to within 3 cm
-
   [[nodiscard]] std::size_t step_of(float ground_range_m) const noexcept {
     const float step = ground_range_m * kStepsPerMetre;
     return step < last_step_ ? static_cast<std::size_t>(step) : band_of_step_.size() - 1;
@@ -82,6 +94,7 @@ class RingGrid {
   std::span<std::uint8_t> band_of_step_;
   std::span<BandMix> mix_of_step_;
   std::span<std::uint16_t> sector_of_column_;
+  std::span<std::uint16_t> first_column_;  // of each sector, and the end of the last
 };
 
 }  // namespace terracut::pipeline

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <set>
+#include <vector>
 
 #include "tests/support/synthetic_turn.hpp"
 
@@ -85,6 +86,33 @@ TEST(RingGrid, SectorsShareTheColumnsEvenly) {
   for (const int count : columns) {
     EXPECT_GE(count, 9);
     EXPECT_LE(count, 10);
+  }
+}
+
+TEST(RingGrid, TheColumnsOfASectorAreThoseThatNameIt) {
+  rt::FixedMemory memory;
+  const RingGrid grid({}, test::even_profile(), kShape, memory);
+  std::size_t next = 0;
+  for (int sector = 0; sector < grid.sectors(); ++sector) {
+    const auto [begin, end] = grid.columns_of(sector);
+    EXPECT_EQ(begin, next);
+    for (std::size_t column = begin; column < end; ++column) {
+      EXPECT_EQ(grid.sector_of(static_cast<int>(column)), sector);
+    }
+    next = end;
+  }
+  EXPECT_EQ(next, static_cast<std::size_t>(kShape.columns));
+}
+
+TEST(RingGrid, ManyRangesAtOnceAreInTheBandsTheyAreInOneByOne) {
+  rt::FixedMemory memory;
+  const RingGrid grid({}, test::even_profile(), kShape, memory);
+  std::vector<float> range_m{0.0F, 99.99F, 100.0F, 1e30F, std::nanf("")};
+  for (float range = 0.3F; range < 120; range += 0.37F) range_m.push_back(range);
+  std::vector<std::uint16_t> steps(range_m.size());
+  grid.find_steps(range_m, steps);
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    EXPECT_EQ(grid.band_of_step(steps[i]), grid.band_of(range_m[i])) << range_m[i];
   }
 }
 

@@ -16,7 +16,7 @@ namespace terracut::firmware_io {
 struct CanSendCounters {
   std::uint64_t sent = 0;
   std::uint64_t queue_full = 0;  ///< Left out: the bus was too busy for what was to be sent before.
-  std::uint64_t link_down = 0;   ///< Left out: the interface was down or gone.
+  std::uint64_t link_down = 0;   ///< Left out: the interface was down or not there.
   std::uint64_t failed = 0;      ///< Refused for another reason.
   int last_error = 0;            ///< errno of the newest of these.
 };
@@ -27,7 +27,8 @@ struct CanSendCounters {
 class CanSender {
  public:
   /// Errors as SocketCanSource::open.
-  [[nodiscard]] static Expected<CanSender> open(std::string interface);
+  [[nodiscard]] static Expected<CanSender> open(std::string interface,
+                                                bool wait_for_interface = false);
 
   /// Over any datagram socket, as SocketCanSource::adopt.
   [[nodiscard]] static CanSender adopt(OwnedDescriptor descriptor);

@@ -26,7 +26,8 @@ struct CanSendCounters {
 /// which needs no priority.
 class CanSender {
  public:
-  /// Errors as SocketCanSource::open.
+  /// Errors as SocketCanSource::open. `wait_for_interface`: one that is not there is taken up when
+  /// it comes.
   [[nodiscard]] static Expected<CanSender> open(std::string interface,
                                                 bool wait_for_interface = false);
 
@@ -36,6 +37,8 @@ class CanSender {
   /// Returns how many were sent; the others are counted by why they were not.
   std::size_t send(std::span<const CanFrame> frames) noexcept;
 
+  /// Whether there is one to send on, or was when it was last looked for.
+  [[nodiscard]] bool has_interface() const noexcept { return static_cast<bool>(socket_); }
   [[nodiscard]] const CanSendCounters& counters() const noexcept { return counters_; }
 
  private:

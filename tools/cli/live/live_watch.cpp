@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "firmware_io/can/can_socket.hpp"
 #include "firmware_io/live/ipv4_endpoint.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/loss_table.hpp"
@@ -78,6 +79,10 @@ void LiveWatch::open_metrics() {
 void LiveWatch::open_health() {
   auto sender = firmware_io::CanSender::open(options_.watch.health_can, true);
   if (sender) {
+    if (!sender->has_interface()) {
+      warn(firmware_io::no_such_can_interface(options_.watch.health_can).message +
+           "; it is waited for, and until then no health is sent");
+    }
     health_.emplace(options_.watch.health_can, *std::move(sender));
   } else {
     warn("no health on a CAN bus: " + sender.error().message);

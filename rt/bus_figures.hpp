@@ -41,6 +41,7 @@ struct MotionFigures {
   FixedText<16> bus;  ///< CAN interface; empty: the motion is not asked for.
   MotionState state = MotionState::kNotAsked;
   std::uint64_t samples = 0;        ///< Speed and yaw rate, whole and fresh.
+  std::uint64_t spare_samples = 0;  ///< More of them than are of use; left out.
   std::int64_t last_sample_ns = 0;  ///< Kernel's stamp of the newest one; 0: none yet.
 
   std::uint64_t taken_out = 0;      ///< Frames, whatever their rung.

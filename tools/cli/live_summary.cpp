@@ -58,6 +58,7 @@ Json motion_json(const rt::MotionFigures& motion) {
   Json json{{"bus", motion.bus.view()},
             {"state", to_string(motion.state)},
             {"samples", motion.samples},
+            {"spare_samples", motion.spare_samples},
             {"last_sample_ns", motion.last_sample_ns},
             {"taken_out_frames", motion.taken_out},
             {"no_ego_motion_frames", motion.no_ego_motion},

@@ -154,6 +154,8 @@ void add_motion(const rt::MotionFigures& motion, MetricsText& text) {
   text.sample(motion.no_ego_motion, label("motion", to_string(rt::FrameMotion::kNoEgoMotion)));
   text.single("terracut_motion_samples_total", "counter", "Speeds with yaw rates, whole and fresh.",
               motion.samples);
+  text.single("terracut_motion_spare_samples_total", "counter",
+              "Samples left out because there were more than are of use.", motion.spare_samples);
   text.single("terracut_motion_last_sample_time_seconds", "gauge",
               "Kernel's stamp of the newest sample, since 1970.", seconds(motion.last_sample_ns));
   text.single("terracut_motion_sample_after_turn_seconds", "gauge",

@@ -19,6 +19,8 @@ using rt::MotionState;
 /// The motion's age is looked at that often when the bus is silent.
 constexpr std::int64_t kPatience_ns = 50'000'000;
 constexpr std::chrono::milliseconds kRest{1};
+/// No car's speed or yaw rate changes faster than a sample in this time shows.
+constexpr std::int64_t kClosest_ns = 2'000'000;
 
 /// Waits on purpose.
 void rest() noexcept {
@@ -54,27 +56,32 @@ void VehicleMotion::stop() {
 
 void VehicleMotion::hear() noexcept {
   const rt::PageFaults at_start = rt::PageFaults::of_this_thread();
-  std::int64_t last_sample_ns = 0;
+  Heard heard;
   while (!stop_.load(std::memory_order_relaxed)) {
     const auto frames = source_.receive(kPatience_ns);
-    for (const firmware_io::CanFrame& frame : frames) {
-      const auto sample = signals_.take(frame);
-      if (!sample) continue;
-      (void)motion_.add(*sample);
-      last_sample_ns = sample->stamp_ns;
-    }
-    publish(last_sample_ns);
+    for (const firmware_io::CanFrame& frame : frames) take(frame, heard);
+    publish(heard);
     thread_state_.note_faults(at_start);
     if (!frames.empty()) rest();
   }
 }
 
-void VehicleMotion::publish(std::int64_t last_sample_ns) noexcept {
+void VehicleMotion::take(const firmware_io::CanFrame& frame, Heard& heard) noexcept {
+  const auto sample = signals_.take(frame);
+  if (!sample) return;
+  const std::int64_t since_last_ns = sample->stamp_ns - heard.last_sample_ns;
+  if (since_last_ns >= 0 && since_last_ns < kClosest_ns) {
+    ++heard.spare_samples;
+    return;
+  }
+  (void)motion_.add(*sample);
+  heard.last_sample_ns = sample->stamp_ns;
+}
+
+void VehicleMotion::publish(Heard heard) noexcept {
   const bool known = signals_.alive(rt::realtime_ns());
-  Heard& heard = heard_.draft();
   heard.bus = source_.counters();
   heard.signals = signals_.counters();
-  heard.last_sample_ns = last_sample_ns;
   if (source_.link() == LinkState::kGone) {
     heard.state = MotionState::kInterfaceGone;
   } else if (source_.link() == LinkState::kDown) {
@@ -83,10 +90,10 @@ void VehicleMotion::publish(std::int64_t last_sample_ns) noexcept {
     heard.state = MotionState::kBusOff;
   } else if (known) {
     heard.state = MotionState::kKnown;
-  } else {
-    heard.state = last_sample_ns == 0 ? MotionState::kWaiting : MotionState::kLost;
+  } else if (heard.last_sample_ns != 0) {
+    heard.state = MotionState::kLost;
   }
-  heard_.publish();
+  heard_.publish(heard);
 }
 
 void VehicleMotion::show(rt::MotionFigures& figures) noexcept {
@@ -95,6 +102,7 @@ void VehicleMotion::show(rt::MotionFigures& figures) noexcept {
   const firmware_io::EgoMotionCounters motion = motion_.counters();
   figures.state = heard.state;
   figures.samples = motion.accepted;
+  figures.spare_samples = heard.spare_samples;
   figures.last_sample_ns = heard.last_sample_ns;
   figures.fault_count = 0;
   for (const auto& [name, count] : {

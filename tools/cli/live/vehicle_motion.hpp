@@ -27,8 +27,10 @@ namespace terracut::cli {
 ///
 /// The bus cannot hold up a frame: the decoder takes what motion there is and never waits for any,
 /// and after every batch (64 frames) the thread rests for a millisecond, so that a flood costs no
-/// more than reading eight times what a bus of 1 Mbit/s can carry; what is beyond it the kernel
-/// drops, and counts. Frames bear the kernel's stamps, so resting makes nothing less exact.
+/// more than reading three times what a bus of 1 Mbit/s can carry; what is beyond it the kernel
+/// drops, and counts. Frames bear the kernel's stamps, so resting makes nothing less exact. A flood
+/// of the motion itself is thinned to a sample every two milliseconds, so that it does not push
+/// the motion of the turn's end out of the decoder's queue.
 ///
 /// The thread allocates, locks and writes nothing.
 class VehicleMotion {
@@ -59,11 +61,13 @@ class VehicleMotion {
     firmware_io::CanReceiveCounters bus;
     firmware_io::MotionCounters signals;
     rt::MotionState state = rt::MotionState::kWaiting;
-    std::int64_t last_sample_ns = 0;
+    std::uint64_t spare_samples = 0;
+    std::int64_t last_sample_ns = 0;  ///< Of those that were not spare.
   };
 
   void hear() noexcept TERRACUT_NONBLOCKING;
-  void publish(std::int64_t last_sample_ns) noexcept TERRACUT_NONBLOCKING;
+  void take(const firmware_io::CanFrame& frame, Heard& heard) noexcept TERRACUT_NONBLOCKING;
+  void publish(Heard heard) noexcept TERRACUT_NONBLOCKING;
 
   firmware_io::MotionSignals signals_;
   firmware_io::EgoMotion motion_;

@@ -12,7 +12,6 @@
 
 #include "dump_signal.hpp"
 #include "dump_writer.hpp"
-#include "firmware_io/can/can_socket.hpp"
 #include "first_seconds.hpp"
 #include "label_writer.hpp"
 #include "live_options.hpp"
@@ -31,6 +30,7 @@
 #include "tools/cli/live_summary.hpp"
 #include "tools/cli/motion_choice.hpp"
 #include "tools/cli/setup_choice.hpp"
+#include "vehicle_bus.hpp"
 #include "vehicle_motion.hpp"
 
 namespace terracut::cli {
@@ -67,31 +67,6 @@ std::string describe(const SensorOnAir& sensor) {
                      firmware_io::ipv4_text(sensor.address), sensor.spin_hz,
                      sensor.dual_return ? "dual" : "single");
 }
-
-/// The vehicle's CAN bus, where one is heard.
-struct VehicleBus {
-  firmware_io::MotionSignals signals;
-  firmware_io::SocketCanSource source;
-
-  /// The errors of SocketCanSource::open(); an interface that is not there is waited for.
-  [[nodiscard]] static Expected<VehicleBus> open(const std::string& interface,
-                                                 firmware_io::MotionSignals signals,
-                                                 rt::FixedMemory& memory) {
-    const auto ids = signals.ids();
-    auto source = firmware_io::SocketCanSource::open(
-        {.interface = interface, .ids = {ids.begin(), ids.end()}, .wait_for_interface = true},
-        memory);
-    if (!source) return tl::unexpected(source.error());
-    if (source->link() == firmware_io::LinkState::kGone) {
-      warn(firmware_io::no_such_can_interface(interface).message +
-           "; it is waited for, and until then frames have no ego motion");
-    } else if (source->link() == firmware_io::LinkState::kDown) {
-      warn(fmt::format("CAN interface '{}' is down; until it is up frames have no ego motion",
-                       interface));
-    }
-    return VehicleBus{std::move(signals), *std::move(source)};
-  }
-};
 
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {

@@ -34,8 +34,8 @@ namespace terracut::firmware_io {
 /// - `check(payload, PacketHeads&)`: the reason to reject a payload, or nothing and its heads;
 /// - `spread(step_ticks)`: the BeamSpread around the head;
 /// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
-/// - `begin_packet(heads)`, then `read_column(payload, heads, column)` for each column in turn: its
-///   ColumnReturns<kRows>;
+/// - `begin_packet(heads)`, then `read_column(payload, heads, column, found)` for each column in
+///   turn, which fills in its ColumnReturns<kRows>;
 /// - `rows()`: the range image row of each laser.
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
 ///
@@ -161,7 +161,24 @@ class Decoder {
     ++frames_.losses().rejected[static_cast<std::size_t>(reason)];
     return reason;
   }
-  void place_columns(std::span<const std::uint8_t> payload, std::int64_t head_cdeg) noexcept;
+  void place_packet(std::span<const std::uint8_t> payload, std::int64_t head_cdeg,
+                    bool is_in_one_turn) noexcept;
+  /// Laser by laser, so that a packet writes to each of the image's cache lines once and not once
+  /// a firing: half the time. False, and nothing placed, where the overflow list might run full.
+  [[nodiscard]] bool place_by_laser(std::int64_t head_cdeg, pipeline::CellOwner owner) noexcept;
+  /// In the order of arrival, into any of the open turns.
+  void place_by_firing(std::int64_t head_cdeg, pipeline::CellOwner owner) noexcept;
+  [[nodiscard]] std::int64_t turn_of_beam(std::int64_t head_cdeg, std::size_t column,
+                                          std::size_t laser) const noexcept {
+    const std::int64_t column_cdeg = head_cdeg + heads_.advance_cdeg(static_cast<int>(column));
+    return (column_cdeg - calib::wrap_cdeg(column_cdeg)) / calib::kTurn_cdeg +
+           found_[column].turn_offset[laser];
+  }
+  [[nodiscard]] pipeline::Return echo(std::size_t column, std::size_t laser) const noexcept {
+    const ColumnReturns<kLasers>& found = found_[column];
+    return {found.x_m[laser], found.y_m[laser], found.z_m[laser], found.ground_range_m[laser],
+            found.intensity[laser]};
+  }
   /// on_frame, the motion taken out before it where that is wanted.
   template <class OnFrame>
   [[nodiscard]] auto deskewed(OnFrame& on_frame) noexcept {
@@ -181,6 +198,7 @@ class Decoder {
   HostClock clock_;
   std::optional<Deskewer> deskewer_;
   PacketHeads heads_;
+  std::array<ColumnReturns<kLasers>, PacketHeads::kMaxColumns> found_{};  ///< Of one packet.
   std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to here.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
   std::uint64_t packets_ = 0, columns_ = 0;
@@ -244,7 +262,7 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   while (last_turn > frames_.oldest() + 1) frames_.roll(deskewed(on_frame));
   frames_.note_packet(datagram.stamp_ns, first_turn, last_turn, frontier_ticks_, step_ticks,
                       spread);
-  place_columns(datagram.payload, placed.head_cdeg);
+  place_packet(datagram.payload, placed.head_cdeg, first_turn == last_turn);
 
   // Packets need not sweep alike: in the Ruby's dual return one firing and two in turn.
   const std::int64_t settled_ticks =
@@ -255,35 +273,60 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
 }
 
 template <class Sensor>
-void Decoder<Sensor>::place_columns(std::span<const std::uint8_t> payload,
-                                    std::int64_t head_cdeg) noexcept {
+void Decoder<Sensor>::place_packet(std::span<const std::uint8_t> payload, std::int64_t head_cdeg,
+                                   bool is_in_one_turn) noexcept {
   sensor_.begin_packet(heads_);
+  for (int column = 0; column < heads_.columns; ++column) {
+    sensor_.read_column(payload, heads_, column, found_[static_cast<std::size_t>(column)]);
+  }
   const pipeline::CellOwner owner =
       heads_.dual_return ? dual_owner_ : pipeline::CellOwner::kFirstArrived;
-  const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
-  for (int column = 0; column < heads_.columns; ++column) {
-    const ColumnReturns<kLasers>& found = sensor_.read_column(payload, heads_, column);
-    const std::int64_t column_cdeg = head_cdeg + heads_.advance_cdeg(column);
-    const std::int64_t head_turn =
-        (column_cdeg - calib::wrap_cdeg(column_cdeg)) / calib::kTurn_cdeg;
-    // Which lasers found something is as good as random, so no branch is asked to guess it.
-    static_assert(kLasers <= 256);
-    std::array<std::uint8_t, kLasers> lasers;
-    std::size_t returns = 0;
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      lasers[returns] = static_cast<std::uint8_t>(i);
-      returns += found.raw[i] != 0 ? 1 : 0;
-    }
-    for (std::size_t n = 0; n < returns; ++n) {
-      const std::size_t i = lasers[n];
-      frames_.place(
-          head_turn + found.turn_offset[i], rows[i], found.column[i],
-          {found.x_m[i], found.y_m[i], found.z_m[i], found.ground_range_m[i], found.intensity[i]},
-          owner);
-    }
-  }
+  if (!is_in_one_turn || !place_by_laser(head_cdeg, owner)) place_by_firing(head_cdeg, owner);
   ++packets_;
   columns_ += static_cast<std::uint64_t>(heads_.columns);
+}
+
+template <class Sensor>
+bool Decoder<Sensor>::place_by_laser(std::int64_t head_cdeg, pipeline::CellOwner owner) noexcept {
+  const auto columns = static_cast<std::size_t>(heads_.columns);
+  std::array<std::uint32_t, PacketHeads::kMaxColumns> number{};  // of each column's next return
+  std::uint32_t returns = 0;
+  for (std::size_t c = 0; c < columns; ++c) {
+    number[c] = returns;
+    for (const std::uint16_t raw : found_[c].raw) returns += raw != 0 ? 1U : 0U;
+  }
+  pipeline::RangeImage& image = frames_.image(turn_of_beam(head_cdeg, 0, 0));
+  const std::optional<std::uint32_t> first = image.take_numbers(returns);
+  if (!first) return false;
+  for (std::uint32_t& next : number) next += *first;
+
+  const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
+  for (std::size_t i = 0; i < kLasers; ++i) {
+    // Which columns a laser found something in is as good as random, so no branch is asked to guess
+    // it.
+    std::array<std::uint8_t, PacketHeads::kMaxColumns> hits;
+    std::size_t hit_count = 0;
+    for (std::size_t c = 0; c < columns; ++c) {
+      hits[hit_count] = static_cast<std::uint8_t>(c);
+      hit_count += found_[c].raw[i] != 0 ? 1 : 0;
+    }
+    for (std::size_t n = 0; n < hit_count; ++n) {
+      const std::size_t c = hits[n];
+      image.place_numbered(rows[i], found_[c].column[i], echo(c, i), owner, number[c]++);
+    }
+  }
+  return true;
+}
+
+template <class Sensor>
+void Decoder<Sensor>::place_by_firing(std::int64_t head_cdeg, pipeline::CellOwner owner) noexcept {
+  const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(heads_.columns); ++c) {
+    for (std::size_t i = 0; i < kLasers; ++i) {
+      if (found_[c].raw[i] == 0) continue;
+      frames_.place(turn_of_beam(head_cdeg, c, i), rows[i], found_[c].column[i], echo(c, i), owner);
+    }
+  }
 }
 
 }  // namespace terracut::firmware_io

@@ -74,10 +74,14 @@ class FrameBuilder {
   /// Puts a return into an open turn. False, and counted, when its overflow list is full.
   bool place(std::int64_t turn, int row, int column, const pipeline::Return& echo,
              pipeline::CellOwner owner = pipeline::CellOwner::kFirstArrived) noexcept {
-    pipeline::RangeImage& image = *open_[static_cast<std::size_t>(turn - oldest_)].image;
-    if (image.place(row, column, echo, owner)) return true;
+    if (image(turn).place(row, column, echo, owner)) return true;
     ++losses_.overflow_full_returns;
     return false;
+  }
+
+  /// An open turn's image, for returns that place_numbered() has room for.
+  [[nodiscard]] pipeline::RangeImage& image(std::int64_t turn) noexcept {
+    return *open_[static_cast<std::size_t>(turn - oldest_)].image;
   }
 
   /// Firings were lost in this interval / arrived after all (reordered). `step_ticks`: from firing

@@ -3,7 +3,6 @@
 #include "pipeline/confidence_seeds.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
@@ -79,6 +78,52 @@ TERRACUT_VECTOR_CLONES void sum_windows(const std::uint8_t* counts, int width,
   }
 }
 
+/// Where so much of a window is ground, and the return so low, that a ground label is trusted.
+TERRACUT_VECTOR_CLONES void find_trusted_ground(const std::uint16_t* __restrict ground_in_window,
+                                                const std::uint16_t* __restrict returns_in_window,
+                                                const float* __restrict height_m, float share,
+                                                float max_height_m,
+                                                std::span<std::uint8_t> trusted) noexcept {
+  const std::size_t columns = trusted.size();
+  std::uint8_t* const __restrict out = trusted.data();
+  for (std::size_t i = 0; i < columns; ++i) {
+    out[i] = (static_cast<float>(ground_in_window[i]) >
+              share * static_cast<float>(returns_in_window[i])) &
+             (height_m[i] < max_height_m);
+  }
+}
+
+/// Where a return is steep or high enough for an obstacle label to be trusted.
+TERRACUT_VECTOR_CLONES void find_trusted_obstacles(const std::uint8_t* __restrict steep,
+                                                   const float* __restrict height_m,
+                                                   float min_height_m,
+                                                   std::span<std::uint8_t> trusted) noexcept {
+  const std::size_t columns = trusted.size();
+  std::uint8_t* const __restrict out = trusted.data();
+  for (std::size_t i = 0; i < columns; ++i) {
+    out[i] = (steep[i] != 0) | (height_m[i] > min_height_m);
+  }
+}
+
+/// The label itself where it is trusted, else unknown. No branches: they would be mispredicted
+/// wherever ground and obstacles alternate.
+TERRACUT_VECTOR_CLONES void choose(const Label* __restrict label,
+                                   const std::uint8_t* __restrict trusted_ground,
+                                   const std::uint8_t* __restrict trusted_obstacle,
+                                   std::span<Seed> seeds) noexcept {
+  static_assert(static_cast<int>(Seed::kNone) == static_cast<int>(Label::kNone) &&
+                static_cast<int>(Seed::kGround) == static_cast<int>(Label::kGround) &&
+                static_cast<int>(Seed::kObstacle) == static_cast<int>(Label::kObstacle));
+  const std::size_t columns = seeds.size();
+  Seed* const __restrict out = seeds.data();
+  for (std::size_t i = 0; i < columns; ++i) {
+    const bool trusted = ((label[i] == Label::kGround) & (trusted_ground[i] != 0)) |
+                         ((label[i] == Label::kObstacle) & (trusted_obstacle[i] != 0));
+    const Seed otherwise = label[i] == Label::kNone ? Seed::kNone : Seed::kUnknown;
+    out[i] = trusted ? static_cast<Seed>(label[i]) : otherwise;
+  }
+}
+
 }  // namespace
 
 ConfidenceSeeds::ConfidenceSeeds(const Config& config, const calib::RingProfile& profile,
@@ -94,7 +139,9 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, const calib::RingProfile&
       returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
       ground_in_window_(
           memory.take<std::uint16_t>("seeds", static_cast<std::size_t>(shape.columns))),
-      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())) {
+      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())),
+      trusted_ground_(memory.take<std::uint8_t>("seeds", ground_in_window_.size())),
+      trusted_obstacle_(memory.take<std::uint8_t>("seeds", ground_in_window_.size())) {
   const RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
   for (int row = 0; row < shape.rows; ++row) {
     const auto i = static_cast<std::size_t>(row);
@@ -118,31 +165,17 @@ void ConfidenceSeeds::select(const CellPlanes& planes) noexcept {
 }
 
 void ConfidenceSeeds::select_in_row(const CellPlanes& planes, int row) noexcept {
-  // Indexed by label, whether its ground is trusted, and whether its obstacle is: a branch here
-  // would be mispredicted wherever ground and obstacles alternate.
-  constexpr std::array<std::array<Seed, 4>, 3> kSeeds{{
-      {Seed::kNone, Seed::kNone, Seed::kNone, Seed::kNone},
-      {Seed::kUnknown, Seed::kGround, Seed::kUnknown, Seed::kGround},
-      {Seed::kUnknown, Seed::kUnknown, Seed::kObstacle, Seed::kObstacle},
-  }};
   const std::size_t first =
       static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
-  const float share = config_.ground_share;
-  const float max_ground_height_m = config_.max_ground_height_m;
   const float min_obstacle_height_m = config_.trust_all_obstacles
                                           ? -std::numeric_limits<float>::infinity()
                                           : config_.min_obstacle_height_m;
-  for (std::size_t column = 0; column < ground_in_window_.size(); ++column) {
-    const std::size_t cell = first + column;
-    const float height_m = planes.height_m[cell];
-    const bool ground = (static_cast<float>(ground_in_window_[column]) >
-                         share * static_cast<float>(returns_in_window_[column])) &
-                        (height_m < max_ground_height_m);
-    const bool obstacle = (planes.steep[cell] != 0) | (height_m > min_obstacle_height_m);
-    seeds_[cell] =
-        kSeeds[static_cast<std::size_t>(planes.label[cell])]
-              [static_cast<std::size_t>(ground) + 2 * static_cast<std::size_t>(obstacle)];
-  }
+  find_trusted_ground(ground_in_window_.data(), returns_in_window_.data(), &planes.height_m[first],
+                      config_.ground_share, config_.max_ground_height_m, trusted_ground_);
+  find_trusted_obstacles(&planes.steep[first], &planes.height_m[first], min_obstacle_height_m,
+                         trusted_obstacle_);
+  choose(&planes.label[first], trusted_ground_.data(), trusted_obstacle_.data(),
+         seeds_.subspan(first, trusted_ground_.size()));
 }
 
 void ConfidenceSeeds::start_counting() noexcept {

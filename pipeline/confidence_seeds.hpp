@@ -67,6 +67,7 @@ class ConfidenceSeeds {
   // ... and over the whole window.
   std::span<std::uint16_t> ground_in_window_;
   std::span<std::uint16_t> returns_in_window_;
+  std::span<std::uint8_t> trusted_ground_, trusted_obstacle_;  // of the row being judged
 };
 
 }  // namespace terracut::pipeline

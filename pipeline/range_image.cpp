@@ -77,17 +77,18 @@ bool RangeImage::owns(std::size_t cell, const Return& echo, CellOwner owner) con
   return false;
 }
 
-bool RangeImage::place_second(std::size_t cell, const Return& echo, CellOwner owner) noexcept {
+bool RangeImage::place_second(std::size_t cell, const Return& echo, CellOwner owner,
+                              std::uint32_t number) noexcept {
   if (overflow_used_ == overflow_.size()) return false;
   OverflowReturn& extra = overflow_[overflow_used_++];
   extra.cell = static_cast<std::uint32_t>(cell);
   if (owns(cell, echo, owner)) {
     extra.echo = {x_m_[cell], y_m_[cell], z_m_[cell], ground_range_m_[cell], intensity_[cell]};
     extra.return_index = return_index_[cell];
-    write(cell, echo, returns_++);
+    write(cell, echo, number);
   } else {
     extra.echo = echo;
-    extra.return_index = returns_++;
+    extra.return_index = number;
   }
   return true;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "rt/fixed_memory.hpp"
@@ -77,13 +78,30 @@ class RangeImage {
   /// caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
   bool place(int row, int column, const Return& echo,
              CellOwner owner = CellOwner::kFirstArrived) noexcept {
+    if (!place_numbered(row, column, echo, owner, returns_)) return false;
+    ++returns_;
+    return true;
+  }
+
+  /// For returns that are placed in another order than they arrived in: the numbers of the next
+  /// `count`, which place_numbered() has room for wherever they fall; the first of them is
+  /// answered. Nothing where the overflow list might not hold them all. Real-time safe.
+  [[nodiscard]] std::optional<std::uint32_t> take_numbers(std::size_t count) noexcept {
+    if (overflow_.size() - overflow_used_ < count) return std::nullopt;
+    const std::uint32_t first = returns_;
+    returns_ += static_cast<std::uint32_t>(count);
+    return first;
+  }
+  /// place() of a return whose number was taken before.
+  bool place_numbered(int row, int column, const Return& echo, CellOwner owner,
+                      std::uint32_t number) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
                              static_cast<std::size_t>(column);
     fetch_ahead(cell);
     if (stamp_[cell] == generation_) [[unlikely]]
-      return place_second(cell, echo, owner);
+      return place_second(cell, echo, owner, number);
     stamp_[cell] = generation_;
-    write(cell, echo, returns_++);
+    write(cell, echo, number);
     return true;
   }
 
@@ -141,8 +159,8 @@ class RangeImage {
   }
   [[nodiscard]] bool owns(std::size_t cell, const Return& echo,
                           CellOwner owner) const noexcept TERRACUT_NONBLOCKING;
-  bool place_second(std::size_t cell, const Return& echo,
-                    CellOwner owner) noexcept TERRACUT_NONBLOCKING;
+  bool place_second(std::size_t cell, const Return& echo, CellOwner owner,
+                    std::uint32_t number) noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;
   int stride_;

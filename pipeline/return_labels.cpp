@@ -8,13 +8,16 @@ namespace terracut::pipeline {
 
 ReturnLabels::ReturnLabels(const Config& config, std::size_t return_capacity,
                            rt::FixedMemory& memory)
-    : config_(config), labels_(memory.take<Label>("return labels", return_capacity)) {}
+    : config_(config), labels_(memory.take<Label>("return labels", return_capacity + 1)) {}
 
 void ReturnLabels::assign(const RangeImage& image, const CellPlanes& planes) noexcept {
   returns_ = image.returns();
   const auto index = image.return_index();
+  const std::size_t nowhere = labels_.size() - 1;
   for (std::size_t cell = 0; cell < planes.label.size(); ++cell) {
-    if (planes.label[cell] != Label::kNone) labels_[index[cell]] = planes.label[cell];
+    // Which cells are empty is as good as random: they write to a place of no return.
+    const Label label = planes.label[cell];
+    labels_[label != Label::kNone ? index[cell] : nowhere] = label;
   }
   for (const OverflowReturn& extra : image.overflow()) {
     const float above_owner_m = extra.echo.z_m - image.z_m()[extra.cell];

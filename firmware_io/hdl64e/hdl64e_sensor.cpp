@@ -37,22 +37,20 @@ void Hdl64eSensor::begin_packet(const PacketHeads& heads) noexcept {
   kernel_.begin_packet(advance_ticks, offset_ticks);
 }
 
-const Hdl64eSensor::Column& Hdl64eSensor::read_column(std::span<const std::uint8_t> payload,
-                                                      const PacketHeads& heads,
-                                                      int column) noexcept {
+void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads,
+                               int column, Column& found) noexcept {
   const auto packet = Hdl64ePacketView::of(payload);
   if (packet) {  // check() has seen to it
     for (int half = 0; half < 2; ++half) {
       const auto bytes = packet->returns(2 * column + half);
       const auto first = static_cast<std::size_t>(half) * kLasersPerBlock;
       for (std::size_t j = 0; j < kLasersPerBlock; ++j) {
-        returns_.raw[first + j] = static_cast<std::uint16_t>(bytes[3 * j] | bytes[3 * j + 1] << 8);
-        returns_.intensity[first + j] = bytes[3 * j + 2];
+        found.raw[first + j] = static_cast<std::uint16_t>(bytes[3 * j] | bytes[3 * j + 1] << 8);
+        found.intensity[first + j] = bytes[3 * j + 2];
       }
     }
   }
-  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], returns_);
-  return returns_;
+  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
 }  // namespace terracut::firmware_io

@@ -52,9 +52,8 @@ class Hdl64eSensor {
     return offsets_.offset_ticks(0, laser);
   }
   void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
-                                          const PacketHeads& heads,
-                                          int column) noexcept TERRACUT_NONBLOCKING;
+  void read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads, int column,
+                   Column& found) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::span<const std::int32_t, calib::kHdl64eLasers> rows() const noexcept {
     return rows_;
   }
@@ -63,7 +62,6 @@ class Hdl64eSensor {
   BeamOffsets offsets_;
   PointKernel kernel_;
   std::array<std::int32_t, calib::kHdl64eLasers> rows_;
-  Column returns_{};
 };
 
 }  // namespace terracut::firmware_io

@@ -8,6 +8,7 @@
 
 #include "calib/angle.hpp"
 #include "firmware_io/packet_heads.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::firmware_io {
 
@@ -70,11 +71,9 @@ void PointKernel::begin_packet(std::span<const std::int32_t, kLasers / 2> advanc
   }
 }
 
-void PointKernel::compute(std::int32_t azimuth_cdeg,
-                          ColumnReturns<kLasers>& column) const noexcept {
-  const Constants& __restrict k = constants_[0];
-  const Offsets& __restrict offset = offsets_[0];
-  ColumnReturns<kLasers>& __restrict out = column;
+TERRACUT_VECTOR_CLONES void PointKernel::compute(
+    const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
+    ColumnReturns<kLasers>& __restrict out) const noexcept {
   const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
   const float resolution_m = resolution_m_, end_m = interpolation_end_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
@@ -105,8 +104,12 @@ void PointKernel::compute(std::int32_t azimuth_cdeg,
     out.z_m[i] = T[8] * x + T[9] * y + T[10] * z + T[11];
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
-
   columns_.compute(azimuth_cdeg, offset.ticks, out);
+}
+
+void PointKernel::compute(std::int32_t azimuth_cdeg,
+                          ColumnReturns<kLasers>& column) const noexcept {
+  compute(constants_[0], offsets_[0], azimuth_cdeg, column);
 }
 
 }  // namespace terracut::firmware_io

@@ -59,6 +59,12 @@ class PointKernel {
     alignas(64) std::array<std::int32_t, kLasers> ticks;
   };
 
+  /// The same with its tables passed for __restrict: without it the loop is not vectorised in
+  /// clones.
+  void compute(const Constants& __restrict k, const Offsets& __restrict offset,
+               std::int32_t azimuth_cdeg,
+               ColumnReturns<kLasers>& __restrict out) const noexcept TERRACUT_NONBLOCKING;
+
   float resolution_m_;
   float interpolation_end_m_;
   BeamColumns columns_;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "calib/ruby128_geometry.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::firmware_io {
 
@@ -51,11 +52,9 @@ void Ruby128PointKernel::set_step(std::int32_t step_ticks) noexcept {
   }
 }
 
-void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
-                                 ColumnReturns<kLasers>& column) const noexcept {
-  const Constants& __restrict k = constants_[0];
-  const Offsets& __restrict offset = offsets_[0];
-  ColumnReturns<kLasers>& __restrict out = column;
+TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
+    const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
+    ColumnReturns<kLasers>& __restrict out) const noexcept {
   const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
   constexpr auto kCount_m = static_cast<float>(calib::kRuby128MetresPerCount);
   constexpr auto kAhead_m = static_cast<float>(calib::kRuby128LensAhead_m);
@@ -81,6 +80,11 @@ void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
     out.ground_range_m[i] = std::sqrt(vehicle_x * vehicle_x + vehicle_y * vehicle_y);
   }
   columns_.compute(azimuth_cdeg, offset.ticks, out);
+}
+
+void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
+                                 ColumnReturns<kLasers>& column) const noexcept {
+  compute(constants_[0], offsets_[0], azimuth_cdeg, column);
 }
 
 }  // namespace terracut::firmware_io

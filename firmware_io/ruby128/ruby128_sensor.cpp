@@ -54,19 +54,17 @@ void Ruby128Sensor::begin_packet(const PacketHeads& heads) noexcept {
   first_step_ticks_ = held_.join(azimuths(heads), heads.step_ticks, heads.device_stamp_us);
 }
 
-const Ruby128Sensor::Column& Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
-                                                        const PacketHeads& heads,
-                                                        int column) noexcept {
+void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads,
+                                int column, Column& found) noexcept {
   if (const auto packet = Ruby128PacketView::of(payload)) {  // check() has seen to it
     const auto bytes = packet->returns(column);
     for (std::size_t i = 0; i < static_cast<std::size_t>(kRows); ++i) {
-      returns_.raw[i] = static_cast<std::uint16_t>(bytes[3 * i] << 8 | bytes[3 * i + 1]);
-      returns_.intensity[i] = bytes[3 * i + 2];
+      found.raw[i] = static_cast<std::uint16_t>(bytes[3 * i] << 8 | bytes[3 * i + 1]);
+      found.intensity[i] = bytes[3 * i + 2];
     }
   }
   kernel_.set_step(column == 0 ? first_step_ticks_ : heads.step_ticks);
-  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], returns_);
-  return returns_;
+  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
 }  // namespace terracut::firmware_io

@@ -52,9 +52,8 @@ class Ruby128Sensor {
     return offsets_.offset_ticks(0, laser);
   }
   void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] const Column& read_column(std::span<const std::uint8_t> payload,
-                                          const PacketHeads& heads,
-                                          int column) noexcept TERRACUT_NONBLOCKING;
+  void read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads, int column,
+                   Column& found) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::span<const std::int32_t, calib::kRuby128Lasers> rows() const noexcept {
     return rows_;
   }
@@ -70,7 +69,6 @@ class Ruby128Sensor {
   HeldFiring held_;
   std::int32_t first_step_ticks_ = 0;  ///< Of the packet's first block, which may be a held one's.
   std::array<std::int32_t, calib::kRuby128Lasers> rows_;
-  Column returns_{};
 };
 
 }  // namespace terracut::firmware_io

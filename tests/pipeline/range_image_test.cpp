@@ -54,5 +54,25 @@ TEST_F(SmallImage, AFullOverflowListRefusesAndCountsNothing) {
   EXPECT_EQ(image.return_capacity(), 4U * 32U + 3U);
 }
 
+TEST_F(SmallImage, ReturnsNumberedAheadArePlacedInAnyOrder) {
+  ASSERT_TRUE(image.place(0, 0, {}));
+  ASSERT_EQ(image.take_numbers(3), 1U);
+  ASSERT_TRUE(image.place_numbered(1, 1, {1, 0, 0, 1, 0}, CellOwner::kFirstArrived, 3));
+  ASSERT_TRUE(image.place_numbered(2, 2, {2, 0, 0, 2, 0}, CellOwner::kFirstArrived, 1));
+  ASSERT_TRUE(image.place_numbered(2, 2, {3, 0, 0, 3, 0}, CellOwner::kFarthest, 2));
+  ASSERT_TRUE(image.place(3, 3, {}));
+  EXPECT_EQ(image.returns(), 5U);
+  EXPECT_EQ(image.return_index()[1 * 32 + 1], 3U);
+  EXPECT_EQ(image.return_index()[2 * 32 + 2], 2U);
+  EXPECT_EQ(image.overflow()[0].return_index, 1U);
+  EXPECT_EQ(image.return_index()[3 * 32 + 3], 4U);
+}
+
+TEST_F(SmallImage, NumbersAreOnlyHandedOutWhenAllOfThemCouldShareACell) {
+  EXPECT_EQ(image.take_numbers(4), std::nullopt);
+  EXPECT_EQ(image.returns(), 0U);
+  EXPECT_EQ(image.take_numbers(3), 0U);
+}
+
 }  // namespace
 }  // namespace terracut::pipeline

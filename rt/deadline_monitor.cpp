@@ -68,6 +68,7 @@ void DeadlineMonitor::judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
   } else {
     figures.consecutive_misses = 0;
   }
+  record_motion(frame);
   record_costs(frame);
   keep(frame);
   figures.newest = frame;
@@ -90,6 +91,23 @@ void DeadlineMonitor::judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLO
   if (skipped) return;  // no labels, hence no latency: it would only look like a quick frame
   figures.latency.record(latency_ns);
   if (frame.handed_over_ns > 0) figures.wall.record(frame.labels_ns - frame.handed_over_ns);
+}
+
+void DeadlineMonitor::record_motion(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
+  MotionFigures& motion = snapshot_->motion;
+  if (frame.motion == FrameMotion::kNotAsked) return;
+  const std::int64_t after_turn_ns = frame.newest_motion_ns;
+  motion.newest_sample_after_turn_ns = after_turn_ns;
+  if (frame.motion == FrameMotion::kNoEgoMotion) {
+    ++motion.no_ego_motion;
+    return;
+  }
+  const bool first = motion.taken_out++ == 0;
+  motion.least_sample_after_turn_ns =
+      first ? after_turn_ns : std::min(motion.least_sample_after_turn_ns, after_turn_ns);
+  motion.most_sample_after_turn_ns =
+      first ? after_turn_ns : std::max(motion.most_sample_after_turn_ns, after_turn_ns);
+  motion.sum_sample_after_turn_ns += static_cast<double>(after_turn_ns);
 }
 
 void DeadlineMonitor::record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {

@@ -48,13 +48,14 @@ class DeadlineMonitor {
   std::size_t copy_newest(std::span<FrameTiming> into) const noexcept TERRACUT_NONBLOCKING;
 
   /// The figures. judge() keeps everything that comes from frames, deadline_ns and the names of
-  /// the stages; the other fields (version, sensor, input, link, losses, threads, times) are the
-  /// caller's to fill in.
+  /// the stages; the other fields (version, sensor, input, link, losses, threads, times, and what
+  /// is known of the CAN bus) are the caller's to fill in.
   [[nodiscard]] MonitorSnapshot& snapshot() noexcept { return *snapshot_; }
   [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
 
  private:
   void judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_motion(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
   void record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
   void keep(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] double frames_per_s() const noexcept TERRACUT_NONBLOCKING;

@@ -30,6 +30,14 @@ enum class FrameMissCause : std::uint8_t {
 };
 inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCause::kCount);
 
+/// Whether a frame was freed of the vehicle's motion.
+enum class FrameMotion : std::uint8_t {
+  kNotAsked,
+  kTakenOut,
+  kNoEgoMotion,  ///< Asked for but not known: the frame is as the sensor saw it.
+  kCount,
+};
+
 /// Stable lower_snake_case names, as in reports; "unknown" for anything else.
 [[nodiscard]] constexpr std::string_view to_string(Rung rung) noexcept {
   constexpr std::array<std::string_view, kRungs> kNames{"full", "cut_stopped", "coarse", "skipped"};
@@ -39,6 +47,12 @@ inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCau
   constexpr std::array<std::string_view, kMissCauses> kNames{"own_work", "waiting_for_core",
                                                              "stolen_time", "late_input"};
   return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
+}
+
+[[nodiscard]] constexpr std::string_view to_string(FrameMotion motion) noexcept {
+  constexpr std::array<std::string_view, static_cast<std::size_t>(FrameMotion::kCount)> kNames{
+      "not_asked", "taken_out", "no_ego_motion"};
+  return motion < FrameMotion::kCount ? kNames[static_cast<std::size_t>(motion)] : "unknown";
 }
 
 /// When one frame was where, and what it cost: filled on its way by the threads it passes, judged
@@ -69,6 +83,11 @@ struct FrameTiming {
 
   std::uint64_t cut_operations = 0;
   Rung rung = Rung::kFull;
+
+  FrameMotion motion = FrameMotion::kNotAsked;
+  /// Stamp of the vehicle's newest motion known at hand-over, less the instant of the turn's last
+  /// firing; 0 without any.
+  std::int64_t newest_motion_ns = 0;
 
   bool missed = false;  ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause =

@@ -10,9 +10,11 @@
 #include <string_view>
 #include <type_traits>
 
+#include "rt/bus_figures.hpp"
 #include "rt/fixed_text.hpp"
 #include "rt/frame_timing.hpp"
 #include "rt/log_linear_histogram.hpp"
+#include "rt/named_count.hpp"
 #include "rt/nonblocking.hpp"
 
 namespace terracut::rt {
@@ -33,12 +35,6 @@ enum class LinkState : std::uint8_t {
   return state < LinkState::kCount ? kNames[static_cast<std::size_t>(state)] : "unknown";
 }
 
-/// A count under the name of what it counts.
-struct NamedCount {
-  FixedText<40> name;
-  std::uint64_t count = 0;
-};
-
 /// A real-time thread as the system runs it.
 struct ThreadStatus {
   FixedText<16> name;
@@ -55,7 +51,7 @@ struct ThreadStatus {
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
   /// To be raised with every change of what lies where.
-  static constexpr std::uint32_t kLayout = 1;
+  static constexpr std::uint32_t kLayout = 2;
   static constexpr std::size_t kMaxLosses = 40;
   static constexpr std::size_t kMaxThreads = 4;
 
@@ -79,6 +75,9 @@ struct MonitorSnapshot {
   std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
   std::uint64_t longest_run_of_misses = 0;
   FrameTiming newest;
+
+  MotionFigures motion;
+  HealthFigures health;
 
   std::uint32_t loss_count = 0;  ///< How many of `losses` are in use.
   std::array<NamedCount, kMaxLosses> losses{};

@@ -18,7 +18,8 @@ struct CanReceiveCounters {
   std::uint64_t restarts = 0;        ///< Error frames that said that it tries again.
   std::uint64_t kernel_drops = 0;    ///< Never handed over: the socket's buffer was full.
   std::uint64_t unstamped = 0;       ///< Without a kernel stamp; the time of reading was taken.
-  std::uint64_t receive_errors = 0;  ///< Reads the system refused, but for the interface's going.
+  std::uint64_t receive_errors = 0;  ///< Reads the system refused, but for the interface's going,
+                                     ///< and refusals to open it when it came.
   std::uint64_t link_losses = 0;     ///< Times the interface was found down or gone.
   std::uint64_t reopened = 0;        ///< Times the socket was made anew for an interface that is
                                      ///< another one under the same name.

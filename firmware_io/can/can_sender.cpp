@@ -20,14 +20,17 @@ constexpr std::int64_t kLookEvery_ns = 500'000'000;
 
 }  // namespace
 
-Expected<CanSender> CanSender::open(std::string interface) {
+Expected<CanSender> CanSender::open(std::string interface, bool wait_for_interface) {
   CanSender sender;
   sender.probe_ = OwnedDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   const InterfaceStatus status = interface_status(sender.probe_.get(), interface);
-  if (status.state == LinkState::kGone) return tl::unexpected(no_such_can_interface(interface));
-  auto socket = open_can_socket(status.index, {}, false);
-  if (!socket) return tl::unexpected(explain(socket.error(), interface));
-  sender.socket_ = *std::move(socket);
+  if (status.state != LinkState::kGone) {
+    auto socket = open_can_socket(status.index, {}, false);
+    if (!socket) return tl::unexpected(explain(socket.error(), interface));
+    sender.socket_ = *std::move(socket);
+  } else if (!wait_for_interface) {
+    return tl::unexpected(no_such_can_interface(interface));
+  }
   sender.interface_index_ = status.index;
   sender.interface_ = std::move(interface);
   return sender;
@@ -49,6 +52,11 @@ std::size_t CanSender::send(std::span<const CanFrame> frames) noexcept {
 }
 
 bool CanSender::send(const CanFrame& frame) noexcept {
+  if (!socket_) {
+    ++counters_.link_down;
+    look_after_interface();
+    return false;
+  }
   std::array<std::uint8_t, kFdWireBytes> bytes;
   const std::size_t size = write_can_wire(frame, bytes);
   const auto written = ::send(socket_.get(), bytes.data(), size, MSG_DONTWAIT | MSG_NOSIGNAL);

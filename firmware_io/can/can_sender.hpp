@@ -16,7 +16,7 @@ namespace terracut::firmware_io {
 struct CanSendCounters {
   std::uint64_t sent = 0;
   std::uint64_t queue_full = 0;  ///< Left out: the bus was too busy for what was to be sent before.
-  std::uint64_t link_down = 0;   ///< Left out: the interface was down or gone.
+  std::uint64_t link_down = 0;   ///< Left out: the interface was down or not there.
   std::uint64_t failed = 0;      ///< Refused for another reason.
   int last_error = 0;            ///< errno of the newest of these.
 };
@@ -26,8 +26,10 @@ struct CanSendCounters {
 /// which needs no priority.
 class CanSender {
  public:
-  /// Errors as SocketCanSource::open.
-  [[nodiscard]] static Expected<CanSender> open(std::string interface);
+  /// Errors as SocketCanSource::open. `wait_for_interface`: one that is not there is taken up when
+  /// it comes.
+  [[nodiscard]] static Expected<CanSender> open(std::string interface,
+                                                bool wait_for_interface = false);
 
   /// Over any datagram socket, as SocketCanSource::adopt.
   [[nodiscard]] static CanSender adopt(OwnedDescriptor descriptor);
@@ -35,6 +37,8 @@ class CanSender {
   /// Returns how many were sent; the others are counted by why they were not.
   std::size_t send(std::span<const CanFrame> frames) noexcept;
 
+  /// Whether there is one to send on, or was when it was last looked for.
+  [[nodiscard]] bool has_interface() const noexcept { return static_cast<bool>(socket_); }
   [[nodiscard]] const CanSendCounters& counters() const noexcept { return counters_; }
 
  private:

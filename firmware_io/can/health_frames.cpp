@@ -49,6 +49,7 @@ HealthReport health_report_of(const rt::MonitorSnapshot& figures) noexcept {
   report.rung = newest.rung;
   report.missed = newest.missed;
   report.cause = newest.cause;
+  report.ego_motion = newest.motion == rt::FrameMotion::kTakenOut;
   const bool known = newest.last_packet_ns > 0 && newest.labels_ns >= newest.last_packet_ns;
   if (known) report.latency_ns = newest.labels_ns - newest.last_packet_ns;
   report.link = figures.link;

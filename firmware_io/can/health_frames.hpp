@@ -31,7 +31,7 @@ struct HealthReport {
 /// The ids that terracut_health.dbc has; the second one follows the first.
 inline constexpr CanId kHealthId{1744, false};
 
-/// What the figures of a live process say. `ego_motion` and `alive` they do not know.
+/// What the figures of a live process say. `alive` they do not know.
 [[nodiscard]] HealthReport health_report_of(const rt::MonitorSnapshot& figures) noexcept;
 
 /// TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. Numbers that do not fit: a latency

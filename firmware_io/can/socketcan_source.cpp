@@ -43,12 +43,15 @@ Expected<SocketCanSource> SocketCanSource::open(SocketCanConfig config, rt::Fixe
   if (Status valid = check(config); !valid) return tl::unexpected(valid.error());
   OwnedDescriptor probe(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
   const InterfaceStatus interface = interface_status(probe.get(), config.interface);
-  if (interface.state == LinkState::kGone) {
+  OwnedDescriptor descriptor;
+  if (interface.state != LinkState::kGone) {
+    auto socket = open_can_socket(interface.index, config.ids, true);
+    if (!socket) return tl::unexpected(explain(socket.error(), config.interface));
+    descriptor = *std::move(socket);
+  } else if (!config.wait_for_interface) {
     return tl::unexpected(no_such_can_interface(config.interface));
   }
-  auto socket = open_can_socket(interface.index, config.ids, true);
-  if (!socket) return tl::unexpected(explain(socket.error(), config.interface));
-  auto source = adopt(*std::move(socket), std::move(config), memory);
+  auto source = adopt(std::move(descriptor), std::move(config), memory);
   if (!source) return source;
   source->probe_ = std::move(probe);
   source->interface_index_ = interface.index;
@@ -62,6 +65,7 @@ Expected<SocketCanSource> SocketCanSource::adopt(OwnedDescriptor descriptor, Soc
   auto wake = WakeEvent::make();
   if (!wake) return tl::unexpected(wake.error());
   SocketCanSource source(std::move(config), *std::move(wake), memory);
+  if (!descriptor) return source;
   source.buffer_ = request_receive_buffer(descriptor.get(), source.config_.receive_buffer_bytes);
   const int on = 1;
   ::setsockopt(descriptor.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
@@ -211,10 +215,14 @@ void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
     socket_ = *std::move(socket);
     return true;
   });
-  if (!opened) return;  // the next look tries again
+  if (!opened) {  // the next look tries again
+    ++counters_.receive_errors;
+    return;
+  }
+  const bool again = interface_index_ != 0;
   interface_index_ = now.index;
   drops_.restart();
-  ++counters_.reopened;
+  if (again) ++counters_.reopened;
 }
 
 }  // namespace terracut::firmware_io

@@ -33,6 +33,7 @@ struct SocketCanConfig {
   std::vector<CanId> ids{};  ///< The messages wanted, [1, 512] of them; the kernel sorts out.
   std::size_t batch = 64;    ///< Frames a receive() returns at most, [1, 1024].
   std::size_t receive_buffer_bytes = 1U << 20;  ///< About 1300 frames.
+  bool wait_for_interface = false;  ///< One that is not there at open() is taken up when it comes.
 };
 
 /// Frames of a CAN interface as they arrive, many for one system call, with the kernel's time
@@ -44,9 +45,9 @@ struct SocketCanConfig {
 /// wake() from one thread.
 class SocketCanSource {
  public:
-  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, or it is no CAN
-  /// interface. kUnsupported: the kernel has no CAN. kUnreadable: another refusal of the system. An
-  /// interface that is down is no error.
+  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, unless it is to be
+  /// waited for, or it is no CAN interface. kUnsupported: the kernel has no CAN. kUnreadable:
+  /// another refusal of the system. An interface that is down is no error.
   [[nodiscard]] static Expected<SocketCanSource> open(SocketCanConfig config,
                                                       rt::FixedMemory& memory);
 

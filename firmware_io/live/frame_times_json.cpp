@@ -17,15 +17,18 @@ void append_frame(Text text, const rt::FrameTiming& frame, bool whole,
                   std::span<const std::string_view> stages) {
   fmt::format_to(text,
                  "  {{\"number\": {}, \"whole\": {}, \"returns\": {}, \"rung\": \"{}\", "
-                 "\"missed\": {}",
-                 frame.number, whole, frame.returns, to_string(frame.rung), frame.missed);
+                 "\"motion\": \"{}\", \"missed\": {}",
+                 frame.number, whole, frame.returns, to_string(frame.rung), to_string(frame.motion),
+                 frame.missed);
   if (frame.missed) fmt::format_to(text, ", \"cause\": \"{}\"", to_string(frame.cause));
   fmt::format_to(text,
                  ",\n   \"first_packet_ns\": {}, \"last_packet_ns\": {}, "
-                 "\"closing_packet_ns\": {},\n   \"handed_over_ns\": {}, \"segment_begin_ns\": {}, "
+                 "\"closing_packet_ns\": {}, \"newest_motion_ns\": {},\n   \"handed_over_ns\": {}, "
+                 "\"segment_begin_ns\": {}, "
                  "\"labels_ns\": {}, \"published_ns\": {},\n",
                  frame.first_packet_ns, frame.last_packet_ns, frame.closing_packet_ns,
-                 frame.handed_over_ns, frame.segment_begin_ns, frame.labels_ns, frame.published_ns);
+                 frame.newest_motion_ns, frame.handed_over_ns, frame.segment_begin_ns,
+                 frame.labels_ns, frame.published_ns);
   fmt::format_to(text,
                  "   \"decode_cpu_ns\": {}, \"segment_cpu_ns\": {}, \"run_queue_wait_ns\": {}, "
                  "\"steal_ns\": {}, \"cut_operations\": {},\n   \"stage_cpu_ns\": {{",

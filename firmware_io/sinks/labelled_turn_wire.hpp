@@ -50,6 +50,10 @@ enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 =
 /// Bits of TurnWireHeader::flags. Readers ignore bits they do not know.
 inline constexpr std::uint32_t kTurnComplete = 1U << 0;  ///< Every firing was seen, seam to seam.
 inline constexpr std::uint32_t kTurnLate = 1U << 1;      ///< Labelled after its deadline.
+/// The vehicle's motion was taken out: points lie where they were at one instant of the turn.
+inline constexpr std::uint32_t kTurnMotionTakenOut = 1U << 2;
+/// It was to be taken out but is not known: points lie where the sensor saw them.
+inline constexpr std::uint32_t kTurnNoEgoMotion = 1U << 3;
 
 inline constexpr std::array<char, 4> kTurnMagic{'T', 'C', 'L', 'T'};
 /// Grows only when readers of the version before could no longer read. New fields go to the end of
@@ -70,7 +74,7 @@ struct TurnWireHeader {
   std::uint16_t point_bytes = sizeof(LabelledPoint);
   std::uint8_t sensor = 0;   ///< StreamedSensor.
   std::uint8_t rung = 0;     ///< rt::Rung: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
-  std::uint32_t flags = 0;   ///< kTurnComplete, kTurnLate.
+  std::uint32_t flags = 0;   ///< kTurnComplete, ...
   std::uint32_t missed = 0;  ///< Turns this reader was too slow for, since it connected.
   std::uint32_t reserved = 0;
 

@@ -227,7 +227,9 @@ void TurnStreamServer::begin(Peer& peer, std::size_t slot, const LabelledTurn& t
       .labels_ns = turn.labels_ns,
       .sensor = static_cast<std::uint8_t>(turn.sensor),
       .rung = static_cast<std::uint8_t>(turn.rung),
-      .flags = (turn.complete ? kTurnComplete : 0U) | (turn.late ? kTurnLate : 0U),
+      .flags = (turn.complete ? kTurnComplete : 0U) | (turn.late ? kTurnLate : 0U) |
+               (turn.motion == rt::FrameMotion::kTakenOut ? kTurnMotionTakenOut : 0U) |
+               (turn.motion == rt::FrameMotion::kNoEgoMotion ? kTurnNoEgoMotion : 0U),
       .missed = static_cast<std::uint32_t>(peer.figures.missed),
   };
   peer.slot = slot;

@@ -38,6 +38,7 @@ struct LabelledTurn {
   rt::Rung rung = rt::Rung::kFull;
   bool complete = false;  ///< Every firing was seen, from seam to seam.
   bool late = false;      ///< Labelled after its deadline.
+  rt::FrameMotion motion = rt::FrameMotion::kNotAsked;
   std::span<const LabelledPoint> points{};
 };
 

@@ -61,6 +61,27 @@ TEST_F(DeadlineMonitorOf50Ms, MissesOnlyWhatIsLaterThanTheDeadline) {
   EXPECT_EQ(monitor_.snapshot().all_misses(), 1U);
 }
 
+TEST_F(DeadlineMonitorOf50Ms, CountsWhetherTheVehiclesMotionWasKnownAndHowOldItWas) {
+  judged(frame_of(0, 10));
+  EXPECT_EQ(monitor_.snapshot().motion.taken_out + monitor_.snapshot().motion.no_ego_motion, 0U);
+  FrameTiming frame = frame_of(1, 10);
+  frame.motion = FrameMotion::kTakenOut;
+  for (const std::int64_t after_turn_ms : {-12, 3, -6}) {
+    frame.newest_motion_ns = after_turn_ms * kMs;
+    judged(frame);
+  }
+  frame.motion = FrameMotion::kNoEgoMotion;
+  frame.newest_motion_ns = -900 * kMs;
+  judged(frame);
+  const MotionFigures& motion = monitor_.snapshot().motion;
+  EXPECT_EQ(motion.taken_out, 3U);
+  EXPECT_EQ(motion.no_ego_motion, 1U);
+  EXPECT_EQ(motion.newest_sample_after_turn_ns, -900 * kMs);
+  EXPECT_EQ(motion.least_sample_after_turn_ns, -12 * kMs);
+  EXPECT_EQ(motion.most_sample_after_turn_ns, 3 * kMs);
+  EXPECT_DOUBLE_EQ(motion.mean_sample_after_turn_ns(), -5.0 * kMs);
+}
+
 TEST_F(DeadlineMonitorOf50Ms, BlamesOwnWorkForWhatNothingElseExplains) {
   EXPECT_EQ(judged(frame_of(0, 80)).cause, FrameMissCause::kOwnWork);
   EXPECT_EQ(misses(FrameMissCause::kOwnWork), 1U);
@@ -221,12 +242,17 @@ TEST(DeadlineMonitor, AllocatesNothingAfterItsConstruction) {
 
 TEST(MonitorSnapshot, IsSafeToReadWhateverItsCountsSay) {
   MonitorSnapshot garbage;
+  garbage.motion.fault_count = 0xFFFFFFFF;
   garbage.stage_count = garbage.loss_count = garbage.thread_count = 0xFFFFFFFF;
   garbage.link = static_cast<LinkState>(77);
+  garbage.motion.state = static_cast<MotionState>(77);
   EXPECT_EQ(garbage.stages(), FrameTiming::kMaxStages);
   EXPECT_EQ(garbage.losses_in_use().size(), MonitorSnapshot::kMaxLosses);
   EXPECT_EQ(garbage.threads_in_use().size(), MonitorSnapshot::kMaxThreads);
+  EXPECT_EQ(garbage.motion.faults_in_use().size(), MotionFigures::kMaxFaults);
   EXPECT_EQ(to_string(garbage.link), "unknown");
+  EXPECT_EQ(to_string(garbage.motion.state), "unknown");
+  EXPECT_EQ(to_string(static_cast<FrameMotion>(77)), "unknown");
 }
 
 TEST(FixedText, CutsOffWhatIsTooLong) {

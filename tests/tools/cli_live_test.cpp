@@ -17,6 +17,7 @@
 #include "firmware_io/live/live_pcap_source.hpp"
 #include "firmware_io/live/packet_pacer.hpp"
 #include "firmware_io/live/udp_source.hpp"
+#include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/sinks/turn_stream_reader.hpp"
 #include "tools/cli/exit_codes.hpp"
 
@@ -237,6 +238,46 @@ TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
     for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(turn.points[i].label, ids[i]);
     EXPECT_EQ(turn.header.sensor, 1);
   }
+}
+
+TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {
+  const Senders senders = sensors_at({Senders::kLocalhost});
+  write("car.dbc", firmware_io::vehicle_dbc());
+  const Outcome outcome = run(live("--duration 3 --json live.json --labels labels --calibration " +
+                                   quoted(kDriveCalibration) +
+                                   " --can nosuchcan0 --dbc car.dbc --health-can nosuchcan1"));
+  EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no such interface 'nosuchcan0'"));
+  EXPECT_THAT(outcome.err, HasSubstr("no such interface 'nosuchcan1'"));
+  EXPECT_THAT(outcome.out, HasSubstr("motion    interface_gone on nosuchcan0"));
+  const auto summary = json("live.json");
+  const auto frames = summary.at("frames").at("count").get<int>();
+  EXPECT_GT(frames, 5);
+  EXPECT_EQ(summary.at("motion").at("no_ego_motion_frames"), frames);
+  EXPECT_EQ(summary.at("motion").at("taken_out_frames"), 0);
+  EXPECT_GT(summary.at("health").at("link_down").get<int>(), 0);
+}
+
+TEST_F(CliLive, RefusesAVehicleWhoseFramesItCannotRead) {
+  EXPECT_THAT(run(live("--can can0")).err, HasSubstr("no DBC file is given"));
+  EXPECT_THAT(run(live("--dbc car.dbc")).err, HasSubstr("--dbc requires --can"));
+  EXPECT_THAT(run(live("--can can0 --dbc none.dbc")).err, HasSubstr("none.dbc"));
+  write("other.dbc", "BO_ 291 OTHER: 8 ECU\n SG_ OTHER : 0|8@1+ (1,0) [0|0] \"\" ECU\n");
+  const Outcome signal = run(live("--can can0 --dbc other.dbc"));
+  EXPECT_EQ(signal.exit_code, kUsage);
+  EXPECT_THAT(signal.err, HasSubstr("SPEED"));
+  write("terracut.yaml", "motion:\n  can: can0\n");
+  const Outcome of_file = run(live("--config terracut.yaml --dbc none.dbc"));
+  EXPECT_THAT(of_file.err, HasSubstr("none.dbc")) << "the file names the interface";
+}
+
+TEST_F(CliLive, RefusesAnInterfaceOfAnotherKind) {
+  const Senders senders = sensors_at({Senders::kLocalhost});
+  write("car.dbc", firmware_io::vehicle_dbc());
+  const Outcome outcome =
+      run(live("--can lo --dbc car.dbc --calibration " + quoted(kDriveCalibration)));
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, AnyOf(HasSubstr("no CAN sockets"), HasSubstr("no CAN interface")));
 }
 
 TEST_F(CliLive, SaysWhichOptionLibpcapNeeds) {

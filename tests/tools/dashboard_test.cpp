@@ -41,6 +41,33 @@ TEST(Dashboard, ShowsRateDeadlineRungsLossesAndFaults) {
   EXPECT_THAT(line_of(text, "latency"), HasSubstr("81.000"));
 }
 
+TEST(Dashboard, ShowsWhetherTheVehiclesMotionIsKnownAndWhatWasSaidOnItsBus) {
+  WatchedRun run;
+  EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}), Not(HasSubstr("motion")));
+  run.hear_vehicle();
+  const std::string text = dashboard(run.figures(), kNow_ns, {.columns = 80});
+  EXPECT_THAT(text,
+              HasSubstr("motion    known on can0: taken out of 98 frames, no ego motion in 2\n"
+                        "          newest sample -5.0 ms from a turn's end (mean; -13.0 to +2.0)\n"
+                        "          kernel_drops 7\n"
+                        "health    190 CAN frames sent on can1, 10 left out: queue full\n"));
+  EXPECT_THAT(dashboard(run.figures(), kNow_ns, {.colours = true}),
+              Not(HasSubstr("\x1b[31mknown on can0")));
+  run.figures().motion.state = rt::MotionState::kBusOff;
+  EXPECT_THAT(dashboard(run.figures(), kNow_ns, {.colours = true}),
+              HasSubstr("\x1b[31mbus_off on can0"));
+}
+
+TEST(Dashboard, ShowsHowFarOffAClockIsThatFitsNoTurn) {
+  WatchedRun run;
+  run.figures().motion.bus = "can0";
+  run.figures().motion.state = rt::MotionState::kKnown;
+  run.figures().motion.no_ego_motion = 100;
+  run.figures().motion.newest_sample_after_turn_ns = -37'000 * WatchedRun::kMs;
+  EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}),
+              HasSubstr("newest sample -37000.0 ms from the newest turn's end"));
+}
+
 TEST(Dashboard, DrawsTheLongestStageLongest) {
   WatchedRun run;
   const std::string text = dashboard(run.figures(), kNow_ns, {.columns = 100});
@@ -54,6 +81,7 @@ TEST(Dashboard, DrawsTheLongestStageLongest) {
 
 TEST(Dashboard, KeepsWithinTheWidthOfTheTerminal) {
   WatchedRun run;
+  run.hear_vehicle();
   for (const int columns : {80, 120}) {
     std::istringstream lines(dashboard(run.figures(), kNow_ns, {.columns = columns}));
     for (std::string line; std::getline(lines, line);) {
@@ -72,6 +100,10 @@ TEST(Dashboard, LetsNoEscapeSequenceOfTheProcessThrough) {
   WatchedRun run;
   run.figures().sensor = "\x1b]0;evil\x07\xff";
   run.figures().losses[0] = {"\x1b[2J", 1};
+  run.hear_vehicle();
+  run.figures().motion.bus = "\x1b[2J";
+  run.figures().motion.faults[0] = {"\x07", 1};
+  run.figures().health.bus = "\x1b[2J";
   const std::string text = dashboard(run.figures(), kNow_ns, {});
   for (const char c : text) EXPECT_TRUE(c == '\n' || (c >= ' ' && c <= '~')) << int{c};
 }

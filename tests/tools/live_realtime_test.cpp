@@ -34,7 +34,7 @@ class LiveRealtime : public Cli, public testing::WithParamInterface<Scan> {
     ASSERT_TRUE(source) << source.error().message;
     port_ = std::to_string(source->local().port);
     expect_done("simulate --sensor " + GetParam().sensor + " --returns " + GetParam().returns +
-                " --duration 0.7 -o drive.pcap");
+                " --duration 0.7 --can-log -o drive.pcap");
     ASSERT_TRUE(fs::exists(folder_ / "drive.pcap"));
   }
 
@@ -46,10 +46,11 @@ class LiveRealtime : public Cli, public testing::WithParamInterface<Scan> {
     const std::string send = program + " send drive.pcap --to 127.0.0.1:" + port_ +
                              " --loop 0 --faults 'loss@1.6s:20 reorder@1.8s:2 duplicate@2s:3 " +
                              "burst@2.1s:50ms truncate@2.3s:3 clock@2.4s:+2s pause@2.6s:0.2s'";
-    const std::string live = program + " live --listen 127.0.0.1:" + port_ +
-                             " --metrics off --no-lock-memory --name rt-" + port_ +
-                             " --duration 3 --calibration " + calibration +
-                             " --labels labels --json live.json " + options;
+    const std::string live =
+        program + " live --listen 127.0.0.1:" + port_ +
+        " --metrics off --no-lock-memory --name rt-" + port_ + " --duration 3 --calibration " +
+        calibration + " --labels labels --json live.json " +
+        "--can nosuchcan0 --dbc drive.can.dbc --health-can nosuchcan1 " + options;
     const std::string script = "cd " + quoted(folder_) + " || exit 1; " + send +
                                " >sent.txt 2>&1 & sender=$!; " + live +
                                " >heard.txt 2>&1; code=$?; kill $sender; wait $sender; exit $code";

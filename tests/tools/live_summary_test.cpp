@@ -36,6 +36,27 @@ TEST(LiveSummary, HoldsWhatWasCounted) {
   EXPECT_EQ(json["threads"][1]["minor_faults"], 5);
 }
 
+TEST(LiveSummary, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
+  WatchedRun run;
+  EXPECT_FALSE(live_summary(run.figures()).contains("motion"));
+  EXPECT_FALSE(live_summary(run.figures()).contains("health"));
+  run.hear_vehicle();
+  const auto json = live_summary(run.figures());
+  EXPECT_EQ(json["motion"]["bus"], "can0");
+  EXPECT_EQ(json["motion"]["state"], "known");
+  EXPECT_EQ(json["motion"]["samples"], 1034);
+  EXPECT_EQ(json["motion"]["taken_out_frames"], 98);
+  EXPECT_EQ(json["motion"]["no_ego_motion_frames"], 2);
+  const auto& after_turn_ms = json["motion"]["newest_sample_after_turn_ms"];
+  EXPECT_EQ(after_turn_ms["newest"], -4.0);
+  EXPECT_EQ(after_turn_ms["min"], -13.0);
+  EXPECT_EQ(after_turn_ms["mean"], -5.0);
+  EXPECT_EQ(after_turn_ms["max"], 2.0);
+  EXPECT_EQ(json["motion"]["faults"]["kernel_drops"], 7);
+  EXPECT_EQ(json["health"]["sent"], 190);
+  EXPECT_EQ(json["health"]["queue_full"], 10);
+}
+
 TEST(LiveSummary, HoldsThePercentilesOfEveryTime) {
   WatchedRun run;
   const auto ms = live_summary(run.figures())["ms"];

@@ -51,6 +51,22 @@ TEST(MetricsText, HoldsEveryCount) {
   EXPECT_DOUBLE_EQ(samples["terracut_start_time_seconds"], 1.7e9);
 }
 
+TEST(MetricsText, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
+  WatchedRun run;
+  EXPECT_EQ(samples_of(metrics_text(run.figures())).count("terracut_motion_samples_total"), 0U);
+  run.hear_vehicle();
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples["terracut_motion_state{bus=\"can0\",state=\"known\"}"], 1);
+  EXPECT_EQ(samples["terracut_motion_state{bus=\"can0\",state=\"lost\"}"], 0);
+  EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"taken_out\"}"], 98);
+  EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"no_ego_motion\"}"], 2);
+  EXPECT_EQ(samples["terracut_motion_samples_total"], 1034);
+  EXPECT_DOUBLE_EQ(samples["terracut_motion_sample_after_turn_seconds"], -0.004);
+  EXPECT_EQ(samples["terracut_motion_faults_total{cause=\"kernel_drops\"}"], 7);
+  EXPECT_EQ(samples["terracut_health_frames_total{bus=\"can1\",outcome=\"sent\"}"], 190);
+  EXPECT_EQ(samples["terracut_health_frames_total{bus=\"can1\",outcome=\"queue_full\"}"], 10);
+}
+
 TEST(MetricsText, HasHistogramsWhoseBucketsAddUp) {
   WatchedRun run;
   auto samples = samples_of(metrics_text(run.figures()));
@@ -86,6 +102,8 @@ TEST(MetricsText, PassesPromtoolsCheck) {
     std::ifstream said(folder / "said.txt");
     return status == 0 ? "" : std::string(std::istreambuf_iterator<char>(said), {}) + "refused";
   };
+  EXPECT_EQ(check(metrics_text(run.figures())), "");
+  run.hear_vehicle();
   EXPECT_EQ(check(metrics_text(run.figures())), "");
   EXPECT_EQ(check(metrics_text(*std::make_unique<rt::MonitorSnapshot>())), "");
   EXPECT_NE(check("terracut_frames_total{rung=full} 1\n"), "") << "promtool checks nothing";

@@ -50,6 +50,24 @@ class WatchedRun {
     return frames;
   }
 
+  /// As if the vehicle's motion were taken out of the frames, but for two, and health were told.
+  void hear_vehicle() {
+    rt::MonitorSnapshot& figures = monitor_->snapshot();
+    figures.motion.bus = "can0";
+    figures.motion.state = rt::MotionState::kKnown;
+    figures.motion.samples = 1034;
+    figures.motion.last_sample_ns = kEnd_ns;
+    figures.motion.taken_out = 98;
+    figures.motion.no_ego_motion = 2;
+    figures.motion.newest_sample_after_turn_ns = -4 * kMs;
+    figures.motion.least_sample_after_turn_ns = -13 * kMs;
+    figures.motion.most_sample_after_turn_ns = 2 * kMs;
+    figures.motion.sum_sample_after_turn_ns = -98.0 * 5 * kMs;
+    figures.motion.faults[figures.motion.fault_count++] = {"kernel_drops", 7};
+    figures.motion.faults[figures.motion.fault_count++] = {"bus_off", 0};
+    figures.health = {.bus = {"can1"}, .sent = 190, .queue_full = 10, .link_down = 0, .failed = 0};
+  }
+
  private:
   static constexpr std::array<std::string_view, 3> kStages{"elevation_map", "adjacent_points",
                                                            "min_cut"};

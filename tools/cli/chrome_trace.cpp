@@ -83,7 +83,8 @@ class Trace {
            {"cpu_ms", milliseconds(frame.segment_cpu_ns)},
            {"run_queue_wait_ms", milliseconds(frame.run_queue_wait_ns)},
            {"steal_ms", milliseconds(frame.steal_ns)},
-           {"cut_operations", frame.cut_operations}});
+           {"cut_operations", frame.cut_operations},
+           {"motion", to_string(frame.motion)}});
     if (frame.segment_begin_ns <= 0) return;
     std::int64_t begin_ns = frame.segment_begin_ns;
     for (std::size_t i = 0; i < figures_.stages(); ++i) {

@@ -26,7 +26,7 @@ void start_from(const Configuration& configuration, ReplayOptions& options) {
   options.capture = configuration.live.capture;
   options.mount = configuration.live.mount;
   options.method = method_of(configuration);
-  options.motion = configuration.replay.motion;
+  options.motion = configuration.live.motion;
   options.output = configuration.output;
   options.rate = configuration.replay.rate;
   options.loops = configuration.replay.loops;

@@ -19,9 +19,9 @@ namespace terracut::cli {
 /// What a configuration file can say, for every command at once; as constructed, the defaults. The
 /// commands' options start from it and the command line is read over them (arguments.cpp).
 struct Configuration {
-  LiveOptions live;          ///< Also the capture, mount and method of other commands.
+  LiveOptions live;          ///< Also the capture, mount, method and motion of other commands.
   OutputOptions output;      ///< Of live too, whose own `labels` and `json` are not used here.
-  ReplayOptions replay;      ///< `motion`, `rate` and `loops`.
+  ReplayOptions replay;      ///< `rate` and `loops`.
   SimulateOptions simulate;  ///< All but the calibration, mount and output.
   BenchOptions bench;        ///< `repeat` and `core`.
 };

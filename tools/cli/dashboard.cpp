@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "bus_text.hpp"
+
 namespace terracut::cli {
 namespace {
 
@@ -48,6 +50,7 @@ class Dashboard {
     add_stages();
     line("");
     add_losses();
+    add_buses();
     add_threads();
     return std::move(text_);
   }
@@ -160,6 +163,19 @@ class Dashboard {
           fmt::format("{}{} {}", lost.empty() ? "" : ", ", printable(loss.name.view()), loss.count);
     }
     line("losses    {}", lost.empty() ? "none" : alarm(lost));
+  }
+
+  void add_buses() {
+    const rt::MotionFigures& motion = figures_.motion;
+    const char* begin = "motion    ";
+    for (const std::string& text : motion_lines(motion)) {
+      line("{}{}", begin, motion.state == rt::MotionState::kKnown ? text : alarm(text));
+      begin = "          ";
+    }
+    const rt::HealthFigures& health = figures_.health;
+    if (health.bus.empty()) return;
+    const bool all_sent = health.queue_full + health.link_down + health.failed == 0;
+    line("health    {}", all_sent ? health_line(health) : alarm(health_line(health)));
   }
 
   void add_threads() {

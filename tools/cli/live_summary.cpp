@@ -53,6 +53,35 @@ Json misses_json(const rt::MonitorSnapshot& figures) {
   return json;
 }
 
+/// Where it is asked for.
+Json motion_json(const rt::MotionFigures& motion) {
+  Json json{{"bus", motion.bus.view()},
+            {"state", to_string(motion.state)},
+            {"samples", motion.samples},
+            {"spare_samples", motion.spare_samples},
+            {"last_sample_ns", motion.last_sample_ns},
+            {"taken_out_frames", motion.taken_out},
+            {"no_ego_motion_frames", motion.no_ego_motion},
+            {"newest_sample_after_turn_ms",
+             {{"newest", milliseconds(motion.newest_sample_after_turn_ns)},
+              {"min", milliseconds(motion.least_sample_after_turn_ns)},
+              {"mean", milliseconds(motion.mean_sample_after_turn_ns())},
+              {"max", milliseconds(motion.most_sample_after_turn_ns)}}}};
+  Json& faults = json["faults"] = Json::object();
+  for (const rt::NamedCount& fault : motion.faults_in_use()) {
+    faults[std::string(fault.name.view())] = fault.count;
+  }
+  return json;
+}
+
+Json health_json(const rt::HealthFigures& health) {
+  return {{"bus", health.bus.view()},
+          {"sent", health.sent},
+          {"queue_full", health.queue_full},
+          {"link_down", health.link_down},
+          {"failed", health.failed}};
+}
+
 Json threads_json(const rt::MonitorSnapshot& figures) {
   Json json = Json::array();
   for (const rt::ThreadStatus& thread : figures.threads_in_use()) {
@@ -96,6 +125,8 @@ Json live_summary(const rt::MonitorSnapshot& figures) {
   for (const rt::NamedCount& loss : figures.losses_in_use()) {
     losses[std::string(loss.name.view())] = loss.count;
   }
+  if (!figures.motion.bus.empty()) json["motion"] = motion_json(figures.motion);
+  if (!figures.health.bus.empty()) json["health"] = health_json(figures.health);
   json["threads"] = threads_json(figures);
   json["ms"] = all_times_json(figures);
   return json;

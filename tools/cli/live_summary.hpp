@@ -19,6 +19,12 @@ namespace terracut::cli {
 ///   frames                        count, per_second, returns, unjudged, rungs{rung: count}
 ///   misses                        total, consecutive, longest_run, causes{cause: count}
 ///   losses{cause: count}
+///   motion                        where asked for: bus, state, samples, spare_samples,
+///                                 last_sample_ns, taken_out_frames, no_ego_motion_frames,
+///                                 newest_sample_after_turn_ms{newest, min, mean, max},
+///                                 faults{cause: count}
+///   health                        where asked for, in CAN frames: bus, sent, queue_full,
+///                                 link_down, failed
 ///   threads[]                     name, scheduling, minor_faults, major_faults
 ///   ms                            latency, wall, cpu_total, cpu_decode, cpu_segment and
 ///                                 stages{stage}: each {count, mean, p50, p90, p99, p99.9, max}

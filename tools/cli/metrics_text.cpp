@@ -139,6 +139,46 @@ void add_frames(const rt::MonitorSnapshot& figures, MetricsText& text) {
               figures.consecutive_misses);
 }
 
+void add_motion(const rt::MotionFigures& motion, MetricsText& text) {
+  if (motion.bus.empty()) return;
+  const std::string bus = label("bus", motion.bus.view());
+  text.begin("terracut_motion_state", "gauge",
+             "1 for what is known of the vehicle's motion, by its CAN bus.");
+  for (std::size_t i = 1; i < static_cast<std::size_t>(rt::MotionState::kCount); ++i) {
+    const auto state = static_cast<rt::MotionState>(i);
+    text.sample(state == motion.state ? 1 : 0, bus + "," + label("state", to_string(state)));
+  }
+  text.begin("terracut_motion_frames_total", "counter",
+             "Frames the vehicle's motion was taken out of, and those it was not known for.");
+  text.sample(motion.taken_out, label("motion", to_string(rt::FrameMotion::kTakenOut)));
+  text.sample(motion.no_ego_motion, label("motion", to_string(rt::FrameMotion::kNoEgoMotion)));
+  text.single("terracut_motion_samples_total", "counter", "Speeds with yaw rates, whole and fresh.",
+              motion.samples);
+  text.single("terracut_motion_spare_samples_total", "counter",
+              "Samples left out because there were more than are of use.", motion.spare_samples);
+  text.single("terracut_motion_last_sample_time_seconds", "gauge",
+              "Kernel's stamp of the newest sample, since 1970.", seconds(motion.last_sample_ns));
+  text.single("terracut_motion_sample_after_turn_seconds", "gauge",
+              "Stamp of the newest sample less the end of the newest turn; about 0.",
+              seconds(motion.newest_sample_after_turn_ns));
+  text.begin("terracut_motion_faults_total", "counter",
+             "What went wrong between the vehicle's CAN bus and its motion, by cause.");
+  for (const rt::NamedCount& fault : motion.faults_in_use()) {
+    text.sample(fault.count, label("cause", fault.name.view()));
+  }
+}
+
+void add_health(const rt::HealthFigures& health, MetricsText& text) {
+  if (health.bus.empty()) return;
+  text.begin("terracut_health_frames_total", "counter",
+             "CAN frames with terracut's health, sent or left out.");
+  const std::string bus = label("bus", health.bus.view());
+  text.sample(health.sent, bus + ",outcome=\"sent\"");
+  text.sample(health.queue_full, bus + ",outcome=\"queue_full\"");
+  text.sample(health.link_down, bus + ",outcome=\"link_down\"");
+  text.sample(health.failed, bus + ",outcome=\"failed\"");
+}
+
 void add_times(const rt::MonitorSnapshot& figures, MetricsText& text) {
   const auto add = [&](std::string_view name, std::string_view help,
                        const rt::LogLinearHistogram& histogram) {
@@ -166,6 +206,8 @@ std::string metrics_text(const rt::MonitorSnapshot& figures) {
   add_process(figures, text);
   add_input(figures, text);
   add_frames(figures, text);
+  add_motion(figures.motion, text);
+  add_health(figures.health, text);
   add_times(figures, text);
   return std::move(text).take();
 }

@@ -23,7 +23,7 @@ HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_
 MOST_POINTS = 4194304
 SENSORS = {1: "hdl64e", 2: "ruby128"}
 RUNGS = {0: "full", 1: "cut_stopped", 2: "coarse", 3: "skipped"}
-COMPLETE, LATE = 1, 2
+COMPLETE, LATE, NO_EGO_MOTION = 1, 2, 8
 GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99
 
 
@@ -105,6 +105,8 @@ def describe(header, points):
         line += "  incomplete"
     if header["flags"] & LATE:
         line += "  late"
+    if header["flags"] & NO_EGO_MOTION:
+        line += "  no ego motion"
     if header["missed"]:
         line += "  %d missed" % header["missed"]
     return line

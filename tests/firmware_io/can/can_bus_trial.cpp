@@ -220,6 +220,23 @@ TEST_F(CanBus, GoesOnWhenTheInterfaceWasGoneAndIsAnotherOneNow) {
   EXPECT_EQ(received[0].payload().size(), 12U);
 }
 
+TEST_F(CanBus, TakesUpAnInterfaceThatWasNotThereAtTheStart) {
+  ASSERT_TRUE(run("ip link del vcan0"));
+  auto source = open({.wait_for_interface = true});
+  auto car = CanSender::open("vcan0", true);
+  ASSERT_TRUE(car) << car.error().message;
+  EXPECT_EQ(source.link(), LinkState::kGone);
+  EXPECT_FALSE(send(*car, data_frame(kSpeed, {1})));
+  EXPECT_EQ(car->counters().link_down, 1U);
+  ASSERT_TRUE(run(kPlugIn));
+  EXPECT_TRUE(heard_again(source, *car));
+  EXPECT_EQ(source.link(), LinkState::kUp);
+  EXPECT_EQ(source.counters().link_losses, 0U) << "it came, and never went";
+  EXPECT_EQ(source.counters().reopened, 0U);
+  EXPECT_EQ(source.counters().receive_errors, 0U);
+  EXPECT_EQ(car->counters().failed, 0U);
+}
+
 TEST_F(CanBus, RefusesAnInterfaceThatHasNoCan) {
   const auto source = SocketCanSource::open({.interface = "lo", .ids = {kSpeed}}, memory_);
   ASSERT_FALSE(source);

@@ -1,5 +1,6 @@
-# Boots a small virtual machine whose kernel has CAN, runs can_bus_trial in it on a virtual CAN
-# interface, and reads the health frames that candump saw there.
+# Boots a small virtual machine whose kernel has CAN, runs the script COMMANDS with PROGRAM in it on
+# virtual CAN interfaces, and has READER compare the health frames that candump saw there, by the
+# file DBC, with what else the script printed. FOLDER is for what it printed.
 cmake_minimum_required(VERSION 3.22)
 if(NOT EXISTS ${VM_SCRIPT})
   message("skipped: ../shared/tools/vcan_vm.sh, which boots the machine, is not there")
@@ -20,8 +21,8 @@ if(result EQUAL 0)
   set(python /usr/bin/python3)
 endif()
 
-file(READ ${CMAKE_CURRENT_LIST_DIR}/can_bus_in_vm.sh commands)
-execute_process(COMMAND ${path_of_bash} ${VM_SCRIPT} -t 300 -a ${TRIAL} -c "${commands}"
+file(READ ${COMMANDS} commands)
+execute_process(COMMAND ${path_of_bash} ${VM_SCRIPT} -t 300 -m 512 -a ${PROGRAM} -c "${commands}"
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
 if(NOT output MATCHES "VM-UP")
@@ -42,7 +43,7 @@ if(NOT result EQUAL 0)
 endif()
 
 file(WRITE ${FOLDER}/console.txt "${output}")
-execute_process(COMMAND ${python} ${CMAKE_CURRENT_LIST_DIR}/read_health.py ${DBC} ${FOLDER}/console.txt
+execute_process(COMMAND ${python} ${READER} ${DBC} ${FOLDER}/console.txt
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
 if(NOT result EQUAL 0)

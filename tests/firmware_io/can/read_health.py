@@ -42,11 +42,11 @@ def decode_with_canmatrix(path, number, data):
     return {name: float(signal.phys_value) for name, signal in frame.decode(data).items()}
 
 
-def main():
-    path, console = sys.argv[1], open(sys.argv[2]).read()
+def reports_on(console, path):
+    """([{name: value} of each report in order], how many frames canmatrix read the same)."""
     messages = signals_of(open(path).read())
     reports, others = [], 0
-    for number, data in re.findall(r"^\(\d+\.\d+\) +vcan0 +(6D[01])#([0-9A-F]{16})\s*$", console, re.M):
+    for number, data in re.findall(r"^\(\d+\.\d+\) +vcan[01] +(6D[01])#([0-9A-F]{16})\s*$", console, re.M):
         data = bytes.fromhex(data)
         values = decode(messages[int(number, 16)], data)
         theirs = decode_with_canmatrix(path, int(number, 16), data)
@@ -58,6 +58,12 @@ def main():
             reports.append(values)
         else:
             reports[-1].update(values)
+    return reports, others
+
+
+def main():
+    path, console = sys.argv[1], open(sys.argv[2]).read()
+    reports, others = reports_on(console, path)
     sent = [
         {name: float(value) for name, value in (part.split("=") for part in line.split())}
         for line in re.findall(r"^health (.*?)\s*$", console, re.M)
@@ -75,4 +81,5 @@ def main():
     print(f"{len(sent)} reports read as sent; {others} frames by canmatrix too")
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -214,6 +214,7 @@ TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   times[1].labels_ns = 1'155'000'000;
   times[1].missed = true;
   times[1].cause = rt::FrameMissCause::kStolenTime;
+  times[1].motion = rt::FrameMotion::kNoEgoMotion;
   times[1].rung = rt::Rung::kCoarse;
   times[1].stage_cpu_ns = {11, 22, 33};
   times[1].cut_operations = 18'446'744'073'709'551'615ULL;
@@ -238,6 +239,7 @@ TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   EXPECT_EQ(frame["whole"], true);
   EXPECT_EQ(frame["missed"], true);
   EXPECT_EQ(frame["cause"], "stolen_time");
+  EXPECT_EQ(frame["motion"], "no_ego_motion");
   EXPECT_EQ(frame["rung"], "coarse");
   EXPECT_EQ(frame["labels_ns"], 1'155'000'000);
   EXPECT_EQ(frame["cut_operations"], 18'446'744'073'709'551'615ULL);

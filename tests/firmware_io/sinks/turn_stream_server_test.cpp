@@ -62,18 +62,24 @@ TEST_P(TurnStream, HandsOverHeaderAndPointsAsTheyWereGiven) {
   LabelledTurn given = turn_of(7, points);
   given.rung = rt::Rung::kCoarse;
   given.late = true;
+  given.motion = rt::FrameMotion::kTakenOut;
   ASSERT_TRUE(server().serve(given));
   ReceivedTurn turn;
   ASSERT_TRUE(receive(first, turn).value_or(false));
-  EXPECT_EQ(turn.header, (TurnWireHeader{.number = 7,
-                                         .points = 1000,
-                                         .first_packet_ns = given.first_packet_ns,
-                                         .last_packet_ns = given.last_packet_ns,
-                                         .labels_ns = given.labels_ns,
-                                         .sensor = 1,
-                                         .rung = 2,
-                                         .flags = kTurnComplete | kTurnLate}));
+  EXPECT_EQ(turn.header,
+            (TurnWireHeader{.number = 7,
+                            .points = 1000,
+                            .first_packet_ns = given.first_packet_ns,
+                            .last_packet_ns = given.last_packet_ns,
+                            .labels_ns = given.labels_ns,
+                            .sensor = 1,
+                            .rung = 2,
+                            .flags = kTurnComplete | kTurnLate | kTurnMotionTakenOut}));
   EXPECT_EQ(turn.points, points);
+  given.motion = rt::FrameMotion::kNoEgoMotion;
+  ASSERT_TRUE(server().serve(given));
+  ASSERT_TRUE(receive(first, turn).value_or(false));
+  EXPECT_EQ(turn.header.flags, kTurnComplete | kTurnLate | kTurnNoEgoMotion);
 }
 
 TEST_P(TurnStream, EveryReaderGetsTheWholeTurn) {

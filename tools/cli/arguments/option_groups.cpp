@@ -90,15 +90,18 @@ void add_method(CLI::App& app, MethodOptions& method) {
 }
 
 void add_motion(CLI::App& app, CLI::Option* can, MotionOptions& motion) {
-  app.add_option("--dbc", motion.dbc,
-                 "DBC file that says what the CAN frames mean; section motion of the configuration "
-                 "names the signals (default: as `terracut simulate --can-log` does)")
-      ->needs(can);
-  app.add_option("--deskew-to", motion.deskew_to,
-                 "Instant of the turn at which all its returns are to lie where they were")
-      ->needs(can)
-      ->check(one_of("motion.deskew_to"))
-      ->capture_default_str();
+  CLI::Option* dbc = app.add_option(
+      "--dbc", motion.dbc,
+      "DBC file that says what the CAN frames mean; section motion of the configuration names the "
+      "signals (default: as `terracut simulate --can-log` does)");
+  CLI::Option* to =
+      app.add_option("--deskew-to", motion.deskew_to,
+                     "Instant of the turn at which all its returns are to lie where they were")
+          ->check(one_of("motion.deskew_to"))
+          ->capture_default_str();
+  if (can == nullptr) return;
+  dbc->needs(can);
+  to->needs(can);
 }
 
 void add_rivals(CLI::App& app, MethodOptions& method) {

@@ -21,7 +21,8 @@ void add_decoding(CLI::App& app, CaptureOptions& capture);
 /// A capture, and how it is decoded.
 void add_capture(CLI::App& app, CaptureOptions& capture);
 void add_mount(CLI::App& app, MountOptions& mount);
-/// What the vehicle's CAN frames mean, and what for; they need `can`, which says where from.
+/// What the vehicle's CAN frames mean, and what for; they need `can`, which says where from. Null
+/// where that is known without.
 void add_motion(CLI::App& app, CLI::Option* can, MotionOptions& motion);
 /// --set.
 void add_settings(CLI::App& app, std::vector<std::string>& settings);

@@ -37,6 +37,10 @@ void add_live(CLI::App& sub, LiveOptions& o) {
   refuse_rivals(sub,
                 "a rival cannot stop at a deadline with the best labels so far, so only ours runs "
                 "live; `terracut replay FILE --method` shows what it does");
+  const bool can_of_file = !o.can.empty();
+  CLI::Option* can = sub.add_option(
+      "--can", o.can, "CAN interface of the vehicle (can0): its motion is taken out of every turn");
+  add_motion(sub, can_of_file ? nullptr : can, o.motion);
   sub.add_option("--deadline-ms", o.deadline_ms, "From a turn's last packet to its labels")
       ->check(range_of("deadline.limit_ms"))
       ->capture_default_str();
@@ -50,6 +54,10 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->check(range_of("realtime.receive_core"));
   sub.add_option("--segment-core", o.realtime.segment_core, "Core of the segmenting thread")
       ->check(range_of("realtime.segment_core"));
+  sub.add_option("--can-priority", o.realtime.can_priority,
+                 "SCHED_FIFO of the thread that hears the vehicle, 0: shared")
+      ->check(range_of("realtime.can_priority"))
+      ->capture_default_str();
   sub.add_flag("!--no-lock-memory", o.realtime.lock_memory, "Leave memory to the system");
   sub.add_option("--labels", o.labels, "Folder for NNNNNN.label, SemanticKITTI predictions");
   sub.add_option("--stream", o.stream,
@@ -69,6 +77,8 @@ void add_live(CLI::App& sub, LiveOptions& o) {
       ->capture_default_str();
   sub.add_option("--name", o.watch.name, "Name for `terracut top` and `terracut dump`")
       ->capture_default_str();
+  sub.add_option("--health-can", o.watch.health_can,
+                 "CAN interface on which to say how terracut is (terracut_health.dbc)");
   sub.add_option("--json", o.json, "File for the summary at the end");
   sub.add_option("--trace", o.trace, "File for the last frames as a trace, for ui.perfetto.dev");
 }

@@ -28,7 +28,10 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/live_summary.hpp"
+#include "tools/cli/motion_choice.hpp"
 #include "tools/cli/setup_choice.hpp"
+#include "vehicle_bus.hpp"
+#include "vehicle_motion.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -67,21 +70,42 @@ std::string describe(const SensorOnAir& sensor) {
 
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {
+  std::optional<VehicleMotion> motion;
   PacketChain chain;
   std::optional<firmware_io::FlightRecorder> recorder;
   LiveThreads threads;
   LiveWatch watch;
 
   LiveParts(const LiveOptions& options, const SensorOnAir& sensor,
-            const calib::RingProfile& profile, LiveSource& source, LiveThreads::Events events,
-            rt::FixedMemory& memory)
-      : chain(sensor.calibration, profile, sensor.columns, options.capture, options.method, memory,
-              FrameExchange::kImages),
+            const calib::RingProfile& profile, LiveSource& source, VehicleBus* bus,
+            LiveThreads::Events events, rt::FixedMemory& memory)
+      : motion(motion_of(options, bus, memory)),
+        chain(sensor.calibration, profile, sensor.columns, options.capture, options.method, memory,
+              FrameExchange::kImages,
+              {motion ? &motion->motion() : nullptr, turn_instant_of(options.motion)}),
         recorder(recorder_of(options, memory)),
         threads(options, chain, source, std::move(events), recorder ? &*recorder : nullptr, memory),
-        watch(options, threads, memory) {}
+        watch(options, threads, motion ? &*motion : nullptr, memory) {}
+
+  /// Starts every thread; answers what the system granted and refused them.
+  [[nodiscard]] std::vector<rt::Grant> start(const LiveOptions& options) {
+    std::vector<rt::Grant> grants;
+    if (motion) grants = motion->start(options.realtime.can_priority);
+    for (rt::Grant& grant : threads.start()) grants.push_back(std::move(grant));
+    return grants;
+  }
+  void stop() {
+    threads.stop();
+    if (motion) motion->stop();
+  }
 
  private:
+  static std::optional<VehicleMotion> motion_of(const LiveOptions& options, VehicleBus* bus,
+                                                rt::FixedMemory& memory) {
+    if (bus == nullptr) return std::nullopt;
+    return std::make_optional<VehicleMotion>(bus->signals, ego_motion_config_of(options.motion),
+                                             bus->source, memory);
+  }
   static std::optional<firmware_io::FlightRecorder> recorder_of(const LiveOptions& options,
                                                                 rt::FixedMemory& memory) {
     if (options.recorder.seconds <= 0 || options.recorder.folder.empty()) return std::nullopt;
@@ -181,6 +205,12 @@ ExitCode run(const LiveOptions& options) {
   LiveService service = LiveService::from_environment();
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
+  std::optional<firmware_io::MotionSignals> signals;
+  if (!options.can.empty()) {
+    auto found = motion_signals_of(options.motion);
+    if (!found) return refuse(found.error());
+    signals = *std::move(found);
+  }
   const auto sensor = listen_for_sensor(*source, options);
   if (stop_wanted()) return kOk;
   if (!sensor) return refuse(sensor.error());
@@ -191,27 +221,36 @@ ExitCode run(const LiveOptions& options) {
   const auto profile = ring_profile_of(sensor->calibration, options.mount);
   if (!profile) return refuse(profile.error());
 
+  // After the first seconds, so that what the bus sent in them does not overflow the socket.
+  std::optional<VehicleBus> bus;
+  if (signals) {
+    auto opened = VehicleBus::open(options.can, *std::move(signals), socket_memory);
+    if (!opened) return refuse(opened.error());
+    bus.emplace(*std::move(opened));
+  }
+  VehicleBus* const vehicle = bus ? &*bus : nullptr;
+
   rt::FixedMemory plan, memory;
   auto idle = LiveThreads::Events::make();
   auto events = LiveThreads::Events::make();
   if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
-  LiveParts{options, *sensor, *profile, *source, *std::move(idle), plan};
+  LiveParts{options, *sensor, *profile, *source, vehicle, *std::move(idle), plan};
   const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});
   if (!region) return refuse(region.error());
   say_refusals(*region);
-  LiveParts parts(options, *sensor, *profile, *source, *std::move(events), memory);
+  LiveParts parts(options, *sensor, *profile, *source, vehicle, *std::move(events), memory);
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 
   Writers writers;
   if (const Status opened = writers.open(options, *sensor, parts); !opened) {
     return refuse(opened.error());
   }
-  say_refusals(parts.threads.start());
+  say_refusals(parts.start(options));
   parts.watch.open(describe(*sensor), source->name());
   service.ready(parts.watch.figures(), rt::monotonic_ns());
   run_until_stopped(options, parts.watch, writers, dump_wanted, service);
   service.stopping();
-  parts.threads.stop();
+  parts.stop();
   parts.watch.turn_round();
   const bool disk_answers = writers.finish();
   parts.watch.last_round();

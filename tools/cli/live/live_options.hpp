@@ -22,12 +22,13 @@ struct ListenOptions {
   std::uint16_t device_port = 7788;      ///< --device-port, of a Ruby128's DIFOP; 0: not heard
 };
 
-/// What the threads that have a deadline ask of the system.
+/// What the threads that have a deadline, and the one that hears the vehicle, ask of the system.
 struct RealtimeOptions {
   int receive_priority = 80;        ///< SCHED_FIFO, [1, 99]; 0: shared scheduling.
   int segment_priority = 70;        ///< SCHED_FIFO, [1, 99]; 0: shared scheduling.
   std::optional<int> receive_core;  ///< [0, 4095]; none: any
   std::optional<int> segment_core;  ///< [0, 4095]; none: any
+  int can_priority = 60;            ///< SCHED_FIFO, [1, 99]; 0: shared scheduling.
   bool lock_memory = true;
 };
 
@@ -41,6 +42,7 @@ struct RecorderOptions {
 struct WatchOptions {
   std::string metrics = "127.0.0.1:9464";  ///< ADDRESS:PORT of /metrics; "off": none.
   std::string name = "terracut";           ///< Of the status page, for `terracut top`.
+  std::string health_can;  ///< --health-can, CAN interface that hears of it; empty: none.
 };
 
 struct LiveOptions {
@@ -49,6 +51,8 @@ struct LiveOptions {
   double patience_s = 5;  ///< For a sensor to be heard at the start, [0.1, 1e9].
   MountOptions mount;
   MethodOptions method;
+  std::string can;  ///< --can, CAN interface of the vehicle; empty: its motion is not taken out.
+  MotionOptions motion;
   std::filesystem::path labels, json, trace;
   std::string stream;       ///< --stream, where others get labelled points; empty: nowhere.
   double deadline_ms = 50;  ///< From a turn's last packet to its labels, [1, 10000].

@@ -5,6 +5,9 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <string>
+
+#include "tools/cli/bus_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -53,10 +56,19 @@ std::string losses(const rt::MonitorSnapshot& figures) {
 }  // namespace
 
 std::string live_report(const rt::MonitorSnapshot& figures) {
-  return fmt::format(
+  std::string text = fmt::format(
       "frames    {} of {} packets: {}\nmissed    {}\nlatency   {}\nprocessor {}\nlosses    {}\n",
       figures.frames, figures.packets, rungs(figures), misses(figures), times(figures.latency),
       times(figures.total_cpu), losses(figures));
+  const char* begin = "motion    ";
+  for (const std::string& line : motion_lines(figures.motion)) {
+    text += begin + line + '\n';
+    begin = "          ";
+  }
+  if (const std::string line = health_line(figures.health); !line.empty()) {
+    text += "health    " + line + '\n';
+  }
+  return text;
 }
 
 }  // namespace terracut::cli

@@ -8,7 +8,8 @@
 
 namespace terracut::cli {
 
-/// What `terracut live` prints at its end: frames, misses, latency, losses.
+/// What `terracut live` prints at its end: frames, misses, latency, losses, and what
+/// there was on CAN buses.
 [[nodiscard]] std::string live_report(const rt::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "live_threads.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <chrono>
 #include <future>
@@ -11,7 +9,6 @@
 
 #include "firmware_io/sinks/labelled_points.hpp"
 #include "rt/page_faults.hpp"
-#include "rt/thread_setup.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -24,21 +21,21 @@ constexpr std::int64_t kPatience_ns = 100'000'000;
 constexpr std::size_t kWorthwhileBatch = 32;
 constexpr std::chrono::microseconds kGathering{1000};
 
-rt::ThreadWish wish(std::string name, int priority, std::optional<int> core) {
-  rt::ThreadWish wish{.name = std::move(name), .scheduling = {}, .core = core};
-  if (priority > 0) wish.scheduling = rt::FifoScheduling{priority};
-  return wish;
+rt::FrameMotion motion_of(firmware_io::DeskewState state) noexcept {
+  switch (state) {
+    case firmware_io::DeskewState::kDone:
+      return rt::FrameMotion::kTakenOut;
+    case firmware_io::DeskewState::kNoEgoMotion:
+      return rt::FrameMotion::kNoEgoMotion;
+    case firmware_io::DeskewState::kOff:
+      break;
+  }
+  return rt::FrameMotion::kNotAsked;
 }
 
 /// Waits on purpose.
 void gather() noexcept {
   rt::trusted_call([]() noexcept { std::this_thread::sleep_for(kGathering); });
-}
-
-void publish(LiveThreads::ThreadState& state, const rt::PageFaults& at_start) noexcept {
-  const rt::PageFaults now = rt::PageFaults::of_this_thread().since(at_start);
-  state.minor_faults.store(now.minor, std::memory_order_relaxed);
-  state.major_faults.store(now.major, std::memory_order_relaxed);
 }
 
 /// What the source counted since `before`.
@@ -84,21 +81,15 @@ Expected<LiveThreads::Events> LiveThreads::Events::make() {
 std::vector<rt::Grant> LiveThreads::start() {
   using Grants = std::vector<rt::Grant>;
   std::promise<Grants> receive_granted, segment_granted;
-  const auto set_up = [](const rt::ThreadWish& wanted, ThreadState& state,
-                         std::promise<Grants>& told) {
-    auto granted = rt::set_up_this_thread(wanted);
-    state.scheduling = fmt::format("{}, core {}", rt::scheduling_in_force(), rt::cores_in_force());
-    told.set_value(granted ? *std::move(granted) : Grants{});
-  };
   const RealtimeOptions& wanted = options_.realtime;
   segment_thread_ = std::jthread([&] {
-    set_up(wish("tc-segment", wanted.segment_priority, wanted.segment_core), segment_state_,
-           segment_granted);
+    segment_granted.set_value(segment_state_.set_up(
+        thread_wish("tc-segment", wanted.segment_priority, wanted.segment_core)));
     segment();
   });
   receive_thread_ = std::jthread([&] {
-    set_up(wish("tc-receive", wanted.receive_priority, wanted.receive_core), receive_state_,
-           receive_granted);
+    receive_granted.set_value(receive_state_.set_up(
+        thread_wish("tc-receive", wanted.receive_priority, wanted.receive_core)));
     receive();
   });
   Grants grants = receive_granted.get_future().get();
@@ -134,6 +125,8 @@ void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
     turn.timing.first_packet_ns = info.first_packet_ns;
     turn.timing.last_packet_ns = info.last_packet_ns;
     turn.timing.closing_packet_ns = newest_packet_ns;
+    turn.timing.motion = motion_of(info.deskew.state);
+    turn.timing.newest_motion_ns = info.deskew.newest_motion_ns;
     turn.timing.decode_cpu_ns = now_ns - spent_ns;
     turn.timing.run_queue_wait_ns = wait.read_ns() - waited_before_last_fetch_ns;
     turn.timing.handed_over_ns = rt::realtime_ns();
@@ -146,7 +139,7 @@ void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
           pass_on(skipped_, timing);
         });
     events_.turn_ready.wake();
-    publish(receive_state_, at_start);
+    receive_state_.note_faults(at_start);
     return next;
   };
   // What queued up while this was being built is too old to be labelled in time, and what did not
@@ -192,7 +185,7 @@ void LiveThreads::segment_turns(const rt::RunQueueWait& wait,
     stolen_before_ns = stolen_now_ns;
     losses_.publish(turn->losses);
     pass_on(segmented_, turn->timing);
-    publish(segment_state_, at_start);
+    segment_state_.note_faults(at_start);
   }
 }
 

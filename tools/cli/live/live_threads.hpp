@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <thread>
 #include <vector>
 
@@ -17,6 +16,7 @@
 #include "frame_slots.hpp"
 #include "live_options.hpp"
 #include "live_source.hpp"
+#include "live_thread_state.hpp"
 #include "rt/grant.hpp"
 #include "rt/latest_value.hpp"
 #include "rt/nonblocking.hpp"
@@ -37,11 +37,6 @@ namespace terracut::cli {
 ///                              whoever calls take_timing()      label files, stream of points
 class LiveThreads {
  public:
-  /// What a thread says of itself, readable at any time once start() has returned.
-  struct ThreadState {
-    std::string scheduling;  ///< As granted: "SCHED_FIFO priority 80, cores 0-3".
-    std::atomic<std::int64_t> minor_faults{0}, major_faults{0};  ///< Since it began its work.
-  };
   /// What came in, as of the newest look of the receiving thread.
   struct Intake {
     firmware_io::ReceiveCounters counters;  ///< Since the threads were started.
@@ -87,8 +82,8 @@ class LiveThreads {
   [[nodiscard]] firmware_io::LossCounters losses() noexcept;
   /// Frames that nobody judged because the one who takes timings was too slow.
   [[nodiscard]] std::uint64_t timings_dropped() const noexcept { return timings_dropped_.load(); }
-  [[nodiscard]] const ThreadState& receive_state() const noexcept { return receive_state_; }
-  [[nodiscard]] const ThreadState& segment_state() const noexcept { return segment_state_; }
+  [[nodiscard]] const LiveThreadState& receive_state() const noexcept { return receive_state_; }
+  [[nodiscard]] const LiveThreadState& segment_state() const noexcept { return segment_state_; }
 
  private:
   static constexpr std::size_t kTimings = 64;
@@ -122,7 +117,7 @@ class LiveThreads {
   std::atomic<bool> stop_{false};
   std::atomic<std::uint64_t> timings_dropped_{0};
   rt::LatestValue<Intake> intake_;
-  ThreadState receive_state_, segment_state_;
+  LiveThreadState receive_state_, segment_state_;
   std::jthread receive_thread_, segment_thread_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <utility>
 
+#include "firmware_io/can/can_socket.hpp"
 #include "firmware_io/live/ipv4_endpoint.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/loss_table.hpp"
@@ -12,7 +13,7 @@ namespace terracut::cli {
 namespace {
 
 void show_thread(rt::MonitorSnapshot& figures, std::string_view name,
-                 const LiveThreads::ThreadState& state) {
+                 const LiveThreadState& state) {
   rt::ThreadStatus& shown = figures.threads[figures.thread_count++];
   shown.name = {name};
   shown.scheduling = {state.scheduling};
@@ -22,9 +23,11 @@ void show_thread(rt::MonitorSnapshot& figures, std::string_view name,
 
 }  // namespace
 
-LiveWatch::LiveWatch(const LiveOptions& options, LiveThreads& threads, rt::FixedMemory& memory)
+LiveWatch::LiveWatch(const LiveOptions& options, LiveThreads& threads, VehicleMotion* motion,
+                     rt::FixedMemory& memory)
     : options_(options),
       threads_(threads),
+      motion_(motion),
       monitor_({.deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
                 .stage_names = kStageNames,
                 .kept_frames = kKeptFrames},
@@ -38,7 +41,9 @@ void LiveWatch::open(const std::string& sensor, const std::string& input) {
   figures.input = {input};
   figures.started_ns = rt::realtime_ns();
   open_page();
+  if (motion_ != nullptr) figures.motion.bus = {options_.can};
   if (options_.watch.metrics != "off") open_metrics();
+  if (!options_.watch.health_can.empty()) open_health();
   refresh();
 }
 
@@ -71,6 +76,19 @@ void LiveWatch::open_metrics() {
   }
 }
 
+void LiveWatch::open_health() {
+  auto sender = firmware_io::CanSender::open(options_.watch.health_can, true);
+  if (sender) {
+    if (!sender->has_interface()) {
+      warn(firmware_io::no_such_can_interface(options_.watch.health_can).message +
+           "; it is waited for, and until then no health is sent");
+    }
+    health_.emplace(options_.watch.health_can, *std::move(sender));
+  } else {
+    warn("no health on a CAN bus: " + sender.error().message);
+  }
+}
+
 LiveWatch::Round LiveWatch::turn_round() {
   Round round;
   for (rt::FrameTiming timing; threads_.take_timing(timing);) {
@@ -93,12 +111,22 @@ void LiveWatch::refresh() {
   figures.taken_ns = rt::realtime_ns();
   refresh_link(figures);
   refresh_losses(figures);
-  figures.thread_count = 0;
-  show_thread(figures, "receive", threads_.receive_state());
-  show_thread(figures, "segment", threads_.segment_state());
+  refresh_threads(figures);
+  if (motion_ != nullptr) motion_->show(figures.motion);
+  if (health_) {
+    health_->turn_round(figures, rt::monotonic_ns());
+    health_->show(figures.health);
+  }
   if (page_) page_->publish(figures);
   const std::scoped_lock lock(shown_mutex_);
   *shown_ = figures;
+}
+
+void LiveWatch::refresh_threads(rt::MonitorSnapshot& figures) {
+  figures.thread_count = 0;
+  show_thread(figures, "receive", threads_.receive_state());
+  show_thread(figures, "segment", threads_.segment_state());
+  if (motion_ != nullptr) show_thread(figures, "can", motion_->thread_state());
 }
 
 void LiveWatch::refresh_link(rt::MonitorSnapshot& figures) {

@@ -10,17 +10,19 @@
 #include <string_view>
 #include <vector>
 
+#include "health_reporter.hpp"
 #include "live_options.hpp"
 #include "live_threads.hpp"
 #include "pipeline/segmenter.hpp"
 #include "rt/deadline_monitor.hpp"
 #include "rt/status_page.hpp"
 #include "tools/cli/metrics_server.hpp"
+#include "vehicle_motion.hpp"
 
 namespace terracut::cli {
 
-/// Judges the frames of a live run and keeps its figures where others can see them: the status page
-/// and /metrics. One thread, the main one; touches no disk.
+/// Judges the frames of a live run and keeps its figures where others can see them: the status
+/// page, /metrics and, in short, a CAN bus. One thread, the main one; touches no disk.
 class LiveWatch {
  public:
   static constexpr std::array<std::string_view, pipeline::kStages> kStageNames{
@@ -28,10 +30,12 @@ class LiveWatch {
       to_string(pipeline::Stage::kSeeds), to_string(pipeline::Stage::kMinCut),
       to_string(pipeline::Stage::kLabels)};
 
-  /// Both must outlive this.
-  LiveWatch(const LiveOptions& options, LiveThreads& threads, rt::FixedMemory& memory);
+  /// All must outlive this. `motion` may be null.
+  LiveWatch(const LiveOptions& options, LiveThreads& threads, VehicleMotion* motion,
+            rt::FixedMemory& memory);
 
-  /// Status page and /metrics: what fails is said, and the run goes on without it.
+  /// Status page, /metrics, health on a CAN bus: what fails is said, and the run goes on without
+  /// it.
   void open(const std::string& sensor, const std::string& input);
 
   struct Round {
@@ -52,15 +56,19 @@ class LiveWatch {
 
   void open_page();
   void open_metrics();
+  void open_health();
   void refresh();
   void refresh_link(rt::MonitorSnapshot& figures);
   void refresh_losses(rt::MonitorSnapshot& figures);
+  void refresh_threads(rt::MonitorSnapshot& figures);
 
   const LiveOptions& options_;
   LiveThreads& threads_;
+  VehicleMotion* motion_;
   bool over_ = false;
   rt::DeadlineMonitor monitor_;
   std::optional<rt::StatusPagePublisher<rt::MonitorSnapshot>> page_;
+  std::optional<HealthReporter> health_;
   std::mutex
       shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
   std::unique_ptr<rt::MonitorSnapshot> shown_;

@@ -42,6 +42,7 @@ bool StreamWriter::serve(const Slots::Frame& frame) {
                         .rung = frame.timing.rung,
                         .complete = frame.info.complete,
                         .late = frame.timing.labels_ns - frame.info.last_packet_ns > deadline_ns_,
+                        .motion = frame.timing.motion,
                         .points = frame.items});
 }
 

@@ -109,7 +109,7 @@ void RingElevationMap::find_lowest_returns(const RangeImage& image) noexcept {
         lowest_key_[grid_.cell(grid_.sector_of(column), grid_.band_of(extra.echo.ground_range_m))];
     lowest = std::min(lowest, key_of(extra.echo.z_m, extra.echo.ground_range_m));
   }
-  std::transform(lowest_key_.begin(), lowest_key_.end(), lowest_.begin(), return_of);
+  for (std::size_t i = 0; i < lowest_.size(); ++i) lowest_[i] = return_of(lowest_key_[i]);
 }
 
 void RingElevationMap::label_by_cell_minimum(const RangeImage& image,

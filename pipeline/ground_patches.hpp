@@ -27,16 +27,6 @@ class GroundPatches {
     float roughness_window_m = 0.50F;  ///< Roughness is a mean so far to either side.
   };
 
-  /// What a patch tells. Metres in the vehicle frame, means over the ground returns of the patch.
-  struct Patch {
-    float x_m = 0, y_m = 0, z_m = 0;
-    float range_m = 0;      ///< Horizontal; without ground that of the nearest obstacle.
-    float roughness_m = 0;  ///< Mean departure of a return's height from the middle of its two
-                            ///< neighbours' on the ring, over roughness_window_m. 0 where unknown.
-    bool has_ground = false;
-    bool has_obstacle = false;  ///< One that stands lower than clearance_height_m.
-  };
-
   GroundPatches(const Config& config, ImageShape shape, rt::FixedMemory& memory);
 
   /// Takes the patches of a labelled image. Real-time safe.
@@ -44,7 +34,21 @@ class GroundPatches {
 
   [[nodiscard]] int rows() const noexcept { return shape_.rows; }
   [[nodiscard]] int per_row() const noexcept { return per_row_; }
-  [[nodiscard]] std::span<const Patch> patches() const noexcept { return patches_; }
+  /// What a patch tells, one value for each. The place is the mean over its ground returns, 0 where
+  /// it has none; metres in the vehicle frame.
+  [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
+  [[nodiscard]] std::span<const float> y_m() const noexcept { return y_m_; }
+  [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
+  /// Horizontal; without ground that of the nearest obstacle, without either NaN.
+  [[nodiscard]] std::span<const float> range_m() const noexcept { return range_m_; }
+  /// Mean departure of a return's height from the middle of its two neighbours' on the ring, over
+  /// roughness_window_m. 0 where unknown.
+  [[nodiscard]] std::span<const float> roughness_m() const noexcept { return roughness_m_; }
+  [[nodiscard]] std::span<const std::uint8_t> has_ground() const noexcept { return has_ground_; }
+  /// 1 where there is an obstacle that stands lower than clearance_height_m.
+  [[nodiscard]] std::span<const std::uint8_t> has_obstacle() const noexcept {
+    return has_obstacle_;
+  }
   [[nodiscard]] int columns_per_patch() const noexcept { return columns_per_patch_; }
   /// Number of a patch along its row; the row goes on beyond both its ends.
   [[nodiscard]] int wrapped(int index) const noexcept {
@@ -52,35 +56,43 @@ class GroundPatches {
     while (index >= per_row_) index -= per_row_;
     return index;
   }
+  /// The same for the patches next to one.
+  [[nodiscard]] int after(int index) const noexcept { return index + 1 < per_row_ ? index + 1 : 0; }
+  [[nodiscard]] int before(int index) const noexcept {
+    return index > 0 ? index - 1 : per_row_ - 1;
+  }
   /// From one patch of a ring to the next, metres.
   [[nodiscard]] float spacing_m(float range_m) const noexcept { return range_m * spacing_rad_; }
   static constexpr int kMostPatchesOver = 8;  ///< Bounds windows near the sensor, and the work.
   /// How many patches of a ring it takes to cover `length_m`, to the nearest; at least 1, at most
   /// kMostPatchesOver.
   [[nodiscard]] int patches_over(float length_m, float range_m) const noexcept TERRACUT_NONBLOCKING;
+  /// The same for all patches of a row.
+  void count_patches_over(float length_m, std::size_t row,
+                          std::span<std::int32_t> patches) const noexcept TERRACUT_NONBLOCKING;
 
- private:
-  /// Sums over the returns of a row's patches up to one, of those whose neighbours on the ring are
-  /// ground as they are.
+  /// Sums over returns of which both neighbours on the ring are ground as they are.
   struct Bends {
     float sum_m = 0;
     float count = 0;
   };
 
-  void collect_row(const RangeImage& image, const CellPlanes& planes, int row) noexcept;
-  void sum_bends() noexcept;
-  void smooth_roughness(int row) noexcept;
+ private:
+  void smooth_roughness(std::size_t row) noexcept;
 
   Config config_;
   ImageShape shape_;
   int columns_per_patch_;
   int per_row_;
   float spacing_rad_;
-  std::span<Patch> patches_;
+  std::span<float> x_m_, y_m_, z_m_, range_m_, roughness_m_;
+  std::span<std::uint8_t> has_ground_, has_obstacle_;
   // Of the row in work:
-  std::span<float> bend_m_;          // by column, 0 where there is none
-  std::span<std::uint8_t> is_bend_;  // by column
-  std::span<Bends> bends_before_;    // by patch, from kMostPatchesOver before the row's first one
+  std::span<std::uint8_t> is_ground_, is_bend_;  // by column
+  std::span<float> bend_m_, low_m_;              // by column, see find_bends() and find_low()
+  std::span<Bends> bends_;                       // by patch, kMostPatchesOver more on both sides
+  std::span<Bends> bends_before_;                // the same, those before each of them
+  std::span<std::int32_t> reach_;                // by patch, patches of the window to either side
 };
 
 }  // namespace terracut::pipeline

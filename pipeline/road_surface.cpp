@@ -3,19 +3,17 @@
 #include "pipeline/road_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#include "rt/vector_clones.hpp"
 
 namespace terracut::pipeline {
 namespace {
 
-using Patch = GroundPatches::Patch;
-
 constexpr float kFar_m = std::numeric_limits<float>::max();
-/// Patches of a ring whose ranges differ by more lie on different surfaces.
-constexpr float kSameSurface_m = 1.0F;
-/// How far to either side of an edge the ring is looked at for going on as steeply.
-constexpr float kBeside_m = 1.5F;
 /// How many rows without ground the way leads across.
 constexpr int kRowsAcross = 3;
 /// Lone barriers are told by the barriers so many rows and patches around them.
@@ -24,36 +22,91 @@ constexpr int kAround = 2;
 /// side: growing back runs along rings and columns, and not always straight.
 constexpr float kGrowBack = 1.3F;
 
-/// Mean position of some patches.
-struct Mean {
-  float x_m = 0, y_m = 0, z_m = 0;
-  int count = 0;
+/// How many of 2 kAround + 1 values, beginning with each, are 1.
+TERRACUT_VECTOR_CLONES void count_around(const std::uint8_t* values, std::size_t count,
+                                         std::uint8_t* around) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    unsigned sum = 0;
+    for (std::size_t k = 0; k <= 2 * static_cast<std::size_t>(kAround); ++k) sum += values[i + k];
+    around[i] = static_cast<std::uint8_t>(sum);
+  }
+}
 
-  void add(const Patch& patch) noexcept {
-    x_m += patch.x_m;
-    y_m += patch.y_m;
-    z_m += patch.z_m;
-    ++count;
+/// How many bytes for_each() looks at together; what it is given must be a multiple of them.
+constexpr std::size_t kTogether = sizeof(std::uint64_t);
+
+/// Calls `act` with the index of each byte that is not 0, in their order.
+template <class Act>
+void for_each(std::span<const std::uint8_t> bytes, Act act) noexcept {
+  for (std::size_t first = 0; first < bytes.size(); first += kTogether) {
+    std::uint64_t together = 0;
+    std::memcpy(&together, &bytes[first], kTogether);
+    if (together == 0) continue;
+    for (std::size_t i = first; i < first + kTogether; ++i) {
+      if (bytes[i] != 0) act(static_cast<int>(i));
+    }
   }
-  void finish() noexcept {
-    if (count == 1) return;
-    const float share = 1.0F / static_cast<float>(count);
-    x_m *= share;
-    y_m *= share;
-    z_m *= share;
+}
+
+TERRACUT_VECTOR_CLONES void add(const std::uint8_t* values, std::size_t count,
+                                std::uint8_t* __restrict sums) noexcept {
+  for (std::size_t i = 0; i < count; ++i) sums[i] = static_cast<std::uint8_t>(sums[i] + values[i]);
+}
+
+TERRACUT_VECTOR_CLONES void find_rough(const float* roughness_m, float most_m, std::size_t count,
+                                       std::uint8_t* __restrict is_rough) noexcept {
+  for (std::size_t i = 0; i < count; ++i) is_rough[i] = roughness_m[i] > most_m ? 1 : 0;
+}
+
+/// Makes of the distance to a barrier along a ring how far the barrier blocks other rings where
+/// they pass; less than nothing where that is not at all.
+TERRACUT_VECTOR_CLONES void find_reaches(float half_width_m, std::size_t count,
+                                         float* distance_m) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float reach_m2 = half_width_m * half_width_m - distance_m[i] * distance_m[i];
+    const float reach_m = std::sqrt(std::fabs(reach_m2));
+    distance_m[i] = reach_m2 > 0.0F ? reach_m : -kFar_m;
   }
-};
+}
+
+/// Finds which patches of a row lie within the ranges that barriers before it block, and adds what
+/// the row's own barriers do. A patch outside ends them: what is behind it, is behind something
+/// else. Patches without a range (NaN) change nothing.
+TERRACUT_VECTOR_CLONES void block_ranges(const float* range_m, const float* reach_m,
+                                         std::size_t count, float* __restrict from_m,
+                                         float* __restrict to_m,
+                                         float* __restrict blocked) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float from = from_m[i], to = to_m[i];
+    const bool is_outside = (range_m[i] <= from) | (range_m[i] >= to);
+    const float still_from = is_outside ? kFar_m : from, still_to = is_outside ? -kFar_m : to;
+    blocked[i] += is_outside ? 0.0F : 1.0F;
+    from_m[i] = std::min(still_from, range_m[i] - reach_m[i]);
+    to_m[i] = std::max(still_to, range_m[i] + reach_m[i]);
+  }
+}
 
 }  // namespace
 
 RoadSurface::RoadSurface(const Config& config, ImageShape shape, rt::FixedMemory& memory)
     : config_(config),
       ground_(config.patches, shape, memory),
-      terrain_(config.terrain, memory),
-      state_(memory.take<State>("road surface", ground_.patches().size())),
-      is_lone_(memory.take<std::uint8_t>("road surface", ground_.patches().size())),
-      distance_m_(memory.take<float>("road surface", ground_.patches().size())),
-      to_visit_(memory.take<std::uint32_t>("road surface", ground_.patches().size())) {}
+      terrain_(config.terrain, ground_.x_m().size(), memory),
+      edges_(config.edges, ground_, memory) {
+  const auto per_row = static_cast<std::size_t>(ground_.per_row());
+  const std::size_t patches = ground_.x_m().size();
+  state_ = memory.take<State>("road surface", patches);
+  is_barrier_ = memory.take<std::uint8_t>("road surface", per_row + 2 * kAround);
+  around_ = memory.take<std::uint8_t>("road surface", patches);
+  is_active_ =
+      memory.take<std::uint8_t>("road surface", (per_row + kTogether - 1) / kTogether * kTogether);
+  neighbours_ = memory.take<std::uint8_t>("road surface", per_row);
+  distance_m_ = memory.take<float>("road surface", patches);
+  blocked_ = memory.take<float>("road surface", patches);
+  from_m_ = memory.take<float>("road surface", per_row);
+  to_m_ = memory.take<float>("road surface", per_row);
+  to_visit_ = memory.take<Place>("road surface", patches);
+}
 
 void RoadSurface::mark(const RangeImage& image, const CellPlanes& planes,
                        std::span<Label> labels) noexcept {
@@ -66,263 +119,244 @@ void RoadSurface::mark(const RangeImage& image, const CellPlanes& planes,
   reach_from_track();
   grow_back();
 
+  mark_returns(image, planes, labels);
+}
+
+void RoadSurface::mark_returns(const RangeImage& image, const CellPlanes& planes,
+                               std::span<Label> labels) const noexcept {
   const auto index = image.return_index();
-  const auto stride = static_cast<std::size_t>(image.shape().stride());
-  const auto columns = static_cast<std::size_t>(image.shape().columns);
-  const auto width = static_cast<std::size_t>(ground_.columns_per_patch());
-  for (std::size_t i = 0, row = 0; i < state_.size(); ++row) {
-    for (std::size_t begin = 0; begin < columns; begin += width, ++i) {
-      if (state_[i] == State::kReached || !ground_.patches()[i].has_ground) continue;
-      const std::size_t first = row * stride + begin;
-      const std::size_t end = row * stride + std::min(begin + width, columns);
-      for (std::size_t cell = first; cell < end; ++cell) {
+  const auto stride = static_cast<std::uint32_t>(image.shape().stride());
+  const auto columns = static_cast<std::uint32_t>(image.shape().columns);
+  const auto width = static_cast<std::uint32_t>(ground_.columns_per_patch());
+  const auto per_row = static_cast<std::uint32_t>(ground_.per_row());
+  for (std::uint32_t i = 0, row = 0; i < state_.size(); ++row) {
+    for (std::uint32_t begin = 0; begin < columns; begin += width, ++i) {
+      if (state_[i] >= State::kGrown || ground_.has_ground()[i] == 0) continue;
+      const std::uint32_t first = row * stride + begin;
+      const std::uint32_t end = row * stride + std::min(begin + width, columns);
+      for (std::uint32_t cell = first; cell < end; ++cell) {
         if (planes.label[cell] == Label::kGround) labels[index[cell]] = Label::kOtherGround;
       }
     }
   }
   for (const OverflowReturn& extra : image.overflow()) {
     Label& label = labels[extra.return_index];
-    const std::size_t patch =
-        at(static_cast<int>(extra.cell / stride), static_cast<int>(extra.cell % stride / width));
-    if (label == Label::kGround && state_[patch] != State::kReached) label = Label::kOtherGround;
+    if (label != Label::kGround) continue;
+    const std::uint32_t patch = extra.cell / stride * per_row + extra.cell % stride / width;
+    if (state_[patch] < State::kGrown) label = Label::kOtherGround;
   }
 }
 
 void RoadSurface::find_barriers() noexcept {
-  const auto patches = ground_.patches();
+  const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
-    for (int index = 0; index < ground_.per_row(); ++index) {
-      const std::size_t i = at(row, index);
-      const Patch& patch = patches[i];
-      if (patch.has_obstacle || patch.roughness_m > config_.terrain.max_roughness_m) {
-        state_[i] = State::kBarrier;
-      } else if (!patch.has_ground) {
-        state_[i] = State::kEmpty;
-      } else {
-        state_[i] = is_edge(row, index) ? State::kBarrier : State::kGround;
-      }
+    const std::size_t first = at(row, 0);
+    find_rough(&ground_.roughness_m()[first], config_.terrain.max_roughness_m, per_row,
+               is_barrier_.data());
+    State* const state = &state_[first];
+    const std::uint8_t* const is_rough = is_barrier_.data();
+    const std::uint8_t* const is_edge = edges_.find(ground_, terrain_, row).data();
+    const std::uint8_t* const has_ground = &ground_.has_ground()[first];
+    const std::uint8_t* const has_obstacle = &ground_.has_obstacle()[first];
+    for (std::size_t i = 0; i < per_row; ++i) {
+      const State without = has_ground[i] != 0 ? State::kGround : State::kEmpty;
+      const bool bars = (is_rough[i] | is_edge[i] | has_obstacle[i]) != 0;
+      state[i] = bars ? State::kBarrier : without;
     }
   }
-}
-
-bool RoadSurface::is_edge(int row, int index) const noexcept {
-  const float range_m = ground_.patches()[at(row, index)].range_m;
-  const int reach = ground_.patches_over(0.5F * config_.edge_width_m, range_m);
-  const auto slope = [&](Run left, Run right) { return slope_between(row, index, left, right); };
-  float across = slope({index - reach, index - 1}, {index + 1, index + reach});
-  if (std::isnan(across)) across = slope({index - reach, index - 1}, {index, index});
-  if (std::isnan(across)) across = slope({index, index}, {index + 1, index + reach});
-  if (!(std::fabs(across) > config_.edge_slope)) return false;
-  // Where the ring goes on like that to one side, the ground is inclined, and this no edge of it.
-  const int beside = ground_.patches_over(kBeside_m, range_m);
-  const int left = index - reach, right = index + reach;
-  const auto goes_on_at = [&](float slope_beside) {
-    return std::fabs(slope_beside - across) < config_.edge_bend;  // not where that is unknown
-  };
-  return !goes_on_at(slope({left - beside, left - (beside + 1) / 2}, {left - beside / 2, left})) &&
-         !goes_on_at(
-             slope({right, right + beside / 2}, {right + (beside + 1) / 2, right + beside}));
-}
-
-float RoadSurface::slope_between(int row, int index, Run left, Run right) const noexcept {
-  const auto patches = ground_.patches();
-  const Patch& middle = patches[at(row, index)];
-  const auto mean_of = [&](Run run) {
-    Mean mean;
-    for (int i = run.first; i <= run.last; ++i) {
-      const Patch& patch = patches[at(row, ground_.wrapped(i))];
-      const bool near = std::fabs(patch.range_m - middle.range_m) < kSameSurface_m;
-      if (patch.has_ground && near) mean.add(patch);
-    }
-    return mean;
-  };
-  Mean from = mean_of(left), to = mean_of(right);
-  if (from.count == 0 || to.count == 0) return std::numeric_limits<float>::quiet_NaN();
-  from.finish();
-  to.finish();
-  const float dx_m = to.x_m - from.x_m, dy_m = to.y_m - from.y_m;
-  const float rise_m = to.z_m - from.z_m - terrain_.at(middle.x_m, middle.y_m).rise_m(dx_m, dy_m);
-  return rise_m / std::max(std::sqrt(dx_m * dx_m + dy_m * dy_m), 0.5F * config_.edge_width_m);
 }
 
 void RoadSurface::drop_lone_barriers() noexcept {
   // Kerbs and grass show in several rings; what shows in one is a laser's noise. Obstacles stay.
-  const auto patches = ground_.patches();
+  const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
-    for (int index = 0; index < ground_.per_row(); ++index) {
-      const std::size_t i = at(row, index);
-      is_lone_[i] = 0;
-      if (state_[i] != State::kBarrier || patches[i].has_obstacle) continue;
-      int neighbours = 0;
-      for (int near_row = std::max(row - kAround, 0);
-           near_row <= std::min(row + kAround, ground_.rows() - 1); ++near_row) {
-        if (near_row == row) continue;
-        for (int near = index - kAround; near <= index + kAround; ++near) {
-          neighbours += state_[at(near_row, ground_.wrapped(near))] == State::kBarrier;
-        }
-      }
-      is_lone_[i] = neighbours < config_.edge_neighbours;
+    const std::size_t first = at(row, 0);
+    for (std::size_t i = 0; i < per_row; ++i) {
+      is_barrier_[kAround + i] = state_[first + i] == State::kBarrier;
     }
+    for (int i = 0; i < kAround; ++i) {
+      const auto before = static_cast<std::size_t>(ground_.wrapped(i - kAround));
+      const auto after = static_cast<std::size_t>(ground_.wrapped(i));
+      is_barrier_[static_cast<std::size_t>(i)] = is_barrier_[kAround + before];
+      is_barrier_[kAround + per_row + static_cast<std::size_t>(i)] = is_barrier_[kAround + after];
+    }
+    count_around(is_barrier_.data(), per_row, &around_[first]);
   }
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    if (is_lone_[i] != 0) state_[i] = State::kGround;
+  for (int row = 0; row < ground_.rows(); ++row) {
+    const std::size_t first = at(row, 0);
+    for (std::size_t i = 0; i < per_row; ++i) neighbours_[i] = 0;
+    for (int near = std::max(row - kAround, 0); near <= std::min(row + kAround, ground_.rows() - 1);
+         ++near) {
+      if (near != row) add(&around_[at(near, 0)], per_row, neighbours_.data());
+    }
+    State* const state = &state_[first];
+    const std::uint8_t* const has_obstacle = &ground_.has_obstacle()[first];
+    const std::uint8_t* const neighbours = neighbours_.data();
+    const auto enough = static_cast<std::uint8_t>(config_.edge_neighbours);
+    for (std::size_t i = 0; i < per_row; ++i) {
+      const State was = state[i];
+      const bool is_lone =
+          (was == State::kBarrier) & (has_obstacle[i] == 0) & (neighbours[i] < enough);
+      state[i] = is_lone ? State::kGround : was;
+    }
   }
 }
 
 void RoadSurface::measure_along_rings() noexcept {
-  const auto patches = ground_.patches();
-  const float half_width_m = 0.5F * config_.vehicle_width_m;
-  const int per_row = ground_.per_row();
+  std::fill(distance_m_.begin(), distance_m_.end(), kFar_m);
+  const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
-    // Around, and on across the seam to the first barrier.
-    const auto sweep = [&](int begin, int step) {
-      int since = 0;
-      const Patch* barrier = nullptr;
-      for (int n = 0, index = begin; n < 2 * per_row; ++n, index = ground_.wrapped(index + step)) {
-        const std::size_t i = at(row, index);
-        ++since;
-        if (state_[i] == State::kBarrier) {
-          if (n >= per_row) break;
-          barrier = &patches[i];
-          since = 0;
-          distance_m_[i] = 0;
-        } else if (barrier != nullptr && state_[i] == State::kGround &&
-                   std::fabs(barrier->range_m - patches[i].range_m) < half_width_m) {
-          const float along_m = static_cast<float>(since) * ground_.spacing_m(patches[i].range_m);
-          distance_m_[i] = std::min(distance_m_[i], along_m);
-        }
-      }
-    };
-    std::fill_n(&distance_m_[at(row, 0)], per_row, kFar_m);
-    sweep(0, 1);
-    sweep(per_row - 1, -1);
+    const State* const state = &state_[at(row, 0)];
+    float* const distance_m = &distance_m_[at(row, 0)];
+    for (std::size_t i = 0; i < per_row; ++i) is_active_[i] = state[i] == State::kBarrier;
+    for_each(is_active_, [&](int index) {
+      distance_m[index] = 0;
+      if (state[ground_.after(index)] != State::kBarrier) measure_from(row, index, 1);
+      if (state[ground_.before(index)] != State::kBarrier) measure_from(row, index, -1);
+    });
+  }
+}
+
+void RoadSurface::measure_from(int row, int index, int step) noexcept {
+  const float half_width_m = 0.5F * config_.vehicle_width_m;
+  const float barrier_m = ground_.range_m()[at(row, index)];
+  // No patch that counts is nearer to the sensor, so none is nearer to its neighbours.
+  const float least_spacing_m = ground_.spacing_m(barrier_m - half_width_m);
+  float since = 1;
+  for (; since * least_spacing_m < half_width_m; ++since) {
+    index = step > 0 ? ground_.after(index) : ground_.before(index);
+    const std::size_t i = at(row, index);
+    if (state_[i] == State::kBarrier) return;
+    const float range_m = ground_.range_m()[i];
+    if (state_[i] == State::kGround && std::fabs(barrier_m - range_m) < half_width_m) {
+      distance_m_[i] = std::min(distance_m_[i], since * ground_.spacing_m(range_m));
+    }
   }
 }
 
 void RoadSurface::find_clear() noexcept {
-  for (int row = 0; row < ground_.rows(); ++row) {
-    for (int index = 0; index < ground_.per_row(); ++index) {
-      const std::size_t i = at(row, index);
-      if (state_[i] == State::kGround) state_[i] = State::kClear;
-    }
-  }
-  const float half_width_m = 0.5F * config_.vehicle_width_m;
-  for (int row = 0; row < ground_.rows(); ++row) {
-    for (int index = 0; index < ground_.per_row(); ++index) {
-      const std::size_t i = at(row, index);
-      if (distance_m_[i] >= half_width_m) continue;
-      if (state_[i] == State::kClear) state_[i] = State::kGround;
-      block_around(row, index, 1);
-      block_around(row, index, -1);
-    }
+  find_reaches(0.5F * config_.vehicle_width_m, distance_m_.size(), distance_m_.data());
+  std::fill(blocked_.begin(), blocked_.end(), 0.0F);
+  begin_blocking();
+  for (int row = 0; row < ground_.rows(); ++row) block_row(row);
+  begin_blocking();
+  for (int row = ground_.rows() - 1; row >= 0; --row) block_row(row);
+  for (std::size_t i = 0; i < state_.size(); ++i) {
+    if (state_[i] != State::kGround) continue;
+    if (distance_m_[i] < 0 && blocked_[i] == 0) state_[i] = State::kClear;
   }
 }
 
-void RoadSurface::block_around(int row, int index, int step) noexcept {
-  // The barrier of this ring, and how far the other ring is from it: together the distance.
-  const auto patches = ground_.patches();
-  const float half_width_m = 0.5F * config_.vehicle_width_m;
-  const std::size_t i = at(row, index);
-  const float along_m = distance_m_[i];
-  const float apart_limit_m2 = half_width_m * half_width_m - along_m * along_m;
-  for (int near_row = row + step; near_row >= 0 && near_row < ground_.rows(); near_row += step) {
-    const std::size_t near = at(near_row, index);
-    if (state_[near] == State::kEmpty) continue;
-    const float apart_m = patches[near].range_m - patches[i].range_m;
-    // Another barrier as near blocks what is behind it.
-    if (apart_m * apart_m >= apart_limit_m2 || distance_m_[near] <= along_m) break;
-    if (state_[near] == State::kClear) state_[near] = State::kGround;
-  }
+void RoadSurface::begin_blocking() noexcept {
+  std::fill(from_m_.begin(), from_m_.end(), kFar_m);
+  std::fill(to_m_.begin(), to_m_.end(), -kFar_m);
 }
 
-bool RoadSurface::level(const Patch& from, const Patch& to) const noexcept {
-  const float dx_m = to.x_m - from.x_m;
-  const float dy_m = to.y_m - from.y_m;
+void RoadSurface::block_row(int row) noexcept {
+  const std::size_t first = at(row, 0);
+  block_ranges(&ground_.range_m()[first], &distance_m_[first], from_m_.size(), from_m_.data(),
+               to_m_.data(), &blocked_[first]);
+}
+
+bool RoadSurface::level(std::size_t from, std::size_t to) const noexcept {
+  const float dx_m = ground_.x_m()[to] - ground_.x_m()[from];
+  const float dy_m = ground_.y_m()[to] - ground_.y_m()[from];
   const float run_squared_m2 = dx_m * dx_m + dy_m * dy_m;
   if (run_squared_m2 > config_.max_gap_m * config_.max_gap_m) return false;
-  const float rise_m =
-      std::fabs(to.z_m - from.z_m - terrain_.at(from.x_m, from.y_m).rise_m(dx_m, dy_m));
+  const float rise_m = std::fabs(ground_.z_m()[to] - ground_.z_m()[from] -
+                                 terrain_.at_patch(from).rise_m(dx_m, dy_m));
   return rise_m <= config_.max_step_m ||
          rise_m * rise_m <= config_.max_step_slope * config_.max_step_slope * run_squared_m2;
 }
 
 void RoadSurface::reach_from_track() noexcept {
-  const auto patches = ground_.patches();
   visits_ = 0;
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    const Patch& patch = patches[i];
-    if (state_[i] != State::kClear || std::fabs(patch.x_m) > config_.track_m ||
-        std::fabs(patch.y_m) > 0.5F * config_.vehicle_width_m) {
-      continue;
+  for (int row = 0; row < ground_.rows(); ++row) {
+    for (int index = 0; index < ground_.per_row(); ++index) {
+      const std::size_t i = at(row, index);
+      if (state_[i] != State::kClear || std::fabs(ground_.x_m()[i]) > config_.track_m ||
+          std::fabs(ground_.y_m()[i]) > 0.5F * config_.vehicle_width_m) {
+        continue;
+      }
+      state_[i] = State::kReached;
+      distance_m_[i] = 0;
+      to_visit_[visits_++] = {row, index};
     }
-    state_[i] = State::kReached;
-    to_visit_[visits_++] = static_cast<std::uint32_t>(i);
   }
   while (visits_ > 0) {
-    const std::size_t from = to_visit_[--visits_];
-    const int row = static_cast<int>(from) / ground_.per_row();
-    const int index = static_cast<int>(from) % ground_.per_row();
-    visit(from, at(row, ground_.wrapped(index - 1)));
-    visit(from, at(row, ground_.wrapped(index + 1)));
+    const auto [row, index] = to_visit_[--visits_];
+    const std::size_t from = at(row, index);
+    visit(from, row, ground_.before(index));
+    visit(from, row, ground_.after(index));
     for (const int step : {-1, 1}) {
       int near_row = row + step;
       const auto is_inside = [&] { return near_row >= 0 && near_row < ground_.rows(); };
       for (int across = 1; across < kRowsAcross && is_inside(); ++across, near_row += step) {
-        if (patches[at(near_row, index)].has_ground) break;
+        if (ground_.has_ground()[at(near_row, index)] != 0) break;
       }
-      if (is_inside()) visit(from, at(near_row, index));
+      if (is_inside()) visit(from, near_row, index);
     }
   }
 }
 
-void RoadSurface::visit(std::size_t from, std::size_t to) noexcept {
-  const auto patches = ground_.patches();
-  if (state_[to] != State::kClear || !level(patches[from], patches[to])) return;
+void RoadSurface::visit(std::size_t from, int row, int index) noexcept {
+  const std::size_t to = at(row, index);
+  if (state_[to] != State::kClear || !level(from, to)) return;
   state_[to] = State::kReached;
-  to_visit_[visits_++] = static_cast<std::uint32_t>(to);
+  distance_m_[to] = 0;
+  to_visit_[visits_++] = {row, index};
 }
 
 void RoadSurface::grow_back() noexcept {
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    distance_m_[i] = state_[i] == State::kReached ? 0 : kFar_m;
-  }
-  // Along the rings first, then from row to row.
   const float limit_m = kGrowBack * 0.5F * config_.vehicle_width_m;
-  for (int row = 0; row < ground_.rows(); ++row) {
-    for (int index = 0; index < ground_.per_row(); ++index) {
-      if (distance_m_[at(row, index)] != 0) continue;
-      for (const int step : {-1, 1}) {
-        int from = index;
-        for (int to = ground_.wrapped(from + step); grow(at(row, from), at(row, to), limit_m);
-             to = ground_.wrapped(to + step)) {
-          from = to;
-        }
-      }
+  const auto per_row = static_cast<std::size_t>(ground_.per_row());
+  const auto find_growing = [&](const State* from, const State* one, const State* other,
+                                std::size_t count, std::uint8_t* growing) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_one_open = (one[i] >= State::kGround) & (one[i] <= State::kGrown);
+      const bool is_other_open = (other[i] >= State::kGround) & (other[i] <= State::kGrown);
+      growing[i] = (from[i] >= State::kGrown) & (is_one_open | is_other_open);
     }
+  };
+  // Along the rings first, then from row to row.
+  for (int row = 0; row < ground_.rows(); ++row) {
+    const State* const state = &state_[at(row, 0)];
+    is_active_[0] = is_active_[per_row - 1] = 1;
+    if (per_row > 2) find_growing(state + 1, state, state + 2, per_row - 2, &is_active_[1]);
+    for_each(is_active_, [&](int index) {
+      if (state[index] != State::kReached) return;
+      for (int from = index, to = ground_.after(from); grow(at(row, from), at(row, to), limit_m);
+           to = ground_.after(to)) {
+        from = to;
+      }
+      for (int from = index, to = ground_.before(from); grow(at(row, from), at(row, to), limit_m);
+           to = ground_.before(to)) {
+        from = to;
+      }
+    });
   }
   for (int row = 0; row < ground_.rows(); ++row) {
-    for (int index = 0; index < ground_.per_row(); ++index) {
-      if (distance_m_[at(row, index)] > limit_m) continue;
-      for (const int step : {-1, 1}) {
-        for (int to = row + step;
-             to >= 0 && to < ground_.rows() && grow(at(to - step, index), at(to, index), limit_m);
-             to += step) {
-        }
+    const int below = std::max(row - 1, 0), above = std::min(row + 1, ground_.rows() - 1);
+    find_growing(&state_[at(row, 0)], &state_[at(below, 0)], &state_[at(above, 0)], per_row,
+                 is_active_.data());
+    for_each(is_active_, [&](int index) {
+      for (int to = row + 1; to < ground_.rows() && grow(at(to - 1, index), at(to, index), limit_m);
+           ++to) {
       }
-    }
-  }
-  for (std::size_t i = 0; i < state_.size(); ++i) {
-    if (distance_m_[i] <= limit_m) state_[i] = State::kReached;
+      for (int to = row - 1; to >= 0 && grow(at(to + 1, index), at(to, index), limit_m); --to) {
+      }
+    });
   }
 }
 
-bool RoadSurface::grow(std::size_t from, std::size_t to, float limit_m) noexcept {
-  if (state_[to] != State::kGround && state_[to] != State::kClear) return false;
-  const Patch& here = ground_.patches()[from];
-  const Patch& there = ground_.patches()[to];
-  const float dx_m = there.x_m - here.x_m, dy_m = there.y_m - here.y_m;
+bool RoadSurface::grow_far(std::size_t from, std::size_t to, float limit_m) noexcept {
+  const float dx_m = ground_.x_m()[to] - ground_.x_m()[from];
+  const float dy_m = ground_.y_m()[to] - ground_.y_m()[from];
   const float distance_m = distance_m_[from] + std::sqrt(dx_m * dx_m + dy_m * dy_m);
-  if (distance_m > limit_m || distance_m >= distance_m_[to] || !level(here, there)) return false;
+  const bool is_grown = state_[to] == State::kGrown;
+  if (distance_m > limit_m || (is_grown && distance_m >= distance_m_[to])) return false;
+  if (!level(from, to)) return false;
+  state_[to] = State::kGrown;
   distance_m_[to] = distance_m;
   return true;
 }

@@ -9,6 +9,7 @@
 #include "pipeline/ground_patches.hpp"
 #include "pipeline/label.hpp"
 #include "pipeline/range_image.hpp"
+#include "pipeline/ring_edges.hpp"
 #include "pipeline/terrain_slope.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/nonblocking.hpp"
@@ -29,15 +30,13 @@ class RoadSurface {
   struct Config {
     bool enabled = false;  ///< It costs time; without it all ground is kGround.
     float vehicle_width_m = 2.0F;
-    float track_m = 12.0F;       ///< The way begins so far ahead and behind, on its own width.
-    float edge_width_m = 0.40F;  ///< Heights are compared over this length of a ring ...
-    float edge_slope = 0.06F;    ///< ... where more than this against the terrain is an edge ...
-    float edge_bend = 0.04F;     ///< ... if neither side of it is nearly as steep.
+    float track_m = 12.0F;    ///< The way begins so far ahead and behind, on its own width.
     int edge_neighbours = 3;  ///< Edges and rough patches with fewer in the rows around are noise.
     float max_step_m = 0.025F;     ///< From ring to ring: always level up to here ...
     float max_step_slope = 0.08F;  ///< ... and up to this slope against the terrain.
     float max_gap_m = 4.0F;        ///< Rings farther apart are not connected.
     GroundPatches::Config patches;
+    RingEdges::Config edges;
     TerrainSlope::Config terrain;  ///< Its max_roughness_m is that of a road.
   };
 
@@ -49,50 +48,59 @@ class RoadSurface {
             std::span<Label> labels) noexcept TERRACUT_NONBLOCKING;
 
  private:
-  /// What a patch is, in the order it becomes it.
+  /// What a patch is, mostly in the order it becomes it.
   enum class State : std::uint8_t {
     kEmpty,    // no return that matters
     kBarrier,  // an edge, rough, or with an obstacle
     kGround,   // smooth, but too near to a barrier for the vehicle's middle
     kClear,    // far enough from all barriers
+    kGrown,    // either, and grown back to
     kReached,  // clear, and there is a way
   };
 
   void find_barriers() noexcept;
-  /// Patches of a row, the first and the last; may lie beyond the seam.
-  struct Run {
-    int first, last;
-  };
-  /// Whether the ground rises or falls across a patch along the ring.
-  [[nodiscard]] bool is_edge(int row, int index) const noexcept;
-  /// Rise over run, against the terrain where the patch `index` lies, from the patches of one run
-  /// to those of another, as far as they are ground about as far away as that patch; NaN if none
-  /// are.
-  [[nodiscard]] float slope_between(int row, int index, Run left, Run right) const noexcept;
   void drop_lone_barriers() noexcept;
   void measure_along_rings() noexcept;
+  /// To the patches between a barrier and the next one of its ring, as far as they matter.
+  void measure_from(int row, int index, int step) noexcept;
   void find_clear() noexcept;
-  /// Takes away what lies too near to the barrier of a patch's ring, in the rings above or below.
-  void block_around(int row, int index, int step) noexcept;
+  void begin_blocking() noexcept;
+  /// Blocks what lies too near to barriers of the rows before; to be called row by row.
+  void block_row(int row) noexcept;
   void reach_from_track() noexcept;
-  void visit(std::size_t from, std::size_t to) noexcept;
+  void visit(std::size_t from, int row, int index) noexcept;
   void grow_back() noexcept;
   /// Goes from a patch that was grown to, to the next, if that is nearer than any way before.
-  bool grow(std::size_t from, std::size_t to, float limit_m) noexcept;
-  [[nodiscard]] bool level(const GroundPatches::Patch& from,
-                           const GroundPatches::Patch& to) const noexcept;
+  bool grow(std::size_t from, std::size_t to, float limit_m) noexcept {
+    const bool is_open = state_[to] >= State::kGround && state_[to] <= State::kGrown;
+    return is_open && grow_far(from, to, limit_m);  // seldom, so only the question is inline
+  }
+  bool grow_far(std::size_t from, std::size_t to, float limit_m) noexcept;
+  void mark_returns(const RangeImage& image, const CellPlanes& planes,
+                    std::span<Label> labels) const noexcept;
+  [[nodiscard]] bool level(std::size_t from, std::size_t to) const noexcept;
   [[nodiscard]] std::size_t at(int row, int index) const noexcept {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(ground_.per_row()) +
            static_cast<std::size_t>(index);
   }
 
+  struct Place {
+    std::int32_t row, index;
+  };
+
   Config config_;
   GroundPatches ground_;
   TerrainSlope terrain_;
+  RingEdges edges_;
   std::span<State> state_;
-  std::span<std::uint8_t> is_lone_;    // barriers to be dropped
-  std::span<float> distance_m_;        // first to a barrier on the ring, then to what was reached
-  std::span<std::uint32_t> to_visit_;  // a stack; every patch enters it once at most
+  std::span<std::uint8_t> is_barrier_;  // of a row, and kAround on across the seam
+  std::span<std::uint8_t> around_;      // barriers from kAround patches before to kAround after
+  std::span<std::uint8_t> neighbours_;  // of a row, barriers in the rows around
+  std::span<std::uint8_t> is_active_;   // of a row, where there is something to do; see for_each()
+  std::span<float> distance_m_;         // first to a barrier on the ring, then to what was reached
+  std::span<float> blocked_;            // more than 0 where a barrier of another ring is too near
+  std::span<float> from_m_, to_m_;      // of each column, the ranges that barriers before block
+  std::span<Place> to_visit_;           // a stack; every patch enters it once at most
   std::size_t visits_ = 0;
 };
 

@@ -5,39 +5,70 @@
 #include <algorithm>
 #include <cmath>
 
-namespace terracut::pipeline {
+#include "rt/vector_clones.hpp"
 
-TerrainSlope::TerrainSlope(const Config& config, rt::FixedMemory& memory)
+namespace terracut::pipeline {
+namespace {
+
+/// In which line of squares a coordinate lies; beyond the first and the last line, in these.
+inline std::int32_t line_of(float coordinate_m, float square_m, float side) noexcept {
+  const float line = coordinate_m / square_m + 0.5F * side;
+  const float not_before = line > 0.0F ? line : 0.0F;  // neither is NaN
+  return static_cast<std::int32_t>(not_before < side - 1 ? not_before : side - 1);
+}
+
+TERRACUT_VECTOR_CLONES void find_squares(const float* x_m, const float* y_m, std::size_t count,
+                                         float square_m, int side, std::int32_t* square) noexcept {
+  const auto lines = static_cast<float>(side);
+  for (std::size_t i = 0; i < count; ++i) {
+    square[i] = line_of(x_m[i], square_m, lines) * side + line_of(y_m[i], square_m, lines);
+  }
+}
+
+}  // namespace
+
+TerrainSlope::TerrainSlope(const Config& config, std::size_t patches, rt::FixedMemory& memory)
     : config_(config),
       side_(2 * static_cast<int>(std::ceil(kReach_m / config.square_m))),
       sums_(memory.take<Sums>("terrain slope", static_cast<std::size_t>(side_ * side_))),
-      gradients_(memory.take<Gradient>("terrain slope", static_cast<std::size_t>(side_ * side_))) {}
+      gradients_(memory.take<Gradient>("terrain slope", static_cast<std::size_t>(side_ * side_))),
+      square_(memory.take<std::int32_t>("terrain slope", patches)) {}
 
-int TerrainSlope::line_of(float coordinate_m) const noexcept {
-  const float line = coordinate_m / config_.square_m + 0.5F * static_cast<float>(side_);
-  return line > 0 ? std::min(static_cast<int>(std::min(line, 1e6F)), side_ - 1) : 0;
+std::int32_t TerrainSlope::square_of(float x_m, float y_m) const noexcept {
+  const auto lines = static_cast<float>(side_);
+  return line_of(x_m, config_.square_m, lines) * side_ + line_of(y_m, config_.square_m, lines);
 }
 
 void TerrainSlope::fit(const GroundPatches& ground) noexcept {
+  find_squares(ground.x_m().data(), ground.y_m().data(), square_.size(), config_.square_m, side_,
+               square_.data());
   std::fill(sums_.begin(), sums_.end(), Sums{});
-  for (const GroundPatches::Patch& patch : ground.patches()) {
-    if (!patch.has_ground || patch.roughness_m > config_.max_roughness_m) continue;
+  // Patches that follow each other mostly lie in the same square, whose sums are kept at hand.
+  Sums at_hand;
+  std::int32_t square = 0;
+  for (std::size_t i = 0; i < square_.size(); ++i) {
+    if (ground.has_ground()[i] == 0 || ground.roughness_m()[i] > config_.max_roughness_m) continue;
+    if (square_[i] != square) {
+      sums_[static_cast<std::size_t>(square)] = at_hand;
+      square = square_[i];
+      at_hand = sums_[static_cast<std::size_t>(square)];
+    }
     // Patches lie the denser the nearer; weighed by range, every square metre says about as much.
-    const double weight = static_cast<double>(patch.range_m);
-    const auto x = static_cast<double>(patch.x_m);
-    const auto y = static_cast<double>(patch.y_m);
-    const auto z = static_cast<double>(patch.z_m);
-    Sums& sums = sums_[square_of(patch.x_m, patch.y_m)];
-    sums.weight += weight;
-    sums.x += weight * x;
-    sums.y += weight * y;
-    sums.z += weight * z;
-    sums.xx += weight * x * x;
-    sums.xy += weight * x * y;
-    sums.yy += weight * y * y;
-    sums.xz += weight * x * z;
-    sums.yz += weight * y * z;
+    const auto weight = static_cast<double>(ground.range_m()[i]);
+    const auto x = static_cast<double>(ground.x_m()[i]);
+    const auto y = static_cast<double>(ground.y_m()[i]);
+    const auto z = static_cast<double>(ground.z_m()[i]);
+    at_hand.weight += weight;
+    at_hand.x += weight * x;
+    at_hand.y += weight * y;
+    at_hand.z += weight * z;
+    at_hand.xx += weight * x * x;
+    at_hand.xy += weight * x * y;
+    at_hand.yy += weight * y * y;
+    at_hand.xz += weight * x * z;
+    at_hand.yz += weight * y * z;
   }
+  sums_[static_cast<std::size_t>(square)] = at_hand;
   for (int line_x = 0; line_x < side_; ++line_x) {
     for (int line_y = 0; line_y < side_; ++line_y) {
       gradients_[static_cast<std::size_t>(line_x * side_ + line_y)] =

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "pipeline/ground_patches.hpp"
@@ -28,14 +30,19 @@ class TerrainSlope {
     }
   };
 
-  TerrainSlope(const Config& config, rt::FixedMemory& memory);
+  /// `patches`: how many the ground to come has.
+  TerrainSlope(const Config& config, std::size_t patches, rt::FixedMemory& memory);
 
   /// Fits the planes. Real-time safe.
   void fit(const GroundPatches& ground) noexcept TERRACUT_NONBLOCKING;
 
   /// The gradient where (x, y) is; beyond kReach_m that of the nearest square.
   [[nodiscard]] const Gradient& at(float x_m, float y_m) const noexcept {
-    return gradients_[square_of(x_m, y_m)];
+    return gradients_[static_cast<std::size_t>(square_of(x_m, y_m))];
+  }
+  /// The same where a patch of the ground last fitted is.
+  [[nodiscard]] const Gradient& at_patch(std::size_t patch) const noexcept {
+    return gradients_[static_cast<std::size_t>(square_[patch])];
   }
 
   static constexpr float kReach_m = 60.0F;
@@ -46,16 +53,14 @@ class TerrainSlope {
     double weight = 0, x = 0, y = 0, z = 0, xx = 0, xy = 0, yy = 0, xz = 0, yz = 0;
   };
 
-  [[nodiscard]] int line_of(float coordinate_m) const noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] std::size_t square_of(float x_m, float y_m) const noexcept {
-    return static_cast<std::size_t>(line_of(x_m) * side_ + line_of(y_m));
-  }
+  [[nodiscard]] std::int32_t square_of(float x_m, float y_m) const noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Gradient gradient_around(int line_x, int line_y) const noexcept;
 
   Config config_;
   int side_;  // squares
   std::span<Sums> sums_;
   std::span<Gradient> gradients_;
+  std::span<std::int32_t> square_;  // by patch
 };
 
 }  // namespace terracut::pipeline

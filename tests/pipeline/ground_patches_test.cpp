@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <vector>
 
@@ -29,10 +31,20 @@ struct PatchesOfARow : testing::Test {
     planes.height_m[cell] = z_m;
     planes.label[cell] = label;
   }
-  const GroundPatches::Patch& patch(int index) {
+  struct Patch {
+    float x_m, z_m, range_m, roughness_m;
+    bool has_ground, has_obstacle;
+  };
+  Patch patch(int index) {
     planes_of_empty_row();
     ground.collect(image, planes);
-    return ground.patches()[static_cast<std::size_t>(index)];
+    const auto i = static_cast<std::size_t>(index);
+    return {ground.x_m()[i],
+            ground.z_m()[i],
+            ground.range_m()[i],
+            ground.roughness_m()[i],
+            ground.has_ground()[i] != 0,
+            ground.has_obstacle()[i] != 0};
   }
   void planes_of_empty_row() {
     for (auto cell = static_cast<std::size_t>(kShape.stride()); cell < kShape.cells(); ++cell) {
@@ -47,7 +59,7 @@ struct PatchesOfARow : testing::Test {
   std::vector<Return> kept;
 };
 
-TEST_F(PatchesOfARow, HaveTheMeanPlaceOfTheirGroundReturns) {
+TEST_F(PatchesOfARow, LieBetweenTheirGroundReturnsAtTheirMeanHeight) {
   place(10, 0.2F, Label::kGround);
   place(12, 5.0F, Label::kObstacle);
   EXPECT_EQ(ground.per_row(), 360);
@@ -55,6 +67,65 @@ TEST_F(PatchesOfARow, HaveTheMeanPlaceOfTheirGroundReturns) {
   EXPECT_FLOAT_EQ(patch(5).z_m, 0.1F);
   EXPECT_FLOAT_EQ(patch(5).range_m, 20);
   EXPECT_FLOAT_EQ(patch(6).x_m, 13) << "the obstacle has no part in it";
+}
+
+/// The same with patches of more columns, and a shorter one at the row's end.
+struct WidePatchesOfARow : PatchesOfARow {
+  WidePatchesOfARow() {
+    for (int column = 0; column < kShape.columns; ++column) {
+      place(column, column % 2 == 0 ? 0.01F : -0.01F, Label::kGround);
+    }
+  }
+  /// Patches of so many columns, compared with what is said of the returns one by one.
+  void expect_patches_of(int columns) {
+    GroundPatches wide({.width_deg = 0.5F * static_cast<float>(columns)}, kShape, memory);
+    ASSERT_EQ(wide.columns_per_patch(), columns);
+    place(100, 5, Label::kObstacle);
+    place(101, 1, Label::kObstacle, 7);
+    for (int column = 200; column < 230; ++column) place(column, 1.5F, Label::kObstacle, 9);
+    planes_of_empty_row();
+    wide.collect(image, planes);
+    for (int index = 0; index < wide.per_row(); ++index) {
+      const int begin = index * columns, end = std::min(begin + columns, kShape.columns);
+      float sum_z = 0, nearest = 1e9F;
+      int ground_returns = 0, first = -1, last = -1;
+      bool has_obstacle = false;
+      for (int column = begin; column < end; ++column) {
+        const auto cell = static_cast<std::size_t>(column);
+        if (planes.label[cell] == Label::kGround) {
+          sum_z += kept[cell].z_m;
+          ++ground_returns;
+          first = first < 0 ? column : first;
+          last = column;
+        } else if (kept[cell].z_m < 2) {
+          has_obstacle = true;
+          nearest = std::min(nearest, kept[cell].ground_range_m);
+        }
+      }
+      const auto i = static_cast<std::size_t>(index);
+      EXPECT_EQ(wide.has_ground()[i], ground_returns > 0) << index;
+      EXPECT_EQ(wide.has_obstacle()[i], has_obstacle) << index;
+      if (ground_returns > 0) {
+        EXPECT_FLOAT_EQ(wide.x_m()[i], 0.5F * static_cast<float>(first + last)) << index;
+        EXPECT_NEAR(wide.z_m()[i], sum_z / static_cast<float>(ground_returns), 1e-6F) << index;
+        EXPECT_FLOAT_EQ(wide.range_m()[i], 20) << index;
+        EXPECT_NEAR(wide.roughness_m()[i], 0.02F, 1e-3F) << index;
+      } else if (has_obstacle) {
+        EXPECT_FLOAT_EQ(wide.range_m()[i], nearest) << index;
+      }
+    }
+  }
+};
+
+// Five and six columns have code of their own.
+TEST_F(WidePatchesOfARow, OfFiveColumnsTellWhatTheirReturnsAre) {
+  expect_patches_of(5);
+}
+TEST_F(WidePatchesOfARow, OfSixColumnsTellWhatTheirReturnsAre) {
+  expect_patches_of(6);
+}
+TEST_F(WidePatchesOfARow, OfSevenColumnsTellWhatTheirReturnsAre) {
+  expect_patches_of(7);
 }
 
 TEST_F(PatchesOfARow, KnowObstaclesLowerThanTheVehicleOnly) {
@@ -87,6 +158,7 @@ TEST_F(PatchesOfARow, AreNotRoughForLyingOnASlope) {
 TEST_F(PatchesOfARow, OfARowWithoutReturnsAreEmpty) {
   EXPECT_FALSE(patch(ground.per_row() + 3).has_ground);
   EXPECT_FALSE(patch(ground.per_row() + 3).has_obstacle);
+  EXPECT_TRUE(std::isnan(patch(ground.per_row() + 3).range_m));
 }
 
 TEST_F(PatchesOfARow, GoOnBeyondBothEnds) {

@@ -41,7 +41,7 @@ struct SlopeOfATurn : testing::Test {
   RangeImage image{kShape, 0, memory};
   CellPlanes planes{kShape, memory};
   GroundPatches ground{{}, kShape, memory};
-  TerrainSlope slope{{}, memory};
+  TerrainSlope slope{{}, ground.x_m().size(), memory};
 };
 
 TEST_F(SlopeOfATurn, IsThatOfAPlane) {
@@ -51,6 +51,15 @@ TEST_F(SlopeOfATurn, IsThatOfAPlane) {
     EXPECT_NEAR(slope.at(x, 3).along_y, -0.05F, 0.015F) << x;
   }
   EXPECT_NEAR(slope.at(10, 0).rise_m(2, 2), 0.1F, 0.03F);
+}
+
+TEST_F(SlopeOfATurn, IsKnownByPatchAsByPlace) {
+  fit([](float x, float y) { return x > 0 ? 0.1F * x : 0.02F * y; });
+  for (std::size_t i = 0; i < ground.x_m().size(); ++i) {
+    const auto& by_place = slope.at(ground.x_m()[i], ground.y_m()[i]);
+    ASSERT_EQ(slope.at_patch(i).along_x, by_place.along_x) << i;
+    ASSERT_EQ(slope.at_patch(i).along_y, by_place.along_y) << i;
+  }
 }
 
 TEST_F(SlopeOfATurn, FollowsAHillThatBeginsAhead) {

@@ -47,7 +47,8 @@ calib::RingProfile profile() {
   return made;
 }
 
-/// Bumpy ground, a hillside on one side, and walls, boxes and bushes where the generator puts them.
+/// A road between a kerb and rough ground with a hillside, and walls, boxes and bushes where the
+/// generator puts them.
 void make_turn(Random& random, pipeline::RangeImage& image) {
   image.clear();
   // The head turns by a fixed complex factor a column: (cos, sin) of 1 / 2083 of a turn.
@@ -64,7 +65,9 @@ void make_turn(Random& random, pipeline::RangeImage& image) {
       const double slope =
           -kHeight_m / ground_distance_m(row) + (row < 58 ? 0 : 0.005 * (row - 57));
       double range_m = slope < 0 ? kHeight_m / (-slope + (left > 0 ? 0.1 * left : 0)) : 200;
-      double z_m = kHeight_m + slope * range_m + 0.02 * random.unit();
+      const double aside_m = range_m * left;
+      double z_m = kHeight_m + slope * range_m + (aside_m < 5 ? 0.004 : 0.02) * random.unit() +
+                   (aside_m < -7 ? 0.12 : 0);
       const double at_thing_m = kHeight_m + slope * thing_m;
       if (range_m > thing_m && at_thing_m < thing_top_m) {
         range_m = thing_m + 0.05 * random.unit();
@@ -95,19 +98,24 @@ class Fingerprint {
 int main() {
   rt::FixedMemory memory;
   pipeline::RangeImage image(kShape, 1000, memory);
-  pipeline::Segmenter terracut(pipeline::terracut_profile(), profile(), kShape,
-                               image.return_capacity(), memory);
+  // With the road surface, whose labels say of all ground what they would without it.
+  pipeline::SegmenterConfig with_road = pipeline::terracut_profile();
+  with_road.road.enabled = true;
+  pipeline::Segmenter terracut(with_road, profile(), kShape, image.return_capacity(), memory);
   pipeline::Segmenter paper(pipeline::paper_profile(), profile(), kShape, image.return_capacity(),
                             memory);
   Random random;
   Fingerprint fingerprint;
-  std::uint64_t labels = 0, obstacles = 0, unknown = 0;
+  std::uint64_t labels = 0, obstacles = 0, unknown = 0, road = 0, other_ground = 0;
   for (int turn = 0; turn < 5; ++turn) {
     make_turn(random, image);
     for (pipeline::Segmenter* segmenter : {&terracut, &paper}) {
       const auto report = segmenter->segment(image);
       for (const pipeline::Label label : segmenter->labels()) {
         fingerprint.add(static_cast<std::uint64_t>(label));
+        if (segmenter != &terracut) continue;
+        road += label == pipeline::Label::kGround;
+        other_ground += label == pipeline::Label::kOtherGround;
       }
       fingerprint.add(static_cast<std::uint64_t>(report.cut.energy));
       labels += report.returns;
@@ -115,8 +123,10 @@ int main() {
       unknown += report.cut.unknown;
     }
   }
-  std::printf("%016llx: %llu labels, %llu obstacles, %llu by the cut\n", fingerprint.value(),
-              static_cast<unsigned long long>(labels), static_cast<unsigned long long>(obstacles),
-              static_cast<unsigned long long>(unknown));
+  std::printf(
+      "%016llx: %llu labels, %llu obstacles, %llu by the cut, %llu road, %llu other ground\n",
+      fingerprint.value(), static_cast<unsigned long long>(labels),
+      static_cast<unsigned long long>(obstacles), static_cast<unsigned long long>(unknown),
+      static_cast<unsigned long long>(road), static_cast<unsigned long long>(other_ground));
   return 0;
 }

@@ -207,7 +207,9 @@ class MethodJson {
            {"as_ground", labels.ground},
            {"as_other_ground", labels.other_ground},
            {"share_as_ground", static_cast<double>(labels.ground) /
-                                   static_cast<double>(labels.ground + labels.obstacle)}});
+                                   static_cast<double>(labels.ground + labels.obstacle)},
+           {"share_as_other_ground", static_cast<double>(labels.other_ground) /
+                                         static_cast<double>(labels.ground + labels.obstacle)}});
     }
     return list;
   }

@@ -30,7 +30,8 @@ struct EvaluationFacts {
 ///     mean_over_sequences, pooled   {all, road, all_vegetation_ignored}, each {iou_g, recall_o,
 ///                                   precision, recall, f1}
 ///     by_range{"<20m"}              the measures under `all`; by_range_road{} under `road`
-///     by_class[]                    id, name, points, as_ground, share_as_ground
+///     by_class[]                    id, name, points, as_ground, share_as_ground,
+///                                   as_other_ground, share_as_other_ground: of it no road surface
 ///     sequences{name}               frames, points, the measures, and over frames
 ///                                   frame_iou_g, frame_iou_road, frame_recall_o {min, mean, max}
 ///     frames[]                      sequence, frame, points, iou_g, recall_o, iou_road, ms{}

@@ -39,6 +39,7 @@ Verdict verdict_of(Role truth, Label label) noexcept {
   const bool called_ground = is_ground(label);
   switch (truth) {
     case Role::kGround:
+      if (label == Label::kOtherGround) return Verdict::kOtherGround;
       return called_ground ? Verdict::kGround : Verdict::kFalseObstacle;
     case Role::kOrdinaryObstacle:
       return called_ground ? Verdict::kMissedOrdinary : Verdict::kObstacle;
@@ -54,6 +55,8 @@ Colour colour_of(Verdict verdict) noexcept {
   switch (verdict) {
     case Verdict::kGround:
       return {116, 104, 84};
+    case Verdict::kOtherGround:
+      return {86, 122, 76};
     case Verdict::kObstacle:
       return {74, 104, 142};
     case Verdict::kMissedKey:
@@ -92,11 +95,13 @@ Status FramePictures::open(const std::string& sequence, const std::string& frame
   return labeller_->place(reader_.scan(), reader_.rings());
 }
 
-Picture FramePictures::truth(const firmware_io::BirdEyeView& view) const {
+Picture FramePictures::truth(const firmware_io::BirdEyeView& view, bool with_road) const {
   std::vector<Colour> colours;
   std::vector<std::uint8_t> key;
-  for (const Role role : reader_.truth()) {
-    colours.push_back(colour_of(role));
+  for (std::size_t i = 0; i < reader_.truth().size(); ++i) {
+    const Role role = reader_.truth()[i];
+    const bool is_road = role == Role::kGround && reader_.is_road()[i] != 0;
+    colours.push_back(with_road && is_road ? kTrueRoadColour : colour_of(role));
     key.push_back(role == Role::kKeyObstacle);
   }
   return bird_eye_picture(firmware_io::ColouredFrame{reader_.image(), colours, key}, view);

@@ -17,18 +17,21 @@ namespace terracut::evaluation::report {
 /// What a label made of a return, for its colour.
 enum class Verdict : std::uint8_t {
   kGround,          ///< Ground, called ground.
+  kOtherGround,     ///< Ground, told to be no road surface.
   kObstacle,        ///< Obstacle, called obstacle.
   kMissedKey,       ///< Key obstacle, called ground.
   kMissedOrdinary,  ///< Ordinary obstacle, called ground.
   kFalseObstacle,   ///< Ground, called obstacle.
   kIgnored,         ///< Of a class that counts nowhere.
 };
-inline constexpr std::size_t kVerdicts = 6;
+inline constexpr std::size_t kVerdicts = 7;
 
 [[nodiscard]] Verdict verdict_of(Role truth, pipeline::Label label) noexcept;
 [[nodiscard]] firmware_io::Colour colour_of(Verdict verdict) noexcept;
 /// Colours of the truth alone: ground, ordinary obstacle, key obstacle.
 [[nodiscard]] firmware_io::Colour colour_of(Role truth) noexcept;
+/// Of ground that is road, where a method is asked to tell it.
+inline constexpr firmware_io::Colour kTrueRoadColour{150, 92, 158};
 
 /// Pictures of single frames: the truth, and what methods make of it.
 class FramePictures {
@@ -40,7 +43,9 @@ class FramePictures {
   /// The frame that is shown from now on. Errors of FrameReader::read() and FrameLabeller::place().
   [[nodiscard]] Status open(const std::string& sequence, const std::string& frame);
 
-  [[nodiscard]] firmware_io::Picture truth(const firmware_io::BirdEyeView& view) const;
+  /// `with_road`: road in a colour of its own.
+  [[nodiscard]] firmware_io::Picture truth(const firmware_io::BirdEyeView& view,
+                                           bool with_road) const;
   /// By one of config.methods, with its mistakes on top.
   [[nodiscard]] firmware_io::Picture result(std::string_view method,
                                             const firmware_io::BirdEyeView& view);

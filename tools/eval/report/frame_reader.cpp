@@ -34,10 +34,12 @@ Status FrameReader::read(const std::string& sequence, const std::string& frame) 
   if (!placed) return tl::unexpected(placed.error());
   placed_ = *placed;
   truth_.clear();
+  is_road_.clear();
   for (const std::uint32_t point : placed_.point_of_return) {
     const ClassEntry* const entry =
         classes_.find(static_cast<std::uint16_t>(labelled_.scan.labels[point]));
     truth_.push_back(entry == nullptr ? Role::kIgnored : entry->role(GroundDefinition::kAll));
+    is_road_.push_back(entry != nullptr && entry->role(GroundDefinition::kRoad) == Role::kGround);
   }
   return {};
 }

@@ -36,6 +36,8 @@ class FrameReader {
   [[nodiscard]] const pipeline::RangeImage& image() const noexcept { return *placed_.image; }
   /// What its points are with all physical ground as ground, by return index of image().
   [[nodiscard]] std::span<const Role> truth() const noexcept { return truth_; }
+  /// 1 for what is ground with the road alone as ground, by return index.
+  [[nodiscard]] std::span<const std::uint8_t> is_road() const noexcept { return is_road_; }
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return placed_.point_of_return;
   }
@@ -64,6 +66,7 @@ class FrameReader {
   LabelledScan labelled_;
   PlacedScan placed_;
   std::vector<Role> truth_;
+  std::vector<std::uint8_t> is_road_;
 };
 
 }  // namespace terracut::evaluation::report

@@ -116,9 +116,21 @@ std::string class_section(const Json& evaluation) {
   std::string html =
       "<section id=\"classes\"><h2>By class</h2>\n<p>Which share of the returns of a class is "
       "called ground, per cent, all frames together: 100 is right for ground, 0 for obstacles. Not "
-      "in the paper.</p>\n<div class=\"wide\"><table><thead><tr><th>class</th>"
+      "in the paper.";
+  if (any_tells_road(evaluation)) {
+    html +=
+        " Where a method tells the road surface from other ground, a second column has the share "
+        "that is called other ground: 0 is right for roads.";
+  }
+  html +=
+      "</p>\n<div class=\"wide\"><table><thead><tr><th>class</th>"
       "<th class=\"what\">counts as</th><th>returns</th>";
-  for (const std::string& method : method_names(evaluation)) html += header(escaped(method));
+  for (const std::string& method : method_names(evaluation)) {
+    html += header(escaped(method));
+    if (tells_road(evaluation.at("methods").at(method))) {
+      html += header("of it<br>other ground");
+    }
+  }
   html += "</tr></thead>\n<tbody>\n";
   for (const Json& entry : evaluation.at("methods").at(first).at("by_class")) {
     const int id = entry.at("id").get<int>();
@@ -129,9 +141,12 @@ std::string class_section(const Json& evaluation) {
         {"methods", first, "by_class", place_of(evaluation.at("methods").at(first), id), "points"});
     for (const std::string& method : method_names(evaluation)) {
       const std::string place = place_of(evaluation.at("methods").at(method), id);
-      html += place.empty()
-                  ? empty_cell()
-                  : cells.percent({"methods", method, "by_class", place, "share_as_ground"});
+      const auto share = [&](const char* of_what) {
+        return place.empty() ? empty_cell()
+                             : cells.percent({"methods", method, "by_class", place, of_what});
+      };
+      html += share("share_as_ground");
+      if (tells_road(evaluation.at("methods").at(method))) html += share("share_as_other_ground");
     }
     html += "</tr>\n";
   }

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "html.hpp"
+#include "table_parts.hpp"
 
 namespace terracut::evaluation::report {
 namespace {
@@ -24,15 +25,20 @@ std::string swatch(Colour colour, std::string_view what) {
                      colour.red, colour.green, colour.blue, what);
 }
 
-std::string truth_legend() {
-  return "<p class=\"legend\">Truth: " + swatch(colour_of(Role::kGround), "ground") +
+std::string truth_legend(bool with_road) {
+  return "<p class=\"legend\">Truth: " + (with_road ? swatch(kTrueRoadColour, "road") : "") +
+         swatch(colour_of(Role::kGround), with_road ? "other ground" : "ground") +
          swatch(colour_of(Role::kOrdinaryObstacle), "ordinary obstacle") +
          swatch(colour_of(Role::kKeyObstacle), "key obstacle") +
          swatch(colour_of(Role::kIgnored), "counts nowhere") + "</p>\n";
 }
 
-std::string verdict_legend() {
-  return "<p class=\"legend\">Methods: " + swatch(colour_of(Verdict::kGround), "ground found") +
+std::string verdict_legend(bool with_road) {
+  return "<p class=\"legend\">Methods: " +
+         swatch(colour_of(Verdict::kGround),
+                with_road ? "ground found; road, if the method tells it" : "ground found") +
+         (with_road ? swatch(colour_of(Verdict::kOtherGround), "ground found, told to be no road")
+                    : "") +
          swatch(colour_of(Verdict::kObstacle), "obstacle found") +
          swatch(colour_of(Verdict::kMissedKey), "key obstacle called ground") +
          swatch(colour_of(Verdict::kMissedOrdinary), "ordinary obstacle called ground") +
@@ -59,7 +65,9 @@ std::string score(const Json& evaluation, const std::string& method, const Chose
     const Json& value = of_frame->at(measure);
     return value.is_null() ? std::string("–") : fmt::format("{:.2f} %", 100 * value.get<double>());
   };
-  return fmt::format("IoU<sub>g</sub> {}, Recall<sub>o</sub> {}", text("iou_g"), text("recall_o"));
+  const bool with_road = tells_road(evaluation.at("methods").at(method));
+  return fmt::format("IoU<sub>g</sub> {}, Recall<sub>o</sub> {}{}", text("iou_g"), text("recall_o"),
+                     with_road ? "<br>road: IoU<sub>g</sub> " + text("iou_road") : "");
 }
 
 std::string not_shown(const Error& error) {
@@ -86,12 +94,13 @@ std::string frame_title(const ChosenFrame& frame) {
 
 std::string comparison_section(const Json& evaluation, const std::vector<ChosenFrame>& frames,
                                FramePictures& pictures, const OnFrame& on_frame) {
+  const bool with_road = any_tells_road(evaluation);
   std::string html =
       "<section id=\"comparison\"><h2>Side by side (Fig. 13, 14)</h2>\n<p>The middle frame of "
       "every "
       "sequence from above, 60 m wide, driving up, rings 10 m apart; all physical ground is "
       "ground. Mistakes lie on top.</p>\n" +
-      truth_legend() + verdict_legend();
+      truth_legend(with_road) + verdict_legend(with_road);
   for (const ChosenFrame& frame : frames) {
     html += fmt::format("<h3>{}</h3>\n", frame_title(frame));
     const Status opened = pictures.open(frame.sequence, frame.frame);
@@ -101,8 +110,9 @@ std::string comparison_section(const Json& evaluation, const std::vector<ChosenF
       continue;
     }
     html += "<div class=\"pictures small\">\n";
-    html += figure(pictures.truth(kSmall), "<b>truth</b><br>by the labels of the dataset",
-                   "truth of " + frame.sequence + "/" + frame.frame);
+    html +=
+        figure(pictures.truth(kSmall, with_road), "<b>truth</b><br>by the labels of the dataset",
+               "truth of " + frame.sequence + "/" + frame.frame);
     for (const auto& [name, method] : evaluation.at("methods").items()) {
       html += figure(pictures.result(name, kSmall),
                      fmt::format("<b>{}</b><br>{}", escaped(name), score(evaluation, name, frame)),
@@ -117,6 +127,7 @@ std::string comparison_section(const Json& evaluation, const std::vector<ChosenF
 std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>& frames,
                           FramePictures& pictures, const OnFrame& on_frame) {
   const std::string method = method_in_question(evaluation);
+  const bool with_road = tells_road(evaluation.at("methods").at(method));
   std::string html = fmt::format(
       "<section id=\"worst\"><h2>Where it fails (Fig. 16, 17)</h2>\n<p>Of every sequence the "
       "frames where <b>{}</b> has its lowest Recall<sub>o</sub> and its lowest IoU<sub>g</sub>; "
@@ -124,7 +135,7 @@ std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>
       "ahead in the middle: every missed obstacle red, ground "
       "called obstacle yellow.</p>\n",
       escaped(method));
-  html += truth_legend() + verdict_legend();
+  html += truth_legend(with_road) + verdict_legend(with_road);
   for (const ChosenFrame& frame : frames) {
     html += fmt::format("<h3>{}: {}</h3>\n<p>{}</p>\n", frame_title(frame), why_text(frame),
                         score(evaluation, method, frame));
@@ -137,8 +148,8 @@ std::string worst_section(const Json& evaluation, const std::vector<ChosenFrame>
     const BirdEyeView view = pictures.view_of_misses(method, kLargeSide);
     const std::string place = " of " + frame.sequence + "/" + frame.frame;
     html += "<div class=\"pictures large\">\n" +
-            figure(pictures.truth(view), fmt::format("truth, {:.0f} m wide", view.side_m),
-                   "truth" + place) +
+            figure(pictures.truth(view, with_road),
+                   fmt::format("truth, {:.0f} m wide", view.side_m), "truth" + place) +
             figure(pictures.marked_result(method, view), escaped(method), method + place) +
             "</div>\n<div class=\"pictures panorama\">\n" +
             figure(pictures.panorama(method), "from the sensor", "panorama" + place) + "</div>\n";

@@ -4,6 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "html.hpp"
 
 namespace terracut::evaluation::report {
@@ -25,6 +28,16 @@ std::vector<std::string> method_names(const Json& evaluation) {
   std::vector<std::string> names;
   for (const auto& [name, method] : evaluation.at("methods").items()) names.push_back(name);
   return names;
+}
+
+bool tells_road(const Json& method) {
+  return std::ranges::any_of(method.at("by_class"), [](const Json& entry) {
+    return entry.at("as_other_ground").get<std::uint64_t>() > 0;
+  });
+}
+
+bool any_tells_road(const Json& evaluation) {
+  return std::ranges::any_of(evaluation.at("methods"), tells_road);
 }
 
 }  // namespace terracut::evaluation::report

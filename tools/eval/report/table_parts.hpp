@@ -23,5 +23,9 @@ inline constexpr std::string_view kRoadGround = "IoU<sub>g</sub>, road alone";
 [[nodiscard]] std::string oracle_title(std::string_view name);
 /// All methods in the order of the evaluation.
 [[nodiscard]] std::vector<std::string> method_names(const Json& evaluation);
+/// Whether a method told any ground to be no road surface.
+[[nodiscard]] bool tells_road(const Json& method);
+/// Whether any of the methods did.
+[[nodiscard]] bool any_tells_road(const Json& evaluation);
 
 }  // namespace terracut::evaluation::report

@@ -93,8 +93,11 @@ def wanted(evaluation):
             yield f"/methods/{method}/mean_over_sequences/{scope}/{measure}"
         for band in results["by_range"]:
             yield f"/methods/{method}/by_range_road/{band}/iou_g"
+        tells_road = any(entry["as_other_ground"] > 0 for entry in results["by_class"])
         for place in range(len(results["by_class"])):
             yield f"/methods/{method}/by_class/{place}/share_as_ground"
+            if tells_road:
+                yield f"/methods/{method}/by_class/{place}/share_as_other_ground"
         for stage in results["ms"]:
             yield f"/methods/{method}/ms/{stage}/p50"
         yield f"/methods/{method}/ms/segment/max"

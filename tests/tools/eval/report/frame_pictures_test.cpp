@@ -24,11 +24,15 @@ std::size_t pixels_of(const Picture& picture, Colour colour) {
 
 class FramePicturesTest : public testing::Test {
  protected:
-  /// With a method that calls everything ground.
+  /// With a method that finds no road, and one that calls everything ground.
   [[nodiscard]] static EvaluationConfig config_of(const MadeUpDataset& dataset) {
     EvaluationConfig config;
     config.root = dataset.root();
-    config.methods = {*method_named("terracut"), *method_named("ring_map")};
+    config.methods = {*method_named("terracut"), *method_named("terracut_road"),
+                      *method_named("ring_map")};
+    MethodChoice& roadless = config.methods[1];
+    roadless.name = "roadless";
+    roadless.config.segmenter.road.vehicle_width_m = 100;
     MethodChoice& blind = config.methods.back();
     blind.name = "blind";
     blind.config.segmenter.elevation_map.obstacle_height_m = 1000;
@@ -46,19 +50,39 @@ class FramePicturesTest : public testing::Test {
 
 TEST(Verdict, SaysWhatBecameOfAReturn) {
   EXPECT_EQ(verdict_of(Role::kGround, Label::kGround), Verdict::kGround);
+  EXPECT_EQ(verdict_of(Role::kGround, Label::kOtherGround), Verdict::kOtherGround);
   EXPECT_EQ(verdict_of(Role::kGround, Label::kObstacle), Verdict::kFalseObstacle);
   EXPECT_EQ(verdict_of(Role::kKeyObstacle, Label::kGround), Verdict::kMissedKey);
   EXPECT_EQ(verdict_of(Role::kOrdinaryObstacle, Label::kGround), Verdict::kMissedOrdinary);
+  EXPECT_EQ(verdict_of(Role::kOrdinaryObstacle, Label::kOtherGround), Verdict::kMissedOrdinary);
   EXPECT_EQ(verdict_of(Role::kKeyObstacle, Label::kObstacle), Verdict::kObstacle);
   EXPECT_EQ(verdict_of(Role::kIgnored, Label::kGround), Verdict::kIgnored);
 }
 
 TEST_F(FramePicturesTest, ShowTheTruthInItsColours) {
   ASSERT_TRUE(pictures_.open("00", "000001"));
-  const Picture truth = pictures_.truth(view_);
+  const Picture truth = pictures_.truth(view_, false);
   for (const Role role : {Role::kGround, Role::kOrdinaryObstacle, Role::kKeyObstacle}) {
     EXPECT_GT(pixels_of(truth, colour_of(role)), 50U) << static_cast<int>(role);
   }
+}
+
+TEST_F(FramePicturesTest, ShowTheRoadApartWhereAskedTo) {
+  // In the made-up frames ground is road beyond 8 m, terrain nearer.
+  ASSERT_TRUE(pictures_.open("00", "000001"));
+  const Picture without = pictures_.truth(view_, false), with = pictures_.truth(view_, true);
+  EXPECT_EQ(pixels_of(without, kTrueRoadColour), 0U);
+  EXPECT_GT(pixels_of(with, kTrueRoadColour), 50U);
+  EXPECT_GT(pixels_of(with, colour_of(Role::kGround)), 50U);
+  EXPECT_LT(pixels_of(with, colour_of(Role::kGround)),
+            pixels_of(without, colour_of(Role::kGround)));
+}
+
+TEST_F(FramePicturesTest, ShowOtherGroundApartWhereAMethodTellsIt) {
+  ASSERT_TRUE(pictures_.open("00", "000001"));
+  const Colour other = colour_of(Verdict::kOtherGround);
+  EXPECT_EQ(pixels_of(pictures_.result("terracut", view_), other), 0U);
+  EXPECT_GT(pixels_of(pictures_.result("roadless", view_), other), 100U);
 }
 
 TEST_F(FramePicturesTest, ShowWhatWasMissedInRed) {
@@ -94,11 +118,11 @@ TEST_F(FramePicturesTest, MarkMissedKeyObstaclesAndHaveThemInView) {
 
 TEST_F(FramePicturesTest, GoFromSequenceToSequence) {
   ASSERT_TRUE(pictures_.open("00", "000000"));
-  const auto first = pictures_.truth(view_).png().value();
+  const auto first = pictures_.truth(view_, false).png().value();
   ASSERT_TRUE(pictures_.open("03", "000002"));
-  EXPECT_NE(pictures_.truth(view_).png().value(), first);
+  EXPECT_NE(pictures_.truth(view_, false).png().value(), first);
   ASSERT_TRUE(pictures_.open("00", "000000"));
-  EXPECT_EQ(pictures_.truth(view_).png().value(), first);
+  EXPECT_EQ(pictures_.truth(view_, false).png().value(), first);
 }
 
 TEST_F(FramePicturesTest, NameFramesThatCannotBeRead) {

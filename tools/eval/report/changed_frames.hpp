@@ -34,7 +34,7 @@ struct LabelledByAll {
 /// is wrong, white where their class counts nowhere. From any thread.
 class ChangedFrames {
  public:
-  static constexpr int kSide = 360;  ///< Pixels of either half.
+  static constexpr int kSide = 320;  ///< Pixels of either half.
 
   /// Both must outlive this.
   ChangedFrames(std::span<const MethodChoice> methods, const ClassTable& classes);

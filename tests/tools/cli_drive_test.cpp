@@ -211,6 +211,11 @@ TEST_F(Cli, BenchTimesDecodingAndEveryStage) {
   EXPECT_GT(bench["ms"]["total"]["p50"], 0.0);
   EXPECT_EQ(bench["returns_unlabelled"], 0);
   EXPECT_GE(bench["frames"], 6);
+  EXPECT_EQ(bench["frames_ms"].size(), bench["frames"]);
+  for (const auto& frame : bench["frames_ms"]) {
+    EXPECT_GT(frame["decode"], 0.0);
+    EXPECT_GT(frame["segment"], 0.0);
+  }
   EXPECT_EQ(bench["profile"], "terracut");
 }
 

@@ -62,6 +62,30 @@ TEST_F(CliEval, WritesAPageForPeople) {
   EXPECT_THAT(outcome.err, HasSubstr("taken"));
 }
 
+TEST_F(CliEval, TakesVariantsOfMethodsAndDrawsWhatTheyChange) {
+  const evaluation::MadeUpDataset made_up;
+  const std::string eval = dataset(made_up.root()) + "--variant blind=terracut,";
+  expect_done(eval +
+              "elevation_map.obstacle_height_m=2 --variant ring=ring_map --changes pictures");
+  const auto report = json("eval.json");
+  EXPECT_EQ(report.at("methods").at("blind").at("parameters").at("elevation_map.obstacle_height_m"),
+            "2");
+  EXPECT_LT(report["methods"]["blind"]["mean_over_sequences"]["all"]["recall_o"],
+            report["methods"]["terracut"]["mean_over_sequences"]["all"]["recall_o"]);
+  expect_same_scores(made_up.root());
+  EXPECT_GT(json("pictures/changes.json").at("blind").at("returns"), 0);
+  EXPECT_TRUE(fs::exists(folder_ / "pictures/blind.png"));
+  EXPECT_FALSE(fs::exists(folder_ / "eval.json.journal"));
+  EXPECT_EQ(run(eval + "elevation_map.height=2").exit_code, kUsage);
+  EXPECT_EQ(run(eval + "grid.max_band_m=2 --variant blind=paper").exit_code, kUsage);
+}
+
+TEST_F(CliEval, DoesNotGoOnWithAVariantOfTheSameNameButAnotherMethod) {
+  const evaluation::MadeUpDataset made_up;
+  expect_done(dataset(made_up.root()) + "--variant a=ring_map");
+  EXPECT_EQ(run(dataset(made_up.root()) + "--variant a=paper").exit_code, kUsage);
+}
+
 TEST_F(CliEval, GoesOnAfterItWasKilled) {
   const evaluation::MadeUpDataset made_up;
   expect_done(dataset(made_up.root()));

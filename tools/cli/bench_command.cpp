@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "console.hpp"
@@ -66,6 +67,7 @@ struct BenchResult {
   TimeSummary times;                        ///< Of whole frames.
   rt::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
   std::uint64_t frames = 0, returns = 0, unlabelled = 0;
+  std::vector<FrameRecord> each;  ///< In order, pass after pass.
 };
 
 /// One pass over the packets: decoding and segmenting, timed frame by frame.
@@ -80,6 +82,7 @@ void run_frames(Chain& chain, const PacketStore& packets, BenchResult* result) {
     if (result != nullptr && info.complete) {
       const FrameRecord record = record_of(info, segmented, decode_ns, clock.times());
       result->times.add(record);
+      result->each.push_back(record);
       ++result->frames;
       result->returns += record.returns_in;
       result->unlabelled += record.returns_in - record.returns_labelled;
@@ -101,6 +104,16 @@ double run_decoding(Chain& chain, const PacketStore& packets) {
   chain.decoder.flush(nothing);
   const std::uint64_t columns = chain.decoder.columns_decoded() - columns_before;
   return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
+}
+
+/// [{"decode", "segment"}, ..]: what the summary is made of.
+nlohmann::ordered_json frames_json(const std::vector<FrameRecord>& frames) {
+  auto list = nlohmann::ordered_json::array();
+  for (const FrameRecord& frame : frames) {
+    list.push_back({{"decode", static_cast<double>(frame.decode_ns) / 1e6},
+                    {"segment", static_cast<double>(segment_ns(frame)) / 1e6}});
+  }
+  return list;
 }
 
 ExitCode print(const BenchOptions& options, const BenchResult& result, int core) {
@@ -134,6 +147,7 @@ ExitCode print(const BenchOptions& options, const BenchResult& result, int core)
                                   {"p99", result.decode_column_ns.percentile_ns(99)},
                                   {"max", result.decode_column_ns.max_ns()}};
   json["ms"] = result.times.json();
+  json["frames_ms"] = frames_json(result.each);
   const Status written = rt::write_whole_file(options.json, json.dump(1) + "\n");
   return written ? kOk : refuse(written.error());
 }

@@ -123,6 +123,16 @@ Expected<EvaluationConfig> config_of(const EvalOptions& options) {
     }
     config.methods.push_back(*std::move(method));
   }
+  for (const std::string& text : options.variants) {
+    auto variant = evaluation::method_variant(text, options.settings);
+    if (!variant) return tl::unexpected(variant.error());
+    if (std::ranges::find(config.methods, variant->name, &evaluation::MethodChoice::name) !=
+        config.methods.end()) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("variant '{}': another one has its name", text));
+    }
+    config.methods.push_back(*std::move(variant));
+  }
   return config;
 }
 
@@ -162,7 +172,7 @@ std::string settings_line(const EvalOptions& options, const EvaluationConfig& co
                         drives.dual_return, drives.duration_s, drives.seed);
   }
   for (const evaluation::MethodChoice& method : config.methods) {
-    line += " " + method.name + "{";
+    line += fmt::format(" {}={}{{", method.name, method.base);
     for (const auto part : {pipeline::parameters(), pipeline::rival_parameters()}) {
       for (const pipeline::Parameter& parameter : part) {
         line +=
@@ -226,9 +236,9 @@ Expected<evaluation::EvaluationOutcome> evaluate_drives(
         if (!evaluating) evaluating.emplace("evaluating", "frames", static_cast<double>(of));
         evaluating->update(static_cast<double>(done));
       }};
-  return evaluation::evaluate_simulated(
-      {drives_of(options), config.frames, config.methods, config.mount, config.predictions},
-      journal ? &*journal : nullptr, progress, stop_wanted);
+  return evaluation::evaluate_simulated({drives_of(options), config.frames, config.methods,
+                                         config.mount, config.predictions, config.changed_frames},
+                                        journal ? &*journal : nullptr, progress, stop_wanted);
 }
 
 /// What a report's reader has to know of this dataset besides.
@@ -247,12 +257,17 @@ void add_facts_of_dataset(const EvalOptions& options, nlohmann::ordered_json& js
 }  // namespace
 
 ExitCode run(const EvalOptions& options) {
-  const auto config = config_of(options);
+  auto config = config_of(options);
   if (!config) return refuse(config.error());
   const auto classes = classes_of(options);
   if (!classes) return refuse(classes.error());
+  std::optional<evaluation::report::ChangedFrames> changed;
+  if (!options.changes.empty()) {
+    config->changed_frames = &changed.emplace(config->methods, *classes);
+  }
   std::optional<evaluation::Journal> journal;
-  if (!options.json.empty()) {
+  // Frames that a journal has are not labelled again, and their labels are not in it.
+  if (!options.json.empty() && options.changes.empty()) {
     auto opened = evaluation::Journal::open(journal_path(options), settings_line(options, *config));
     if (!opened) return refuse(opened.error());
     journal.emplace(*std::move(opened));
@@ -283,6 +298,10 @@ ExitCode run(const EvalOptions& options) {
   if (!options.report.empty() && !outcome->interrupted) {
     const Status written =
         draw_report(options.report, {json, *config, *classes, !is_simulated(options)});
+    if (!written) return refuse(written.error());
+  }
+  if (changed && !outcome->interrupted) {
+    const Status written = changed->write(options.changes);
     if (!written) return refuse(written.error());
   }
   return outcome->interrupted || !outcome->faults.empty() ? kInputRefused : kOk;

@@ -181,6 +181,7 @@ struct EvalOptions {
   std::vector<std::string> sequences;            ///< --sequences; empty: all with labels
   std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
   std::vector<std::string> methods{"terracut"};  ///< --method
+  std::vector<std::string> variants;             ///< --variant NAME=METHOD,KEY=VALUE,...
   std::vector<std::string> settings;             ///< --set KEY=VALUE, for every method, checked
   std::optional<std::string> through;            ///< --through image|packets; else the former
   int jobs = 0;                                  ///< --jobs; 0: one a core
@@ -193,6 +194,7 @@ struct EvalOptions {
   std::filesystem::path predictions;   ///< --predictions
   std::filesystem::path json;          ///< --json
   std::filesystem::path report;        ///< --report
+  std::filesystem::path changes;       ///< --changes; with it no journal
 };
 
 struct CompareOptions {

@@ -20,12 +20,6 @@ double milliseconds(std::int64_t ns) {
   return static_cast<double>(ns / 1000) / 1000.0;
 }
 
-std::int64_t segment_ns(const FrameRecord& frame) {
-  std::int64_t sum = 0;
-  for (const std::int64_t stage_ns : frame.times.stage_ns) sum += stage_ns;
-  return sum;
-}
-
 Json losses_json(const firmware_io::LossCounters& losses) {
   Json json = Json::object();
   for (const LossCause& cause : causes_of(losses)) json[cause.name] = cause.count;
@@ -115,6 +109,12 @@ std::string motion_sentence(std::uint64_t samples, const std::vector<FrameRecord
 }
 
 }  // namespace
+
+std::int64_t segment_ns(const FrameRecord& frame) noexcept {
+  std::int64_t sum = 0;
+  for (const std::int64_t stage_ns : frame.times.stage_ns) sum += stage_ns;
+  return sum;
+}
 
 FrameRecord record_of(const firmware_io::FrameInfo& info,
                       const pipeline::SegmentationReport& segmented, std::int64_t decode_ns,

@@ -39,6 +39,9 @@ struct FrameRecord {
                                     const pipeline::SegmentationReport& segmented,
                                     std::int64_t decode_ns, const StageTimes& times) noexcept;
 
+/// Processor time of all stages of a frame.
+[[nodiscard]] std::int64_t segment_ns(const FrameRecord& frame) noexcept;
+
 /// Times of all frames: per stage, decoding and the sum of both, and by the wall clock.
 struct TimeSummary {
   std::array<rt::LogLinearHistogram, pipeline::kStages> stages;

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "calib/ring_profile.hpp"
+#include "firmware_io/scan/label_file.hpp"
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
 #include "result_keeper.hpp"
@@ -147,6 +148,19 @@ class Run {
         return;
       }
     }
+    if (config_.changed_frames != nullptr && methods.size() == config_.methods.size()) {
+      show_changes(work, labeller, scan.scan);
+    }
+  }
+
+  void show_changes(const Work& work, const FrameLabeller& labeller,
+                    const firmware_io::KittiScan& scan) {
+    std::vector<std::uint16_t> classes;
+    for (const std::uint32_t point : labeller.placed().point_of_return) {
+      classes.push_back(firmware_io::semantic_class(scan.labels[point]));
+    }
+    config_.changed_frames->look({work.sequence->name, work.frame(), *labeller.placed().image,
+                                  classes, [&](std::size_t i) { return labeller.returns(i); }});
   }
 
   void note(const Work& work, std::string what) {

@@ -15,6 +15,7 @@
 #include "frame_result.hpp"
 #include "journal.hpp"
 #include "method_choice.hpp"
+#include "report/changed_frames.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::evaluation {
@@ -36,6 +37,8 @@ struct EvaluationConfig {
   bool through_packets = false;
   int jobs = 0;                       ///< Threads, each on a core of its own; 0: one a core.
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
+  /// Is shown every frame that all methods label; may be null.
+  report::ChangedFrames* changed_frames = nullptr;
 };
 
 /// Something that was not evaluated.

@@ -133,7 +133,7 @@ class MethodJson {
     const bool ours = method_.config.kind == pipeline::MethodKind::kSegmenter;
     const auto own = ours ? pipeline::parameters() : pipeline::rival_parameters();
     for (const pipeline::Parameter& parameter : own) {
-      if (!ours && !parameter.key.starts_with(method_.name + ".")) continue;
+      if (!ours && !parameter.key.starts_with(method_.base + ".")) continue;
       json["parameters"][std::string(parameter.key)] =
           pipeline::value_text(parameter, method_.config);
     }

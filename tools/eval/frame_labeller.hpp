@@ -38,6 +38,13 @@ class FrameLabeller {
   /// was lost on the way.
   [[nodiscard]] std::span<const pipeline::Label> points() const noexcept { return labels_; }
 
+  /// The scan as the methods see it, and what methods[index] found there, by return index of its
+  /// image: all methods' until the next scan.
+  [[nodiscard]] const PlacedScan& placed() const noexcept { return placed_; }
+  [[nodiscard]] std::span<const pipeline::Label> returns(std::size_t index) const {
+    return bench_->labels(index);
+  }
+
  private:
   [[nodiscard]] const pipeline::ImageShape& shape() const;
   [[nodiscard]] std::size_t return_capacity() const;

@@ -140,6 +140,18 @@ class DriveEvaluation {
         return;
       }
     }
+    if (config_.changed_frames != nullptr && methods.size() == config_.methods.size()) {
+      show_changes(frame, image);
+    }
+  }
+
+  void show_changes(const std::string& frame, const pipeline::RangeImage& image) {
+    std::vector<std::uint16_t> classes;
+    for (const std::uint32_t label : truth_) {
+      classes.push_back(firmware_io::semantic_class(label));
+    }
+    config_.changed_frames->look(
+        {scene_, frame, image, classes, [&](std::size_t i) { return bench_.labels(i); }});
   }
 
   void count(const pipeline::RangeImage& image, std::span<const pipeline::Label> labels,

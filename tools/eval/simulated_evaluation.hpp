@@ -32,6 +32,7 @@ struct SimulatedConfig {
   std::vector<MethodChoice> methods;
   calib::Mount mount;
   std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: a label a return.
+  report::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
 };
 
 /// Both from the calling thread or another, one at a time.

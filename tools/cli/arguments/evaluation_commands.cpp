@@ -29,6 +29,9 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
       ->delimiter(',')
       ->check(one_of("method.profile"))
       ->excludes("--method");
+  sub.add_option("--variant", o.variants,
+                 "NAME=METHOD,KEY=VALUE,...: one more, a method with other parameters; repeatable")
+      ->allow_extra_args(false);
   add_settings(sub, o.settings);
   sub.add_option("--through", o.through,
                  "image: scans straight into the range image; packets: encoded and decoded first")
@@ -53,6 +56,10 @@ void add_eval(CLI::App& sub, EvalOptions& o) {
                  "File for the results; FILE.journal beside it lets an interrupted run go on");
   sub.add_option("--report", o.report,
                  "Folder for index.html: the paper's tables and figures, and where methods fail");
+  sub.add_option("--changes", o.changes,
+                 "Folder for pictures: of every method but the first the frame it labels most\n"
+                 "differently from the first, METHOD.png, and what they show, changes.json;\n"
+                 "every frame is labelled, so there is no journal");
 }
 
 void add_compare(CLI::App& sub, CompareOptions& o) {

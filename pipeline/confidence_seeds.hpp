@@ -26,11 +26,11 @@ enum class CutRows : std::uint8_t {
 class ConfidenceSeeds {
  public:
   struct Config {
-    float ground_share = 0.8F;          ///< k: share of ground among the window's returns, [0, 1].
-    int window_rows = 2;                ///< Window reach up and down, row steps; [0, 8].
-    float row_step_deg = 0.25F;         ///< A row step covers at least this (RowSteps), [0, 5].
-    int window_columns = 3;             ///< Window reach to each side, columns; [0, 16].
-    float max_ground_height_m = 0.10F;  ///< Ground seeds lie no higher above the reference.
+    float ground_share = 0.8F;         ///< k: share of ground among the window's returns, [0, 1].
+    int window_rows = 2;               ///< Window reach up and down, row steps; [0, 8].
+    float row_step_deg = 0.25F;        ///< A row step covers at least this (RowSteps), [0, 5].
+    int window_columns = 3;            ///< Window reach to each side, columns; [0, 16].
+    float max_ground_height_m = 1e9F;  ///< Ground seeds lie no higher above the reference.
     float min_obstacle_height_m =
         0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
     bool trust_all_obstacles =

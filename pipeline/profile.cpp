@@ -32,7 +32,6 @@ SegmenterConfig paper_profile() noexcept {
   config.seeds.ground_share = 0.8F;
   config.seeds.row_step_deg = 0;
   config.seeds.rows = CutRows::kAll;
-  config.seeds.max_ground_height_m = 1e9F;
 
   config.region.rule = RegionRule::kHistogram;
   config.region.lambda = 1.0F;

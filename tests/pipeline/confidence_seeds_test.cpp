@@ -69,9 +69,12 @@ TEST_F(LabelledPlanes, LowObstaclesAreSeedsOnlyWhenSteep) {
   EXPECT_EQ(select(as_printed)[at(3, 9)], Seed::kObstacle);
 }
 
-TEST_F(LabelledPlanes, HighGroundIsNotTrusted) {
+TEST_F(LabelledPlanes, HighGroundIsNotTrustedIfAsked) {
   planes.height_m[at(5, 5)] = 0.12F;
-  EXPECT_EQ(select()[at(5, 5)], Seed::kUnknown);
+  EXPECT_EQ(select()[at(5, 5)], Seed::kGround);
+  ConfidenceSeeds::Config config;
+  config.max_ground_height_m = 0.10F;
+  EXPECT_EQ(select(config)[at(5, 5)], Seed::kUnknown);
 }
 
 TEST_F(LabelledPlanes, RowsThatNeverSeeGroundKeepTheirLabelsIfAsked) {

@@ -100,6 +100,7 @@ struct RowOfColumns {
   const std::uint8_t *is_ground, *is_bend;
   const float *bend_m, *low_m;
   const float* height_m;
+  const std::uint32_t* return_index;
   std::size_t stride;
 
   /// Asks for what the next row will need of some columns: six planes do not fit the cache that the
@@ -116,6 +117,7 @@ struct RowOfPatches {
   float *x_m, *y_m, *z_m, *range_m;
   std::uint8_t *has_ground, *has_obstacle;
   GroundPatches::Bends* bends;
+  std::uint32_t* arrival;
 };
 
 /// Sum of the values that are marked by 1, of others by 0.
@@ -153,6 +155,7 @@ void collect_patch(const RowOfColumns& row, std::size_t begin, Columns width,
   }
   left += begin;
   right += begin;
+  patches.arrival[patch] = row.return_index[left];
   const std::size_t bends = width.count_of(row.is_bend + begin);
   patches.has_obstacle[patch] = has_obstacle;
   patches.x_m[patch] = 0.5F * (row.x_m[left] + row.x_m[right]);
@@ -193,6 +196,8 @@ GroundPatches::GroundPatches(const Config& config, ImageShape shape, rt::FixedMe
     *values = memory.take<float>("ground patches", patches);
   }
   has_ground_ = memory.take<std::uint8_t>("ground patches", patches);
+  is_seam_ = memory.take<std::uint8_t>("ground patches", patches);
+  arrival_ = memory.take<std::uint32_t>("ground patches", per_row);
   has_obstacle_ = memory.take<std::uint8_t>("ground patches", patches);
   bend_m_ = memory.take<float>("ground patches", columns);
   low_m_ = memory.take<float>("ground patches", columns);
@@ -221,15 +226,21 @@ void GroundPatches::collect(const RangeImage& image, const CellPlanes& planes) n
   for (std::size_t number = 0; number < static_cast<std::size_t>(shape_.rows); ++number) {
     const std::size_t first = number * static_cast<std::size_t>(shape_.stride());
     const std::size_t first_patch = number * per_row;
-    const RowOfColumns row{&image.x_m()[first],     &image.y_m()[first],
-                           &image.z_m()[first],     &image.ground_range_m()[first],
-                           is_ground_.data(),       is_bend_.data(),
-                           bend_m_.data(),          low_m_.data(),
-                           &planes.height_m[first], static_cast<std::size_t>(shape_.stride())};
+    const RowOfColumns row{&image.x_m()[first],
+                           &image.y_m()[first],
+                           &image.z_m()[first],
+                           &image.ground_range_m()[first],
+                           is_ground_.data(),
+                           is_bend_.data(),
+                           bend_m_.data(),
+                           low_m_.data(),
+                           &planes.height_m[first],
+                           &image.return_index()[first],
+                           static_cast<std::size_t>(shape_.stride())};
     const RowOfPatches patches{&x_m_[first_patch],        &y_m_[first_patch],
                                &z_m_[first_patch],        &range_m_[first_patch],
                                &has_ground_[first_patch], &has_obstacle_[first_patch],
-                               &bends_[kMostPatchesOver]};
+                               &bends_[kMostPatchesOver], arrival_.data()};
     find_bends(row.z_m, &planes.label[first], columns, is_ground_.data(), is_bend_.data(),
                bend_m_.data());
     find_low(row.range_m, &planes.height_m[first], columns, config_.clearance_height_m,
@@ -245,7 +256,24 @@ void GroundPatches::collect(const RangeImage& image, const CellPlanes& planes) n
         collect_row(row, columns, ColumnsOf<0>(width), patches);
         break;
     }
+    find_seam(number, image.returns());
     smooth_roughness(number);
+  }
+}
+
+void GroundPatches::find_seam(std::size_t row, std::uint32_t returns) noexcept {
+  const auto per_row = static_cast<std::size_t>(per_row_);
+  const std::uint8_t* const has_ground = &has_ground_[row * per_row];
+  std::uint8_t* const is_seam = &is_seam_[row * per_row];
+  const auto is_apart = [&](std::size_t one, std::size_t other) {
+    const std::uint32_t least = std::min(arrival_[one], arrival_[other]);
+    const std::uint32_t most = std::max(arrival_[one], arrival_[other]);
+    return (most - least > returns / 2) & (has_ground[one] != 0) & (has_ground[other] != 0);
+  };
+  for (std::size_t i = 0; i < per_row; ++i) {
+    const std::size_t next = i + 1 < per_row ? i + 1 : 0;
+    is_seam[i] = is_apart(i, next) ? 1 : 0;
+    if (is_seam[i] != 0) bends_[kMostPatchesOver + i] = bends_[kMostPatchesOver + next] = {};
   }
 }
 

@@ -49,6 +49,9 @@ class GroundPatches {
   [[nodiscard]] std::span<const std::uint8_t> has_obstacle() const noexcept {
     return has_obstacle_;
   }
+  /// 1 where a ring's last returns of the turn and its first ones meet: in this patch or between it
+  /// and the next. The vehicle moved on between them, so heights do not fit together there.
+  [[nodiscard]] std::span<const std::uint8_t> is_seam() const noexcept { return is_seam_; }
   [[nodiscard]] int columns_per_patch() const noexcept { return columns_per_patch_; }
   /// Number of a patch along its row; the row goes on beyond both its ends.
   [[nodiscard]] int wrapped(int index) const noexcept {
@@ -78,6 +81,8 @@ class GroundPatches {
   };
 
  private:
+  /// Finds the seam in a row and forgets the bends across it. `returns`: of the turn.
+  void find_seam(std::size_t row, std::uint32_t returns) noexcept;
   void smooth_roughness(std::size_t row) noexcept;
 
   Config config_;
@@ -86,13 +91,14 @@ class GroundPatches {
   int per_row_;
   float spacing_rad_;
   std::span<float> x_m_, y_m_, z_m_, range_m_, roughness_m_;
-  std::span<std::uint8_t> has_ground_, has_obstacle_;
+  std::span<std::uint8_t> has_ground_, has_obstacle_, is_seam_;
   // Of the row in work:
   std::span<std::uint8_t> is_ground_, is_bend_;  // by column
   std::span<float> bend_m_, low_m_;              // by column, see find_bends() and find_low()
   std::span<Bends> bends_;                       // by patch, kMostPatchesOver more on both sides
   std::span<Bends> bends_before_;                // the same, those before each of them
-  std::span<std::int32_t> reach_;                // by patch, patches of the window to either side
+  std::span<std::uint32_t> arrival_;  // by patch, number of its first ground return in the turn
+  std::span<std::int32_t> reach_;     // by patch, patches of the window to either side
 };
 
 }  // namespace terracut::pipeline

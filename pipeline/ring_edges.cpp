@@ -116,7 +116,20 @@ std::span<const std::uint8_t> RingEdges::find(const GroundPatches& ground,
     is_edge_[i] = std::fabs(slope_[i]) > config_.slope && ground.has_ground()[first + i] != 0 &&
                   !goes_on_beside(ground, static_cast<int>(i));
   }
+  forget_at_seam(ground, first);
   return is_edge_;
+}
+
+void RingEdges::forget_at_seam(const GroundPatches& ground, std::size_t first) noexcept {
+  const auto is_seam = ground.is_seam().subspan(first, is_edge_.size());
+  for (auto seam = std::ranges::find(is_seam, 1); seam != is_seam.end();
+       seam = std::find(seam + 1, is_seam.end(), 1)) {
+    const auto last = static_cast<int>(seam - is_seam.begin());
+    const int reach = reach_[static_cast<std::size_t>(last)];
+    for (int i = last - reach; i <= last + 1 + reach; ++i) {
+      is_edge_[static_cast<std::size_t>(ground.wrapped(i))] = 0;
+    }
+  }
 }
 
 bool RingEdges::take_row(const GroundPatches& ground, const TerrainSlope& terrain,

@@ -40,6 +40,8 @@ class RingEdges {
   /// Makes the planes of a row with their margins; false if there is no ground in it.
   bool take_row(const GroundPatches& ground, const TerrainSlope& terrain,
                 std::size_t first) noexcept;
+  /// Takes back the edges whose windows lie on both sides of the turn's seam.
+  void forget_at_seam(const GroundPatches& ground, std::size_t first) noexcept;
   void find_slopes_across(int per_row) noexcept;
   /// Whether the ring is about as steep to either side of a patch as across it.
   [[nodiscard]] bool goes_on_beside(const GroundPatches& ground, int index) const noexcept;

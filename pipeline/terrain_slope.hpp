@@ -18,7 +18,7 @@ namespace terracut::pipeline {
 class TerrainSlope {
  public:
   struct Config {
-    float square_m = 10.0F;          ///< Side of a square; a plane covers three by three of them.
+    float square_m = 5.0F;           ///< Side of a square; a plane covers three by three of them.
     float max_roughness_m = 0.006F;  ///< Rougher ground has no say: banks beside the road.
   };
 

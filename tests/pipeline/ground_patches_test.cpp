@@ -161,6 +161,45 @@ TEST_F(PatchesOfARow, OfARowWithoutReturnsAreEmpty) {
   EXPECT_TRUE(std::isnan(patch(ground.per_row() + 3).range_m));
 }
 
+/// A turn that was begun in the middle of the row, in which the ground rose by 10 cm.
+struct SeamOfATurn : testing::Test {
+  static constexpr ImageShape kShape{2, 720};
+  static constexpr int kFirst = 300;  // column that arrived first
+
+  SeamOfATurn() {
+    for (int n = 0; n < kShape.columns; ++n) {
+      const int column = (kFirst + n) % kShape.columns;
+      for (int row = 0; row < kShape.rows; ++row) {
+        const auto cell = static_cast<std::size_t>(row * kShape.stride() + column);
+        const float z_m = 0.1F * static_cast<float>(n) / static_cast<float>(kShape.columns);
+        image.place(row, column, {static_cast<float>(column), 1, z_m, 20, 0});
+        planes.height_m[cell] = 0;
+        planes.label[cell] = Label::kGround;
+      }
+    }
+    ground.collect(image, planes);
+  }
+
+  rt::FixedMemory memory;
+  RangeImage image{kShape, 0, memory};
+  CellPlanes planes{kShape, memory};
+  GroundPatches ground{{}, kShape, memory};
+};
+
+TEST_F(SeamOfATurn, IsWhereTheLastReturnsMeetTheFirst) {
+  const int before = (kFirst - 1) / ground.columns_per_patch();
+  for (int row = 0; row < kShape.rows; ++row) {
+    for (int index = 0; index < ground.per_row(); ++index) {
+      const auto i = static_cast<std::size_t>(row * ground.per_row() + index);
+      EXPECT_EQ(ground.is_seam()[i], index == before) << row << ", " << index;
+    }
+  }
+}
+
+TEST_F(SeamOfATurn, IsNotRough) {
+  for (const float roughness_m : ground.roughness_m()) EXPECT_LT(roughness_m, 0.005F);
+}
+
 TEST_F(PatchesOfARow, GoOnBeyondBothEnds) {
   EXPECT_EQ(ground.wrapped(-1), 359);
   EXPECT_EQ(ground.wrapped(360), 0);

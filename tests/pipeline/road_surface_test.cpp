@@ -131,6 +131,34 @@ TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
   EXPECT_GT(road_share(4, 30, -2, 2), 0.97);
 }
 
+TEST_F(RoadSurfaceOfATurn, DoesNotEndWhereTheTurnEnds) {
+  // The vehicle came down by 15 cm while the head turned once, from behind to behind.
+  const auto place_turn = [&](int first_column) {
+    image.clear();
+    for (int n = 0; n < kShape.columns; ++n) {
+      const int column = (first_column + n) % kShape.columns;
+      for (int row = 0; row < kShape.rows; ++row) {
+        const double azimuth_rad = 2 * std::numbers::pi * (column + 0.5) / kShape.columns;
+        const double elevation_rad = profile.rings[static_cast<std::size_t>(row)].elevation_rad;
+        const double d = test::flat_ground()(azimuth_rad, elevation_rad);
+        if (!(d > 0) || d > 60) continue;
+        const double across_m = d * std::cos(elevation_rad);
+        const int from_behind = (column + kShape.columns / 2) % kShape.columns;
+        image.place(row, column,
+                    {static_cast<float>(across_m * std::cos(azimuth_rad)),
+                     static_cast<float>(-across_m * std::sin(azimuth_rad)),
+                     0.15F * static_cast<float>(from_behind) / static_cast<float>(kShape.columns),
+                     static_cast<float>(across_m), 0});
+      }
+    }
+    resegment();
+  };
+  place_turn(kShape.columns / 2);
+  EXPECT_GT(road_share(-20, -4, -0.1, 0.1), 0.97);
+  place_turn(0);  // had it begun ahead, there would be a step behind
+  EXPECT_LT(road_share(-20, -4, -0.1, 0.1), 0.1);
+}
+
 TEST_F(RoadSurfaceOfATurn, DoesNotGoOnBehindAWall) {
   // Walls around the vehicle, low enough for the ground behind them to be seen.
   segment(test::ground_with_boxes({{8, 8.3, -60, 60, -1, 0.8},

@@ -41,7 +41,7 @@ struct SlopeOfATurn : testing::Test {
   RangeImage image{kShape, 0, memory};
   CellPlanes planes{kShape, memory};
   GroundPatches ground{{}, kShape, memory};
-  TerrainSlope slope{{}, ground.x_m().size(), memory};
+  TerrainSlope slope{{.square_m = 10}, ground.x_m().size(), memory};
 };
 
 TEST_F(SlopeOfATurn, IsThatOfAPlane) {

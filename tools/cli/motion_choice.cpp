@@ -41,8 +41,9 @@ firmware_io::MotionFigure figure_of(const MotionFigureOptions& options) {
 
 Expected<firmware_io::MotionSignals> motion_signals_of(const MotionOptions& options) {
   if (options.dbc.empty()) {
-    return fail(ErrorCode::kInvalidArgument,
-                "no DBC file is given (--dbc, motion.dbc): it says what the vehicle's CAN frames mean");
+    return fail(
+        ErrorCode::kInvalidArgument,
+        "no DBC file is given (--dbc, motion.dbc): it says what the vehicle's CAN frames mean");
   }
   const auto file = firmware_io::read_dbc(options.dbc);
   if (!file) return tl::unexpected(file.error());

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cerrno>
+#include <iterator>
 #include <string_view>
 
 namespace terracut::rt {
@@ -181,18 +182,27 @@ std::string scheduling_in_force() {
                : "policy " + std::to_string(attributes.policy);
 }
 
-std::string cores_in_force() {
+std::vector<int> allowed_cores() {
+  std::vector<int> allowed;
   ::cpu_set_t cores;
-  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return {};
+  CPU_ZERO(&cores);
+  if (::sched_getaffinity(0, sizeof cores, &cores) != 0) return allowed;
+  for (int core = 0; core < CPU_SETSIZE; ++core) {
+    if (CPU_ISSET(static_cast<std::size_t>(core), &cores)) allowed.push_back(core);
+  }
+  return allowed;
+}
+
+std::string cores_in_force() {
+  const std::vector<int> cores = allowed_cores();
   std::string list;
-  for (std::size_t first = 0; first < CPU_SETSIZE; ++first) {
-    if (!CPU_ISSET(first, &cores)) continue;
-    std::size_t last = first;
-    while (last + 1 < CPU_SETSIZE && CPU_ISSET(last + 1, &cores)) ++last;
+  for (auto first = cores.begin(); first != cores.end();) {
+    auto last = first;
+    while (std::next(last) != cores.end() && *std::next(last) == *last + 1) ++last;
     if (!list.empty()) list += ',';
-    list += std::to_string(first);
-    if (last > first) list += '-' + std::to_string(last);
-    first = last;
+    list += std::to_string(*first);
+    if (last != first) list += '-' + std::to_string(*last);
+    first = std::next(last);
   }
   return list;
 }

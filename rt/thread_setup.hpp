@@ -50,7 +50,10 @@ struct ThreadWish {
 /// How the calling thread is scheduled: "SCHED_FIFO priority 50".
 [[nodiscard]] std::string scheduling_in_force();
 
-/// The cores the calling thread may run on: "0-3,6"; empty when the system does not tell.
+/// The cores the calling thread may run on, ascending; empty when the system does not tell.
+[[nodiscard]] std::vector<int> allowed_cores();
+
+/// The same as text: "0-3,6".
 [[nodiscard]] std::string cores_in_force();
 
 }  // namespace terracut::rt

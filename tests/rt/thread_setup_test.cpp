@@ -10,9 +10,11 @@
 #include <sched.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "tests/support/child_process.hpp"
 
@@ -34,6 +36,19 @@ int some_allowed_core() {
     if (CPU_ISSET(static_cast<std::size_t>(core), &cores)) return core;
   }
   return 0;
+}
+
+TEST(ThreadSetup, TellsTheCoresAThreadMayRunOn) {
+  const std::vector<int> everywhere = allowed_cores();
+  ASSERT_FALSE(everywhere.empty());
+  EXPECT_TRUE(std::is_sorted(everywhere.begin(), everywhere.end()));
+  EXPECT_EQ(everywhere.back(), some_allowed_core());
+  const int core = everywhere.front();
+  const auto pinned = in_own_thread([core] {
+    const auto grants = set_up_this_thread({.name = "pinned", .core = core});
+    return grants ? allowed_cores() : std::vector<int>{};
+  });
+  EXPECT_EQ(pinned, std::vector<int>{core});
 }
 
 TEST(ThreadSetup, GivesTheThreadItsName) {

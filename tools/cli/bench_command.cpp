@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
-#include <sched.h>
 
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -14,6 +13,7 @@
 #include "packet_chain.hpp"
 #include "packet_store.hpp"
 #include "report.hpp"
+#include "rt/thread_setup.hpp"
 #include "rt/whole_file.hpp"
 
 namespace terracut::cli {
@@ -25,18 +25,11 @@ using Chain = PacketChainOf<pipeline::GroundMethod>;
 /// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when
 /// the system does not allow it.
 int stay_on_core(int core) {
-  cpu_set_t allowed;
-  CPU_ZERO(&allowed);
-  if (::sched_getaffinity(0, sizeof(allowed), &allowed) != 0) return -1;
-  if (core < 0) {
-    for (int i = 0; i < CPU_SETSIZE; ++i) {
-      if (CPU_ISSET(static_cast<std::size_t>(i), &allowed)) core = i;
-    }
-  }
-  cpu_set_t one;
-  CPU_ZERO(&one);
-  CPU_SET(static_cast<std::size_t>(core), &one);
-  return ::sched_setaffinity(0, sizeof(one), &one) == 0 ? core : -1;
+  const std::vector<int> allowed = rt::allowed_cores();
+  if (core < 0 && !allowed.empty()) core = allowed.back();
+  if (core < 0) return -1;
+  const auto grants = rt::set_up_this_thread({.name = "terracut", .core = core});
+  return grants && rt::all_granted(*grants) ? core : -1;
 }
 
 std::string processor_name() {

@@ -18,6 +18,7 @@
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
 #include "result_keeper.hpp"
+#include "rt/thread_setup.hpp"
 
 namespace terracut::evaluation {
 namespace {
@@ -97,7 +98,7 @@ class Run {
   }
 
   void label_all() {
-    const std::vector<int> cores = allowed_cores();
+    const std::vector<int> cores = rt::allowed_cores();
     const std::size_t most = std::max<std::size_t>(1, cores.size());
     const std::size_t jobs = config_.jobs > 0 ? static_cast<std::size_t>(config_.jobs) : most;
     std::vector<std::jthread> threads;

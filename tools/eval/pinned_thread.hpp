@@ -8,11 +8,8 @@
 
 namespace terracut::evaluation {
 
-/// The cores this process may run on, ascending; empty when the system does not tell.
-[[nodiscard]] std::vector<int> allowed_cores();
-
-/// Names the calling thread and puts it on cores[index], beginning anew behind the last one. Where
-/// that is refused, only the accuracy of times suffers.
+/// Names the calling thread and puts it on cores[index] (rt::allowed_cores()), beginning anew
+/// behind the last one. Where that is refused, only the accuracy of times suffers.
 void pin_this_thread(const std::string& name, const std::vector<int>& cores, std::size_t index);
 
 }  // namespace terracut::evaluation

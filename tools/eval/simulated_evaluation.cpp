@@ -24,6 +24,7 @@
 #include "pinned_thread.hpp"
 #include "result_keeper.hpp"
 #include "rt/thread_cpu_clock.hpp"
+#include "rt/thread_setup.hpp"
 #include "tools/cli/temporary_folder.hpp"
 
 namespace terracut::evaluation {
@@ -244,7 +245,7 @@ class Run {
     Status status;
     // A thread of its own, for the core is given up again before the next drive's rays.
     std::thread([&] {
-      pin_this_thread("tc-eval-0", allowed_cores(), 0);
+      pin_this_thread("tc-eval-0", rt::allowed_cores(), 0);
       status = drive.run(capture, stop_wanted_);
     }).join();
     for (Fault& fault : drive.take_faults()) outcome_.faults.push_back(std::move(fault));

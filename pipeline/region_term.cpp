@@ -3,11 +3,32 @@
 #include "pipeline/region_term.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstring>
 #include <limits>
 
 #include "pipeline/portable_math.hpp"
 
 namespace terracut::pipeline {
+namespace {
+
+/// Calls `visit(cell)` for each unknown cell. Few cells are, and those lie together: eight are
+/// looked at at once.
+template <class Visit>
+void for_each_unknown(std::span<const Seed> seeds, Visit visit) noexcept {
+  constexpr std::uint64_t kAnyUnknown =
+      0x0101'0101'0101'0101 * static_cast<std::uint64_t>(Seed::kUnknown);
+  static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");
+  for (std::size_t first = 0; first < seeds.size(); first += sizeof(std::uint64_t)) {
+    std::uint64_t eight = 0;  // rows are padded to whole words
+    std::memcpy(&eight, &seeds[first], sizeof(eight));
+    for (std::uint64_t left = eight & kAnyUnknown; left != 0; left &= left - 1) {
+      visit(first + static_cast<std::size_t>(std::countr_zero(left)) / 8);
+    }
+  }
+}
+
+}  // namespace
 
 RegionTerm::RegionTerm(const Config& config, ImageShape shape, rt::FixedMemory& memory)
     : config_(config),
@@ -25,14 +46,13 @@ void RegionTerm::evaluate(const RangeImage& image, const CellPlanes& planes,
 
 void RegionTerm::evaluate_ramp(const CellPlanes& planes, std::span<const Seed> seeds) noexcept {
   const float full = config_.lambda * static_cast<float>(kCapacityScale);
-  for (std::size_t cell = 0; cell < seeds.size(); ++cell) {
-    if (seeds[cell] != Seed::kUnknown) continue;
+  for_each_unknown(seeds, [&](std::size_t cell) noexcept {
     const float lean =
         std::clamp((planes.height_m[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
     const auto cost = static_cast<std::int32_t>(lean * full);
     cost_ground_[cell] = std::max(cost, 0);
     cost_obstacle_[cell] = std::max(-cost, 0);
-  }
+  });
 }
 
 void RegionTerm::evaluate_histogram(const RangeImage& image, std::span<const Seed> seeds) noexcept {
@@ -54,12 +74,11 @@ void RegionTerm::evaluate_histogram(const RangeImage& image, std::span<const See
     if (seeds[cell] == Seed::kObstacle) ++obstacle[bin_of(cell)];
   }
   const BinCosts ground_costs = costs_of(ground), obstacle_costs = costs_of(obstacle);
-  for (std::size_t cell = 0; cell < seeds.size(); ++cell) {
-    if (seeds[cell] != Seed::kUnknown) continue;
+  for_each_unknown(seeds, [&](std::size_t cell) noexcept {
     const std::size_t bin = bin_of(cell);
     cost_ground_[cell] = ground_costs[bin];
     cost_obstacle_[cell] = obstacle_costs[bin];
-  }
+  });
 }
 
 RegionTerm::BinCosts RegionTerm::costs_of(const Histogram& counts) const noexcept {

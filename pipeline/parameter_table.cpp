@@ -313,6 +313,15 @@ Status set_parameter(MethodConfig& config, std::string_view key, std::string_vie
   return {};
 }
 
+Status apply_setting(MethodConfig& config, std::string_view setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string_view::npos) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("expected KEY=VALUE, found '{}'", setting));
+  }
+  return set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
+}
+
 std::string value_text(const Parameter& parameter, const MethodConfig& config) {
   const double value = parameter.get(config);
   return parameter.choices.empty()

@@ -34,6 +34,9 @@ struct Parameter {
 [[nodiscard]] Status set_parameter(MethodConfig& config, std::string_view key,
                                    std::string_view value);
 
+/// The same from "KEY=VALUE".
+[[nodiscard]] Status apply_setting(MethodConfig& config, std::string_view setting);
+
 /// The kind of method that looks at a parameter of parameters() or rival_parameters(); for the
 /// others it changes nothing.
 [[nodiscard]] MethodKind kind_that_heeds(std::string_view key) noexcept;

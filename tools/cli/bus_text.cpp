@@ -4,18 +4,12 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <string_view>
 #include <utility>
+
+#include "counts_text.hpp"
 
 namespace terracut::cli {
 namespace {
-
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::ranges::replace_if(result, [](char c) { return c < ' ' || c > '~'; }, '?');
-  return result;
-}
 
 double ms(double ns) {
   return ns * 1e-6;
@@ -42,12 +36,7 @@ std::vector<std::string> motion_lines(const rt::MotionFigures& motion) {
   if (motion.newest_sample_after_turn_ns != 0 || motion.taken_out > 0) {
     lines.push_back(clocks(motion));
   }
-  std::string faults;
-  for (const rt::NamedCount& fault : motion.faults_in_use()) {
-    if (fault.count == 0) continue;
-    faults += fmt::format("{}{} {}", faults.empty() ? "" : ", ", printable(fault.name.view()),
-                          fault.count);
-  }
+  std::string faults = counts_text(motion.faults_in_use());
   if (!faults.empty()) lines.push_back(std::move(faults));
   return lines;
 }

@@ -91,7 +91,7 @@ class Reader {
     }
     std::string text = fmt::format("{}={}", key.substr(kMethod.size()), value.Scalar());
     pipeline::MethodConfig scratch;
-    if (const Status valid = apply_setting(scratch, text); !valid) {
+    if (const Status valid = pipeline::apply_setting(scratch, text); !valid) {
       return refuse(value, fmt::format("{}{}", kMethod, valid.error().message));
     }
     configuration_.live.method.settings.push_back(std::move(text));

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "bus_text.hpp"
+#include "counts_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -19,12 +20,6 @@ constexpr std::int64_t kStale_ns = 3 * kSecond_ns;  // a page is written many ti
 
 double milliseconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-6;
-}
-
-std::string printable(std::string_view text) {
-  std::string result(text);
-  std::replace_if(result.begin(), result.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
-  return result;
 }
 
 /// "2 d 03:04:05"
@@ -156,12 +151,7 @@ class Dashboard {
   }
 
   void add_losses() {
-    std::string lost;
-    for (const rt::NamedCount& loss : figures_.losses_in_use()) {
-      if (loss.count == 0) continue;
-      lost +=
-          fmt::format("{}{} {}", lost.empty() ? "" : ", ", printable(loss.name.view()), loss.count);
-    }
+    const std::string lost = counts_text(figures_.losses_in_use());
     line("losses    {}", lost.empty() ? "none" : alarm(lost));
   }
 

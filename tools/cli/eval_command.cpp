@@ -117,7 +117,7 @@ Expected<EvaluationConfig> config_of(const EvalOptions& options) {
     auto method = evaluation::method_named(name);
     if (!method) return tl::unexpected(method.error());
     for (const std::string& setting : options.settings) {
-      if (const Status set = apply_setting(method->config, setting); !set) {
+      if (const Status set = pipeline::apply_setting(method->config, setting); !set) {
         return tl::unexpected(set.error());
       }
     }

@@ -3,6 +3,7 @@
 #include "live_summary.hpp"
 
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "json_text.hpp"
@@ -53,6 +54,14 @@ Json misses_json(const rt::MonitorSnapshot& figures) {
   return json;
 }
 
+Json counts_json(std::span<const rt::NamedCount> counts) {
+  Json json = Json::object();
+  for (const rt::NamedCount& counted : counts) {
+    json[std::string(counted.name.view())] = counted.count;
+  }
+  return json;
+}
+
 /// Where it is asked for.
 Json motion_json(const rt::MotionFigures& motion) {
   Json json{{"bus", motion.bus.view()},
@@ -67,10 +76,7 @@ Json motion_json(const rt::MotionFigures& motion) {
               {"min", milliseconds(motion.least_sample_after_turn_ns)},
               {"mean", milliseconds(motion.mean_sample_after_turn_ns())},
               {"max", milliseconds(motion.most_sample_after_turn_ns)}}}};
-  Json& faults = json["faults"] = Json::object();
-  for (const rt::NamedCount& fault : motion.faults_in_use()) {
-    faults[std::string(fault.name.view())] = fault.count;
-  }
+  json["faults"] = counts_json(motion.faults_in_use());
   return json;
 }
 
@@ -121,10 +127,7 @@ Json live_summary(const rt::MonitorSnapshot& figures) {
                   {"last_packet_ns", figures.last_packet_ns}};
   json["frames"] = frames_json(figures);
   json["misses"] = misses_json(figures);
-  Json& losses = json["losses"] = Json::object();
-  for (const rt::NamedCount& loss : figures.losses_in_use()) {
-    losses[std::string(loss.name.view())] = loss.count;
-  }
+  json["losses"] = counts_json(figures.losses_in_use());
   if (!figures.motion.bus.empty()) json["motion"] = motion_json(figures.motion);
   if (!figures.health.bus.empty()) json["health"] = health_json(figures.health);
   json["threads"] = threads_json(figures);

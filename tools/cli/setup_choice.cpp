@@ -48,15 +48,6 @@ Expected<calib::RingProfile> ring_profile_of(const calib::SensorCalibration& cal
   return profile;
 }
 
-Status apply_setting(pipeline::MethodConfig& config, std::string_view setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string_view::npos) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("expected KEY=VALUE, found '{}'", setting));
-  }
-  return pipeline::set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
-}
-
 Status check_heeded(std::span<const std::string> settings,
                     std::span<const pipeline::MethodKind> kinds) {
   for (const std::string& setting : settings) {
@@ -80,7 +71,8 @@ pipeline::MethodConfig method_config_of(const MethodOptions& options) {
   if (options.stages == "elevation") config.segmenter.last_stage = pipeline::Stage::kElevationMap;
   if (options.stages == "adjacent") config.segmenter.last_stage = pipeline::Stage::kAdjacentPoints;
   if (!options.method.empty()) config = pipeline::method_named(options.method).value();
-  for (const std::string& setting : options.settings) (void)apply_setting(config, setting);
+  for (const std::string& setting : options.settings)
+    (void)pipeline::apply_setting(config, setting);
   return config;
 }
 

@@ -23,9 +23,6 @@ namespace terracut::cli {
 [[nodiscard]] Expected<calib::RingProfile> ring_profile_of(
     const calib::SensorCalibration& calibration, const MountOptions& options);
 
-/// Applies one KEY=VALUE of --set.
-[[nodiscard]] Status apply_setting(pipeline::MethodConfig& config, std::string_view setting);
-
 /// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
 /// silently without effect. kInvalidArgument, naming it and whose it is.
 [[nodiscard]] Status check_heeded(std::span<const std::string> settings,

@@ -27,15 +27,6 @@ std::string_view take_part(std::string_view& text) {
   return part;
 }
 
-Status set(pipeline::MethodConfig& config, std::string_view setting) {
-  const std::size_t equals = setting.find('=');
-  if (equals == std::string_view::npos) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("expected KEY=VALUE, found '{}'", setting));
-  }
-  return pipeline::set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
-}
-
 }  // namespace
 
 Expected<MethodChoice> method_named(std::string_view name) {
@@ -66,13 +57,13 @@ Expected<MethodChoice> method_variant(std::string_view text,
   choice->name = name;
   if (!rest.empty()) choice->about += fmt::format("; {}", rest);
   for (const std::string& setting : settings) {
-    if (const Status made = set(choice->config, setting); !made) {
+    if (const Status made = pipeline::apply_setting(choice->config, setting); !made) {
       return refuse(made.error().message);
     }
   }
   while (!rest.empty()) {
     const std::string_view setting = take_part(rest);
-    if (const Status made = set(choice->config, setting); !made) {
+    if (const Status made = pipeline::apply_setting(choice->config, setting); !made) {
       return refuse(made.error().message);
     }
     const std::string_view key = setting.substr(0, setting.find('='));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "option_checks.hpp"
+#include "pipeline/parameter_table.hpp"
 #include "tools/cli/setup_choice.hpp"
 
 namespace terracut::cli {
@@ -71,7 +72,7 @@ void add_settings(CLI::App& app, std::vector<std::string>& settings) {
          "KEY=VALUE, any parameter of the method (`terracut parameters` lists them); repeatable")
       ->check([](const std::string& setting) {
         pipeline::MethodConfig scratch;
-        const Status valid = apply_setting(scratch, setting);
+        const Status valid = pipeline::apply_setting(scratch, setting);
         return valid ? std::string() : valid.error().message;
       })
       ->allow_extra_args(false);

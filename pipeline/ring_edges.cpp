@@ -16,6 +16,10 @@ constexpr float kSameSurface_m = 1.0F;
 /// How far to either side of an edge the ring is looked at for going on as steeply.
 constexpr float kBeside_m = 1.5F;
 constexpr float kNoGround_m = std::numeric_limits<float>::max();
+/// What steps the same way in so large a share of the rings runs through the sensor ...
+constexpr float kMostRings = 0.8F;
+/// ... if they are so many: fewer may all be near. An HDL-64E on a car has 30 on open ground.
+constexpr float kEnoughRings = 24;
 
 /// The planes of a row, each at its first patch; there is a margin before it and after the last.
 struct Row {
@@ -30,6 +34,11 @@ struct Sums {
 /// A factor, so that what depends on conditions below is arithmetic and the loops are vector code.
 inline float one_if(bool condition) noexcept {
   return condition ? 1.0F : 0.0F;
+}
+
+/// std::max() of values: with references to memory loops are not vector code.
+inline float greater(float one, float other) noexcept {
+  return one > other ? one : other;
 }
 
 /// Adds the patch `beside` places away to the sums of each, where it lies on the same surface.
@@ -76,6 +85,25 @@ TERRACUT_VECTOR_CLONES void find_slopes(const Sums left, const Sums right,
   }
 }
 
+/// Counts for each patch the rings in which there is ground to both sides of it, no farther away
+/// than `most_range_m`, and those that rise, or fall, across it by more than `step_m`, also against
+/// what they do beside it.
+TERRACUT_VECTOR_CLONES void add_steps(const Row row, float most_range_m, float step_m, int count,
+                                      float* __restrict rings, float* __restrict rises,
+                                      float* __restrict falls) noexcept {
+  for (int i = 0; i < count; ++i) {
+    const float nearer_m = greater(row.range_m[i - 1], row.range_m[i + 1]);
+    const float farther_m = greater(row.range_m[i - 3], row.range_m[i + 3]);
+    const float across_m = row.z_m[i + 1] - row.z_m[i - 1];
+    const float beside_m = row.z_m[i + 3] - row.z_m[i + 1] + (row.z_m[i - 1] - row.z_m[i - 3]);
+    const float against_m = across_m - 0.5F * beside_m;
+    const float is_known = one_if(greater(nearer_m, farther_m) < most_range_m);
+    rings[i] += is_known;
+    rises[i] += one_if(is_known * -greater(-across_m, -against_m) > step_m);
+    falls[i] += one_if(is_known * greater(across_m, against_m) < -step_m);
+  }
+}
+
 /// The ranges of patches with ground, and kNoGround_m for the others. False if there is none.
 TERRACUT_VECTOR_CLONES bool take_ranges(const float* range_m, const std::uint8_t* has_ground,
                                         std::size_t count, float* __restrict taken_m) noexcept {
@@ -91,16 +119,30 @@ TERRACUT_VECTOR_CLONES bool take_ranges(const float* range_m, const std::uint8_t
 }  // namespace
 
 RingEdges::RingEdges(const Config& config, const GroundPatches& ground, rt::FixedMemory& memory)
-    : config_(config) {
+    : config_(config), most_range_m_(config.width_m / ground.spacing_m(1)) {
   const auto per_row = static_cast<std::size_t>(ground.per_row());
   for (std::span<float>* values : {&x_m_, &y_m_, &z_m_, &range_m_}) {
     *values = memory.take<float>("ring edges", per_row + 2 * static_cast<std::size_t>(kMargin));
   }
   for (std::span<float>& values : sums_) values = memory.take<float>("ring edges", per_row);
+  for (std::span<float>* counts : {&rings_, &rises_, &falls_}) {
+    *counts = memory.take<float>("ring edges", per_row);
+  }
   terrain_ = memory.take<TerrainSlope::Gradient>("ring edges", per_row);
   slope_ = memory.take<float>("ring edges", per_row);
   reach_ = memory.take<std::int32_t>("ring edges", per_row);
   is_edge_ = memory.take<std::uint8_t>("ring edges", per_row);
+}
+
+void RingEdges::begin_turn() noexcept {
+  for (const std::span<float> counts : {rings_, rises_, falls_}) {
+    std::fill(counts.begin(), counts.end(), 0.0F);
+  }
+}
+
+bool RingEdges::runs_through_sensor(int index) const noexcept {
+  const auto i = static_cast<std::size_t>(index);
+  return rings_[i] >= kEnoughRings && std::max(rises_[i], falls_[i]) >= kMostRings * rings_[i];
 }
 
 std::span<const std::uint8_t> RingEdges::find(const GroundPatches& ground,
@@ -111,6 +153,7 @@ std::span<const std::uint8_t> RingEdges::find(const GroundPatches& ground,
     std::fill(is_edge_.begin(), is_edge_.end(), std::uint8_t{0});
     return is_edge_;
   }
+  count_steps(ground.per_row());
   find_slopes_across(ground.per_row());
   for (std::size_t i = 0; i < per_row; ++i) {
     is_edge_[i] = std::fabs(slope_[i]) > config_.slope && ground.has_ground()[first + i] != 0 &&
@@ -154,6 +197,12 @@ bool RingEdges::take_row(const GroundPatches& ground, const TerrainSlope& terrai
   for (std::size_t i = 0; i < per_row; ++i) terrain_[i] = terrain.at_patch(first + i);
   ground.count_patches_over(0.5F * config_.width_m, first / per_row, reach_);
   return true;
+}
+
+void RingEdges::count_steps(int per_row) noexcept {
+  const Row row{&x_m_[padded(0)], &y_m_[padded(0)], &z_m_[padded(0)], &range_m_[padded(0)]};
+  add_steps(row, most_range_m_, config_.slope * config_.width_m, per_row, rings_.data(),
+            rises_.data(), falls_.data());
 }
 
 void RingEdges::find_slopes_across(int per_row) noexcept {

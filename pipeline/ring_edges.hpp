@@ -26,11 +26,18 @@ class RingEdges {
   /// For patches like those of `ground`.
   RingEdges(const Config& config, const GroundPatches& ground, rt::FixedMemory& memory);
 
+  /// To be called before the rows of a turn. Real-time safe.
+  void begin_turn() noexcept TERRACUT_NONBLOCKING;
   /// 1 for each patch of a row across which there is an edge. Of patches without ground it says
   /// nothing. What it returns lasts until the next call. Real-time safe.
   [[nodiscard]] std::span<const std::uint8_t> find(const GroundPatches& ground,
                                                    const TerrainSlope& terrain,
                                                    int row) noexcept TERRACUT_NONBLOCKING;
+  /// Whether an edge goes up, or down, at this number of a patch in most rings of the turn, near
+  /// and far. No kerb does that but one that leads from under the vehicle to 20 m away, and that
+  /// bars no way. What does is the seam of a turn compensated for the vehicle's motion: its last
+  /// returns lie on the circles of another place than its first.
+  [[nodiscard]] bool runs_through_sensor(int index) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// Patches of a row, the first and the last; may lie beyond the seam.
@@ -42,6 +49,7 @@ class RingEdges {
                 std::size_t first) noexcept;
   /// Takes back the edges whose windows lie on both sides of the turn's seam.
   void forget_at_seam(const GroundPatches& ground, std::size_t first) noexcept;
+  void count_steps(int per_row) noexcept;
   void find_slopes_across(int per_row) noexcept;
   /// Whether the ring is about as steep to either side of a patch as across it.
   [[nodiscard]] bool goes_on_beside(const GroundPatches& ground, int index) const noexcept;
@@ -57,6 +65,10 @@ class RingEdges {
   }
 
   Config config_;
+  float most_range_m_;  // beyond it patches are longer than an edge is wide
+  // Of the rows found so far, by number of a patch, how many ...
+  std::span<float> rings_;          // have ground to both sides of it
+  std::span<float> rises_, falls_;  // and go up there, or down, more than beside it
   // Of the row in work, with the margin on both sides:
   std::span<float> x_m_, y_m_, z_m_;
   std::span<float> range_m_;  // far beyond everything where there is no ground

@@ -148,6 +148,7 @@ void RoadSurface::mark_returns(const RangeImage& image, const CellPlanes& planes
 }
 
 void RoadSurface::find_barriers() noexcept {
+  edges_.begin_turn();
   const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
     const std::size_t first = at(row, 0);
@@ -162,6 +163,24 @@ void RoadSurface::find_barriers() noexcept {
       const State without = has_ground[i] != 0 ? State::kGround : State::kEmpty;
       const bool bars = (is_rough[i] | is_edge[i] | has_obstacle[i]) != 0;
       state[i] = bars ? State::kBarrier : without;
+    }
+  }
+  open_seams();
+}
+
+void RoadSurface::open_seams() noexcept {
+  // A step makes the ground rough as far as that is looked for, and its upper side may be labelled
+  // obstacle. All of it is narrower than the vehicle: what else is in the way there, is beside it.
+  for (int index = 0; index < ground_.per_row(); ++index) {
+    if (!edges_.runs_through_sensor(index)) continue;
+    for (int row = 0; row < ground_.rows(); ++row) {
+      if (ground_.has_ground()[at(row, index)] == 0) continue;
+      const float range_m = ground_.range_m()[at(row, index)];
+      const int reach = ground_.patches_over(config_.patches.roughness_window_m, range_m);
+      for (int i = index - reach; i <= index + reach; ++i) {
+        const std::size_t patch = at(row, ground_.wrapped(i));
+        if (ground_.has_ground()[patch] != 0) state_[patch] = State::kGround;
+      }
     }
   }
 }

@@ -59,6 +59,8 @@ class RoadSurface {
   };
 
   void find_barriers() noexcept;
+  /// Takes back the barriers where an edge runs through the sensor.
+  void open_seams() noexcept;
   void drop_lone_barriers() noexcept;
   void measure_along_rings() noexcept;
   /// To the patches between a barrier and the next one of its ring, as far as they matter.

@@ -48,6 +48,24 @@ struct RoadSurfaceOfATurn : testing::Test, test::RivalScene {
                                     {8 + gap_m, 60, 3.5, 5.5, -1, kKerb_m},
                                     {-60, 60, -5.5, -3.5, -1, kKerb_m}});
   }
+  double azimuth_of(int column) const {
+    return 2 * std::numbers::pi * (column + 0.5) / kShape.columns;
+  }
+  double elevation_of(int row) const {
+    return profile.rings[static_cast<std::size_t>(row)].elevation_rad;
+  }
+  /// Share of a turn from straight behind to a column.
+  double since_behind(int column) const {
+    return static_cast<double>((column + kShape.columns / 2) % kShape.columns) / kShape.columns;
+  }
+  /// Puts a return into a cell, so far away and so high.
+  void place(int row, int column, double across_m, double z_m) {
+    const double azimuth_rad = azimuth_of(column);
+    image.place(row, column,
+                {static_cast<float>(across_m * std::cos(azimuth_rad)),
+                 static_cast<float>(-across_m * std::sin(azimuth_rad)), static_cast<float>(z_m),
+                 static_cast<float>(across_m), 0});
+  }
   /// The same world with the sensor's ground plane inclined: rises by so much a metre.
   static test::BeamCast inclined(const test::BeamCast& beams, double rise) {
     return [=](double azimuth_rad, double elevation_rad) {
@@ -115,16 +133,11 @@ TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
   constexpr int kRow = 30;
   for (int row = 0; row < kShape.rows; ++row) {
     for (int column = 0; column < kShape.columns; ++column) {
-      const double azimuth_rad = 2 * std::numbers::pi * (column + 0.5) / kShape.columns;
-      const double elevation_rad = profile.rings[static_cast<std::size_t>(row)].elevation_rad;
-      const double d = test::flat_ground()(azimuth_rad, elevation_rad);
+      const double elevation_rad = elevation_of(row);
+      const double d = test::flat_ground()(azimuth_of(column), elevation_rad);
       if (!(d > 0) || d > 60) continue;
       const bool step = row == kRow && column > 980;
-      const double across_m = d * std::cos(elevation_rad);
-      image.place(row, column,
-                  {static_cast<float>(across_m * std::cos(azimuth_rad)),
-                   static_cast<float>(-across_m * std::sin(azimuth_rad)), step ? 0.1F : 0.0F,
-                   static_cast<float>(across_m), 0});
+      place(row, column, d * std::cos(elevation_rad), step ? 0.1 : 0.0);
     }
   }
   resegment();
@@ -132,31 +145,61 @@ TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
 }
 
 TEST_F(RoadSurfaceOfATurn, DoesNotEndWhereTheTurnEnds) {
-  // The vehicle came down by 15 cm while the head turned once, from behind to behind.
+  // The vehicle came down by 15 cm while the head turned once, from behind to behind. So few rings
+  // see it that only the order of arrival tells the step from a kerb.
   const auto place_turn = [&](int first_column) {
     image.clear();
     for (int n = 0; n < kShape.columns; ++n) {
       const int column = (first_column + n) % kShape.columns;
       for (int row = 0; row < kShape.rows; ++row) {
-        const double azimuth_rad = 2 * std::numbers::pi * (column + 0.5) / kShape.columns;
-        const double elevation_rad = profile.rings[static_cast<std::size_t>(row)].elevation_rad;
+        const double azimuth_rad = azimuth_of(column), elevation_rad = elevation_of(row);
         const double d = test::flat_ground()(azimuth_rad, elevation_rad);
-        if (!(d > 0) || d > 60) continue;
-        const double across_m = d * std::cos(elevation_rad);
-        const int from_behind = (column + kShape.columns / 2) % kShape.columns;
-        image.place(row, column,
-                    {static_cast<float>(across_m * std::cos(azimuth_rad)),
-                     static_cast<float>(-across_m * std::sin(azimuth_rad)),
-                     0.15F * static_cast<float>(from_behind) / static_cast<float>(kShape.columns),
-                     static_cast<float>(across_m), 0});
+        if (!(d > 0) || d > 6) continue;
+        place(row, column, d * std::cos(elevation_rad), 0.15 * since_behind(column));
       }
     }
     resegment();
   };
   place_turn(kShape.columns / 2);
-  EXPECT_GT(road_share(-20, -4, -0.1, 0.1), 0.97);
+  EXPECT_GT(road_share(-6, -4, -0.1, 0.1), 0.97);
   place_turn(0);  // had it begun ahead, there would be a step behind
-  EXPECT_LT(road_share(-20, -4, -0.1, 0.1), 0.1);
+  EXPECT_LT(road_share(-6, -4, -0.1, 0.1), 0.1);
+}
+
+TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheSeamOfACompensatedTurn) {
+  // Returns moved to where they are seen from in the middle of a turn from behind to behind, then
+  // put back on their laser's rays, in another order.
+  constexpr double kDriven_m = 1.2;
+  for (int row = 0; row < kShape.rows; ++row) {
+    const double elevation_rad = elevation_of(row);
+    for (int column = 0; column < kShape.columns; ++column) {
+      const double azimuth_rad = azimuth_of(column);
+      const double d = test::flat_ground()(azimuth_rad, elevation_rad);
+      if (!(d > 0) || d > 60) continue;
+      const double moved_m = kDriven_m * (since_behind(column) - 0.5) * std::cos(azimuth_rad);
+      place(row, column, d * std::cos(elevation_rad) + moved_m, moved_m * std::tan(elevation_rad));
+    }
+  }
+  resegment();
+  EXPECT_GT(road_share(-20, -4.5, -1, 1), 0.97);
+}
+
+TEST_F(RoadSurfaceOfATurn, EndsAtAKerbUnderTheVehicleThatEndsNearBy) {
+  // The vehicle stands with its left wheels on a pavement that ends 8 m behind it.
+  segment(test::ground_with_boxes({{-8, 0, 0.05, 4, -1, kKerb_m}}));
+  EXPECT_EQ(road_share(-7, -4.5, 0.2, 3.5), 0.0);
+  EXPECT_GT(road_share(-9, -4.5, -5, -0.5), 0.97);
+}
+
+TEST_F(RoadSurfaceOfATurn, LeadsToBothSidesOfAnEdgeUnderTheVehicleThatLeadsFarAway) {
+  segment(test::ground_with_boxes({{-60, 0, 0.05, 6, -1, kKerb_m}}));
+  EXPECT_GT(road_share(-9, -4.5, 0.5, 5), 0.97);
+  EXPECT_GT(road_share(-9, -4.5, -5, -0.5), 0.97);
+}
+
+TEST_F(RoadSurfaceOfATurn, EndsAtAKerbBesideTheVehicleHoweverFarItLeads) {
+  segment(test::ground_with_boxes({{-60, 60, 1.3, 6, -1, kKerb_m}}));
+  EXPECT_LT(road_share(-15, 15, 1.5, 5.5), 0.01);
 }
 
 TEST_F(RoadSurfaceOfATurn, DoesNotGoOnBehindAWall) {

@@ -61,9 +61,9 @@ class Decoder {
     /// In dual return: which return owns a cell. All of them are placed and labelled.
     pipeline::CellOwner dual_owner = pipeline::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
-    /// A frame is handed over when the hindmost beam is so many packets past the seam, so that
-    /// packets reordered by as many still find their frame. Costs their time as latency, and one
-    /// firing's.
+    /// A frame is handed over when the hindmost beam of the packet so many before the newest is
+    /// past the seam, so that packets that come late by as many still find their frame. Costs their
+    /// time as latency, and that of the packet that shows it.
     int reorder_packets = 2;
     /// Takes the vehicle's motion out of every turn before it is handed over (FrameInfo::deskew).
     /// This decoder's thread is its reader, and the motion must outlive the decoder. Null: returns
@@ -105,6 +105,15 @@ class Decoder {
   void flush(OnFrame&& on_frame) noexcept {
     tracker_.end_of_stream(frames_.losses());
     frames_.flush(deskewed(on_frame));
+  }
+
+  /// The oldest turn that was not handed over yet, for whoever wants to begin with its columns
+  /// before it is whole. None of them is settled where motion will be taken out of the turn.
+  [[nodiscard]] ArrivingTurn arriving() noexcept {
+    if (!frames_.started()) return {};
+    const int columns = frames_.shape().columns, settled = settled_columns();
+    return {&frames_.image(frames_.oldest()), deskewer_ ? 0 : settled,
+            columns - settled <= columns / 50};
   }
 
   /// Since construction. Packets still expected out of order become losses a few packets later.
@@ -157,6 +166,13 @@ class Decoder {
     return steps_ticks_ / steps_;
   }
 
+  /// Of the oldest turn. Beams' columns are rounded, each by less than one.
+  [[nodiscard]] int settled_columns() const noexcept {
+    const std::int64_t settled_ticks = settled_ticks_ - frames_.oldest() * kTurn_ticks;
+    const std::int64_t columns = settled_ticks * frames_.shape().columns / kTurn_ticks - 1;
+    return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
+  }
+
   std::optional<Reject> reject(Reject reason) noexcept {
     ++frames_.losses().rejected[static_cast<std::size_t>(reason)];
     return reason;
@@ -199,7 +215,9 @@ class Decoder {
   std::optional<Deskewer> deskewer_;
   PacketHeads heads_;
   std::array<ColumnReturns<kLasers>, PacketHeads::kMaxColumns> found_{};  ///< Of one packet.
-  std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to here.
+  std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to here ...
+  std::int64_t settled_ticks_ = 0;   ///< ... and here nothing is expected any more.
+  std::int32_t last_sweep_ticks_ = 0;
   std::int64_t steps_ticks_ = 0, steps_ = 0;
   std::uint64_t packets_ = 0, columns_ = 0;
 };
@@ -264,11 +282,13 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
                       spread);
   place_packet(datagram.payload, placed.head_cdeg, first_turn == last_turn);
 
-  // Packets need not sweep alike: in the Ruby's dual return one firing and two in turn.
-  const std::int64_t settled_ticks =
-      std::max(most_ticks, frontier_ticks_ - heads_.step_ticks) + spread.hindmost_ticks -
-      std::int64_t{reorder_packets_} * heads_.sweep_ticks - heads_.step_ticks;
-  while (turn_of(settled_ticks) > frames_.oldest()) frames_.roll(deskewed(on_frame));
+  // The packets still expected begin here, but for the rounding of azimuths. Packets need not sweep
+  // alike: in the Ruby's dual return one firing and two in turn.
+  const std::int64_t sweep_ticks = std::max(heads_.sweep_ticks, last_sweep_ticks_);
+  last_sweep_ticks_ = heads_.sweep_ticks;
+  settled_ticks_ = frontier_ticks_ - (reorder_packets_ + 1) * sweep_ticks - step_ticks / 2 +
+                   spread.hindmost_ticks;
+  while (turn_of(settled_ticks_) > frames_.oldest()) frames_.roll(deskewed(on_frame));
   return std::nullopt;
 }
 

@@ -6,6 +6,7 @@
 
 #include "firmware_io/loss_counters.hpp"
 #include "firmware_io/motion/deskew_info.hpp"
+#include "pipeline/range_image.hpp"
 
 namespace terracut::firmware_io {
 
@@ -20,6 +21,15 @@ struct FrameInfo {
   bool complete = false;      ///< Every firing of the turn was seen, from seam to seam.
   LossCounters losses;        ///< What was lost since the frame before was handed over.
   DeskewInfo deskew;          ///< Whether the vehicle's motion was taken out of it.
+};
+
+/// The turn that is being filled.
+struct ArrivingTurn {
+  const pipeline::RangeImage* image = nullptr;
+  /// Columns [0, settled_columns) are complete but for packets that come late by more than the
+  /// decoder waits for; these may still change any of them.
+  int settled_columns = 0;
+  bool is_ending = false;  ///< It will be handed over within a fiftieth of a turn.
 };
 
 }  // namespace terracut::firmware_io

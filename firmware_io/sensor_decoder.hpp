@@ -80,6 +80,10 @@ class SensorDecoder {
     visit([&](auto& decoder) { decoder.flush(on_frame); });
   }
 
+  [[nodiscard]] ArrivingTurn arriving() noexcept {
+    return visit([](auto& decoder) { return decoder.arriving(); });
+  }
+
   [[nodiscard]] LossCounters losses() const noexcept {
     return visit([](const auto& decoder) { return decoder.losses(); });
   }

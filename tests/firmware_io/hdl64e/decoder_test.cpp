@@ -140,7 +140,8 @@ TEST(Hdl64eDecoder, ReadsTheBytesOfTheFormatsDescription) {
 }
 
 TEST(Hdl64eDecoder, HandsOverEachTurnOnceInOrderAndWhole) {
-  const auto packets = random_packets();  // from 11 degrees before a seam to 11 after the third
+  // From 11 degrees before a seam to 13 after the third.
+  const auto packets = random_packets({.last_cdeg = 37'300 + 2 * 36'000});
   Recorder recorder;
   recorder.decode_all(packets);
   // The frame of the last turn is handed over in the stream, not only by flush().

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <span>
@@ -23,62 +24,107 @@ double least_distance_m(double height_m, double lower_elevation_rad, double uppe
   return height_m * (tan_delta2 - tan_delta1) / (std::tan(max_slope_rad) * tan_delta2 + 1);
 }
 
-/// The planes one run of column pairs reads and writes, each already at its first cell.
-struct Run {
-  const float *lower_x, *lower_y, *lower_z, *lower_height;
-  const float *upper_x, *upper_y, *upper_z, *upper_height;
-  std::uint8_t *lower_steep, *upper_steep;
-  int count;
+/// The planes of a row's returns, each at its first column.
+struct Row {
+  const float *x_m, *y_m, *z_m, *height_m;
+  std::uint8_t* steep;
+
+  [[nodiscard]] Row from(int column) const noexcept {
+    return {x_m + column, y_m + column, z_m + column, height_m + column, steep + column};
+  }
+};
+struct RowPair {
+  Row lower, upper;
 };
 
 // The loops below are the stage. They have no branches, so that the compiler turns them into
-// vector code; comparisons with the NaN heights of empty cells are false. Everything they use is
-// copied first: a store through a byte pointer could change it, for all the compiler knows.
+// vector code; comparisons with the NaN heights of empty cells are false.
 
-/// Pairs whose step from lower to upper return is too steep: 1 in `steep`, else 0.
-TERRACUT_VECTOR_CLONES void find_steep_steps(const Run run, float min_rise_m,
-                                             float min_upper_height_m, float tan_max_slope_squared,
-                                             std::uint8_t* steep) noexcept {
-  constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
-  const int count = run.count;
-  for (int i = 0; i < count; ++i) {
-    const float dx = run.upper_x[i] - run.lower_x[i];
-    const float dy = run.upper_y[i] - run.lower_y[i];
-    const float rise = run.upper_z[i] - run.lower_z[i];
-    steep[i] = (rise >= min_rise_m) & ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
-               (run.upper_height[i] >= min_upper_height_m) & (run.lower_height[i] >= kAnyHeight);
+/// Columns taken at once, with one byte for each in a vector.
+constexpr int kTogether = 32;
+
+/// Calls `mark` for the rows shifted against each other by each offset of the upper column from
+/// the lower one, with the columns of which the right one is in `columns`.
+template <class Mark>
+[[gnu::always_inline]] inline void for_each_offset(const RowPair& rows, ColumnRange columns,
+                                                   int reach, Mark mark) noexcept {
+  for (int offset = -reach; offset <= reach; ++offset) {
+    const int begin = std::max(columns.begin, std::abs(offset));  // the left one is in the image
+    mark(RowPair{rows.lower.from(begin - std::max(offset, 0)),
+                 rows.upper.from(begin + std::min(offset, 0))},
+         columns.end - begin);
   }
 }
 
-/// Marks what find_steep_steps() found: the upper return, and the lower one where it is high
-/// enough.
-TERRACUT_VECTOR_CLONES void mark_steep_steps(const Run run, float min_lower_height_m,
-                                             const std::uint8_t* steep) noexcept {
-  const int count = run.count;
-  for (int i = 0; i < count; ++i) {
-    run.upper_steep[i] = static_cast<std::uint8_t>(run.upper_steep[i] | steep[i]);
+/// AdjacentRule::kSlope
+struct SlopeRule {
+  float min_rise_m, min_upper_height_m, min_lower_height_m, tan_max_slope_squared;
+
+  /// Marks the upper return of pairs whose step is too steep, and the lower one where it is high
+  /// enough.
+  [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
+    int first = 0;
+    for (; first + kTogether <= count; first += kTogether) mark_some(rows, first, kTogether);
+    mark_some(rows, first, count - first);
   }
-  for (int i = 0; i < count; ++i) {
-    const std::uint8_t is_high = run.lower_height[i] >= min_lower_height_m;
-    run.lower_steep[i] = static_cast<std::uint8_t>(run.lower_steep[i] | (steep[i] & is_high));
+
+ private:
+  /// At most kTogether.
+  [[gnu::always_inline]] void mark_some(const RowPair& rows, int first, int count) const noexcept {
+    constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
+    const Row lower = rows.lower.from(first), upper = rows.upper.from(first);
+    std::uint8_t is_steep[kTogether], is_high[kTogether];
+    for (int i = 0; i < count; ++i) {
+      const float dx = upper.x_m[i] - lower.x_m[i];
+      const float dy = upper.y_m[i] - lower.y_m[i];
+      const float rise = upper.z_m[i] - lower.z_m[i];
+      is_steep[i] = (rise >= min_rise_m) &
+                    ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
+                    (upper.height_m[i] >= min_upper_height_m) & (lower.height_m[i] >= kAnyHeight);
+      is_high[i] = lower.height_m[i] >= min_lower_height_m;
+    }
+    for (int i = 0; i < count; ++i) {
+      upper.steep[i] = static_cast<std::uint8_t>(upper.steep[i] | is_steep[i]);
+    }
+    for (int i = 0; i < count; ++i) {
+      lower.steep[i] = static_cast<std::uint8_t>(lower.steep[i] | (is_steep[i] & is_high[i]));
+    }
   }
+};
+
+/// AdjacentRule::kRingSpacing
+struct SpacingRule {
+  float bound_m;
+
+  /// Marks the upper return of pairs nearer to each other than the bound.
+  [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
+    const Row lower = rows.lower, upper = rows.upper;
+    const float bound_squared = bound_m * bound_m;
+    for (int i = 0; i < count; ++i) {
+      const float dx = upper.x_m[i] - lower.x_m[i];
+      const float dy = upper.y_m[i] - lower.y_m[i];
+      const bool is_steep = (dx * dx + dy * dy < bound_squared) &
+                            (upper.height_m[i] == upper.height_m[i]) &
+                            (lower.height_m[i] == lower.height_m[i]);
+      upper.steep[i] = static_cast<std::uint8_t>(upper.steep[i] | std::uint8_t{is_steep});
+    }
+  }
+};
+
+TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, ColumnRange columns, int reach,
+                                          const SlopeRule rule) noexcept {
+  for_each_offset(rows, columns, reach,
+                  [&](const RowPair& shifted, int count) { rule.mark(shifted, count); });
 }
 
-TERRACUT_VECTOR_CLONES void mark_by_ring_spacing(const Run run, float bound_m) noexcept {
-  const float bound_squared = bound_m * bound_m;
-  const int count = run.count;
-  for (int i = 0; i < count; ++i) {
-    const float dx = run.upper_x[i] - run.lower_x[i];
-    const float dy = run.upper_y[i] - run.lower_y[i];
-    const bool steep = (dx * dx + dy * dy < bound_squared) &
-                       (run.upper_height[i] == run.upper_height[i]) &
-                       (run.lower_height[i] == run.lower_height[i]);
-    run.upper_steep[i] = static_cast<std::uint8_t>(run.upper_steep[i] | std::uint8_t{steep});
-  }
+TERRACUT_VECTOR_CLONES void mark_by_spacing(const RowPair rows, ColumnRange columns, int reach,
+                                            const SpacingRule rule) noexcept {
+  for_each_offset(rows, columns, reach,
+                  [&](const RowPair& shifted, int count) { rule.mark(shifted, count); });
 }
 
 TERRACUT_VECTOR_CLONES void make_obstacles(std::span<const std::uint8_t> steep,
-                                           std::span<Label> label) noexcept {
+                                           Label* label) noexcept {
   for (std::size_t cell = 0; cell < steep.size(); ++cell) {
     label[cell] = steep[cell] != 0 ? Label::kObstacle : label[cell];
   }
@@ -94,9 +140,7 @@ AdjacentPoints::AdjacentPoints(const Config& config, const calib::RingProfile& p
           static_cast<float>(std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
       ring_spacing_m_(memory.take<float>(
           "adjacent points", static_cast<std::size_t>(config.last_row_step * shape.rows))),
-      upper_row_(memory.take<std::int32_t>("adjacent points", ring_spacing_m_.size())),
-      steep_pairs_(
-          memory.take<std::uint8_t>("adjacent points", static_cast<std::size_t>(shape.columns))) {
+      upper_row_(memory.take<std::int32_t>("adjacent points", ring_spacing_m_.size())) {
   const RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
   for (int step = 1; step <= config.last_row_step; ++step) {
     for (int row = 0; row < shape.rows; ++row) {
@@ -119,58 +163,79 @@ float AdjacentPoints::ring_spacing_m(int row, int row_step) const noexcept {
 }
 
 void AdjacentPoints::refine(const RangeImage& image, CellPlanes& planes) noexcept {
-  std::fill(planes.steep.begin(), planes.steep.end(), std::uint8_t{0});
-  const auto stride = static_cast<std::size_t>(shape_.stride());
-  for (int step = config_.first_row_step; step <= config_.last_row_step; ++step) {
-    for (int row = 0; row < shape_.rows; ++row) {
-      const int upper_row = upper_row_[static_cast<std::size_t>((step - 1) * shape_.rows + row)];
-      if (upper_row == shape_.rows) break;  // nor is there one for the rows above
-      const std::size_t lower = static_cast<std::size_t>(row) * stride;
-      for (int offset = -config_.column_reach; offset <= config_.column_reach; ++offset) {
-        mark(image,
-             {lower, static_cast<std::size_t>(upper_row) * stride, offset,
-              ring_spacing_m(row, step)},
-             planes);
-      }
-    }
-  }
-  make_obstacles(planes.steep, planes.label);
+  const ColumnRange all{0, shape_.columns};
+  forget(all, planes);
+  compare(image, all, planes);
+  compare_across_seam(image, planes);
+  mark(all, planes);
 }
 
-void AdjacentPoints::mark(const RangeImage& image, const RowPair& pair,
-                          CellPlanes& planes) const noexcept {
-  const auto mark_run = [&](int lower_column, int upper_column, int count) noexcept {
-    const std::size_t lower = pair.lower + static_cast<std::size_t>(lower_column);
-    const std::size_t upper = pair.upper + static_cast<std::size_t>(upper_column);
-    const Run run{&image.x_m()[lower],
-                  &image.y_m()[lower],
-                  &image.z_m()[lower],
-                  &planes.height_m[lower],
-                  &image.x_m()[upper],
-                  &image.y_m()[upper],
-                  &image.z_m()[upper],
-                  &planes.height_m[upper],
-                  &planes.steep[lower],
-                  &planes.steep[upper],
-                  count};
-    if (config_.rule == AdjacentRule::kSlope) {
-      find_steep_steps(run, config_.min_rise_m, config_.min_upper_height_m, tan_max_slope_squared_,
-                       steep_pairs_.data());
-      mark_steep_steps(run, config_.min_lower_height_m, steep_pairs_.data());
-    } else {
-      mark_by_ring_spacing(run, pair.bound_m);
+void AdjacentPoints::forget(ColumnRange columns, CellPlanes& planes) const noexcept {
+  for (int row = 0; row < shape_.rows; ++row) {
+    std::ranges::fill(planes.steep.subspan(shape_.cell(row, columns.begin), columns.size()),
+                      std::uint8_t{0});
+  }
+}
+
+void AdjacentPoints::mark(ColumnRange columns, CellPlanes& planes) const noexcept {
+  for (int row = 0; row < shape_.rows; ++row) {
+    const std::size_t first = shape_.cell(row, columns.begin);
+    make_obstacles(planes.steep.subspan(first, columns.size()), &planes.label[first]);
+  }
+}
+
+template <class Visit>
+void AdjacentPoints::for_each_row_pair(const RangeImage& image, CellPlanes& planes,
+                                       Visit visit) const noexcept {
+  const auto row_of = [&](int row) noexcept {
+    const std::size_t first = shape_.cell(row, 0);
+    return Row{&image.x_m()[first], &image.y_m()[first], &image.z_m()[first],
+               &planes.height_m[first], &planes.steep[first]};
+  };
+  for (int row = 0; row < shape_.rows; ++row) {
+    for (int step = config_.first_row_step; step <= config_.last_row_step; ++step) {
+      const int upper_row = upper_row_[static_cast<std::size_t>((step - 1) * shape_.rows + row)];
+      if (upper_row == shape_.rows) break;  // nor is there one so many steps up
+      visit(RowPair{row_of(row), row_of(upper_row)}, ring_spacing_m(row, step));
+    }
+  }
+}
+
+void AdjacentPoints::compare(const RangeImage& image, ColumnRange columns,
+                             CellPlanes& planes) noexcept {
+  // Whole vectors: to compare columns to the left once more changes nothing.
+  const int whole = (columns.end - columns.begin + kTogether - 1) / kTogether * kTogether;
+  columns.begin = std::max(columns.end - whole, 0);
+  if (config_.rule == AdjacentRule::kSlope) {
+    const SlopeRule rule{config_.min_rise_m, config_.min_upper_height_m, config_.min_lower_height_m,
+                         tan_max_slope_squared_};
+    for_each_row_pair(image, planes, [&](const RowPair& rows, float) noexcept {
+      mark_by_slope(rows, columns, reach(), rule);
+    });
+  } else {
+    for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
+      mark_by_spacing(rows, columns, reach(), SpacingRule{bound_m});
+    });
+  }
+}
+
+void AdjacentPoints::compare_across_seam(const RangeImage& image, CellPlanes& planes) noexcept {
+  const auto mark = [&](const RowPair& rows, auto rule) noexcept {
+    for (int offset = 1; offset <= reach(); ++offset) {
+      const int last = shape_.columns - offset;  // as many columns before the seam as after it
+      rule.mark({rows.lower.from(last), rows.upper}, offset);
+      rule.mark({rows.lower, rows.upper.from(last)}, offset);
     }
   };
-  // The columns close to a circle: the pairs beyond the seam are a second, short run.
-  const int columns = shape_.columns;
-  const int offset = pair.column_offset;
-  if (offset >= 0) {
-    mark_run(0, offset, columns - offset);
-    if (offset > 0) mark_run(columns - offset, 0, offset);
-  } else {
-    mark_run(-offset, 0, columns + offset);
-    mark_run(0, columns + offset, -offset);
-  }
+  const SlopeRule slope{config_.min_rise_m, config_.min_upper_height_m, config_.min_lower_height_m,
+                        tan_max_slope_squared_};
+  for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
+    if (config_.rule == AdjacentRule::kSlope) {
+      mark(rows, slope);
+    } else {
+      mark(rows, SpacingRule{bound_m});
+    }
+  });
 }
 
 }  // namespace terracut::pipeline

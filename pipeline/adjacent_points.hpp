@@ -40,28 +40,41 @@ class AdjacentPoints {
   AdjacentPoints(const Config& config, const calib::RingProfile& profile, ImageShape shape,
                  rt::FixedMemory& memory);
 
-  /// Fills `steep` and turns the label of steep returns to kObstacle. Real-time safe.
+  /// Fills `steep` and turns the label of steep returns to kObstacle. Real-time safe, as all of
+  /// this.
   void refine(const RangeImage& image, CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+
+  // The same column by column: forget(), then compare() them all, compare_across_seam(), and
+  // mark().
+
+  /// No return of these columns is steep.
+  void forget(ColumnRange columns, CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
+  /// Fills `steep` for the pairs of returns of which one is in these columns and the other in the
+  /// same column or one to the left of it.
+  void compare(const RangeImage& image, ColumnRange columns,
+               CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  /// The pairs of which one is in the first columns and the other in the last ones.
+  void compare_across_seam(const RangeImage& image,
+                           CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  /// Turns labels in these columns to kObstacle where they are steep.
+  void mark(ColumnRange columns, CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
+  /// Columns to either side that a column is compared with.
+  [[nodiscard]] int reach() const noexcept { return config_.column_reach; }
 
   /// Bound of Eq. 5 for the pair of `row` and the row `row_step` steps up, metres; 0 (no bound)
   /// where the upper beam never reaches the ground.
   [[nodiscard]] float ring_spacing_m(int row, int row_step) const noexcept;
 
  private:
-  struct RowPair {
-    std::size_t lower;  // first cell of the rows
-    std::size_t upper;
-    int column_offset;  // of the upper column from the lower one
-    float bound_m;      // Eq. 5
-  };
-  void mark(const RangeImage& image, const RowPair& pair, CellPlanes& planes) const noexcept;
+  /// Calls `visit(rows, Eq. 5's bound)` for all pairs of rows that are compared.
+  template <class Visit>
+  void for_each_row_pair(const RangeImage& image, CellPlanes& planes, Visit visit) const noexcept;
 
   Config config_;
   ImageShape shape_;
   float tan_max_slope_squared_;
-  std::span<float> ring_spacing_m_;      // [row_step - 1][row]
-  std::span<std::int32_t> upper_row_;    // likewise: the row that is so many steps up
-  std::span<std::uint8_t> steep_pairs_;  // of the pair of rows at hand, by column
+  std::span<float> ring_spacing_m_;    // [row_step - 1][row]
+  std::span<std::int32_t> upper_row_;  // likewise: the row that is so many steps up
 };
 
 }  // namespace terracut::pipeline

@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "pipeline/label.hpp"
@@ -25,7 +27,9 @@ struct CellPlanes {
   CellPlanes(ImageShape shape, rt::FixedMemory& memory)
       : height_m(memory.take<float>("cell planes", shape.cells())),
         label(memory.take<Label>("cell planes", shape.cells())),
-        steep(memory.take<std::uint8_t>("cell planes", shape.cells())) {}
+        steep(memory.take<std::uint8_t>("cell planes", shape.cells())) {
+    std::ranges::fill(height_m, std::numeric_limits<float>::quiet_NaN());  // padding stays so
+  }
 };
 
 }  // namespace terracut::pipeline

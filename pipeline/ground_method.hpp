@@ -77,12 +77,21 @@ class GroundMethod {
     }
   }
 
+  /// As Segmenter::advance(); rivals do nothing ahead.
+  void advance(const RangeImage& image, int settled_columns,
+               StageObserver* observer = nullptr) noexcept {
+    if (auto* segmenter = std::get_if<Segmenter>(&method_)) {
+      segmenter->advance(image, settled_columns, observer);
+    }
+  }
+
   /// Rivals report the stage that is most like theirs (their headers say which).
   [[nodiscard]] SegmentationReport segment(const RangeImage& image,
                                            StageObserver* observer = nullptr) noexcept {
     if (auto* segmenter = std::get_if<Segmenter>(&method_)) {
       return segmenter->segment(image, {}, observer);
     }
+    if (observer != nullptr) observer->resumed();
     return visit_rival(*this, [&](auto& rival) { return rival.segment(image, observer); });
   }
 

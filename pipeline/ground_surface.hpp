@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
 #include <span>
 
 #include "pipeline/ring_grid.hpp"
@@ -50,9 +51,29 @@ class GroundSurface {
 
   GroundSurface(const Config& config, const RingGrid& grid, rt::FixedMemory& memory);
 
-  /// Estimates the surface from the lowest return of each grid cell. Real-time safe.
+  /// Estimates the surface from the lowest return of each grid cell. Real-time safe, as all of
+  /// this.
   void estimate(const RingGrid& grid,
                 std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
+
+  // The same while a turn arrives: forget(), then walk() sectors as they become known, settle()
+  // those whose surface is wanted already, and at last settle_rest().
+
+  /// A new turn: no sector has been walked.
+  void forget() noexcept TERRACUT_NONBLOCKING;
+  /// The lowest returns of these sectors are known.
+  void walk(const RingGrid& grid, RingGrid::Sectors sectors,
+            std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
+  /// Estimates the surface in sectors that have been walked. Sectors that have not lend nothing
+  /// yet.
+  void settle(const RingGrid& grid, RingGrid::Sectors sectors,
+              std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
+  /// All sectors have been walked: the surface of the whole turn, whatever was settled before.
+  /// `is_current`, of each sector, becomes 0 where that changed the surface.
+  void settle_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
+                   std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
+  /// So many sectors to each side the surface of a sector depends on, but for strips.
+  [[nodiscard]] int reach() const noexcept { return reach_; }
 
   /// Ground height above the mount's plane in the middle of each grid cell; meaningful in cells
   /// that had a return and in the bands next to them.
@@ -78,6 +99,11 @@ class GroundSurface {
     float step(float to_range_m, float to_height_m, const Config& config) noexcept;
   };
 
+  template <class T>
+  [[nodiscard]] static std::span<T> of_sector(std::span<T> cells, const RingGrid& grid,
+                                              int sector) noexcept {
+    return cells.subspan(grid.cell(sector, 0), static_cast<std::size_t>(grid.bands()));
+  }
   void walk_outwards(const RingGrid& grid, int sector,
                      std::span<const LowestReturn> lowest) noexcept;
   /// Walks from `band` to the end of the sector; returns the last band that was ground, or -1.
@@ -93,15 +119,24 @@ class GroundSurface {
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
                                          const Walk& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
-  /// Takes back what was found again on a strip too narrow to be ground: car roofs in a row, say.
-  void drop_narrow_strips(const RingGrid& grid) noexcept;
-  void borrow_from_neighbours(const RingGrid& grid, std::span<const LowestReturn> lowest) noexcept;
+  /// Finds whose ground a sector may lend: that found in it, but for what was found again on a
+  /// strip too narrow to be ground (car roofs in a row, say).
+  void find_lenders(const RingGrid& grid, int sector) noexcept;
+  [[nodiscard]] bool lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept;
+  /// True where that changed the surface.
+  bool borrow_from_neighbours(const RingGrid& grid, int sector,
+                              std::span<const LowestReturn> lowest) noexcept;
   [[nodiscard]] float borrowed_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;
+  int reach_;
   std::span<float> walked_m_;
   std::span<float> height_m_;
-  std::span<Origin> origin_;
+  std::span<Origin> found_;               // by the walk; kPredicted in sectors not walked
+  std::span<Origin> origin_;              // without narrow strips
+  std::span<std::uint8_t> has_regained_;  // of each sector, anything of found_
+  std::span<std::uint8_t> is_open_;       // of each sector: its surface is not that of origin_ yet
+  std::span<std::int32_t> wide_from_;     // of each band: a strip of so many sectors is wide enough
 };
 
 }  // namespace terracut::pipeline

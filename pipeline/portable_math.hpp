@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "rt/nonblocking.hpp"
 
@@ -22,12 +23,15 @@ class NegativeExp {
   NegativeExp() noexcept;
 
   [[nodiscard]] float operator()(float t) const noexcept {
-    if (!(t < kEnd)) return 0.0F;
-    if (t <= 0.0F) return 1.0F;
-    const float position = t * kStepsPerUnit;
-    const auto step = static_cast<std::size_t>(position);
+    // No branches: near edges and far ones come in no order.
+    const bool is_inside = t < kEnd;  // and no NaN
+    const float inside = (is_inside & (t > 0.0F)) ? t : 0.0F;
+    const float position = inside * kStepsPerUnit;
+    const auto step = static_cast<std::int32_t>(position);
     const float share = position - static_cast<float>(step);
-    return table_[step] + share * (table_[step + 1] - table_[step]);
+    const float* const entry = &table_[static_cast<std::size_t>(step)];
+    const float value = entry[0] + share * (entry[1] - entry[0]);
+    return is_inside ? value : 0.0F;
   }
 
  private:

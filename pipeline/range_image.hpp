@@ -23,8 +23,20 @@ struct ImageShape {
   [[nodiscard]] constexpr std::size_t cells() const noexcept {
     return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride());
   }
+  [[nodiscard]] constexpr std::size_t cell(int row, int column) const noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride()) +
+           static_cast<std::size_t>(column);
+  }
   /// Degrees of azimuth a column covers.
   [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
+};
+
+/// Columns next to each other, [begin, end); not across the seam.
+struct ColumnRange {
+  int begin, end;
+  [[nodiscard]] constexpr std::size_t size() const noexcept {
+    return static_cast<std::size_t>(end - begin);
+  }
 };
 
 /// One echo in the vehicle frame (calib/mount.hpp).
@@ -108,6 +120,20 @@ class RangeImage {
   /// Moves all returns, each as its cell's row and column say; cells and heights stay. One of
   /// `by_row` for each row. Real-time safe.
   void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
+
+  /// Asks for a part of a row to be brought next to the core: parts too short for the processor to
+  /// foresee what comes next. Stamps, places and ranges.
+  void fetch(int row, ColumnRange columns) const noexcept {
+    constexpr std::size_t kCellsPerLine = 16;
+    const std::size_t end = shape_.cell(row, columns.end);
+    for (std::size_t cell = shape_.cell(row, columns.begin); cell < end; cell += kCellsPerLine) {
+      __builtin_prefetch(&stamp_[cell]);
+      __builtin_prefetch(&x_m_[cell]);
+      __builtin_prefetch(&y_m_[cell]);
+      __builtin_prefetch(&z_m_[cell]);
+      __builtin_prefetch(&ground_range_m_[cell]);
+    }
+  }
 
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }

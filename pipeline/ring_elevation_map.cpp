@@ -11,26 +11,31 @@
 namespace terracut::pipeline {
 namespace {
 
-/// Applies `reference_m(cell, sector)` to every return: its height above it, and the label it
-/// earns.
+/// Applies `reference_m(ground of the sector, range)` to every return: its height above it, and the
+/// label it earns.
 template <class Reference>
-void label_by_height(const RangeImage& image, const RingGrid& grid, float obstacle_height_m,
-                     CellPlanes& planes, Reference reference_m) noexcept {
+void label_by_height(const RangeImage& image, const RingGrid& grid, ColumnRange columns,
+                     float obstacle_height_m, CellPlanes& planes, Reference reference_m) noexcept {
   const ImageShape& shape = image.shape();
-  const auto z_m = image.z_m();
+  const auto z_m = image.z_m(), ground_range_m = image.ground_range_m();
+  constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
   for (int row = 0; row < shape.rows; ++row) {
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(shape.stride());
-    for (int column = 0; column < shape.stride(); ++column) {
-      const std::size_t cell = first + static_cast<std::size_t>(column);
-      if (!image.has_return(cell)) {
-        planes.height_m[cell] = std::numeric_limits<float>::quiet_NaN();
-        planes.label[cell] = Label::kNone;
-        continue;
+    if (row + 1 < shape.rows && columns.size() < kShort) image.fetch(row + 1, columns);
+    for (int column = columns.begin; column < columns.end;) {
+      const int sector = grid.sector_of(column);
+      const int end = std::min(grid.columns_of({sector, sector + 1}).end, columns.end);
+      const std::size_t ground = grid.cell(sector, 0);
+      for (; column < end; ++column) {
+        const std::size_t cell = shape.cell(row, column);
+        if (!image.has_return(cell)) {
+          planes.height_m[cell] = std::numeric_limits<float>::quiet_NaN();
+          planes.label[cell] = Label::kNone;
+          continue;
+        }
+        const float height_m = z_m[cell] - reference_m(ground, ground_range_m[cell]);
+        planes.height_m[cell] = height_m;
+        planes.label[cell] = height_m < obstacle_height_m ? Label::kGround : Label::kObstacle;
       }
-      const float height_m = z_m[cell] - reference_m(cell, grid.sector_of(column));
-      planes.height_m[cell] = height_m;
-      planes.label[cell] = height_m < obstacle_height_m ? Label::kGround : Label::kObstacle;
     }
   }
 }
@@ -50,17 +55,22 @@ GroundSurface::LowestReturn return_of(std::int64_t key) noexcept {
           std::bit_cast<float>(static_cast<std::int32_t>(key))};
 }
 
-/// Keys of a row; cells without a return get that of an empty grid cell.
-TERRACUT_VECTOR_CLONES void find_keys(const float* __restrict z_m, const float* __restrict range_m,
-                                      const std::uint32_t* __restrict stamp,
-                                      std::uint32_t generation,
-                                      std::span<std::int64_t> keys) noexcept {
+/// Keys of some cells; those without a return get that of an empty grid cell. Answers how many have
+/// one.
+TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
+                                               const float* __restrict range_m,
+                                               const std::uint32_t* __restrict stamp,
+                                               std::uint32_t generation,
+                                               std::span<std::int64_t> keys) noexcept {
   const std::size_t count = keys.size();
   std::int64_t* const __restrict out = keys.data();
+  std::uint32_t returns = 0;
+  for (std::size_t i = 0; i < count; ++i) returns += stamp[i] == generation;
   for (std::size_t i = 0; i < count; ++i) {
     const bool has_return = stamp[i] == generation;
     out[i] = key_of(has_return ? z_m[i] : GroundSurface::kEmpty, has_return ? range_m[i] : 0.0F);
   }
+  return returns;
 }
 
 }  // namespace
@@ -76,60 +86,91 @@ RingElevationMap::RingElevationMap(const Config& config, const calib::RingProfil
       row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())) {}
 
 void RingElevationMap::segment(const RangeImage& image, CellPlanes& planes) noexcept {
-  find_lowest_returns(image);
-  if (config_.reference == GroundReference::kCellMinimum) {
-    label_by_cell_minimum(image, planes);
-    return;
-  }
-  surface_.estimate(grid_, lowest_);
-  label_by_local_surface(image, planes);
+  forget();
+  walk_to(grid_.sectors(), image);
+  settle(grid_.all_sectors());
+  label(image, {0, image.shape().columns}, planes);
 }
 
-void RingElevationMap::find_lowest_returns(const RangeImage& image) noexcept {
+void RingElevationMap::forget() noexcept {
+  walked_ = 0;
+  seen_ = seen_overflow_ = 0;
+  was_overtaken_ = false;
   std::fill(lowest_key_.begin(), lowest_key_.end(), key_of(GroundSurface::kEmpty, 0.0F));
-  const ImageShape& shape = image.shape();
-  for (int row = 0; row < shape.rows; ++row) {
-    const std::size_t first =
-        static_cast<std::size_t>(row) * static_cast<std::size_t>(shape.stride());
-    find_keys(&image.z_m()[first], &image.ground_range_m()[first], &image.stamp()[first],
-              image.generation(), row_keys_);
-    grid_.find_steps(image.ground_range_m().subspan(first, row_steps_.size()), row_steps_);
-    for (int sector = 0; sector < grid_.sectors(); ++sector) {
-      const auto [begin, end] = grid_.columns_of(sector);
-      for (std::size_t column = begin; column < end; ++column) {
+  surface_.forget();
+}
+
+void RingElevationMap::walk_to(int end, const RangeImage& image) noexcept {
+  const RingGrid::Sectors sectors{walked_, end};
+  take_overflow(image);
+  if (walked_ == end) return;
+  take_columns(image, sectors);
+  for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
+    lowest_[i] = return_of(lowest_key_[i]);
+  }
+  if (config_.reference == GroundReference::kLocalSurface) surface_.walk(grid_, sectors, lowest_);
+  walked_ = end;
+}
+
+void RingElevationMap::take_columns(const RangeImage& image, RingGrid::Sectors sectors) noexcept {
+  const ColumnRange columns = grid_.columns_of(sectors);
+  const std::span<std::int64_t> keys = row_keys_.first(columns.size());
+  const std::span<std::uint16_t> steps = row_steps_.first(columns.size());
+  for (int row = 0; row < image.shape().rows; ++row) {
+    const std::size_t first = image.shape().cell(row, columns.begin);
+    seen_ += find_keys(&image.z_m()[first], &image.ground_range_m()[first], &image.stamp()[first],
+                       image.generation(), keys);
+    grid_.find_steps(image.ground_range_m().subspan(first, steps.size()), steps);
+    std::size_t i = 0;
+    for (int sector = sectors.begin; sector < sectors.end; ++sector) {
+      const std::size_t ground = grid_.cell(sector, 0);
+      for (const std::size_t end = i + grid_.columns_of({sector, sector + 1}).size(); i < end;
+           ++i) {
         std::int64_t& lowest =
-            lowest_key_[grid_.cell(sector, grid_.band_of_step(row_steps_[column]))];
-        lowest = std::min(lowest, row_keys_[column]);
+            lowest_key_[ground + static_cast<std::size_t>(grid_.band_of_step(steps[i]))];
+        lowest = std::min(lowest, keys[i]);
       }
     }
   }
-  for (const OverflowReturn& extra : image.overflow()) {
-    const int column = static_cast<int>(extra.cell % static_cast<std::uint32_t>(shape.stride()));
+}
+
+void RingElevationMap::take_overflow(const RangeImage& image) noexcept {
+  const auto stride = static_cast<std::uint32_t>(image.shape().stride());
+  for (const OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
+    const int sector = grid_.sector_of(static_cast<int>(extra.cell % stride));
+    was_overtaken_ |= sector < walked_;
     std::int64_t& lowest =
-        lowest_key_[grid_.cell(grid_.sector_of(column), grid_.band_of(extra.echo.ground_range_m))];
+        lowest_key_[grid_.cell(sector, grid_.band_of(extra.echo.ground_range_m))];
     lowest = std::min(lowest, key_of(extra.echo.z_m, extra.echo.ground_range_m));
   }
-  for (std::size_t i = 0; i < lowest_.size(); ++i) lowest_[i] = return_of(lowest_key_[i]);
+  seen_overflow_ = image.overflow().size();
 }
 
-void RingElevationMap::label_by_cell_minimum(const RangeImage& image,
-                                             CellPlanes& planes) const noexcept {
-  const auto ground_range_m = image.ground_range_m();
-  label_by_height(
-      image, grid_, config_.obstacle_height_m, planes, [&](std::size_t cell, int sector) {
-        return lowest_[grid_.cell(sector, grid_.band_of(ground_range_m[cell]))].height_m;
-      });
+void RingElevationMap::settle(RingGrid::Sectors sectors) noexcept {
+  if (config_.reference == GroundReference::kLocalSurface) surface_.settle(grid_, sectors, lowest_);
 }
 
-void RingElevationMap::label_by_local_surface(const RangeImage& image,
-                                              CellPlanes& planes) const noexcept {
-  const auto ground_range_m = image.ground_range_m();
-  const auto surface_m = surface_.height_m();
-  label_by_height(image, grid_, config_.obstacle_height_m, planes,
-                  [&](std::size_t cell, int sector) {
-                    const RingGrid::BandMix& mix = grid_.mix_of(ground_range_m[cell]);
-                    const float inner_m = surface_m[grid_.cell(sector, mix.inner)];
-                    const float outer_m = surface_m[grid_.cell(sector, mix.outer)];
+void RingElevationMap::settle_rest(std::span<std::uint8_t> is_current) noexcept {
+  if (config_.reference == GroundReference::kLocalSurface) {
+    surface_.settle_rest(grid_, lowest_, is_current);
+  }
+}
+
+void RingElevationMap::label(const RangeImage& image, ColumnRange columns,
+                             CellPlanes& planes) const noexcept {
+  if (config_.reference == GroundReference::kCellMinimum) {
+    label_by_height(
+        image, grid_, columns, config_.obstacle_height_m, planes,
+        [&](std::size_t ground, float range_m) {
+          return lowest_[ground + static_cast<std::size_t>(grid_.band_of(range_m))].height_m;
+        });
+    return;
+  }
+  label_by_height(image, grid_, columns, config_.obstacle_height_m, planes,
+                  [&, surface_m = surface_.height_m()](std::size_t ground, float range_m) {
+                    const RingGrid::BandMix& mix = grid_.mix_of(range_m);
+                    const float inner_m = surface_m[ground + mix.inner];
+                    const float outer_m = surface_m[ground + mix.outer];
                     return inner_m + mix.outer_share * (outer_m - inner_m);
                   });
 }

@@ -33,23 +33,51 @@ class RingElevationMap {
   RingElevationMap(const Config& config, const calib::RingProfile& profile, ImageShape shape,
                    rt::FixedMemory& memory);
 
-  /// Fills `height_m` and `label` of every cell. Real-time safe.
+  /// Fills `height_m` and `label` of every cell. Real-time safe, as all of this.
   void segment(const RangeImage& image, CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+
+  // The same while a turn arrives: forget(), then walk() sector after sector, settle() what is to
+  // be labelled already, settle_rest() when all have been walked, and label() whatever was settled.
+
+  /// A new turn.
+  void forget() noexcept TERRACUT_NONBLOCKING;
+  /// All columns of the sectors from walked() to `end` are there.
+  void walk_to(int end, const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int walked() const noexcept { return walked_; }
+  /// False where a return came after its sector had been walked: what was found is of no use then.
+  /// Once all sectors have been walked.
+  [[nodiscard]] bool saw_all_of(const RangeImage& image) const noexcept {
+    return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
+  }
+  void settle(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
+  /// As GroundSurface::settle_rest().
+  void settle_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
+  /// Sectors to either side that have to be walked for a sector to be settled for good.
+  [[nodiscard]] int reach() const noexcept {
+    return config_.reference == GroundReference::kLocalSurface ? surface_.reach() : 0;
+  }
+  /// Fills `height_m` and `label` of some columns.
+  void label(const RangeImage& image, ColumnRange columns,
+             CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
   [[nodiscard]] const GroundSurface& surface() const noexcept { return surface_; }
 
  private:
-  void find_lowest_returns(const RangeImage& image) noexcept;
-  void label_by_cell_minimum(const RangeImage& image, CellPlanes& planes) const noexcept;
-  void label_by_local_surface(const RangeImage& image, CellPlanes& planes) const noexcept;
+  void take_overflow(const RangeImage& image) noexcept;
+  void take_columns(const RangeImage& image, RingGrid::Sectors sectors) noexcept;
 
   Config config_;
   RingGrid grid_;
   GroundSurface surface_;
+  int walked_ = 0;                 // sectors
+  std::size_t seen_ = 0;           // returns that own a cell of these
+  std::size_t seen_overflow_ = 0;  // returns of the overflow list, wherever they are
+  bool was_overtaken_ = false;
   std::span<GroundSurface::LowestReturn> lowest_;  // per grid cell
   std::span<std::int64_t> lowest_key_;             // the same while it is being found
-  // Of one row, by column: its returns' keys, and their ranges in the grid's steps.
+  // Of one row, from the first column at hand: its returns' keys, and their ranges in the grid's
+  // steps.
   std::span<std::int64_t> row_keys_;
   std::span<std::uint16_t> row_steps_;
 };

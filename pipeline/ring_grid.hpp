@@ -72,13 +72,19 @@ class RingGrid {
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
   }
-  /// Image columns of a sector, [begin, end).
-  struct Columns {
-    std::size_t begin, end;
+  /// Sectors next to each other, [begin, end); not across the seam.
+  struct Sectors {
+    int begin, end;
   };
-  [[nodiscard]] Columns columns_of(int sector) const noexcept {
-    const auto i = static_cast<std::size_t>(sector);
-    return {first_column_[i], first_column_[i + 1]};
+  [[nodiscard]] Sectors all_sectors() const noexcept { return {0, sectors_}; }
+  /// A sector's number less than one turn beyond either end, brought back onto the circle.
+  [[nodiscard]] int wrapped(int sector) const noexcept {
+    return sector < 0 ? sector + sectors_ : sector >= sectors_ ? sector - sectors_ : sector;
+  }
+  /// Image columns of sectors.
+  [[nodiscard]] ColumnRange columns_of(Sectors sectors) const noexcept {
+    return {first_column_[static_cast<std::size_t>(sectors.begin)],
+            first_column_[static_cast<std::size_t>(sectors.end)]};
   }
 
  private:

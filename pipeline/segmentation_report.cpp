@@ -2,17 +2,25 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/segmentation_report.hpp"
 
-#include <algorithm>
+#include "rt/vector_clones.hpp"
 
 namespace terracut::pipeline {
+namespace {
+
+/// As std::count(), whose wide result keeps it from being vector code.
+TERRACUT_VECTOR_CLONES std::uint32_t count_of(std::span<const Label> labels,
+                                              Label wanted) noexcept {
+  std::uint32_t count = 0;
+  for (const Label label : labels) count += label == wanted ? 1U : 0U;
+  return count;
+}
+
+}  // namespace
 
 void SegmentationReport::count(std::span<const Label> labels) noexcept {
   returns = static_cast<std::uint32_t>(labels.size());
-  const auto of = [&](Label label) {
-    return static_cast<std::uint32_t>(std::count(labels.begin(), labels.end(), label));
-  };
-  other_ground = of(Label::kOtherGround);
-  ground = of(Label::kGround) + other_ground;
+  other_ground = count_of(labels, Label::kOtherGround);
+  ground = count_of(labels, Label::kGround) + other_ground;
   obstacles = returns - ground;
 }
 

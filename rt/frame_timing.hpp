@@ -83,6 +83,7 @@ struct FrameTiming {
 
   std::uint64_t cut_operations = 0;
   Rung rung = Rung::kFull;
+  std::uint8_t stages_ahead = 0;  ///< So many of the first stages were over at hand-over.
 
   FrameMotion motion = FrameMotion::kNotAsked;
   /// Stamp of the vehicle's newest motion known at hand-over, less the instant of the turn's last

@@ -17,8 +17,10 @@ const ImageShape kShape{8, 40};
 struct LabelledPlanes : testing::Test {
   LabelledPlanes() : planes(kShape, memory) {
     for (int row = 0; row < kShape.rows; ++row) {
-      for (int column = 0; column < kShape.columns; ++column)
+      for (int column = 0; column < kShape.columns; ++column) {
         planes.label[at(row, column)] = Label::kGround;
+        planes.height_m[at(row, column)] = 0;
+      }
     }
   }
   static std::size_t at(int row, int column) {

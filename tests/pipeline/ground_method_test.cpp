@@ -92,8 +92,10 @@ TEST_P(EveryMethod, HasNoLabelsForAnEmptyTurn) {
 
 TEST_P(EveryMethod, ReportsItsLastStageToTheObserver) {
   struct Recorder : StageObserver {
-    void stage_done(Stage stage) noexcept override { seen.push_back(stage); }
-    std::vector<Stage> seen;
+    void stage_done(Stage stage) noexcept override {
+      if (std::ranges::find(seen, stage) == seen.end()) seen.push_back(stage);
+    }
+    std::vector<Stage> seen;  // the first ones may be done in parts
   } recorder;
   recorder.seen.reserve(8);
   cast(street());

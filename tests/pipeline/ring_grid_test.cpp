@@ -92,16 +92,17 @@ TEST(RingGrid, SectorsShareTheColumnsEvenly) {
 TEST(RingGrid, TheColumnsOfASectorAreThoseThatNameIt) {
   rt::FixedMemory memory;
   const RingGrid grid({}, test::even_profile(), kShape, memory);
-  std::size_t next = 0;
+  int next = 0;
   for (int sector = 0; sector < grid.sectors(); ++sector) {
-    const auto [begin, end] = grid.columns_of(sector);
+    const auto [begin, end] = grid.columns_of({sector, sector + 1});
     EXPECT_EQ(begin, next);
-    for (std::size_t column = begin; column < end; ++column) {
-      EXPECT_EQ(grid.sector_of(static_cast<int>(column)), sector);
-    }
+    for (int column = begin; column < end; ++column) EXPECT_EQ(grid.sector_of(column), sector);
     next = end;
   }
-  EXPECT_EQ(next, static_cast<std::size_t>(kShape.columns));
+  EXPECT_EQ(next, kShape.columns);
+  const ColumnRange all = grid.columns_of(grid.all_sectors());
+  EXPECT_EQ(all.begin, 0);
+  EXPECT_EQ(all.end, kShape.columns);
 }
 
 TEST(RingGrid, ManyRangesAtOnceAreInTheBandsTheyAreInOneByOne) {

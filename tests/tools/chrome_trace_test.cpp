@@ -85,6 +85,17 @@ TEST(ChromeTrace, PutsStagesOneAfterAnotherInsideTheirFrame) {
   EXPECT_LE(at, end_of(frame));
 }
 
+TEST(ChromeTrace, LeavesOutStagesThatWereOverBeforeTheFrameBegan) {
+  WatchedRun run;
+  auto frames = run.frames();
+  frames[7].stages_ahead = 2;
+  const Json trace = chrome_trace(run.figures(), std::span(frames).subspan(7, 1));
+  const auto slices = events_of(trace, "X", kSegment);
+  ASSERT_EQ(slices.size(), 2U);
+  EXPECT_EQ(slices[1]["name"], "min_cut");
+  EXPECT_DOUBLE_EQ(slices[1]["ts"], slices[0]["ts"]);
+}
+
 TEST(ChromeTrace, NeverLetsTheSlicesOfATrackOverlap) {
   WatchedRun run;
   const Json trace = chrome_trace(run.figures(), run.frames());

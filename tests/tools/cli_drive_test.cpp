@@ -76,8 +76,9 @@ TEST_F(Cli, ReportHoldsWhatTheExchangePromises) {
   const auto& frame = report["frames"][0];
   EXPECT_TRUE(frame["losses"].contains("network_gap_packets"));
   EXPECT_TRUE(frame["losses"].contains("rejected_wrong_model"));
-  for (const char* stage :
-       {"decode", "elevation_map", "adjacent_points", "seeds", "min_cut", "labels", "total"}) {
+  EXPECT_LT(frame["ms"]["after_turn"], frame["ms"]["total"]);
+  for (const char* stage : {"decode", "elevation_map", "adjacent_points", "seeds", "min_cut",
+                            "labels", "total", "after_turn"}) {
     EXPECT_TRUE(frame["ms"].contains(stage)) << stage;
     const auto& summed = report["summary"]["ms"][stage];
     EXPECT_LE(summed["p50"], summed["p99"]) << stage;

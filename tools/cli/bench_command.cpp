@@ -66,24 +66,23 @@ struct BenchResult {
 /// One pass over the packets: decoding and segmenting, timed frame by frame.
 void run_frames(Chain& chain, const PacketStore& packets, BenchResult* result) {
   StageClock clock;
-  std::int64_t decode_ns = 0;
   std::int64_t resumed_ns = rt::thread_cpu_ns();
   const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
-    decode_ns += rt::thread_cpu_ns() - resumed_ns;
-    clock.begin();
+    const std::int64_t ahead_ns = clock.times().sum_ns();
+    const std::int64_t decode_ns = rt::thread_cpu_ns() - resumed_ns - ahead_ns;
     const pipeline::SegmentationReport segmented = chain.segmenter.segment(image, &clock);
+    const StageTimes times = clock.take();
     if (result != nullptr && info.complete) {
-      const FrameRecord record = record_of(info, segmented, decode_ns, clock.times());
+      const FrameRecord record = record_of(info, segmented, decode_ns, times, ahead_ns);
       result->times.add(record);
       result->each.push_back(record);
       ++result->frames;
       result->returns += record.returns_in;
       result->unlabelled += record.returns_in - record.returns_labelled;
     }
-    decode_ns = 0;
     resumed_ns = rt::thread_cpu_ns();
   };
-  for (std::size_t i = 0; i < packets.size(); ++i) chain.decoder.decode(packets.at(i), on_frame);
+  for (std::size_t i = 0; i < packets.size(); ++i) chain.decode(packets.at(i), on_frame, &clock);
   chain.decoder.flush(on_frame);
 }
 
@@ -99,12 +98,13 @@ double run_decoding(Chain& chain, const PacketStore& packets) {
   return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
 }
 
-/// [{"decode", "segment"}, ..]: what the summary is made of.
+/// [{"decode", "segment", "after_turn"}, ..]: what the summary is made of.
 nlohmann::ordered_json frames_json(const std::vector<FrameRecord>& frames) {
   auto list = nlohmann::ordered_json::array();
   for (const FrameRecord& frame : frames) {
     list.push_back({{"decode", static_cast<double>(frame.decode_ns) / 1e6},
-                    {"segment", static_cast<double>(segment_ns(frame)) / 1e6}});
+                    {"segment", static_cast<double>(frame.times.sum_ns()) / 1e6},
+                    {"after_turn", static_cast<double>(after_turn_ns(frame)) / 1e6}});
   }
   return list;
 }

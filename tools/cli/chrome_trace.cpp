@@ -87,7 +87,7 @@ class Trace {
            {"motion", to_string(frame.motion)}});
     if (frame.segment_begin_ns <= 0) return;
     std::int64_t begin_ns = frame.segment_begin_ns;
-    for (std::size_t i = 0; i < figures_.stages(); ++i) {
+    for (std::size_t i = frame.stages_ahead; i < figures_.stages(); ++i) {
       if (frame.stage_cpu_ns[i] <= 0) continue;  // did not run on this rung
       const std::int64_t end_ns = std::min(begin_ns + frame.stage_cpu_ns[i], frame.labels_ns);
       slice(kSegment, std::string(figures_.stage_names[i].view()), begin_ns, end_ns,

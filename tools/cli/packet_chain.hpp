@@ -39,6 +39,20 @@ struct PacketChainOf {
         segmenter(labeller_config(method), profile, decoder.shape(), decoder.return_capacity(),
                   memory) {}
 
+  /// Decodes a datagram and does ahead what can be segmented of the turn that is arriving; turns
+  /// are handed to `on_frame` when they are whole, for segmenter.segment().
+  template <class OnFrame>
+  std::optional<firmware_io::Reject> decode(const firmware_io::Datagram& datagram,
+                                            OnFrame&& on_frame,
+                                            pipeline::StageObserver* observer) noexcept {
+    const auto rejected = decoder.decode(datagram, on_frame);
+    const firmware_io::ArrivingTurn arriving = decoder.arriving();
+    if (arriving.image != nullptr) {
+      segmenter.advance(*arriving.image, arriving.settled_columns, observer);
+    }
+    return rejected;
+  }
+
   [[nodiscard]] static firmware_io::SensorDecoder::Config decoder_config(
       int columns, const CaptureOptions& capture, int images = 3, const Deskewing& deskewing = {}) {
     firmware_io::SensorDecoder::Config config;

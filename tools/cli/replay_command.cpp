@@ -160,13 +160,17 @@ class Replay {
   void decode(const firmware_io::Datagram& datagram) {
     ++offered_;
     std::int64_t resumed_ns = rt::thread_cpu_ns();
-    const auto reject = chain_.decoder.decode(
-        datagram, [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    std::int64_t ahead_ns = clock_.times().sum_ns();
+    const auto reject = chain_.decode(
+        datagram,
+        [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
           decode_ns_ += rt::thread_cpu_ns() - resumed_ns;
           take(info, image);
           resumed_ns = rt::thread_cpu_ns();
-        });
-    decode_ns_ += rt::thread_cpu_ns() - resumed_ns;
+          ahead_ns = 0;
+        },
+        &clock_);
+    decode_ns_ += rt::thread_cpu_ns() - resumed_ns - (clock_.times().sum_ns() - ahead_ns);
     if (reject) return;
     if (const auto* ruby128 = chain_.decoder.ruby128())
       clock_of_device_.note(*ruby128, datagram.stamp_ns);
@@ -178,9 +182,9 @@ class Replay {
   /// One turn: segments it and hands the labels to the sinks. Runs inside the decoder, which wants
   /// no exceptions: a sink that fails is remembered, and play_once() ends the replay.
   void take(const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
-    clock_.begin();
+    const std::int64_t ahead_ns = clock_.times().sum_ns();
     const pipeline::SegmentationReport segmented = chain_.segmenter.segment(image, &clock_);
-    report_.add(record_of(info, segmented, decode_ns_, clock_.times()));
+    report_.add(record_of(info, segmented, decode_ns_, clock_.take(), ahead_ns));
     decode_ns_ = 0;
 
     const std::string name = fmt::format("{:06}", info.number);

@@ -33,7 +33,8 @@ Json milliseconds_json(const FrameRecord& frame) {
     json[std::string(to_string(static_cast<pipeline::Stage>(i)))] =
         milliseconds(frame.times.stage_ns[i]);
   }
-  json["total"] = milliseconds(frame.decode_ns + segment_ns(frame));
+  json["total"] = milliseconds(frame.decode_ns + frame.times.sum_ns());
+  json["after_turn"] = milliseconds(after_turn_ns(frame));
   return json;
 }
 
@@ -52,7 +53,8 @@ Json percentiles_json(const rt::LogLinearHistogram& histogram) {
           {"max", milliseconds(histogram.max_ns())}};
 }
 
-/// Calls visit(name, histogram) for decoding, every stage, their total and the wall clock.
+/// Calls visit(name, histogram) for decoding, every stage, their total, and what of it came after
+/// the turn's end.
 template <class Visit>
 void for_each_time(const TimeSummary& times, Visit&& visit) {
   visit("decode", times.decode);
@@ -60,6 +62,7 @@ void for_each_time(const TimeSummary& times, Visit&& visit) {
     visit(std::string(to_string(static_cast<pipeline::Stage>(i))), times.stages[i]);
   }
   visit("total", times.total);
+  visit("after_turn", times.after_turn);
 }
 
 struct Totals {
@@ -110,15 +113,9 @@ std::string motion_sentence(std::uint64_t samples, const std::vector<FrameRecord
 
 }  // namespace
 
-std::int64_t segment_ns(const FrameRecord& frame) noexcept {
-  std::int64_t sum = 0;
-  for (const std::int64_t stage_ns : frame.times.stage_ns) sum += stage_ns;
-  return sum;
-}
-
 FrameRecord record_of(const firmware_io::FrameInfo& info,
                       const pipeline::SegmentationReport& segmented, std::int64_t decode_ns,
-                      const StageTimes& times) noexcept {
+                      const StageTimes& times, std::int64_t ahead_ns) noexcept {
   FrameRecord record;
   record.number = info.number;
   record.first_packet_ns = info.first_packet_ns;
@@ -127,6 +124,7 @@ FrameRecord record_of(const firmware_io::FrameInfo& info,
   record.returns_labelled = segmented.ground + segmented.obstacles;
   record.decode_ns = decode_ns;
   record.times = times;
+  record.ahead_ns = ahead_ns;
   record.cut = segmented.cut;
   record.deskew = info.deskew;
   record.losses = info.losses;
@@ -136,7 +134,8 @@ FrameRecord record_of(const firmware_io::FrameInfo& info,
 void TimeSummary::add(const FrameRecord& frame) noexcept {
   for (std::size_t i = 0; i < stages.size(); ++i) stages[i].record(frame.times.stage_ns[i]);
   decode.record(frame.decode_ns);
-  total.record(frame.decode_ns + segment_ns(frame));
+  total.record(frame.decode_ns + frame.times.sum_ns());
+  after_turn.record(after_turn_ns(frame));
   wall.record(frame.times.segment_wall_ns);
 }
 

@@ -29,23 +29,28 @@ struct FrameRecord {
   std::uint32_t returns_labelled = 0;
   std::int64_t decode_ns = 0;  ///< Processor time of decoding the packets since the frame before.
   StageTimes times;
+  std::int64_t ahead_ns = 0;  ///< Of these, spent while the turn was still arriving.
   pipeline::CutReport cut;
   firmware_io::DeskewInfo deskew;
   firmware_io::LossCounters losses;
 };
 
+/// Processor time of its stages after the last packet of the turn.
+[[nodiscard]] inline std::int64_t after_turn_ns(const FrameRecord& frame) noexcept {
+  return frame.times.sum_ns() - frame.ahead_ns;
+}
+
 /// The record of a frame that came out of packets.
 [[nodiscard]] FrameRecord record_of(const firmware_io::FrameInfo& info,
                                     const pipeline::SegmentationReport& segmented,
-                                    std::int64_t decode_ns, const StageTimes& times) noexcept;
+                                    std::int64_t decode_ns, const StageTimes& times,
+                                    std::int64_t ahead_ns) noexcept;
 
-/// Processor time of all stages of a frame.
-[[nodiscard]] std::int64_t segment_ns(const FrameRecord& frame) noexcept;
-
-/// Times of all frames: per stage, decoding and the sum of both, and by the wall clock.
+/// Times of all frames: per stage, decoding and the sum of both; of it what came after the turn's
+/// end; and by the wall clock.
 struct TimeSummary {
   std::array<rt::LogLinearHistogram, pipeline::kStages> stages;
-  rt::LogLinearHistogram decode, total, wall;
+  rt::LogLinearHistogram decode, total, after_turn, wall;
 
   void add(const FrameRecord& frame) noexcept;
   /// Lines "name p50 p99 max" in milliseconds, for people; and the same for programs.
@@ -94,7 +99,8 @@ class Report {
   ///   profile, stages; or method, where --method named it
   ///   input_warning   where the input broke off, if it did
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
-  ///                   losses{cause: count}, ms{stage: processor time}, segment_wall_ms,
+  ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
+  ///                   after_turn: of it, after the turn's last packet}, segment_wall_ms,
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};

@@ -40,9 +40,8 @@ struct ScanLabeller {
   /// Labels the scan and the rings that were just read.
   void label(FrameRecord& record) {
     const auto placed = scan_to_image.place(scan.points, rings.ring_of_point, image);
-    clock.begin();
     record.cut = segmenter.segment(image, &clock).cut;
-    record.times = clock.times();
+    record.times = clock.take();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
     record.returns_in = static_cast<std::uint32_t>(scan.points.size() - placed.non_finite);
     record.returns_labelled = static_cast<std::uint32_t>(

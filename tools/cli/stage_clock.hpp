@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 
 #include "pipeline/stage.hpp"
 #include "rt/nonblocking.hpp"
@@ -14,27 +15,35 @@ namespace terracut::cli {
 /// Processor time of one frame by stage, nanoseconds of the segmenting thread.
 struct StageTimes {
   std::array<std::int64_t, pipeline::kStages> stage_ns{};
-  std::int64_t segment_wall_ns = 0;  ///< From begin() to the last stage, by the wall clock.
+  std::int64_t segment_wall_ns = 0;  ///< While at work on the frame, by the wall clock.
+
+  [[nodiscard]] std::int64_t sum_ns() const noexcept TERRACUT_NONBLOCKING {
+    std::int64_t sum = 0;
+    for (const std::int64_t one_ns : stage_ns) sum += one_ns;
+    return sum;
+  }
 };
 
-/// Times the stages of the pipeline, which has no clock of its own. begin(), segment, times().
+/// Times the stages of the pipeline, which has no clock of its own: those of a frame, however often
+/// it was left and gone on with, until its times are taken.
 class StageClock final : public pipeline::StageObserver {
  public:
-  void begin() noexcept TERRACUT_NONBLOCKING {
-    times_ = {};
-    begun_ = last_ = rt::ClockPair::now();
-  }
+  void resumed() noexcept TERRACUT_NONBLOCKING override { last_ = rt::ClockPair::now(); }
   void stage_done(pipeline::Stage stage) noexcept TERRACUT_NONBLOCKING override {
     const rt::ClockPair now = rt::ClockPair::now();
-    times_.stage_ns[static_cast<std::size_t>(stage)] += now.since(last_).cpu_ns;
-    times_.segment_wall_ns = now.since(begun_).wall_ns;
+    const rt::ClockPair spent = now.since(last_);
+    times_.stage_ns[static_cast<std::size_t>(stage)] += spent.cpu_ns;
+    times_.segment_wall_ns += spent.wall_ns;
     last_ = now;
   }
+  /// Of the frame so far.
   [[nodiscard]] const StageTimes& times() const noexcept { return times_; }
+  /// Its times; the next frame begins.
+  StageTimes take() noexcept TERRACUT_NONBLOCKING { return std::exchange(times_, StageTimes{}); }
 
  private:
   StageTimes times_;
-  rt::ClockPair begun_, last_;
+  rt::ClockPair last_;
 };
 
 }  // namespace terracut::cli

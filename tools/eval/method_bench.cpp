@@ -19,7 +19,6 @@ MethodBench::MethodBench(std::span<const MethodChoice> methods, const calib::Rin
 FrameTimes MethodBench::segment(std::size_t index, const pipeline::RangeImage& image) {
   FrameTimes times;
   cli::StageClock clock;
-  clock.begin();
   const std::int64_t begun_ns = rt::thread_cpu_ns();
   (void)methods_[index]->segment(image, &clock);
   times.segment_ns = rt::thread_cpu_ns() - begun_ns;

@@ -81,6 +81,7 @@ class Live:
         self.limit_s = limit_s
         self.process: subprocess.Popen | None = None
         self.exit_code: int | None = None
+        self.waiting: dict | None = None  # figures before the first packet
 
     def __enter__(self) -> "Live":
         guard = ["timeout", "--foreground", "-k", "5", str(int(self.limit_s))]  # of FIFO threads nobody must lose hold
@@ -91,7 +92,7 @@ class Live:
             self._await(lambda: "listening at" in self.messages(), "listens")
             self._wake()
             self._await(self._threads_wait, "has its threads waiting")
-            early = self.figures()["link"]["packets"]
+            early = self.waiting["link"]["packets"]
             if early:
                 raise TrialError(f"terracut live counted {early} packets that were only to wake it; try again")
         except BaseException:
@@ -129,9 +130,9 @@ class Live:
             return False
         if states.get("tc-receive") != "S" or states.get("tc-segment") != "S":
             return False
-        figures = self.figures()
         time.sleep(0.3)  # twice the threads' longest wait: what the wake-up left is flushed
-        return figures is not None
+        self.waiting = self.figures()
+        return self.waiting is not None
 
     # --- While it runs ---
 

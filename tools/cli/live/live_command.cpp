@@ -71,7 +71,7 @@ std::string describe(const SensorOnAir& sensor) {
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {
   std::optional<VehicleMotion> motion;
-  PacketChain chain;
+  LiveChain chain;
   std::optional<firmware_io::FlightRecorder> recorder;
   LiveThreads threads;
   LiveWatch watch;
@@ -80,9 +80,8 @@ struct LiveParts {
             const calib::RingProfile& profile, LiveSource& source, VehicleBus* bus,
             LiveThreads::Events events, rt::FixedMemory& memory)
       : motion(motion_of(options, bus, memory)),
-        chain(sensor.calibration, profile, sensor.columns, options.capture, options.method, memory,
-              FrameExchange::kImages,
-              {motion ? &motion->motion() : nullptr, turn_instant_of(options.motion)}),
+        chain(sensor.calibration, profile, sensor.columns, options.capture, options.method,
+              {motion ? &motion->motion() : nullptr, turn_instant_of(options.motion)}, memory),
         recorder(recorder_of(options, memory)),
         threads(options, chain, source, std::move(events), recorder ? &*recorder : nullptr, memory),
         watch(options, threads, motion ? &*motion : nullptr, memory) {}

@@ -15,9 +15,12 @@ namespace {
 
 using firmware_io::FrameInfo;
 
+/// Stages that are over when a turn is handed over: those before the seeds.
+constexpr auto kCoarseStages = static_cast<std::uint8_t>(pipeline::Stage::kSeeds);
 constexpr std::int64_t kPatience_ns = 100'000'000;
 /// Waking up for every packet costs more than decoding it. After a small batch the next one is left
-/// to gather in the kernel's buffer, which stamps packets and holds a thousand times as many.
+/// to gather in the kernel's buffer, which stamps packets and holds a thousand times as many; but
+/// not where the packet may come that ends the turn.
 constexpr std::size_t kWorthwhileBatch = 32;
 constexpr std::chrono::microseconds kGathering{1000};
 
@@ -53,7 +56,7 @@ firmware_io::ReceiveCounters since(const firmware_io::ReceiveCounters& before,
 
 }  // namespace
 
-LiveThreads::LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source,
+LiveThreads::LiveThreads(const LiveOptions& options, LiveChain& chain, LiveSource& source,
                          Events events, firmware_io::FlightRecorder* recorder,
                          rt::FixedMemory& memory)
     : options_(options),
@@ -119,7 +122,9 @@ void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
   const auto on_frame = [&](const FrameInfo& info,
                             pipeline::RangeImage& image) noexcept -> pipeline::RangeImage* {
     FrameExchange::Turn turn{&image, info, {}, chain_.decoder.losses()};
+    chain_.coarse.finish(image, chain_.planes_of(image), &coarse_clock_);
     const std::int64_t now_ns = rt::thread_cpu_ns();
+    const StageTimes coarse_times = coarse_clock_.take();
     turn.timing.number = info.number;
     turn.timing.returns = info.returns;
     turn.timing.first_packet_ns = info.first_packet_ns;
@@ -127,7 +132,10 @@ void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
     turn.timing.closing_packet_ns = newest_packet_ns;
     turn.timing.motion = motion_of(info.deskew.state);
     turn.timing.newest_motion_ns = info.deskew.newest_motion_ns;
-    turn.timing.decode_cpu_ns = now_ns - spent_ns;
+    turn.timing.stages_ahead = kCoarseStages;
+    std::ranges::copy(coarse_times.stage_ns, turn.timing.stage_cpu_ns.begin());
+    turn.timing.segment_cpu_ns = coarse_times.sum_ns();
+    turn.timing.decode_cpu_ns = now_ns - spent_ns - turn.timing.segment_cpu_ns;
     turn.timing.run_queue_wait_ns = wait.read_ns() - waited_before_last_fetch_ns;
     turn.timing.handed_over_ns = rt::realtime_ns();
     spent_ns = now_ns;
@@ -148,6 +156,7 @@ void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
   }
   source_.refresh_drops();
   const firmware_io::ReceiveCounters before = source_.counters();
+  firmware_io::ArrivingTurn arriving;
   while (!stop_.load(std::memory_order_relaxed)) {
     waited_before_last_fetch_ns = waited_before_fetch_ns;
     waited_before_fetch_ns = wait.read_ns();
@@ -156,9 +165,13 @@ void LiveThreads::receive_turns(const rt::RunQueueWait& wait) noexcept {
       newest_packet_ns = datagram.stamp_ns;
       if (recorder_ != nullptr) recorder_->add(datagram);
       chain_.decoder.decode(datagram, on_frame);
+      arriving = chain_.decoder.arriving();
+      if (arriving.image == nullptr) continue;
+      chain_.coarse.advance(*arriving.image, arriving.settled_columns,
+                            chain_.planes_of(*arriving.image), &coarse_clock_);
     }
     intake_.publish({since(before, source_.counters()), source_.link(), newest_packet_ns});
-    if (datagrams.size() < kWorthwhileBatch) gather();
+    if (datagrams.size() < kWorthwhileBatch && !arriving.is_ending) gather();
   }
 }
 
@@ -198,26 +211,27 @@ void LiveThreads::segment_turn(FrameExchange::Turn& turn) noexcept {
     return;
   }
   const std::int64_t begun_cpu_ns = rt::thread_cpu_ns();
-  clock_.begin();
-  const pipeline::SegmentationReport report =
-      chain_.segmenter.segment(*turn.image, ladder_.budget(), &clock_);
+  const pipeline::SegmentationReport report = chain_.fine.refine(
+      *turn.image, chain_.planes_of(*turn.image), ladder_.budget(), &fine_clock_);
   timing.rung = DeadlineLadder::rung_of(report);
   timing.labels_ns = rt::realtime_ns();
   const std::int64_t labelled_cpu_ns = rt::thread_cpu_ns();
   pass_on_results(turn);
   timing.labels_ns = rt::realtime_ns();  // judged by when they were handed on
   const std::int64_t handed_on_cpu_ns = rt::thread_cpu_ns();
-  timing.segment_cpu_ns = handed_on_cpu_ns - begun_cpu_ns;
-  ladder_.end(clock_.times(), report, handed_on_cpu_ns - labelled_cpu_ns);
-  std::copy(clock_.times().stage_ns.begin(), clock_.times().stage_ns.end(),
-            timing.stage_cpu_ns.begin());
+  timing.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
+  const StageTimes times = fine_clock_.take();
+  ladder_.end(times, report, handed_on_cpu_ns - labelled_cpu_ns);
+  for (std::size_t i = 0; i < times.stage_ns.size(); ++i) {
+    timing.stage_cpu_ns[i] += times.stage_ns[i];
+  }
   timing.cut_operations =
       static_cast<std::uint64_t>(report.cut.persistency_ops + report.cut.greedy_push_ops +
                                  report.cut.boykov_kolmogorov_ops + report.cut.push_relabel_ops);
 }
 
 void LiveThreads::pass_on_results(const FrameExchange::Turn& turn) noexcept {
-  const auto labels = chain_.segmenter.labels();
+  const auto labels = chain_.fine.labels();
   if (labels_) {
     labels_->pass_on(turn.info, turn.timing, [&](std::span<pipeline::Label> room) noexcept {
       std::copy(labels.begin(), labels.end(), room.begin());

@@ -14,6 +14,7 @@
 #include "firmware_io/sinks/labelled_turn_wire.hpp"
 #include "frame_exchange.hpp"
 #include "frame_slots.hpp"
+#include "live_chain.hpp"
 #include "live_options.hpp"
 #include "live_source.hpp"
 #include "live_thread_state.hpp"
@@ -23,18 +24,17 @@
 #include "rt/run_queue_wait.hpp"
 #include "rt/spsc_queue.hpp"
 #include "rt/stolen_time.hpp"
-#include "tools/cli/packet_chain.hpp"
 
 namespace terracut::cli {
 
 /// The two threads of `terracut live` that have a deadline, and the queues through which a third
 /// one hears of them. They allocate nothing, lock nothing and write nothing:
 ///
-///   receive  datagrams -> recorder, decoder --FrameExchange--> segment  turns -> labels
-///      |                                                          |          |
-///      '-- timings of skipped turns --.      .---- timings -------'          | FrameSlots
-///                                     v      v                               v
-///                              whoever calls take_timing()      label files, stream of points
+///   receive  datagrams -> recorder, decoder, --FrameExchange--> segment  turns -> cut, labels
+///      |                 coarse stages                             |                |
+///      '-- timings of skipped turns --.      .---- timings --------'                | FrameSlots
+///                                     v      v                                      v
+///                              whoever calls take_timing()       label files, stream of points
 class LiveThreads {
  public:
   /// What came in, as of the newest look of the receiving thread.
@@ -52,7 +52,7 @@ class LiveThreads {
   };
 
   /// Takes all memory from `memory`. `recorder` may be null. Everything must outlive this.
-  LiveThreads(const LiveOptions& options, PacketChain& chain, LiveSource& source, Events events,
+  LiveThreads(const LiveOptions& options, LiveChain& chain, LiveSource& source, Events events,
               firmware_io::FlightRecorder* recorder, rt::FixedMemory& memory);
 
   /// Starts both; answers what the system granted and refused them.
@@ -100,14 +100,15 @@ class LiveThreads {
   void pass_on(rt::SpscQueue<rt::FrameTiming>& queue, const rt::FrameTiming& timing) noexcept;
 
   const LiveOptions& options_;
-  PacketChain& chain_;
+  LiveChain& chain_;
   LiveSource& source_;
   Events events_;
   firmware_io::FlightRecorder* recorder_;
 
   FrameExchange exchange_;
   DeadlineLadder ladder_;
-  StageClock clock_;
+  StageClock coarse_clock_;  // receiving thread
+  StageClock fine_clock_;    // segmenting thread
   rt::SpscQueue<rt::FrameTiming> segmented_, skipped_;
   rt::LatestValue<firmware_io::LossCounters> losses_;
 

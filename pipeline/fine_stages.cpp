@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/segmenter.hpp"
+#include "pipeline/fine_stages.hpp"
 
 #include "pipeline/boundary_term.hpp"
 
@@ -13,13 +13,10 @@ bool has_expired(const CutBudget& budget) noexcept {
 
 }  // namespace
 
-Segmenter::Segmenter(const SegmenterConfig& config, const calib::RingProfile& profile,
-                     ImageShape shape, std::size_t return_capacity, rt::FixedMemory& memory)
+FineStages::FineStages(const SegmenterConfig& config, const calib::RingProfile& profile,
+                       ImageShape shape, std::size_t return_capacity, rt::FixedMemory& memory)
     : config_(config),
       shape_(shape),
-      planes_(shape, memory),
-      elevation_map_(config.elevation_map, profile, shape, memory),
-      adjacent_points_(config.adjacent_points, profile, shape, memory),
       seeds_(config.seeds, profile, shape, memory),
       region_(config.region, shape, memory),
       min_cut_(shape, config.min_cut, memory),
@@ -27,48 +24,42 @@ Segmenter::Segmenter(const SegmenterConfig& config, const calib::RingProfile& pr
   if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
 }
 
-SegmentationReport Segmenter::segment(const RangeImage& image, const CutBudget& budget,
-                                      StageObserver* observer) noexcept {
+SegmentationReport FineStages::refine(const RangeImage& image, CellPlanes& planes,
+                                      const CutBudget& budget, StageObserver* observer) noexcept {
   SegmentationReport report;
   const auto done = [observer](Stage stage) noexcept {
     if (observer != nullptr) observer->stage_done(stage);
   };
+  if (observer != nullptr) observer->resumed();
 
-  // Coarse: heights above the ground of the ring-based elevation map.
-  elevation_map_.segment(image, planes_);
-  done(Stage::kElevationMap);
-
-  // Finer: steps between adjacent points too steep for ground.
-  if (config_.last_stage >= Stage::kAdjacentPoints) adjacent_points_.refine(image, planes_);
-  done(Stage::kAdjacentPoints);
-
-  // Fine: what is not certain yet is labelled together, by the cheapest cut of the range image.
+  // What is not certain yet is labelled together, by the cheapest cut of the range image.
   report.last_stage = config_.last_stage;
   if (config_.last_stage >= Stage::kMinCut && has_expired(budget)) {
     report.last_stage = Stage::kAdjacentPoints;
   }
   if (report.last_stage >= Stage::kMinCut) {
-    seeds_.select(planes_);
-    region_.evaluate(image, planes_, seeds_.seeds());
+    seeds_.select(planes);
+    region_.evaluate(image, planes, seeds_.seeds());
     done(Stage::kSeeds);
-    report.cut = cut(image, budget);
+    report.cut = cut(image, planes, budget);
     done(Stage::kMinCut);
     if (report.cut.discarded) report.last_stage = Stage::kAdjacentPoints;
   }
 
-  return_labels_.assign(image, planes_);
-  if (road_surface_) road_surface_->mark(image, planes_, return_labels_.mutable_labels());
+  return_labels_.assign(image, planes);
+  if (road_surface_) road_surface_->mark(image, planes, return_labels_.mutable_labels());
   done(Stage::kLabels);
 
   report.count(return_labels_.labels());
   return report;
 }
 
-CutReport Segmenter::cut(const RangeImage& image, const CutBudget& budget) noexcept {
+CutReport FineStages::cut(const RangeImage& image, CellPlanes& planes,
+                          const CutBudget& budget) noexcept {
   const GridProblem problem{shape_, seeds_.seeds(), region_.cost_ground(), region_.cost_obstacle(),
                             image.ground_range_m()};
   return min_cut_.solve(problem, BoundaryTerm(config_.boundary, negative_exp_, image), budget,
-                        planes_.label);
+                        planes.label);
 }
 
 }  // namespace terracut::pipeline

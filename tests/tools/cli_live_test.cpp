@@ -16,6 +16,7 @@
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/live/live_pcap_source.hpp"
 #include "firmware_io/live/packet_pacer.hpp"
+#include "firmware_io/live/pass_stamps.hpp"
 #include "firmware_io/live/udp_source.hpp"
 #include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/sinks/turn_stream_reader.hpp"
@@ -59,16 +60,20 @@ class Senders {
   void play() {
     auto capture = firmware_io::PcapSource::open(capture_);
     if (!capture) throw std::runtime_error(capture.error().message);
+    firmware_io::PassStamps stamps;
     while (!pacer_.stopped()) {
       const auto next = capture->next();
       if (!next) throw std::runtime_error(next.error().message);
       if (!*next) {
         if (!capture->rewind()) return;
+        stamps.next_pass();
         continue;
       }
+      firmware_io::Datagram datagram = **next;
+      datagram.stamp_ns = stamps.place(datagram.stamp_ns);
       for (Sender& sender : senders_) {
-        const bool is_its = sender.recorded_port == (**next).destination_port;
-        if (is_its || sender.recorded_port == kAnyPort) pacer_.add(**next, sender.socket);
+        const bool is_its = sender.recorded_port == datagram.destination_port;
+        if (is_its || sender.recorded_port == kAnyPort) pacer_.add(datagram, sender.socket);
       }
     }
   }

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -15,6 +14,7 @@
 #include "firmware_io/live/device_stamp_shift.hpp"
 #include "firmware_io/live/fault_injector.hpp"
 #include "firmware_io/live/packet_pacer.hpp"
+#include "firmware_io/live/pass_stamps.hpp"
 #include "port_senders.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/thread_cpu_clock.hpp"
@@ -77,26 +77,6 @@ Expected<Parts> open_parts(const SendOptions& options, rt::FixedMemory& memory) 
   }
   return Parts{*std::move(source), *std::move(faults), *std::move(sensor), std::move(stranger)};
 }
-
-/// The stamps of one pass after the other, as if the capture went on: passes are as far apart as
-/// its packets are on average.
-class PassStamps {
- public:
-  std::int64_t place(std::int64_t stamp_ns) noexcept {
-    if (packets_++ == 0) first_ns_ = last_ns_ = stamp_ns;
-    last_ns_ = std::max(last_ns_, stamp_ns);
-    return stamp_ns + shift_ns_;
-  }
-  void next_pass() noexcept {
-    const std::int64_t length_ns = last_ns_ - first_ns_;
-    shift_ns_ += length_ns + (packets_ > 1 ? length_ns / (packets_ - 1) : 0);
-    packets_ = 0;
-  }
-  [[nodiscard]] std::int64_t packets() const noexcept { return packets_; }
-
- private:
-  std::int64_t packets_ = 0, first_ns_ = 0, last_ns_ = 0, shift_ns_ = 0;
-};
 
 std::string amount_of(const FaultOutcome& outcome) {
   std::string text = fmt::format("{} packet{}", outcome.packets, outcome.packets == 1 ? "" : "s");
@@ -258,7 +238,7 @@ class Send {
   PacketPacer pacer_;
   FaultInjector injector_;
   Progress progress_;
-  PassStamps stamps_;
+  firmware_io::PassStamps stamps_;
   std::int64_t wall_ns_ = 0;
   std::string input_warning_;
 };

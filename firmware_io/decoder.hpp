@@ -61,9 +61,10 @@ class Decoder {
     /// In dual return: which return owns a cell. All of them are placed and labelled.
     pipeline::CellOwner dual_owner = pipeline::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
-    /// A frame is handed over when the hindmost beam of the packet so many before the newest is
-    /// past the seam, so that packets that come late by as many still find their frame. Costs their
-    /// time as latency, and that of the packet that shows it.
+    /// Packets that come late by so many still find their frame: it is handed over when the
+    /// hindmost beam of the packet so many before the newest begins past the seam. Costs their time
+    /// as latency, and that of the packet that shows it. 0: with the frame's last packet. Of those
+    /// that come late all the same, only what belongs to a frame handed over is lost, and counted.
     int reorder_packets = 2;
     /// Takes the vehicle's motion out of every turn before it is handed over (FrameInfo::deskew).
     /// This decoder's thread is its reader, and the motion must outlive the decoder. Null: returns
@@ -282,12 +283,14 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
                       spread);
   place_packet(datagram.payload, placed.head_cdeg, first_turn == last_turn);
 
-  // The packets still expected begin here, but for the rounding of azimuths. Packets need not sweep
-  // alike: in the Ruby's dual return one firing and two in turn.
+  // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
+  // turn unevenly. Packets need not sweep alike: in the Ruby's dual return one firing and two in
+  // turn.
   const std::int64_t sweep_ticks = std::max(heads_.sweep_ticks, last_sweep_ticks_);
   last_sweep_ticks_ = heads_.sweep_ticks;
-  settled_ticks_ = frontier_ticks_ - (reorder_packets_ + 1) * sweep_ticks - step_ticks / 2 +
-                   spread.hindmost_ticks;
+  const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
+  settled_ticks_ =
+      frontier_ticks_ - late_packets * sweep_ticks - step_ticks + spread.hindmost_ticks;
   while (turn_of(settled_ticks_) > frames_.oldest()) frames_.roll(deskewed(on_frame));
   return std::nullopt;
 }

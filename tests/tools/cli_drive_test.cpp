@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "cli_fixture.hpp"
+#include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -101,6 +102,18 @@ TEST_F(Cli, ReplayGivesTheSameLabelsEveryTimeAndFromEitherCopyOfTheTable) {
     EXPECT_EQ(content_of(folder_ / "a" / name), content_of(folder_ / "b" / name));
     EXPECT_EQ(content_of(folder_ / "a" / name), content_of(folder_ / "c" / name));
   }
+}
+
+TEST_F(Cli, ReplayGivesTheSameLabelsHoweverLongTurnsWaitForLatePackets) {
+  expect_done("replay " + quoted(kDrive) + " --labels waited --duration 0.5");
+  expect_done("replay " + quoted(kDrive) + " --labels hasty --duration 0.5 --reorder-packets 0");
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_ / "waited")) {
+    EXPECT_EQ(content_of(entry.path()), content_of(folder_ / "hasty" / entry.path().filename()));
+    ++files;
+  }
+  EXPECT_GT(files, 3);
+  EXPECT_EQ(run("replay " + quoted(kDrive) + " --reorder-packets 17").exit_code, kUsage);
 }
 
 TEST_F(Cli, EveryRowOfTableThreeIsOneOption) {

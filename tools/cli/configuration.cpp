@@ -59,6 +59,8 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.capture.start_s; }},
     Setting{"input.duration_s", "--duration", "s", "Stop after so much (default: at the end; live: when interrupted)", 1e-6, kLongest_s, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.capture.duration_s; }},
+    Setting{"input.reorder_packets", "--reorder-packets", "packets", "How many packets late one may come and still find its turn, which waits for it (default: captures 2, live 0)", 0, 16, {}, kAny,
+            [](C& c) noexcept -> F { return &c.live.capture.reorder_packets; }},
     Setting{"input.listen", "--listen", "", "live: address and port the sensor sends to; 0.0.0.0 hears broadcasts too", 0, 0, {}, TextForm::kEndpoint,
             [](C& c) noexcept -> F { return &c.live.listen.address; }},
     Setting{"input.via", "--via", "", "live: libpcap hears what a socket does not; it needs an interface and CAP_NET_RAW", 0, 0, kVias, kAny,

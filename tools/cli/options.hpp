@@ -26,6 +26,7 @@ struct CaptureOptions {
   std::string timestamp = "auto";        ///< --timestamp auto|calendar|us|ns
   double clock_offset_s = 0;             ///< --clock-offset
   std::string geometry = "manual";       ///< --geometry manual|ros
+  std::optional<int> reorder_packets;    ///< --reorder-packets, [0, 16]; else 2, live 0
   double start_s = 0;                    ///< --start, [0, 1e9]
   std::optional<double> duration_s;      ///< --duration, (0, 1e9]
 };

@@ -60,6 +60,7 @@ struct PacketChainOf {
     config.deskew_at = deskewing.at;
     config.images = images;
     config.columns = columns;
+    config.reorder_packets = capture.reorder_packets.value_or(config.reorder_packets);
     config.dual_owner = cell_owner_of(capture.cell_owner);
     if (capture.geometry == "ros") config.hdl64e.geometry = calib::GeometryModel::kRosLike;
     config.ruby128.timestamp = timestamp_of(capture.timestamp);

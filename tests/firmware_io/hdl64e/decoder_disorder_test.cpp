@@ -141,6 +141,65 @@ TEST(Disorder, AnyPacketMayComeAsManyPacketsLateAsIsWaitedFor) {
   }
 }
 
+Recorder::Config waiting_for(int reorder_packets) {
+  Recorder::Config config;
+  config.reorder_packets = reorder_packets;
+  return config;
+}
+
+/// Numbers of the packets with which turns are handed over.
+std::vector<std::size_t> ends_of_turns(Recorder& recorder, std::span<const Packet> packets) {
+  std::vector<std::size_t> ends;
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    recorder.decode(packets[n]);
+    if (recorder.frames.size() > ends.size()) ends.push_back(n);
+  }
+  recorder.flush();
+  return ends;
+}
+
+TEST(Disorder, WithoutWaitingForLatePacketsTurnsAreTheSameAndThreePacketsEarlier) {
+  const auto packets = long_drive();
+  Recorder waiting(waiting_for(2)), hasty(waiting_for(0));
+  const auto late_ends = ends_of_turns(waiting, packets);
+  const auto ends = ends_of_turns(hasty, packets);
+  ASSERT_EQ(late_ends.size(), 4U);  // the capture ends before the fifth is settled
+  for (std::size_t n = 0; n < late_ends.size(); ++n) EXPECT_EQ(ends.at(n) + 3, late_ends[n]) << n;
+  EXPECT_EQ(hasty.decoder.losses().rejected_total(), 0U);
+  ASSERT_EQ(hasty.frames.size(), waiting.frames.size());
+  for (std::size_t n = 0; n < hasty.frames.size(); ++n) {
+    EXPECT_EQ(hasty.frames[n].info.returns, waiting.frames[n].info.returns) << n;
+  }
+}
+
+TEST(Disorder, WithoutWaitingNothingIsLostWhereTheHeadTurnsUnevenly) {
+  auto firings = random_firings({.last_cdeg = 37'100 + 40 * 36'000, .share_of_returns = 0.1});
+  std::mt19937 random(3);
+  std::uniform_int_distribution<int> jitter_cdeg(-3, 3);  // recorded sensors: 1
+  for (FiringColumn& firing : firings) firing.unwrapped_azimuth_cdeg += jitter_cdeg(random);
+  const auto packets = to_packets(firings);
+  Recorder recorder(waiting_for(0));
+  recorder.decode_all(packets);
+  recorder.flush();
+  EXPECT_EQ(recorder.decoder.losses().rejected_total(), 0U);
+  EXPECT_EQ(recorder.returns(), returns_in(packets));
+}
+
+TEST(Disorder, WithoutWaitingALatePacketIsLostOnlyWhereItsTurnIsOver) {
+  const auto packets = long_drive();
+  Recorder ordered(waiting_for(0));
+  const std::size_t end = ends_of_turns(ordered, packets).at(1);
+  auto shuffled = packets;
+  std::swap(shuffled[end - 200], shuffled[end - 199]);  // in the middle of a turn
+  std::swap(shuffled[end], shuffled[end + 1]);          // where one ends
+  Recorder recorder(waiting_for(0));
+  recorder.decode_all(shuffled);
+  recorder.flush();
+  EXPECT_EQ(recorder.rejected(Reject::kLate), 1U);
+  EXPECT_EQ(recorder.decoder.losses().rejected_total(), 1U);
+  EXPECT_EQ(returns_in(packets) - recorder.returns(), returns_in({&packets[end], 1}));
+}
+
 TEST(Disorder, AnySmallShuffleGivesTheSameTurnsAsTheOrderedStream) {
   const auto packets = long_drive();
   Recorder ordered;

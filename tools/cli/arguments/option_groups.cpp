@@ -42,6 +42,10 @@ void add_decoding(CLI::App& app, CaptureOptions& capture) {
                  "Meaning of the table: the maker's manual, or as ROS drivers take it")
       ->check(one_of("sensor.geometry"))
       ->capture_default_str();
+  app.add_option("--reorder-packets", capture.reorder_packets,
+                 "How many packets late one may come and still find its turn, which waits for it "
+                 "(default: captures 2, live 0)")
+      ->check(range_of("input.reorder_packets"));
 }
 
 void add_capture(CLI::App& app, CaptureOptions& capture) {

@@ -22,9 +22,7 @@ struct LiveChain {
   LiveChain(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
             int columns, const CaptureOptions& capture, const MethodOptions& method,
             const Deskewing& deskewing, rt::FixedMemory& memory)
-      : decoder(calibration, profile.mount,
-                PacketChain::decoder_config(columns, capture, FrameExchange::kImages, deskewing),
-                memory),
+      : decoder(calibration, profile.mount, decoder_config(columns, capture, deskewing), memory),
         coarse(segmenter_config_of(method), profile, decoder.shape(), memory),
         fine(segmenter_config_of(method), profile, decoder.shape(), decoder.return_capacity(),
              memory) {
@@ -41,6 +39,15 @@ struct LiveChain {
   }
 
  private:
+  /// Packets of a sensor that is connected by one cable do not come late, so none is waited for
+  /// unless that is asked for.
+  [[nodiscard]] static firmware_io::SensorDecoder::Config decoder_config(
+      int columns, const CaptureOptions& capture, const Deskewing& deskewing) {
+    auto config = PacketChain::decoder_config(columns, capture, FrameExchange::kImages, deskewing);
+    config.reorder_packets = capture.reorder_packets.value_or(0);
+    return config;
+  }
+
   const pipeline::RangeImage* first_image_ = decoder.images().data();
   std::vector<pipeline::CellPlanes> planes_;
 };

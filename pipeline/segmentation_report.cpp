@@ -8,10 +8,10 @@ namespace terracut::pipeline {
 namespace {
 
 /// As std::count(), whose wide result keeps it from being vector code.
-TERRACUT_VECTOR_CLONES std::uint32_t count_of(std::span<const Label> labels,
+TERRACUT_VECTOR_CLONES std::uint32_t count_of(const Label* labels, std::size_t size,
                                               Label wanted) noexcept {
   std::uint32_t count = 0;
-  for (const Label label : labels) count += label == wanted ? 1U : 0U;
+  for (std::size_t i = 0; i < size; ++i) count += labels[i] == wanted ? 1U : 0U;
   return count;
 }
 
@@ -19,8 +19,8 @@ TERRACUT_VECTOR_CLONES std::uint32_t count_of(std::span<const Label> labels,
 
 void SegmentationReport::count(std::span<const Label> labels) noexcept {
   returns = static_cast<std::uint32_t>(labels.size());
-  other_ground = count_of(labels, Label::kOtherGround);
-  ground = count_of(labels, Label::kGround) + other_ground;
+  other_ground = count_of(labels.data(), labels.size(), Label::kOtherGround);
+  ground = count_of(labels.data(), labels.size(), Label::kGround) + other_ground;
   obstacles = returns - ground;
 }
 

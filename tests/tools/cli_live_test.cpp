@@ -29,10 +29,6 @@ using testing::AnyOf;
 using testing::Eq;
 using testing::HasSubstr;
 
-/// More than so many of the turns of some seconds are labelled on the busiest machine, under a
-/// sanitizer, too.
-constexpr int kFrames = 1;
-
 /// Sends a capture in real time from all of these addresses, over and over, until it is destroyed.
 class Senders {
  public:
@@ -123,13 +119,13 @@ TEST_F(CliLive, LabelsWhatIsSentToIt) {
   EXPECT_THAT(heard.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << heard.err;
   EXPECT_THAT(heard.err, HasSubstr("HDL-64E"));
   const auto summary = json("live.json");
-  EXPECT_GT(summary.at("frames").at("count").get<int>(), kFrames);
+  EXPECT_GT(summary.at("frames").at("count").get<int>(), 5);
   int files = 0;
   for (const auto& entry : fs::directory_iterator(folder_ / "labels")) {
     EXPECT_GT(entry.file_size(), 0U);
     ++files;
   }
-  EXPECT_GT(files, kFrames);
+  EXPECT_GT(files, 3);
   EXPECT_TRUE(json("trace.json").contains("traceEvents"));
 }
 
@@ -195,10 +191,10 @@ TEST_F(CliLive, TakesTheAnglesOfARuby128FromItsOtherPort) {
   const Senders sensor({Senders::kLocalhost}, {{6699, port_number()}, {7788, device_port}},
                        folder_ / "ruby.pcap");
   const Outcome heard = run(live("--sensor ruby128 --device-port " + std::to_string(device_port) +
-                                 " --duration 2 --json live.json"));
+                                 " --duration 4 --json live.json"));
   EXPECT_THAT(heard.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << heard.err;
   EXPECT_THAT(heard.err, HasSubstr("RS-Ruby128 at 127.0.0.1"));
-  EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), kFrames);
+  EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), 5);
 }
 
 TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
@@ -215,7 +211,7 @@ TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
                "--calibration " +
                quoted(kDriveCalibration)));
   EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
-  EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), kFrames);
+  EXPECT_GT(json("live.json").at("frames").at("count").get<int>(), 5);
 }
 
 TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
@@ -261,7 +257,7 @@ TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {
   EXPECT_THAT(outcome.out, HasSubstr("motion    interface_gone on nosuchcan0"));
   const auto summary = json("live.json");
   const auto frames = summary.at("frames").at("count").get<int>();
-  EXPECT_GT(frames, kFrames);
+  EXPECT_GT(frames, 5);
   EXPECT_EQ(summary.at("motion").at("no_ego_motion_frames"), frames);
   EXPECT_EQ(summary.at("motion").at("taken_out_frames"), 0);
   EXPECT_GT(summary.at("health").at("link_down").get<int>(), 0);

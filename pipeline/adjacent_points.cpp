@@ -162,14 +162,6 @@ float AdjacentPoints::ring_spacing_m(int row, int row_step) const noexcept {
   return ring_spacing_m_[static_cast<std::size_t>((row_step - 1) * shape_.rows + row)];
 }
 
-void AdjacentPoints::refine(const RangeImage& image, CellPlanes& planes) noexcept {
-  const ColumnRange all{0, shape_.columns};
-  forget(all, planes);
-  compare(image, all, planes);
-  compare_across_seam(image, planes);
-  mark(all, planes);
-}
-
 void AdjacentPoints::forget(ColumnRange columns, CellPlanes& planes) const noexcept {
   for (int row = 0; row < shape_.rows; ++row) {
     std::ranges::fill(planes.steep.subspan(shape_.cell(row, columns.begin), columns.size()),

@@ -40,14 +40,10 @@ class AdjacentPoints {
   AdjacentPoints(const Config& config, const calib::RingProfile& profile, ImageShape shape,
                  rt::FixedMemory& memory);
 
-  /// Fills `steep` and turns the label of steep returns to kObstacle. Real-time safe, as all of
-  /// this.
-  void refine(const RangeImage& image, CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  // For a turn, also while it arrives (CoarseStages): forget() and compare() columns until all of
+  // them are, compare_across_seam(), and mark() what may have become steep.
 
-  // The same column by column: forget(), then compare() them all, compare_across_seam(), and
-  // mark().
-
-  /// No return of these columns is steep.
+  /// No return of these columns is steep. Real-time safe, as all of this.
   void forget(ColumnRange columns, CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Fills `steep` for the pairs of returns of which one is in these columns and the other in the
   /// same column or one to the left of it.

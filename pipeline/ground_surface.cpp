@@ -28,12 +28,6 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid, rt::Fix
   }
 }
 
-void GroundSurface::estimate(const RingGrid& grid, std::span<const LowestReturn> lowest) noexcept {
-  forget();
-  walk(grid, grid.all_sectors(), lowest);
-  settle(grid, grid.all_sectors(), lowest);
-}
-
 void GroundSurface::forget() noexcept {
   std::fill(found_.begin(), found_.end(), kPredicted);
   std::fill(origin_.begin(), origin_.end(), kPredicted);

@@ -51,15 +51,10 @@ class GroundSurface {
 
   GroundSurface(const Config& config, const RingGrid& grid, rt::FixedMemory& memory);
 
-  /// Estimates the surface from the lowest return of each grid cell. Real-time safe, as all of
-  /// this.
-  void estimate(const RingGrid& grid,
-                std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
-
-  // The same while a turn arrives: forget(), then walk() sectors as they become known, settle()
+  // For a turn, also while it arrives: forget(), then walk() sectors as they become known, settle()
   // those whose surface is wanted already, and at last settle_rest().
 
-  /// A new turn: no sector has been walked.
+  /// A new turn: no sector has been walked. Real-time safe, as all of this.
   void forget() noexcept TERRACUT_NONBLOCKING;
   /// The lowest returns of these sectors are known.
   void walk(const RingGrid& grid, RingGrid::Sectors sectors,

@@ -85,13 +85,6 @@ RingElevationMap::RingElevationMap(const Config& config, const calib::RingProfil
       row_keys_(memory.take<std::int64_t>("ring grid", static_cast<std::size_t>(shape.columns))),
       row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())) {}
 
-void RingElevationMap::segment(const RangeImage& image, CellPlanes& planes) noexcept {
-  forget();
-  walk_to(grid_.sectors(), image);
-  settle(grid_.all_sectors());
-  label(image, {0, image.shape().columns}, planes);
-}
-
 void RingElevationMap::forget() noexcept {
   walked_ = 0;
   seen_ = seen_overflow_ = 0;

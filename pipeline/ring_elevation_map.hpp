@@ -33,13 +33,11 @@ class RingElevationMap {
   RingElevationMap(const Config& config, const calib::RingProfile& profile, ImageShape shape,
                    rt::FixedMemory& memory);
 
-  /// Fills `height_m` and `label` of every cell. Real-time safe, as all of this.
-  void segment(const RangeImage& image, CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+  // For a turn, also while it arrives (CoarseStages): forget(), then walk_to() sector after sector,
+  // settle() what is to be labelled already, settle_rest() when all have been walked, and label()
+  // whatever was settled.
 
-  // The same while a turn arrives: forget(), then walk() sector after sector, settle() what is to
-  // be labelled already, settle_rest() when all have been walked, and label() whatever was settled.
-
-  /// A new turn.
+  /// A new turn. Real-time safe, as all of this.
   void forget() noexcept TERRACUT_NONBLOCKING;
   /// All columns of the sectors from walked() to `end` are there.
   void walk_to(int end, const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
@@ -61,7 +59,6 @@ class RingElevationMap {
              CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
-  [[nodiscard]] const GroundSurface& surface() const noexcept { return surface_; }
 
  private:
   void take_overflow(const RangeImage& image) noexcept;

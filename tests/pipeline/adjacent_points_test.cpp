@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "pipeline/ring_elevation_map.hpp"
+#include "pipeline/coarse_stages.hpp"
 #include "tests/support/synthetic_turn.hpp"
 
 namespace terracut::pipeline {
@@ -26,14 +26,12 @@ AdjacentPoints::Config paper_rule() {
 /// Heights and labels of the stage before, then the stage itself.
 struct Refined {
   Refined(const AdjacentPoints::Config& config, const test::BeamCast& cast)
-      : profile(test::even_profile()),
-        image(kShape, 16, memory),
-        planes(kShape, memory),
-        map({}, profile, kShape, memory),
-        stage(config, profile, kShape, memory) {
+      : profile(test::even_profile()), image(kShape, 16, memory), planes(kShape, memory) {
+    SegmenterConfig stages;
+    stages.elevation_map = {};
+    stages.adjacent_points = config;
     test::cast_turn(profile, cast, image);
-    map.segment(image, planes);
-    stage.refine(image, planes);
+    CoarseStages(stages, profile, kShape, memory).finish(image, planes);
   }
   [[nodiscard]] int steep_cells() const {
     int count = 0;
@@ -44,8 +42,6 @@ struct Refined {
   calib::RingProfile profile;
   RangeImage image;
   CellPlanes planes;
-  RingElevationMap map;
-  AdjacentPoints stage;
 };
 
 TEST(AdjacentPoints, BoundIsEquationFive) {

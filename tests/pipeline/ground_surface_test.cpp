@@ -31,6 +31,11 @@ struct SurfaceOverGrid : testing::Test {
       for (int b = 0; b < grid.bands(); ++b)
         lowest[grid.cell(s, b)] = {height_of_range(grid.center_m(b)), grid.center_m(b)};
   }
+  void estimate() {
+    surface.forget();
+    surface.walk(grid, grid.all_sectors(), lowest);
+    surface.settle(grid, grid.all_sectors(), lowest);
+  }
   float at(int sector, float range_m) {
     return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
   }
@@ -44,7 +49,7 @@ TEST_F(SurfaceOverGrid, FollowsAFifteenPercentSlopeThatBeginsNearOrFar) {
   for (const float foot_m : {6.0F, 30.0F}) {
     const auto hill = [foot_m](float range_m) { return 0.15F * std::max(0.0F, range_m - foot_m); };
     fill(hill);
-    surface.estimate(grid, lowest);
+    estimate();
     for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
       EXPECT_NEAR(at(3, range_m), hill(grid.center_m(grid.band_of(range_m))), 0.05F) << range_m;
     }
@@ -61,7 +66,7 @@ TEST_F(SurfaceOverGrid, PutsTheLowestReturnWhereItIsNotIntoTheMiddleOfItsCell) {
       near_m = 2 * grid.center_m(b) - near_m;  // where the next band begins
     }
   }
-  surface.estimate(grid, lowest);
+  estimate();
   for (float range_m : {6.0F, 15.0F, 25.0F, 40.0F}) {
     EXPECT_NEAR(at(3, range_m), bank(grid.center_m(grid.band_of(range_m))), 0.1F) << range_m;
   }
@@ -70,7 +75,7 @@ TEST_F(SurfaceOverGrid, PutsTheLowestReturnWhereItIsNotIntoTheMiddleOfItsCell) {
 TEST_F(SurfaceOverGrid, FollowsASensorPitchedByFiveDegrees) {
   for (const float slope : {0.087F, -0.087F}) {
     fill([slope](float range_m) { return slope * range_m; });
-    surface.estimate(grid, lowest);
+    estimate();
     for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
       EXPECT_NEAR(at(3, range_m), slope * grid.center_m(grid.band_of(range_m)), 0.05F) << range_m;
     }
@@ -79,14 +84,14 @@ TEST_F(SurfaceOverGrid, FollowsASensorPitchedByFiveDegrees) {
 
 TEST_F(SurfaceOverGrid, DoesNotClimbOntoAWall) {
   fill([](float range_m) { return range_m < 12 ? 0.0F : 1.5F; });
-  surface.estimate(grid, lowest);
+  estimate();
   EXPECT_NEAR(at(0, 13.0F), 0.0F, 0.01F);
   EXPECT_NEAR(at(0, 30.0F), 0.0F, 0.01F);
 }
 
 TEST_F(SurfaceOverGrid, FindsTheGroundAgainBehindAHiddenStretch) {
   fill([](float range_m) { return range_m > 10 && range_m < 16 ? GroundSurface::kEmpty : 0.05F; });
-  surface.estimate(grid, lowest);
+  estimate();
   EXPECT_NEAR(at(0, 20.0F), 0.05F, 0.001F);
   EXPECT_NEAR(at(0, 13.0F), 0.05F, 0.06F);
 }
@@ -96,13 +101,13 @@ TEST_F(SurfaceOverGrid, FindsABankBehindADitchThatHidesItsFoot) {
   fill([&](float range_m) {
     return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : bank(range_m);
   });
-  surface.estimate(grid, lowest);
+  estimate();
   EXPECT_NEAR(at(5, 25.0F), bank(grid.center_m(grid.band_of(25.0F))), 0.1F);
 }
 
 TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
   fill([](float range_m) { return range_m > 12 && range_m < 20 ? 1.5F : 0.0F; });
-  surface.estimate(grid, lowest);
+  estimate();
   EXPECT_NEAR(at(5, 16.0F), 0.0F, 0.01F);
 }
 
@@ -112,7 +117,7 @@ TEST_F(SurfaceOverGrid, DoesNotTakeARowOfRoofsForGroundThoughNothingShowsBehindI
     for (const int sector : {7, 8, 9})
       lowest[grid.cell(sector, band)].height_m = 1.5F;  // 1.1 m wide at 12 m
   }
-  surface.estimate(grid, lowest);
+  estimate();
   EXPECT_NEAR(at(8, 16.0F), 0.0F, 0.1F);
 }
 
@@ -120,7 +125,7 @@ TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
   fill([](float) { return 0.0F; });
   const int band = grid.band_of(15.0F);
   lowest[grid.cell(7, band)].height_m = -4.0F;
-  surface.estimate(grid, lowest);
+  estimate();
   EXPECT_NEAR(at(7, 15.0F), 0.0F, 0.01F);
 }
 
@@ -131,7 +136,7 @@ TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam)
     lowest[grid.cell(0, band)].height_m = 9.0F;
     lowest[grid.cell(grid.sectors() - 1, band)].height_m = 9.0F;
   }
-  surface.estimate(grid, lowest);
+  estimate();
   const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
   EXPECT_NEAR(at(0, 40.0F), true_m, 0.25F);
   EXPECT_NEAR(at(grid.sectors() - 1, 40.0F), true_m, 0.25F);

@@ -11,6 +11,7 @@
 #include "calib/ring_profile.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
+#include "pipeline/coarse_stages.hpp"
 #include "pipeline/quality.hpp"
 #include "pipeline/segmenter.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
@@ -113,8 +114,7 @@ pipeline::test::TestProblem cut_problem(const SegmenterConfig& config,
   const ImageShape shape = image.shape();
   rt::FixedMemory memory;
   pipeline::CellPlanes planes(shape, memory);
-  pipeline::RingElevationMap(config.elevation_map, profile, shape, memory).segment(image, planes);
-  pipeline::AdjacentPoints(config.adjacent_points, profile, shape, memory).refine(image, planes);
+  pipeline::CoarseStages(config, profile, shape, memory).finish(image, planes);
   pipeline::ConfidenceSeeds seeds(config.seeds, profile, shape, memory);
   seeds.select(planes);
   pipeline::RegionTerm region(config.region, shape, memory);

@@ -43,7 +43,17 @@ inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING {
   return detail::read_clock_ns(CLOCK_REALTIME);
 }
 
-/// The two clocks read together.
+/// The clocks, for what takes them as a parameter so that its tests can hold them.
+struct SystemClock {
+  [[nodiscard]] std::int64_t realtime_ns() const noexcept TERRACUT_NONBLOCKING {
+    return rt::realtime_ns();
+  }
+  [[nodiscard]] std::int64_t thread_cpu_ns() const noexcept TERRACUT_NONBLOCKING {
+    return rt::thread_cpu_ns();
+  }
+};
+
+/// Two of the clocks read together.
 struct ClockPair {
   std::int64_t cpu_ns = 0;
   std::int64_t wall_ns = 0;

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "pipeline/min_cut/cut_budget.hpp"
@@ -15,23 +17,48 @@
 namespace terracut::cli {
 
 /// How far a frame is refined before its deadline: the whole method; the min-cut stopped where time
-/// ran out; the coarse stages alone; or not at all. Measures what the stages cost as it goes, so
-/// that it knows what still fits. Real-time safe; one thread.
-class DeadlineLadder {
+/// ran out; the coarse stages alone; or not at all. What the stages cost is known from the last
+/// three frames that had them. What is left out teaches nothing, so that it is left out of at most
+/// two frames in a row and then tried, whatever those three said:
+///
+///   skipped       where even the cheapest of the three does not fit. A frame that is skipped has
+///                 missed its deadline as surely as one that comes late, so a trial costs no miss;
+///                 if it does come late, it counts as skipped (end()).
+///   cut left out  where the dearest of the three does not fit, because a cut that is begun in vain
+///                 is only wasted, but labels that take longer than was set aside are late. A trial
+///                 that made a frame late doubles the rest before the next one, to 32 frames at
+///                 most: under an overload that lasts one frame in 33 pays for knowing its end.
+///
+/// Hence labels are back within three frames of a slow frame or of the end of an overload, and so
+/// is the whole method, unless trials of the cut made frames late before.
+///
+/// Real-time safe; one thread. `Clock` as rt::SystemClock.
+template <class Clock>
+class DeadlineLadderOf {
  public:
-  /// From a turn's last packet to its labels.
-  explicit DeadlineLadder(std::int64_t deadline_ns) noexcept
-      : deadline_ns_(deadline_ns),
-        after_cut_ns_(kMargin_ns + std::min(deadline_ns / 8, kStopUnseen_ns)) {}
+  /// `deadline_ns`: from a turn's last packet to its labels.
+  explicit DeadlineLadderOf(std::int64_t deadline_ns, Clock clock = {}) noexcept
+      : clock_(clock),
+        deadline_ns_(deadline_ns),
+        unseen_stop_ns_(kMargin_ns + std::min(deadline_ns / 8, kUnseenStop_ns)),
+        stopping_(unseen_stop_ns_) {}
 
-  /// A frame begins. False when not even the coarse stages would be done in time.
+  /// A frame begins. False: it is to be skipped, because not even the coarse stages would be done
+  /// in time.
   [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
     due_ns_ = last_packet_ns + deadline_ns_;
     before_cut_ = true;
+    tries_cut_ = false;
     stopped_cpu_ns_ = 0;
-    if (rt::realtime_ns() + coarse_ns_ <= due_ns_) return true;
-    coarse_ns_ -= coarse_ns_ / kSlowly;
-    return false;
+    const std::int64_t left_ns = due_ns_ - clock_.realtime_ns();
+    const bool fits = left_ns >= coarse_.least_ns();
+    if (left_ns <= 0 || (!fits && skipped_ < kMostInARow)) {
+      ++skipped_;
+      return false;
+    }
+    is_trial_ = !fits;
+    skipped_ = 0;
+    return true;
   }
   /// For the segmenter, for the frame that was begun: expires so early that what follows the cut
   /// still fits, and, when asked before the cut, where a cut would come to nothing. Valid while
@@ -39,9 +66,14 @@ class DeadlineLadder {
   [[nodiscard]] pipeline::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
     return {pipeline::CutBudget::kDefaultOps,
             [](void* ladder) noexcept TERRACUT_NONBLOCKING {
-              return static_cast<DeadlineLadder*>(ladder)->expired();
+              return static_cast<DeadlineLadderOf*>(ladder)->expired();
             },
             this};
+  }
+  /// The frame has labels. False: they are not to be handed on, and the frame counts as skipped,
+  /// because it was tried against what was known and came late indeed.
+  [[nodiscard]] bool may_hand_on() const noexcept TERRACUT_NONBLOCKING {
+    return !is_trial_ || clock_.realtime_ns() <= due_ns_;
   }
   /// The frame is done: learns from it. `handing_on_ns`: of processor time, for its labels.
   void end(const StageTimes& times, const pipeline::SegmentationReport& report,
@@ -51,19 +83,25 @@ class DeadlineLadder {
       return times.stage_ns[static_cast<std::size_t>(stage)];
     };
     const std::int64_t labels_ns = cost_ns(Stage::kLabels) + handing_on_ns + kMargin_ns;
+    labels_.add(labels_ns);
+    coarse_.add(cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns);
+    if (before_cut_) return;
     // A cut that was stopped still has to make labels of what it has; one that was not tells
     // nothing of what that costs.
     if (stopped_cpu_ns_ != 0) {
-      learn(after_cut_ns_, rt::thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
+      stopping_.add(clock_.thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
+    }
+    const std::int64_t spent_ns = cost_ns(Stage::kSeeds) + cost_ns(Stage::kMinCut);
+    if (report.cut.discarded) {
+      cut_.add(spent_ns + spent_ns / 8);
+    } else if (tries_cut_) {
+      cut_ = LastThree(cost_ns(Stage::kSeeds));
     } else {
-      after_cut_ns_ = std::max(labels_ns, after_cut_ns_ - after_cut_ns_ / kSlowly);
+      cut_.add(cost_ns(Stage::kSeeds));
     }
-    if (!before_cut_) {
-      const std::int64_t spent_ns = cost_ns(Stage::kSeeds) + cost_ns(Stage::kMinCut);
-      const bool in_vain = report.cut.discarded;
-      learn(cut_needs_ns_, in_vain ? spent_ns + spent_ns / 8 : cost_ns(Stage::kSeeds));
-    }
-    learn(coarse_ns_, cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns);
+    if (!tries_cut_ || is_trial_) return;
+    const bool late = clock_.realtime_ns() > due_ns_;
+    cut_rest_ = late ? std::min(2 * cut_rest_, kMostRest) : kMostInARow;
   }
 
   [[nodiscard]] static rt::Rung rung_of(const pipeline::SegmentationReport& report) noexcept {
@@ -72,46 +110,91 @@ class DeadlineLadder {
   }
 
  private:
+  /// What something took in the last three frames that had it; at first, what is expected of it.
+  class LastThree {
+   public:
+    explicit LastThree(std::int64_t expected_ns) noexcept {
+      took_ns_ = {expected_ns, expected_ns, expected_ns};
+    }
+    void add(std::int64_t took_ns) noexcept {
+      took_ns_[next_] = took_ns;
+      next_ = next_ == 2 ? 0 : next_ + 1;
+    }
+    [[nodiscard]] std::int64_t least_ns() const noexcept {
+      return std::min({took_ns_[0], took_ns_[1], took_ns_[2]});
+    }
+    [[nodiscard]] std::int64_t most_ns() const noexcept {
+      return std::max({took_ns_[0], took_ns_[1], took_ns_[2]});
+    }
+
+   private:
+    std::array<std::int64_t, 3> took_ns_;
+    std::size_t next_ = 0;
+  };
+
+  /// To be set aside for what follows a cut.
+  [[nodiscard]] std::int64_t after_cut_ns() const noexcept {
+    return std::max(labels_.most_ns(), stopping_.most_ns());
+  }
   /// The first look of a frame comes before the seeds and the cut, all others where it can be
   /// stopped.
   [[nodiscard]] bool expired() noexcept TERRACUT_NONBLOCKING {
-    const std::int64_t left_ns = due_ns_ - rt::realtime_ns() - after_cut_ns_;
+    const std::int64_t left_ns = due_ns_ - clock_.realtime_ns();
     if (before_cut_) {
-      if (left_ns < cut_needs_ns_) {
-        cut_needs_ns_ -= cut_needs_ns_ / kNowAndThen;
-        return true;
-      }
+      if (!may_begin_cut(left_ns)) return true;
       before_cut_ = false;
     }
-    if (left_ns >= 0) return false;
-    if (stopped_cpu_ns_ == 0) stopped_cpu_ns_ = rt::thread_cpu_ns();
+    if (left_ns >= after_cut_ns()) return false;
+    if (stopped_cpu_ns_ == 0) stopped_cpu_ns_ = clock_.thread_cpu_ns();
+    return true;
+  }
+  [[nodiscard]] bool may_begin_cut(std::int64_t left_ns) noexcept {
+    if (left_ns >= after_cut_ns() + cut_.most_ns()) {
+      cut_left_out_ = 0;
+      return true;
+    }
+    if (cut_left_out_ < cut_rest_) {
+      ++cut_left_out_;
+      return false;
+    }
+    cut_left_out_ = 0;
+    tries_cut_ = true;
+    if (left_ns < after_cut_ns()) {  // else this alone would stop it at once
+      stopping_ = LastThree(unseen_stop_ns_);
+      labels_ = LastThree(labels_.least_ns());
+    }
     return true;
   }
 
-  /// What is left out teaches nothing. It is tried again when what the dearest frame taught has
-  /// faded, by this part a frame. Seldom, where the frame it is tried on may miss its deadline ...
-  static constexpr std::int64_t kSlowly = 1024;
-  /// ... and sooner where it can be stopped.
-  static constexpr std::int64_t kNowAndThen = 256;
+  /// Frames after which what they were without is tried again.
+  static constexpr int kMostInARow = 2;
+  static constexpr int kMostRest = 32;
   /// For waking up late and for handing over.
   static constexpr std::int64_t kMargin_ns = 500'000;
   /// What is set aside for making labels of a stopped cut as long as none has been seen, or an
   /// eighth of the deadline where that is less.
-  static constexpr std::int64_t kStopUnseen_ns = 3'000'000;
+  static constexpr std::int64_t kUnseenStop_ns = 3'000'000;
 
-  /// Rises at once, sinks slowly: the dearest frame of the last ones counts.
-  static void learn(std::int64_t& kept_ns, std::int64_t seen_ns) noexcept {
-    kept_ns = std::max(seen_ns, kept_ns - kept_ns / 32);
-  }
-
+  Clock clock_;
   std::int64_t deadline_ns_;
+  std::int64_t unseen_stop_ns_;
+
+  LastThree coarse_{kMargin_ns};  ///< All but seeds and cut.
+  LastThree labels_{kMargin_ns};  ///< Of them, what follows the cut.
+  LastThree stopping_;            ///< From where a cut was stopped to the end.
+  LastThree cut_{0};  ///< What a cut takes that comes to something, at least: its seeds, and more
+                      ///< than was in vain.
+  int skipped_ = 0;   ///< Frames in a row.
+  int cut_left_out_ = 0;  ///< Frames in a row.
+  int cut_rest_ = kMostInARow;
+
+  // The frame that was begun.
   std::int64_t due_ns_ = 0;
-  std::int64_t coarse_ns_ = kMargin_ns;
-  std::int64_t after_cut_ns_;
-  /// What a cut takes that comes to something, at least: its seeds, and more than was in vain.
-  std::int64_t cut_needs_ns_ = 0;
-  std::int64_t stopped_cpu_ns_ = 0;
+  bool is_trial_ = false, tries_cut_ = false;
   bool before_cut_ = true;
+  std::int64_t stopped_cpu_ns_ = 0;
 };
+
+using DeadlineLadder = DeadlineLadderOf<rt::SystemClock>;
 
 }  // namespace terracut::cli

@@ -213,10 +213,10 @@ void LiveThreads::segment_turn(FrameExchange::Turn& turn) noexcept {
   const std::int64_t begun_cpu_ns = rt::thread_cpu_ns();
   const pipeline::SegmentationReport report = chain_.fine.refine(
       *turn.image, chain_.planes_of(*turn.image), ladder_.budget(), &fine_clock_);
-  timing.rung = DeadlineLadder::rung_of(report);
+  timing.rung = ladder_.may_hand_on() ? DeadlineLadder::rung_of(report) : rt::Rung::kSkipped;
   timing.labels_ns = rt::realtime_ns();
   const std::int64_t labelled_cpu_ns = rt::thread_cpu_ns();
-  pass_on_results(turn);
+  if (timing.rung != rt::Rung::kSkipped) pass_on_results(turn);
   timing.labels_ns = rt::realtime_ns();  // judged by when they were handed on
   const std::int64_t handed_on_cpu_ns = rt::thread_cpu_ns();
   timing.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;

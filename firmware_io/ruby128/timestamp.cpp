@@ -107,7 +107,7 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
     settled_ = true;
     return encoding;
   };
-  if (stamp[0] != 0) return settle(RubyTimestamp::kCalendar);
+  if (stamp[0] != 0 || stamp[1] != 0) return settle(RubyTimestamp::kCalendar);
   const std::uint32_t fraction = sub_second(stamp);
   if (fraction > kMostMicroseconds) return settle(RubyTimestamp::kUtcNanoseconds);
   const std::uint32_t before = last_sub_second_;

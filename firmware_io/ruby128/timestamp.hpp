@@ -35,9 +35,9 @@ enum class RubyTimestamp : std::uint8_t {
 /// Finds out from the packets of one stream which encoding its sensor uses. Never guesses silently:
 /// settled() tells whether the answer is proven or still the most common one.
 ///
-/// A first byte other than 0 is a calendar year. A sub-second value above 999,999 can only be
-/// nanoseconds; a step between two packets too short for a nanosecond's packet period,
-/// microseconds. Until one of these is seen the likelier unit is taken: microseconds, or
+/// A year or a month in the first two bytes is a calendar's: UTC seconds leave both 0 until 2106,
+/// and a calendar has no month 0. A sub-second value above 999,999 can only be nanoseconds; a step
+/// between two packets too short for a nanosecond's packet period, microseconds. Until one of these is seen the likelier unit is taken: microseconds, or
 /// nanoseconds after a long step. Real-time safe; one thread.
 class RubyTimestampDetector {
  public:

@@ -109,6 +109,17 @@ INSTANTIATE_TEST_SUITE_P(OfTheSensor, EveryMode,
                                   std::to_string(static_cast<int>(m.param.timestamp));
                          });
 
+TEST(Ruby128Decoder, DecodesTheTurnsOfAUnitWhoseCalendarStandsInTheYear2000) {
+  const auto packets = test::random_packets({.last_cdeg = 36'000 * 4 + 1'200,
+                                             .timestamp = RubyTimestamp::kCalendar,
+                                             .start_ns = 946'684'800'500'000'000});
+  const Heard heard = hear(packets);
+  EXPECT_EQ(heard.losses.clock_jumps, 0U);
+  EXPECT_EQ(heard.losses.network_gap_packets, 0U);
+  ASSERT_EQ(heard.frames.size(), 5U);
+  for (std::size_t i = 1; i < 4; ++i) EXPECT_TRUE(heard.frames[i].complete) << i;
+}
+
 TEST(Ruby128Decoder, EvenAFullSkyInDualReturnFindsRoom) {
   const auto packets = test::random_packets(
       {.dual = true, .first_cdeg = 34'800, .last_cdeg = 36'000 * 9, .share_of_returns = 1});

@@ -77,6 +77,32 @@ TEST(RubyTimestampDetector, KnowsTheCalendarFromTheFirstPacket) {
   EXPECT_EQ(detector.encoding(), RubyTimestamp::kCalendar);
 }
 
+TEST(RubyTimestampDetector, KnowsTheCalendarOfAUnitThatStandsInTheYear2000) {
+  // A unit without time begins there: its first byte, the year, is 0 as that of UTC seconds is.
+  for (const std::int64_t start_ns : {946'684'800'000'000'000,     // 2000-01-01
+                                      978'307'199'999'900'000}) {  // 2000-12-31 23:59:59.9999
+    RubyTimestampDetector detector = watch(RubyTimestamp::kCalendar, start_ns, 1);
+    EXPECT_TRUE(detector.settled());
+    EXPECT_EQ(detector.encoding(), RubyTimestamp::kCalendar);
+  }
+}
+
+TEST(RubyTimestampDetector, TakesUtcSecondsOfTheNextEightyYearsForNoCalendar) {
+  const auto detector = watch(RubyTimestamp::kUtcMicroseconds,
+                              std::int64_t{0xFFFF'FFFF} * 1'000'000'000, 2);  // in 2106
+  EXPECT_TRUE(detector.settled());
+  EXPECT_EQ(detector.encoding(), RubyTimestamp::kUtcMicroseconds);
+}
+
+TEST(RubyTimestampDetector, LearnsNothingFromAPacketThatIsRepeated) {
+  RubyTimestampDetector detector;
+  const auto stamp =
+      write_ruby_timestamp(1'795'264'496'000'100'000, RubyTimestamp::kUtcNanoseconds);
+  detector.add(stamp);
+  detector.add(stamp);
+  EXPECT_FALSE(detector.settled()) << "a step of 0 is below every packet's period";
+}
+
 TEST(RubyTimestampDetector, KnowsNanosecondsByAValueThatMicrosecondsCannotHave) {
   const auto detector = watch(RubyTimestamp::kUtcNanoseconds, kMoment_ns, 1);
   EXPECT_TRUE(detector.settled());

@@ -229,7 +229,7 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
                                               OnFrame&& on_frame) noexcept {
   if (const auto reason = sensor_.check(datagram.payload, heads_)) {
     if (*reason == Reject::kStationary) {
-      tracker_.note_stationary(heads_.device_stamp_us, heads_.first_cdeg());
+      tracker_.note_stationary(heads_.device_stamp_us, heads_.first_cdeg(), frames_.losses());
     } else if (*reason == Reject::kAzimuthOutOfRange || *reason == Reject::kAzimuthMismatch ||
                *reason == Reject::kAzimuthJump) {
       tracker_.note_rejected(heads_.device_stamp_us);

@@ -15,6 +15,10 @@ inline constexpr std::int32_t kTicksPerCdeg = 1000;
 inline constexpr std::int32_t kTurn_ticks = calib::kTurn_cdeg * kTicksPerCdeg;
 inline constexpr double kRadPerTick = calib::deg_to_rad(1e-5);
 
+/// The clocks that time a sensor's firings are good to parts in a million; no period that is off a
+/// model's by more than this part of it is one of its.
+inline constexpr std::int32_t kPeriodTolerance = 8;
+
 /// Where the head stood, and when, in one data packet of a spinning sensor: all that ordering
 /// packets and cutting turns needs to know of it. Made by a sensor trait, which vouches for it:
 /// azimuths in range, advancing, and not those of a head that stands still.
@@ -25,7 +29,9 @@ struct PacketHeads {
   /// evenly from packet to packet.
   std::int64_t device_stamp_us = 0;
   bool clock_restarts = false;  ///< Stamps before this packet's are not to be compared with it.
-  std::int32_t nominal_period_ns = 0;  ///< By the model's own figures, from packet to packet.
+  /// Device time from packet to packet in the packet's return mode: by the model's own figures, and
+  /// what any unit of it may measure. All > 0.
+  std::int32_t nominal_period_ns = 0, shortest_period_ns = 0, longest_period_ns = 0;
   std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Of each column, [0, 36000).
   int columns = 0;
   std::int32_t step_ticks = 0;  ///< From firing to firing, > 0.

@@ -12,6 +12,10 @@ namespace {
 constexpr std::int64_t kReorder_us = 20'000;
 /// Up to here a step of the device clock is a gap; beyond, only if the host's clock agrees.
 constexpr std::int64_t kOutage_us = 1'000'000;
+/// Nobody counts what a sensor would have sent in more than a day.
+constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
+/// Turns are counted up to here: years of a turning head. Then the count begins again.
+constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
 /// The head may be this far from where time and speed put it, plus an eighth of what it has turned.
 constexpr std::int64_t kHeadSlack_cdeg = 2'000;
 /// So many contradicting packets in a row are the truth, and the stream before them is not.
@@ -27,6 +31,13 @@ constexpr std::int64_t kPeriodMean_packets = 8'192;
 constexpr std::uint32_t kRepeatWindow_packets = 1'024;
 constexpr std::size_t kSeenSlots = 8'192;
 constexpr std::int64_t kSeenSlot_us = 64;
+
+/// A capture's stamps may be anything, so their difference may be, too.
+std::int64_t host_step_us(std::int64_t from_ns, std::int64_t to_ns) noexcept {
+  return static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) -
+                                   static_cast<std::uint64_t>(from_ns)) /
+         1000;
+}
 
 }  // namespace
 
@@ -67,27 +78,27 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
     steps_ = 0;  // the times between the packets before were not what they seemed
     missing_ = 0;
     if (!turns_on) return restart(heads, host_stamp_ns, losses);
-    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg);
+    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg, losses);
     return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
   }
 
   if (step_us < -kReorder_us || step_us > kOutage_us) {
-    const std::int64_t host_step_us = (host_stamp_ns - newest_host_ns_) / 1000;
-    const bool is_outage =
-        step_us > 0 && std::abs(host_step_us - step_us) < std::max(step_us / 16, kReorder_us);
+    const std::int64_t host_us = host_step_us(newest_host_ns_, host_stamp_ns);
+    const bool is_outage = step_us > 0 && step_us < kLongestOutage_us &&
+                           std::abs(host_us - step_us) < std::max(step_us / 16, kReorder_us);
     if (is_outage) {
       count_missing(step_us, losses);
       return restart(heads, host_stamp_ns, losses);
     }
     ++losses.clock_jumps;
     if (!turns_on) return restart(heads, host_stamp_ns, losses);
-    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg);  // only the clock was set
+    // Only the clock was set.
+    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg, losses);
     return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
   }
 
-  const std::int64_t period_ns = period_ns_ != 0 ? period_ns_ : heads.nominal_period_ns;
   const std::int64_t turned_cdeg =
-      newest_sweep_ticks_ * (step_us * 1000) / period_ns / kTicksPerCdeg;
+      newest_sweep_ticks_ * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
   const std::int64_t expected_cdeg = newest_head_cdeg_ + turned_cdeg;
   const std::int64_t off_cdeg =
       calib::step_cdeg(calib::wrap_cdeg(expected_cdeg), heads.first_cdeg());
@@ -98,22 +109,25 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
   }
   misfits_ = 0;
   const std::int64_t head_cdeg = expected_cdeg + off_cdeg;
+  if (std::abs(head_cdeg) > kFarthest_cdeg) return restart(heads, host_stamp_ns, losses);
   if (step_us < 0) {
-    missing_ = std::max<std::int64_t>(0, missing_ - 1);
+    if (missing_ > 0 || period_ns_ == 0) --missing_;
     return {Arrival::kReordered, Reject::kCount, head_cdeg};
   }
+  adopt_range(heads, losses);
   if (step_us == 0) {
     ++losses.clock_jumps;  // the clock stands still while the head turns
   } else {
-    count_missing(step_us, losses);
+    if (period_ns_ != 0) count_missing(step_us, losses);  // else settle_period() looks back
     measure_period(step_us, losses);
   }
-  take_as_newest(heads, host_stamp_ns, head_cdeg);
+  take_as_newest(heads, host_stamp_ns, head_cdeg, losses);
   return {Arrival::kNext, Reject::kCount, head_cdeg};
 }
 
 void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
-                                   std::int64_t head_cdeg) noexcept {
+                                   std::int64_t head_cdeg, LossCounters& losses) noexcept {
+  adopt_range(heads, losses);
   newest_stamp_us_ = heads.device_stamp_us;
   newest_host_ns_ = host_stamp_ns;
   newest_head_cdeg_ = head_cdeg;
@@ -123,19 +137,24 @@ void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_s
 
 Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                  LossCounters& losses) noexcept {
+  settle_period(losses);
   commit_missing(losses);
   started_ = true;
   misfits_ = 0;
-  take_as_newest(heads, host_stamp_ns, heads.first_cdeg());
+  take_as_newest(heads, host_stamp_ns, heads.first_cdeg(), losses);
   return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_};
 }
 
 // --- Missing packets, by the device's own stamps ---
 
+std::int64_t StreamTracker::missing_in(const Step& step) const noexcept {
+  const std::int64_t period_ns = period_in_use_ns();
+  const std::int64_t periods = (step.us * 1000 + period_ns / 2) / period_ns;
+  return std::max<std::int64_t>(0, periods - 1 - step.explained);
+}
+
 void StreamTracker::count_missing(std::int64_t step_us, LossCounters& losses) noexcept {
-  if (period_ns_ == 0) return;  // settle_period() will look back
-  const std::int64_t periods = (step_us * 1000 + period_ns_ / 2) / period_ns_;
-  const std::int64_t missing = periods - 1 - explained_;
+  const std::int64_t missing = missing_in({step_us, explained_});
   if (missing > 0) {
     missing_ += missing;
     packets_since_missing_ = 0;
@@ -145,16 +164,26 @@ void StreamTracker::count_missing(std::int64_t step_us, LossCounters& losses) no
 }
 
 void StreamTracker::commit_missing(LossCounters& losses) noexcept {
-  losses.network_gap_packets += static_cast<std::uint64_t>(missing_);
+  losses.network_gap_packets += static_cast<std::uint64_t>(std::max<std::int64_t>(0, missing_));
   missing_ = 0;
   packets_since_missing_ = 0;
 }
 
+// --- The period from packet to packet ---
+
+void StreamTracker::adopt_range(const PacketHeads& heads, LossCounters& losses) noexcept {
+  if (heads.nominal_period_ns == nominal_period_ns_) return;
+  settle_period(losses);  // what came in the mode before
+  nominal_period_ns_ = heads.nominal_period_ns;
+  shortest_period_ns_ = heads.shortest_period_ns;
+  longest_period_ns_ = heads.longest_period_ns;
+  if (period_ns_ < shortest_period_ns_ || period_ns_ > longest_period_ns_) period_ns_ = 0;
+}
+
 void StreamTracker::measure_period(std::int64_t step_us, LossCounters& losses) noexcept {
   if (period_ns_ == 0) {
-    // A rejected packet in between is an arrival like any other.
-    steps_us_[steps_++] = step_us / (explained_ + 1);
-    if (steps_ == steps_us_.size()) settle_period(losses);
+    to_measure_[steps_++] = {step_us, explained_};
+    if (steps_ == to_measure_.size()) settle_period(losses);
     return;
   }
   if (std::abs(step_us * 1000 - period_ns_) < period_ns_ / 8) {
@@ -162,7 +191,6 @@ void StreamTracker::measure_period(std::int64_t step_us, LossCounters& losses) n
     off_period_ = 0;
   } else if (++off_period_ >= kOffPeriodBeforeRemeasure) {
     period_ns_ = 0;
-    steps_ = 0;
     off_period_ = 0;
   }
 }
@@ -175,23 +203,35 @@ void StreamTracker::average_in(std::int64_t step_us) noexcept {
     averaged_us_ /= 2;
     averaged_steps_ /= 2;
   }
-  period_ns_ = averaged_us_ * 1000 / averaged_steps_;
+  period_ns_ =
+      std::clamp(averaged_us_ * 1000 / averaged_steps_, shortest_period_ns_, longest_period_ns_);
 }
 
-void StreamTracker::settle_period(LossCounters& losses) noexcept {
-  auto sorted = steps_us_;
+void StreamTracker::accept_median() noexcept {
+  std::array<std::int64_t, kPeriodSamples> sorted{};
+  // A rejected packet in between is an arrival like any other.
+  for (std::size_t i = 0; i < steps_; ++i) {
+    sorted[i] = to_measure_[i].us / (to_measure_[i].explained + 1);
+  }
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(steps_ / 2);
   std::nth_element(sorted.begin(), middle, sorted.begin() + static_cast<std::ptrdiff_t>(steps_));
   const std::int64_t median_us = *middle;
+  if (median_us * 1000 < shortest_period_ns_ || median_us * 1000 > longest_period_ns_) return;
   averaged_us_ = 0;
   averaged_steps_ = 0;
   for (std::size_t i = 0; i < steps_; ++i) {
-    if (std::abs(steps_us_[i] - median_us) <= 1 + median_us / 8) average_in(steps_us_[i]);
+    const std::int64_t one_us = to_measure_[i].us / (to_measure_[i].explained + 1);
+    if (std::abs(one_us - median_us) <= 1 + median_us / 8) average_in(one_us);
   }
-  for (std::size_t i = 0; i < steps_; ++i) {
-    const std::int64_t periods = (steps_us_[i] * 1000 + period_ns_ / 2) / period_ns_;
-    if (periods > 1) losses.network_gap_packets += static_cast<std::uint64_t>(periods - 1);
-  }
+}
+
+void StreamTracker::settle_period(LossCounters& losses) noexcept {
+  if (missing_ > 0) commit_missing(losses);  // since before these steps
+  constexpr std::size_t kFewest = 3;
+  if (steps_ >= kFewest) accept_median();
+  for (std::size_t i = 0; i < steps_; ++i) missing_ += missing_in(to_measure_[i]);
+  missing_ = std::max<std::int64_t>(0, missing_);
+  packets_since_missing_ = 0;
   steps_ = 0;
 }
 
@@ -203,22 +243,23 @@ void StreamTracker::note_rejected(std::int64_t device_stamp_us) noexcept {
   if (step_us > 0 && step_us <= kReorder_us) ++explained_;
 }
 
-void StreamTracker::note_stationary(std::int64_t device_stamp_us,
-                                    std::int32_t azimuth_cdeg) noexcept {
+void StreamTracker::note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg,
+                                    LossCounters& losses) noexcept {
   if (!started_) return;
   const std::int64_t step_us = device_step_us(newest_stamp_us_, device_stamp_us);
   if (step_us <= 0 || step_us > kOutage_us) return;
+  count_missing(step_us, losses);
+  explained_ = 0;
   newest_stamp_us_ = device_stamp_us;
   newest_head_cdeg_ += calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), azimuth_cdeg);
   newest_sweep_ticks_ = 0;
 }
 
 void StreamTracker::end_of_stream(LossCounters& losses) noexcept {
-  if (period_ns_ == 0 && steps_ >= 3) settle_period(losses);
+  settle_period(losses);
   commit_missing(losses);
   std::fill(seen_.begin(), seen_.end(), Seen{});
   started_ = false;
-  steps_ = 0;
   explained_ = 0;
   misfits_ = 0;
 }

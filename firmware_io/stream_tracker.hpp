@@ -34,7 +34,8 @@ struct Placement {
 /// speed and the time since, the tracker knows within some degrees where the head must be, and
 /// unwraps the azimuth to the turn nearest to that. So neither a lost half turn nor a step back
 /// starts a false turn. Missing packets follow from the device stamps, which advance by a constant
-/// period (measured from the stream itself). Fixed memory; every call O(1), noexcept. One thread.
+/// period: measured from the stream itself, and the model's own until that is done or where what is
+/// measured is no unit's. Fixed memory; every call O(1), noexcept. One thread.
 class StreamTracker {
  public:
   /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
@@ -48,13 +49,14 @@ class StreamTracker {
   /// A packet with this stamp arrived but was rejected before place(): it is not missing.
   void note_rejected(std::int64_t device_stamp_us) noexcept TERRACUT_NONBLOCKING;
   /// The head stands still at this azimuth.
-  void note_stationary(std::int64_t device_stamp_us,
-                       std::int32_t azimuth_cdeg) noexcept TERRACUT_NONBLOCKING;
+  void note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg,
+                       LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Counts what is still thought to be on its way, and forgets the stream (but not its period).
   void end_of_stream(LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Device time from packet to packet, nanoseconds; 0 until enough packets have been seen.
+  /// Device time from packet to packet, nanoseconds, within the model's range (PacketHeads); 0
+  /// until enough packets have been seen.
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
 
  private:
@@ -64,20 +66,31 @@ class StreamTracker {
     std::uint32_t packet = 0;  ///< Number of the packet, from 1; 0 = never used.
   };
 
+  /// From one packet that was taken to the next.
+  struct Step {
+    std::int64_t us = 0, explained = 0;
+  };
+
   static constexpr std::size_t kPeriodSamples = 15;
 
   [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us,
                                             std::int64_t to_us) const noexcept;
   [[nodiscard]] bool is_repeat(const PacketHeads& heads) noexcept;
+  void adopt_range(const PacketHeads& heads, LossCounters& losses) noexcept;
+  [[nodiscard]] std::int64_t period_in_use_ns() const noexcept {
+    return period_ns_ != 0 ? period_ns_ : nominal_period_ns_;
+  }
   void measure_period(std::int64_t step_us, LossCounters& losses) noexcept;
   void average_in(std::int64_t step_us) noexcept;
   void settle_period(LossCounters& losses) noexcept;
+  void accept_median() noexcept;
   void count_missing(std::int64_t step_us, LossCounters& losses) noexcept;
+  [[nodiscard]] std::int64_t missing_in(const Step& step) const noexcept;
   void commit_missing(LossCounters& losses) noexcept;
   [[nodiscard]] Placement restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                   LossCounters& losses) noexcept;
-  void take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
-                      std::int64_t head_cdeg) noexcept;
+  void take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns, std::int64_t head_cdeg,
+                      LossCounters& losses) noexcept;
 
   std::int64_t clock_wrap_us_;
   std::span<Seen> seen_;
@@ -88,12 +101,15 @@ class StreamTracker {
   std::int32_t newest_sweep_ticks_ = 0;
   int misfits_ = 0;  ///< Packets in a row whose azimuth contradicts their stamp.
 
-  std::int64_t period_ns_ = 0;
+  std::int64_t nominal_period_ns_ = 1, shortest_period_ns_ = 1, longest_period_ns_ = 1;
+  std::int64_t period_ns_ = 0;  ///< Measured, in the range above; 0 while it is not.
   std::int64_t averaged_us_ = 0, averaged_steps_ = 0;
-  std::array<std::int64_t, kPeriodSamples> steps_us_{};
+  std::array<Step, kPeriodSamples> to_measure_{};
   std::size_t steps_ = 0;
   std::int64_t explained_ = 0;  ///< Packets since the newest that arrived but were rejected.
-  std::int64_t missing_ = 0;    ///< Not here, but may still come out of order.
+  /// Not here, but may still come out of order. While the period is being measured, below 0: those
+  /// that have come out of order are known before those that are missing.
+  std::int64_t missing_ = 0;
   int packets_since_missing_ = 0;
   int off_period_ = 0;  ///< Steps in a row that are no multiple of the period.
 };

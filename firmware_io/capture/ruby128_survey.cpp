@@ -18,7 +18,7 @@ void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stam
   last_.protocol_version = packet->protocol_version();
   last_.ahead_of_capture_s = static_cast<double>(device_ns - stamp_ns) * 1e-9;
   last_.temperature_deg_c = packet->temperature_deg_c();
-  heads.device_stamp_us = (device_ns + ruby_stamp_delay_ns(heads, !reject)) / 1000;
+  heads.device_stamp_us = ruby_even_stamp_us(device_ns, heads, !reject);
   if (reject == Reject::kAzimuthOutOfRange) {
     stream_.add_out_of_range();
   } else {

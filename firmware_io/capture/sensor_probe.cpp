@@ -20,10 +20,18 @@ constexpr std::int64_t kLongestStep_us = 5'000;
 /// Sensors keep their set spin rate to a percent or two.
 constexpr double kNominalTolerance = 0.03;
 
-/// Of the HDL-64E, which fires every 48 us or, in dual return, 57.6.
-double firing_s(SensorModel model, bool dual_return) {
+/// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
+double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return kRubyBlock_ns * 1e-9;
-  return (dual_return ? kFiringTimesDual : kFiringTimesSingle48).column_ns * 1e-9;
+  return (fires_slowly ? kFiringTimesDual : kFiringTimesSingle48).column_ns * 1e-9;
+}
+
+/// A step between two packets next to each other, of whichever cycle is nearer.
+bool is_slow_step(std::int64_t step_us) {
+  constexpr std::int64_t kBetween_ns =
+      (kFiringTimesSingle48.packet_ns() + kFiringTimesSingle57.packet_ns()) / 2;
+  constexpr std::int64_t kLongest_ns = kFiringTimesSingle57.packet_ns() * 9 / 8;
+  return step_us * 1000 > kBetween_ns && step_us * 1000 < kLongest_ns;
 }
 
 std::optional<double> nominal_spin_hz(double spin_hz) {
@@ -44,6 +52,7 @@ void SensorProbe::Head::add(const PacketHeads& heads) {
     if (step_us > 0 && step_us < kLongestStep_us && step_cdeg > 0) {
       turned_cdeg += step_cdeg;
       time_us += step_us;
+      slow_steps += is_slow_step(step_us) ? 1 : 0;
     }
   }
   last = heads;
@@ -97,7 +106,9 @@ int SensorProbe::columns(SensorModel model) const {
     return model == SensorModel::kRuby128 ? Ruby128Sensor::kDefaultColumns
                                           : Hdl64eSensor::kDefaultColumns;
   }
-  return static_cast<int>(std::lround(1 / (*hz * firing_s(model, dual_return(model)))));
+  const Head& head = *head_of(model);
+  const bool fires_slowly = dual_return(model) || 2 * head.slow_steps > head.packets;
+  return static_cast<int>(std::lround(1 / (*hz * firing_s(model, fires_slowly))));
 }
 
 std::string SensorProbe::foreign_models() const {

@@ -44,6 +44,7 @@ class SensorProbe {
   /// What one model's packets say together.
   struct Head {
     std::uint64_t packets = 0, dual_packets = 0;
+    std::uint64_t slow_steps = 0;  ///< From packet to packet, as of the HDL-64E's 57.6 us cycle.
     std::int64_t turned_cdeg = 0, time_us = 0;
     std::optional<PacketHeads> last;
 

@@ -76,8 +76,11 @@ std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
   heads.dual_return = azimuth_cdeg[0] == azimuth_cdeg[1] && azimuth_cdeg[2] == azimuth_cdeg[3] &&
                       azimuth_cdeg[4] == azimuth_cdeg[5];
   heads.step_ticks = column_step_ticks(azimuth_cdeg[0], azimuth_cdeg[5], heads.dual_return);
-  heads.nominal_period_ns =
-      (heads.dual_return ? kFiringTimesDual : kFiringTimesSingle48).packet_ns();
+  const FiringTimes& usual = heads.dual_return ? kFiringTimesDual : kFiringTimesSingle48;
+  const FiringTimes& slowest = heads.dual_return ? kFiringTimesDual : kFiringTimesSingle57;
+  heads.nominal_period_ns = usual.packet_ns();
+  heads.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / kPeriodTolerance;
+  heads.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / kPeriodTolerance;
   heads.sweep_ticks =
       heads.step_ticks * (heads.dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle);
   return std::nullopt;

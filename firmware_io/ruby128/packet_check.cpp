@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/ruby128/packet_check.hpp"
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "firmware_io/capture/sensor_model.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
@@ -55,15 +57,20 @@ std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload
   const RubyBlocks blocks = ruby_blocks(azimuth_cdeg);
   heads.dual_return = blocks != RubyBlocks::kSingle;
   heads.nominal_period_ns = kRubyBlocksPerPacket * kRubyBlock_ns / (heads.dual_return ? 2 : 1);
+  heads.shortest_period_ns = heads.nominal_period_ns - heads.nominal_period_ns / kPeriodTolerance;
+  heads.longest_period_ns = heads.nominal_period_ns + heads.nominal_period_ns / kPeriodTolerance;
   heads.step_ticks = ruby_step_ticks(azimuth_cdeg);
   heads.sweep_ticks = heads.step_ticks * ruby_firings(blocks);
   return std::nullopt;
 }
 
-std::int64_t ruby_stamp_delay_ns(const PacketHeads& heads, bool turning) noexcept {
+std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const PacketHeads& heads,
+                                bool turning) noexcept {
   const bool begins_late =
       turning && heads.dual_return && heads.azimuth_cdeg[0] != heads.azimuth_cdeg[1];
-  return begins_late ? kRubyBlock_ns / 2 : 0;
+  const std::int64_t delay_ns = begins_late ? kRubyBlock_ns / 2 : 0;
+  constexpr std::int64_t kLatest_ns = std::numeric_limits<std::int64_t>::max() - kRubyBlock_ns;
+  return (std::min(stamp_ns, kLatest_ns) + delay_ns) / 1000;
 }
 
 }  // namespace terracut::firmware_io

@@ -36,11 +36,11 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 [[nodiscard]] std::optional<Reject> check_ruby128_packet(
     std::span<const std::uint8_t> payload, PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
 
-/// What to add to a packet's stamp, which is its first block's, to get one that advances evenly
-/// from packet to packet: in dual return packets begin with a new firing and with the second return
-/// of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning` when it took
-/// them.
-[[nodiscard]] std::int64_t ruby_stamp_delay_ns(const PacketHeads& heads,
-                                               bool turning) noexcept TERRACUT_NONBLOCKING;
+/// A device stamp that advances evenly from packet to packet, microseconds >= 0, from the packet's
+/// own, which is its first block's: in dual return packets begin with a new firing and with the
+/// second return of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning`
+/// when it took them. `stamp_ns` >= 0, as far as 64 bits go.
+[[nodiscard]] std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const PacketHeads& heads,
+                                              bool turning) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::firmware_io

@@ -45,8 +45,7 @@ std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload
   heads.clock_restarts = encoding != last_encoding_.value_or(encoding);
   last_encoding_ = encoding;
   const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp(), encoding);
-  heads.device_stamp_us = std::clamp<std::int64_t>(
-      (stamp_ns + ruby_stamp_delay_ns(heads, !reason)) / 1000, 0, kClockWrap_us - 1);
+  heads.device_stamp_us = ruby_even_stamp_us(stamp_ns, heads, !reason);
   return reason;
 }
 

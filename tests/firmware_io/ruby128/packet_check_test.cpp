@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <random>
 
 #include "firmware_io/capture/pcap_source.hpp"
@@ -54,6 +55,26 @@ TEST(Ruby128PacketCheck, KnowsBothPacketsOfDualReturn) {
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.step_ticks, 20'000);
   EXPECT_EQ(pair_last.sweep_ticks, 40'000);
+}
+
+TEST(Ruby128PacketCheck, KnowsWhatItsPacketsMayBeApart) {
+  const PacketHeads single = heads_of({100, 120, 140}), dual = heads_of({100, 100, 120});
+  EXPECT_EQ(single.nominal_period_ns, 166'650);
+  EXPECT_EQ(dual.nominal_period_ns, 83'325);
+  for (const PacketHeads& heads : {single, dual}) {
+    EXPECT_LT(heads.shortest_period_ns, heads.nominal_period_ns);
+    EXPECT_GT(heads.longest_period_ns, heads.nominal_period_ns);
+  }
+  EXPECT_GT(single.shortest_period_ns, dual.longest_period_ns);
+}
+
+TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
+  const PacketHeads pair_first = heads_of({100, 100, 120}), pair_last = heads_of({120, 140, 140});
+  EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_first, true), 5'000);
+  EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, true), 5'027);  // half a firing later
+  EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, false), 5'000);
+  constexpr std::int64_t kMost_ns = std::numeric_limits<std::int64_t>::max();
+  EXPECT_GT(ruby_even_stamp_us(kMost_ns, pair_last, true), kMost_ns / 1000 - 100);
 }
 
 TEST(Ruby128PacketCheck, TakesEverySpinRate) {

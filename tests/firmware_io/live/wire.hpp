@@ -52,7 +52,7 @@ struct Received {
 
 inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 /// So long is waited for what must come, on the slowest machine.
-inline constexpr std::int64_t kPatience_ns = 20'000 * kMillisecond_ns;
+inline constexpr std::int64_t kPatience_ns = 200'000 * kMillisecond_ns;
 
 inline void keep(std::span<const firmware_io::Datagram> batch, std::vector<Received>& received) {
   for (const firmware_io::Datagram& each : batch) {

@@ -23,7 +23,7 @@
 
 namespace terracut::firmware_io {
 
-inline constexpr std::int64_t kTestPatience_ns = 20'000'000'000;
+inline constexpr std::int64_t kTestPatience_ns = 200'000'000'000;
 
 /// Points of which each tells its turn and its place in it.
 inline std::vector<LabelledPoint> points_of_turn(std::uint32_t number, std::size_t count) {

@@ -196,6 +196,16 @@ TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
   EXPECT_LT(missing, turns.size());
 }
 
+TEST_F(CliLive, SaysWhereItsFiguresAre) {
+  LiveRun run = live_with_table("--metrics 127.0.0.1:0");
+  const Sensors sender = sensor(run);
+  const std::string at = run.said_after("figures at http://");
+  const auto served = firmware_io::TurnStreamReader::connect(
+      *firmware_io::parse_stream_address(at.substr(0, at.find('/'))));
+  EXPECT_TRUE(served) << served.error().message;
+  EXPECT_THAT(at, testing::EndsWith("/metrics"));
+}
+
 TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {
   write("car.dbc", firmware_io::vehicle_dbc());
   LiveRun run =

@@ -82,8 +82,9 @@ class LiveRun : public BackgroundProgram {
   using Page = rt::StatusPageReader<rt::MonitorSnapshot>;
 
   [[nodiscard]] static std::string unless_said(const std::string& options) {
-    std::string rest = " --metrics off --no-lock-memory --name " + name();
-    for (const char* each : {"--listen 127.0.0.1:0", "--patience 100000", "--deadline-ms 10000"}) {
+    std::string rest = " --no-lock-memory --name " + name();
+    for (const char* each :
+         {"--listen 127.0.0.1:0", "--metrics off", "--patience 100000", "--deadline-ms 10000"}) {
       const std::string text = each;
       if (options.find(text.substr(0, text.find(' '))) == std::string::npos) rest += " " + text;
     }

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "live_watch.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "firmware_io/can/can_socket.hpp"
@@ -71,6 +73,8 @@ void LiveWatch::open_metrics() {
                                      });
   if (server) {
     metrics_.emplace(*std::move(server));
+    say(fmt::format("figures at http://{}:{}/metrics", firmware_io::ipv4_text(at->address),
+                    metrics_->port()));
   } else {
     warn("no /metrics: " + server.error().message);
   }

@@ -15,6 +15,7 @@ from array import array
 from collections import Counter
 from pathlib import Path
 
+from .accounting import judge_accounting
 from .capture import Drive
 from .live import Live, losses, misses, times
 from .program import Program
@@ -64,6 +65,7 @@ def live_run(program: Program, report: Report, drive: Drive, deadline_ms: float,
         sent = live.send("--loop", LOOPS).wait()
         summary = live.stop()
     rungs, frames = summary["frames"]["rungs"], summary["frames"]["count"]
+    judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
     others = {cause: count for cause, count in losses(summary).items() if cause not in ("skipped_frames", "clock_jumps")}
     report.equal(of + "losses but for skipped frames", others, {})

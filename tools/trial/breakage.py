@@ -6,18 +6,18 @@ from __future__ import annotations
 
 import os
 import shutil
-import socket
 import subprocess
 import time
 import urllib.request
 from pathlib import Path
 
 from . import machine
+from .accounting import judge_accounting
 from .capture import Drive
 from .live import Live, Send
 from .program import Program
 from .report import Report
-from .stalled import free_tcp_port, judge_frames, line_with, returns_of, whole_labels
+from .stalled import judge_frames, line_with, returns_of, whole_labels
 
 DRIVE_S = 2
 
@@ -34,14 +34,10 @@ def hold(program: Program, report: Report, seconds: float, deadline_ms: float) -
 
 
 def killed_readers(program: Program, report: Report, drive: Drive, seconds: float, deadline_ms: float) -> None:
-    of, metrics = "kill -9 of its readers: ", free_tcp_port()
-    options, stream = ["--metrics", f"127.0.0.1:{metrics}"], 0
-    if program.has_option("live", "--stream"):
-        stream = free_tcp_port()
-        options += ["--stream", f"127.0.0.1:{stream}"]
-    else:
-        report.skip(of + "a client of --stream", "this program has no --stream")
+    of = "kill -9 of its readers: "
+    options = ["--metrics", "127.0.0.1:0", "--stream", "127.0.0.1:0"]
     with Live(program, drive, *options, deadline_ms=deadline_ms, limit_s=seconds + 60) as live:
+        metrics, stream = live.port_after("figures at "), live.port_after("labelled points at ")
         sending = live.send("--loop")
         kills, end = 0, time.monotonic() + seconds
         while time.monotonic() < end:
@@ -73,8 +69,7 @@ def readers(program: Program, name: str, metrics: int, stream: int) -> list[list
     commands = [[str(program.path), "top", name, "--interval", "0.1"]]
     if shutil.which("curl"):
         commands.append(["curl", "-s", "--limit-rate", "1k", f"http://127.0.0.1:{metrics}/metrics"])
-        if stream:
-            commands.append(["curl", "-s", f"telnet://127.0.0.1:{stream}"])
+        commands.append(["curl", "-s", f"telnet://127.0.0.1:{stream}"])
     return commands
 
 
@@ -85,14 +80,13 @@ def second_process(program: Program, report: Report, drive: Drive, deadline_ms: 
     of = "second process on the port: "
     with Live(program, drive, deadline_ms=deadline_ms, limit_s=60) as live:
         sending = live.send()
-        time.sleep(1)
-        other = program.run("live", "--listen", live.address, "--metrics", "off", "--name", live.name + "-second",
+        live.until(lambda figures: figures["link"]["packets"] > 0, "receives")
+        other = program.run("live", "--listen", f"127.0.0.1:{live.port}", "--metrics", "off", "--name", live.name + "-second",
                             "--calibration", drive.calibration, "--patience", 1, limit_s=30)  # fmt: skip
         sent = sending.wait()
         summary = live.stop()
     report.equal(of + "its exit code (3: input refused)", other.returncode, 3)
-    port = live.address.rsplit(":", 1)[1]
-    named = port in other.stderr and "error:" in other.stderr
+    named = str(live.port) in other.stderr and "error:" in other.stderr
     report.check(of + "its message names the port", named, other.stderr.strip().splitlines()[-1:])
     judge_frames(report, of, summary, sent, set())
 
@@ -193,22 +187,18 @@ def lost_interface(program: Program, report: Report, drive: Drive, deadline_ms: 
     with Link() as link:
         live = Live(program, drive, "--interface", "lidar0", deadline_ms=deadline_ms, limit_s=90, listen="0.0.0.0",
                     prefix=link.inside(link.computer), sender_prefix=link.inside(link.sensor))  # fmt: skip
-        port = live.address.rsplit(":", 1)[1]
-        live.sends_to = f"{link.COMPUTER}:{port}"
+        live.sends_to_address = link.COMPUTER
         with live:
             before = live.send().wait()
-            time.sleep(0.5)
-            first = live.figures()
+            first = live.settled()
             link.pull_out()
-            time.sleep(1.5)
-            gone = live.figures()
+            live.until(lambda figures: figures["link"]["state"] == "interface_gone", "says that its interface is gone")
             link.plug_in()
-            time.sleep(1.5)
+            live.until(lambda figures: figures["link"]["state"] != "interface_gone", "has its interface again")
             after = Send(program, drive.pcap, live.sends_to, prefix=link.inside(link.sensor)).wait()
             summary = live.stop()
     report.equal(of + "packets before", first["link"]["packets"], before["sent"])
-    report.check(of + "runs on and says so", gone is not None and gone["link"]["state"] == "interface_gone",
-                 gone["link"]["state"] if gone else "no status page")  # fmt: skip
+    judge_accounting(report, of, summary, before["sent"] + after["sent"])
     report.equal(of + "counted", summary["losses"]["link_losses"], 1)
     report.equal(of + "packets after it came back", summary["link"]["packets"] - before["sent"], after["sent"])
     turns = len(returns_of(program.replay(drive.pcap, drive.calibration)))

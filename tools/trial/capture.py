@@ -6,12 +6,16 @@ from __future__ import annotations
 
 import hashlib
 import struct
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
 FILE_HEADER_BYTES = 24
 RECORD_HEADER = struct.Struct("<IIII")
 MICROSECOND_MAGIC = 0xA1B2C3D4
+# Of a record as terracut writes it: its header, Ethernet, IPv4 without options, UDP.
+PORT_AT = RECORD_HEADER.size + 14 + 20 + 2
+PAYLOAD_AT = RECORD_HEADER.size + 14 + 20 + 8
 
 
 @dataclass(frozen=True)
@@ -44,6 +48,19 @@ def cut_beginning(pcap: Path, packets: int, into: Path) -> None:
     for _, (_, record) in zip(range(packets), records(pcap)):
         content += record
     into.write_bytes(content)
+
+
+def payloads(pcap: Path, for_s: float) -> list[bytes]:
+    """Of the first seconds' data packets: those to the port that most go to."""
+    found: list[tuple[int, bytes]] = []
+    for number, (stamp_ns, record) in enumerate(records(pcap)):
+        begin_ns = stamp_ns if number == 0 else begin_ns
+        if stamp_ns - begin_ns > for_s * 1e9:
+            break
+        port = int.from_bytes(record[PORT_AT : PORT_AT + 2], "big")
+        found.append((port, record[PAYLOAD_AT:]))
+    data_port, _ = Counter(port for port, _ in found).most_common(1)[0]
+    return [payload for port, payload in found if port == data_port]
 
 
 def labels_of(folder: Path) -> dict[int, str]:

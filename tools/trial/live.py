@@ -10,27 +10,24 @@ must be what was sent, and its frame numbers are those of a replay.
 from __future__ import annotations
 
 import json
+import os
+import re
 import signal
-import socket
 import subprocess
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 from . import machine
 from .capture import Drive, cut_beginning
 from .program import Program, TrialError
 
-WAKE_UP_PACKETS = 200
-LONGEST_START_S = 60
+# Enough to know a sensor by, and few enough for the smallest receive buffer.
+WAKE_UP_PACKETS = 120
+LONGEST_WAIT_S = 200
 # Below the live threads', so that it does not stand for their work; above everything that loads the
 # machine, which a real sensor would not share.
 SENDER_PRIORITY = 60
-
-
-def free_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]
 
 
 class Send:
@@ -66,14 +63,15 @@ class Live:
                  sender_prefix: list[str] | None = None):  # fmt: skip
         self.program = program
         self.drive = drive
-        self.address = f"{listen}:{free_port()}"
-        self.sends_to = self.address  # where its sensor sends to
-        self.name = f"trial-{self.address.rsplit(':', 1)[1]}"
+        self.port = 0  # once it listens, as what follows
+        self.sends_to_address = "127.0.0.1"  # of this computer, as its sensor sees it
+        self.sends_to = ""
+        self.name = f"trial-{os.getpid()}"
         self.summary_file = program.scratch / "live.json"
         self.summary_file.unlink(missing_ok=True)
         self.log = program.scratch / "live.log"
         self.prefix, self.sender_prefix = prefix or [], sender_prefix or []
-        self.command = ["live", "--listen", self.address, "--calibration", str(drive.calibration), "--deadline-ms",
+        self.command = ["live", "--listen", f"{listen}:0", "--calibration", str(drive.calibration), "--deadline-ms",
                         f"{deadline_ms:g}", "--name", self.name, "--json", str(self.summary_file)]  # fmt: skip
         self.command += [str(option) for option in options]
         if "--metrics" not in self.command:
@@ -89,7 +87,8 @@ class Live:
             self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=log,
                                             stderr=log)  # fmt: skip
         try:
-            self._await(lambda: "listening at" in self.messages(), "listens")
+            self.port = self.port_after("listening at ")
+            self.sends_to = f"{self.sends_to_address}:{self.port}"
             self._wake()
             self._await(self._threads_wait, "has its threads waiting")
             early = self.waiting["link"]["packets"]
@@ -105,14 +104,24 @@ class Live:
 
     # --- Start ---
 
+    def port_after(self, words: str) -> int:
+        """Of the address that it names after these words, once it does."""
+        line = re.compile(re.escape(words) + r"\S*:(\d+)\b.*\n")
+        self._await(lambda: line.search(self.messages()), "said: " + words)
+        return int(line.search(self.messages())[1])
+
     def _wake(self) -> None:
         first = self.program.scratch / "wake_up.pcap"
         cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
-        # All at once, so that none comes after live has heard enough and begins to count.
-        Send(self.program, first, self.sends_to, "--rate", 0, prefix=self.sender_prefix).wait()
+        # While it stands still, so that all are there when it goes on: none comes once it counts.
+        os.kill(self.pid(), signal.SIGSTOP)
+        try:
+            Send(self.program, first, self.sends_to, "--rate", 0, prefix=self.sender_prefix).wait()
+        finally:
+            os.kill(self.pid(), signal.SIGCONT)
 
     def _await(self, condition, what: str) -> None:
-        end = time.monotonic() + LONGEST_START_S
+        end = time.monotonic() + LONGEST_WAIT_S
         while not condition():
             if self.process.poll() is not None:
                 raise TrialError(f"terracut live ended before it {what}:\n{self.messages()}")
@@ -143,13 +152,47 @@ class Live:
             pid = int(children[0])
         return pid
 
-    def send(self, *options: object, pcap: Path | None = None) -> Send:
-        return Send(self.program, pcap or self.drive.pcap, self.sends_to, *options, prefix=self.sender_prefix)
+    def send(self, *options: object, limit_s: float = 3600) -> Send:
+        return Send(self.program, self.drive.pcap, self.sends_to, *options, prefix=self.sender_prefix,
+                    limit_s=limit_s)  # fmt: skip
 
     def figures(self) -> dict | None:
         """What `terracut top` sees now."""
         seen = self.program.run("top", self.name, "--once", "--json")
         return json.loads(seen.stdout) if seen.returncode == 0 else None
+
+    def until(self, shows: Callable[[dict], bool], what: str) -> dict:
+        """The first figures that satisfy `shows`."""
+        seen: list[dict] = []
+
+        def look() -> bool:
+            seen[:] = [figures] if (figures := self.figures()) else []
+            return bool(seen) and shows(seen[0])
+
+        self._await(look, what)
+        return seen[0]
+
+    def settled(self) -> dict:
+        """Figures once all that was sent is taken in: they stand still, and so does what waits for it."""
+        before: list[object] = [None]
+
+        def still() -> bool:
+            figures = self.figures()
+            now = figures and (figures["link"]["packets"], figures["frames"]["count"], figures["losses"])
+            last, before[0] = before[0], now
+            return now is not None and now == last and not self.unread_bytes()
+
+        while not still():
+            if not self.runs():
+                raise TrialError(f"terracut live has ended:\n{self.messages()}")
+            time.sleep(0.3)
+        return self.figures()
+
+    def unread_bytes(self) -> int:
+        """Of packets in its socket."""
+        with (Path(f"/proc/{self.pid()}") / "net/udp").open() as table:
+            rows = [line.split() for line in table][1:]
+        return sum(int(row[4].split(":")[1], 16) for row in rows if int(row[1].split(":")[1], 16) == self.port)
 
     def messages(self) -> str:
         return self.log.read_text()
@@ -165,7 +208,8 @@ class Live:
 
     def stop(self) -> dict:
         """Its summary. Waits first, for what was sent last to be taken in."""
-        time.sleep(0.5)
+        if self.runs():
+            self.settled()
         self.interrupt()
         self.exit_code = self.process.wait(timeout=60)
         if not self.summary_file.exists():

@@ -8,13 +8,14 @@ import time
 from collections.abc import Callable
 
 from . import machine
+from .accounting import judge_accounting
 from .beside import CyclicTest, Stress
 from .capture import Drive, packet_count
-from .live import Live, faults, losses, misses, times
+from .live import Live, faults, misses, times
 from .loopback import DEADLINE_MS, DRIVE_S, SENSORS, TURNS_A_SECOND
 from .program import Program
 from .report import Report
-from .stalled import DeafReaders, FrozenDisk, free_tcp_port, judge_frames
+from .stalled import DeafReaders, FrozenDisk, judge_frames
 
 SHARED = ["--receive-priority", "0", "--segment-priority", "0"]
 CALM_S = 10  # after the load: time to recover in
@@ -50,23 +51,23 @@ def with_rights(program: Program, report: Report, minutes: float, name: str) -> 
     """Disk and readers stand still besides, where this machine lets us arrange that."""
     of, sensor = f"{name}, loaded, with real-time rights: ", SENSORS[name]
     drive = program.drive(name, sensor.returns, "street", DRIVE_S)
-    seconds, metrics = minutes * 60, free_tcp_port()
+    seconds = minutes * 60
     impossible = FrozenDisk.impossible()
     if impossible:
         report.skip(of + "labels to a disk that stands still", impossible)
-        return loaded_run(program, report, of, drive, seconds, metrics, [], lambda: None, lambda: None)
+        return loaded_run(program, report, of, drive, seconds, [], lambda: None, lambda: None)
     with FrozenDisk(program.scratch) as disk:
         folder = disk.folder / "labels"
         folder.mkdir()
-        return loaded_run(program, report, of, drive, seconds, metrics, ["--labels", folder], disk.freeze, disk.thaw)
+        return loaded_run(program, report, of, drive, seconds, ["--labels", folder], disk.freeze, disk.thaw)
 
 
-def loaded_run(program: Program, report: Report, of: str, drive: Drive, seconds: float, metrics: int, options: list,
+def loaded_run(program: Program, report: Report, of: str, drive: Drive, seconds: float, options: list,
                freeze: Callable[[], None], thaw: Callable[[], None]) -> list:  # fmt: skip
-    options = [*options, "--metrics", f"127.0.0.1:{metrics}"]
+    options = [*options, "--metrics", "127.0.0.1:0"]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=seconds + 180) as live:
         freeze()
-        readers = DeafReaders(live, metrics)
+        readers = DeafReaders(live, live.port_after("figures at "))
         stress = Stress(program.scratch, seconds)
         test = CyclicTest(seconds)
         sending = live.send("--loop")
@@ -97,9 +98,7 @@ def without_rights(program: Program, report: Report, minutes: float, name: str) 
         calm = live.figures()
         sent = sending.stop()
         summary = live.stop()
-    counted = losses(summary)
-    report.equal(of + "packets taken in and dropped by the kernel, of those sent",
-                 summary["link"]["packets"] + counted.get("kernel_drops", 0), sent["sent"])  # fmt: skip
+    judge_accounting(report, of, summary, sent["sent"])
     rungs = summary["frames"]["rungs"]
     report.equal(of + "frames on all rungs together", sum(rungs.values()), summary["frames"]["count"])
     report.equal(of + "misses by all causes together", sum(summary["misses"]["causes"].values()),

@@ -8,6 +8,7 @@ import time
 from dataclasses import dataclass
 
 from . import machine
+from .accounting import judge_accounting
 from .beside import CyclicTest
 from .capture import packet_count
 from .live import Live, faults, losses, misses, times
@@ -69,6 +70,7 @@ def judge(report: Report, sensor: Sensor, summary: dict, sent: dict, loops: int,
     frames, of = summary["frames"], f"{sensor.name}: "
     turns = loops * DRIVE_S * TURNS_A_SECOND
     report.equal(of + "datagrams sent", (sent["sent"], sent["failed"]), (loops * packets, 0))
+    judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
     # The drive's clock starts again with every pass; its head turns on. The stamps say so once a pass.
     expected = {"clock_jumps": loops - 1} if loops > 1 else {}

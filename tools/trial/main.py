@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from . import adversarial, breakage, loaded, loopback, machine, scripted_faults, stalled
+from . import adversarial, breakage, hostile, loaded, loopback, machine, scripted_faults, stalled, steady
 from .program import Program, TrialError
 from .report import Report
 
@@ -37,6 +37,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
         return sub
 
     add("loopback", "minutes at 10 Hz: losses, page faults, processor time, misses", 10)
+    add("steady", "an hour at 10 Hz: memory and open files stay as they are", 60)
     add("loaded", "the same with every core loaded, with and without real-time rights", 3)
     sub = add("stalled", "a disk that hangs, readers that do not read")
     sub.add_argument("--seconds", type=float, default=30, help="a run (default 30)")
@@ -46,19 +47,27 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     sub.add_argument("--short", action="store_true", help="all faults in one run")
     sub = add("breakage", "killed readers, a lost interface, a full disk, a taken port")
     sub.add_argument("--short", action="store_true", help="seconds instead of a minute, and a deadline for busy machines")
+    sub = add("hostile", "floods, second sensors, stamps from the past, a sensor that reboots, clocks that step")
+    sub.add_argument("--seconds", type=float, help="of each (default 10, with --short 3)")
+    sub.add_argument("--sensor", choices=[*loopback.SENSORS], help="only this one (default: one after the other)")
+    sub.add_argument("--short", action="store_true", help="one sensor, and a deadline for busy machines")
     return parser.parse_args(arguments)
 
 
 def hold(options: argparse.Namespace, program: Program, report: Report) -> None:
-    if options.trial in ("loopback", "loaded"):
+    if options.trial in ("loopback", "loaded", "steady"):
         sensors = [options.sensor] if options.sensor else [*loopback.SENSORS]
-        (loopback if options.trial == "loopback" else loaded).hold(program, report, options.minutes, sensors)
+        {"loopback": loopback, "loaded": loaded, "steady": steady}[options.trial].hold(
+            program, report, options.minutes, sensors)  # fmt: skip
     elif options.trial == "stalled":
         stalled.hold(program, report, options.seconds)
     elif options.trial == "adversarial":
         adversarial.hold(program, report, options.seconds)
     elif options.trial == "faults":
         scripted_faults.hold(program, report, options.short)
+    elif options.trial == "hostile":
+        sensors = [options.sensor] if options.sensor else [*loopback.SENSORS][: 1 if options.short else None]
+        hostile.hold(program, report, options.seconds or (3 if options.short else 10), sensors, options.short)
     else:
         breakage.hold(program, report, 3 if options.short else 20, 2000 if options.short else loopback.DEADLINE_MS)
 

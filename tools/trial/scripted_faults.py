@@ -11,6 +11,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from .accounting import judge_accounting
 from .capture import Drive, labels_of, packet_count, records
 from .live import Live, losses
 from .program import Program, TrialError
@@ -110,6 +111,7 @@ def run(program: Program, report: Report, drive: Drive, turns: Turns, faults: li
     report.check(of + "the fault was done whole", all(done["complete"] for done in sent["faults"]), script)
     had = [done["packets"] for done in sent["faults"]]
     arrived = len(turns.stamps_ns) + sum(fault.arriving * count for fault, count in zip(faults, had))
+    judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], arrived)
     expected = expected_losses(faults, had)
     found = losses(summary)

@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 from . import machine
+from .accounting import judge_accounting
 from .live import Live, losses, misses
 from .loopback import DEADLINE_MS, DRIVE_S
 from .program import Program
@@ -118,6 +119,7 @@ def hold(program: Program, report: Report, seconds: float) -> None:
 
 
 def judge_frames(report: Report, of: str, summary: dict, sent: dict, allowed: set[str]) -> None:
+    judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
     others = {name: count for name, count in losses(summary).items() if name not in allowed | {"clock_jumps"}}
     report.equal(of + "losses by other causes", others, {})
@@ -173,7 +175,7 @@ def never_thawed(program: Program, report: Report, seconds: float) -> list:
     with writing_to_a_disk_that_hangs(program, seconds) as (disk, folder, live, sending):
         time.sleep(2 * seconds / 3)
         sent = sending.stop()
-        time.sleep(0.5)
+        live.settled()
         live.interrupt()
         # It has ended but for the thread that the kernel holds on to until the disk answers.
         end = time.monotonic() + 20
@@ -193,16 +195,9 @@ def never_thawed(program: Program, report: Report, seconds: float) -> list:
 
 def deaf(program: Program, report: Report, seconds: float) -> None:
     of, drive = "readers that do not read: ", program.drive("hdl64e", "single", "street", DRIVE_S)
-    metrics = free_tcp_port()
-    ports, options = [metrics], ["--metrics", f"127.0.0.1:{metrics}"]
-    if program.has_option("live", "--stream"):
-        stream = free_tcp_port()
-        ports.append(stream)
-        options += ["--stream", f"127.0.0.1:{stream}"]
-    else:
-        report.skip(of + "a client of --stream", "this program has no --stream")
+    options = ["--metrics", "127.0.0.1:0", "--stream", "127.0.0.1:0"]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=seconds + 120) as live:
-        readers = DeafReaders(live, *ports)
+        readers = DeafReaders(live, live.port_after("figures at "), live.port_after("labelled points at "))
         sending = live.send("--loop")
         time.sleep(seconds)
         sent = sending.stop()
@@ -210,9 +205,3 @@ def deaf(program: Program, report: Report, seconds: float) -> None:
         summary = live.stop()
     judge_frames(report, of, summary, sent, {name for name in summary["losses"] if "stream" in name})
     report.equal(of + "frames skipped", summary["frames"]["rungs"]["skipped"], 0)
-
-
-def free_tcp_port() -> int:
-    with socket.socket(socket.AF_INET, socket.SOCK_STREAM) as probe:
-        probe.bind(("127.0.0.1", 0))
-        return probe.getsockname()[1]

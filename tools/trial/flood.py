@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Somebody who sends datagrams at a rate of its own: an attacker, a second sensor. A process by itself, so that
+it shares nothing with the trial but the machine: `python3 flood.py TO RATE SECONDS PAYLOADS FROM...`."""
+
+from __future__ import annotations
+
+import json
+import random
+import signal
+import socket
+import struct
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+TICK_S = 0.001
+LENGTH = struct.Struct("<H")
+PRIORITY = ["chrt", "-f", "60"]  # as the sensor's, which this must not hold up
+
+# --- What is sent ---
+
+
+def garbage(packets: list[bytes], count: int = 2000) -> list[bytes]:
+    """Bytes that mean nothing: of any length, of the sensor's length, and such as begin and are divided like its
+    packets. The same every time."""
+    dice = random.Random(20240229)
+    made = []
+    for _ in range(count):
+        packet = bytearray(dice.choice(packets))
+        kind = dice.randrange(4)
+        if kind == 0:
+            packet = bytearray(dice.randbytes(dice.randrange(0, 1400)))
+        elif kind == 1:
+            packet = bytearray(dice.randbytes(len(packet)))
+        elif kind == 2:
+            packet[12:] = dice.randbytes(len(packet) - 12)
+        else:
+            for at in range(0, len(packet) - 100, 100):  # headers of blocks may stay, what follows does not
+                packet[at + 4 : at + 100] = dice.randbytes(96)
+        made.append(bytes(packet))
+    return made
+
+
+def write_payloads(path: Path, payloads: list[bytes]) -> Path:
+    path.write_bytes(b"".join(LENGTH.pack(len(payload)) + payload for payload in payloads))
+    return path
+
+
+# --- Sending ---
+
+
+def read_payloads(path: Path) -> list[bytes]:
+    content, at, payloads = path.read_bytes(), 0, []
+    while at < len(content):
+        (length,) = LENGTH.unpack_from(content, at)
+        payloads.append(content[at + LENGTH.size : at + LENGTH.size + length])
+        at += LENGTH.size + length
+    return payloads
+
+
+def send(to: tuple[str, int], rate: float, seconds: float, payloads: list[bytes], addresses: list[str]) -> dict:
+    """As many a millisecond as the rate asks for; what a busy machine held up is made good. 0 s: until SIGINT."""
+    sockets = []
+    for address in addresses:
+        sockets.append(socket.socket(socket.AF_INET, socket.SOCK_DGRAM))
+        sockets[-1].bind((address, 0))
+    over: list[int] = []
+    signal.signal(signal.SIGINT, lambda number, _: over.append(number))
+    sent = failed = 0
+    begun = now = time.monotonic()
+    while not over and (seconds == 0 or now - begun < seconds):
+        due = int((now - begun) * rate)
+        while sent + failed < due:
+            number = sent + failed
+            try:
+                sockets[number % len(sockets)].sendto(payloads[number % len(payloads)], to)
+                sent += 1
+            except OSError:
+                failed += 1
+        time.sleep(TICK_S)
+        now = time.monotonic()
+    return {"sent": sent, "failed": failed, "per_second": sent / max(time.monotonic() - begun, TICK_S)}
+
+
+class Flood:
+    """Such a process; stop() gives what it sent."""
+
+    def __init__(self, to: str, rate: float, payloads: Path, addresses: list[str], realtime: bool):
+        command = [*(PRIORITY if realtime else []), sys.executable, __file__, to, str(rate), "0", str(payloads), *addresses]
+        self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+
+    def stop(self) -> dict:
+        self.process.send_signal(signal.SIGINT)
+        output, _ = self.process.communicate()
+        return json.loads(output)
+
+
+if __name__ == "__main__":
+    host, port = sys.argv[1].rsplit(":", 1)
+    told = send((host, int(port)), float(sys.argv[2]), float(sys.argv[3]), read_payloads(Path(sys.argv[4])), sys.argv[5:])
+    print(json.dumps(told))

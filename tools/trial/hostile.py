@@ -1,0 +1,159 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""A network that is full of others, and a sensor that is not well: the run must stay up, account for every
+datagram, and label the sensor's turns in time, or say of each why not.
+
+The clock that steps is the sensor's. The computer's own is not set here: it would step for everything that runs
+on this machine; the sequence fuzzers of tests/fuzz step it for the chain that live runs."""
+
+from __future__ import annotations
+
+import itertools
+import shutil
+import time
+from collections import Counter
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from . import machine
+from .accounting import judge_accounting
+from .capture import Drive, labels_of, payloads
+from .flood import Flood, garbage, write_payloads
+from .live import Live, losses, misses
+from .loopback import DEADLINE_MS, SENSORS, TURNS_A_SECOND
+from .program import Program
+from .report import Report
+from .scripted_faults import Turns, unmatched
+
+FLOOD_A_SECOND = 20_000
+REACHED_A_SECOND = 18_000  # below this a flood was none
+SENSOR = "127.0.0.1"
+STRANGERS = [f"127.0.0.{number}" for number in range(2, 10)]
+CALM_S = 1.5  # of the drive, after whoever disturbs it has gone
+IN_TIME = 0.95  # of the turns, where nobody has the sensor's address
+
+
+@dataclass(frozen=True)
+class Attack:
+    """`sends`: whoever sends beside the sensor: what, made of its packets, and how many a second, made of how many a
+    second it sends itself. `faults`: a script for the sensor, made of how long it plays."""
+
+    name: str
+    addresses: list[str] | None = None
+    sends: Callable[[list[bytes]], list[bytes]] = lambda packets: packets
+    rate: Callable[[float], float] = lambda sensor_a_second: FLOOD_A_SECOND
+    faults: Callable[[float], str] = lambda seconds: ""
+
+    @property
+    def is_flood(self) -> bool:
+        return self.addresses is not None and self.rate(0) == FLOOD_A_SECOND
+
+    @property
+    def has_sensors_address(self) -> bool:
+        return self.addresses is None or SENSOR in self.addresses
+
+
+def reboots(seconds: float) -> str:
+    """Every two seconds it is silent for 0.3 s and counts from the beginning again."""
+    times = itertools.takewhile(lambda at: at + 0.3 < seconds, itertools.count(2, 2))
+    return " ".join(f"pause@{at}s:0.3s clock@{at + 0.3:.1f}s:-2s" for at in times)
+
+
+def clock_steps(seconds: float) -> str:
+    """Twice a second, by a little and by much, forward and back."""
+    steps = itertools.cycle(["+0.05s", "-0.05s", "+2s", "-2s", "+1800s", "-1800s"])
+    times = itertools.takewhile(lambda at: at < seconds, itertools.count(0.75, 0.5))
+    return " ".join(f"clock@{at:.2f}s:{step}" for at, step in zip(times, steps))
+
+
+ATTACKS = [
+    Attack("a flood of garbage from the sensor's address", [SENSOR], garbage),
+    Attack("a flood from other addresses", STRANGERS),
+    Attack("a flood of well-formed packets from the sensor's address", [SENSOR]),
+    Attack("a second sensor at another address", STRANGERS[:1], rate=lambda sensor_a_second: sensor_a_second),
+    Attack("a second sensor at the sensor's address", [SENSOR], rate=lambda sensor_a_second: sensor_a_second),
+    Attack("packets with stamps from the past", [SENSOR], lambda packets: packets[: len(packets) // 4],
+           rate=lambda sensor_a_second: sensor_a_second / 10),
+    Attack("a sensor that reboots every two seconds", faults=reboots),
+    Attack("a sensor whose clock steps", faults=clock_steps),
+]  # fmt: skip
+
+
+def hold(program: Program, report: Report, seconds: float, sensors: list[str], short: bool) -> None:
+    """`short`: what takes time is not judged."""
+    for sensor in sensors:
+        drive = program.drive(sensor, SENSORS[sensor].returns, "street", seconds + CALM_S)
+        folder = fresh(program.scratch / "labels_replay")
+        turns = Turns(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
+        rows = [attacked(program, report, drive, turns, seconds, sensor, attack, short) for attack in ATTACKS]
+        report.table(
+            f"{sensor}: {seconds:g} s of each, then {CALM_S:g} s of calm; labels within {DEADLINE_MS} ms",
+            ["", "beside the sensor, a second", "turns", "frames", "in time", "turns with their own labels",
+             "misses", "lost"],
+            rows,
+        )  # fmt: skip
+
+
+def fresh(folder: Path) -> Path:
+    shutil.rmtree(folder, ignore_errors=True)
+    return folder
+
+
+def attacked(program: Program, report: Report, drive: Drive, turns: Turns, seconds: float, sensor: str, attack: Attack,
+             short: bool) -> list:  # fmt: skip
+    of = f"{sensor}, {attack.name}: "
+    labels = fresh(program.scratch / "labels_live")
+    deadline_ms = 2000 if short else DEADLINE_MS
+    packets = payloads(drive.pcap, for_s=2)
+    a_second = len(turns.stamps_ns) / (seconds + CALM_S)
+    faults = ["--faults", attack.faults(seconds)] if attack.faults(seconds) else []
+    with Live(program, drive, "--labels", labels, deadline_ms=deadline_ms, limit_s=seconds + 120) as live:
+        flood = None
+        if attack.addresses:
+            sent_by_others = write_payloads(program.scratch / "flood.bin", attack.sends(packets))
+            flood = Flood(live.sends_to, attack.rate(a_second), sent_by_others, attack.addresses,
+                          machine.has_realtime_rights())  # fmt: skip
+        sending = live.send(*faults)
+        time.sleep(seconds)
+        others = flood.stop() if flood else {"sent": 0, "per_second": 0}
+        sent = sending.wait()
+        live.settled()
+        report.check(of + "stays up", live.runs() and live.figures() is not None, live.messages().splitlines()[-1:])
+        summary = live.stop()
+
+    judge_accounting(report, of, summary, sent["sent"] + others["sent"])
+    if attack.is_flood and not short:
+        report.check(of + f"datagrams beside the sensor, at least {REACHED_A_SECOND} a second",
+                     others["per_second"] >= REACHED_A_SECOND, f"{others['per_second']:.0f}")  # fmt: skip
+    touched = set().union(*(touched_by(fault, turns) for fault in sent["faults"]))
+    expected = len(turns.labels) - len(touched)
+    lost = unmatched(turns.labels, touched, labels_of(labels))
+    frames, in_time = summary["frames"]["count"], summary["frames"]["count"] - summary["misses"]["total"]
+    if not attack.has_sensors_address:
+        report.equal(of + "turns that have not the labels of a drive that nobody disturbs", lost, [])
+        if not short:
+            report.check(of + f"turns labelled within {DEADLINE_MS} ms, of {expected}", in_time >= IN_TIME * expected,
+                         in_time)  # fmt: skip
+    judge_causes(report, of, summary, len(lost))
+    if not short:
+        calm = int((CALM_S - 0.5) * TURNS_A_SECOND)
+        last = [turn for turn in lost if turn >= len(turns.labels) - calm]
+        report.equal(of + f"of the last {calm} turns, in the calm, those that have not their own labels", last, [])
+    return [attack.name, f"{others['per_second']:.0f}", expected, frames, in_time, expected - len(lost), misses(summary),
+            ", ".join(f"{cause} {count}" for cause, count in losses(summary).items()) or "-"]  # fmt: skip
+
+
+def touched_by(fault: dict, turns: Turns) -> set[int]:
+    """The turns that a script's fault changes; of a clock that steps, the one in which it does."""
+    is_step = fault["fault"].startswith("clock")
+    return set().union(*(turns.of(first, 1 if is_step else count) for first, count in fault["runs"]))
+
+
+def judge_causes(report: Report, of: str, summary: dict, lost: int) -> None:
+    """Every miss has a cause, and no turn is lost or changed without a loss that is named."""
+    causes = Counter(summary["misses"]["causes"])
+    report.equal(of + "misses by all causes together", causes.total(), summary["misses"]["total"])
+    named = sum(losses(summary).values())
+    report.check(of + "turns lost or with other labels, and what was lost by cause", lost == 0 or named > 0,
+                 f"{lost}, {named}")  # fmt: skip

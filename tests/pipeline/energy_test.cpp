@@ -88,6 +88,51 @@ TEST_F(FourCells, HeightGradientWeightIsEquationFourteen) {
   EXPECT_NEAR(boundary.weight(0, 1), std::exp(-10 * 0.04 / 0.5), 1e-4);
 }
 
+TEST_F(FourCells, NearnessWeightFallsWithDistanceOverAScaleThatGrowsWithTheMeanRange) {
+  BoundaryTerm::Config config;
+  config.rule = BoundaryRule::kNearness;
+  config.scale_m = 0.2F;
+  config.scale_per_metre = 0.01F;
+  put(0, 0, 5.0F, 0.0F, Seed::kUnknown, 0);
+  put(0, 1, 5.3F, 0.4F, Seed::kUnknown, 0);   // 0.5 m away, along and up
+  put(0, 2, 55.0F, 0.0F, Seed::kUnknown, 0);  // 50 m away
+  const NegativeExp negative_exp;
+  const BoundaryTerm boundary(config, negative_exp, image);
+  EXPECT_NEAR(boundary.weight(0, 1), std::exp(-0.5 / (0.2 + 0.01 * 5.15)), 1e-4);
+  EXPECT_EQ(boundary.weight(0, 2), 0.0F);
+  config.scale_m = 50;
+  EXPECT_NEAR(boundary.weight(0, 2), std::exp(-50 / (50 + 0.01 * 30)), 1e-4);
+}
+
+TEST_F(FourCells, EdgesToAllNeighboursGetTheirWeightInWholeNumbers) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> metres(0, 1);
+  for (int row = 0; row < kShape.rows; ++row) {
+    for (int column = 0; column < kShape.columns; ++column) {
+      const float x_m = 5 + metres(random), y_m = metres(random);
+      image.place(row, column, {x_m, y_m, metres(random), std::hypot(x_m, y_m), 0});
+    }
+  }
+  const NegativeExp negative_exp;
+  for (const BoundaryRule rule : {BoundaryRule::kHeightGradient, BoundaryRule::kNearness}) {
+    BoundaryTerm::Config config;
+    config.rule = rule;
+    config.sigma = 0.5F;  // no weight is 0
+    config.scale_m = 1;
+    const BoundaryTerm boundary(config, negative_exp, image);
+    for (const int column : {0, 7, kShape.columns - 1}) {
+      const auto cell = static_cast<std::uint32_t>(kShape.cell(1, column));
+      const NeighbourCells around = neighbour_cells(kShape, 1, column);
+      std::array<std::uint16_t, kDirections> weights{};
+      boundary(cell, around, std::span<std::uint16_t, kDirections>(weights));
+      for (std::size_t d = 0; d < around.size(); ++d) {
+        EXPECT_NEAR(weights[d], boundary.weight(cell, around[d]) * kCapacityScale, 1);
+        EXPECT_GT(weights[d], 0);
+      }
+    }
+  }
+}
+
 TEST_F(FourCells, WeightsAreTheSameBothWaysBitForBit) {
   std::mt19937 random(7);
   std::uniform_real_distribution<float> metres(-50, 50);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "tests/support/synthetic_turn.hpp"
@@ -140,6 +141,34 @@ TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam)
   const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
   EXPECT_NEAR(at(0, 40.0F), true_m, 0.25F);
   EXPECT_NEAR(at(grid.sectors() - 1, 40.0F), true_m, 0.25F);
+}
+
+TEST_F(SurfaceOverGrid, BorrowsAcrossTheSeamFromOneSideAlone) {
+  // Hidden sectors from the seam on, more of them than ground is lent over.
+  constexpr int kHidden = 30;
+  const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
+  for (const bool is_right : {false, true}) {
+    fill([](float range_m) { return 0.03F * range_m; });
+    for (int n = 0; n < kHidden; ++n) {
+      const int sector = is_right ? n : grid.sectors() - 1 - n;
+      for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
+        lowest[grid.cell(sector, band)].height_m = 9.0F;
+      }
+    }
+    estimate();
+    EXPECT_NEAR(at(is_right ? 0 : grid.sectors() - 1, 40.0F), true_m, 0.25F);
+  }
+}
+
+TEST_F(SurfaceOverGrid, FollowsGroundThatFallsAwayFasterThanItMayRise) {
+  // Over 3 m: too short for ground to be found again behind where it was lost.
+  for (const float slope : {-0.45F, 0.45F}) {
+    const auto edge = [slope](float range_m) { return slope * std::max(0.0F, range_m - 10.0F); };
+    fill([&](float range_m) { return range_m < 13 ? edge(range_m) : GroundSurface::kEmpty; });
+    estimate();
+    const float middle_m = grid.center_m(grid.band_of(12.0F));
+    EXPECT_EQ(std::fabs(at(5, 12.0F) - edge(middle_m)) < 0.1F, slope < 0) << at(5, 12.0F);
+  }
 }
 
 }  // namespace

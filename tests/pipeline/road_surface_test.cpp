@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <random>
 #include <utility>
 #include <vector>
 
@@ -210,6 +211,49 @@ TEST_F(RoadSurfaceOfATurn, DoesNotGoOnBehindAWall) {
                                    {-60, 60, -8.3, -8, -1, 0.8}}));
   EXPECT_GT(road_share(4, 6, -3, 3), 0.99);
   EXPECT_EQ(road_share(16, 40, -20, 20), 0.0);
+}
+
+TEST_F(RoadSurfaceOfATurn, IsTheSameWhereverTheSeamOfTheImageLies) {
+  // Kerbs, bumps that bar the way and bumps that are noise; then the same seen from a vehicle that
+  // stands the other way round, so that what was at the seam is in the middle of the image.
+  constexpr ImageShape kHalves{64, 1080};  // halves of whole patches and sectors
+  RangeImage turn(kHalves, 0, memory);
+  std::mt19937 random(5);
+  const auto between = [&random](double least, double most) {
+    return std::uniform_real_distribution<double>(least, most)(random);
+  };
+  for (int trial = 0; trial < 8; ++trial) {
+    SCOPED_TRACE(trial);
+    std::vector<test::Box> boxes{{-60, 8, 3.5, 5.5, -1, kKerb_m},
+                                 {-60, 60, -5.5, -3.5, -1, kKerb_m}};
+    for (int n = 0; n < 40; ++n) {
+      const double x = between(4, 20), y = between(-2, 2);
+      boxes.push_back({x, x + between(0.1, 3), y, y + between(0.1, 0.6), -1, between(0.02, 0.14)});
+    }
+    const auto beams = test::ground_with_boxes(boxes);
+    std::vector<Label> cells[2];
+    for (const int half_turns : {0, 1}) {
+      test::cast_turn(
+          profile,
+          [&](double azimuth_rad, double elevation_rad) {
+            return beams(azimuth_rad + half_turns * std::numbers::pi, elevation_rad);
+          },
+          turn);
+      Segmenter of_halves(config, profile, kHalves, turn.return_capacity(), memory);
+      (void)of_halves.segment(turn);
+      for (int row = 0; row < kHalves.rows; ++row) {
+        for (int column = 0; column < kHalves.columns; ++column) {
+          const int turned = (column + half_turns * kHalves.columns / 2) % kHalves.columns;
+          const std::size_t cell = kHalves.cell(row, turned);
+          cells[half_turns].push_back(
+              turn.has_return(cell) ? of_halves.labels()[turn.return_index()[cell]] : Label::kNone);
+        }
+      }
+    }
+    EXPECT_EQ(cells[0], cells[1]);
+    EXPECT_GT(std::ranges::count(cells[0], Label::kGround), 1000);
+    EXPECT_GT(std::ranges::count(cells[0], Label::kOtherGround), 1000);
+  }
 }
 
 TEST_F(RoadSurfaceOfATurn, ChangesNothingButWhichGroundItIs) {

@@ -10,6 +10,7 @@
 #include "pipeline/min_cut/eight_lanes.hpp"
 #include "pipeline/min_cut/greedy_push.hpp"
 #include "pipeline/min_cut/node_queue.hpp"
+#include "pipeline/min_cut/residual_reach.hpp"
 #include "tests/pipeline/min_cut/solving.hpp"
 #include "tests/pipeline/min_cut/weight_symmetry.hpp"
 
@@ -205,6 +206,52 @@ TEST(Components, AreConnectedWholeAndNearestFirst) {
       ASSERT_EQ(reached.size(), contracted.components[c].size());
     }
   }
+}
+
+TEST(Certify, ProvesWhateverHasNoWayToTheSinkOrNoneFromTheSource) {
+  Random random(46);
+  std::uint32_t proven = 0, unproven = 0;
+  for (int i = 0; i < 100; ++i) {
+    SCOPED_TRACE(i);
+    Contracted contracted(any_problem(random));
+    push_one_hop(contracted.graph);
+    const auto nodes = contracted.graph.nodes;
+    // Ways of any length, by going one arc farther from each node until nothing changes.
+    std::vector<bool> to_sink(nodes.size()), from_source(nodes.size());
+    for (std::size_t p = 0; p < nodes.size(); ++p) {
+      to_sink[p] = nodes[p].excess < 0;
+      from_source[p] = nodes[p].excess > 0;
+    }
+    for (bool has_changed = true; has_changed;) {
+      has_changed = false;
+      for (std::size_t p = 0; p < nodes.size(); ++p) {
+        for_each_edge(nodes[p].edges, [&](int direction) {
+          const auto d = static_cast<std::size_t>(direction);
+          const std::uint32_t q = nodes[p].neighbour[d];
+          if (nodes[p].residual[d] == 0) return;
+          has_changed |= (to_sink[q] && !to_sink[p]) || (from_source[p] && !from_source[q]);
+          to_sink[p] = to_sink[p] || to_sink[q];
+          from_source[q] = from_source[q] || from_source[p];
+        });
+      }
+    }
+    std::vector<std::uint32_t> all(nodes.size()), queue(nodes.size());
+    std::iota(all.begin(), all.end(), 0U);
+    const std::uint32_t answered = certify(contracted.graph, all, queue);
+    std::uint32_t expected = 0;
+    for (std::size_t p = 0; p < nodes.size(); ++p) {
+      const Side side = !to_sink[p]       ? Side::kObstacle
+                        : !from_source[p] ? Side::kGround
+                                          : Side::kFree;
+      ASSERT_EQ(nodes[p].side, side) << p;
+      expected += side != Side::kFree ? 1 : 0;
+    }
+    ASSERT_EQ(answered, expected);
+    proven += expected;
+    unproven += static_cast<std::uint32_t>(nodes.size()) - expected;
+  }
+  EXPECT_GT(proven, 1000U);
+  EXPECT_GT(unproven, 1000U);
 }
 
 TEST(Persistency, FixesALoneCellAndTheChainItDrags) {

@@ -204,6 +204,7 @@ TEST_F(CliLive, SaysWhereItsFiguresAre) {
       *firmware_io::parse_stream_address(at.substr(0, at.find('/'))));
   EXPECT_TRUE(served) << served.error().message;
   EXPECT_THAT(at, testing::EndsWith("/metrics"));
+  (void)run.interrupted();
 }
 
 TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {

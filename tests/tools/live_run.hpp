@@ -51,7 +51,8 @@ class LiveRun : public BackgroundProgram {
   template <class Wanted>
   [[nodiscard]] bool shows(const Wanted& wanted) {
     for (std::uint64_t seen = 0; !has_ended(); look_again_soon()) {
-      if (!page_) {
+      if (!page_ || !page_->publisher_lives()) {  // or is of a run before that was killed
+        page_.reset();
         if (auto opened = Page::open(name(), rt::MonitorSnapshot::kLayout)) {
           page_.emplace(*std::move(opened));
         }

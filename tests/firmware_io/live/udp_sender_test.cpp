@@ -3,6 +3,8 @@
 #include "firmware_io/live/udp_sender.hpp"
 
 #include <gmock/gmock.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
 
 #include <cerrno>
 
@@ -42,12 +44,16 @@ TEST(SendCounters, OfSeveralSendersAddUp) {
 }
 
 TEST_F(UdpSenderTest, DoesNotMindThatNobodyListens) {
-  std::uint16_t port = 0;
-  {
-    const auto source = open();
-    port = source.local().port;
-  }
-  auto sender = UdpSender::open({.to = {kLocalhost, port}}, memory_);
+  // Bound, so that no other program gets the port, and connected, so that it hears nobody else.
+  const firmware_io::OwnedDescriptor deaf(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const sockaddr_in any = firmware_io::socket_address({kLocalhost, 0});
+  const sockaddr_in elsewhere = firmware_io::socket_address({kOtherLocalhost, 9});
+  ASSERT_EQ(::bind(deaf.get(), reinterpret_cast<const sockaddr*>(&any), sizeof any), 0);
+  ASSERT_EQ(::connect(deaf.get(), reinterpret_cast<const sockaddr*>(&elsewhere), sizeof any), 0);
+  sockaddr_in local{};
+  socklen_t size = sizeof local;
+  ::getsockname(deaf.get(), reinterpret_cast<sockaddr*>(&local), &size);
+  auto sender = UdpSender::open({.to = firmware_io::endpoint_of(local)}, memory_);
   ASSERT_TRUE(sender);
   Numbered numbered(10);
   EXPECT_EQ(sender->send(numbered.datagrams()), 10U);

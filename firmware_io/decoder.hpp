@@ -274,8 +274,9 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   }
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
   if (deskewer_ && placed.arrival != Arrival::kReordered) {
-    const std::int64_t sent_ns = clock_.sent_ns(heads_.device_stamp_us, datagram.stamp_ns);
-    deskewer_->note(first_ticks, sent_ns - heads_.nominal_period_ns);
+    const HostClock::Sent sent = clock_.sent(heads_.device_stamp_us, datagram.stamp_ns);
+    if (sent.anew) deskewer_->begin_anew(first_ticks);
+    deskewer_->note(first_ticks, sent.instant_ns - heads_.nominal_period_ns);
   }
 
   while (last_turn > frames_.oldest() + 1) frames_.roll(deskewed(on_frame));

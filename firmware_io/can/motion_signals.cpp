@@ -118,7 +118,7 @@ std::optional<MotionSample> MotionSignals::take(const CanFrame& frame) noexcept 
   }
   ++counters_.frames;
   if (newest_frame_ns_ && frame.stamp_ns < *newest_frame_ns_) {
-    if (*newest_frame_ns_ - frame.stamp_ns <= timeout_ns_) {
+    if (*newest_frame_ns_ - frame.stamp_ns <= kMotionDisorder_ns) {
       ++counters_.out_of_order;
       return std::nullopt;
     }

@@ -46,9 +46,9 @@ struct MotionCounters {
   std::uint64_t frames = 0;        ///< With one or more of the signals.
   std::uint64_t too_short = 0;     ///< Signals that their frame had no room for.
   std::uint64_t out_of_order = 0;  ///< Stamped before one that came earlier; left out.
-  std::uint64_t clock_set_back =
-      0;                      ///< So far before it that the clock was set; all was forgotten.
-  std::uint64_t samples = 0;  ///< Made.
+  /// By more than kMotionDisorder_ns, so that the clock was set; all was forgotten.
+  std::uint64_t clock_set_back = 0;
+  std::uint64_t samples = 0;           ///< Made.
   std::uint64_t yaw_rate_invalid = 0;  ///< The validity signal said no, or it was no number.
   std::uint64_t speed_invalid = 0;     ///< The same of the speed.
   std::uint64_t stale = 0;             ///< A signal was older than max_age_s, or never came.

@@ -11,9 +11,11 @@ namespace terracut::firmware_io {
 enum class TurnInstant : std::uint8_t { kStart, kMiddle, kEnd };
 
 enum class DeskewState : std::uint8_t {
-  kOff,          ///< Not asked for: returns lie where the sensor saw them when it saw them.
-  kDone,         ///< All returns lie where they were at one instant, if they stood still.
-  kNoEgoMotion,  ///< Asked for, but the vehicle's motion is not known: as kOff.
+  kOff,   ///< Not asked for: returns lie where the sensor saw them when it saw them.
+  kDone,  ///< All returns lie where they were at one instant, if they stood still.
+  /// Asked for, but the vehicle's motion is not known, or a clock was set while the turn arrived:
+  /// as kOff.
+  kNoEgoMotion,
 };
 
 /// Whether and how a turn was freed of the vehicle's motion.

@@ -63,36 +63,47 @@ double Deskewer::nodes(std::int64_t head_ticks) const noexcept {
 void Deskewer::restart() noexcept {
   noted_ = false;
   first_node_ = next_node_ = 0;
+  anew_node_ = kFromTheStart;
+}
+
+void Deskewer::begin_anew(std::int64_t head_ticks) noexcept {
+  noted_ = false;
+  anew_node_ = static_cast<std::int64_t>(std::ceil(nodes(head_ticks)));
+  config_.motion->forget();
 }
 
 void Deskewer::note(std::int64_t head_ticks, std::int64_t instant_ns) noexcept {
-  const double position = nodes(head_ticks);
+  const Note note{nodes(head_ticks), instant_ns};
   if (!noted_) {
     noted_ = true;
-    first_node_ = next_node_ = static_cast<std::int64_t>(std::ceil(position));
-    if (static_cast<double>(first_node_) == position) {
-      instants_ns_[static_cast<std::size_t>(next_node_++) & (instants_ns_.size() - 1)] = instant_ns;
-    }
-  } else {
-    if (position <= last_position_ || instant_ns < last_ns_) return;
-    const double ns_per_node =
-        static_cast<double>(instant_ns - last_ns_) / (position - last_position_);
-    // What a gap leaves behind the ring's length is overwritten before it is asked for.
-    const auto size = static_cast<std::int64_t>(instants_ns_.size());
-    next_node_ = std::max(next_node_, static_cast<std::int64_t>(std::floor(position)) + 1 - size);
-    for (; static_cast<double>(next_node_) <= position; ++next_node_) {
-      const double since = static_cast<double>(next_node_) - last_position_;
-      instants_ns_[static_cast<std::size_t>(next_node_) & (instants_ns_.size() - 1)] =
-          last_ns_ + static_cast<std::int64_t>(since * ns_per_node);
-    }
-    first_node_ = std::max(first_node_, next_node_ - size);
+    first_node_ = next_node_ = static_cast<std::int64_t>(std::ceil(note.position));
+    before_ = newest_ = note;
+    return;
   }
-  last_position_ = position;
-  last_ns_ = instant_ns;
+  if (note.position <= newest_.position || note.instant_ns < newest_.instant_ns) return;
+  // Nodes that leave the ring before the way to the newest note is at its end need not be filled.
+  const auto last_node = static_cast<std::int64_t>(std::floor(newest_.position));
+  next_node_ = std::max(next_node_, last_node + 1 - static_cast<std::int64_t>(instants_ns_.size()));
+  fill(last_node);
+  before_ = newest_;
+  newest_ = note;
+}
+
+void Deskewer::fill(std::int64_t last_node) noexcept {
+  const double way = newest_.position - before_.position;
+  const auto time_ns = static_cast<double>(newest_.instant_ns - before_.instant_ns);
+  const double ns_per_node = way > 0 ? time_ns / way : 0;
+  for (; next_node_ <= last_node && static_cast<double>(next_node_) <= newest_.position;
+       ++next_node_) {
+    const double since = static_cast<double>(next_node_) - before_.position;
+    instants_ns_[static_cast<std::size_t>(next_node_) & (instants_ns_.size() - 1)] =
+        before_.instant_ns + static_cast<std::int64_t>(since * ns_per_node);
+  }
+  first_node_ = std::max(first_node_, next_node_ - static_cast<std::int64_t>(instants_ns_.size()));
 }
 
 std::int64_t Deskewer::instant_of(std::int64_t node) const noexcept {
-  if (node >= next_node_ || first_node_ == next_node_) return last_ns_;
+  if (node >= next_node_ || first_node_ == next_node_) return newest_.instant_ns;
   return instants_ns_[static_cast<std::size_t>(std::max(node, first_node_)) &
                       (instants_ns_.size() - 1)];
 }
@@ -141,6 +152,9 @@ DeskewInfo Deskewer::apply(std::int64_t turn, pipeline::RangeImage& image) noexc
   const std::int64_t first_column = turn * columns_ + first_shift_;
   const std::int64_t first_node =
       (first_column - ((first_column % kNodeColumns) + kNodeColumns) % kNodeColumns) / kNodeColumns;
+  const double end = nodes((turn + 1) * config_.turn_ticks);
+  fill(std::max(first_node + static_cast<std::int64_t>(node_ns_.size()),
+                static_cast<std::int64_t>(std::floor(end)) + 1));
   for (std::size_t i = 0; i < node_ns_.size(); ++i) {
     node_ns_[i] = instant_of(first_node + static_cast<std::int64_t>(i));
   }
@@ -151,6 +165,7 @@ DeskewInfo Deskewer::apply(std::int64_t turn, pipeline::RangeImage& image) noexc
   if (const auto newest_ns = motion.newest_ns()) {
     info.newest_motion_ns = *newest_ns - instant_at((turn + 1) * config_.turn_ticks);
   }
+  if (first_node < anew_node_) return info;
   if (!motion.poses(node_ns_, info.reference_ns, node_poses_)) return info;
   spread_poses(first_column, first_node);
   image.move(by_row_);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "firmware_io/motion/deskew_info.hpp"
@@ -45,8 +46,12 @@ class Deskewer {
 
   /// A stream begins: what was noted does not belong with what comes.
   void restart() noexcept TERRACUT_NONBLOCKING;
-  /// The head stood at `head_ticks` (unwrapped) at `instant_ns`. Both do not fall; an instant that
-  /// does is not used.
+  /// A clock was set, and the head has come to `head_ticks`: instants noted from now on are not to
+  /// be compared with those before, nor with samples of motion added before. The turns that were
+  /// begun by then have no ego motion.
+  void begin_anew(std::int64_t head_ticks) noexcept TERRACUT_NONBLOCKING;
+  /// The head stood at `head_ticks` (unwrapped) at `instant_ns`. Both do not fall; one that does is
+  /// not used.
   void note(std::int64_t head_ticks, std::int64_t instant_ns) noexcept TERRACUT_NONBLOCKING;
 
   /// Moves the returns of a turn, the number of which is that of its azimuth, 360 degrees each.
@@ -55,9 +60,17 @@ class Deskewer {
 
  private:
   static constexpr std::int64_t kNodeColumns = 8;
+  static constexpr std::int64_t kFromTheStart = std::numeric_limits<std::int64_t>::min();
+
+  struct Note {
+    double position = 0;  ///< In nodes.
+    std::int64_t instant_ns = 0;
+  };
 
   /// Azimuth in nodes; both unwrapped.
   [[nodiscard]] double nodes(std::int64_t head_ticks) const noexcept;
+  /// Gives the nodes between the last two notes their instants, up to `last_node`.
+  void fill(std::int64_t last_node) noexcept;
   /// When the head was at a node; at the ends of what was seen, that end.
   [[nodiscard]] std::int64_t instant_of(std::int64_t node) const noexcept;
   [[nodiscard]] std::int64_t instant_at(std::int64_t head_ticks) const noexcept;
@@ -70,9 +83,12 @@ class Deskewer {
 
   std::span<std::int64_t> instants_ns_;  ///< By node, a ring.
   std::int64_t first_node_ = 0, next_node_ = 0;
+  std::int64_t anew_node_ = kFromTheStart;  ///< Of nodes before it, instants are of another time.
   bool noted_ = false;
-  double last_position_ = 0;  ///< In nodes.
-  std::int64_t last_ns_ = 0;
+  /// The last two. The way between them is left until its nodes are asked for: it may be several
+  /// turns long, more than the ring holds, and the turn that it begins in is still to be handed
+  /// over.
+  Note before_, newest_;
 
   // Of the turn in work.
   std::span<std::int64_t> node_ns_;

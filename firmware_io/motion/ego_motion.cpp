@@ -81,7 +81,7 @@ bool EgoMotion::add(const MotionSample& sample) noexcept {
     return false;
   }
   if (last_added_ns_ && sample.stamp_ns <= *last_added_ns_ &&
-      *last_added_ns_ - sample.stamp_ns <= kSecond_ns) {
+      *last_added_ns_ - sample.stamp_ns <= kMotionDisorder_ns) {
     count(out_of_order_);
     return false;
   }
@@ -113,6 +113,11 @@ void EgoMotion::take_new() noexcept {
   }
 }
 
+void EgoMotion::forget() noexcept {
+  take_new();
+  count_ = 0;
+}
+
 std::optional<std::int64_t> EgoMotion::newest_ns() const noexcept {
   if (count_ == 0) return std::nullopt;
   return kept(count_ - 1).stamp_ns;
@@ -131,14 +136,18 @@ std::size_t EgoMotion::last_before(std::int64_t instant_ns) const noexcept {
   return low;
 }
 
-bool EgoMotion::covers(std::int64_t first_ns, std::int64_t last_ns) const noexcept {
-  if (count_ == 0) return false;
-  std::size_t at = last_before(first_ns);
-  if (kept(at).stamp_ns - first_ns > max_age_ns_) return false;
-  for (; at + 1 < count_ && kept(at).stamp_ns < last_ns; ++at) {
-    if (kept(at + 1).stamp_ns - kept(at).stamp_ns > max_age_ns_) return false;
-  }
-  return last_ns - kept(at).stamp_ns <= max_age_ns_;
+std::optional<std::size_t> EgoMotion::beginning_of(std::int64_t first_ns,
+                                                   std::int64_t last_ns) const noexcept {
+  if (count_ == 0) return std::nullopt;
+  const auto apart = [this](std::size_t number) {  // from the sample before
+    return kept(number).stamp_ns - kept(number - 1).stamp_ns > max_age_ns_;
+  };
+  std::size_t at = last_before(last_ns);
+  if (last_ns - kept(at).stamp_ns > max_age_ns_) return std::nullopt;
+  if (kept(at).stamp_ns < last_ns && at + 1 < count_ && apart(at + 1)) return std::nullopt;
+  while (at > 0 && kept(at).stamp_ns > first_ns && !apart(at)) --at;
+  if (kept(at).stamp_ns - first_ns > max_age_ns_) return std::nullopt;
+  return at;
 }
 
 bool EgoMotion::poses(std::span<const std::int64_t> instants_ns, std::int64_t reference_ns,
@@ -146,10 +155,10 @@ bool EgoMotion::poses(std::span<const std::int64_t> instants_ns, std::int64_t re
   if (instants_ns.empty()) return true;
   const std::int64_t first_ns = std::min(instants_ns.front(), reference_ns);
   const std::int64_t last_ns = std::max(instants_ns.back(), reference_ns);
-  if (!covers(first_ns, last_ns)) return false;
-  const std::size_t from = last_before(first_ns);
-  const PlanarPose T_reference_start = inverse(Path(*this, from).sensor_at(reference_ns));
-  Path path(*this, from);
+  const std::optional<std::size_t> from = beginning_of(first_ns, last_ns);
+  if (!from) return false;
+  const PlanarPose T_reference_start = inverse(Path(*this, *from).sensor_at(reference_ns));
+  Path path(*this, *from);
   for (std::size_t i = 0; i < instants_ns.size(); ++i) {
     poses[i] = T_reference_start * path.sensor_at(instants_ns[i]);
   }

@@ -20,7 +20,7 @@ namespace terracut::firmware_io {
 struct EgoMotionCounters {
   std::uint64_t accepted = 0;
   std::uint64_t implausible = 0;   ///< Not finite, or faster than any car.
-  std::uint64_t out_of_order = 0;  ///< Not after the one before.
+  std::uint64_t out_of_order = 0;  ///< Not after the one before, by kMotionDisorder_ns at most.
   std::uint64_t not_taken = 0;     ///< The reader was away and the queue is full.
 };
 
@@ -31,10 +31,11 @@ struct EgoMotionCounters {
 ///
 /// Between two samples speed and turn rate are constant, the mean of both; before the first and
 /// behind the newest they are those of the nearest stretch. There is an answer only where samples
-/// follow each other within `max_age_ns`, from that long before the first instant asked for to the
-/// last, which may be as long after the newest sample; else there is no ego motion, and old values
-/// are never used. A stamp more than a second older than the newest is a new beginning (a log
-/// starts over): what was before is forgotten.
+/// follow each other within `max_age_ns`, from one that is at most that long after the first
+/// instant asked for to the last, which may be as long after the newest sample; else there is no
+/// ego motion, and old values are never used. A stamp more than kMotionDisorder_ns older than the
+/// newest is a new beginning (the clock was set back, a log starts over): what was before is
+/// forgotten.
 ///
 /// Why it is right between threads: only the queue is shared, and its release of a pushed sample
 /// and acquire before it is popped (rt/spsc_queue.hpp) order all there is to order. The history is
@@ -70,6 +71,10 @@ class EgoMotion {
   /// Reader only: takes over what was added since.
   void take_new() noexcept TERRACUT_NONBLOCKING;
 
+  /// Reader only: the clock of the stamps was set, so all samples added until now are of another
+  /// time.
+  void forget() noexcept TERRACUT_NONBLOCKING;
+
   /// Reader only: the sensor's poses at `instants_ns`, which do not fall, in the frame it has at
   /// `reference_ns`. `poses` is as long. False, and `poses` untouched, where there is no ego motion
   /// for the whole span.
@@ -86,7 +91,9 @@ class EgoMotion {
   [[nodiscard]] const MotionSample& kept(std::size_t number) const noexcept;
   /// The last sample at or before this instant; the first where none is.
   [[nodiscard]] std::size_t last_before(std::int64_t instant_ns) const noexcept;
-  [[nodiscard]] bool covers(std::int64_t first_ns, std::int64_t last_ns) const noexcept;
+  /// The sample from which on there is ego motion for this whole span; nothing where there is not.
+  [[nodiscard]] std::optional<std::size_t> beginning_of(std::int64_t first_ns,
+                                                        std::int64_t last_ns) const noexcept;
 
   std::int64_t max_age_ns_;
   PlanarPose axle_sensor_;

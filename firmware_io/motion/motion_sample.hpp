@@ -13,4 +13,8 @@ struct MotionSample {
   double yaw_rate_radps = 0;  ///< To the left is positive.
 };
 
+/// A stamp that is farther than this before the one that came before it is of a clock that was set
+/// back; nearer, it is disorder on the way.
+inline constexpr std::int64_t kMotionDisorder_ns = 20'000'000;
+
 }  // namespace terracut::firmware_io

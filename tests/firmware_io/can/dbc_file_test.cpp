@@ -122,6 +122,17 @@ TEST(DbcFile, AsksWhichOfSeveralSignalsOfOneNameIsMeant) {
   EXPECT_EQ(find_signal(*file, "B.YAW")->message->name, "B");
 }
 
+TEST(DbcFile, ATextMayHoldAnOddNumberOfQuotationMarksAndEndsOfLineBehindThem) {
+  const auto file = parse_dbc(
+      "CM_ \"19\\\" wheels\nBO_ 7 NOT_A_MESSAGE: 8 X\";\n"
+      "BO_ 1 A: 8 X\n SG_ YAW : 0|8@1+ (1,0) [0|0] \"\" X\n",
+      "car.dbc");
+  ASSERT_TRUE(file) << file.error().message;
+  ASSERT_EQ(file->messages.size(), 1U);
+  EXPECT_EQ(file->messages[0].name, "A");
+  EXPECT_EQ(file->messages[0].line, 3);
+}
+
 TEST(DbcFile, NamesTheLineThatIsWrong) {
   const auto complaint = [](std::string_view line) {
     const auto file =

@@ -231,6 +231,89 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewForgetsTheOneBefore) {
   EXPECT_LT(worst_m(0), kHalfAColumn_m);
 }
 
+TEST_F(DeskewerTest, AHeadThatStandsOrIsSeenAtAnEarlierTimeIsNotNoted) {
+  drive(kSpeed_mps, kYawRate_radps);
+  Deskewer deskewer = this->deskewer(TurnInstant::kEnd);
+  note(deskewer, -0.1, 0.4);
+  const std::int64_t head_ticks = std::llround(0.41 * kTurn_ticks);
+  deskewer.note(head_ticks, instant_ns(0.41));
+  deskewer.note(head_ticks, instant_ns(0.9));                             // the same place
+  deskewer.note(head_ticks - 1'000'000, instant_ns(0.9));                 // one before it
+  deskewer.note(std::llround(0.45 * kTurn_ticks), instant_ns(0.41) - 1);  // before it in time
+  note(deskewer, 0.5, 1.1);
+  see(0, kSpeed_mps, kYawRate_radps);
+  EXPECT_EQ(deskewer.apply(0, image_).state, DeskewState::kDone);
+  EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
+}
+
+TEST_F(DeskewerTest, AGapOfManyTurnsLeavesTheTurnBeforeItAndTheOneBehindItAsTheyAre) {
+  for (const int turns : {2, 5, 12, 20}) {
+    SCOPED_TRACE(turns);
+    EgoMotion motion({}, memory_);
+    for (int i = -5; i < turns * 10 + 25; ++i) {
+      motion.add({kStart_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps});
+      motion.take_new();
+    }
+    Deskewer deskewer({&motion, TurnInstant::kEnd, kShape, kTurn_ticks}, kBeam_ticks, memory_);
+    note(deskewer, -0.1, 0.7);
+    note(deskewer, turns + 0.02);  // handed over with the first packet behind the gap
+    see(0, kSpeed_mps, kYawRate_radps);
+    DeskewInfo info = deskewer.apply(0, image_);
+    EXPECT_EQ(info.state, DeskewState::kDone);
+    EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(1)), 0, 1000);
+    EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
+    note(deskewer, turns + 0.03, turns + 1.1);
+    see(turns, kSpeed_mps, kYawRate_radps);
+    info = deskewer.apply(turns, image_);
+    EXPECT_EQ(info.state, DeskewState::kDone);
+    EXPECT_LT(worst_m(turns + 1.0), kHalfAColumn_m);
+    // Of a time that is not remembered any more the first that is stands in.
+    constexpr double kRemembered = 256 * 8 / 401.0;
+    const double first = std::max(-0.1, turns + 1.1 - kRemembered);
+    info = deskewer.apply(turns - 9, image_);
+    EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(first)), 0, 5e6);
+  }
+}
+
+TEST_F(DeskewerTest, WhereAClockWasSetTheTurnsBegunHaveNoEgoMotionAndTheNextHasItsOwn) {
+  drive(kSpeed_mps, kYawRate_radps);
+  Deskewer deskewer = this->deskewer(TurnInstant::kEnd);
+  note(deskewer, -0.1, 1.4);
+  deskewer.begin_anew(std::llround(1.41 * kTurn_ticks));
+  constexpr std::int64_t kSet_ns = -5'000'000'000;
+  for (double share = 1.41; share <= 3.1; share += 1.0 / 350) {
+    deskewer.note(std::llround(share * kTurn_ticks), instant_ns(share) + kSet_ns);
+  }
+  see(0, kSpeed_mps, kYawRate_radps);
+  const std::vector<float> before(image_.x_m().begin(), image_.x_m().end());
+  EXPECT_EQ(deskewer.apply(0, image_).state, DeskewState::kNoEgoMotion) << "of the time before";
+  EXPECT_EQ(deskewer.apply(1, image_).state, DeskewState::kNoEgoMotion);
+  EXPECT_EQ(deskewer.apply(2, image_).state, DeskewState::kNoEgoMotion) << "no sample came since";
+  EXPECT_TRUE(std::equal(before.begin(), before.end(), image_.x_m().begin()));
+  for (int i = 14; i < 32; ++i) {
+    EXPECT_TRUE(motion_.add({kStart_ns + kSet_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps}));
+  }
+  EXPECT_EQ(deskewer.apply(1, image_).state, DeskewState::kNoEgoMotion) << "begun before";
+  see(2, kSpeed_mps, kYawRate_radps);
+  EXPECT_EQ(deskewer.apply(2, image_).state, DeskewState::kDone);
+  EXPECT_LT(worst_m(3.0), kHalfAColumn_m);
+}
+
+TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet) {
+  drive(kSpeed_mps, kYawRate_radps);
+  Deskewer deskewer = this->deskewer(TurnInstant::kStart);
+  deskewer.begin_anew(50LL * kTurn_ticks);
+  note(deskewer, 50, 52);
+  deskewer.restart();
+  for (int i = -5; i < 15; ++i) {
+    EXPECT_TRUE(motion_.add({kStart_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps}));
+  }
+  note(deskewer, -0.1, 1.1);
+  see(0, kSpeed_mps, kYawRate_radps);
+  EXPECT_EQ(deskewer.apply(0, image_).state, DeskewState::kDone);
+  EXPECT_LT(worst_m(0), kHalfAColumn_m);
+}
+
 TEST_F(DeskewerTest, ATurnOfOnePacketIsLeftWhereItIs) {
   drive(kSpeed_mps, kYawRate_radps);
   Deskewer deskewer = this->deskewer(TurnInstant::kEnd);

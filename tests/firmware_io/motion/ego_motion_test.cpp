@@ -133,14 +133,45 @@ TEST_F(EgoMotionTest, SamplesThatNobodyShouldUseAreCountedByTheirCause) {
   EXPECT_FALSE(motion_.add({at_ms(60), kNothing, 0}));
   EXPECT_FALSE(motion_.add({at_ms(60), 20, kNothing}));
   EXPECT_FALSE(motion_.add({at_ms(60), 20, std::numeric_limits<double>::infinity()}));
-  EXPECT_FALSE(motion_.add({at_ms(60), 200, 0}));
+  EXPECT_FALSE(motion_.add({at_ms(60), 151, 0}));
+  EXPECT_FALSE(motion_.add({at_ms(60), -151, 0}));
+  EXPECT_FALSE(motion_.add({at_ms(60), 20, 11}));
+  EXPECT_FALSE(motion_.add({at_ms(60), 20, -11}));
   EXPECT_FALSE(motion_.add({at_ms(50), 20, 0}));
-  EXPECT_FALSE(motion_.add({at_ms(20), 20, 0}));
+  EXPECT_FALSE(motion_.add({at_ms(30), 20, 0}));
   const EgoMotionCounters counters = motion_.counters();
   EXPECT_EQ(counters.accepted, 6U);
-  EXPECT_EQ(counters.implausible, 4U);
+  EXPECT_EQ(counters.implausible, 7U);
   EXPECT_EQ(counters.out_of_order, 2U);
   EXPECT_EQ(counters.not_taken, 0U);
+}
+
+TEST_F(EgoMotionTest, ASampleFromBeforeTheNewestIsANewBeginningIfItIsNoDisorder) {
+  drive(0, 200, 20, 0);
+  EXPECT_TRUE(motion_.add({at_ms(179), 10, 0}));
+  motion_.take_new();
+  EXPECT_EQ(motion_.newest_ns(), at_ms(179));
+  EXPECT_NEAR(pose(189, 179).value().x_m, 0.1, 1e-9) << "nothing of the time before is left";
+  EXPECT_FALSE(pose(179, 70));
+  EXPECT_EQ(motion_.counters().out_of_order, 0U);
+}
+
+TEST_F(EgoMotionTest, SamplesOfATimeThatIsOverAreForgottenThoseOnTheirWayToo) {
+  drive(0, 100, 20, 0);
+  EXPECT_TRUE(motion_.add({at_ms(110), 20, 0}));
+  motion_.forget();
+  EXPECT_FALSE(motion_.newest_ns());
+  EXPECT_FALSE(pose(100, 90));
+  drive(120, 150, 10, 0);
+  EXPECT_NEAR(pose(150, 90).value().x_m, 0.6, 1e-9);
+}
+
+TEST_F(EgoMotionTest, AMotionThatWasLostIsKnownAgainFromAMaximumAgeBeforeItsFirstSample) {
+  drive(0, 100, 20, 0);
+  drive(1000, 1200, 10, 0);
+  EXPECT_NEAR(pose(1200, 900).value().x_m, 3, 1e-9);
+  EXPECT_FALSE(pose(1200, 899.9));
+  EXPECT_FALSE(pose(600, 600));
 }
 
 TEST_F(EgoMotionTest, ALogThatStartsOverIsANewBeginning) {

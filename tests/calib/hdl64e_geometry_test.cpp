@@ -258,6 +258,18 @@ TEST(Hdl64eGeometry, RawOnPlanePutsThePointOnThePlane) {
   }
 }
 
+TEST(Hdl64eGeometry, RawOnPlaneIsTheSameHoweverLongTheNormal) {
+  const Hdl64eGeometry geometry(nominal_hdl64e());
+  const Point hit{10.3, -2.1, -1.6};
+  const auto counts = geometry.raw_on_plane(40, 0.2, hit, {0, 0, 1});
+  ASSERT_TRUE(counts.has_value());
+  for (const double length : {1e-9, 1e9}) {
+    const auto same = geometry.raw_on_plane(40, 0.2, hit, {0, 0, length});
+    ASSERT_TRUE(same.has_value()) << length;
+    EXPECT_NEAR(*same, *counts, 1e-5) << length;
+  }
+}
+
 TEST(Hdl64eGeometry, ABeamAlongThePlaneHasNoRaw) {
   const Hdl64eGeometry geometry(without_two_point());
   const Ray ray = geometry.ray(0, 0.3);

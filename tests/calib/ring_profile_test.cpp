@@ -3,6 +3,7 @@
 #include "calib/ring_profile.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "calib/angle.hpp"
 #include "calib/nominal_hdl64e.hpp"
@@ -78,6 +79,17 @@ TEST(RingProfile, OfARubyMeetsTheGroundWhereItsReturnsDo) {
   EXPECT_EQ(reaching, 68);  // 13 coarse rows, then -6.39 to -0.99 degrees by tenths
 }
 
+TEST(RingProfile, OfARubyEndsWhereItsReturnsWouldLieBeyondTheLimit) {
+  // The limit is that of the place on the ground, not of the way from the lens to it.
+  const Ruby128Calibration calibration = nominal_ruby128();
+  const double ring_m = ring_profile(calibration, Mount{}).rings[30].ground_distance_m;
+  ASSERT_TRUE(std::isfinite(ring_m));
+  for (const double beyond_m : {-0.001, 0.001}) {
+    const RingProfile profile = ring_profile(calibration, Mount{}, ring_m + beyond_m);
+    EXPECT_EQ(std::isfinite(profile.rings[30].ground_distance_m), beyond_m > 0);
+  }
+}
+
 TEST(RingProfileEstimate, TakesTheMeanOfARingsGroundReturns) {
   const RingProfile geometry = ring_profile(nominal_hdl64e(), Mount{});
   RingProfileEstimate estimate(geometry, 10);
@@ -107,13 +119,26 @@ TEST(RingProfileEstimate, IgnoresObstaclesNonsenseAndPlanesElsewhere) {
   EXPECT_EQ(estimate.measured_rings(), 0);
 }
 
+TEST(RingProfileEstimate, IgnoresPlanesMoreThanHalfNearerOrFartherThanTheGeometrys) {
+  // Of one ring, which has no neighbour to be compared with.
+  const RingProfile geometry{{{-0.1, 0, 30.0}}, Mount{}};
+  for (const auto& [range_m, is_taken] :
+       {std::pair{19.9F, false}, {20.1F, true}, {44.9F, true}, {45.1F, false}}) {
+    RingProfileEstimate estimate(geometry, 1);
+    estimate.add(ground(0, range_m, 10));
+    EXPECT_EQ(estimate.measured_rings(), is_taken ? 1 : 0) << range_m;
+  }
+}
+
 TEST(RingProfileEstimate, ARingDoesNotOvertakeItsNeighbour) {
   const RingProfile geometry = ring_profile(nominal_hdl64e(), Mount{});
   RingProfileEstimate estimate(geometry, 1);
   estimate.add(ground(20, static_cast<float>(geometry.rings[22].ground_distance_m), 10));
+  estimate.add(ground(21, static_cast<float>(geometry.rings[21].ground_distance_m * 1.001), 10));
   estimate.add(ground(5, static_cast<float>(geometry.rings[5].ground_distance_m * 1.001), 10));
   const RingProfile profile = estimate.profile();
   EXPECT_EQ(profile.rings[20].ground_distance_m, geometry.rings[20].ground_distance_m);
+  EXPECT_EQ(profile.rings[21].ground_distance_m, geometry.rings[21].ground_distance_m);
   EXPECT_NE(profile.rings[5].ground_distance_m, geometry.rings[5].ground_distance_m);
 }
 

@@ -45,15 +45,16 @@ struct Refined {
 };
 
 TEST(AdjacentPoints, BoundIsEquationFive) {
-  // h = 2 m, beams 60 and 65 degrees from the downward normal, K = 0.25 rad:
-  // 2 (tan 65 - tan 60) / (tan 0.25 tan 65 + 1) = 2 (2.144507 - 1.732051) / (0.255342 * 2.144507 +
-  // 1)
+  // h = 2 m, of which the upper laser sits 0.2 m above the sensor's origin; beams 60 and 65 degrees
+  // from the downward normal, K = 0.25 rad: 2 (tan 65 - tan 60) / (tan 0.25 tan 65 + 1) = 2
+  // (2.144507 - 1.732051) / (0.255342 * 2.144507 + 1)
   calib::RingProfile profile;
-  profile.mount.height_m = 2.0;
+  profile.mount.height_m = 1.8;
   for (const double elevation_deg : {-30.0, -27.0, -25.0}) {
     calib::Ring ring;
     ring.elevation_rad = elevation_deg * std::numbers::pi / 180;
     ring.ground_distance_m = 2.0 / std::tan(-ring.elevation_rad);
+    ring.origin_height_m = elevation_deg > -26 ? 0.2 : 0;
     profile.rings.push_back(ring);
   }
   rt::FixedMemory memory;

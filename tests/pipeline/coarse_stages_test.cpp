@@ -329,16 +329,19 @@ TEST_P(CoarseStagesOfArrivingTurns, TakeAReturnThatComesAfterItsColumnWasDone) {
 }
 
 TEST_P(CoarseStagesOfArrivingTurns, TakeASecondEchoThatComesAfterItsColumnWasDone) {
-  for (const CellOwner owner : {CellOwner::kFirstArrived, CellOwner::kNearest}) {
+  // Into a sector that was done long ago, and into that walked last.
+  for (const auto& [owner, late] : {std::pair{CellOwner::kFirstArrived, 100},
+                                    {CellOwner::kNearest, 100},
+                                    {CellOwner::kFirstArrived, 795}}) {
     ArrivingColumns turn(hills_and_walls());
-    arrive(turn, [&](int column) {
+    arrive(turn, [&, owner = owner, late = late](int column) {
       if (column != 803) return;
-      const std::size_t cell = kShape.cell(20, 100);
+      const std::size_t cell = kShape.cell(20, late);
       ASSERT_TRUE(turn.image.has_return(cell));
       // Lower and nearer than what is there: it changes the ground of its sector.
       const float share = 0.5F;
       ASSERT_TRUE(turn.image.place(
-          20, 100,
+          20, late,
           {share * turn.image.x_m()[cell], share * turn.image.y_m()[cell],
            turn.image.z_m()[cell] - 0.3F, share * turn.image.ground_range_m()[cell], 0},
           owner));

@@ -92,30 +92,41 @@ TEST_F(LabelledPlanes, RowsThatNeverSeeGroundKeepTheirLabelsIfAsked) {
   EXPECT_EQ(select()[at(7, 10)], Seed::kUnknown) << "by default every row is decided";
 }
 
-TEST_F(LabelledPlanes, SlidingWindowAgreesWithCountingEveryWindow) {
+TEST_F(LabelledPlanes, SlidingWindowAgreesWithCountingEveryWindowFrameAfterFrame) {
   std::mt19937 random(3);
-  for (int row = 0; row < kShape.rows; ++row) {
-    for (int column = 0; column < kShape.columns; ++column) {
-      planes.label[at(row, column)] = static_cast<Label>(random() % 3);
-    }
-  }
-  const ConfidenceSeeds::Config config;
-  const auto seeds = select(config);
-  for (int row = 0; row < kShape.rows; ++row) {
-    for (int column = 0; column < kShape.columns; ++column) {
-      if (planes.label[at(row, column)] != Label::kGround) continue;
-      int ground = 0, returns = 0;
-      for (int r = std::max(0, row - 2); r <= std::min(kShape.rows - 1, row + 2); ++r) {
-        for (int c = column - 3; c <= column + 3; ++c) {
-          const Label label = planes.label[at(r, (c + kShape.columns) % kShape.columns)];
-          ground += label == Label::kGround;
-          returns += label != Label::kNone;
-        }
+  int ground_seeds = 0, unknown = 0;
+  for (int frame = 0; frame < 4; ++frame) {
+    for (int row = 0; row < kShape.rows; ++row) {
+      for (int column = 0; column < kShape.columns; ++column) {
+        const auto fate = random() % 10;
+        planes.label[at(row, column)] = fate < 2   ? Label::kObstacle
+                                        : fate < 4 ? Label::kNone
+                                                   : Label::kGround;
       }
-      const bool trusted = static_cast<float>(ground) > 0.8F * static_cast<float>(returns);
-      EXPECT_EQ(seeds[at(row, column)], trusted ? Seed::kGround : Seed::kUnknown);
+    }
+    if (frame == 0) select();
+    stage->select(planes);
+    const auto seeds = stage->seeds();
+    for (int row = 0; row < kShape.rows; ++row) {
+      for (int column = 0; column < kShape.columns; ++column) {
+        if (planes.label[at(row, column)] != Label::kGround) continue;
+        int ground = 0, returns = 0;
+        for (int r = std::max(0, row - 2); r <= std::min(kShape.rows - 1, row + 2); ++r) {
+          for (int c = column - 3; c <= column + 3; ++c) {
+            const Label label = planes.label[at(r, (c + kShape.columns) % kShape.columns)];
+            ground += label == Label::kGround;
+            returns += label != Label::kNone;
+          }
+        }
+        const bool trusted = static_cast<float>(ground) > 0.8F * static_cast<float>(returns);
+        EXPECT_EQ(seeds[at(row, column)], trusted ? Seed::kGround : Seed::kUnknown)
+            << row << ", " << column << " of frame " << frame;
+        ++(trusted ? ground_seeds : unknown);
+      }
     }
   }
+  EXPECT_GT(ground_seeds, 100);
+  EXPECT_GT(unknown, 100);
 }
 
 }  // namespace

@@ -68,6 +68,20 @@ TEST_F(FourCells, HistogramCostIsTheNegativeLogOfTheSeedsShareAtThatHeight) {
   EXPECT_NEAR(region.cost_obstacle()[stride + 1], cost(1, 1), 1);
 }
 
+TEST_F(FourCells, HistogramBinsLieAroundWholeTenthsAboveTheLowestGroundSeed) {
+  RegionTerm::Config config;
+  config.rule = RegionRule::kHistogram;
+  config.bins_per_metre = 10.0F;
+  RegionTerm region(config, kShape, memory);
+  put(0, 0, 5, -0.3F, Seed::kGround, 0);
+  put(0, 1, 5, -0.26F, Seed::kUnknown, 0);  // 4 cm above it
+  put(0, 2, 5, -0.24F, Seed::kUnknown, 0);  // 6 cm
+  put(0, 3, 5, -0.34F, Seed::kUnknown, 0);  // 4 cm below
+  region.evaluate(image, planes, seeds);
+  EXPECT_LT(region.cost_ground()[1], region.cost_ground()[2]);
+  EXPECT_EQ(region.cost_ground()[1], region.cost_ground()[3]);
+}
+
 TEST_F(FourCells, HistogramWithoutAnySeedIsFiniteAndFair) {
   RegionTerm::Config config;
   config.rule = RegionRule::kHistogram;

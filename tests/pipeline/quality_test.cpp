@@ -37,11 +37,19 @@ TEST(Quality, MeasuresAreEquationsSixteenAndSeventeen) {
 }
 
 TEST(Quality, AddsUpOverFrames) {
-  Quality sum;
-  sum += measure(std::array{Label::kGround}, std::array<std::uint32_t, 1>{40});
-  sum += measure(std::array{Label::kGround}, std::array<std::uint32_t, 1>{10});
-  EXPECT_DOUBLE_EQ(sum.iou_ground(), 0.5);
-  EXPECT_EQ(sum.key_as_ground, 1U);
+  // One of each kind, and then all of them a second time.
+  using enum Label;
+  const std::array labels{kGround, kObstacle, kGround, kObstacle, kGround, kObstacle, kObstacle};
+  const std::array<std::uint32_t, 7> truth{40, 40, 10, 10, 50, 50, 30};
+  const Quality once = measure(labels, truth);
+  Quality sum = once;
+  sum += once;
+  EXPECT_EQ(sum.ground_as_ground, 2U);
+  EXPECT_EQ(sum.ground_as_obstacle, 2U);
+  EXPECT_EQ(sum.obstacle_as_ground, 4U);
+  EXPECT_EQ(sum.obstacle_as_obstacle, 6U);
+  EXPECT_EQ(sum.key_as_ground, 2U);
+  EXPECT_EQ(sum.key_as_obstacle, 4U);
 }
 
 TEST(Quality, NothingToFindIsFoundWhole) {

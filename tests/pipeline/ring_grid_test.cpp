@@ -60,6 +60,24 @@ TEST(RingGrid, KeepsBandsWithinTheirLimits) {
   }
 }
 
+TEST(RingGrid, CutsWideBandsAndLeavesTheBlindZoneToItself) {
+  rt::FixedMemory memory;
+  RingGrid::Config config;
+  config.max_band_m = 2.0F;
+  const calib::RingProfile profile = test::even_profile();
+  const RingGrid grid(config, profile, kShape, memory);
+  std::vector<float> width_m(static_cast<std::size_t>(grid.bands()));
+  constexpr float kStep_m = 0.01F;
+  for (float range_m = 0; range_m < 100; range_m += kStep_m) {
+    width_m[static_cast<std::size_t>(grid.band_of(range_m))] += kStep_m;
+  }
+  const auto first_ring_m = static_cast<float>(profile.rings.front().ground_distance_m);
+  EXPECT_NEAR(width_m[0], first_ring_m - 1, 0.05F) << "half a band before the first ring";
+  for (std::size_t band = 1; band < width_m.size(); ++band) {
+    EXPECT_LT(width_m[band], 2.05F) << band;
+  }
+}
+
 TEST(RingGrid, MixesTheTwoBandsARangeLiesBetween) {
   rt::FixedMemory memory;
   RingGrid::Config config;

@@ -59,6 +59,21 @@ struct RoadSurfaceOfATurn : testing::Test, test::RivalScene {
   double since_behind(int column) const {
     return static_cast<double>((column + kShape.columns / 2) % kShape.columns) / kShape.columns;
   }
+  /// A turn from `first_column` on, while the vehicle came down by 15 cm between straight behind
+  /// and straight behind again. So few rings see it that only the order of arrival tells the step
+  /// there from a kerb.
+  void place_turn_of_sinking_vehicle(int first_column) {
+    image.clear();
+    for (int n = 0; n < kShape.columns; ++n) {
+      const int column = (first_column + n) % kShape.columns;
+      for (int row = 0; row < kShape.rows; ++row) {
+        const double azimuth_rad = azimuth_of(column), elevation_rad = elevation_of(row);
+        const double d = test::flat_ground()(azimuth_rad, elevation_rad);
+        if (!(d > 0) || d > 6) continue;
+        place(row, column, d * std::cos(elevation_rad), 0.15 * since_behind(column));
+      }
+    }
+  }
   /// Puts a return into a cell, so far away and so high.
   void place(int row, int column, double across_m, double z_m) {
     const double azimuth_rad = azimuth_of(column);
@@ -146,25 +161,32 @@ TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
 }
 
 TEST_F(RoadSurfaceOfATurn, DoesNotEndWhereTheTurnEnds) {
-  // The vehicle came down by 15 cm while the head turned once, from behind to behind. So few rings
-  // see it that only the order of arrival tells the step from a kerb.
-  const auto place_turn = [&](int first_column) {
-    image.clear();
-    for (int n = 0; n < kShape.columns; ++n) {
-      const int column = (first_column + n) % kShape.columns;
-      for (int row = 0; row < kShape.rows; ++row) {
-        const double azimuth_rad = azimuth_of(column), elevation_rad = elevation_of(row);
-        const double d = test::flat_ground()(azimuth_rad, elevation_rad);
-        if (!(d > 0) || d > 6) continue;
-        place(row, column, d * std::cos(elevation_rad), 0.15 * since_behind(column));
-      }
-    }
-    resegment();
-  };
-  place_turn(kShape.columns / 2);
+  place_turn_of_sinking_vehicle(kShape.columns / 2);
+  resegment();
   EXPECT_GT(road_share(-6, -4, -0.1, 0.1), 0.97);
-  place_turn(0);  // had it begun ahead, there would be a step behind
+  place_turn_of_sinking_vehicle(0);  // had it begun ahead, there would be a step behind
+  resegment();
   EXPECT_LT(road_share(-6, -4, -0.1, 0.1), 0.1);
+}
+
+TEST_F(RoadSurfaceOfATurn, IsTheSameHoweverOftenItWasSeenBefore) {
+  place_turn_of_sinking_vehicle(0);
+  resegment();
+  const std::vector<Label> first(segmenter->labels().begin(), segmenter->labels().end());
+  for (int turn = 1; turn < 5; ++turn) {
+    (void)segmenter->segment(image);
+    EXPECT_TRUE(std::ranges::equal(segmenter->labels(), first)) << "after " << turn;
+  }
+}
+
+TEST_F(RoadSurfaceOfATurn, LeadsAcrossTwoRingsWithoutReturns) {
+  // Both beyond the track that the way begins on; 13 m away, rings are 0.7 m apart.
+  segment([](double azimuth_rad, double elevation_rad) {
+    const double d = test::flat_ground()(azimuth_rad, elevation_rad);
+    const double range_m = d * std::cos(elevation_rad);
+    return range_m > 12.8 && range_m < 14.3 ? -1.0 : d;
+  });
+  EXPECT_GT(road_share(15, 25, -3, 3), 0.97);
 }
 
 TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheSeamOfACompensatedTurn) {
@@ -193,9 +215,12 @@ TEST_F(RoadSurfaceOfATurn, EndsAtAKerbUnderTheVehicleThatEndsNearBy) {
 }
 
 TEST_F(RoadSurfaceOfATurn, LeadsToBothSidesOfAnEdgeUnderTheVehicleThatLeadsFarAway) {
-  segment(test::ground_with_boxes({{-60, 0, 0.05, 6, -1, kKerb_m}}));
-  EXPECT_GT(road_share(-9, -4.5, 0.5, 5), 0.97);
-  EXPECT_GT(road_share(-9, -4.5, -5, -0.5), 0.97);
+  for (const test::Box& higher_side :
+       {test::Box{-60, 0, 0.05, 6, -1, kKerb_m}, test::Box{-60, 0, -6, -0.05, -1, kKerb_m}}) {
+    segment(test::ground_with_boxes({higher_side}));
+    EXPECT_GT(road_share(-9, -4.5, 0.5, 5), 0.97);
+    EXPECT_GT(road_share(-9, -4.5, -5, -0.5), 0.97);
+  }
 }
 
 TEST_F(RoadSurfaceOfATurn, EndsAtAKerbBesideTheVehicleHoweverFarItLeads) {

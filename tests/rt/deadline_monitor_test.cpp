@@ -173,6 +173,14 @@ TEST_F(DeadlineMonitorOf50Ms, RecordsEveryTimeUnderItsOwnHistogram) {
   EXPECT_EQ(figures.returns, 1000U);
 }
 
+TEST_F(DeadlineMonitorOf50Ms, AddsUpReturnsOverFrames) {
+  judged(frame_of(0, 20));
+  FrameTiming skipped = frame_of(1, 20);
+  skipped.rung = Rung::kSkipped;
+  judged(skipped);
+  EXPECT_EQ(monitor_.snapshot().returns, 2000U);
+}
+
 TEST_F(DeadlineMonitorOf50Ms, LeavesAStageThatDidNotRunOutOfItsHistogram) {
   FrameTiming coarse = frame_of(0, 20);
   coarse.rung = Rung::kCoarse;

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <fstream>
 #include <thread>
 
 #include "rt/thread_cpu_clock.hpp"
@@ -60,6 +61,21 @@ TEST(RunQueueWait, CountsNeitherWorkNorSleep) {
   EXPECT_GE(waited_ns, 0);
   // The two took 70 ms; half of it, because the kernel's clocks are not one.
   EXPECT_LE(waited_ns, spent.wall_ns - 35'000'000);
+}
+
+TEST(RunQueueWait, IsTheSecondOfTheNumbersTheKernelTells) {
+  const RunQueueWait wait = RunQueueWait::of_this_thread();
+  if (!wait.is_known()) GTEST_SKIP() << "this kernel does not tell how long threads wait";
+  const auto told_ns = [] {
+    std::int64_t ran_ns = -1, waited_ns = -1;
+    std::ifstream("/proc/thread-self/schedstat") >> ran_ns >> waited_ns;
+    return waited_ns;
+  };
+  work_for_cpu_ns(5'000'000);
+  const std::int64_t before_ns = told_ns();
+  const std::int64_t waited_ns = wait.read_ns();
+  EXPECT_GE(waited_ns, before_ns);
+  EXPECT_LE(waited_ns, told_ns());
 }
 
 TEST(RunQueueWait, AllocatesNothingWhenRead) {

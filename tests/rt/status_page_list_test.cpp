@@ -56,6 +56,15 @@ TEST_F(StatusPageList, TellsPagesThatDeadProcessesLeft) {
   EXPECT_FALSE(pages[0].publisher_lives);
 }
 
+TEST_F(StatusPageList, LeavesOutHiddenFilesAsThoseOfPagesInTheMaking) {
+  const auto page = StatusPagePublisher<int>::create("page", 1, folder_);
+  ASSERT_TRUE(page);
+  fs::copy_file(page->path(), folder_ / ".copy.terracut");
+  const auto pages = list_status_pages(folder_);
+  ASSERT_EQ(pages.size(), 1U);
+  EXPECT_EQ(pages[0].name, "page");
+}
+
 TEST_F(StatusPageList, LeavesOutWhatIsNoPage) {
   std::ofstream(folder_ / "text.terracut") << std::string(500, 'x');
   std::ofstream(folder_ / "short.terracut") << "x";

@@ -152,6 +152,21 @@ TEST_F(StatusPage, OfADeadProcessIsReplaced) {
   EXPECT_EQ(files(), 1U);
 }
 
+TEST_F(StatusPage, TakesAwayNoPageButItsOwnWhenItGoes) {
+  auto page = publisher();
+  ASSERT_TRUE(page);
+  std::filesystem::remove(page->path());  // somebody tidied up
+  auto successor = publisher();
+  ASSERT_TRUE(successor.has_value()) << successor.error().message;
+  successor->publish(Health::of(4));
+  {
+    const auto gone = std::move(*page);
+  }
+  const auto view = reader();
+  ASSERT_TRUE(view.has_value()) << view.error().message;
+  EXPECT_EQ(view->read(), Health::of(4));
+}
+
 TEST_F(StatusPage, OfALivingProcessIsNotReplaced) {
   auto page = publisher();
   ASSERT_TRUE(page);

@@ -329,22 +329,30 @@ TEST_P(CoarseStagesOfArrivingTurns, TakeAReturnThatComesAfterItsColumnWasDone) {
 }
 
 TEST_P(CoarseStagesOfArrivingTurns, TakeASecondEchoThatComesAfterItsColumnWasDone) {
+  struct Late {
+    CellOwner owner;
+    int column;
+  };
   // Into a sector that was done long ago, and into that walked last.
-  for (const auto& [owner, late] : {std::pair{CellOwner::kFirstArrived, 100},
-                                    {CellOwner::kNearest, 100},
-                                    {CellOwner::kFirstArrived, 795}}) {
+  for (const Late& late : {Late{CellOwner::kFirstArrived, 100}, Late{CellOwner::kNearest, 100},
+                           Late{CellOwner::kFirstArrived, 795}}) {
     ArrivingColumns turn(hills_and_walls());
-    arrive(turn, [&, owner = owner, late = late](int column) {
+    arrive(turn, [&](int column) {
       if (column != 803) return;
-      const std::size_t cell = kShape.cell(20, late);
-      ASSERT_TRUE(turn.image.has_return(cell));
-      // Lower and nearer than what is there: it changes the ground of its sector.
-      const float share = 0.5F;
-      ASSERT_TRUE(turn.image.place(
-          20, late,
-          {share * turn.image.x_m()[cell], share * turn.image.y_m()[cell],
-           turn.image.z_m()[cell] - 0.3F, share * turn.image.ground_range_m()[cell], 0},
-          owner));
+      int echoes = 0;
+      for (const int row : {5, 20, 30, 40}) {
+        const std::size_t cell = kShape.cell(row, late.column);
+        if (!turn.image.has_return(cell)) continue;
+        // Lower and nearer than what is there: it changes the ground of its sector.
+        const float share = 0.8F;
+        ASSERT_TRUE(turn.image.place(
+            row, late.column,
+            {share * turn.image.x_m()[cell], share * turn.image.y_m()[cell],
+             turn.image.z_m()[cell] - 0.3F, share * turn.image.ground_range_m()[cell], 0},
+            late.owner));
+        ++echoes;
+      }
+      EXPECT_GT(echoes, 2);
     });
     expect_right_labels(turn.image);
   }

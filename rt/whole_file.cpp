@@ -2,13 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "rt/whole_file.hpp"
 
-#include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <string>
 #include <system_error>
+
+#include "rt/part_file.hpp"
 
 namespace terracut::rt {
 namespace {
@@ -35,29 +35,27 @@ int write_all(int file, std::span<const std::byte> rest) {
 }  // namespace
 
 Status write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content) {
-  static std::atomic<unsigned> serial{0};  // two threads may write to the same folder
   if (path.has_parent_path()) {
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);
     if (error) return failed(path, "making its folder", error.value());
   }
-  const std::string temporary =
-      path.string() + ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
-  const int file = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (file < 0) return failed(path, "creating a temporary file beside it", errno);
+  Part part = make_part_file(path);
+  if (!part.lock) return failed(path, "creating a temporary file beside it", errno);
 
-  int error_number = write_all(file, content);
+  int error_number = write_all(part.lock.get(), content);
   std::string step = "writing";
-  if (::close(file) != 0 && error_number == 0) {
+  // Some file systems tell only at a close that the disk is full. The lock is held until the end.
+  if (error_number == 0 && ::close(::dup(part.lock.get())) != 0) {
     error_number = errno;
     step = "closing";
   }
-  if (error_number == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) {
+  if (error_number == 0 && ::rename(part.path.c_str(), path.c_str()) != 0) {
     error_number = errno;
     step = "renaming the temporary file to it";
   }
   if (error_number == 0) return {};
-  ::unlink(temporary.c_str());
+  ::unlink(part.path.c_str());
   return failed(path, step, error_number);
 }
 

@@ -2,11 +2,9 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/capture/pcap_writer.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <initializer_list>
 #include <system_error>
@@ -100,7 +98,6 @@ bool PcapWriter::can_write(const Datagram& datagram) noexcept {
 }
 
 Expected<PcapWriter> PcapWriter::create(std::filesystem::path path) {
-  static std::atomic<unsigned> serial{0};  // several captures may be written at once
   std::error_code error;
   const auto standing = std::filesystem::status(path, error).type();
   if (standing != std::filesystem::file_type::not_found &&
@@ -113,11 +110,9 @@ Expected<PcapWriter> PcapWriter::create(std::filesystem::path path) {
     std::filesystem::create_directories(path.parent_path(), error);
   }
   PcapWriter writer;
-  writer.temporary_ = path;
-  writer.temporary_ += fmt::format(".part-{}-{}", ::getpid(), serial++);
+  writer.part_ = rt::make_part_file(path);
   writer.path_ = std::move(path);
-  writer.file_ = ::open(writer.temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (writer.file_ < 0) {
+  if (!writer.part_.lock) {
     const int error_number = errno;
     return tl::unexpected(
         writer.failed("creating a temporary file beside it", error_number).error());
@@ -135,8 +130,7 @@ PcapWriter& PcapWriter::operator=(PcapWriter&& other) noexcept {
   if (this != &other) {
     discard();
     path_ = std::move(other.path_);
-    temporary_ = std::move(other.temporary_);
-    file_ = std::exchange(other.file_, -1);
+    part_ = std::move(other.part_);
     buffer_ = std::move(other.buffer_);
     packets_ = other.packets_;
   }
@@ -148,10 +142,9 @@ PcapWriter::~PcapWriter() {
 }
 
 void PcapWriter::discard() noexcept {
-  if (file_ >= 0) {
-    ::close(std::exchange(file_, -1));
-    ::unlink(temporary_.c_str());
-  }
+  if (!part_.lock) return;
+  ::unlink(part_.path.c_str());
+  part_.lock.close();
 }
 
 Status PcapWriter::failed(const char* step, int error_number) {
@@ -172,7 +165,8 @@ Error PcapWriter::closed() const {
 Status PcapWriter::flush() {
   std::size_t done = 0;
   while (done < buffer_.size()) {
-    const ::ssize_t written = ::write(file_, buffer_.data() + done, buffer_.size() - done);
+    const ::ssize_t written =
+        ::write(part_.lock.get(), buffer_.data() + done, buffer_.size() - done);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return failed("writing", errno);
     done += static_cast<std::size_t>(written);
@@ -182,7 +176,7 @@ Status PcapWriter::flush() {
 }
 
 Status PcapWriter::write(const Datagram& datagram) {
-  if (file_ < 0) return tl::unexpected(closed());
+  if (!part_.lock) return tl::unexpected(closed());
   if (datagram.payload.size() > kMaxPayloadBytes) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{}: packet {}: {} bytes of payload; a UDP datagram holds at most {}",
@@ -200,18 +194,15 @@ Status PcapWriter::write(const Datagram& datagram) {
 }
 
 Status PcapWriter::finish() {
-  if (file_ < 0) return tl::unexpected(closed());
+  if (!part_.lock) return tl::unexpected(closed());
   if (Status flushed = flush(); !flushed) return flushed;
-  const char* step = "closing";
-  int result = ::close(std::exchange(file_, -1));
-  if (result == 0) {
-    step = "renaming the temporary file to it";
-    result = ::rename(temporary_.c_str(), path_.c_str());
+  // Some file systems tell only at a close that the disk is full. The lock is held until the end.
+  if (::close(::dup(part_.lock.get())) != 0) return failed("closing", errno);
+  if (::rename(part_.path.c_str(), path_.c_str()) != 0) {
+    return failed("renaming the temporary file to it", errno);
   }
-  if (result == 0) return {};
-  const int error_number = errno;
-  ::unlink(temporary_.c_str());
-  return failed(step, error_number);
+  part_.lock.close();
+  return {};
 }
 
 }  // namespace terracut::firmware_io

@@ -9,6 +9,7 @@
 
 #include "firmware_io/datagram.hpp"
 #include "rt/error.hpp"
+#include "rt/part_file.hpp"
 
 namespace terracut::firmware_io {
 
@@ -56,8 +57,7 @@ class PcapWriter {
   void discard() noexcept;
 
   std::filesystem::path path_;
-  std::filesystem::path temporary_;
-  int file_ = -1;
+  rt::Part part_;
   std::vector<std::uint8_t> buffer_;
   std::uint64_t packets_ = 0;
 };

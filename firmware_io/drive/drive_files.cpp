@@ -2,15 +2,18 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/drive/drive_files.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
-#include <stdlib.h>
 
 #include <algorithm>
 #include <cctype>
+#include <cstdio>
 #include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "rt/part_file.hpp"
 
 namespace terracut::firmware_io {
 namespace fs = std::filesystem;
@@ -45,6 +48,12 @@ Status check_folder(const fs::path& folder) {
   return {};
 }
 
+/// Both change places at once, so that no kill leaves the old one only in the staging folder.
+/// False: one is not there, or the file system cannot.
+bool exchange(const fs::path& a, const fs::path& b) noexcept {
+  return ::renameat2(AT_FDCWD, a.c_str(), AT_FDCWD, b.c_str(), RENAME_EXCHANGE) == 0;
+}
+
 tl::unexpected<Error> write_failed(const fs::path& path, const std::string& reason) {
   return fail(ErrorCode::kWriteFailed,
               fmt::format("{}: could not be written: {}; nothing was left in its place. Check the "
@@ -61,19 +70,19 @@ fs::path truth_folder_of(const fs::path& pcap_path) {
 /// The folder itself; vanishes with this object.
 class DriveFiles::Staging {
  public:
-  explicit Staging(fs::path path) : path_(std::move(path)) {}
+  explicit Staging(rt::Part part) : part_(std::move(part)) {}
   Staging(const Staging&) = delete;
   Staging& operator=(const Staging&) = delete;
   ~Staging() {
     std::error_code ignored;
-    fs::remove_all(path_, ignored);
+    fs::remove_all(part_.path, ignored);
   }
-  [[nodiscard]] fs::path truth() const { return path_ / "truth"; }
-  [[nodiscard]] fs::path old_truth() const { return path_ / "old-truth"; }
-  [[nodiscard]] fs::path calibration() const { return path_ / "calibration"; }
+  [[nodiscard]] fs::path truth() const { return part_.path / "truth"; }
+  [[nodiscard]] fs::path old_truth() const { return part_.path / "old-truth"; }
+  [[nodiscard]] fs::path calibration() const { return part_.path / "calibration"; }
 
  private:
-  fs::path path_;
+  rt::Part part_;
 };
 
 DriveFiles::DriveFiles(fs::path truth, std::unique_ptr<Staging> staging) noexcept
@@ -85,12 +94,9 @@ DriveFiles::~DriveFiles() = default;
 Expected<DriveFiles> DriveFiles::create(const fs::path& pcap_path) {
   const fs::path truth = truth_folder_of(pcap_path);
   if (const Status usable = check_folder(truth); !usable) return tl::unexpected(usable.error());
-  const std::string stem = pcap_path.stem().string();
-  std::string name = (pcap_path.parent_path() / fmt::format(".{}-XXXXXX", stem)).string();
-  if (::mkdtemp(name.data()) == nullptr) {
-    return write_failed(pcap_path, "no temporary folder can be made in its folder");
-  }
-  DriveFiles files(truth, std::make_unique<Staging>(name));
+  rt::Part part = rt::make_part_folder(truth);
+  if (!part.lock) return write_failed(pcap_path, "no temporary folder can be made in its folder");
+  DriveFiles files(truth, std::make_unique<Staging>(std::move(part)));
   std::error_code error;
   fs::create_directory(files.staging_->truth(), error);
   if (error) return write_failed(truth, error.message());
@@ -122,8 +128,10 @@ Status DriveFiles::check_replaceable() const {
 
 Status DriveFiles::put_in_place(const fs::path& calibration_path) {
   std::error_code error;
-  if (fs::exists(truth_, error)) fs::rename(truth_, staging_->old_truth(), error);
-  if (!error) fs::rename(staging_->truth(), truth_, error);
+  if (!exchange(staging_->truth(), truth_)) {
+    if (fs::exists(truth_, error)) fs::rename(truth_, staging_->old_truth(), error);
+    if (!error) fs::rename(staging_->truth(), truth_, error);
+  }
   if (error) return write_failed(truth_, error.message());
   fs::rename(staging_->calibration(), calibration_path, error);
   if (error) return write_failed(calibration_path, error.message());

@@ -114,12 +114,31 @@ TEST_F(CliRefusal, OfOutputsThatCannotBeWrittenNamesThem) {
   write("file", "in the way");
   const std::string replay =
       "replay " + quoted(kDrive) + " --duration 0.2 --calibration " + quoted(kDriveCalibration);
-  expect_refusal(replay + " --json file/report.json", kOutputFailed, HasSubstr("file/report.json"));
-  expect_refusal(replay + " --labels file", kOutputFailed, HasSubstr("file/000000.label"));
-  expect_refusal(replay + " --pcd file", kOutputFailed, HasSubstr("file/000000.pcd"));
-  expect_refusal(replay + " --png file", kOutputFailed, HasSubstr("file/000000.birdseye.png"));
+  expect_refusal(replay + " --json file/report.json", kOutputFailed,
+                 HasSubstr("--json: cannot write file: it is a file"));
+  for (const std::string option : {"--labels", "--pcd", "--png"}) {
+    expect_refusal(replay + " " + option + " file", kOutputFailed,
+                   HasSubstr(option + " file is to be a folder"));
+  }
   expect_refusal("simulate --duration 0.1 -o file/x.pcap", kOutputFailed, HasSubstr("file"));
   EXPECT_EQ(content_of(folder_ / "file"), "in the way");
+}
+
+TEST_F(CliRefusal, OfOutputsThatAreInputsComesBeforeAnyWork) {
+  fs::copy_file(kDrive, folder_ / "d.pcap");
+  const auto size = fs::file_size(kDrive);
+  for (const std::string arguments :
+       {"replay d.pcap --json d.pcap", "info d.pcap --json ./d.pcap", "calibrate d.pcap -o d.pcap",
+        "bench d.pcap --json d.pcap", "send d.pcap --to 127.0.0.1:9 --json d.pcap"}) {
+    expect_refusal(arguments, kUsage, HasSubstr("is the capture that the run reads (FILE d.pcap)"));
+  }
+  write("c.yaml", "output:\n  json: c.yaml\n");
+  expect_refusal("replay d.pcap --config c.yaml", kUsage, HasSubstr("the configuration"));
+  EXPECT_EQ(fs::file_size(folder_ / "d.pcap"), size);
+}
+
+TEST_F(CliRefusal, OfAnEmptyValueNamesTheOption) {
+  expect_refusal("replay x.pcap --labels ''", kUsage, HasSubstr("--labels"));
 }
 
 TEST_F(CliRefusal, OfOtherSensorsNamesTheirModel) {

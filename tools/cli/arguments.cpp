@@ -4,6 +4,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -76,6 +77,15 @@ void refuse_unheeded(const std::vector<std::string>& settings, const Options& op
   }
 }
 
+/// An empty value is a mistake, of a script mostly; it would count as none.
+void refuse_empty_values(const CLI::App& sub) {
+  for (const CLI::Option* option : sub.get_options()) {
+    const std::vector<std::string>& values = option->results();
+    if (option->get_expected_max() == 0 || std::ranges::find(values, "") == values.end()) continue;
+    throw CLI::ValidationError(option->get_name(), "expected a value, found an empty one");
+  }
+}
+
 /// What is read, and where to.
 struct Reading {
   CLI::App& app;
@@ -95,6 +105,7 @@ void add_command(Reading reading, const char* name, const char* about, AddOption
   add_options(*sub, *options);
   add_config_option(*sub);
   sub->callback([=] {
+    refuse_empty_values(*sub);
     if constexpr (requires { options->mount; }) drop_overruled(*sub, options->mount);
     [[maybe_unused]] const std::vector<std::string>& of_file =
         reading.configuration.live.method.settings;
@@ -141,8 +152,9 @@ void refuse_unknown_command(const CLI::App& app, int argc, char** argv) {
 Arguments parse_arguments(int argc, char** argv) {
   Arguments result;
   Configuration configuration;
-  if (const std::filesystem::path file = configuration_file_of(argc, argv); !file.empty()) {
-    Expected<Configuration> read = read_configuration(file);
+  result.configuration = configuration_file_of(argc, argv);
+  if (!result.configuration.empty()) {
+    Expected<Configuration> read = read_configuration(result.configuration);
     if (!read) {
       result.exit_code = refuse(kInputRefused, read.error().message);
       return result;

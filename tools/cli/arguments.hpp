@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <filesystem>
 #include <optional>
 #include <variant>
 
@@ -18,8 +19,9 @@ using Command = std::variant<ReplayOptions, SegmentOptions, SimulateOptions, Enc
 /// The command line, read.
 struct Arguments {
   std::optional<Command>
-      command;        ///< Absent when help, the version or an error was printed instead.
-  int exit_code = 0;  ///< What to exit with where there is no command.
+      command;  ///< Absent when help, the version or an error was printed instead.
+  std::filesystem::path configuration;  ///< The file of --config; empty: none.
+  int exit_code = 0;                    ///< What to exit with where there is no command.
 };
 
 [[nodiscard]] Arguments parse_arguments(int argc, char** argv);

@@ -32,31 +32,39 @@ Mistake mistake_of(Label label, std::uint32_t truth) noexcept {
 
 }  // namespace
 
-Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels) const {
+Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels) {
   if (options_.labels.empty()) return {};
-  return firmware_io::write_label_file(options_.labels / (name + ".label"), labels);
+  return labels_.place(name + ".label").and_then([&](const std::filesystem::path& path) {
+    return firmware_io::write_label_file(path, labels);
+  });
 }
 
 Status FrameOutputs::write_frame(const std::string& name, const pipeline::RangeImage& image,
                                  std::span<const Label> labels,
                                  std::span<const std::uint32_t> truth) {
   if (!options_.pcd.empty()) {
-    const Status written = firmware_io::write_pcd(options_.pcd / (name + ".pcd"), image, labels);
+    const Status written =
+        pcd_.place(name + ".pcd").and_then([&](const std::filesystem::path& path) {
+          return firmware_io::write_pcd(path, image, labels);
+        });
     if (!written) return written;
   }
   if (options_.png.empty()) return {};
   const firmware_io::LabelledFrame plain{image, labels, {}};
-  const Status from_above =
-      bird_eye_picture(plain).write_png(options_.png / (name + ".birdseye.png"));
+  const Status from_above = draw(name + ".birdseye.png", bird_eye_picture(plain));
   if (!from_above) return from_above;
-  const Status panorama =
-      range_image_picture(plain).write_png(options_.png / (name + ".range.png"));
+  const Status panorama = draw(name + ".range.png", range_image_picture(plain));
   if (!panorama || truth.size() != labels.size()) return panorama;
 
   mistakes_.resize(labels.size());
   std::transform(labels.begin(), labels.end(), truth.begin(), mistakes_.begin(), mistake_of);
-  return firmware_io::bird_eye_picture({image, labels, mistakes_})
-      .write_png(options_.png / (name + ".mistakes.png"));
+  return draw(name + ".mistakes.png",
+              bird_eye_picture(firmware_io::LabelledFrame{image, labels, mistakes_}));
+}
+
+Status FrameOutputs::draw(const std::string& name, const firmware_io::Picture& picture) {
+  return png_.place(name).and_then(
+      [&](const std::filesystem::path& path) { return picture.write_png(path); });
 }
 
 }  // namespace terracut::cli

@@ -10,7 +10,7 @@
 namespace terracut::cli {
 
 LabelWriter::LabelWriter(const std::filesystem::path& folder, Slots& slots)
-    : folder_(folder), slots_(slots), thread_([this] { work(); }) {}
+    : folder_(folder, ".label"), slots_(slots), thread_([this] { work(); }) {}
 
 bool LabelWriter::finish(std::chrono::milliseconds patience) {
   finish_ = true;
@@ -28,8 +28,10 @@ void LabelWriter::work() {
 
 bool LabelWriter::write(const Slots::Frame& frame) {
   if (!outcome_) return false;
-  outcome_ = firmware_io::write_label_file(folder_ / fmt::format("{:06}.label", frame.info.number),
-                                           frame.items);
+  outcome_ = folder_.place(fmt::format("{:06}.label", frame.info.number))
+                 .and_then([&](const std::filesystem::path& path) {
+                   return firmware_io::write_label_file(path, frame.items);
+                 });
   if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
   return outcome_.has_value();
 }

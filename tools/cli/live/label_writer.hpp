@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "background_thread.hpp"
+#include "firmware_io/sinks/frame_folder.hpp"
 #include "frame_slots.hpp"
 #include "pipeline/label.hpp"
 #include "rt/error.hpp"
@@ -19,7 +20,7 @@ class LabelWriter {
  public:
   using Slots = FrameSlots<pipeline::Label>;
 
-  /// Both must outlive this.
+  /// `slots` must outlive this.
   LabelWriter(const std::filesystem::path& folder, Slots& slots);
 
   /// After LiveThreads::stop(): writes what is left. False when the disk does not answer; then the
@@ -32,7 +33,7 @@ class LabelWriter {
   void work();
   [[nodiscard]] bool write(const Slots::Frame& frame);
 
-  const std::filesystem::path& folder_;
+  firmware_io::FrameFolder folder_;
   Slots& slots_;
   std::atomic<bool> finish_{false};
   Status outcome_;

@@ -75,7 +75,7 @@ double UdpStream::rate_hz() const noexcept {
   return static_cast<double>(packets - 1) * 1e9 / static_cast<double>(span_ns);
 }
 
-CaptureSurvey survey_capture(PcapSource& source) {
+CaptureSurvey survey_capture(PcapSource& source, const std::function<bool()>& stop_wanted) {
   CaptureSurvey survey;
   survey.name = source.name();
   survey.link_type = source.link_type();
@@ -83,7 +83,7 @@ CaptureSurvey survey_capture(PcapSource& source) {
   survey.link_type_name = link_name == nullptr ? "unknown" : link_name;
 
   std::map<StreamKey, StreamUnderSurvey> streams;
-  while (true) {
+  while (!stop_wanted || !stop_wanted()) {
     const auto next = source.next();
     if (!next) {
       survey.broke_off = next.error();

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -60,7 +61,8 @@ struct CaptureSurvey {
 [[nodiscard]] Expected<CaptureSurvey> survey_capture(const std::filesystem::path& path,
                                                      PcapFilter filter = {});
 
-/// The same of a source that is open already, from where it stands.
-[[nodiscard]] CaptureSurvey survey_capture(PcapSource& source);
+/// The same of a source that is open already, from where it stands, until `stop_wanted`, if any.
+[[nodiscard]] CaptureSurvey survey_capture(PcapSource& source,
+                                           const std::function<bool()>& stop_wanted = {});
 
 }  // namespace terracut::firmware_io

@@ -74,7 +74,10 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
     }
     const Status status = encoder.add_turn(scan.points, rings.ring_of_point, scan.labels);
     if (!status) return tl::unexpected(status.error());
-    if (options.on_scan) options.on_scan(i + 1, reader->size());
+    if (!options.on_scan) continue;
+    if (const Status go_on = options.on_scan(i + 1, reader->size()); !go_on) {
+      return tl::unexpected(go_on.error());
+    }
   }
   auto encoded = encoder.finish();
   if (!encoded) return tl::unexpected(std::move(encoded.error()));
@@ -109,8 +112,8 @@ Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folde
       [&](std::int64_t turn, ScanResampler::Turn& into) -> Status {
         const auto index = static_cast<std::size_t>(turn);
         Status status = reader->read(index, into.scan, into.rings);
-        if (status && options.on_scan) options.on_scan(index + 1, reader->size());
-        return status;
+        if (!status || !options.on_scan) return status;
+        return options.on_scan(index + 1, reader->size());
       },
       [&](const Ruby128Column& column) {
         return writer->add_column(column.stamp_ns, column.unwrapped_azimuth_cdeg, column.by_laser);

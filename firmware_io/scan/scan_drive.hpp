@@ -29,7 +29,8 @@ struct ScanDriveOptions {
   /// turn round.
   bool can_log = false;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;  ///< Capture time of the first firing.
-  std::function<void(std::size_t done, std::size_t of)> on_scan;  ///< Progress; may be empty.
+  /// Progress; may be empty. An error ends the work and is passed on; nothing is written then.
+  std::function<Status(std::size_t done, std::size_t of)> on_scan;
 };
 
 /// What came of it.
@@ -51,7 +52,7 @@ struct ResampleOptions {
   calib::Ruby128Calibration calibration = calib::nominal_ruby128();
   bool undo_compensation = false;  ///< As in ScanDriveOptions.
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;
-  std::function<void(std::size_t done, std::size_t of)> on_scan;
+  std::function<Status(std::size_t done, std::size_t of)> on_scan;  ///< As in ScanDriveOptions.
 };
 
 struct ResampleReport {

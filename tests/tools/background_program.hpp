@@ -63,7 +63,7 @@ class BackgroundProgram {
     return said_.substr(begin, said_.find('\n', begin) - begin);
   }
 
-  void interrupt() const { ::kill(pid_, SIGINT); }
+  void interrupt(int signal = SIGINT) const { ::kill(pid_, signal); }
   /// Whether it has ended by itself; end() tells how.
   [[nodiscard]] bool has_ended() {
     const std::scoped_lock lock(mutex_);

@@ -15,6 +15,7 @@
 #include "report.hpp"
 #include "rt/thread_setup.hpp"
 #include "rt/whole_file.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -44,6 +45,7 @@ Expected<PacketStore> load(OpenCapture& capture, const CaptureOptions& options) 
   PacketStore packets;
   CaptureWindow window(options);
   while (true) {
+    if (const Status status = go_on(); !status) return tl::unexpected(status.error());
     const auto next = capture.source.next();
     if (!next) {
       warn(next.error().message);
@@ -148,12 +150,13 @@ ExitCode print(const BenchOptions& options, const BenchResult& result, int core)
 }  // namespace
 
 ExitCode run(const BenchOptions& options) {
+  catch_stop_signals();
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
   const auto profile = ring_profile_of(capture->calibration, options.mount);
   if (!profile) return refuse(profile.error());
   const auto packets = load(*capture, options.capture);
-  if (!packets) return refuse(packets.error());
+  if (!packets) return refuse_work(packets.error());
 
   rt::FixedMemory memory;
   Chain chain(capture->calibration, *profile, capture->sensor.columns, options.capture,
@@ -166,6 +169,7 @@ ExitCode run(const BenchOptions& options) {
   BenchResult result;
   Progress progress("measuring", "passes", options.repeat);
   for (int pass = 0; pass < options.repeat; ++pass) {
+    if (const Status status = go_on(); !status) return refuse_work(status.error());
     run_frames(chain, *packets, &result);
     result.decode_column_ns.record(static_cast<std::int64_t>(run_decoding(chain, *packets)));
     progress.update(pass + 1);

@@ -16,6 +16,7 @@
 #include "firmware_io/sinks/each_return.hpp"
 #include "open_capture.hpp"
 #include "packet_chain.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -37,14 +38,15 @@ constexpr float kOwnLane_m = 1.5F;
 Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
                      firmware_io::SensorDecoder& decoder,
                      const std::function<bool(const RangeImage&)>& on_frame) {
-  bool go_on = true;
+  bool wanted = true;
   std::uint64_t offered = 0;
   const auto hand_over = [&](const FrameInfo&, const RangeImage& image) noexcept {
-    if (go_on) go_on = on_frame(image);
+    if (wanted) wanted = on_frame(image);
   };
   CaptureWindow window(options);
   if (Status status = capture.source.rewind(); !status) return status;
-  while (go_on) {
+  while (wanted) {
+    if (Status status = go_on(); !status) return status;
     const auto next = capture.source.next();
     if (!next) warn(next.error().message);
     if (!next || !*next) break;
@@ -113,13 +115,14 @@ Expected<calib::RingProfileEstimate> measure_rings(OpenCapture& capture,
 }  // namespace
 
 ExitCode run(const CalibrateOptions& options) {
+  catch_stop_signals();
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
   auto mount = mount_of(options.mount);
   if (!mount) return refuse(mount.error());
   if (!options.keep_mount) {
     const auto estimated = estimate(*capture, options.capture);
-    if (!estimated) return refuse(estimated.error());
+    if (!estimated) return refuse_work(estimated.error());
     mount = estimated->mount;
     fmt::print("mount     from {} returns, {:.0f} % of them within {:.1f} cm (rms) of the plane\n",
                estimated->points_used, 100 * estimated->inlier_share, 100 * estimated->rms_m);
@@ -129,7 +132,7 @@ ExitCode run(const CalibrateOptions& options) {
 
   const calib::RingProfile geometry = calib::ring_profile(capture->calibration, *mount);
   const auto rings = measure_rings(*capture, options, geometry);
-  if (!rings) return refuse(rings.error());
+  if (!rings) return refuse_work(rings.error());
   fmt::print("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
              geometry.rings.size());
 

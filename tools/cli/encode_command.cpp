@@ -10,6 +10,7 @@
 #include "console.hpp"
 #include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/scan/scan_drive.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -75,9 +76,10 @@ ExitCode resample(const EncodeOptions& options) {
   Progress progress("resampling", "scans", 0);
   drive.on_scan = [&](std::size_t done, std::size_t) {
     progress.update(static_cast<double>(done));
+    return go_on();
   };
   const auto report = firmware_io::resample_scan_folder(options.scans, options.output, drive);
-  if (!report) return refuse(report.error());
+  if (!report) return refuse_work(report.error());
   print(options, *report, drive.calibration.origin);
   return kOk;
 }
@@ -85,6 +87,7 @@ ExitCode resample(const EncodeOptions& options) {
 }  // namespace
 
 ExitCode run(const EncodeOptions& options) {
+  catch_stop_signals();
   if (options.sensor == "ruby128") {
     if (options.can_log) {
       return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled turns begin ahead");
@@ -102,9 +105,10 @@ ExitCode run(const EncodeOptions& options) {
   Progress progress("encoding", "scans", 0);
   drive.on_scan = [&](std::size_t done, std::size_t) {
     progress.update(static_cast<double>(done));
+    return go_on();
   };
   const auto report = firmware_io::encode_scan_folder(options.scans, options.output, drive);
-  if (!report) return refuse(report.error());
+  if (!report) return refuse_work(report.error());
   print(options, *report);
   return kOk;
 }

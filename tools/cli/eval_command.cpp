@@ -13,11 +13,11 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "json_text.hpp"
-#include "live/stop_signal.hpp"
 #include "pipeline/parameter_table.hpp"
 #include "program_identity.hpp"
 #include "rt/whole_file.hpp"
 #include "setup_choice.hpp"
+#include "stop_signal.hpp"
 #include "tools/eval/class_table.hpp"
 #include "tools/eval/datasets/koblenz.hpp"
 #include "tools/eval/evaluation.hpp"
@@ -291,6 +291,9 @@ ExitCode run(const EvalOptions& options) {
     const Status written = rt::write_whole_file(options.json, json_text(json));
     if (!written) return refuse(written.error());
   }
+  if (outcome->results.empty() && outcome->interrupted) {
+    return refuse(kInterrupted, "interrupted before the first frame was evaluated");
+  }
   if (outcome->results.empty()) {
     return refuse(kNothingCameOut,
                   "no frame was evaluated; see the warnings, --sequences, --frames");
@@ -304,7 +307,8 @@ ExitCode run(const EvalOptions& options) {
     const Status written = changed->write(options.changes);
     if (!written) return refuse(written.error());
   }
-  return outcome->interrupted || !outcome->faults.empty() ? kInputRefused : kOk;
+  if (outcome->interrupted) return kInterrupted;
+  return outcome->faults.empty() ? kOk : kInputRefused;
 }
 
 }  // namespace terracut::cli

@@ -13,6 +13,7 @@
 #include "console.hpp"
 #include "firmware_io/capture/capture_survey.hpp"
 #include "rt/whole_file.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -244,12 +245,15 @@ Json json_of(const CaptureSurvey& survey) {
 }  // namespace
 
 ExitCode run(const InfoOptions& options) {
-  const auto survey = firmware_io::survey_capture(options.file);
-  if (!survey) return refuse(survey.error());
-  fmt::print("{}", text_of(*survey));
-  if (survey->broke_off) warn(survey->broke_off->message);
+  catch_stop_signals();
+  auto source = firmware_io::PcapSource::open(options.file);
+  if (!source) return refuse(source.error());
+  const CaptureSurvey survey = firmware_io::survey_capture(*source, stop_wanted);
+  if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
+  fmt::print("{}", text_of(survey));
+  if (survey.broke_off) warn(survey.broke_off->message);
   if (options.json.empty()) return kOk;
-  const Status written = rt::write_whole_file(options.json, json_of(*survey).dump(1) + "\n");
+  const Status written = rt::write_whole_file(options.json, json_of(survey).dump(1) + "\n");
   return written ? kOk : refuse(written.error());
 }
 

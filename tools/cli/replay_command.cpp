@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -25,23 +24,15 @@
 #include "recorded_motion.hpp"
 #include "report.hpp"
 #include "setup_choice.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
 
 using firmware_io::FrameInfo;
 
-volatile std::sig_atomic_t interrupted = 0;
-
-/// Ctrl-C ends the replay as the end of the capture would: results so far are reported.
-void end_on_interrupt() {
-  struct sigaction action{};
-  action.sa_handler = [](int) { interrupted = 1; };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C kills
-  ::sigaction(SIGINT, &action, nullptr);
-}
-
-/// Sleeps so that datagrams come at `rate` times the speed of their stamps; 0 never sleeps.
+/// Sleeps so that datagrams come at `rate` times the speed of their stamps; 0 never sleeps. Where
+/// the run is to stop it sleeps no longer than a moment.
 class Pace {
  public:
   explicit Pace(double rate) : rate_(rate) {}
@@ -57,8 +48,12 @@ class Pace {
     }
     constexpr double kFar_ns = 9e18;  // a rate near 0 would leave the 64 bits
     const double due_ns = static_cast<double>(stamp_ns - first_ns_) / rate_;
-    std::this_thread::sleep_until(started_ + std::chrono::nanoseconds(static_cast<std::int64_t>(
-                                                 std::clamp(due_ns, 0.0, kFar_ns))));
+    const auto due = started_ + std::chrono::nanoseconds(
+                                    static_cast<std::int64_t>(std::clamp(due_ns, 0.0, kFar_ns)));
+    constexpr std::chrono::milliseconds kMoment{100};
+    for (auto at = now; at < due && !stop_wanted(); at = std::chrono::steady_clock::now()) {
+      std::this_thread::sleep_until(std::min(due, at + kMoment));
+    }
   }
 
  private:
@@ -138,7 +133,12 @@ class Replay {
   /// False when the replay is over: a sink failed, Ctrl-C, or the capture broke off.
   bool play_once(Pace& pace) {
     CaptureWindow window(options_.capture);
-    while (interrupted == 0 && sinks_) {
+    while (sinks_) {
+      if (stop_wanted()) {
+        // A replay without an end is not cut short by it.
+        report_.set_interrupted(options_.loops != 0);
+        return false;
+      }
       const auto next = capture_.source.next();
       if (!next) {
         warn(next.error().message);
@@ -212,6 +212,9 @@ class Replay {
   ExitCode conclude() {
     if (!sinks_) return refuse(sinks_.error());
     const firmware_io::LossCounters losses = chain_.decoder.losses();
+    if (report_.frames() == 0 && report_.interrupted()) {
+      return refuse(kInterrupted, "interrupted before the first frame came out");
+    }
     if (report_.frames() == 0) {
       return refuse(nothing_came_out(capture_.source, offered_, losses));
     }
@@ -226,10 +229,7 @@ class Replay {
       if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
     }
     if (scored_ > 0) report_.set_quality(quality_, report_.frames() - scored_);
-    fmt::print("{}", report_.text());
-    if (options_.output.json.empty()) return kOk;
-    const Status written = report_.write_json(options_.output.json);
-    return written ? kOk : refuse(written.error());
+    return conclude_with(report_, options_.output.json);
   }
 
   const ReplayOptions& options_;
@@ -276,7 +276,7 @@ ExitCode run(const ReplayOptions& options) {
     if (!opened) return refuse(opened.error());
     motion.emplace(*std::move(opened));
   }
-  end_on_interrupt();
+  catch_stop_signals();
   return Replay(options, *capture, *profile, motion ? &*motion : nullptr).run();
 }
 

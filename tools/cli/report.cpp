@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "console.hpp"
 #include "loss_table.hpp"
 #include "rt/whole_file.hpp"
 
@@ -187,6 +188,7 @@ std::string Report::text() const {
   if (motion_samples_) text += "motion    " + motion_sentence(*motion_samples_, records_) + "\n";
   text += "losses    " + loss_sentence(losses()) + "\n";
   text += times_.text();
+  if (interrupted_) text += "ended     interrupted: the rest of the input was not read\n";
   return text;
 }
 
@@ -195,6 +197,7 @@ Status Report::write_json(const std::filesystem::path& path) const {
   json["terracut"] = TERRACUT_VERSION;
   json["command"] = run_.command;
   json["input"] = run_.input;
+  json["interrupted"] = interrupted_;
   if (!input_warning_.empty()) json["input_warning"] = input_warning_;
   if (!run_.sensor.empty()) json["sensor"] = run_.sensor;
   json["calibration"] = run_.calibration;
@@ -243,6 +246,15 @@ Status Report::write_json(const std::filesystem::path& path) const {
          {{"min", motion.least_ms}, {"median", motion.median_ms}, {"max", motion.most_ms}}}};
   }
   return rt::write_whole_file(path, json.dump(1) + "\n");
+}
+
+ExitCode conclude_with(const Report& report, const std::filesystem::path& json) {
+  fmt::print("{}", report.text());
+  if (!json.empty()) {
+    const Status written = report.write_json(json);
+    if (!written) return refuse(written.error());
+  }
+  return report.interrupted() ? kInterrupted : kOk;
 }
 
 }  // namespace terracut::cli

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "exit_codes.hpp"
 #include "firmware_io/frame_info.hpp"
 #include "firmware_io/loss_counters.hpp"
 #include "pipeline/quality.hpp"
@@ -85,6 +86,9 @@ class Report {
   void set_motion_samples(std::uint64_t samples) { motion_samples_ = samples; }
   /// What is known of the sensor's clock, for people.
   void set_device_clock(std::string text) { device_clock_ = std::move(text); }
+  /// The run was ended before its work was done: what it reports is not of all its input.
+  void set_interrupted(bool interrupted) { interrupted_ = interrupted; }
+  [[nodiscard]] bool interrupted() const noexcept { return interrupted_; }
   /// The input broke off, and where.
   void set_input_warning(std::string warning) { input_warning_ = std::move(warning); }
 
@@ -97,6 +101,7 @@ class Report {
   ///
   ///   terracut, command, input, calibration   of what ran on what
   ///   profile, stages; or method, where --method named it
+  ///   interrupted     the run was ended before all of its input was read
   ///   input_warning   where the input broke off, if it did
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
@@ -118,6 +123,10 @@ class Report {
   std::optional<std::uint64_t> motion_samples_;
   std::string device_clock_;
   std::string input_warning_;
+  bool interrupted_ = false;
 };
+
+/// Prints the report, writes it to `json` too unless that is empty, and answers the exit code.
+[[nodiscard]] ExitCode conclude_with(const Report& report, const std::filesystem::path& json);
 
 }  // namespace terracut::cli

@@ -13,6 +13,7 @@
 #include "frame_outputs.hpp"
 #include "report.hpp"
 #include "setup_choice.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -67,6 +68,7 @@ struct ScanLabeller {
 }  // namespace
 
 ExitCode run(const SegmentOptions& options) {
+  catch_stop_signals();
   auto reader = firmware_io::ScanReader::open(options.scans);
   if (!reader) return refuse(reader.error());
   const auto fitted = reader->fit_rings();
@@ -85,6 +87,10 @@ ExitCode run(const SegmentOptions& options) {
                  options.method.stages, options.method.method});
   Progress progress("labelling", "scans", static_cast<double>(reader->size()));
   for (std::size_t i = 0; i < reader->size(); ++i) {
+    if (stop_wanted()) {
+      report.set_interrupted(true);
+      break;
+    }
     const firmware_io::ScanFile& file = reader->file(i);
     const Status read = reader->read(i, labeller.scan, labeller.rings);
     if (!read) return refuse(read.error());
@@ -101,10 +107,7 @@ ExitCode run(const SegmentOptions& options) {
     progress.update(static_cast<double>(i + 1));
   }
   if (labeller.scored > 0) report.set_quality(labeller.quality, report.frames() - labeller.scored);
-  fmt::print("{}", report.text());
-  if (options.output.json.empty()) return kOk;
-  const Status written = report.write_json(options.output.json);
-  return written ? kOk : refuse(written.error());
+  return conclude_with(report, options.output.json);
 }
 
 }  // namespace terracut::cli

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
-#include <csignal>
 #include <cstring>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -19,6 +18,7 @@
 #include "rt/fixed_memory.hpp"
 #include "rt/thread_cpu_clock.hpp"
 #include "rt/whole_file.hpp"
+#include "stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -32,16 +32,8 @@ using firmware_io::PcapSource;
 using firmware_io::UdpSender;
 using Json = nlohmann::ordered_json;
 
-/// What Ctrl-C ends: what was sent so far is reported.
+/// What Ctrl-C ends, while it waits for its time to send, too.
 PacketPacer* interruptible = nullptr;
-
-void end_on_interrupt(PacketPacer& pacer) {
-  interruptible = &pacer;
-  struct sigaction action{};
-  action.sa_handler = [](int) { interruptible->stop(); };
-  action.sa_flags = static_cast<int>(SA_RESETHAND);  // a second Ctrl-C kills
-  ::sigaction(SIGINT, &action, nullptr);
-}
 
 /// Everything the command line names, opened.
 struct Parts {
@@ -107,7 +99,8 @@ class Send {
         progress_("sending", "packets", 0) {}
 
   ExitCode run() {
-    end_on_interrupt(pacer_);
+    interruptible = &pacer_;
+    catch_stop_signals([]() noexcept { interruptible->stop(); });
     const std::int64_t begun_ns = rt::monotonic_ns();
     for (int pass = 0; options_.loops == 0 || pass < options_.loops; ++pass) {
       if (pass > 0) {
@@ -148,6 +141,9 @@ class Send {
     return sum;
   }
 
+  /// Sending without an end is not cut short by Ctrl-C.
+  [[nodiscard]] bool interrupted() const { return pacer_.stopped() && options_.loops != 0; }
+
   [[nodiscard]] std::string text() const {
     const firmware_io::SendCounters counters = sent();
     std::string text = fmt::format("sent      {} datagrams, {:.1f} MB, to {} in {:.2f} s\n",
@@ -163,6 +159,7 @@ class Send {
     for (const FaultOutcome& outcome : injector_.outcomes()) {
       text += fmt::format("fault     {}: {}\n", to_string(outcome.fault), amount_of(outcome));
     }
+    if (interrupted()) text += "ended     interrupted: the rest was not sent\n";
     return text;
   }
 
@@ -176,6 +173,7 @@ class Send {
               {"input", parts_.source.name()},
               {"to", parts_.sensor.to()},
               {"rate", options_.rate},
+              {"interrupted", interrupted()},
               {"read", injector_.fed()},
               {"sent", counters.sent},
               {"sent_bytes", counters.bytes},
@@ -230,6 +228,7 @@ class Send {
       const Status written = rt::write_whole_file(options_.json, json().dump(1) + "\n");
       if (!written) return refuse(written.error());
     }
+    if (interrupted()) return kInterrupted;
     return counters.failed > 0 && counters.sent == 0 ? kOutputFailed : kOk;
   }
 

@@ -19,6 +19,7 @@
 #include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/simulator/drive.hpp"
 #include "setup_choice.hpp"
+#include "stop_signal.hpp"
 #include "temporary_folder.hpp"
 
 namespace terracut::cli {
@@ -90,11 +91,12 @@ ExitCode simulate(const SimulateOptions& options, const std::filesystem::path& o
   Progress progress("simulating", "seconds", options.duration_s);
   const auto simulated = firmware_io::simulate_drive(
       *config, [&](const firmware_io::SimulatedColumn<Transmitter>& column) -> Status {
+        if (Status status = go_on(); !status) return status;
         progress.update(column.time_s);
         return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
                                   column.wire.by_laser);
       });
-  if (!simulated) return refuse(simulated.error());
+  if (!simulated) return refuse_work(simulated.error());
   const auto written = writer->finish();
   if (!written) return refuse(written.error());
   if (options.can_log) {
@@ -128,6 +130,7 @@ ExitCode simulate_to(const SimulateOptions& options, const std::filesystem::path
 }  // namespace
 
 ExitCode run(const SimulateOptions& options) {
+  catch_stop_signals();
   if (options.udp.to.empty()) {
     if (options.output.empty()) {
       return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");

@@ -2,32 +2,37 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstdlib>
 #include <filesystem>
-#include <string>
+#include <string_view>
 #include <system_error>
+
+#include "rt/part_file.hpp"
 
 namespace terracut::cli {
 
-/// A folder that is gone, with what is in it, when this is.
+/// A folder that is gone, with what is in it, when this is. Those of killed processes go, too.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::error_code error;
-    std::string name = (std::filesystem::temp_directory_path(error) / "terracut-XXXXXX").string();
-    if (!error && ::mkdtemp(name.data()) != nullptr) path_ = name;
+    const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
+    if (error) return;
+    constexpr std::string_view kName = "terracut";
+    rt::remove_abandoned_parts(folder, [&](std::string_view name) { return name == kName; });
+    part_ = rt::make_part_folder(folder / kName);
+    if (!part_.lock) part_.path.clear();
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
   ~TemporaryFolder() {
     std::error_code gone_or_not;
-    if (!path_.empty()) std::filesystem::remove_all(path_, gone_or_not);
+    if (!path().empty()) std::filesystem::remove_all(path(), gone_or_not);
   }
   /// Empty where none could be made.
-  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return part_.path; }
 
  private:
-  std::filesystem::path path_;
+  rt::Part part_;
 };
 
 }  // namespace terracut::cli

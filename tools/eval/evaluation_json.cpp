@@ -370,6 +370,7 @@ Json evaluation_json(const EvaluationFacts& facts, const ClassTable& classes,
             {"root", facts.root},
             {"through_packets", facts.through_packets},
             {"complete", !outcome.interrupted && outcome.faults.empty()},
+            {"interrupted", outcome.interrupted},
             {"classes", classes_json(classes)}};
   for (const MethodChoice& method : facts.methods) {
     const MethodJson of_method(method, classes, outcome.results);
@@ -408,6 +409,9 @@ std::string evaluation_text(const Json& evaluation) {
                         percent(means.at("all").at("recall_o")), percent(spread(worst).at("min")),
                         percent(means.at("all_vegetation_ignored").at("iou_g")),
                         percent(means.at("road").at("iou_g")), time("p50"), time("p99"));
+  }
+  if (evaluation.at("interrupted").get<bool>()) {
+    text += "interrupted: only some of the frames are in these figures\n";
   }
   if (!evaluation.contains("oracles")) return text;
   for (const auto& [name, oracle] : evaluation.at("oracles").items()) {

@@ -44,6 +44,7 @@ TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
   options.on_scan = [&](std::size_t done, std::size_t of) {
     progress = done;
     EXPECT_EQ(of, 2U);
+    return Status{};
   };
   const auto pcap = folder.path() / "drive.pcap";
   const auto report = encode_scan_folder(folder.path() / "scans", pcap, options);
@@ -63,6 +64,21 @@ TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
     ASSERT_TRUE(read_label_file(path, report->encoded.turns[turn].encoded, truth));
     EXPECT_THAT(truth, testing::Each(40 + turn));
   }
+}
+
+TEST(ScanDrive, ThatIsEndedEarlyLeavesNothing) {
+  const ScratchFolder folder;
+  write_sequence(folder, 2);
+  ScanDriveOptions options;
+  options.on_scan = [](std::size_t done, std::size_t) -> Status {
+    if (done < 2) return {};
+    return fail(ErrorCode::kNothingCameOut, "enough");
+  };
+  const auto pcap = folder.path() / "made" / "drive.pcap";
+  const auto report = encode_scan_folder(folder.path() / "scans", pcap, options);
+  ASSERT_FALSE(report);
+  EXPECT_EQ(report.error().message, "enough");
+  EXPECT_TRUE(std::filesystem::is_empty(pcap.parent_path()));
 }
 
 TEST(ScanDrive, UsesAGivenCalibration) {

@@ -54,6 +54,7 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneTurnAScan) {
   options.on_scan = [&](std::size_t done, std::size_t of) {
     progress = done;
     EXPECT_EQ(of, 2U);
+    return Status{};
   };
   const auto report = resample_scan_folder(folder.path() / "scans", pcap, options);
   ASSERT_TRUE(report) << report.error().message;

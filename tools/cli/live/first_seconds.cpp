@@ -16,9 +16,9 @@
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/ruby128/device_reader.hpp"
-#include "stop_signal.hpp"
 #include "tools/cli/calibration_choice.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {

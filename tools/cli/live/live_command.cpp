@@ -22,7 +22,6 @@
 #include "live_watch.hpp"
 #include "rt/locked_memory.hpp"
 #include "rt/thread_cpu_clock.hpp"
-#include "stop_signal.hpp"
 #include "stream_writer.hpp"
 #include "tools/cli/chrome_trace.hpp"
 #include "tools/cli/commands.hpp"
@@ -30,6 +29,7 @@
 #include "tools/cli/live_summary.hpp"
 #include "tools/cli/motion_choice.hpp"
 #include "tools/cli/setup_choice.hpp"
+#include "tools/cli/stop_signal.hpp"
 #include "vehicle_bus.hpp"
 #include "vehicle_motion.hpp"
 

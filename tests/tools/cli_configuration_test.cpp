@@ -109,9 +109,20 @@ TEST_F(Configuration, ValuesOutOfRangeAreRefusedWithTheRange) {
   expect_refused("input:\n  from: 192.168.1\n", "2", {"an IPv4 address, found '192.168.1'"});
   expect_refused("input:\n  listen: 0.0.0.0\n", "2", {"an IPv4 ADDRESS:PORT"});
   expect_refused("metrics:\n  address: '127.0.0.1:70000'\n", "2", {"ADDRESS:PORT or off"});
+  expect_refused("output:\n  stream: 99999\n", "2",
+                 {"output.stream: expected an IPv4 ADDRESS:PORT, a PORT or the path", "'99999'"});
   expect_refused("metrics:\n  name: ../x\n", "2", {"a name of letters, digits"});
   expect_refused("method:\n  region:\n    lambda: 0\n", "3",
                  {"method.region.lambda: expected a number from 0.0001 to 1000, found '0'"});
+}
+
+TEST_F(Configuration, FilesThatAreNotThereAreRefused) {
+  for (const std::string key : {"sensor:\n  calibration", "mount:\n  setup", "motion:\n  dbc"}) {
+    const Outcome outcome = read(key + ": nothere.xml\n");
+    EXPECT_EQ(outcome.exit_code, 3) << key;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, HasSubstr("nothere.xml"));
+  }
 }
 
 TEST_F(Configuration, ValuesOfTheWrongKindAreRefused) {
@@ -159,9 +170,10 @@ TEST_F(Configuration, IsTakenBeforeAndBehindTheCommand) {
 
 TEST_F(Configuration, RelativePathsAreTakenFromTheFilesFolder) {
   fs::create_directory(folder_ / "vehicle");
-  write("vehicle/a.yaml", "sensor: {calibration: unit.csv}\noutput: {json: /run/report.json}\n");
+  fs::copy_file(kDriveCalibration, folder_ / "vehicle" / "unit.xml");
+  write("vehicle/a.yaml", "sensor: {calibration: unit.xml}\noutput: {json: /run/report.json}\n");
   const Outcome outcome = run("--config vehicle/a.yaml config");
-  EXPECT_THAT(outcome.out, HasSubstr("\n  calibration: vehicle/unit.csv\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n  calibration: vehicle/unit.xml\n"));
   EXPECT_THAT(outcome.out, HasSubstr("\n  json: /run/report.json\n"));
 }
 

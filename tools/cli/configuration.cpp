@@ -139,7 +139,7 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.output.json; }},
     Setting{"output.truth", "--truth", "", "replay: folder of NNNNNN.label to score the labels against", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.output.truth; }},
-    Setting{"output.stream", "--stream", "", "live: where other programs get labelled points: ADDRESS:PORT, PORT or a socket's path (default: nowhere)", 0, 0, {}, kAny,
+    Setting{"output.stream", "--stream", "", "live: where other programs get labelled points: ADDRESS:PORT, PORT or a socket's path (default: nowhere)", 0, 0, {}, TextForm::kStream,
             [](C& c) noexcept -> F { return &c.live.stream; }},
     Setting{"output.trace", "--trace", "", "live: file for the last frames as a trace, for ui.perfetto.dev", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.trace; }},

@@ -32,7 +32,7 @@ using SettingField = std::variant<double*, std::optional<double>*, int*, std::op
                                   bool*, std::string*, std::filesystem::path*>;
 
 /// What a setting that is text has to look like.
-enum class TextForm { kAny, kAddress, kEndpoint, kEndpointOrOff, kName };
+enum class TextForm { kAny, kAddress, kEndpoint, kEndpointOrOff, kStream, kName };
 
 /// One key of the configuration file (docs/configuration.md is printed from the table of them).
 /// The parameters of the method are further keys, "method." before their name in

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 
+#include "firmware_io/sinks/stream_address.hpp"
 #include "rt/number_of.hpp"
 
 namespace terracut::cli {
@@ -67,6 +68,8 @@ std::string_view description(TextForm form) {
       return "an IPv4 ADDRESS:PORT";
     case TextForm::kEndpointOrOff:
       return "an IPv4 ADDRESS:PORT or off";
+    case TextForm::kStream:
+      return "an IPv4 ADDRESS:PORT, a PORT or the path of a socket";
     case TextForm::kName:
       return "a name of letters, digits, '-', '_' and '.'";
     case TextForm::kAny:
@@ -83,6 +86,8 @@ bool fits(TextForm form, std::string_view text) {
       return is_endpoint(text);
     case TextForm::kEndpointOrOff:
       return text == "off" || is_endpoint(text);
+    case TextForm::kStream:
+      return firmware_io::parse_stream_address(text).has_value();
     case TextForm::kName:
       return is_name(text);
     case TextForm::kAny:

@@ -26,6 +26,7 @@
 #include "tools/cli/chrome_trace.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/input_check.hpp"
 #include "tools/cli/live_summary.hpp"
 #include "tools/cli/motion_choice.hpp"
 #include "tools/cli/setup_choice.hpp"
@@ -196,6 +197,7 @@ ExitCode conclude(const LiveOptions& options, const LiveWatch& watch) {
 }  // namespace
 
 ExitCode run(const LiveOptions& options) {
+  if (const Status ready = check_before_listening(options); !ready) return refuse(ready.error());
   DumpSignal dump_wanted;  // before any thread: they inherit that the signal is blocked
   catch_stop_signals();
   if (options.realtime.lock_memory) say_refusals(rt::hold_memory({}));

@@ -8,6 +8,7 @@
 namespace terracut::cli {
 namespace {
 
+using testing::AllOf;
 using testing::AnyOf;
 using testing::Each;
 using testing::HasSubstr;
@@ -161,6 +162,14 @@ TEST_F(Cli, ARuby128sDriveCarriesItsTable) {
   const Outcome outcome = run("replay d.pcap");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("DIFOP"));
+}
+
+TEST_F(Cli, OptionsOfTheOtherSensorAreSaidToBeWithoutEffect) {
+  const Outcome outcome = run("replay " + quoted(kDrive) +
+                              " --duration 0.2 --nominal-calibration --timestamp ns");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: --nominal-calibration is without effect"),
+                                 HasSubstr("warning: --timestamp is without effect")));
 }
 
 TEST_F(Cli, ReplayWritesCloudsAndPictures) {

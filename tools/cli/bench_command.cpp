@@ -158,6 +158,7 @@ ExitCode run(const BenchOptions& options) {
   const auto packets = load(*capture, options.capture);
   if (!packets) return refuse_work(packets.error());
 
+  warn_of_other_senders(*capture, options.capture);
   rt::FixedMemory memory;
   Chain chain(capture->calibration, *profile, capture->sensor.columns, options.capture,
               options.method, memory);

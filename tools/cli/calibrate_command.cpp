@@ -136,6 +136,7 @@ ExitCode run(const CalibrateOptions& options) {
   fmt::print("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
              geometry.rings.size());
 
+  warn_of_other_senders(*capture, options.capture);
   calib::SensorSetup setup{*mount, {}};
   for (const calib::Ring& ring : rings->profile().rings) {
     setup.ring_ground_distance_m.push_back(ring.ground_distance_m);

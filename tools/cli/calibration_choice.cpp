@@ -11,6 +11,7 @@
 #include "calib/hdl64e_stream_table.hpp"
 #include "calib/nominal_ruby128.hpp"
 #include "calib/ruby128_csv.hpp"
+#include "console.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
@@ -116,6 +117,17 @@ Expected<calib::SensorCalibration> told_by_ruby128(PcapSource& source) {
 }
 
 }  // namespace
+
+void warn_of_unheeded(const CaptureOptions& options, firmware_io::SensorModel model) {
+  if (model == firmware_io::SensorModel::kRuby128) return;
+  const auto warn_of = [&](bool given, const char* option) {
+    if (!given) return;
+    warn(fmt::format("{} is without effect: it is of an RS-Ruby128, and the sensor is an {}",
+                     option, to_string(model)));
+  };
+  warn_of(options.nominal_calibration, "--nominal-calibration");
+  warn_of(options.timestamp != "auto", "--timestamp");
+}
 
 Expected<calib::SensorCalibration> choose_calibration(const CaptureOptions& options,
                                                       firmware_io::SensorModel model,

@@ -12,6 +12,9 @@
 
 namespace terracut::cli {
 
+/// Says which options have no effect on a sensor of that model.
+void warn_of_unheeded(const CaptureOptions& options, firmware_io::SensorModel model);
+
 /// What the unit's packets say of its calibration; else why they do not, and what to do.
 using ToldCalibration = std::function<Expected<calib::SensorCalibration>()>;
 

@@ -10,6 +10,7 @@
 
 #include "calibration_choice.hpp"
 #include "console.hpp"
+#include "firmware_io/live/ipv4_endpoint.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -53,15 +54,29 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   if (!source) return tl::unexpected(source.error());
   const auto sensor = choose_sensor(options, *source);
   if (!sensor) return tl::unexpected(sensor.error());
-  if (Status status = source->rewind(); !status) return tl::unexpected(status.error());
-  auto calibration = choose_calibration(options, *sensor, *source);
+  warn_of_unheeded(options, sensor->model);
+  // From here on this unit alone: packets of another would end up in the same turns.
+  firmware_io::PcapFilter its_own = filter_of(options);
+  its_own.source_address = sensor->address;
+  auto unit = PcapSource::open(options.file, its_own);
+  if (!unit) return tl::unexpected(unit.error());
+  auto calibration = choose_calibration(options, *sensor, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
-  if (Status status = source->rewind(); !status) return tl::unexpected(status.error());
+  if (Status status = unit->rewind(); !status) return tl::unexpected(status.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);
   say("sensor: " + sensor_line);
   say("calibration: " + calibration_line);
-  return OpenCapture{*std::move(source), *sensor, *std::move(calibration), std::move(sensor_line),
+  return OpenCapture{*std::move(unit), *sensor, *std::move(calibration), std::move(sensor_line),
                      std::move(calibration_line)};
+}
+
+void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& options) {
+  const std::uint64_t others = capture.source.counters().other_source;
+  if (others == 0 || !options.from.empty()) return;
+  warn(
+      fmt::format("{} datagrams came from other addresses than {}, the sensor's, and were left "
+                  "out; `terracut info` lists who sends, --from chooses",
+                  others, firmware_io::ipv4_text(capture.sensor.address)));
 }
 
 CaptureWindow::CaptureWindow(const CaptureOptions& options)

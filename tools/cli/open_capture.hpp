@@ -24,9 +24,13 @@ struct OpenCapture {
   std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
 };
 
-/// Opens the capture and chooses sensor and calibration (sensor_choice.hpp,
-/// calibration_choice.hpp). Says on stderr which they are.
+/// Opens the capture, of which one unit's datagrams alone are read, and chooses sensor and
+/// calibration (sensor_choice.hpp, calibration_choice.hpp). Says on stderr which they are.
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
+
+/// Says how many datagrams were left out because others sent them, where --from did not ask for
+/// that. Once the capture was read.
+void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& options);
 
 /// --start and --duration, by the stamps of the capture.
 class CaptureWindow {

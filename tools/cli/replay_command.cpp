@@ -219,6 +219,7 @@ class Replay {
       return refuse(nothing_came_out(capture_.source, offered_, losses));
     }
     warn_of_other_table();
+    warn_of_other_senders(capture_, options_.capture);
     report_.set_losses(losses);
     if (clock_of_device_.noted()) {
       report_.set_device_clock(clock_of_device_.text());

@@ -4,7 +4,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
 #include <string_view>
+#include <vector>
+
+#include "firmware_io/live/ipv4_endpoint.hpp"
 
 #include "loss_table.hpp"
 
@@ -49,6 +54,43 @@ std::string where_frames_went(const firmware_io::PcapCounters& read) {
   return text + "; `terracut info` lists the streams";
 }
 
+/// A sensor of the capture.
+struct Unit {
+  std::uint32_t address;
+  SensorModel model;
+  std::uint64_t packets;
+};
+
+/// Those of the wanted models, without who sent but stray packets of them.
+std::vector<Unit> units_among(const std::map<std::uint32_t, firmware_io::SensorProbe>& by_sender,
+                              const CaptureOptions& options) {
+  std::vector<Unit> units;
+  std::uint64_t most = 0;
+  for (const auto& [address, probe] : by_sender) {
+    for (const NamedSensor& sensor : kSensors) {
+      const std::uint64_t packets = probe.packets_of(sensor.model);
+      const bool wanted = options.sensor == "auto" || options.sensor == sensor.option;
+      if (wanted && packets > 0) units.push_back({address, sensor.model, packets});
+    }
+  }
+  for (const Unit& unit : units) most = std::max(most, unit.packets);
+  constexpr std::uint64_t kStrayShare = 100;
+  std::erase_if(units, [&](const Unit& unit) { return unit.packets * kStrayShare < most; });
+  return units;
+}
+
+tl::unexpected<Error> several(const std::vector<Unit>& units, const std::string& name) {
+  std::string list;
+  for (const Unit& unit : units) {
+    list += fmt::format("{}{} at {}", list.empty() ? "" : ", ", to_string(unit.model),
+                        firmware_io::ipv4_text(unit.address));
+  }
+  const bool one_address = units.front().address == units.back().address;
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{}: there are packets of several sensors: {}; choose one with {}", name,
+                          list, one_address ? "--sensor or --port" : "--from"));
+}
+
 }  // namespace
 
 std::string why_nothing_came(const firmware_io::PcapCounters& read, std::uint64_t offered,
@@ -68,39 +110,33 @@ std::string why_nothing_came(const firmware_io::PcapCounters& read, std::uint64_
 
 Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
                                      firmware_io::PcapSource& source) {
-  firmware_io::SensorProbe probe;
+  firmware_io::SensorProbe all;
+  std::map<std::uint32_t, firmware_io::SensorProbe> by_sender;
   for (std::uint64_t i = 0; i < kDatagramsToProbe; ++i) {
     const auto next = source.next();
     if (!next || !*next) break;
-    probe.add((*next)->payload);
+    all.add((*next)->payload);
+    by_sender[(*next)->source_address].add((*next)->payload);
   }
-  std::optional<SensorModel> chosen;
-  for (const NamedSensor& sensor : kSensors) {
-    const bool wanted = options.sensor == "auto" || options.sensor == sensor.option;
-    if (!wanted || probe.packets_of(sensor.model) == 0) continue;
-    if (chosen) {
-      return fail(
-          ErrorCode::kInvalidArgument,
-          fmt::format("{}: there are packets of a {} and of a {}; choose one with --sensor, "
-                      "--port or --from",
-                      source.name(), to_string(*chosen), to_string(sensor.model)));
-    }
-    chosen = sensor.model;
-  }
-  if (!chosen) {
+  const std::vector<Unit> units = units_among(by_sender, options);
+  if (units.empty()) {
     std::string expected = "an HDL-64E (S2, S2.1, S3) or an RS-Ruby128";
     for (const NamedSensor& sensor : kSensors) {
       if (options.sensor == sensor.option) expected = fmt::format("a {}", to_string(sensor.model));
     }
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
-                            expected, found_instead(probe, source)));
+                            expected, found_instead(all, source)));
   }
+  if (units.size() > 1) return several(units, source.name());
+  const Unit& unit = units.front();
+  const firmware_io::SensorProbe& probe = by_sender.at(unit.address);
   SensorChoice choice;
-  choice.model = *chosen;
-  choice.columns = options.columns.value_or(probe.columns(*chosen));
-  choice.spin_hz = probe.spin_hz(*chosen);
-  choice.dual_return = probe.dual_return(*chosen);
+  choice.address = unit.address;
+  choice.model = unit.model;
+  choice.columns = options.columns.value_or(probe.columns(unit.model));
+  choice.spin_hz = probe.spin_hz(unit.model);
+  choice.dual_return = probe.dual_return(unit.model);
   return choice;
 }
 

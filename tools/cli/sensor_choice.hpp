@@ -15,6 +15,7 @@ namespace terracut::cli {
 
 /// The sensor of a capture, and how it turns.
 struct SensorChoice {
+  std::uint32_t address = 0;  ///< IPv4 of the unit, as in Datagram.
   firmware_io::SensorModel model = firmware_io::SensorModel::kHdl64e;  ///< kHdl64e or kRuby128.
   int columns = 0;  ///< For the range image: firings a turn.
   double spin_hz = 0;
@@ -22,8 +23,10 @@ struct SensorChoice {
 };
 
 /// Reads the beginning of `source` and tells which sensor it is of: the one of --sensor, or the one
-/// found. Errors: kUnsupported, naming the models found instead; kInvalidArgument when there are
-/// packets of both sensors and none was named. Leaves `source` anywhere; rewind it.
+/// found. Of several units each has its address; one that sends less than a hundredth of what the
+/// one heard most does is none, but stray packets. Errors: kUnsupported, naming the models found
+/// instead; kInvalidArgument, naming them, when there are several sensors. Leaves `source`
+/// anywhere; rewind it.
 [[nodiscard]] Expected<SensorChoice> choose_sensor(const CaptureOptions& options,
                                                    firmware_io::PcapSource& source);
 

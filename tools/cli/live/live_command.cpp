@@ -23,6 +23,7 @@
 #include "rt/locked_memory.hpp"
 #include "rt/thread_cpu_clock.hpp"
 #include "stream_writer.hpp"
+#include "tools/cli/calibration_choice.hpp"
 #include "tools/cli/chrome_trace.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
@@ -217,6 +218,7 @@ ExitCode run(const LiveOptions& options) {
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));
+  warn_of_unheeded(options.capture, sensor->model);
   say(fmt::format("calibration: {}, fingerprint {:016x}", origin_of(sensor->calibration),
                   calib::fingerprint(sensor->calibration)));
   const auto profile = ring_profile_of(sensor->calibration, options.mount);

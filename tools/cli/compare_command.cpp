@@ -22,7 +22,8 @@ Expected<Json> read_report(const std::filesystem::path& path) {
   Json report = Json::parse(file, nullptr, false);
   if (!report.is_object()) {
     return fail(ErrorCode::kMalformed,
-                fmt::format("{}: no report of `terracut eval`", path.string()));
+                fmt::format("{}: expected a report of `terracut eval --json`, found no JSON object",
+                            path.string()));
   }
   return report;
 }
@@ -36,21 +37,16 @@ ExitCode run(const CompareOptions& options) {
   if (!after) return refuse(after.error());
   const std::string& method_after =
       options.method_after.empty() ? options.method : options.method_after;
-  auto comparison = evaluation::compare(*before, options.method, *after, method_after);
+  const auto comparison = evaluation::compare({*before, options.before.string(), options.method},
+                                              {*after, options.after.string(), method_after});
   if (!comparison) return refuse(comparison.error());
-  comparison->before = options.method + " of " + options.before.string();
-  comparison->after = method_after + " of " + options.after.string();
-  fmt::print("{}", evaluation::comparison_text(*comparison));
+  fmt::print("{}", evaluation::comparison_text(*comparison, options.significance));
   if (!options.json.empty()) {
     const Status written =
         rt::write_whole_file(options.json, json_text(evaluation::comparison_json(*comparison)));
     if (!written) return refuse(written.error());
   }
-  for (const evaluation::MeasureChange& change : comparison->changes) {
-    // Times of two runs on a shared machine differ without anybody's doing.
-    if (change.measure != "ms" && change.worse(options.significance)) return kGotWorse;
-  }
-  return kOk;
+  return comparison->worse(options.significance).empty() ? kOk : kGotWorse;
 }
 
 }  // namespace terracut::cli

@@ -23,29 +23,41 @@ struct MeasureChange {
   /// that the test over frames finds too much. None below 2 or above 20 sequences.
   std::optional<PairedTest> sequences;
 
+  /// As eval prints it, the mean over sequences of all their points together; none where the
+  /// reports are not of the same frames, and of times.
+  std::optional<double> eval_before, eval_after;
+
+  /// By the test over frames. Never of times: those of two runs on a shared machine differ without
+  /// anybody's doing.
   [[nodiscard]] bool worse(double significance) const noexcept {
     const double gain = more_is_better ? after - before : before - after;
-    return gain < 0 && frames.p < significance;
+    return measure != "ms" && gain < 0 && frames.p < significance;
   }
 };
 
 struct Comparison {
-  std::string before, after;  ///< What was compared: "paper of A.json".
-  std::size_t frames = 0;     ///< In both.
+  std::string before{}, after{};  ///< What was compared: "paper of A.json".
+  std::size_t frames = 0;         ///< In both.
   std::size_t only_before = 0, only_after = 0;
   std::vector<MeasureChange> changes;
+
+  /// The measures that got worse, and not by chance: "iou_g, recall_o"; empty: none.
+  [[nodiscard]] std::string worse(double significance) const;
 };
 
-/// Compares `method_before` of one report (evaluation_json()) with `method_after` of another, over
-/// the frames both have. kMalformed: no report, or a method it does not have; kInvalidArgument: no
-/// frame in common.
-[[nodiscard]] Expected<Comparison> compare(const nlohmann::ordered_json& before,
-                                           std::string_view method_before,
-                                           const nlohmann::ordered_json& after,
-                                           std::string_view method_after);
+/// One side of a comparison.
+struct Compared {
+  const nlohmann::ordered_json& report;  ///< evaluation_json().
+  std::string name;                      ///< Of its file, for messages.
+  std::string method;
+};
 
-/// For people: one line a measure.
-[[nodiscard]] std::string comparison_text(const Comparison& comparison);
+/// Compares two methods over the frames that both reports have. kMalformed, naming the file and
+/// what it lacks: no report, or a method it does not have; kInvalidArgument: no frame in common.
+[[nodiscard]] Expected<Comparison> compare(const Compared& before, const Compared& after);
+
+/// For people: one line a measure, and what got worse at that significance.
+[[nodiscard]] std::string comparison_text(const Comparison& comparison, double significance);
 [[nodiscard]] nlohmann::ordered_json comparison_json(const Comparison& comparison);
 
 }  // namespace terracut::evaluation

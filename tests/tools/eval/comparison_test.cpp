@@ -27,6 +27,13 @@ Json report(int frames, double gain, const std::string& method = "terracut") {
   return json;
 }
 
+/// Of two reports, A.json and B.json.
+Expected<Comparison> compare_reports(const Json& before, const Json& after,
+                                     const std::string& method_before = "terracut",
+                                     const std::string& method_after = "terracut") {
+  return compare({before, "A.json", method_before}, {after, "B.json", method_after});
+}
+
 const MeasureChange& change_in(const Comparison& comparison, const std::string& measure) {
   for (const MeasureChange& change : comparison.changes) {
     if (change.measure == measure) return change;
@@ -35,7 +42,7 @@ const MeasureChange& change_in(const Comparison& comparison, const std::string& 
 }
 
 TEST(ComparisonTest, SaysWhatGotBetterAndWhatGotWorse) {
-  const auto comparison = compare(report(30, 0), "terracut", report(30, 0.01), "terracut");
+  const auto comparison = compare_reports(report(30, 0), report(30, 0.01));
   ASSERT_TRUE(comparison) << comparison.error().message;
   EXPECT_EQ(comparison->frames, 30U);
   const auto& better = change_in(*comparison, "iou_g");
@@ -47,7 +54,7 @@ TEST(ComparisonTest, SaysWhatGotBetterAndWhatGotWorse) {
 }
 
 TEST(ComparisonTest, OfAReportWithItselfFindsNothing) {
-  const auto comparison = compare(report(30, 0), "terracut", report(30, 0), "terracut");
+  const auto comparison = compare_reports(report(30, 0), report(30, 0));
   ASSERT_TRUE(comparison);
   for (const MeasureChange& change : comparison->changes) {
     EXPECT_EQ(change.frames.p, 1) << change.measure;
@@ -57,7 +64,8 @@ TEST(ComparisonTest, OfAReportWithItselfFindsNothing) {
 }
 
 TEST(ComparisonTest, IsOverTheFramesBothHave) {
-  const auto comparison = compare(report(10, 0), "terracut", report(7, 0.01, "paper"), "paper");
+  const auto comparison =
+      compare_reports(report(10, 0), report(7, 0.01, "paper"), "terracut", "paper");
   ASSERT_TRUE(comparison);
   EXPECT_EQ(comparison->frames, 7U);
   EXPECT_EQ(comparison->only_before, 3U);
@@ -66,16 +74,64 @@ TEST(ComparisonTest, IsOverTheFramesBothHave) {
 }
 
 TEST(ComparisonTest, RefusesWhatCannotBeCompared) {
-  const auto no_method = compare(report(3, 0), "zhang", report(3, 0), "terracut");
+  const auto no_method = compare_reports(report(3, 0), report(3, 0), "zhang");
   ASSERT_FALSE(no_method);
-  EXPECT_THAT(no_method.error().message, HasSubstr("there is no method 'zhang'"));
+  EXPECT_THAT(no_method.error().message, HasSubstr("A.json: there is no method 'zhang'"));
   EXPECT_THAT(no_method.error().message, HasSubstr("only terracut"));
-  const auto no_report = compare(Json::object(), "terracut", report(3, 0), "terracut");
-  ASSERT_FALSE(no_report);
-  EXPECT_EQ(no_report.error().code, ErrorCode::kMalformed);
-  const auto nothing_shared = compare(report(3, 0), "terracut", report(0, 0), "terracut");
+  const auto nothing_shared = compare_reports(report(3, 0), report(0, 0));
   ASSERT_FALSE(nothing_shared);
   EXPECT_THAT(nothing_shared.error().message, HasSubstr("no frame in common"));
+}
+
+TEST(ComparisonTest, NamesTheFileThatIsNoReportAndWhatItLacks) {
+  const Json good = report(3, 0);
+  Json no_frames = good, no_time = good, no_number = good;
+  no_frames["methods"]["terracut"].erase("frames");
+  no_time["methods"]["terracut"]["frames"][1].erase("ms");
+  no_number["methods"]["terracut"]["frames"][1]["iou_g"] = "much";
+  const std::pair<Json, std::string> cases[] = {
+      {Json::object(), "it has no 'methods'"},
+      {Json{{"methods", 1}}, "it has no 'methods'"},
+      {no_frames, "its method 'terracut' has no 'frames'"},
+      {no_time, "one of its frames has no 'ms'"},
+      {no_number, "one of its frames has no 'iou_g'"}};
+  for (const auto& [bad, lacks] : cases) {
+    const auto refused = compare_reports(good, bad);
+    ASSERT_FALSE(refused) << lacks;
+    EXPECT_EQ(refused.error().code, ErrorCode::kMalformed);
+    EXPECT_THAT(refused.error().message,
+                testing::AllOf(HasSubstr("B.json: expected a report"), HasSubstr(lacks)));
+  }
+}
+
+TEST(ComparisonTest, SaysWhatItJudgesByAndJudgesNoTimes) {
+  Json slower = report(30, 0);
+  for (Json& frame : slower["methods"]["terracut"]["frames"])
+    frame["ms"] = frame["ms"].get<double>() + 1;
+  const auto comparison = compare_reports(report(30, 0), slower);
+  ASSERT_TRUE(comparison);
+  EXPECT_LT(change_in(*comparison, "ms").frames.p, 0.001);
+  EXPECT_EQ(comparison->worse(0.05), "");
+  EXPECT_THAT(comparison_text(*comparison, 0.05),
+              HasSubstr("worse     nothing (by p (frames) below 0.05; ms is not judged)"));
+  const auto worse = compare_reports(report(30, 0), report(30, 0.01));
+  EXPECT_EQ(worse->worse(0.05), "iou_road");
+}
+
+TEST(ComparisonTest, ShowsTheMeansThatEvalPrintsOfTheSameFrames) {
+  Json before = report(10, 0), after = report(10, 0.01);
+  before["methods"]["terracut"]["mean_over_sequences"] = {{"all", {{"iou_g", 0.953}}},
+                                                          {"road", {{"iou_g", 0.5}}}};
+  after["methods"]["terracut"]["mean_over_sequences"]["all"]["iou_g"] = 0.954;
+  const auto comparison = compare_reports(before, after);
+  ASSERT_TRUE(comparison);
+  EXPECT_EQ(change_in(*comparison, "iou_g").eval_before, 0.953);
+  EXPECT_EQ(change_in(*comparison, "iou_g").eval_after, 0.954);
+  EXPECT_EQ(change_in(*comparison, "iou_road").eval_before, 0.5);
+  EXPECT_EQ(change_in(*comparison, "ms").eval_before, std::nullopt);
+  EXPECT_THAT(comparison_text(*comparison, 0.05), HasSubstr("95.300   95.400"));
+  EXPECT_EQ(change_in(*compare_reports(before, report(9, 0)), "iou_g").eval_before, std::nullopt)
+      << "not the same frames";
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ void add_compare(CLI::App& sub, CompareOptions& o) {
   sub.add_option("--method", o.method, "Method to compare")->capture_default_str();
   sub.add_option("--method-after", o.method_after, "Method of AFTER (default: the same)");
   sub.add_option("--significance", o.significance,
-                 "A measure that got worse with a smaller p than this leads to exit code 8")
+                 "iou_g, recall_o or iou_road worse in the mean of frames, with a smaller\n"
+                 "p (frames) than this, leads to exit code 8; times are shown, not judged")
       ->check(number(1e-12, 1))
       ->capture_default_str();
   sub.add_option("--json", o.json, "File for the same, for programs");

@@ -211,6 +211,14 @@ TEST_F(Cli, CalibrateWritesASetupThatReplayReads) {
   EXPECT_GT(json("report.json")["summary"]["iou_g"], 0.98);
 }
 
+TEST_F(Cli, CalibrateWritesNothingWhereNoRingWasMeasured) {
+  const Outcome outcome = run("calibrate " + quoted(kDrive) + " --calibration " +
+                              quoted(kDriveCalibration) + " --duration 0.01 -o setup.yaml");
+  EXPECT_EQ(outcome.exit_code, 5) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("no setup was written"));
+  EXPECT_FALSE(fs::exists(folder_ / "setup.yaml"));
+}
+
 TEST_F(Cli, CalibrateReadsTheMountOffTheVehiclesOwnSideOfACrownedRoad) {
   const Outcome outcome = run("calibrate " + quoted(kDrive) + " --duration 0.5 --calibration " +
                               quoted(kDriveCalibration) + " -o setup.yaml");

@@ -112,6 +112,16 @@ Expected<calib::RingProfileEstimate> measure_rings(OpenCapture& capture,
   return rings;
 }
 
+/// On level roads, kerbs and cars beside them included, nine returns of ten lie in the plane.
+void warn_of_poor_fit(const calib::MountEstimate& estimated) {
+  constexpr double kUsualShare = 0.85;
+  if (estimated.inlier_share >= kUsualShare) return;
+  warn(
+      fmt::format("only {:.0f} % of the ground before and behind the vehicle lie in one plane; the "
+                  "mount may be wrong: take the capture on a straight, level, open road",
+                  100 * estimated.inlier_share));
+}
+
 }  // namespace
 
 ExitCode run(const CalibrateOptions& options) {
@@ -124,6 +134,7 @@ ExitCode run(const CalibrateOptions& options) {
     const auto estimated = estimate(*capture, options.capture);
     if (!estimated) return refuse_work(estimated.error());
     mount = estimated->mount;
+    warn_of_poor_fit(*estimated);
     fmt::print("mount     from {} returns, {:.0f} % of them within {:.1f} cm (rms) of the plane\n",
                estimated->points_used, 100 * estimated->inlier_share, 100 * estimated->rms_m);
   }
@@ -135,6 +146,12 @@ ExitCode run(const CalibrateOptions& options) {
   if (!rings) return refuse_work(rings.error());
   fmt::print("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
              geometry.rings.size());
+  if (rings->measured_rings() == 0) {
+    return refuse(
+        kNothingCameOut,
+        "no ring saw enough ground to be measured, so no setup was written; give a longer "
+        "part of the capture, of a level open road");
+  }
 
   warn_of_other_senders(*capture, options.capture);
   calib::SensorSetup setup{*mount, {}};

@@ -14,6 +14,7 @@
 #include "commands.hpp"
 #include "console.hpp"
 #include "dashboard.hpp"
+#include "figures_check.hpp"
 #include "json_text.hpp"
 #include "live_summary.hpp"
 #include "rt/status_page.hpp"
@@ -78,12 +79,21 @@ std::string redrawn(const std::string& text) {
   return result + "\x1b[J";
 }
 
+/// The page's figures, for whoever calculates with them.
+ExitCode refuse_figures(const Reader& page, const std::string& name) {
+  return refuse(kInputRefused,
+                fmt::format("the status page '{}' (process {}) holds figures that cannot be: it is "
+                            "damaged, or something else writes to it",
+                            name, page.publisher_pid()));
+}
+
 ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
   const auto figures = page.read();
   if (!figures) {
     return refuse(kInputRefused, fmt::format("process {} has not published any figures yet",
                                              page.publisher_pid()));
   }
+  if (!are_possible(*figures)) return refuse_figures(page, name);
   fmt::print("{}", as_json ? json_text(live_summary(*figures))
                            : dashboard(*figures, now_ns(), style_of_stdout()));
   if (!page.publisher_lives()) {
@@ -100,6 +110,7 @@ ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
   for (;;) {
     const bool lives = page.publisher_lives();  // asked first: the last figures are shown too
     if (const auto figures = page.read()) {
+      if (!are_possible(*figures)) return refuse_figures(page, name);
       const std::string text = dashboard(*figures, now_ns(), style_of_stdout());
       fmt::print("{}", terminal ? redrawn(text) : text + "\n");
       if (std::fflush(stdout) != 0) return refuse(kOutputFailed, "cannot write to stdout");

@@ -2,8 +2,11 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/drive/drive_writer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -113,10 +116,27 @@ class DriveWriter<Transmitter>::Impl {
   bool finished_ = false;
 };
 
+namespace {
+
+/// A table without the truth of a drive beside it is no earlier drive's, but somebody's own unit's.
+Status check_table(const fs::path& table, const fs::path& truth) {
+  std::error_code none;
+  if (!fs::exists(table, none) || fs::exists(truth, none)) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{}: would be replaced, but is of no earlier drive, for there is no {} "
+                          "beside it; move it away or choose another output name",
+                          table.string(), truth.string()));
+}
+
+}  // namespace
+
 template <class Transmitter>
 Expected<DriveWriter<Transmitter>> DriveWriter<Transmitter>::create(
     const fs::path& pcap_path, const typename Transmitter::Calibration& calibration,
     const typename Transmitter::Config& config) {
+  const Status replaceable =
+      check_table(calibration_path_of<Transmitter>(pcap_path), truth_folder_of(pcap_path));
+  if (!replaceable) return tl::unexpected(replaceable.error());
   auto pcap = PcapWriter::create(pcap_path);  // first, for it makes missing folders
   if (!pcap) return tl::unexpected(pcap.error());
   auto files = DriveFiles::create(pcap_path);

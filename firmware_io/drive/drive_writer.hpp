@@ -49,7 +49,8 @@ class DriveWriter {
 
   /// `pcap_path` is "<folder>/<name>.pcap"; the other two names follow from it. An existing
   /// capture, calibration and truth folder of that name are replaced at finish(); a truth folder
-  /// that holds anything but NNNNNN.label files is refused here.
+  /// that holds anything but NNNNNN.label files, and a calibration without a truth folder beside
+  /// it, are refused here.
   [[nodiscard]] static Expected<DriveWriter> create(
       const std::filesystem::path& pcap_path, const typename Transmitter::Calibration& calibration,
       const typename Transmitter::Config& config = {});

@@ -209,6 +209,15 @@ TEST_F(DriveWriterTest, RefusesToReplaceAFolderThatIsNotTruth) {
   EXPECT_EQ(files_in_folder(), 1U);
 }
 
+TEST_F(DriveWriterTest, RefusesToReplaceATableThatIsOfNoDrive) {
+  std::ofstream(folder / "drive.calibration.xml") << "my unit's";
+  const auto writer = DriveWriter::create(pcap, calib::nominal_hdl64e());
+  ASSERT_FALSE(writer);
+  EXPECT_EQ(writer.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_NE(writer.error().message.find("drive.calibration.xml"), std::string::npos);
+  EXPECT_EQ(files_in_folder(), 1U);
+}
+
 TEST_F(DriveWriterTest, RefusesFiringsNoHeadCouldMake) {
   const std::array<firmware_io::LabelledReturn, 64> nothing{};
   struct Step {

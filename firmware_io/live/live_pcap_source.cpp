@@ -205,6 +205,7 @@ std::size_t LivePcapSource::read_batch() noexcept {
     return ::pcap_dispatch(handle_.get(), static_cast<int>(config_.batch), on_frame,
                            reinterpret_cast<unsigned char*>(this));
   });
+  if (result == static_cast<int>(config_.batch)) refresh_drops();
   if (result < 0) {
     ++counters_.receive_errors;
     refresh_drops();

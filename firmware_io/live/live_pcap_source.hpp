@@ -55,8 +55,8 @@ class LivePcapSource {
     config_.source_address = source_address;
   }
 
-  /// kernel_drops is as of the last refresh_drops(), which receive() calls when nothing came for a
-  /// while.
+  /// kernel_drops is as of the last refresh_drops(), which receive() calls after every full batch
+  /// and when nothing came for a while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }

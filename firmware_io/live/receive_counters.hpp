@@ -7,6 +7,7 @@
 #include <span>
 
 #include "firmware_io/datagram.hpp"
+#include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
 
@@ -27,6 +28,22 @@ struct ReceiveCounters {
   std::uint64_t link_losses = 0;     ///< Times the configured interface was found down or gone.
   std::uint64_t reopened = 0;        ///< Times the socket was made anew for an interface that is
                                      ///< another one under the same name.
+
+  /// What was counted since `before`.
+  ReceiveCounters& operator-=(const ReceiveCounters& before) noexcept TERRACUT_NONBLOCKING {
+    received -= before.received;
+    delivered -= before.delivered;
+    foreign -= before.foreign;
+    other_interface -= before.other_interface;
+    truncated -= before.truncated;
+    no_datagram -= before.no_datagram;
+    kernel_drops -= before.kernel_drops;
+    unstamped -= before.unstamped;
+    receive_errors -= before.receive_errors;
+    link_losses -= before.link_losses;
+    reopened -= before.reopened;
+    return *this;
+  }
 };
 
 /// How the interface that was asked for stands; kUnknown without one.
@@ -34,6 +51,8 @@ enum class LinkState : std::uint8_t { kUnknown, kUp, kDown, kGone };
 
 /// What UdpSource and LivePcapSource have in common, for code that takes either:
 ///
+/// counters()           kernel_drops as of the last batch that was full, or better after
+///                      refresh_drops(), which asks the kernel.
 /// receive(timeout_ns)  waits at most so long and returns what came, [1, batch] datagrams in order
 ///                      of arrival, or none: time is up, or somebody called wake(). Payloads are
 ///                      valid until the next call. Never waits longer, whatever the interface does.

@@ -267,6 +267,8 @@ std::size_t UdpSource::read_batch() noexcept {
   prepare(count);
   counters_.received += count;
   counters_.delivered += kept;
+  // More may wait, before which others were dropped: what these say of drops is as old as they are.
+  if (count == messages_.size()) refresh_drops();
   return kept;
 }
 

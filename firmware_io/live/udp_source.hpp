@@ -71,7 +71,8 @@ class UdpSource {
   }
 
   /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks
-  /// the kernel; receive() does it by itself when nothing comes for a while.
+  /// the kernel; receive() does it by itself after every full batch and when nothing comes for a
+  /// while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }

@@ -61,6 +61,26 @@ class InterfaceLoss : public LiveTest {
       return !received.empty();
     }));
   }
+  /// Sends more than the smallest buffer holds; each is received or counted as dropped.
+  void flood(PrivateNetwork& network, UdpSource& source) {
+    constexpr std::uint64_t kSent = 300;
+    auto sensor = network.on_the_other(
+        [&] { return UdpSender::open({.to = {kHere, kPort}, .interface = "wire0"}, memory_); });
+    ASSERT_TRUE(sensor) << sensor.error().message;
+    source.refresh_drops();
+    const auto& counters = source.counters();
+    const std::uint64_t dropped_before = counters.kernel_drops;
+    const std::uint64_t before = counters.received + counters.kernel_drops;
+    Numbered numbered(kSent);
+    EXPECT_EQ(sensor->send(numbered.datagrams()), kSent);
+    std::vector<Received> received;
+    EXPECT_TRUE(receive_until(source, received, [&] {
+      source.refresh_drops();
+      return counters.received + counters.kernel_drops >= before + kSent;
+    }));
+    EXPECT_GT(counters.kernel_drops - dropped_before, kSent / 2);
+    EXPECT_LE(counters.kernel_drops - dropped_before, kSent);
+  }
   template <class Source>
   static void wait_for(Source& source, LinkState state) {
     std::vector<Received> received;
@@ -115,6 +135,19 @@ TEST_F(InterfaceLoss, IsSurvivedByAMulticastGroupThatTheRoutesLeadTo) {
         network, kGroup,
         [&] { return UdpSource::open({.bind = {0, kPort}, .multicast_group = kGroup}, memory_); },
         false);
+  });
+}
+
+TEST_F(InterfaceLoss, LosesNoCountOfDropsAndInventsNone) {
+  with_cable([&](PrivateNetwork& network) {
+    auto source = open({.bind = {0, kPort}, .interface = "sensor0", .receive_buffer_bytes = 1});
+    expect_reception(network, source, kHere);
+    flood(network, source);
+    ASSERT_TRUE(network.ip("link del sensor0"));
+    wait_for(source, LinkState::kGone);
+    ASSERT_TRUE(network.plug_in());
+    expect_reception(network, source, kHere);
+    flood(network, source);
   });
 }
 

@@ -100,6 +100,7 @@ TEST_F(UdpSourceTest, ReturnsEmptyWhenNothingComes) {
   EXPECT_TRUE(source.receive(-1).empty());
   EXPECT_TRUE(source.receive(5 * kMillisecond_ns).empty());
   EXPECT_EQ(source.counters().received, 0U);
+  EXPECT_EQ(source.counters().receive_errors, 0U) << "there being nothing is no error";
 }
 
 TEST_F(UdpSourceTest, CountsExactlyWhatTheKernelDropped) {
@@ -124,6 +125,16 @@ TEST_F(UdpSourceTest, CountsExactlyWhatTheKernelDropped) {
   sender.send(one_more.datagrams());
   EXPECT_TRUE(accounted_for(301));
   EXPECT_EQ(source.counters().kernel_drops, drops);
+}
+
+TEST_F(UdpSourceTest, KnowsOfDropsWhileTheBufferIsNeverEmpty) {
+  auto source = open({.receive_buffer_bytes = 1, .batch = 1});
+  auto sender = sender_to(source);
+  Numbered numbered(300);
+  ASSERT_EQ(sender.send(numbered.datagrams()), 300U);
+  // The datagram is older than the drops, and says that there were none.
+  ASSERT_EQ(source.receive(kPatience_ns).size(), 1U);
+  EXPECT_GT(source.counters().kernel_drops, 200U);
 }
 
 TEST_F(UdpSourceTest, AcceptsOnlyTheConfiguredSenderAndCountsTheOthers) {

@@ -122,6 +122,13 @@ TEST_F(DeadlineMonitorOf50Ms, SharesOutNoMoreThanTheLatency) {
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kLateInput);
 }
 
+TEST_F(DeadlineMonitorOf50Ms, TakesAStolenTimeThatWentBackwardsForNone) {
+  FrameTiming frame = frame_of(0, 100);
+  frame.run_queue_wait_ns = 40 * kMs;
+  frame.steal_ns = -30 * kMs;
+  EXPECT_EQ(judged(frame).cause, FrameMissCause::kOwnWork);
+}
+
 TEST_F(DeadlineMonitorOf50Ms, CountsASkippedFrameAsMissedButNotAsQuick) {
   FrameTiming skipped = frame_of(0, 2);
   skipped.rung = Rung::kSkipped;

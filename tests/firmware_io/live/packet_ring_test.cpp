@@ -131,9 +131,16 @@ TEST_F(PacketRingTest, LeavesOutWhatIsLongerThanItselfAndCountsIt) {
   EXPECT_EQ(ring.too_long(), 1U);
 }
 
-TEST_F(PacketRingTest, WhileOthersAreAddedACopyHoldsOnlyWholeDatagramsInOrder) {
-  // Small, so that the writer laps the reader all the time.
-  const PacketRingSize size{32, 24 * 1208};
+/// Rings so small that the writer laps the reader all the time: where the datagrams' places run out
+/// first, and where their bytes do.
+class SmallPacketRing : public PacketRingTest,
+                        public testing::WithParamInterface<PacketRingSize> {};
+INSTANTIATE_TEST_SUITE_P(Sizes, SmallPacketRing,
+                         testing::Values(PacketRingSize{32, 24 * 1208},
+                                         PacketRingSize{256, 8 * 1208}));
+
+TEST_P(SmallPacketRing, WhileOthersAreAddedACopyHoldsOnlyWholeDatagramsInOrder) {
+  const PacketRingSize size = GetParam();
   PacketRing ring(size, memory_);
   PacketWindow window(size, memory_);
   std::jthread writer([&](const std::stop_token& stop) {

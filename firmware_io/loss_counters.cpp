@@ -40,7 +40,6 @@ LossCounters& LossCounters::operator+=(const LossCounters& other) noexcept {
   azimuth_hole_columns += other.azimuth_hole_columns;
   for (std::size_t i = 0; i < kRejectReasons; ++i) rejected[i] += other.rejected[i];
   overflow_full_returns += other.overflow_full_returns;
-  queue_full_frames += other.queue_full_frames;
   skipped_frames += other.skipped_frames;
   clock_jumps += other.clock_jumps;
   return *this;

@@ -37,7 +37,6 @@ struct LossCounters {
   std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a turn, whatever the cause.
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets, by reason.
   std::uint64_t overflow_full_returns = 0;  ///< Returns beyond the frame's fixed overflow list.
-  std::uint64_t queue_full_frames = 0;      ///< Frames dropped because a newer one was ready.
   std::uint64_t skipped_frames = 0;         ///< Frames not segmented for want of time.
   std::uint64_t clock_jumps =
       0;  ///< Device stamp jumps that no loss explains (replay loop, reset).

@@ -35,12 +35,13 @@ void CoarseStages::begin(const RangeImage& image) noexcept {
 }
 
 void CoarseStages::advance(const RangeImage& image, int settled_columns, CellPlanes& planes,
-                           StageObserver* observer) noexcept {
+                           StageObserver* observer, int most_blocks) noexcept {
   if (image.returns() == 0) return;  // a stream begins behind a turn that it has nothing of
   if (!has_begun(image)) begin(image);
   const RingGrid& grid = map_.grid();
-  while (map_.walked() + kBlock <= grid.sectors() &&
-         grid.columns_of({0, map_.walked() + kBlock}).end <= settled_columns) {
+  for (int block = 0; block < most_blocks && map_.walked() + kBlock <= grid.sectors() &&
+                      grid.columns_of({0, map_.walked() + kBlock}).end <= settled_columns;
+       ++block) {
     if (observer != nullptr) observer->resumed();
     map_.walk_to(map_.walked() + kBlock, image);
     // The first sectors wait for the last ones: ground is lent across the seam.

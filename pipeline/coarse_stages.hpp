@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "calib/ring_profile.hpp"
@@ -39,9 +40,16 @@ class CoarseStages {
   /// A turn is arriving: columns [0, settled_columns) of its image are not expected to change any
   /// more, and must not be moved. Does what can be done ahead, a block of columns at a time, into
   /// `planes`, which are the turn's own until finish(). Another image, or the same one cleared, is
-  /// another turn; what was done for the one before is forgotten.
+  /// another turn; what was done for the one before is forgotten. No more than `most_blocks` are
+  /// done now: what one call may cost.
   void advance(const RangeImage& image, int settled_columns, CellPlanes& planes,
-               StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
+               StageObserver* observer = nullptr,
+               int most_blocks = kAnyNumber) noexcept TERRACUT_NONBLOCKING;
+  /// The share of a turn's sectors, [0, 1], that finish() would find labelled.
+  [[nodiscard]] float share_ahead(const RangeImage& image) const noexcept TERRACUT_NONBLOCKING {
+    if (!has_begun(image)) return 0;
+    return static_cast<float>(labelled_) / static_cast<float>(map_.grid().sectors());
+  }
 
   /// The turn is whole: fills `height_m`, `label` and, where the adjacent points are among the
   /// stages, `steep` of every cell.
@@ -49,6 +57,8 @@ class CoarseStages {
               StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
 
  private:
+  static constexpr int kAnyNumber = std::numeric_limits<int>::max();
+
   void begin(const RangeImage& image) noexcept;
   [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();

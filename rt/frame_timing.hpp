@@ -69,16 +69,16 @@ struct FrameTiming {
   std::int64_t closing_packet_ns = 0;  ///< Of the packet that showed that the turn is over.
   std::int64_t handed_over_ns = 0;     ///< Decoded, and given to the segmenting thread.
   std::int64_t segment_begin_ns = 0;
-  std::int64_t labels_ns = 0;     ///< Labels given to the sinks; when it was given up if skipped.
-  std::int64_t published_ns = 0;  ///< The sinks were done.
+  std::int64_t labels_ns = 0;  ///< Labels handed out; when it was given up if skipped.
 
   /// Processor time of the threads that did it.
   std::int64_t decode_cpu_ns = 0;  ///< All packets of the turn.
   std::array<std::int64_t, kMaxStages> stage_cpu_ns{};
   std::int64_t segment_cpu_ns = 0;  ///< All stages and what lies between them.
 
-  /// Of the interval from the last packet to the labels, on the frame's threads and their cores.
+  /// From the last packet to the labels, of the frame's threads.
   std::int64_t run_queue_wait_ns = 0;
+  /// Stolen from the machine around that, where the deadline was missed; else 0.
   std::int64_t steal_ns = 0;
 
   std::uint64_t cut_operations = 0;

@@ -51,8 +51,9 @@ struct ThreadStatus {
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
   /// To be raised with every change of what lies where.
-  static constexpr std::uint32_t kLayout = 2;
+  static constexpr std::uint32_t kLayout = 3;
   static constexpr std::size_t kMaxLosses = 40;
+  static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
 
   FixedText<24> version;        ///< Of the program.
@@ -63,7 +64,10 @@ struct MonitorSnapshot {
   std::int64_t deadline_ns = 0;
 
   LinkState link = LinkState::kWaiting;
-  std::uint64_t packets = 0;        ///< Datagrams taken in.
+  std::uint64_t silences = 0;       ///< Times no packet came for a second or longer.
+  std::int64_t silent_ns = 0;       ///< All of these together.
+  bool head_stands = false;         ///< Packets come, but say that the head does not turn.
+  std::uint64_t packets = 0;        ///< Datagrams taken in, of those received.
   std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest one.
 
   std::uint64_t frames = 0;    ///< Judged, whatever their rung.
@@ -78,6 +82,10 @@ struct MonitorSnapshot {
 
   MotionFigures motion;
   HealthFigures health;
+
+  std::uint64_t received = 0;       ///< Datagrams the kernel handed over: the sum of `outcomes`.
+  std::uint32_t outcome_count = 0;  ///< How many of `outcomes` are in use.
+  std::array<NamedCount, kMaxOutcomes> outcomes{};
 
   std::uint32_t loss_count = 0;  ///< How many of `losses` are in use.
   std::array<NamedCount, kMaxLosses> losses{};
@@ -98,6 +106,10 @@ struct MonitorSnapshot {
   }
   [[nodiscard]] std::span<const NamedCount> losses_in_use() const noexcept {
     return std::span(losses).first(std::min<std::size_t>(loss_count, losses.size()));
+  }
+  /// What became of the datagrams, each of which is in one of these.
+  [[nodiscard]] std::span<const NamedCount> outcomes_in_use() const noexcept {
+    return std::span(outcomes).first(std::min<std::size_t>(outcome_count, outcomes.size()));
   }
   [[nodiscard]] std::span<const ThreadStatus> threads_in_use() const noexcept {
     return std::span(threads).first(std::min<std::size_t>(thread_count, threads.size()));

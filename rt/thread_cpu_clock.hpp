@@ -48,6 +48,9 @@ struct SystemClock {
   [[nodiscard]] std::int64_t realtime_ns() const noexcept TERRACUT_NONBLOCKING {
     return rt::realtime_ns();
   }
+  [[nodiscard]] std::int64_t monotonic_ns() const noexcept TERRACUT_NONBLOCKING {
+    return rt::monotonic_ns();
+  }
   [[nodiscard]] std::int64_t thread_cpu_ns() const noexcept TERRACUT_NONBLOCKING {
     return rt::thread_cpu_ns();
   }

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kReceive = 1, kSegment = 2, kPublish = 3;
+constexpr int kReceive = 1, kSegment = 2;
 
 std::vector<Json> events_of(const Json& trace, const std::string& phase, int track) {
   std::vector<Json> events;
@@ -46,8 +46,7 @@ TEST(ChromeTrace, NamesItsTracks) {
   for (const Json& event : trace["traceEvents"]) {
     if (event["name"] == "thread_name") names[event["tid"]] = event["args"]["name"];
   }
-  EXPECT_EQ(names, (std::map<int, std::string>{
-                       {kReceive, "receive"}, {kSegment, "segment"}, {kPublish, "publish"}}));
+  EXPECT_EQ(names, (std::map<int, std::string>{{kReceive, "receive"}, {kSegment, "segment"}}));
   EXPECT_EQ(trace["otherData"]["origin_ns"], WatchedRun::kStart_ns);
 }
 
@@ -63,9 +62,6 @@ TEST(ChromeTrace, ShowsAFrameOnEveryTrackWhereItWas) {
   EXPECT_EQ(frame["args"]["rung"], "full");
   EXPECT_DOUBLE_EQ(frame["args"]["latency_ms"], 11.0);
   EXPECT_EQ(frame["args"]["cut_operations"], 1000);
-  const Json published = event_named(events_of(trace, "X", kPublish), "frame 7");
-  EXPECT_DOUBLE_EQ(published["ts"], 816'000.0);
-  EXPECT_DOUBLE_EQ(published["dur"], 2'000.0);
 }
 
 TEST(ChromeTrace, PutsStagesOneAfterAnotherInsideTheirFrame) {

@@ -87,6 +87,27 @@ TEST_F(CliLive, SaysWhatItHeardInsteadOfASensor) {
   EXPECT_THAT(outcome.err, HasSubstr("no data packets"));
 }
 
+TEST_F(CliLive, WaitsForItsSensorWhichOthersCanSee) {
+  LiveRun run = live_with_table("--json live.json");
+  EXPECT_TRUE(run.shows([](const auto& figures) {
+    return figures.link == rt::LinkState::kWaiting &&
+           figures.sensor.view().find("waiting for") != std::string_view::npos;
+  }));
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(labels(run, 1));
+  expect_good_end(run.interrupted());
+  const auto datagrams = json("live.json").at("datagrams");
+  std::uint64_t sum = 0;
+  for (const auto& count : datagrams.at("outcomes")) sum += count.template get<std::uint64_t>();
+  EXPECT_EQ(sum, datagrams.at("received").get<std::uint64_t>());
+}
+
+TEST_F(CliLive, EndsInOrderWhileItWaits) {
+  LiveRun run = live_with_table("");
+  (void)run.port();
+  EXPECT_EQ(run.interrupted().exit_code, kOk);
+}
+
 TEST_F(CliLive, NamesAPortThatIsTaken) {
   rt::FixedMemory memory;
   const auto taken = firmware_io::UdpSource::open({}, memory);

@@ -36,7 +36,8 @@ TEST(Dashboard, ShowsRateDeadlineRungsLossesAndFaults) {
   EXPECT_EQ(line_of(text, "deadline"),
             "deadline  50.0 ms, 2 missed (2.000 %): own_work 1, waiting_for_core 1");
   EXPECT_EQ(line_of(text, "rungs"), "rungs     full 98, cut_stopped 0, coarse 1, skipped 1");
-  EXPECT_EQ(line_of(text, "losses"), "losses    network_gap_packets 12, skipped_frames 1");
+  EXPECT_EQ(line_of(text, "losses"),
+            "losses    network_gap_packets 12, rejected_wrong_size 13, skipped_frames 1");
   EXPECT_THAT(line_of(text, "thread    segment"), HasSubstr("page faults 5 minor, 0 major"));
   EXPECT_THAT(line_of(text, "latency"), HasSubstr("81.000"));
 }

@@ -62,6 +62,14 @@ TEST_F(Watchdog, IsFedWhileTheSensorIsOff) {
   EXPECT_TRUE(may_feed(1000, 10));
 }
 
+TEST_F(Watchdog, IsFedWhileTheHeadStands) {
+  EXPECT_TRUE(may_feed(1000, 10));
+  figures_->head_stands = true;
+  EXPECT_TRUE(may_feed(2000, 10)) << "a new start would not turn it";
+  figures_->head_stands = false;
+  EXPECT_FALSE(may_feed(3000, 10));
+}
+
 class RunAsService : public Service {
  protected:
   /// All messages since the last call.
@@ -114,6 +122,16 @@ TEST_F(RunAsService, LeavesTheWatchdogHungryWhileFramesAreLate) {
   service.turn_round(*figures_, 3 * kSecond_ns);
   EXPECT_THAT(all_heard(),
               testing::ElementsAre("STATUS=: 10.0 frames/s, 25 frames, 20 missed their deadline"));
+}
+
+TEST_F(RunAsService, SaysThatTheHeadStands) {
+  listen((folder_ / "n").string());
+  LiveService service = LiveService::from_environment();
+  figures_->sensor = {"HDL-64E"};
+  figures_->link = rt::LinkState::kReceiving;
+  figures_->head_stands = true;
+  service.ready(*figures_, 0);
+  EXPECT_THAT(all_heard(), testing::ElementsAre(testing::HasSubstr("its head does not turn")));
 }
 
 TEST_F(RunAsService, GoesOnWithoutAManagerThatCannotBeReached) {

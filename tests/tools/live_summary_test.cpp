@@ -36,6 +36,16 @@ TEST(LiveSummary, HoldsWhatWasCounted) {
   EXPECT_EQ(json["threads"][1]["minor_faults"], 5);
 }
 
+TEST(LiveSummary, TellsWhereEachDatagramWent) {
+  WatchedRun run;
+  const auto json = live_summary(run.figures());
+  std::uint64_t sum = 0;
+  for (const auto& count : json["datagrams"]["outcomes"]) sum += count.get<std::uint64_t>();
+  EXPECT_EQ(json["datagrams"]["received"], 34'802);
+  EXPECT_EQ(sum, 34'802U);
+  EXPECT_EQ(json["datagrams"]["outcomes"]["let_go"], 5);
+}
+
 TEST(LiveSummary, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
   WatchedRun run;
   EXPECT_FALSE(live_summary(run.figures()).contains("motion"));

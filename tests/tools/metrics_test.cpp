@@ -51,6 +51,32 @@ TEST(MetricsText, HoldsEveryCount) {
   EXPECT_DOUBLE_EQ(samples["terracut_start_time_seconds"], 1.7e9);
 }
 
+TEST(MetricsText, TellsWhereEachDatagramWent) {
+  WatchedRun run;
+  auto samples = samples_of(metrics_text(run.figures()));
+  double sum = 0;
+  for (const auto& [name, value] : samples) {
+    if (name.starts_with("terracut_datagrams_total{")) sum += value;
+  }
+  EXPECT_EQ(samples["terracut_datagrams_received_total"], 34'802);
+  EXPECT_EQ(sum, 34'802);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"decoded\"}"], 34'782);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"foreign\"}"], 2);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"let_go\"}"], 5);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"rejected_wrong_size\"}"], 13);
+}
+
+TEST(MetricsText, TellsOfSilencesAndOfAHeadThatStands) {
+  WatchedRun run;
+  run.figures().silences = 3;
+  run.figures().silent_ns = 4'500'000'000;
+  run.figures().head_stands = true;
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples["terracut_silences_total"], 3);
+  EXPECT_DOUBLE_EQ(samples["terracut_silent_seconds_total"], 4.5);
+  EXPECT_EQ(samples["terracut_head_stands"], 1);
+}
+
 TEST(MetricsText, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
   WatchedRun run;
   EXPECT_EQ(samples_of(metrics_text(run.figures())).count("terracut_motion_samples_total"), 0U);

@@ -31,13 +31,19 @@ class WatchedRun {
     figures.started_ns = kStart_ns;
     figures.taken_ns = kEnd_ns;
     figures.link = rt::LinkState::kReceiving;
-    figures.packets = 34'800;
     for (std::uint32_t number = 0; number < kFrames; ++number) judge(number);
     figures.last_packet_ns = figures.newest.last_packet_ns;
-    firmware_io::LossCounters losses;
-    losses.network_gap_packets = 12;
-    losses.skipped_frames = 1;
-    show_losses(losses, figures);
+    firmware_io::DatagramAccount account;
+    account.source.received = 34'802;
+    account.source.delivered = 34'800;
+    account.source.foreign = 2;
+    account.let_go = 5;
+    account.decoded = 34'782;
+    account.losses.rejected[0] = 13;
+    account.losses.network_gap_packets = 12;
+    account.losses.skipped_frames = 1;
+    show_datagrams(account, figures);
+    show_losses(account.losses, figures);
     figures.thread_count = 2;
     figures.threads[0] = {"receive", "FIFO 80, core 2", 0, 0};
     figures.threads[1] = {"segment", "FIFO 70, core 3", 5, 0};
@@ -82,7 +88,6 @@ class WatchedRun {
     frame.handed_over_ns = frame.last_packet_ns + 1 * kMs;
     frame.segment_begin_ns = frame.handed_over_ns;
     frame.labels_ns = frame.segment_begin_ns + 10 * kMs;
-    frame.published_ns = frame.labels_ns + 2 * kMs;
     frame.decode_cpu_ns = 4 * kMs;
     frame.stage_cpu_ns = {2 * kMs, 1 * kMs, 5 * kMs};
     frame.segment_cpu_ns = 8 * kMs;
@@ -90,13 +95,11 @@ class WatchedRun {
     if (number == 40) {
       frame.run_queue_wait_ns = 70 * kMs;
       frame.labels_ns += 70 * kMs;
-      frame.published_ns += 70 * kMs;
     } else if (number == 41) {
       frame.rung = rt::Rung::kSkipped;
       frame.stage_cpu_ns = {};
       frame.segment_cpu_ns = 0;
       frame.labels_ns = frame.segment_begin_ns;
-      frame.published_ns = 0;
     } else if (number == 42) {
       frame.rung = rt::Rung::kCoarse;
       frame.stage_cpu_ns[2] = 0;

@@ -18,7 +18,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-enum Track : int { kReceive = 1, kSegment = 2, kPublish = 3 };
+enum Track : int { kReceive = 1, kSegment = 2 };
 constexpr int kProcess = 1;
 
 double milliseconds(std::int64_t ns) {
@@ -44,14 +44,11 @@ class Trace {
     meta("process_name", 0, {{"name", "terracut live"}});
     track(kReceive, "receive");
     track(kSegment, "segment");
-    track(kPublish, "publish");
   }
 
   void add(const rt::FrameTiming& frame) {
     add_receive(frame);
     add_segment(frame);
-    slice(kPublish, fmt::format("frame {}", frame.number), frame.labels_ns, frame.published_ns,
-          Json::object());
     if (frame.missed) add_miss(frame);
   }
 

@@ -73,7 +73,7 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.live.listen.share_port; }},
     Setting{"input.device_port", "--device-port", "", "live: of a Ruby128's device information, heard at the start for its angles; 0: do not", 0, 65535, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.listen.device_port; }},
-    Setting{"input.patience_s", "--patience", "s", "live: how long to wait for the sensor at the start", 0.1, kLongest_s, {}, kAny,
+    Setting{"input.patience_s", "--patience", "s", "live: how long to wait for the sensor at the start (default: as long as it takes)", 0.1, kLongest_s, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.patience_s; }},
 
     Setting{"mount.setup", "--setup", "", "Mount and ring distances found by `terracut calibrate`", 0, 0, {}, kAny,

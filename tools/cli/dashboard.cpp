@@ -73,6 +73,11 @@ class Dashboard {
                     printable(figures_.input.view()));
     line("link      {}, {}, {} packets",
          figures_.link == rt::LinkState::kReceiving ? state : alarm(state), age, figures_.packets);
+    if (figures_.head_stands) line("          {}", alarm("the sensor's head does not turn"));
+    if (figures_.silences > 0) {
+      line("          silent {} times, {:.1f} s in all", figures_.silences,
+           milliseconds(figures_.silent_ns) / 1000.0);
+    }
     line("frames    {:.2f} /s, {} so far, {} returns", figures_.frames_per_s, figures_.frames,
          figures_.returns);
   }

@@ -124,7 +124,12 @@ Json live_summary(const rt::MonitorSnapshot& figures) {
   json["deadline_ms"] = milliseconds(figures.deadline_ns);
   json["link"] = {{"state", to_string(figures.link)},
                   {"packets", figures.packets},
-                  {"last_packet_ns", figures.last_packet_ns}};
+                  {"last_packet_ns", figures.last_packet_ns},
+                  {"head_stands", figures.head_stands},
+                  {"silences", figures.silences},
+                  {"silent_ms", milliseconds(figures.silent_ns)}};
+  json["datagrams"] = {{"received", figures.received},
+                       {"outcomes", counts_json(figures.outcomes_in_use())}};
   json["frames"] = frames_json(figures);
   json["misses"] = misses_json(figures);
   json["losses"] = counts_json(figures.losses_in_use());

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_io/live/datagram_account.hpp"
 #include "firmware_io/live/receive_counters.hpp"
 #include "firmware_io/loss_counters.hpp"
 #include "rt/monitor_snapshot.hpp"
@@ -24,6 +25,13 @@ struct LossCause {
 
 /// "none", or the causes that happened: "network_gap_packets 12, rejected_late 1".
 [[nodiscard]] std::string loss_sentence(const firmware_io::LossCounters& losses);
+
+/// Where the datagrams of a live run went: the terms of DatagramAccount, whose sum is what was
+/// received, those that are 0 included.
+[[nodiscard]] std::vector<LossCause> outcomes_of(const firmware_io::DatagramAccount& account);
+
+/// Shows what was received and where it went. Allocates; std::length_error when there is no room.
+void show_datagrams(const firmware_io::DatagramAccount& account, rt::MonitorSnapshot& figures);
 
 /// Adds a cause to the figures that watchers see. std::length_error when there is no room.
 void show_loss(std::string_view name, std::uint64_t count, rt::MonitorSnapshot& figures);

@@ -113,6 +113,21 @@ void add_input(const rt::MonitorSnapshot& figures, MetricsText& text) {
   text.single("terracut_packets_total", "counter", "Datagrams taken in.", figures.packets);
   text.single("terracut_last_packet_time_seconds", "gauge",
               "Kernel's stamp of the newest packet, since 1970.", seconds(figures.last_packet_ns));
+  text.single("terracut_silences_total", "counter", "Times no packet came for a second or longer.",
+              figures.silences);
+  text.single("terracut_silent_seconds_total", "counter", "How long no packets came in these.",
+              seconds(figures.silent_ns));
+  text.single("terracut_datagrams_received_total", "counter",
+              "Datagrams the kernel handed over: the sum of terracut_datagrams_total.",
+              figures.received);
+  text.begin("terracut_datagrams_total", "counter",
+             "Datagrams by what became of them; each is counted once.");
+  for (const rt::NamedCount& outcome : figures.outcomes_in_use()) {
+    text.sample(outcome.count, label("outcome", outcome.name.view()));
+  }
+  text.single("terracut_head_stands", "gauge",
+              "1 while packets come that say that the sensor's head does not turn.",
+              figures.head_stands ? 1 : 0);
   text.begin("terracut_losses_total", "counter",
              "What was lost between sensor and label, by cause; the cause names the unit.");
   for (const rt::NamedCount& loss : figures.losses_in_use()) {

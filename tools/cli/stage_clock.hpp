@@ -26,11 +26,15 @@ struct StageTimes {
 
 /// Times the stages of the pipeline, which has no clock of its own: those of a frame, however often
 /// it was left and gone on with, until its times are taken.
-class StageClock final : public pipeline::StageObserver {
+/// `Clock`: as rt::SystemClock.
+template <class Clock>
+class StageClockOf final : public pipeline::StageObserver {
  public:
-  void resumed() noexcept TERRACUT_NONBLOCKING override { last_ = rt::ClockPair::now(); }
+  explicit StageClockOf(Clock clock = {}) noexcept : clock_(clock) {}
+
+  void resumed() noexcept TERRACUT_NONBLOCKING override { last_ = now(); }
   void stage_done(pipeline::Stage stage) noexcept TERRACUT_NONBLOCKING override {
-    const rt::ClockPair now = rt::ClockPair::now();
+    const rt::ClockPair now = this->now();
     const rt::ClockPair spent = now.since(last_);
     times_.stage_ns[static_cast<std::size_t>(stage)] += spent.cpu_ns;
     times_.segment_wall_ns += spent.wall_ns;
@@ -42,8 +46,15 @@ class StageClock final : public pipeline::StageObserver {
   StageTimes take() noexcept TERRACUT_NONBLOCKING { return std::exchange(times_, StageTimes{}); }
 
  private:
+  [[nodiscard]] rt::ClockPair now() const noexcept TERRACUT_NONBLOCKING {
+    return {clock_.thread_cpu_ns(), clock_.monotonic_ns()};
+  }
+
+  Clock clock_;
   StageTimes times_;
   rt::ClockPair last_;
 };
+
+using StageClock = StageClockOf<rt::SystemClock>;
 
 }  // namespace terracut::cli

@@ -24,7 +24,8 @@ void add_live(CLI::App& sub, LiveOptions& o) {
                  "Ruby128: port of its device information, heard at the start for its angles; "
                  "0: do not")
       ->capture_default_str();
-  sub.add_option("--patience", o.patience_s, "Seconds to wait for the sensor at the start")
+  sub.add_option("--patience", o.patience_s,
+                 "Seconds to wait for the sensor at the start (default: as long as it takes)")
       ->check(range_of("input.patience_s"))
       ->capture_default_str();
   sub.add_option("--multicast", o.listen.multicast, "Group to join")->check(CLI::ValidIPV4);

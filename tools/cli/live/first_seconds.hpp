@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <string>
 
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/sensor_model.hpp"
@@ -24,12 +26,15 @@ struct SensorOnAir {
 
 /// Listens until a sensor is known and, where no calibration was given, it has told its own: an
 /// HDL-64E in its data packets, an RS-Ruby128 at `options.listen.device_port`. Allocates; takes as
-/// long as it takes, at most `options.patience_s`, or until stop_wanted().
+/// long as it takes, at most `options.patience_s` where there is such, or until stop_wanted().
+/// `on_waiting` is told many times a second what is waited for.
 ///
 /// kUnsupported: nobody sends what can be decoded; the message says what came instead.
 /// kInvalidArgument: several sensors do, which --from must tell apart. kNoCalibration: none was
 /// given nor sent. The errors of the calibration file.
+using OnWaiting = std::function<void(const std::string& what)>;
 [[nodiscard]] Expected<SensorOnAir> listen_for_sensor(LiveSource& source,
-                                                      const LiveOptions& options);
+                                                      const LiveOptions& options,
+                                                      const OnWaiting& on_waiting);
 
 }  // namespace terracut::cli

@@ -27,7 +27,7 @@ class FrameExchange {
     pipeline::RangeImage* image = nullptr;
     firmware_io::FrameInfo info;
     rt::FrameTiming timing;
-    firmware_io::LossCounters losses;  ///< Of the run so far.
+    bool has_coarse_stages = false;  ///< Else they are still to be done.
   };
 
   /// `images`: the decoder's, kImages of them, of which the first two are open.

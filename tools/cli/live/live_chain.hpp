@@ -13,17 +13,20 @@
 namespace terracut::cli {
 
 /// The way from packets to labels on two threads. The receiving one does the coarse stages as
-/// well, most of them before the turn has ended; what they make of a turn goes with its image.
+/// well, most of them before the turn has ended; what they make of a turn goes with its image. Of a
+/// turn that ended before they were far enough, the segmenting one does them.
 struct LiveChain {
   firmware_io::SensorDecoder decoder;  ///< Receiving thread, as coarse.
   pipeline::CoarseStages coarse;
-  pipeline::FineStages fine;  ///< Segmenting thread.
+  pipeline::CoarseStages late_coarse;  ///< Segmenting thread, as fine.
+  pipeline::FineStages fine;
 
   LiveChain(const calib::SensorCalibration& calibration, const calib::RingProfile& profile,
             int columns, const CaptureOptions& capture, const MethodOptions& method,
             const Deskewing& deskewing, rt::FixedMemory& memory)
       : decoder(calibration, profile.mount, decoder_config(columns, capture, deskewing), memory),
         coarse(segmenter_config_of(method), profile, decoder.shape(), memory),
+        late_coarse(segmenter_config_of(method), profile, decoder.shape(), memory),
         fine(segmenter_config_of(method), profile, decoder.shape(), decoder.return_capacity(),
              memory) {
     planes_.reserve(decoder.images().size());

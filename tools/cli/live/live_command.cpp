@@ -2,9 +2,11 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,6 +14,7 @@
 
 #include "dump_signal.hpp"
 #include "dump_writer.hpp"
+#include "figures_display.hpp"
 #include "first_seconds.hpp"
 #include "label_writer.hpp"
 #include "live_options.hpp"
@@ -70,6 +73,45 @@ std::string describe(const SensorOnAir& sensor) {
                      sensor.dual_return ? "dual" : "single");
 }
 
+/// Shows whoever looks what a run waits for that has not heard its sensor yet.
+class Waiting {
+ public:
+  Waiting(const std::string& input, FiguresDisplay& display, LiveService& service)
+      : display_(display), service_(service) {
+    figures_->version = {TERRACUT_VERSION};
+    figures_->input = {input};
+    figures_->started_ns = rt::realtime_ns();
+    show("waiting for a sensor");
+    service_.ready(*figures_, rt::monotonic_ns());
+  }
+
+  void turn_round(const std::string& what) {
+    show(what);
+    service_.turn_round(*figures_, rt::monotonic_ns());
+    // What is heard soon need not be said to be waited for; counts in it change all the time.
+    const std::int64_t now_ns = rt::monotonic_ns();
+    if (now_ns < say_at_ns_ || what == said_) return;
+    say(what + " (Ctrl-C ends it)");
+    said_ = what;
+    say_at_ns_ = now_ns + kSayEvery_ns;
+  }
+
+ private:
+  static constexpr std::int64_t kSayFirst_ns = 2'000'000'000, kSayEvery_ns = 30'000'000'000;
+
+  void show(const std::string& what) {
+    figures_->sensor = {what};
+    figures_->taken_ns = rt::realtime_ns();
+    display_.show(*figures_);
+  }
+
+  FiguresDisplay& display_;
+  LiveService& service_;
+  std::unique_ptr<rt::MonitorSnapshot> figures_ = std::make_unique<rt::MonitorSnapshot>();
+  std::string said_;
+  std::int64_t say_at_ns_ = rt::monotonic_ns() + kSayFirst_ns;
+};
+
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {
   std::optional<VehicleMotion> motion;
@@ -80,13 +122,14 @@ struct LiveParts {
 
   LiveParts(const LiveOptions& options, const SensorOnAir& sensor,
             const calib::RingProfile& profile, LiveSource& source, VehicleBus* bus,
-            LiveThreads::Events events, rt::FixedMemory& memory)
+            LiveThreads::Events events, FiguresDisplay& display, rt::FixedMemory& memory)
       : motion(motion_of(options, bus, memory)),
         chain(sensor.calibration, profile, sensor.columns, options.capture, options.method,
               {motion ? &motion->motion() : nullptr, turn_instant_of(options.motion)}, memory),
         recorder(recorder_of(options, memory)),
-        threads(options, chain, source, std::move(events), recorder ? &*recorder : nullptr, memory),
-        watch(options, threads, motion ? &*motion : nullptr, memory) {}
+        threads(options, turn_ns_of(sensor), chain, source, std::move(events),
+                recorder ? &*recorder : nullptr, memory),
+        watch(options, threads, motion ? &*motion : nullptr, display, memory) {}
 
   /// Starts every thread; answers what the system granted and refused them.
   [[nodiscard]] std::vector<rt::Grant> start(const LiveOptions& options) {
@@ -106,6 +149,11 @@ struct LiveParts {
     if (bus == nullptr) return std::nullopt;
     return std::make_optional<VehicleMotion>(bus->signals, ego_motion_config_of(options.motion),
                                              bus->source, memory);
+  }
+  /// Where the sensor has not told how fast it turns, as long as any takes.
+  static std::int64_t turn_ns_of(const SensorOnAir& sensor) {
+    constexpr double kSlowest_hz = 5;
+    return static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz));
   }
   static std::optional<firmware_io::FlightRecorder> recorder_of(const LiveOptions& options,
                                                                 rt::FixedMemory& memory) {
@@ -140,6 +188,9 @@ class Writers {
     if (parts.recorder) dumps_.emplace(options, *parts.recorder, LiveWatch::kStageNames);
     return {};
   }
+
+  /// Null where nothing is streamed.
+  [[nodiscard]] const StreamWriter* stream() const { return stream_ ? &*stream_ : nullptr; }
 
   void want_dump(firmware_io::DumpReason reason, const LiveWatch& watch) {
     if (dumps_) dumps_->want(reason, watch.newest());
@@ -191,7 +242,7 @@ ExitCode conclude(const LiveOptions& options, const LiveWatch& watch) {
     const Status written = write_chrome_trace(options.trace, figures, watch.newest());
     if (!written) return refuse(written.error());
   }
-  if (figures.frames == 0) return kNothingCameOut;
+  if (figures.frames == 0) return refuse(kNothingCameOut, why_no_frames(figures));
   return figures.all_misses() > 0 ? kDeadlinesMissed : kOk;
 }
 
@@ -213,7 +264,10 @@ ExitCode run(const LiveOptions& options) {
     if (!found) return refuse(found.error());
     signals = *std::move(found);
   }
-  const auto sensor = listen_for_sensor(*source, options);
+  FiguresDisplay display(options.watch);
+  Waiting waiting(source->name(), display, service);
+  const auto sensor = listen_for_sensor(*source, options,
+                                        [&](const std::string& what) { waiting.turn_round(what); });
   if (stop_wanted()) return kOk;
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
@@ -237,11 +291,12 @@ ExitCode run(const LiveOptions& options) {
   auto idle = LiveThreads::Events::make();
   auto events = LiveThreads::Events::make();
   if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
-  LiveParts{options, *sensor, *profile, *source, vehicle, *std::move(idle), plan};
+  LiveParts{options, *sensor, *profile, *source, vehicle, *std::move(idle), display, plan};
   const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});
   if (!region) return refuse(region.error());
   say_refusals(*region);
-  LiveParts parts(options, *sensor, *profile, *source, vehicle, *std::move(events), memory);
+  LiveParts parts(options, *sensor, *profile, *source, vehicle, *std::move(events), display,
+                  memory);
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 
   Writers writers;
@@ -249,8 +304,7 @@ ExitCode run(const LiveOptions& options) {
     return refuse(opened.error());
   }
   say_refusals(parts.start(options));
-  parts.watch.open(describe(*sensor), source->name());
-  service.ready(parts.watch.figures(), rt::monotonic_ns());
+  parts.watch.open(describe(*sensor), source->name(), writers.stream());
   run_until_stopped(options, parts.watch, writers, dump_wanted, service);
   service.stopping();
   parts.stop();

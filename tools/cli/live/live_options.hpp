@@ -48,7 +48,8 @@ struct WatchOptions {
 struct LiveOptions {
   CaptureOptions capture;  ///< `sensor` to `geometry`, `from` and `duration_s` of it.
   ListenOptions listen;
-  double patience_s = 5;  ///< For a sensor to be heard at the start, [0.1, 1e9].
+  /// For a sensor to be heard at the start, [0.1, 1e9]; none: as long as it takes.
+  std::optional<double> patience_s;
   MountOptions mount;
   MethodOptions method;
   std::string can;  ///< --can, CAN interface of the vehicle; empty: its motion is not taken out.

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tools/cli/bus_text.hpp"
+#include "tools/cli/counts_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -45,12 +46,8 @@ std::string rungs(const rt::MonitorSnapshot& figures) {
 }
 
 std::string losses(const rt::MonitorSnapshot& figures) {
-  std::string text;
-  for (const rt::NamedCount& loss : figures.losses_in_use()) {
-    if (loss.count == 0) continue;
-    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", loss.name.view(), loss.count);
-  }
-  return text.empty() ? "none" : text;
+  const std::string lost = counts_text(figures.losses_in_use());
+  return lost.empty() ? "none" : lost;
 }
 
 }  // namespace
@@ -60,6 +57,10 @@ std::string live_report(const rt::MonitorSnapshot& figures) {
       "frames    {} of {} packets: {}\nmissed    {}\nlatency   {}\nprocessor {}\nlosses    {}\n",
       figures.frames, figures.packets, rungs(figures), misses(figures), times(figures.latency),
       times(figures.total_cpu), losses(figures));
+  if (figures.silences > 0) {
+    text += fmt::format("silent    {} times, {:.1f} s in all\n", figures.silences,
+                        static_cast<double>(figures.silent_ns) * 1e-9);
+  }
   const char* begin = "motion    ";
   for (const std::string& line : motion_lines(figures.motion)) {
     text += begin + line + '\n';
@@ -68,6 +69,14 @@ std::string live_report(const rt::MonitorSnapshot& figures) {
   if (const std::string line = health_line(figures.health); !line.empty()) {
     text += "health    " + line + '\n';
   }
+  return text;
+}
+
+std::string why_no_frames(const rt::MonitorSnapshot& figures) {
+  if (figures.received == 0) return "no frame came out, because no datagram came in";
+  std::string text = fmt::format("no frame came out of {} datagrams: {}", figures.received,
+                                 counts_text(figures.outcomes_in_use()));
+  if (figures.head_stands) text += "; the sensor's head does not turn";
   return text;
 }
 

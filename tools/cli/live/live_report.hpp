@@ -12,4 +12,7 @@ namespace terracut::cli {
 /// there was on CAN buses.
 [[nodiscard]] std::string live_report(const rt::MonitorSnapshot& figures);
 
+/// Of a run out of which no frame came: what became of its datagrams instead.
+[[nodiscard]] std::string why_no_frames(const rt::MonitorSnapshot& figures);
+
 }  // namespace terracut::cli

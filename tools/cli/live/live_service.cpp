@@ -16,9 +16,11 @@ constexpr std::int64_t kLooksInWatchdogTime = 4;
 constexpr std::int64_t kStatusEvery_ns = 5'000'000'000;
 
 std::string status_of(const rt::MonitorSnapshot& figures) {
-  const std::string link = figures.link == rt::LinkState::kReceiving
-                               ? fmt::format("{:.1f} frames/s", figures.frames_per_s)
-                               : fmt::format("link {}", to_string(figures.link));
+  std::string link = fmt::format("link {}", to_string(figures.link));
+  if (figures.link == rt::LinkState::kReceiving) {
+    link = figures.head_stands ? "its head does not turn"
+                               : fmt::format("{:.1f} frames/s", figures.frames_per_s);
+  }
   return fmt::format("{}: {}, {} frames, {} missed their deadline", figures.sensor.view(), link,
                      figures.frames, figures.all_misses());
 }

@@ -20,7 +20,7 @@ class LiveService {
   [[nodiscard]] static LiveService from_environment();
   explicit LiveService(ServiceNotify notify) noexcept;
 
-  /// Once, when labels can come. `now_ns`: rt::monotonic_ns(), as below.
+  /// Once, when it listens. `now_ns`: rt::monotonic_ns(), as below.
   void ready(const rt::MonitorSnapshot& figures, std::int64_t now_ns);
   /// As often as one likes: it looks at the figures four times within the watchdog's time, or
   /// every five seconds where there is none.

@@ -8,12 +8,12 @@
 #include <thread>
 #include <vector>
 
-#include "deadline_ladder.hpp"
 #include "firmware_io/live/flight_recorder.hpp"
 #include "firmware_io/live/wake_event.hpp"
 #include "firmware_io/sinks/labelled_turn_wire.hpp"
 #include "frame_exchange.hpp"
 #include "frame_slots.hpp"
+#include "frame_timings.hpp"
 #include "live_chain.hpp"
 #include "live_options.hpp"
 #include "live_source.hpp"
@@ -22,28 +22,24 @@
 #include "rt/latest_value.hpp"
 #include "rt/nonblocking.hpp"
 #include "rt/run_queue_wait.hpp"
-#include "rt/spsc_queue.hpp"
-#include "rt/stolen_time.hpp"
+#include "rt/thread_cpu_clock.hpp"
+#include "turn_receiver.hpp"
+#include "turn_segmenter.hpp"
 
 namespace terracut::cli {
 
 /// The two threads of `terracut live` that have a deadline, and the queues through which a third
 /// one hears of them. They allocate nothing, lock nothing and write nothing:
 ///
-///   receive  datagrams -> recorder, decoder, --FrameExchange--> segment  turns -> cut, labels
-///      |                 coarse stages                             |                |
-///      '-- timings of skipped turns --.      .---- timings --------'                | FrameSlots
-///                                     v      v                                      v
-///                              whoever calls take_timing()       label files, stream of points
+///   TurnReceiver  datagrams -> recorder,  --FrameExchange-->  TurnSegmenter  turns -> labels
+///      |          decoder, coarse stages                         |                      |
+///      '-- timings of skipped turns --.      .---- timings ------'                      |
+///      FrameSlots
+///                                     v      v                                          v
+///                              whoever calls take_timing()            label files, stream of
+///                              points
 class LiveThreads {
  public:
-  /// What came in, as of the newest look of the receiving thread.
-  struct Intake {
-    firmware_io::ReceiveCounters counters;  ///< Since the threads were started.
-    firmware_io::LinkState link = firmware_io::LinkState::kUnknown;
-    std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
-  };
-
   struct Events {
     firmware_io::WakeEvent turn_ready;    ///< A turn was handed over.
     firmware_io::WakeEvent points_ready;  ///< A turn's labelled points were passed on.
@@ -51,9 +47,11 @@ class LiveThreads {
     [[nodiscard]] static Expected<Events> make();
   };
 
-  /// Takes all memory from `memory`. `recorder` may be null. Everything must outlive this.
-  LiveThreads(const LiveOptions& options, LiveChain& chain, LiveSource& source, Events events,
-              firmware_io::FlightRecorder* recorder, rt::FixedMemory& memory);
+  /// Takes all memory from `memory`. `turn_ns`: of one turn of the head. `recorder` may be null.
+  /// Everything must outlive this.
+  LiveThreads(const LiveOptions& options, std::int64_t turn_ns, LiveChain& chain,
+              LiveSource& source, Events events, firmware_io::FlightRecorder* recorder,
+              rt::FixedMemory& memory);
 
   /// Starts both; answers what the system granted and refused them.
   [[nodiscard]] std::vector<rt::Grant> start();
@@ -61,7 +59,7 @@ class LiveThreads {
 
   /// The next judged-to-be frame's times, in no strict order between skipped ones and others.
   [[nodiscard]] bool take_timing(rt::FrameTiming& timing) noexcept {
-    return segmented_.try_pop(timing) || skipped_.try_pop(timing);
+    return segmented_.take(timing) || skipped_.take(timing);
   }
   /// The labels of every turn, by return index; nothing without options.labels.
   [[nodiscard]] FrameSlots<pipeline::Label>* labels() noexcept {
@@ -78,45 +76,39 @@ class LiveThreads {
 
   /// From one thread.
   [[nodiscard]] const Intake& intake() noexcept;
-  /// Up to the newest turn that was segmented, with what the kernel dropped. From one thread.
-  [[nodiscard]] firmware_io::LossCounters losses() noexcept;
   /// Frames that nobody judged because the one who takes timings was too slow.
-  [[nodiscard]] std::uint64_t timings_dropped() const noexcept { return timings_dropped_.load(); }
+  [[nodiscard]] std::uint64_t timings_dropped() const noexcept {
+    return segmented_.dropped() + skipped_.dropped();
+  }
   [[nodiscard]] const LiveThreadState& receive_state() const noexcept { return receive_state_; }
   [[nodiscard]] const LiveThreadState& segment_state() const noexcept { return segment_state_; }
 
  private:
-  static constexpr std::size_t kTimings = 64;
   static constexpr std::size_t kLabelSlots = 8;
   static constexpr std::size_t kPointSlots = 2;  // the stream wants the newest, not all
 
+  using Receiver = TurnReceiver<LiveSource, rt::SystemClock, rt::RunQueueWait>;
+  using Segmenter = TurnSegmenter<rt::SystemClock, rt::RunQueueWait>;
+
   void receive() noexcept;
-  void receive_turns(const rt::RunQueueWait& wait) noexcept TERRACUT_NONBLOCKING;
+  void receive_turns(Receiver& receiver) noexcept TERRACUT_NONBLOCKING;
   void segment() noexcept;
-  void segment_turns(const rt::RunQueueWait& wait,
-                     const Expected<rt::StolenTime>& stolen) noexcept TERRACUT_NONBLOCKING;
-  void segment_turn(FrameExchange::Turn& turn) noexcept;
-  void pass_on_results(const FrameExchange::Turn& turn) noexcept;
-  void pass_on(rt::SpscQueue<rt::FrameTiming>& queue, const rt::FrameTiming& timing) noexcept;
+  void segment_turns(Segmenter& segmenter) noexcept TERRACUT_NONBLOCKING;
 
   const LiveOptions& options_;
+  std::int64_t deadline_ns_, turn_ns_;
   LiveChain& chain_;
   LiveSource& source_;
   Events events_;
   firmware_io::FlightRecorder* recorder_;
 
   FrameExchange exchange_;
-  DeadlineLadder ladder_;
-  StageClock coarse_clock_;  // receiving thread
-  StageClock fine_clock_;    // segmenting thread
-  rt::SpscQueue<rt::FrameTiming> segmented_, skipped_;
-  rt::LatestValue<firmware_io::LossCounters> losses_;
+  FrameTimings segmented_, skipped_;
 
   std::optional<FrameSlots<pipeline::Label>> labels_;
   std::optional<FrameSlots<firmware_io::LabelledPoint>> points_;
 
   std::atomic<bool> stop_{false};
-  std::atomic<std::uint64_t> timings_dropped_{0};
   rt::LatestValue<Intake> intake_;
   LiveThreadState receive_state_, segment_state_;
   std::jthread receive_thread_, segment_thread_;

@@ -2,12 +2,10 @@
 // Copyright 2026 The terracut authors
 #include "live_watch.hpp"
 
-#include <fmt/format.h>
-
+#include <string>
 #include <utility>
 
 #include "firmware_io/can/can_socket.hpp"
-#include "firmware_io/live/ipv4_endpoint.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/loss_table.hpp"
 
@@ -26,58 +24,29 @@ void show_thread(rt::MonitorSnapshot& figures, std::string_view name,
 }  // namespace
 
 LiveWatch::LiveWatch(const LiveOptions& options, LiveThreads& threads, VehicleMotion* motion,
-                     rt::FixedMemory& memory)
+                     FiguresDisplay& display, rt::FixedMemory& memory)
     : options_(options),
       threads_(threads),
       motion_(motion),
+      display_(display),
       monitor_({.deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
                 .stage_names = kStageNames,
                 .kept_frames = kKeptFrames},
-               memory),
-      shown_(std::make_unique<rt::MonitorSnapshot>()) {}
+               memory) {
+  if (auto stolen = rt::StolenTime::open()) stolen_.emplace(*std::move(stolen));
+}
 
-void LiveWatch::open(const std::string& sensor, const std::string& input) {
+void LiveWatch::open(const std::string& sensor, const std::string& input,
+                     const StreamWriter* stream) {
+  stream_ = stream;
   rt::MonitorSnapshot& figures = monitor_.snapshot();
   figures.version = {TERRACUT_VERSION};
   figures.sensor = {sensor};
   figures.input = {input};
   figures.started_ns = rt::realtime_ns();
-  open_page();
   if (motion_ != nullptr) figures.motion.bus = {options_.can};
-  if (options_.watch.metrics != "off") open_metrics();
   if (!options_.watch.health_can.empty()) open_health();
   refresh();
-}
-
-void LiveWatch::open_page() {
-  auto page = rt::StatusPagePublisher<rt::MonitorSnapshot>::create(options_.watch.name,
-                                                                   rt::MonitorSnapshot::kLayout);
-  if (page) {
-    page_.emplace(*std::move(page));
-  } else {
-    warn("no status page: " + page.error().message);
-  }
-}
-
-void LiveWatch::open_metrics() {
-  const auto at = firmware_io::parse_ipv4_endpoint(options_.watch.metrics);
-  if (!at) {
-    warn("no /metrics: " + at.error().message);
-    return;
-  }
-  auto server = MetricsServer::start(firmware_io::ipv4_text(at->address), at->port,
-                                     [this](rt::MonitorSnapshot& figures) {
-                                       const std::scoped_lock lock(shown_mutex_);
-                                       figures = *shown_;
-                                       return true;
-                                     });
-  if (server) {
-    metrics_.emplace(*std::move(server));
-    say(fmt::format("figures at http://{}:{}/metrics", firmware_io::ipv4_text(at->address),
-                    metrics_->port()));
-  } else {
-    warn("no /metrics: " + server.error().message);
-  }
 }
 
 void LiveWatch::open_health() {
@@ -96,7 +65,10 @@ void LiveWatch::open_health() {
 LiveWatch::Round LiveWatch::turn_round() {
   Round round;
   for (rt::FrameTiming timing; threads_.take_timing(timing);) {
-    timing.published_ns = rt::realtime_ns();
+    const std::int64_t latency_ns = timing.labels_ns - timing.last_packet_ns;
+    if (stolen_ && latency_ns > monitor_.snapshot().deadline_ns) {
+      timing.steal_ns = stolen_->since(timing.last_packet_ns, rt::realtime_ns());
+    }
     monitor_.judge(timing);
     ++round.frames;
     if (timing.missed) ++round.missed;
@@ -113,6 +85,7 @@ void LiveWatch::last_round() {
 void LiveWatch::refresh() {
   rt::MonitorSnapshot& figures = monitor_.snapshot();
   figures.taken_ns = rt::realtime_ns();
+  if (stolen_) stolen_->turn_round(figures.taken_ns);
   refresh_link(figures);
   refresh_losses(figures);
   refresh_threads(figures);
@@ -121,9 +94,7 @@ void LiveWatch::refresh() {
     health_->turn_round(figures, rt::monotonic_ns());
     health_->show(figures.health);
   }
-  if (page_) page_->publish(figures);
-  const std::scoped_lock lock(shown_mutex_);
-  *shown_ = figures;
+  display_.show(figures);
 }
 
 void LiveWatch::refresh_threads(rt::MonitorSnapshot& figures) {
@@ -135,8 +106,9 @@ void LiveWatch::refresh_threads(rt::MonitorSnapshot& figures) {
 
 void LiveWatch::refresh_link(rt::MonitorSnapshot& figures) {
   constexpr std::int64_t kSilence_ns = 1'000'000'000;
-  const LiveThreads::Intake& intake = threads_.intake();
-  figures.packets = intake.counters.delivered;
+  const Intake& intake = threads_.intake();
+  show_datagrams(intake.account, figures);
+  figures.head_stands = standing_head_.is_standing(intake.account);
   figures.last_packet_ns = intake.newest_packet_ns;
   if (intake.link == firmware_io::LinkState::kGone ||
       intake.link == firmware_io::LinkState::kDown) {
@@ -147,21 +119,31 @@ void LiveWatch::refresh_link(rt::MonitorSnapshot& figures) {
     const bool silent = figures.taken_ns - figures.last_packet_ns > kSilence_ns;
     figures.link = silent ? rt::LinkState::kSilent : rt::LinkState::kReceiving;
   }
+  if (const std::string news = link_news_.look(figures); !news.empty()) say(news);
 }
 
 void LiveWatch::refresh_losses(rt::MonitorSnapshot& figures) {
-  firmware_io::LossCounters losses = threads_.losses();
+  const firmware_io::DatagramAccount& account = threads_.intake().account;
+  firmware_io::LossCounters losses = account.losses;
   losses.skipped_frames = figures.rungs[static_cast<std::size_t>(rt::Rung::kSkipped)];
   figures.loss_count = 0;
   show_losses(losses, figures);
-  show_losses(threads_.intake().counters, figures);
-  show_loss("unjudged_frames", threads_.timings_dropped(), figures);
+  show_losses(account.source, figures);
+  show_loss("let_go_packets", account.let_go, figures);
+  show_loss("untimed_frames", threads_.timings_dropped(), figures);
   // At the end nothing waits any more that was not held up for good.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
   };
   if (threads_.labels()) show_loss("unwritten_label_frames", lost(threads_.labels()), figures);
   if (threads_.points()) show_loss("unstreamed_frames", lost(threads_.points()), figures);
+  if (stream_ == nullptr) return;
+  const StreamWriter::Losses stream = stream_->losses();
+  show_loss("stream_turns_missed", stream.missed, figures);
+  show_loss("stream_turns_cut_short", stream.cut_short, figures);
+  show_loss("stream_turns_too_large", stream.too_large, figures);
+  show_loss("stream_readers_refused", stream.refused, figures);
+  show_loss("stream_readers_stalled", stream.stalled, figures);
 }
 
 std::vector<rt::FrameTiming> LiveWatch::newest() const {

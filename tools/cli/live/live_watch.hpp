@@ -3,26 +3,29 @@
 #pragma once
 
 #include <array>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "figures_display.hpp"
 #include "health_reporter.hpp"
+#include "link_news.hpp"
 #include "live_options.hpp"
 #include "live_threads.hpp"
 #include "pipeline/segmenter.hpp"
 #include "rt/deadline_monitor.hpp"
-#include "rt/status_page.hpp"
-#include "tools/cli/metrics_server.hpp"
+#include "rt/stolen_time.hpp"
+#include "standing_head.hpp"
+#include "stolen_time_share.hpp"
+#include "stream_writer.hpp"
 #include "vehicle_motion.hpp"
 
 namespace terracut::cli {
 
-/// Judges the frames of a live run and keeps its figures where others can see them: the status
-/// page, /metrics and, in short, a CAN bus. One thread, the main one; touches no disk.
+/// Judges the frames of a live run and shows its figures: on the display and, in short, on a CAN
+/// bus. Says when the sensor falls silent and when it is back. One thread, the main one; touches no
+/// disk.
 class LiveWatch {
  public:
   static constexpr std::array<std::string_view, pipeline::kStages> kStageNames{
@@ -32,11 +35,11 @@ class LiveWatch {
 
   /// All must outlive this. `motion` may be null.
   LiveWatch(const LiveOptions& options, LiveThreads& threads, VehicleMotion* motion,
-            rt::FixedMemory& memory);
+            FiguresDisplay& display, rt::FixedMemory& memory);
 
-  /// Status page, /metrics, health on a CAN bus: what fails is said, and the run goes on without
-  /// it.
-  void open(const std::string& sensor, const std::string& input);
+  /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `stream`:
+  /// whose losses are shown as well; may be null, and must outlive this.
+  void open(const std::string& sensor, const std::string& input, const StreamWriter* stream);
 
   struct Round {
     int frames = 0;  ///< Judged.
@@ -54,8 +57,6 @@ class LiveWatch {
  private:
   static constexpr std::size_t kKeptFrames = 256;
 
-  void open_page();
-  void open_metrics();
   void open_health();
   void refresh();
   void refresh_link(rt::MonitorSnapshot& figures);
@@ -65,14 +66,14 @@ class LiveWatch {
   const LiveOptions& options_;
   LiveThreads& threads_;
   VehicleMotion* motion_;
+  const StreamWriter* stream_ = nullptr;
+  FiguresDisplay& display_;
+  StandingHead standing_head_;
+  LinkNews link_news_;
+  std::optional<StolenTimeShare<rt::StolenTime>> stolen_;
   bool over_ = false;
   rt::DeadlineMonitor monitor_;
-  std::optional<rt::StatusPagePublisher<rt::MonitorSnapshot>> page_;
   std::optional<HealthReporter> health_;
-  std::mutex
-      shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
-  std::unique_ptr<rt::MonitorSnapshot> shown_;
-  std::optional<MetricsServer> metrics_;  ///< Last: it reads shown_ until it is gone.
 };
 
 }  // namespace terracut::cli

@@ -28,8 +28,12 @@ void StreamWriter::work() {
     (void)ready_.wait(server_.descriptor(), kSecond_ns);
     for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(serve(frame));
     server_.turn_round();
-    missed_ = server_.figures().missed;
-    cut_short_ = server_.figures().cut_short;
+    const firmware_io::TurnStreamFigures& figures = server_.figures();
+    losses_.publish({.missed = figures.missed,
+                     .cut_short = figures.cut_short,
+                     .too_large = figures.turns_too_large,
+                     .refused = figures.refused,
+                     .stalled = figures.stalled});
   }
 }
 

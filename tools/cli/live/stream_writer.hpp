@@ -9,6 +9,7 @@
 #include "firmware_io/live/wake_event.hpp"
 #include "firmware_io/sinks/turn_stream_server.hpp"
 #include "frame_slots.hpp"
+#include "rt/latest_value.hpp"
 
 namespace terracut::cli {
 
@@ -24,9 +25,15 @@ class StreamWriter {
   /// After LiveThreads::stop(). False when it does not end in time, which no peer can bring about.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
-  /// As of the last turn or second. From any thread.
-  [[nodiscard]] std::uint64_t missed() const noexcept { return missed_; }
-  [[nodiscard]] std::uint64_t cut_short() const noexcept { return cut_short_; }
+  /// Turns times readers that did not get them, and readers that got none: TurnStreamFigures.
+  struct Losses {
+    std::uint64_t missed = 0, cut_short = 0, too_large = 0, refused = 0, stalled = 0;
+  };
+  /// As of the last turn or second. From one other thread.
+  [[nodiscard]] const Losses& losses() const noexcept {
+    (void)losses_.take_if_new();
+    return losses_.newest_taken();
+  }
 
  private:
   void work();
@@ -38,7 +45,7 @@ class StreamWriter {
   Slots& slots_;
   const firmware_io::WakeEvent& ready_;
   std::atomic<bool> finish_{false};
-  std::atomic<std::uint64_t> missed_{0}, cut_short_{0};
+  mutable rt::LatestValue<Losses> losses_;
   BackgroundThread thread_;  ///< Last: it uses all of the above.
 };
 

@@ -13,7 +13,8 @@ namespace terracut::cli {
 /// least a few frames apart.
 ///
 /// Since the last look frames met their deadline, and at least as many as missed it; or no packet
-/// came at all, for a sensor that is off is not mended by starting the program anew.
+/// came at all, or the sensor's head stands: a sensor that is off is not mended by starting the
+/// program anew.
 class WatchdogRule {
  public:
   [[nodiscard]] bool may_feed(const rt::MonitorSnapshot& figures) noexcept {
@@ -24,6 +25,7 @@ class WatchdogRule {
     const Counts before = std::exchange(before_, now);
     const std::uint64_t missed = now.missed - before.missed;
     if (now.packets == before.packets && missed == 0) return true;
+    if (figures.head_stands) return true;
     // A frame that was skipped and has no stamp is counted as missed and as unjudged.
     const std::uint64_t not_in_time = missed + (now.unjudged - before.unjudged);
     const std::uint64_t frames = now.frames - before.frames;

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+#include "firmware_io/live/receive_counters.hpp"
+#include "firmware_io/loss_counters.hpp"
+
+namespace terracut::firmware_io {
+
+/// What became of the datagrams of a live run. At any time each of them is in exactly one place:
+///
+///   source.received = source.foreign + source.other_interface + source.truncated
+///                     + source.no_datagram    the source left them out
+///                   + let_go                  too old for a label in time
+///                   + device_info             hold no returns
+///                   + losses.rejected, each   the decoder refused them
+///                   + decoded                 their returns are in frames, or in
+///                                             losses.overflow_full_returns
+///
+/// Here the identity is stated; outcomes_of() (tools/cli/loss_table.hpp) lists its terms for
+/// everything that shows them. What never reached this process is in none of them:
+/// source.kernel_drops and losses.network_gap_packets.
+struct DatagramAccount {
+  ReceiveCounters source;
+  std::uint64_t let_go = 0;
+  std::uint64_t device_info = 0;
+  LossCounters losses;
+  std::uint64_t decoded = 0;
+
+  [[nodiscard]] bool balances() const noexcept {
+    return source.received == source.foreign + source.other_interface + source.truncated +
+                                  source.no_datagram + let_go + device_info +
+                                  losses.rejected_total() + decoded;
+  }
+};
+
+}  // namespace terracut::firmware_io

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "figures_display.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "firmware_io/live/ipv4_endpoint.hpp"
+#include "tools/cli/console.hpp"
+
+namespace terracut::cli {
+
+FiguresDisplay::FiguresDisplay(const WatchOptions& options) {
+  open_page(options);
+  if (options.metrics != "off") open_metrics(options);
+}
+
+void FiguresDisplay::show(const rt::MonitorSnapshot& figures) {
+  if (page_) page_->publish(figures);
+  const std::scoped_lock lock(shown_mutex_);
+  *shown_ = figures;
+}
+
+void FiguresDisplay::open_page(const WatchOptions& options) {
+  auto page = rt::StatusPagePublisher<rt::MonitorSnapshot>::create(options.name,
+                                                                   rt::MonitorSnapshot::kLayout);
+  if (page) {
+    page_.emplace(*std::move(page));
+  } else {
+    warn("no status page: " + page.error().message);
+  }
+}
+
+void FiguresDisplay::open_metrics(const WatchOptions& options) {
+  const auto at = firmware_io::parse_ipv4_endpoint(options.metrics);
+  if (!at) {
+    warn("no /metrics: " + at.error().message);
+    return;
+  }
+  auto server = MetricsServer::start(firmware_io::ipv4_text(at->address), at->port,
+                                     [this](rt::MonitorSnapshot& figures) {
+                                       const std::scoped_lock lock(shown_mutex_);
+                                       figures = *shown_;
+                                       return true;
+                                     });
+  if (server) {
+    metrics_.emplace(*std::move(server));
+    say(fmt::format("figures at http://{}:{}/metrics", firmware_io::ipv4_text(at->address),
+                    metrics_->port()));
+  } else {
+    warn("no /metrics: " + server.error().message);
+  }
+}
+
+}  // namespace terracut::cli

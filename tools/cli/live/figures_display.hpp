@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <optional>
+
+#include "live_options.hpp"
+#include "rt/monitor_snapshot.hpp"
+#include "rt/status_page.hpp"
+#include "tools/cli/metrics_server.hpp"
+
+namespace terracut::cli {
+
+/// Keeps a run's figures where others can see them: the status page and /metrics. From the start
+/// on, so that who looks finds a run that waits for its sensor. One thread; touches no disk.
+class FiguresDisplay {
+ public:
+  /// What cannot be opened is warned of, and the run goes on without it.
+  explicit FiguresDisplay(const WatchOptions& options);
+
+  void show(const rt::MonitorSnapshot& figures);
+
+ private:
+  void open_page(const WatchOptions& options);
+  void open_metrics(const WatchOptions& options);
+
+  std::optional<rt::StatusPagePublisher<rt::MonitorSnapshot>> page_;
+  std::mutex
+      shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
+  std::unique_ptr<rt::MonitorSnapshot> shown_ = std::make_unique<rt::MonitorSnapshot>();
+  std::optional<MetricsServer> metrics_;  ///< Last: it reads shown_ until it is gone.
+};
+
+}  // namespace terracut::cli

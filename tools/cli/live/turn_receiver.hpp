@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "firmware_io/live/datagram_account.hpp"
+#include "firmware_io/live/flight_recorder.hpp"
+#include "firmware_io/live/wake_event.hpp"
+#include "frame_exchange.hpp"
+#include "frame_timings.hpp"
+#include "live_chain.hpp"
+#include "packet_gate.hpp"
+#include "rt/latest_value.hpp"
+#include "rt/nonblocking.hpp"
+#include "tools/cli/stage_clock.hpp"
+
+namespace terracut::cli {
+
+/// What came in, as of the newest look of the receiving thread.
+struct Intake {
+  firmware_io::DatagramAccount account;  ///< Since it began.
+  firmware_io::LinkState link = firmware_io::LinkState::kUnknown;
+  std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
+};
+
+/// The receiving half of a live run: datagrams in, turns handed over, and most of their coarse
+/// stages done by then. One thread with a deadline, which turn_round() is the work of.
+///
+/// What one packet may cost does not depend on what is in it (docs/design.md, "Work per packet"):
+/// its decoding; one block of the coarse stages; and where it ends turns, handing them over, of
+/// which one at most needs its last sectors labelled. A turn of which less than three quarters were
+/// labelled ahead, be it that motion is taken out of it, that packets are missing, or that its
+/// stream broke off, is left to the segmenting thread.
+///
+/// `Source`: a DatagramSource with refresh_drops(). `Clock`: as rt::SystemClock. `Wait`: as
+/// rt::RunQueueWait.
+template <class Source, class Clock, class Wait>
+class TurnReceiver {
+ public:
+  struct Config {
+    std::int64_t deadline_ns = 0;  ///< From a turn's last packet to its labels.
+    std::int64_t turn_ns = 0;      ///< Of one turn of the head.
+  };
+  /// Where things go; all must outlive this. `recorder` may be null.
+  struct Outlets {
+    FrameExchange* turns;
+    const firmware_io::WakeEvent* turn_ready;
+    FrameTimings* skipped;
+    rt::LatestValue<Intake>* intake;
+    firmware_io::FlightRecorder* recorder;
+  };
+
+  /// What waits in `source` is too old for a label and no loss of the run: it is thrown away.
+  TurnReceiver(const Config& config, LiveChain& chain, Source& source, const Outlets& outlets,
+               Clock clock, Wait wait) noexcept
+      : chain_(chain),
+        source_(source),
+        to_(outlets),
+        clock_(clock),
+        wait_(std::move(wait)),
+        coarse_clock_(clock),
+        gate_(config.deadline_ns, config.turn_ns),
+        spent_ns_(clock.thread_cpu_ns()),
+        waited_before_fetch_ns_(wait_.read_ns()),
+        waited_before_last_fetch_ns_(waited_before_fetch_ns_) {
+    for (int batch = 0; batch < kMostBatches && !source_.receive(0).empty(); ++batch) {
+    }
+    source_.refresh_drops();
+    before_ = source_.counters();
+  }
+
+  struct Round {
+    int turns = 0;  ///< Handed over.
+    /// It pays to let the next packets gather before they are fetched, because none is expected
+    /// that ends a turn.
+    bool may_gather = false;
+  };
+  /// Waits for datagrams, at most so long, and takes them in.
+  Round turn_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
+    waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
+    waited_before_fetch_ns_ = wait_.read_ns();
+    const std::span<const firmware_io::Datagram> datagrams = source_.receive(timeout_ns);
+    const bool is_worthwhile = datagrams.size() >= kWorthwhileBatch;
+    const std::int64_t now_ns = clock_.realtime_ns();
+    gate_.begin_batch(is_worthwhile);
+    turns_ = 0;
+    for (std::size_t i = 0; i < datagrams.size(); ++i) take(datagrams[i], now_ns);
+    publish();
+    return {turns_, !is_worthwhile && !is_ending_};
+  }
+  /// The run is over: counts what the kernel dropped last.
+  void finish() noexcept TERRACUT_NONBLOCKING {
+    source_.refresh_drops();
+    publish();
+  }
+
+ private:
+  /// Waking up for every packet costs more than decoding it. After a small batch the next one is
+  /// left to gather in the kernel's buffer, which stamps packets and holds a thousand times as
+  /// many; but not where the packet may come that ends the turn.
+  static constexpr std::size_t kWorthwhileBatch = 32;
+  /// More than any buffer holds: who sends without end holds up nothing.
+  static constexpr int kMostBatches = 10'000;
+  /// At least eight times what a packet brings, so that the coarse stages catch up.
+  static constexpr int kBlocksAPacket = 1;
+  static constexpr float kEnoughAhead = 0.75F;
+
+  void take(const firmware_io::Datagram& datagram, std::int64_t now_ns) noexcept {
+    newest_packet_ns_ = datagram.stamp_ns;
+    if (to_.recorder != nullptr) to_.recorder->add(datagram);
+    const auto on_frame = [this](const firmware_io::FrameInfo& info,
+                                 pipeline::RangeImage& image) noexcept {
+      return hand_over(info, image);
+    };
+    if (!gate_.lets_in(datagram.stamp_ns, now_ns)) {
+      // The decoder is told, or would take what is left out here for lost on the network.
+      if (!std::exchange(lets_go_, true)) chain_.decoder.flush(on_frame);
+      ++let_go_;
+      return;
+    }
+    lets_go_ = false;
+    const auto rejected = chain_.decoder.decode(datagram, on_frame);
+    if (rejected == firmware_io::Reject::kDeviceInfo) ++device_info_;
+    const firmware_io::ArrivingTurn arriving = chain_.decoder.arriving();
+    is_ending_ = arriving.is_ending;
+    if (arriving.image == nullptr) return;
+    chain_.coarse.advance(*arriving.image, arriving.settled_columns,
+                          chain_.planes_of(*arriving.image), &coarse_clock_, kBlocksAPacket);
+  }
+
+  pipeline::RangeImage* hand_over(const firmware_io::FrameInfo& info,
+                                  pipeline::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
+    FrameExchange::Turn turn{&image, info, {}, false};
+    if (chain_.coarse.share_ahead(image) >= kEnoughAhead) {
+      chain_.coarse.finish(image, chain_.planes_of(image), &coarse_clock_);
+      turn.has_coarse_stages = true;
+    }
+    turn.timing = timing_of(info);
+    turn.timing.stages_ahead = turn.has_coarse_stages ? kCoarseStages : std::uint8_t{0};
+    if (!lets_go_) gate_.note_turn(info.last_packet_ns, turn.timing.handed_over_ns);
+    pipeline::RangeImage* next =
+        to_.turns->hand_over(turn, [this](const FrameExchange::Turn& skipped) noexcept {
+          rt::FrameTiming timing = skipped.timing;
+          timing.rung = rt::Rung::kSkipped;
+          timing.labels_ns = clock_.realtime_ns();
+          to_.skipped->pass_on(timing);
+        });
+    to_.turn_ready->wake();
+    ++turns_;
+    return next;
+  }
+
+  [[nodiscard]] rt::FrameTiming timing_of(const firmware_io::FrameInfo& info) noexcept
+      TERRACUT_NONBLOCKING {
+    rt::FrameTiming timing;
+    const StageTimes coarse_times = coarse_clock_.take();
+    const std::int64_t now_ns = clock_.thread_cpu_ns();
+    timing.number = info.number;
+    timing.returns = info.returns;
+    timing.first_packet_ns = info.first_packet_ns;
+    timing.last_packet_ns = info.last_packet_ns;
+    timing.closing_packet_ns = newest_packet_ns_;
+    timing.motion = motion_of(info.deskew.state);
+    timing.newest_motion_ns = info.deskew.newest_motion_ns;
+    std::copy(coarse_times.stage_ns.begin(), coarse_times.stage_ns.end(),
+              timing.stage_cpu_ns.begin());
+    timing.segment_cpu_ns = coarse_times.sum_ns();
+    timing.decode_cpu_ns = now_ns - spent_ns_ - timing.segment_cpu_ns;
+    // The turn's last packet came with this fetch or the one before.
+    timing.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
+    timing.handed_over_ns = clock_.realtime_ns();
+    spent_ns_ = now_ns;
+    return timing;
+  }
+
+  void publish() noexcept {
+    Intake& intake = to_.intake->draft();
+    intake.account = {.source = source_.counters(),
+                      .let_go = let_go_,
+                      .device_info = device_info_,
+                      .losses = chain_.decoder.losses(),
+                      .decoded = chain_.decoder.packets_decoded()};
+    intake.account.source -= before_;
+    intake.account.losses.kernel_drops = intake.account.source.kernel_drops;
+    intake.link = source_.link();
+    intake.newest_packet_ns = newest_packet_ns_;
+    (void)to_.intake->publish();
+  }
+
+  static constexpr auto kCoarseStages = static_cast<std::uint8_t>(pipeline::Stage::kSeeds);
+
+  [[nodiscard]] static rt::FrameMotion motion_of(firmware_io::DeskewState state) noexcept {
+    switch (state) {
+      case firmware_io::DeskewState::kDone:
+        return rt::FrameMotion::kTakenOut;
+      case firmware_io::DeskewState::kNoEgoMotion:
+        return rt::FrameMotion::kNoEgoMotion;
+      case firmware_io::DeskewState::kOff:
+        break;
+    }
+    return rt::FrameMotion::kNotAsked;
+  }
+
+  LiveChain& chain_;
+  Source& source_;
+  Outlets to_;
+  Clock clock_;
+  Wait wait_;
+  StageClockOf<Clock> coarse_clock_;
+  PacketGate gate_;
+
+  firmware_io::ReceiveCounters before_;
+  std::uint64_t let_go_ = 0, device_info_ = 0;
+  std::int64_t newest_packet_ns_ = 0;
+  bool lets_go_ = false;
+  int turns_ = 0;           ///< Handed over in this round.
+  bool is_ending_ = false;  ///< The turn that is arriving.
+
+  std::int64_t spent_ns_;  ///< Processor time, up to the last hand-over.
+  std::int64_t waited_before_fetch_ns_, waited_before_last_fetch_ns_;
+};
+
+}  // namespace terracut::cli

@@ -22,7 +22,7 @@ if(result EQUAL 0)
 endif()
 
 file(READ ${COMMANDS} commands)
-execute_process(COMMAND ${path_of_bash} ${VM_SCRIPT} -t 300 -m 512 -a ${PROGRAM} -c "${commands}"
+execute_process(COMMAND ${path_of_bash} ${VM_SCRIPT} -t 1100 -m 512 -a ${PROGRAM} -c "${commands}"
   RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE output)
 message("${output}")
 if(NOT output MATCHES "VM-UP")

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "calib/mount.hpp"
+#include "firmware_io/blind_sector.hpp"
 #include "firmware_io/column_returns.hpp"
 #include "firmware_io/datagram.hpp"
 #include "firmware_io/frame_builder.hpp"
@@ -105,6 +106,8 @@ class Decoder {
   template <class OnFrame>
   void flush(OnFrame&& on_frame) noexcept {
     tracker_.end_of_stream(frames_.losses());
+    blind_.end();
+    count_due();
     frames_.flush(deskewed(on_frame));
   }
 
@@ -112,9 +115,10 @@ class Decoder {
   /// before it is whole. None of them is settled where motion will be taken out of the turn.
   [[nodiscard]] ArrivingTurn arriving() noexcept {
     if (!frames_.started()) return {};
-    const int columns = frames_.shape().columns, settled = settled_columns();
-    return {&frames_.image(frames_.oldest()), deskewer_ ? 0 : settled,
-            columns - settled <= columns / 50};
+    const HeadInterval to_come{settled_ticks_ + settles_behind_ticks_,
+                               (frames_.oldest() + 1) * kTurn_ticks + settles_behind_ticks_};
+    return {&frames_.image(frames_.oldest()), deskewer_ ? 0 : settled_columns(),
+            blind_.sector().outside_ticks(to_come) <= kTurn_ticks / 50};
   }
 
   /// Since construction. Packets still expected out of order become losses a few packets later.
@@ -136,6 +140,8 @@ class Decoder {
     return steps_ == 0 ? 0 : static_cast<double>(steps_ticks_) / static_cast<double>(steps_) * 1e-5;
   }
   [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
+  /// Where the sensor is blind, as far as that has been learnt (blind_sector.hpp).
+  [[nodiscard]] BlindAzimuths blind() const noexcept { return blind_azimuths(blind_.sector()); }
   /// All images, for a hand-over by exchange (FrameBuilder); the first two are open at the start.
   [[nodiscard]] std::span<pipeline::RangeImage> images() noexcept { return frames_.images(); }
 
@@ -164,7 +170,10 @@ class Decoder {
       steps_ticks_ /= 2;
       steps_ /= 2;
     }
-    return steps_ticks_ / steps_;
+    return mean_step_ticks();
+  }
+  [[nodiscard]] std::int64_t mean_step_ticks() const noexcept {
+    return steps_ == 0 ? 0 : steps_ticks_ / steps_;
   }
 
   /// Of the oldest turn. Beams' columns are rounded, each by less than one.
@@ -174,9 +183,25 @@ class Decoder {
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
+  /// Of packets missing over many turns, those that a sensor sends while it is not blind.
+  [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
+    return packets - packets * (blind_.sector().once.ticks() / kTicksPerCdeg) / calib::kTurn_cdeg;
+  }
   std::optional<Reject> reject(Reject reason) noexcept {
     ++frames_.losses().rejected[static_cast<std::size_t>(reason)];
     return reason;
+  }
+  /// What lies between the packets before and this one, taken in order.
+  void judge_gap(const Placement& placed, const HeadInterval& swept,
+                 const BlindSector::Stride& stride, const BeamSpread& spread,
+                 std::int64_t step_ticks) noexcept;
+  /// What was found to be lost after all.
+  void count_due() noexcept {
+    const BlindSector::Loss due = blind_.take_due();
+    const std::int64_t step_ticks = std::max<std::int64_t>(1, mean_step_ticks());
+    frames_.losses().network_gap_packets += static_cast<std::uint64_t>(due.packets);
+    frames_.losses().azimuth_hole_columns +=
+        static_cast<std::uint64_t>((due.ticks + step_ticks / 2) / step_ticks);
   }
   void place_packet(std::span<const std::uint8_t> payload, std::int64_t head_cdeg,
                     bool is_in_one_turn) noexcept;
@@ -201,6 +226,7 @@ class Decoder {
   [[nodiscard]] auto deskewed(OnFrame& on_frame) noexcept {
     return
         [this, &on_frame](FrameInfo& info, pipeline::RangeImage& image) noexcept -> decltype(auto) {
+          info.blind = blind();
           if (deskewer_) info.deskew = deskewer_->apply(frames_.oldest(), image);
           return on_frame(info, image);
         };
@@ -212,13 +238,14 @@ class Decoder {
   Sensor sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;
+  BlindSector blind_{kTurn_ticks};
   HostClock clock_;
   std::optional<Deskewer> deskewer_;
   PacketHeads heads_;
   std::array<ColumnReturns<kLasers>, PacketHeads::kMaxColumns> found_{};  ///< Of one packet.
-  std::int64_t frontier_ticks_ = 0;  ///< The head has been seen up to here ...
-  std::int64_t settled_ticks_ = 0;   ///< ... and here nothing is expected any more.
-  std::int32_t last_sweep_ticks_ = 0;
+  std::int64_t frontier_ticks_ = 0;        ///< The head has been seen up to here ...
+  std::int64_t settled_ticks_ = 0;         ///< ... and here nothing is expected any more ...
+  std::int64_t settles_behind_ticks_ = 0;  ///< ... which is usually so far behind the head.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
   std::uint64_t packets_ = 0, columns_ = 0;
 };
@@ -255,6 +282,9 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   const std::int64_t last_turn = turn_of(most_ticks + spread.foremost_ticks);
 
   if (placed.arrival == Arrival::kRestart) {
+    blind_.end();
+    count_due();
+    tracker_.miss(seen_share(placed.missing), frames_.losses());
     frames_.flush(deskewed(on_frame));
     if (deskewer_) {
       deskewer_->restart();
@@ -264,13 +294,21 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     frontier_ticks_ = first_ticks;
     steps_ticks_ = steps_ = 0;
   }
-  if (first_turn < frames_.oldest()) return reject(Reject::kLate);
+  const bool is_next = placed.arrival == Arrival::kNext;
+  if (first_turn < frames_.oldest()) {
+    if (is_next) {
+      tracker_.miss(placed.missing, frames_.losses());
+      blind_.pass(swept);
+    }
+    return reject(Reject::kLate);
+  }
 
   const std::int64_t step_ticks = mean_step(heads_.step_ticks);
+  const BlindSector::Stride stride{heads_.pace_ticks, heads_.widest_ticks};
+  if (is_next) judge_gap(placed, swept, stride, spread, step_ticks);
   if (placed.arrival == Arrival::kReordered) {
     frames_.regain(swept, spread);
-  } else if (first_ticks - frontier_ticks_ > step_ticks * 3 / 4) {
-    frames_.lose({frontier_ticks_, first_ticks}, spread, step_ticks);
+    blind_.fill(swept);
   }
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
   if (deskewer_ && placed.arrival != Arrival::kReordered) {
@@ -280,20 +318,38 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   }
 
   while (last_turn > frames_.oldest() + 1) frames_.roll(deskewed(on_frame));
-  frames_.note_packet(datagram.stamp_ns, first_turn, last_turn, frontier_ticks_, step_ticks,
-                      spread);
+  // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
+  // turn unevenly.
+  const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
+  frames_.note_packet(datagram.stamp_ns, first_turn, last_turn, next_ticks, step_ticks, spread);
   place_packet(datagram.payload, placed.head_cdeg, first_turn == last_turn);
 
-  // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
-  // turn unevenly. Packets need not sweep alike: in the Ruby's dual return one firing and two in
-  // turn.
-  const std::int64_t sweep_ticks = std::max(heads_.sweep_ticks, last_sweep_ticks_);
-  last_sweep_ticks_ = heads_.sweep_ticks;
   const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
-  settled_ticks_ =
-      frontier_ticks_ - late_packets * sweep_ticks - step_ticks + spread.hindmost_ticks;
+  settles_behind_ticks_ = late_packets * stride.widest_ticks + step_ticks - spread.hindmost_ticks;
+  settled_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - settles_behind_ticks_;
   while (turn_of(settled_ticks_) > frames_.oldest()) frames_.roll(deskewed(on_frame));
   return std::nullopt;
+}
+
+template <class Sensor>
+void Decoder<Sensor>::judge_gap(const Placement& placed, const HeadInterval& swept,
+                                const BlindSector::Stride& stride, const BeamSpread& spread,
+                                std::int64_t step_ticks) noexcept {
+  const HeadInterval gap{frontier_ticks_, swept.from_ticks};
+  if (gap.ticks() <= step_ticks * 3 / 4) {
+    tracker_.miss(placed.missing, frames_.losses());
+  } else {
+    const BlindSector::Verdict verdict =
+        blind_.judge(gap, placed.missing, placed.explained, stride);
+    frames_.set_blind(blind_.sector());
+    tracker_.miss(verdict.packets, frames_.losses());
+    if (verdict.lost.ticks() > 0) {
+      frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
+    }
+  }
+  blind_.pass(swept);
+  frames_.set_blind(blind_.sector());
+  count_due();
 }
 
 template <class Sensor>

@@ -6,15 +6,6 @@
 #include <stdexcept>
 
 namespace terracut::firmware_io {
-namespace {
-
-std::int64_t overlap(const HeadInterval& a, const HeadInterval& b) noexcept {
-  return std::max<std::int64_t>(
-      0, std::min(a.to_ticks, b.to_ticks) - std::max(a.from_ticks, b.from_ticks));
-}
-
-}  // namespace
-
 FrameBuilder::FrameBuilder(const Config& config, rt::FixedMemory& memory)
     : shape_(config.shape), turn_ticks_(config.turn_ticks) {
   if (config.images < 3) {
@@ -56,27 +47,29 @@ void FrameBuilder::start(std::int64_t oldest_turn, std::int64_t head_ticks) noex
   open(1, oldest_turn + 1, *open_[1].image);
 }
 
-void FrameBuilder::add_missing(OpenTurn& turn, std::int64_t number, const HeadInterval& interval,
+void FrameBuilder::add_missing(OpenTurn& turn, std::int64_t number, const Missing& missing,
                                int sign, const BeamSpread& spread) noexcept {
   const HeadInterval of_head{number * turn_ticks_, (number + 1) * turn_ticks_};
   const HeadInterval of_beams{of_head.from_ticks - spread.foremost_ticks,
                               of_head.to_ticks - spread.hindmost_ticks};
-  turn.hole_ticks += sign * overlap(interval, of_head);
-  turn.missing_ticks += sign * overlap(interval, of_beams);
+  if (missing.is_counted) {
+    turn.hole_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_head));
+  }
+  turn.missing_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_beams));
 }
 
-void FrameBuilder::lose(HeadInterval gap, const BeamSpread& spread,
-                        std::int64_t step_ticks) noexcept {
+void FrameBuilder::lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
+                        bool is_counted) noexcept {
   step_ticks_ = step_ticks;
   spread_ = spread;
-  last_gap_ = gap;
-  add_missing(open_[0], oldest_, gap, +1, spread);
-  add_missing(open_[1], oldest_ + 1, gap, +1, spread);
+  last_gap_ = {gap, is_counted};
+  add_missing(open_[0], oldest_, last_gap_, +1, spread);
+  add_missing(open_[1], oldest_ + 1, last_gap_, +1, spread);
 }
 
 void FrameBuilder::regain(HeadInterval found, const BeamSpread& spread) noexcept {
-  add_missing(open_[0], oldest_, found, -1, spread);
-  add_missing(open_[1], oldest_ + 1, found, -1, spread);
+  add_missing(open_[0], oldest_, {found}, -1, spread);
+  add_missing(open_[1], oldest_ + 1, {found}, -1, spread);
 }
 
 void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_turn,
@@ -103,7 +96,8 @@ bool FrameBuilder::seen_whole(const OpenTurn& turn) const noexcept {
   const std::int64_t slack_ticks = step_ticks_ * 3 / 4;
   const std::int64_t first_ticks = oldest_ * turn_ticks_ - spread_.foremost_ticks;
   const std::int64_t end_ticks = (oldest_ + 1) * turn_ticks_ - spread_.hindmost_ticks;
-  return start_ticks_ <= first_ticks + slack_ticks && frontier_ticks_ >= end_ticks - slack_ticks &&
+  return blind_.outside_ticks({first_ticks, start_ticks_}) <= slack_ticks &&
+         blind_.outside_ticks({frontier_ticks_, end_ticks}) <= slack_ticks &&
          turn.missing_ticks < slack_ticks;
 }
 
@@ -121,6 +115,7 @@ bool FrameBuilder::close_oldest() noexcept {
                       .packets = packets_,
                       .returns = closing.image->returns(),
                       .complete = seen_whole(closing),
+                      .blind = {},
                       .losses = losses_,
                       .deskew = {}};
     losses_handed_over_ += losses_;

@@ -10,17 +10,12 @@
 #include <vector>
 
 #include "firmware_io/frame_info.hpp"
+#include "firmware_io/head_sector.hpp"
 #include "pipeline/range_image.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
-
-/// Head azimuth, unwrapped (it grows by one turn a turn), in the ticks of the sensor's decoder.
-/// An interval of it: [from, to).
-struct HeadInterval {
-  std::int64_t from_ticks = 0, to_ticks = 0;
-};
 
 /// How far the beams point away from the head: every beam's azimuth minus the head's lies in
 /// [hindmost, foremost].
@@ -84,14 +79,19 @@ class FrameBuilder {
     return *open_[static_cast<std::size_t>(turn - oldest_)].image;
   }
 
+  /// Where the sensor is blind, nothing is missing: of the intervals given from now on, of the
+  /// stream's beginning and of its end.
+  void set_blind(const HeadSector& blind) noexcept { blind_ = blind; }
+
   /// Firings were lost in this interval / arrived after all (reordered). `step_ticks`: from firing
-  /// to firing.
-  void lose(HeadInterval gap, const BeamSpread& spread,
-            std::int64_t step_ticks) noexcept TERRACUT_NONBLOCKING;
+  /// to firing. `is_counted`: as a hole, too; else whoever calls does that.
+  void lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
+            bool is_counted = true) noexcept TERRACUT_NONBLOCKING;
   void regain(HeadInterval found, const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
   /// A packet with this datagram stamp was decoded; its beams touch turns [first, last].
-  /// `step_ticks` and `spread` as they are now; the head has been seen up to `frontier_ticks`.
+  /// `step_ticks` and `spread` as they are now; the head has been seen up to `frontier_ticks`, or
+  /// is blind before.
   void note_packet(std::int64_t stamp_ns, std::int64_t first_turn, std::int64_t last_turn,
                    std::int64_t frontier_ticks, std::int64_t step_ticks,
                    const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
@@ -143,7 +143,11 @@ class FrameBuilder {
   [[nodiscard]] pipeline::RangeImage& exchange(pipeline::RangeImage& handed_over) noexcept
       TERRACUT_NONBLOCKING;
   void open(std::size_t slot, std::int64_t turn, pipeline::RangeImage& image) noexcept;
-  void add_missing(OpenTurn& turn, std::int64_t number, const HeadInterval& interval, int sign,
+  struct Missing {
+    HeadInterval head;
+    bool is_counted = true;
+  };
+  void add_missing(OpenTurn& turn, std::int64_t number, const Missing& missing, int sign,
                    const BeamSpread& spread) noexcept;
   [[nodiscard]] bool seen_whole(const OpenTurn& turn) const noexcept;
   /// Fills info_, or answers false when the turn has no returns.
@@ -162,7 +166,8 @@ class FrameBuilder {
   std::array<OpenTurn, 2> open_;  ///< Of oldest_ and oldest_ + 1.
   std::int64_t start_ticks_ = 0, frontier_ticks_ = 0, step_ticks_ = 1;
   BeamSpread spread_;
-  HeadInterval last_gap_;  ///< A turn that opens later may begin inside it.
+  Missing last_gap_;  ///< A turn that opens later may begin inside it.
+  HeadSector blind_;
 
   std::uint32_t frames_ = 0;
   std::uint32_t packets_ = 0;

@@ -10,6 +10,14 @@
 
 namespace terracut::firmware_io {
 
+/// Head azimuths at which the sensor sends nothing, hundredths of a degree clockwise from straight
+/// ahead, [from, to) and perhaps across 0; both 0: none, or not known yet.
+struct BlindAzimuths {
+  std::int32_t from_cdeg = 0, to_cdeg = 0;
+
+  [[nodiscard]] bool is_none() const noexcept { return from_cdeg == to_cdeg; }
+};
+
 /// What is known of one turn besides its returns.
 struct FrameInfo {
   std::uint32_t number = 0;  ///< 0.. in order of hand-over.
@@ -18,9 +26,11 @@ struct FrameInfo {
   std::int64_t last_packet_ns = 0;
   std::uint32_t packets = 0;  ///< Packets decoded since the frame before was handed over.
   std::uint32_t returns = 0;  ///< Returns placed; equals RangeImage::returns().
-  bool complete = false;      ///< Every firing of the turn was seen, from seam to seam.
-  LossCounters losses;        ///< What was lost since the frame before was handed over.
-  DeskewInfo deskew;          ///< Whether the vehicle's motion was taken out of it.
+  /// Every firing of the turn was seen, from seam to seam, but where the sensor is blind.
+  bool complete = false;
+  BlindAzimuths blind;
+  LossCounters losses;  ///< What was lost since the frame before was handed over.
+  DeskewInfo deskew;    ///< Whether the vehicle's motion was taken out of it.
 };
 
 /// The turn that is being filled.

@@ -38,7 +38,9 @@ struct PacketHeads {
   /// From the first firing to that of the next packet, > 0. A firing whose second return is in the
   /// next packet belongs to that one.
   std::int32_t sweep_ticks = 0;
-  bool dual_return = false;  ///< Columns come in pairs: two returns of one firing.
+  std::int32_t pace_ticks = 0;    ///< How far the head turns in a nominal period, > 0.
+  std::int32_t widest_ticks = 0;  ///< The largest sweep of a packet in this return mode, > 0.
+  bool dual_return = false;       ///< Columns come in pairs: two returns of one firing.
 
   [[nodiscard]] std::int32_t first_cdeg() const noexcept { return azimuth_cdeg[0]; }
   [[nodiscard]] std::int32_t last_cdeg() const noexcept {

@@ -110,6 +110,9 @@ class SensorDecoder {
   [[nodiscard]] bool dual_return() const noexcept {
     return visit([](const auto& decoder) { return decoder.dual_return(); });
   }
+  [[nodiscard]] BlindAzimuths blind() const noexcept {
+    return visit([](const auto& decoder) { return decoder.blind(); });
+  }
   /// The decoder itself where it is the RS-Ruby128's, else null.
   [[nodiscard]] const Ruby128Decoder* ruby128() const noexcept {
     return std::get_if<Ruby128Decoder>(&decoder_);

@@ -14,6 +14,9 @@ constexpr std::int64_t kReorder_us = 20'000;
 constexpr std::int64_t kOutage_us = 1'000'000;
 /// Nobody counts what a sensor would have sent in more than a day.
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
+/// The head's way across a gap from here on is told to the caller even where the period is not yet
+/// known.
+constexpr std::int64_t kWide_ticks = kTurn_ticks / 90;
 /// Turns are counted up to here: years of a turning head. Then the count begins again.
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
 /// The head may be this far from where time and speed put it, plus an eighth of what it has turned.
@@ -67,19 +70,19 @@ bool StreamTracker::is_repeat(const PacketHeads& heads) noexcept {
 
 Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                LossCounters& losses) noexcept {
-  if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated};
+  if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated, 0, 0, 0};
   if (!started_) return restart(heads, host_stamp_ns, losses);
   const std::int64_t step_us = device_step_us(newest_stamp_us_, heads.device_stamp_us);
   const std::int64_t step_cdeg =
       calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), heads.first_cdeg());
 
-  const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_sweep_ticks_;
+  const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_pace_ticks_;
   if (heads.clock_restarts) {
     steps_ = 0;  // the times between the packets before were not what they seemed
     missing_ = 0;
     if (!turns_on) return restart(heads, host_stamp_ns, losses);
     take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg, losses);
-    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
+    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_, 0, 0};
   }
 
   if (step_us < -kReorder_us || step_us > kOutage_us) {
@@ -87,42 +90,48 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
     const bool is_outage = step_us > 0 && step_us < kLongestOutage_us &&
                            std::abs(host_us - step_us) < std::max(step_us / 16, kReorder_us);
     if (is_outage) {
-      count_missing(step_us, losses);
-      return restart(heads, host_stamp_ns, losses);
+      const std::int64_t missing = missing_in({step_us, explained_});
+      Placement placed = restart(heads, host_stamp_ns, losses);
+      placed.missing = missing;
+      return placed;
     }
     ++losses.clock_jumps;
     if (!turns_on) return restart(heads, host_stamp_ns, losses);
     // Only the clock was set.
     take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg, losses);
-    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_};
+    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_, 0, 0};
   }
 
   const std::int64_t turned_cdeg =
-      newest_sweep_ticks_ * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
+      newest_pace_ticks_ * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
   const std::int64_t expected_cdeg = newest_head_cdeg_ + turned_cdeg;
   const std::int64_t off_cdeg =
       calib::step_cdeg(calib::wrap_cdeg(expected_cdeg), heads.first_cdeg());
   if (std::abs(off_cdeg) > kHeadSlack_cdeg + std::abs(turned_cdeg) / 8) {
     if (++misfits_ >= kMisfitsBeforeRestart) return restart(heads, host_stamp_ns, losses);
     note_rejected(heads.device_stamp_us);
-    return {Arrival::kRejected, Reject::kAzimuthJump};
+    return {Arrival::kRejected, Reject::kAzimuthJump, 0, 0, 0};
   }
   misfits_ = 0;
   const std::int64_t head_cdeg = expected_cdeg + off_cdeg;
   if (std::abs(head_cdeg) > kFarthest_cdeg) return restart(heads, host_stamp_ns, losses);
   if (step_us < 0) {
     if (missing_ > 0 || period_ns_ == 0) --missing_;
-    return {Arrival::kReordered, Reject::kCount, head_cdeg};
+    return {Arrival::kReordered, Reject::kCount, head_cdeg, 0, 0};
   }
   adopt_range(heads, losses);
+  Placement placed{Arrival::kNext, Reject::kCount, head_cdeg, 0, explained_};
   if (step_us == 0) {
     ++losses.clock_jumps;  // the clock stands still while the head turns
   } else {
-    if (period_ns_ != 0) count_missing(step_us, losses);  // else settle_period() looks back
-    measure_period(step_us, losses);
+    // A wide gap may be the sensor's blind sector: the caller knows.
+    const bool is_wide = (head_cdeg - newest_head_cdeg_) * kTicksPerCdeg > kWide_ticks;
+    const bool is_measured = period_ns_ != 0;
+    if (is_measured || is_wide) placed.missing = missing_in({step_us, explained_});
+    if (is_measured || !is_wide) measure_period(step_us, losses);
   }
   take_as_newest(heads, host_stamp_ns, head_cdeg, losses);
-  return {Arrival::kNext, Reject::kCount, head_cdeg};
+  return placed;
 }
 
 void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
@@ -131,7 +140,7 @@ void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_s
   newest_stamp_us_ = heads.device_stamp_us;
   newest_host_ns_ = host_stamp_ns;
   newest_head_cdeg_ = head_cdeg;
-  newest_sweep_ticks_ = heads.sweep_ticks;
+  newest_pace_ticks_ = heads.pace_ticks;
   explained_ = 0;
 }
 
@@ -142,7 +151,7 @@ Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_sta
   started_ = true;
   misfits_ = 0;
   take_as_newest(heads, host_stamp_ns, heads.first_cdeg(), losses);
-  return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_};
+  return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_, 0, 0};
 }
 
 // --- Missing packets, by the device's own stamps ---
@@ -153,10 +162,9 @@ std::int64_t StreamTracker::missing_in(const Step& step) const noexcept {
   return std::max<std::int64_t>(0, periods - 1 - step.explained);
 }
 
-void StreamTracker::count_missing(std::int64_t step_us, LossCounters& losses) noexcept {
-  const std::int64_t missing = missing_in({step_us, explained_});
-  if (missing > 0) {
-    missing_ += missing;
+void StreamTracker::miss(std::int64_t packets, LossCounters& losses) noexcept {
+  if (packets > 0) {
+    missing_ += packets;
     packets_since_missing_ = 0;
   } else if (missing_ > 0 && ++packets_since_missing_ >= kMissingGrace_packets) {
     commit_missing(losses);
@@ -248,11 +256,11 @@ void StreamTracker::note_stationary(std::int64_t device_stamp_us, std::int32_t a
   if (!started_) return;
   const std::int64_t step_us = device_step_us(newest_stamp_us_, device_stamp_us);
   if (step_us <= 0 || step_us > kOutage_us) return;
-  count_missing(step_us, losses);
+  miss(missing_in({step_us, explained_}), losses);
   explained_ = 0;
   newest_stamp_us_ = device_stamp_us;
   newest_head_cdeg_ += calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), azimuth_cdeg);
-  newest_sweep_ticks_ = 0;
+  newest_pace_ticks_ = 0;
 }
 
 void StreamTracker::end_of_stream(LossCounters& losses) noexcept {

@@ -25,6 +25,9 @@ struct Placement {
   Arrival arrival = Arrival::kRejected;
   Reject reject = Reject::kCount;  ///< The reason when kRejected.
   std::int64_t head_cdeg = 0;      ///< Unwrapped azimuth of the first column.
+  /// Between this packet and the newest before it: packets that did not come, by the stamps, and
+  /// packets that did and were rejected.
+  std::int64_t missing = 0, explained = 0;
 };
 
 /// Puts the packets of one spinning sensor into order by their device stamps and azimuths, and
@@ -41,10 +44,15 @@ class StreamTracker {
   /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
   StreamTracker(std::int64_t clock_wrap_us, rt::FixedMemory& memory);
 
-  /// Where this packet belongs. Missing packets and clock jumps go to `losses`; the caller counts
-  /// the rejection. `host_stamp_ns` is the datagram's, used only to tell an outage from a jump.
+  /// Where this packet belongs. Clock jumps go to `losses`; the caller counts the rejection, and
+  /// says how many of the missing packets were to come. `host_stamp_ns` is the datagram's, used
+  /// only to tell an outage from a jump.
   [[nodiscard]] Placement place(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                 LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
+
+  /// Of the packets missing before the one just placed (kNext, kRestart) these are lost; counted
+  /// some packets later unless they come out of order. To be called for each such packet.
+  void miss(std::int64_t packets, LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// A packet with this stamp arrived but was rejected before place(): it is not missing.
   void note_rejected(std::int64_t device_stamp_us) noexcept TERRACUT_NONBLOCKING;
@@ -84,7 +92,6 @@ class StreamTracker {
   void average_in(std::int64_t step_us) noexcept;
   void settle_period(LossCounters& losses) noexcept;
   void accept_median() noexcept;
-  void count_missing(std::int64_t step_us, LossCounters& losses) noexcept;
   [[nodiscard]] std::int64_t missing_in(const Step& step) const noexcept;
   void commit_missing(LossCounters& losses) noexcept;
   [[nodiscard]] Placement restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
@@ -98,7 +105,7 @@ class StreamTracker {
 
   bool started_ = false;
   std::int64_t newest_stamp_us_ = 0, newest_host_ns_ = 0, newest_head_cdeg_ = 0;
-  std::int32_t newest_sweep_ticks_ = 0;
+  std::int32_t newest_pace_ticks_ = 0;
   int misfits_ = 0;  ///< Packets in a row whose azimuth contradicts their stamp.
 
   std::int64_t nominal_period_ns_ = 1, shortest_period_ns_ = 1, longest_period_ns_ = 1;

@@ -83,6 +83,7 @@ std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
   heads.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / kPeriodTolerance;
   heads.sweep_ticks =
       heads.step_ticks * (heads.dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle);
+  heads.pace_ticks = heads.widest_ticks = heads.sweep_ticks;
   return std::nullopt;
 }
 

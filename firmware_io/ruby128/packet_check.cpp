@@ -61,6 +61,8 @@ std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload
   heads.longest_period_ns = heads.nominal_period_ns + heads.nominal_period_ns / kPeriodTolerance;
   heads.step_ticks = ruby_step_ticks(azimuth_cdeg);
   heads.sweep_ticks = heads.step_ticks * ruby_firings(blocks);
+  heads.pace_ticks = heads.step_ticks * kRubyBlocksPerPacket / (heads.dual_return ? 2 : 1);
+  heads.widest_ticks = heads.step_ticks * (heads.dual_return ? 2 : kRubyBlocksPerPacket);
   return std::nullopt;
 }
 

@@ -24,14 +24,16 @@ PacketHeads packet(std::int64_t n, std::int64_t first_us = 0) {
   heads.columns = 1;
   heads.azimuth_cdeg[0] = calib::wrap_cdeg(n * kSweep_cdeg);
   heads.step_ticks = kSweep_cdeg * kTicksPerCdeg / 6;
-  heads.sweep_ticks = kSweep_cdeg * kTicksPerCdeg;
+  heads.sweep_ticks = heads.pace_ticks = kSweep_cdeg * kTicksPerCdeg;
   return heads;
 }
 
 class Tracked : public testing::Test {
  protected:
   Placement place(const PacketHeads& heads, std::int64_t host_ns = 0) {
-    return tracker.place(heads, host_ns, losses);
+    const Placement placed = tracker.place(heads, host_ns, losses);
+    if (placed.arrival == Arrival::kNext) tracker.miss(placed.missing, losses);
+    return placed;
   }
   void place_all(std::int64_t from, std::int64_t to, std::int64_t first_us = 0) {
     for (std::int64_t n = from; n < to; ++n) (void)place(packet(n, first_us));
@@ -98,7 +100,7 @@ TEST_F(Tracked, ASwitchToDualReturnAndBackLosesNothing) {
       heads.nominal_period_ns = 172'800;
       heads.shortest_period_ns = 151'200;
       heads.longest_period_ns = 194'400;
-      heads.sweep_ticks = 62'000;
+      heads.sweep_ticks = heads.pace_ticks = 62'000;
     }
     stamp_us += dual ? 173 : 288;
     head_cdeg += dual ? 62 : 104;

@@ -44,12 +44,14 @@ bool are_possible(const rt::MotionFigures& motion) noexcept {
 }  // namespace
 
 bool are_possible(const rt::MonitorSnapshot& figures) noexcept {
-  for (const std::int64_t ns :
-       {figures.started_ns, figures.taken_ns, figures.deadline_ns, figures.last_packet_ns}) {
+  for (const std::int64_t ns : {figures.started_ns, figures.taken_ns, figures.deadline_ns,
+                                figures.last_packet_ns, figures.silent_ns}) {
     if (!is_time(ns)) return false;
   }
   if (figures.link >= rt::LinkState::kCount || !std::isfinite(figures.frames_per_s) ||
-      figures.loss_count > figures.losses.size() || figures.thread_count > figures.threads.size() ||
+      figures.loss_count > figures.losses.size() ||
+      figures.outcome_count > figures.outcomes.size() ||
+      figures.thread_count > figures.threads.size() ||
       figures.stage_count > figures.stage_names.size() || !are_possible(figures.motion)) {
     return false;
   }

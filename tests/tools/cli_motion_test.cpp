@@ -65,12 +65,25 @@ TEST_F(CliMotion, IsNotMadeUpBehindTheEndOfItsRecording) {
       << "as the sensor saw it";
 }
 
-TEST_F(CliMotion, ThatIsNotInTheRecordingIsSaid) {
+TEST_F(CliMotion, ThatIsNotInTheRecordingIsRefusedBeforeAnythingIsDecoded) {
   write("other.log", "(1700000000.000000) can0 7FF#00\n");
-  const Outcome outcome = run(replay("--can other.log --dbc d.can.dbc"));
-  EXPECT_EQ(outcome.exit_code, kOk);
-  EXPECT_THAT(outcome.err, HasSubstr("none of its frames"));
-  EXPECT_THAT(outcome.out, HasSubstr("6 without ego motion"));
+  for (const auto& [log, reason] :
+       {std::pair{"other.log", "none of its 1 frames"}, std::pair{"d.can.dbc", "no frame in"}}) {
+    const Outcome outcome = run(replay(std::string("--dbc d.can.dbc --can ") + log));
+    EXPECT_EQ(outcome.exit_code, kInputRefused);
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr(log), HasSubstr(reason)));
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "report.json"));
+  }
+}
+
+TEST_F(CliMotion, OfAnotherTimeIsNoSuccess) {
+  write("old.log", "(1000000000.000000) can0 1A0#0E10000000000000\n");
+  const Outcome outcome = run(replay("--can old.log --dbc d.can.dbc"));
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("old.log"), HasSubstr("none of the 6 turns")));
+  EXPECT_THAT(outcome.out, HasSubstr("6 without ego motion"))
+      << "the labels are there all the same";
 }
 
 TEST_F(CliMotion, OfUnreadableOrMissingFilesIsRefusedByName) {

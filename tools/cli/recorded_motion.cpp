@@ -4,11 +4,34 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <utility>
 
 #include "motion_choice.hpp"
 
 namespace terracut::cli {
+namespace {
+
+/// How long after one recording's stamps stepped back those of the other may.
+constexpr std::int64_t kTogether_ns = 1'000'000'000;
+
+/// Whether there is a frame with one of the signals in it, or why there is not.
+Status find_signals(const std::filesystem::path& path, std::span<const firmware_io::CanId> ids) {
+  auto recording = firmware_io::CanRecording::open(path);
+  if (!recording) return tl::unexpected(recording.error());
+  auto frame = recording->next();
+  for (; frame && *frame; frame = recording->next()) {
+    if ((*frame)->is_data() && std::ranges::find(ids, (*frame)->id) != ids.end()) return {};
+  }
+  if (!frame) return tl::unexpected(frame.error());
+  return fail(ErrorCode::kMalformed,
+              fmt::format("{}: none of its {} frames holds the signals that motion.speed and "
+                          "motion.yaw_rate name",
+                          path.string(), recording->counters().delivered));
+}
+
+}  // namespace
 
 Expected<RecordedMotion> RecordedMotion::open(const ReplayOptions& options,
                                               rt::FixedMemory& memory) {
@@ -16,6 +39,9 @@ Expected<RecordedMotion> RecordedMotion::open(const ReplayOptions& options,
   if (!signals) return tl::unexpected(signals.error());
   auto recording = firmware_io::CanRecording::open(options.can);
   if (!recording) return tl::unexpected(recording.error());
+  if (Status found = find_signals(options.can, signals->ids()); !found) {
+    return tl::unexpected(found.error());
+  }
   return RecordedMotion(options.can, *std::move(recording), *std::move(signals),
                         ego_motion_config_of(options.motion), memory);
 }
@@ -35,12 +61,34 @@ Status RecordedMotion::restart() {
   auto recording = firmware_io::CanRecording::open(path_);
   if (!recording) return tl::unexpected(recording.error());
   recording_ = *std::move(recording);
+  frames_ = packets_ = {};
   read_on();
   return {};
 }
 
+void RecordedMotion::Steps::note(std::int64_t stamp_ns) noexcept {
+  if (newest_ns != kNone && newest_ns - stamp_ns > firmware_io::kMotionDisorder_ns) {
+    ++count;
+    left_off_ns = newest_ns;
+    newest_ns = stamp_ns;
+  }
+  newest_ns = std::max(newest_ns, stamp_ns);
+}
+
+bool RecordedMotion::next_is_due() noexcept {
+  if (frames_.count < packets_.count) {  // its clock is to be set back still
+    if (next_->stamp_ns - packets_.left_off_ns <= kTogether_ns) return true;
+    frames_.count = packets_.count;
+  } else if (frames_.count > packets_.count) {
+    if (packets_.newest_ns - frames_.left_off_ns <= kTogether_ns) return false;
+    packets_.count = frames_.count;
+  }
+  return next_->stamp_ns <= packets_.newest_ns;
+}
+
 void RecordedMotion::hear_until(std::int64_t stamp_ns) {
-  for (; next_ && next_->stamp_ns <= stamp_ns; read_on()) {
+  packets_.note(stamp_ns);
+  for (; next_ && next_is_due(); read_on()) {
     if (const auto sample = signals_.take(*next_)) (void)motion_->add(*sample);
     motion_->take_new();  // writer and reader are one here, so nothing ever waits
   }
@@ -51,6 +99,7 @@ void RecordedMotion::read_on() {
   auto frame = recording_.next();
   if (frame) {
     next_ = *std::move(frame);
+    if (next_) frames_.note(next_->stamp_ns);
   } else {
     fault_ = frame.error().message;
   }

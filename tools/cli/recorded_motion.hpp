@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -18,17 +19,23 @@
 namespace terracut::cli {
 
 /// The vehicle's motion out of a recording of its CAN bus, read along with the packets of a
-/// capture as it would have been heard beside them. One thread.
+/// capture as it would have been heard beside them: by their stamps, on one clock.
+///
+/// Where that clock was set back, both recordings go back at one time. Whichever does so first
+/// waits for the other, so that frames from before and behind the step stay beside packets from
+/// before and behind it; but for no longer than a second of stamps, for it may be the step of one
+/// clock alone. One thread.
 class RecordedMotion {
  public:
-  /// Errors as CanRecording::open() and motion_signals_of().
+  /// Errors as CanRecording::open() and motion_signals_of(); kMalformed, too, where no frame of the
+  /// whole recording holds the signals.
   [[nodiscard]] static Expected<RecordedMotion> open(const ReplayOptions& options,
                                                      rt::FixedMemory& memory);
 
   /// Begins the recording again. The errors of CanRecording.
   [[nodiscard]] Status restart();
-  /// Takes the frames up to this stamp. A recording that breaks off is as one that ends; the fault
-  /// is kept.
+  /// Takes the frames up to the stamp of a packet, the next one of its capture. A recording that
+  /// breaks off is as one that ends; the fault is kept.
   void hear_until(std::int64_t stamp_ns);
 
   [[nodiscard]] firmware_io::EgoMotion& motion() noexcept { return *motion_; }
@@ -40,13 +47,24 @@ class RecordedMotion {
   RecordedMotion(std::filesystem::path path, firmware_io::CanRecording recording,
                  firmware_io::MotionSignals signals, const firmware_io::EgoMotion::Config& config,
                  rt::FixedMemory& memory);
+  /// Of one of the two recordings: how often its stamps stepped back, and from where they last did.
+  struct Steps {
+    std::uint64_t count = 0;
+    std::int64_t newest_ns = kNone, left_off_ns = kNone;
+    void note(std::int64_t stamp_ns) noexcept;
+  };
+  static constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::min();
+
   void read_on();
+  /// Whether the next frame came before the newest packet.
+  [[nodiscard]] bool next_is_due() noexcept;
 
   std::filesystem::path path_;
   firmware_io::CanRecording recording_;
   firmware_io::MotionSignals signals_;
   std::unique_ptr<firmware_io::EgoMotion> motion_;
   std::optional<firmware_io::CanFrame> next_;
+  Steps frames_, packets_;
   std::string fault_;  ///< Where the recording broke off.
 };
 

@@ -186,6 +186,7 @@ class Replay {
     const pipeline::SegmentationReport segmented = chain_.segmenter.segment(image, &clock_);
     report_.add(record_of(info, segmented, decode_ns_, clock_.take(), ahead_ns));
     decode_ns_ = 0;
+    deskewed_ += info.deskew.state == firmware_io::DeskewState::kDone ? 1 : 0;
 
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
@@ -230,7 +231,12 @@ class Replay {
       if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
     }
     if (scored_ > 0) report_.set_quality(quality_, report_.frames() - scored_);
-    return conclude_with(report_, options_.output.json);
+    const ExitCode concluded = conclude_with(report_, options_.output.json);
+    if (concluded != kOk || motion_ == nullptr || deskewed_ > 0) return concluded;
+    return refuse(kInputRefused,
+                  fmt::format("{}: in none of the {} turns was there motion to take out; is it of "
+                              "this drive, its stamps on the clock of the capture's?",
+                              options_.can.string(), report_.frames()));
   }
 
   const ReplayOptions& options_;
@@ -246,7 +252,8 @@ class Replay {
   Progress progress_;
   StageClock clock_;
   pipeline::Quality quality_;
-  std::uint64_t scored_ = 0;  ///< Frames with truth.
+  std::uint64_t scored_ = 0;    ///< Frames with truth.
+  std::uint64_t deskewed_ = 0;  ///< Frames out of which the motion was taken.
   Status sinks_;
   std::uint64_t offered_ = 0;   ///< Datagrams given to the decoder.
   std::int64_t decode_ns_ = 0;  ///< Since the last frame was handed over.

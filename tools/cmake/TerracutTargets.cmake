@@ -41,7 +41,8 @@ endfunction()
 
 # terracut_add_fuzzer(NAME SOURCES... LIBS...)
 #   built in every build: with libFuzzer when TERRACUT_LIBFUZZER, else with a main that replays
-#   files given on the command line (and so keeps the target from rotting).
+#   files given on the command line (and so keeps the target from rotting). Where there is a folder
+#   corpus/<name> of seeds beside it, replaying them is a test.
 function(terracut_add_fuzzer name)
   cmake_parse_arguments(arg "" "" "SOURCES;LIBS" ${ARGN})
   add_executable(${name} ${arg_SOURCES})
@@ -50,6 +51,11 @@ function(terracut_add_fuzzer name)
     target_link_options(${name} PRIVATE -fsanitize=fuzzer)
   else()
     target_sources(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests/fuzz/replay_main.cpp)
+    file(GLOB seeds CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/corpus/${name}/*)
+    if(seeds)
+      add_test(NAME Fuzz.${name} COMMAND ${name} ${seeds})
+      set_tests_properties(Fuzz.${name} PROPERTIES LABELS unit TIMEOUT 300)
+    endif()
   endif()
   set_property(GLOBAL APPEND PROPERTY TERRACUT_FUZZERS ${name})
 endfunction()

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "calib/mount.hpp"
+#include "calib/ring_profile.hpp"
+#include "firmware_io/datagram.hpp"
+#include "firmware_io/frame_info.hpp"
+#include "firmware_io/motion/ego_motion.hpp"
+#include "pipeline/coarse_stages.hpp"
+#include "pipeline/fine_stages.hpp"
+#include "pipeline/profile.hpp"
+#include "rt/fixed_memory.hpp"
+#include "tests/fuzz/input.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tools/cli/live/frame_exchange.hpp"
+
+namespace terracut::fuzz {
+
+/// The way of packets through a live run, tracker to labels, on one thread and with an image of few
+/// columns, and what must hold after every packet, whatever came:
+/// - every packet is decoded, or rejected for one named reason, or told about the device;
+/// - a packet hands over kMostFramesAPacket frames at most;
+/// - frames have the numbers that follow, stamps of packets that came, and returns at finite
+/// places;
+/// - every return of a packet that was decoded is in a frame or counted as lost;
+/// - a turn that the segmenter takes is as it was handed over, and has a label for each return;
+/// - memory stays what it was, and nothing is allocated.
+template <class Decoder, class Calibration>
+class LiveChainRun {
+ public:
+  /// Open turns that a restart ends, and one that the packet itself fills.
+  static constexpr int kMostFramesAPacket = 3;
+
+  struct Config {
+    int columns = 64;
+    int reorder_packets = 0;
+    bool deskew = false;
+  };
+  /// `returns_in(payload)`: how many returns a decoded payload carries.
+  using ReturnsIn = std::uint64_t (*)(std::span<const std::uint8_t> payload);
+
+  LiveChainRun(const Calibration& calibration, ReturnsIn returns_in, const Config& config)
+      : returns_in_(returns_in),
+        decoder_(calibration, {}, decoder_config(config, motion_), memory_),
+        exchange_(decoder_.images()),
+        coarse_(pipeline::terracut_profile(), calib::ring_profile(calibration, calib::Mount{}),
+                decoder_.shape(), memory_),
+        fine_(pipeline::terracut_profile(), calib::ring_profile(calibration, calib::Mount{}),
+              decoder_.shape(), decoder_.return_capacity(), memory_) {
+    planes_.reserve(decoder_.images().size());
+    for (std::size_t i = 0; i < decoder_.images().size(); ++i) {
+      planes_.emplace_back(decoder_.shape(), memory_);
+    }
+    handed_over_.resize(decoder_.images().size());
+    memory_bytes_ = memory_.total_bytes();
+  }
+
+  void feed(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
+    const std::uint64_t allocations = test::allocations_of_this_thread();
+    first_stamp_ns_ = std::min(first_stamp_ns_, stamp_ns);
+    last_stamp_ns_ = std::max(last_stamp_ns_, stamp_ns);
+    frames_of_packet_ = 0;
+    ++fed_;
+    const auto reason = decoder_.decode({.payload = payload, .stamp_ns = stamp_ns}, hand_over());
+    const firmware_io::ArrivingTurn arriving = decoder_.arriving();
+    if (arriving.image != nullptr) {
+      coarse_.advance(*arriving.image, arriving.settled_columns, planes_of(*arriving.image));
+    }
+    if (!reason) {
+      accepted_returns_ += returns_in_(payload);
+    } else if (*reason == firmware_io::Reject::kDeviceInfo) {
+      ++device_info_;
+    } else {
+      ++rejected_[static_cast<std::size_t>(*reason)];
+    }
+    require(frames_of_packet_ <= kMostFramesAPacket, "one packet hands over too many frames");
+    check_packets();
+    if (segmenter_away_ == 0) segment();
+    if (test::allocations_are_counted()) {
+      require(allocations == test::allocations_of_this_thread(), "a packet allocated memory");
+    }
+  }
+
+  /// The vehicle's motion at this stamp of the host's clock.
+  void move(const firmware_io::MotionSample& sample) { (void)motion_.add(sample); }
+  /// The segmenter does not take any of the next turns.
+  void keep_segmenter_away(int turns) { segmenter_away_ = turns; }
+  void flush() {
+    decoder_.flush(hand_over());
+    segmenter_away_ = 0;
+    segment();
+    require(handed_returns_ + decoder_.losses().overflow_full_returns == accepted_returns_,
+            "returns of decoded packets are neither in a frame nor counted");
+  }
+
+ private:
+  using Exchange = cli::FrameExchange;
+
+  /// What is remembered of an image that was handed over.
+  struct HandedOver {
+    std::uint64_t sum = 0;
+    std::uint32_t number = 0;
+  };
+
+  static typename Decoder::Config decoder_config(const Config& config,
+                                                 firmware_io::EgoMotion& motion) {
+    typename Decoder::Config result;
+    result.columns = config.columns;
+    result.reorder_packets = config.reorder_packets;
+    result.images = Exchange::kImages;
+    result.returns_per_cell = 3;
+    if (config.deskew) result.motion = &motion;
+    return result;
+  }
+  [[nodiscard]] std::size_t number_of(const pipeline::RangeImage& image) const {
+    return static_cast<std::size_t>(&image - first_image_);
+  }
+  [[nodiscard]] pipeline::CellPlanes& planes_of(const pipeline::RangeImage& image) {
+    return planes_[number_of(image)];
+  }
+
+  /// Of all that an image holds.
+  static std::uint64_t sum_of(const pipeline::RangeImage& image) {
+    double sum = static_cast<double>(image.returns());
+    for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
+      if (!image.has_return(cell)) continue;
+      require(std::isfinite(image.x_m()[cell]) && std::isfinite(image.y_m()[cell]) &&
+                  image.ground_range_m()[cell] >= 0.0F && image.ground_range_m()[cell] < 1'000.0F,
+              "a return lies nowhere");
+      sum += static_cast<double>(cell + 1) * static_cast<double>(image.x_m()[cell]) +
+             static_cast<double>(image.return_index()[cell]);
+    }
+    return static_cast<std::uint64_t>(std::llround(sum * 1e3));
+  }
+
+  [[nodiscard]] auto hand_over() {
+    return [this](const firmware_io::FrameInfo& info,
+                  pipeline::RangeImage& image) noexcept -> pipeline::RangeImage* {
+      ++frames_of_packet_;
+      require(info.number == frames_++, "a frame has not the number that follows");
+      require(info.returns > 0 && info.returns == image.returns(), "a frame miscounts its returns");
+      require(info.first_packet_ns <= info.last_packet_ns &&
+                  info.first_packet_ns >= first_stamp_ns_ && info.last_packet_ns <= last_stamp_ns_,
+              "a frame's stamps are of no packet");
+      packets_in_frames_ += info.packets;
+      require(packets_in_frames_ <= decoder_.packets_decoded() + 1, "frames of too many packets");
+      handed_returns_ += info.returns;
+      handed_over_[number_of(image)] = {sum_of(image), info.number};
+      coarse_.finish(image, planes_of(image));
+      if (segmenter_away_ > 0) --segmenter_away_;
+      return exchange_.hand_over({&image, info, {}, decoder_.losses()},
+                                 [](const Exchange::Turn&) noexcept {});
+    };
+  }
+
+  void segment() {
+    const Exchange::Turn* turn = exchange_.take_if_new();
+    if (turn == nullptr) return;
+    const pipeline::RangeImage& image = *turn->image;
+    const HandedOver& expected = handed_over_[number_of(image)];
+    require(turn->info.number == expected.number && sum_of(image) == expected.sum,
+            "a turn changed after it was handed over");
+    require(turn->info.number + 1 > segmented_, "a turn is segmented after a newer one");
+    segmented_ = turn->info.number + 1;
+    (void)fine_.refine(image, planes_of(image));
+    const auto labels = fine_.labels();
+    require(labels.size() == turn->info.returns, "not every return has a label");
+    require(std::ranges::count(labels, pipeline::Label::kNone) == 0, "a return has no label");
+  }
+
+  void check_packets() const {
+    const firmware_io::LossCounters losses = decoder_.losses();
+    require(losses.rejected == rejected_, "a packet was rejected for another reason than it said");
+    require(decoder_.packets_decoded() + losses.rejected_total() + device_info_ == fed_,
+            "packets are not all accounted for");
+    require(memory_.total_bytes() == memory_bytes_, "memory was taken after the start");
+  }
+
+  ReturnsIn returns_in_;
+  rt::FixedMemory memory_;
+  firmware_io::EgoMotion motion_{{.waiting = 16, .kept = 64}, memory_};
+  Decoder decoder_;
+  const pipeline::RangeImage* first_image_ = decoder_.images().data();
+  Exchange exchange_;
+  pipeline::CoarseStages coarse_;
+  pipeline::FineStages fine_;
+  std::vector<pipeline::CellPlanes> planes_;
+  std::vector<HandedOver> handed_over_;  ///< By image.
+  std::size_t memory_bytes_ = 0;
+
+  std::int64_t first_stamp_ns_ = std::numeric_limits<std::int64_t>::max();
+  std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
+  std::uint64_t fed_ = 0, device_info_ = 0, accepted_returns_ = 0, handed_returns_ = 0;
+  std::uint64_t packets_in_frames_ = 0;
+  std::array<std::uint64_t, firmware_io::kRejectReasons> rejected_{};
+  std::uint32_t frames_ = 0, segmented_ = 0;
+  int frames_of_packet_ = 0, segmenter_away_ = 0;
+};
+
+}  // namespace terracut::fuzz

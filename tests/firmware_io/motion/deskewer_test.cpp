@@ -280,7 +280,7 @@ TEST_F(DeskewerTest, WhereAClockWasSetTheTurnsBegunHaveNoEgoMotionAndTheNextHasI
   Deskewer deskewer = this->deskewer(TurnInstant::kEnd);
   note(deskewer, -0.1, 1.4);
   deskewer.begin_anew(std::llround(1.41 * kTurn_ticks));
-  constexpr std::int64_t kSet_ns = -5'000'000'000;
+  constexpr std::int64_t kSet_ns = -150'000'000;  // where samples are of the time before
   for (double share = 1.41; share <= 3.1; share += 1.0 / 350) {
     deskewer.note(std::llround(share * kTurn_ticks), instant_ns(share) + kSet_ns);
   }

@@ -230,6 +230,42 @@ TEST(Hdl64eDecoder, PlacesBothReturnsOfADualReturnPacket) {
             0U);
 }
 
+TEST(Hdl64eDecoder, InSingleReturnACellStaysWithTheFirstToArrive) {
+  // Two firings in one column of a narrow image, the second one stronger.
+  std::vector<FiringColumn> firings(6);
+  for (std::size_t c = 0; c < 6; ++c) {
+    firings[c].unwrapped_azimuth_cdeg = 9'001 + 17 * static_cast<std::int64_t>(c);
+    firings[c].stamp_ns = 48'000 * static_cast<std::int64_t>(c);
+  }
+  firings[0].by_laser[0] = {10'000, 10, 0};
+  firings[1].by_laser[0] = {5'000, 200, 0};
+  Recorder::Config config;
+  config.columns = 360;
+  config.dual_owner = pipeline::CellOwner::kStrongest;
+  Recorder recorder(config, calib::Hdl64eCalibration{});
+  recorder.decode_all(to_packets(firings));
+  recorder.flush();
+  ASSERT_EQ(recorder.returns(), 2U);
+  const std::vector<Frame::Echo>& echoes = recorder.frames.at(0).echoes;
+  EXPECT_EQ(echoes[0].column, echoes[1].column);
+  EXPECT_EQ(echoes[0].point.intensity, 10);
+  EXPECT_FALSE(echoes[0].overflow);
+  EXPECT_TRUE(echoes[1].overflow);
+}
+
+TEST(Hdl64eDecoder, ARestartAtAnotherSpinRateForgetsTheStepBefore) {
+  const auto slow = random_packets({.last_cdeg = 34'900 + 3 * 36'000, .step_deg = 0.0864});
+  auto fast = random_packets({.step_deg = 0.3456});
+  fast.erase(fast.begin() + 50, fast.begin() + 52);
+  Recorder recorder;
+  recorder.decode_all(slow);
+  recorder.flush();
+  recorder.decode_all(fast);
+  recorder.flush();
+  EXPECT_NEAR(recorder.decoder.step_deg(), 0.3456, 0.002);
+  EXPECT_EQ(recorder.decoder.losses().azimuth_hole_columns, 12U);
+}
+
 TEST(Hdl64eDecoder, RefusesSettingsOutsideTheirRange) {
   Recorder::Config config;
   config.columns = 0;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -81,6 +82,28 @@ TEST_F(FrameBuilderTest, LeavesAnImageAloneUntilTheNextHandOver) {
     }
     builder.place(turn + 1, 1, 1, {});
     ASSERT_EQ(handed.back().image->returns(), handed.back().info.returns);
+  }
+}
+
+TEST_F(FrameBuilderTest, LeavesAnImageAloneAsLongAsItHasOthers) {
+  for (int images = 3; images <= 6; ++images) {
+    FrameBuilder many(small(images), memory);
+    handed.clear();
+    many.start(0, 0);
+    for (std::int64_t turn = 0; turn < 20; ++turn) {
+      many.place(turn, 0, 0, {});
+      many.place(turn + 1, 0, 0, {});
+      many.roll(keep());
+      // All that were handed over and may be looked at still, the newest last.
+      const std::size_t kept = std::min(handed.size(), static_cast<std::size_t>(images - 2));
+      for (std::size_t back = 1; back <= kept; ++back) {
+        const Handed& frame = handed[handed.size() - back];
+        ASSERT_EQ(frame.image->returns(), frame.info.returns) << images << ", " << back;
+        for (std::size_t other = 1; other < back; ++other) {
+          ASSERT_NE(frame.image, handed[handed.size() - other].image) << images;
+        }
+      }
+    }
   }
 }
 

@@ -260,7 +260,8 @@ TEST(Hdl64eGeometry, RawOnPlanePutsThePointOnThePlane) {
 
 TEST(Hdl64eGeometry, RawOnPlaneIsTheSameHoweverLongTheNormal) {
   const Hdl64eGeometry geometry(nominal_hdl64e());
-  const Point hit{10.3, -2.1, -1.6};
+  Point hit = geometry.point(40, 0.2, 5000);
+  hit.z_m += 0.2;  // the first guess is near, but off the plane
   const auto counts = geometry.raw_on_plane(40, 0.2, hit, {0, 0, 1});
   ASSERT_TRUE(counts.has_value());
   for (const double length : {1e-9, 1e9}) {

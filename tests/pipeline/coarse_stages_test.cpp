@@ -60,7 +60,9 @@ test::BeamCast strips_behind_ditches(std::mt19937& random) {
     strips.push_back(
         {end_rad, ditch_m, ditch_m + wide_m, between(-0.5, 0.5) * wide_m, between(-0.5, 0.2)});
   }
-  return [strips, &random](double azimuth_rad, double elevation_rad) {
+  const double first_rad = between(0, 2 * std::numbers::pi);  // some strip lies across the seam
+  return [strips, first_rad, &random](double azimuth_rad, double elevation_rad) {
+    azimuth_rad = std::fmod(azimuth_rad + first_rad, 2 * std::numbers::pi);
     const double fate = std::uniform_real_distribution<double>(0, 1)(random);
     if (fate < 0.1) return -1.0;
     const auto strip = std::ranges::find_if(

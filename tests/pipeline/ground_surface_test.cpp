@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "tests/support/synthetic_turn.hpp"
@@ -157,6 +158,35 @@ TEST_F(SurfaceOverGrid, BorrowsAcrossTheSeamFromOneSideAlone) {
     }
     estimate();
     EXPECT_NEAR(at(is_right ? 0 : grid.sectors() - 1, 40.0F), true_m, 0.25F);
+  }
+}
+
+TEST_F(SurfaceOverGrid, LendsGroundThatTheLastSectorsTellToAllThatWereSettledBefore) {
+  // Behind a ditch there is ground on a strip across the seam only; its part to the right of it is
+  // too narrow to be ground by itself.
+  fill([](float range_m) {
+    return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : 9;
+  });
+  constexpr int kRight = 3, kLeft = 8, kFirst = 14, kSettled = 60, kWalked = 80;
+  for (int n = -kLeft; n < kRight; ++n) {
+    for (int band = grid.band_of(16.5F); band < grid.bands(); ++band) {
+      lowest[grid.cell(grid.wrapped(n), band)].height_m = 0.8F;
+    }
+  }
+  estimate();
+  const std::vector<float> expected(surface.height_m().begin(), surface.height_m().end());
+  EXPECT_GT(at(1, 20.0F), 0.7F);
+
+  surface.forget();
+  surface.walk(grid, {0, kWalked}, lowest);
+  surface.settle(grid, {kFirst, kSettled}, lowest);
+  surface.walk(grid, {kWalked, grid.sectors()}, lowest);
+  std::vector<std::uint8_t> is_current(static_cast<std::size_t>(grid.sectors()), 1);
+  surface.settle_rest(grid, lowest, is_current);
+  EXPECT_TRUE(std::ranges::equal(surface.height_m(), expected));
+  // Ground is lent over 14 sectors, so to those from 14 to 16 by the strip's.
+  for (int sector = kFirst; sector < kSettled; ++sector) {
+    EXPECT_EQ(is_current[static_cast<std::size_t>(sector)], sector >= kFirst + kRight) << sector;
   }
 }
 

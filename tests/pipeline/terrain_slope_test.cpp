@@ -15,7 +15,8 @@ namespace {
 struct SlopeOfATurn : testing::Test {
   static constexpr ImageShape kShape{64, 1000};
 
-  /// Fits a world of ground whose height is a function of the place, seen from right above it.
+  /// Fits a world of ground whose height is a function of the place, seen from right above it;
+  /// there is none where that is NaN.
   void fit(const std::function<float(float x, float y)>& height) {
     image.clear();
     const calib::RingProfile profile = test::even_profile();
@@ -28,6 +29,7 @@ struct SlopeOfATurn : testing::Test {
         planes.height_m[cell] = NAN;
         if (!image.has_return(cell)) continue;
         const float x = image.x_m()[cell], y = image.y_m()[cell];
+        if (std::isnan(height(x, y))) continue;
         raised.place(row, column, {x, y, height(x, y), image.ground_range_m()[cell], 0});
         planes.label[cell] = Label::kGround;
         planes.height_m[cell] = 0;
@@ -51,6 +53,17 @@ TEST_F(SlopeOfATurn, IsThatOfAPlane) {
     EXPECT_NEAR(slope.at(x, 3).along_y, -0.05F, 0.015F) << x;
   }
   EXPECT_NEAR(slope.at(10, 0).rise_m(2, 2), 0.1F, 0.03F);
+}
+
+TEST_F(SlopeOfATurn, IsThatOfALongStrip) {
+  // 12 m wide: what is known across it counts for less than what is along it, but not for nothing.
+  for (const bool is_across : {false, true}) {
+    fit([is_across](float x, float y) {
+      return std::fabs(is_across ? x : y) < 6 ? 0.1F * x - 0.05F * y : NAN;
+    });
+    EXPECT_NEAR(slope.at(0, 0).along_x, 0.1F, 0.03F) << is_across;
+    EXPECT_NEAR(slope.at(0, 0).along_y, -0.05F, 0.02F) << is_across;
+  }
 }
 
 TEST_F(SlopeOfATurn, IsKnownByPatchAsByPlace) {

@@ -21,13 +21,14 @@ Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan) {
   const RecordLayout layout{"point of 4 float32 (x y z remission)", sizeof(ScanPoint),
                             kMaxScanPoints};
   scan.labels.clear();
-  scan.non_finite = 0;
+  scan.no_place = 0;
   if (const Status status = read_records(bin_file, layout, scan.points); !status) return status;
-  scan.non_finite = static_cast<std::size_t>(std::count_if(
+  scan.no_place = static_cast<std::size_t>(std::count_if(
       scan.points.begin(), scan.points.end(), [](const ScanPoint& p) { return !is_place(p); }));
-  if (scan.non_finite == scan.points.size()) {
+  if (scan.no_place == scan.points.size()) {
     return fail(ErrorCode::kMalformed,
-                fmt::format("{}: none of the {} points is finite; expected float32 x y z remission",
+                fmt::format("{}: none of the {} points is finite and not null; expected float32 x "
+                            "y z remission",
                             bin_file.string(), scan.points.size()));
   }
   return {};

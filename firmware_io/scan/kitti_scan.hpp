@@ -21,9 +21,11 @@ struct ScanPoint {
   float remission = 0;  ///< 0..1
 };
 
-/// False for points that are no place: NaN, infinite, or farther than any return can be (10 km).
+/// False for points that are no place: NaN, infinite, farther than any return can be (10 km), or
+/// the null point (0, 0, 0), which many programs write where a beam had no return.
 [[nodiscard]] inline bool is_place(const ScanPoint& point) noexcept {
   constexpr float kFarthest_m = 1e4F;
+  if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return false;
   return std::abs(point.x_m) <= kFarthest_m && std::abs(point.y_m) <= kFarthest_m &&
          std::abs(point.z_m) <= kFarthest_m;
 }
@@ -45,12 +47,12 @@ struct ScanPoint {
 struct KittiScan {
   std::vector<ScanPoint> points;      ///< In the file's order: ring after ring from the top.
   std::vector<std::uint32_t> labels;  ///< SemanticKITTI labels of the points; empty without a file.
-  std::size_t non_finite = 0;         ///< Points with is_place() false; they stay in the list.
+  std::size_t no_place = 0;           ///< Points with is_place() false; they stay in the list.
 };
 
 /// Reads a KITTI `.bin` (little-endian float32 x y z remission a point, no header) into `scan`; its
 /// labels are emptied. Errors: kNotFound, kUnreadable, kMalformed (empty, truncated, too large, no
-/// finite point), naming the file.
+/// point that is a place), naming the file.
 [[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan);
 
 /// The same with the labels of `label_file`, one for every point; a differing count is kMalformed.

@@ -6,26 +6,34 @@
 
 #include <algorithm>
 #include <array>
+#include <bitset>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 namespace terracut::firmware_io {
 namespace {
 
 constexpr double kHalfTurn_rad = std::numbers::pi;
 constexpr double kJitter_rad = std::numbers::pi / 18;  // steps back over the seam, see the header
+/// A fall of the azimuth that no jitter makes: recorded rings fall by 10 degrees at most. A ring of
+/// a cropped view ends with one, which need not lead past straight ahead.
+constexpr double kCroppedFall_rad = std::numbers::pi / 9;
 constexpr int kMaxSegments = 4 * kScanRings;
 constexpr std::size_t kMinFirstRingPoints = 8;  // fewer before the first crossing are its jitter
 
-/// Follows the azimuth of a file and counts how often it passed straight ahead.
-class CrossingCounter {
+/// Follows the azimuth of a file and counts how often it fell by more than `fall_rad`: by half a
+/// turn, past straight ahead.
+class FallCounter {
  public:
+  explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}
+
   int ring_at(const ScanPoint& point) {
     const double azimuth = 2 * kHalfTurn_rad - azimuth_rad(point.x_m, point.y_m);
     const double counter_clockwise = azimuth < 2 * kHalfTurn_rad ? azimuth : 0.0;
     if (started_) {
       const double step = counter_clockwise - last_rad_;
-      if (step < -kHalfTurn_rad) ++ring_;
+      if (step < -fall_rad_) ++ring_;
       const bool back_over_the_seam =
           last_rad_ < kJitter_rad && counter_clockwise > 2 * kHalfTurn_rad - kJitter_rad;
       if (back_over_the_seam && ring_ > 0) --ring_;
@@ -36,9 +44,29 @@ class CrossingCounter {
   }
 
  private:
+  double fall_rad_;
   bool started_ = false;
   double last_rad_ = 0;
   int ring_ = 0;
+};
+
+/// The directions a segment has points in.
+class Directions {
+ public:
+  void add(const ScanPoint& point) {
+    constexpr double kPerRad = kBins / (2 * kHalfTurn_rad);
+    const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
+    seen_.set(std::min(bin, kBins - 1));
+  }
+  /// A laser looks in each direction once a turn: the halves of a torn ring overlap a little at
+  /// most, where jitter tore it.
+  [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
+    return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
+  }
+
+ private:
+  static constexpr std::size_t kBins = 360;
+  std::bitset<kBins> seen_;
 };
 
 /// Cost of calling a segment a ring: how far the middle one of its points is off the ring's line,
@@ -46,14 +74,18 @@ class CrossingCounter {
 class AlignmentCost {
  public:
   static constexpr double kCap_rad = 0.02;
-  static constexpr double kSharing_rad = 0.001;  // two segments of one laser: possible, but rare
+  static constexpr double kTorn_rad = 0.001;  // two segments of one laser: possible, but rare
 
   AlignmentCost(std::span<const ScanPoint> points, const RingRecovery& split)
       : cost_(static_cast<std::size_t>(split.rings)),
         points_(cost_.size()),
+        directions_(cost_.size()),
         samples_(cost_.size()) {
-    for (const std::int16_t ring : split.ring_of_point) {
-      if (ring != kNoRing) ++points_[static_cast<std::size_t>(ring)];
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (split.ring_of_point[i] == kNoRing) continue;
+      const auto segment = static_cast<std::size_t>(split.ring_of_point[i]);
+      ++points_[segment];
+      directions_[segment].add(points[i]);
     }
     std::vector<std::size_t> seen(cost_.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -88,6 +120,11 @@ class AlignmentCost {
   [[nodiscard]] double points(std::size_t segment) const {
     return static_cast<double>(points_[segment]);
   }
+  /// Of giving a segment the ring of the one before it.
+  [[nodiscard]] double sharing(std::size_t segment) const {
+    const bool torn = directions_[segment].may_be_of_one_laser(directions_[segment - 1]);
+    return (torn ? kTorn_rad : kCap_rad) * points(segment);
+  }
   [[nodiscard]] std::size_t segments() const { return cost_.size(); }
 
  private:
@@ -95,6 +132,7 @@ class AlignmentCost {
 
   std::vector<std::array<double, kScanRings>> cost_;
   std::vector<std::size_t> points_;
+  std::vector<Directions> directions_;
   std::vector<std::vector<ScanPoint>> samples_;
 };
 
@@ -107,11 +145,11 @@ std::vector<int> cheapest_order(const AlignmentCost& cost) {
   Row best{};
   for (std::size_t segment = 0; segment < cost.segments(); ++segment) {
     Row next{};
+    const double sharing = segment == 0 ? kNever : cost.sharing(segment);
     double lowest = segment == 0 ? 0.0 : kNever;  // the best that ends on an earlier ring
     std::int16_t lowest_ring = 0;
     for (std::size_t ring = 0; ring < next.size(); ++ring) {
-      const double shared =
-          segment == 0 ? kNever : best[ring] + AlignmentCost::kSharing_rad * cost.points(segment);
+      const double shared = best[ring] + sharing;
       const bool shares = shared < lowest;
       came_from[segment][ring] = shares ? static_cast<std::int16_t>(ring) : lowest_ring;
       next[ring] = std::min(shared, lowest) + cost.off_rad(segment, ring) * cost.points(segment);
@@ -131,14 +169,13 @@ std::vector<int> cheapest_order(const AlignmentCost& cost) {
   return ring_of_segment;
 }
 
-}  // namespace
-
-Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery) {
+/// Splits where the azimuth falls by more than `fall_rad`.
+Status split_at_falls(std::span<const ScanPoint> points, double fall_rad, RingRecovery& recovery) {
   recovery.ring_of_point.resize(points.size());
   recovery.no_ring = 0;
   recovery.rings = 0;
   recovery.aligned = false;
-  CrossingCounter counter;
+  FallCounter counter(fall_rad);
   std::size_t in_first = 0;
   int last = -1;
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -160,7 +197,8 @@ Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recover
     recovery.ring_of_point[i] = static_cast<std::int16_t>(ring);
   }
   if (last < 0) {
-    return fail(ErrorCode::kMalformed, "no finite point, so no ring; expected a KITTI scan");
+    return fail(ErrorCode::kMalformed,
+                "no point that is finite and not null, so no ring; expected a KITTI scan");
   }
   if (last > 0 && in_first < kMinFirstRingPoints) {  // the file starts just before straight ahead
     for (std::int16_t& ring : recovery.ring_of_point) {
@@ -169,6 +207,17 @@ Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recover
     --last;
   }
   recovery.rings = last + 1;
+  return {};
+}
+
+}  // namespace
+
+Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery) {
+  if (const Status split = split_at_falls(points, kHalfTurn_rad, recovery); !split) return split;
+  if (recovery.rings == kScanRings) return {};
+  RingRecovery cropped;
+  const Status split = split_at_falls(points, kCroppedFall_rad, cropped);
+  if (split && cropped.rings > recovery.rings) recovery = std::move(cropped);
   return {};
 }
 
@@ -188,6 +237,18 @@ Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
     }
     if (ring == kNoRing) ++recovery.no_ring;
   }
+  const auto places = static_cast<std::size_t>(
+      std::count_if(points.begin(), points.end(), [](const ScanPoint& p) { return is_place(p); }));
+  const std::size_t with_ring = points.size() - recovery.no_ring;
+  if (2 * with_ring < places) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("{} rings by the order of the points, expected {}; by their elevations the "
+                    "laser of only {} of {} points could be told. Expected ring after ring from "
+                    "the top, as the original KITTI files are: sort the points so, or, where they "
+                    "are, give the unit's own table with --calibration",
+                    recovery.rings, kScanRings, with_ring, places));
+  }
   recovery.rings = kScanRings;
   recovery.aligned = true;
   return {};
@@ -201,9 +262,8 @@ Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
   return fail(
       ErrorCode::kUnsupported,
       fmt::format("{} rings by the order of the points, expected {}; a scan with missing or "
-                  "torn rings needs a table to align them by: give a calibration, or at "
-                  "least one scan of the same sensor with all {} rings",
-                  recovery.rings, kScanRings, kScanRings));
+                  "torn rings needs a table to align them by: give a calibration",
+                  recovery.rings, kScanRings));
 }
 
 }  // namespace terracut::firmware_io

@@ -18,26 +18,30 @@ namespace terracut::firmware_io {
 struct RingRecovery {
   std::vector<std::int16_t> ring_of_point;  ///< 0 (top) .. rings - 1; kNoRing for points without.
   int rings = 0;                            ///< Rings found in the file's order.
-  std::size_t no_ring = 0;                  ///< Points with kNoRing, the not finite ones included.
+  std::size_t no_ring = 0;                  ///< Points with kNoRing, those that are no place too.
   bool aligned = false;                     ///< Renumbered by align_rings().
 };
 
 /// What the paper calls backtracking: KITTI files hold ring after ring from the top, each counter-
 /// clockwise from straight ahead, so a new ring starts where the azimuth falls back past straight
 /// ahead (with x > 0, y goes from negative to >= 0; -0.0 is 0). Steps back over that line by less
-/// than ten degrees, as motion compensation makes them, stay in their ring. Points that are not
-/// finite get kNoRing. Errors: kMalformed when no point is finite or when there are many more
-/// crossings than any scan in ring order has (a shuffled or otherwise sorted file).
+/// than ten degrees, as motion compensation makes them, stay in their ring. Where that does not
+/// give 64 rings, the view may be cropped, with nothing straight ahead: then every fall by more
+/// than 20 degrees starts one. Points that are no place (is_place()) get kNoRing. Errors:
+/// kMalformed when no point is one or when there are many more crossings than any scan in ring
+/// order has (a shuffled or otherwise sorted file).
 [[nodiscard]] Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery);
 
 /// Renumbers the rings of a split whose count is not 64 (a laser without any return, a ring torn in
-/// two) by the known elevations: the assignment that keeps the order and has the least angular
-/// error; rings that fit no laser get kNoRing. After it, rings is 64.
+/// two, a cropped view) by the known elevations: the assignment that keeps the order and has the
+/// least angular error. Rings that look in the same directions are not of one laser; rings that fit
+/// no laser get kNoRing. After it, rings is 64. Error: kMalformed where less than half of the
+/// points fit one, as in a file that is in another order.
 [[nodiscard]] Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
                                  RingRecovery& recovery);
 
 /// split_into_rings(), then align_rings() where the count is not 64. Without a table (nullptr) such
-/// a scan is an error (kUnsupported) that says how to get one.
+/// a scan is an error (kUnsupported).
 [[nodiscard]] Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
                                    RingRecovery& recovery);
 

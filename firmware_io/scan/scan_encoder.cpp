@@ -50,8 +50,8 @@ std::int32_t choose_tolerance(std::span<const std::vector<WantedBeam>, calib::kH
 
 std::string_view to_string(NotEncoded reason) noexcept {
   switch (reason) {
-    case NotEncoded::kNonFinite:
-      return "non_finite";
+    case NotEncoded::kNoPlace:
+      return "no_place";
     case NotEncoded::kUnknownRing:
       return "no_ring";
     case NotEncoded::kTooNear:
@@ -124,7 +124,7 @@ Status ScanEncoder::add_turn(std::span<const ScanPoint> points,
   summary_.points += points.size();
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!is_place(points[i])) {
-      count(NotEncoded::kNonFinite);
+      count(NotEncoded::kNoPlace);
       continue;
     }
     if (ring_of_point[i] == kNoRing) {

@@ -24,7 +24,7 @@ namespace terracut::firmware_io {
 
 /// Why a point of a scan is not among the encoded returns.
 enum class NotEncoded : std::uint8_t {
-  kNonFinite,    ///< is_place() is false: NaN, infinite or absurdly far.
+  kNoPlace,      ///< is_place() is false: null, NaN, infinite or absurdly far.
   kUnknownRing,  ///< No laser could be told for it.
   kTooNear,      ///< Its distance is below what the calibration can say (raw count < 1).
   kTooFar,       ///< Its distance is beyond the wire's 65535 counts.

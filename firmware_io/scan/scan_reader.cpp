@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "calib/nominal_hdl64e.hpp"
 #include "firmware_io/scan/motion_compensation.hpp"
 
 namespace terracut::firmware_io {
@@ -76,19 +77,32 @@ Expected<FittedRings> ScanReader::fit_rings() {
   Error last{ErrorCode::kMalformed, ""};
   std::size_t used = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    // Without all rings a scan is of no use here, and aligned with the table later. One that cannot
-    // be read says so when its turn comes.
+    // What cannot be read says so when its turn comes; a scan without all rings is aligned later,
+    // with the table of those that have them.
     if (const Status status = read(i * size() / count, scan, rings); !status) {
-      last = status.error();
+      if (used == 0 && last.code != ErrorCode::kUnsupported) last = status.error();
       continue;
+  auto fitted = fit_to_scans();
+  if (!fitted && fitted.error().code == ErrorCode::kUnsupported) {
+    // No scan has all rings. Any unit's table is near enough to tell the lasers apart, and one that
+    // was fitted so is near enough to put right those that were off.
+    table_ = ring_table(calib::nominal_hdl64e());
+    fitted = fit_to_scans();
+    if (fitted) table_ = fitted->table;
+    if (fitted) fitted = fit_to_scans();
+    if (fitted) fitted->told_by_nominal_table = true;
+  }
+  if (fitted) table_ = fitted->table;
+  return fitted;
+}
+
+Expected<FittedRings> ScanReader::fit_to_scans() const {
     }
     fit.add(scan.points, rings.ring_of_point);
     ++used;
   }
   if (used == 0) return tl::unexpected(std::move(last));
-  auto fitted = fit.fit();
-  if (fitted) table_ = fitted->table;
-  return fitted;
+  return fit.fit();
 }
 
 }  // namespace terracut::firmware_io

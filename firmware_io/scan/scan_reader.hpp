@@ -38,7 +38,9 @@ class ScanReader {
   [[nodiscard]] Expected<std::optional<SensorTwist>> twist(std::size_t index) const;
 
   /// Fits the unit's ring table from the scans that have all 64 rings and uses it from then on.
-  /// Scans that cannot be read are left out; the error is that of the last one where none can.
+  /// Where none has, as in cropped views, the rings are told apart by a nominal unit's table first:
+  /// a row may then be its neighbour's, but its elevation is that of its points. Scans that cannot
+  /// be read are left out; the error is that of one of them where none can.
   [[nodiscard]] Expected<FittedRings> fit_rings();
   void use_rings(const RingTable& table) { table_ = table; }
 
@@ -49,3 +51,5 @@ class ScanReader {
 };
 
 }  // namespace terracut::firmware_io
+  [[nodiscard]] Expected<FittedRings> fit_to_scans() const;
+

@@ -25,7 +25,7 @@ ScanToImage::Summary ScanToImage::place(std::span<const ScanPoint> points,
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ScanPoint& p = points[i];
     if (!is_place(p)) {
-      ++summary.non_finite;
+      ++summary.no_place;
       label_without_return_[i] = pipeline::Label::kNone;
       continue;
     }

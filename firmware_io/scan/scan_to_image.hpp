@@ -28,8 +28,8 @@ class ScanToImage {
  public:
   struct Summary {
     std::size_t placed = 0;
-    std::size_t non_finite = 0;     ///< is_place() is false; labelled pipeline::Label::kNone.
-    std::size_t no_ring = 0;        ///< Finite, but of no ring; labelled kObstacle, the safe side.
+    std::size_t no_place = 0;       ///< is_place() is false; labelled pipeline::Label::kNone.
+    std::size_t no_ring = 0;        ///< A place, but of no ring; labelled kObstacle, the safe side.
     std::size_t overflow_full = 0;  ///< Their cell and the overflow list were taken; kObstacle.
   };
 

@@ -144,6 +144,72 @@ TEST_F(CliScans, BecomeASyntheticRuby128DriveThatSaysSo) {
 }
 
 TEST_F(CliScans, ThatAreDamagedAreRefusedByName) {
+TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  expect_done("segment scans --labels without");
+  std::ofstream(folder_ / "scans/velodyne/000000.bin", std::ios::binary | std::ios::app)
+      << std::string(16, '\0');
+  std::ofstream(folder_ / "scans/labels/000000.label", std::ios::binary | std::ios::app)
+      << std::string(4, '\0');
+  const Outcome outcome = run("segment scans --labels with --json report.json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("1 points null or not finite, labelled 0"));
+  EXPECT_EQ(json("report.json")["summary"]["points_no_place"], 1);
+  auto expected = ids_of(folder_ / "without" / "000000.label");
+  expected.push_back(0);
+  EXPECT_EQ(ids_of(folder_ / "with" / "000000.label"), expected);
+}
+
+TEST_F(CliScans, ThatAreNotInRingOrderAreTakenWithTheUnitsTableOrRefusedWithACure) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  fs::remove_all(folder_ / "scans/labels");
+  const fs::path bin = folder_ / "scans/velodyne/000000.bin";
+  const std::string file = content_of(bin);
+  // The upper half of the rings is missing, and all the others but the right side.
+  std::string cropped;
+  for (std::size_t i = file.size() / 32 * 16; i < file.size(); i += 16) {
+    float y_m = 0;
+    std::memcpy(&y_m, file.data() + i + 4, 4);
+    if (y_m > 0) cropped += file.substr(i, 16);
+  }
+  std::ofstream(bin, std::ios::binary) << cropped;
+  const std::string table = " --calibration " + quoted(kDriveCalibration);
+  for (const std::string& with : {std::string(), table}) {
+    expect_done("segment scans --labels labels" + with);
+    EXPECT_EQ(ids_of(folder_ / "labels" / "000000.label").size(), cropped.size() / 16);
+  }
+  std::string reversed;
+  for (std::size_t i = file.size(); i > 0; i -= 16) reversed += file.substr(i - 16, 16);
+  std::ofstream(bin, std::ios::binary) << reversed;
+  const Outcome refused = run("segment scans");
+  EXPECT_EQ(refused.exit_code, 3);
+  EXPECT_THAT(refused.err, HasSubstr("000000.bin"));
+  EXPECT_THAT(refused.err, HasSubstr("--calibration"));
+}
+
+TEST_F(CliScans, AreEncodedWithTheirMotionPutBackWherePosesLieBesideThem) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  Outcome outcome = run("encode scans -o drive.pcap");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("as recorded: poses.txt is missing beside velodyne/"));
+  EXPECT_THAT(outcome.err, testing::Not(HasSubstr("heights are off")));
+  // Far faster than the scan was made: putting that back bends the ground, which is said.
+  write("scans/poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 5\n");
+  write("scans/times.txt", "0\n0.1\n");
+  outcome = run("encode scans -o bent.pcap --calibration drive.calibration.xml");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("put back, by poses.txt and times.txt"));
+  EXPECT_THAT(outcome.err, HasSubstr("heights are off by"));
+  EXPECT_THAT(outcome.err, HasSubstr("--calibration may be of another unit"));
+  outcome = run("encode scans -o kept.pcap --keep-compensation");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("as recorded: so it was asked for"));
+  EXPECT_EQ(run("encode scans -o x.pcap --keep-compensation --undo-compensation").exit_code, 2);
+}
+
   fs::create_directories(folder_ / "scans");
   write("scans/000000.bin", "seventeen bytes!!");
   for (const std::string command : {"segment scans", "encode scans -o x.pcap"}) {

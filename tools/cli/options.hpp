@@ -85,6 +85,7 @@ struct ReplayOptions {
 
 struct SegmentOptions {
   std::filesystem::path scans;
+  std::filesystem::path calibration;  ///< Empty: fitted from the scans.
   MountOptions mount;
   MethodOptions method;
   OutputOptions output;  ///< truth is not used: it lies beside the scans

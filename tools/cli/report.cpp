@@ -180,6 +180,14 @@ std::string Report::text() const {
   if (!device_clock_.empty()) text += "clock     " + device_clock_ + "\n";
   text += fmt::format("frames    {} ({} complete)\nreturns   {} in, {} labelled\n", records_.size(),
                       totals.complete, totals.returns_in, totals.returns_labelled);
+  if (scan_points_ && scan_points_->no_place > 0) {
+    text +=
+        fmt::format("          {} points null or not finite, labelled 0\n", scan_points_->no_place);
+  }
+  if (scan_points_ && scan_points_->no_ring > 0) {
+    text +=
+        fmt::format("          {} points of no ring, labelled obstacle\n", scan_points_->no_ring);
+  }
   if (quality_) {
     text += fmt::format("quality   IoU_g {:.2f} %, Recall_o {:.2f} %{}\n",
                         100 * quality_->iou_ground(), 100 * quality_->recall_key_obstacles(),
@@ -236,6 +244,10 @@ Status Report::write_json(const std::filesystem::path& path) const {
     summary["iou_g"] = quality_->iou_ground();
     summary["recall_o"] = quality_->recall_key_obstacles();
     summary["unscored_frames"] = unscored_;
+  }
+  if (scan_points_) {
+    summary["points_no_place"] = scan_points_->no_place;
+    summary["points_no_ring"] = scan_points_->no_ring;
   }
   if (motion_samples_) {
     const MotionSummary motion = motion_of(records_);

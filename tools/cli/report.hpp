@@ -84,6 +84,11 @@ class Report {
   void set_losses(const firmware_io::LossCounters& losses) { losses_ = losses; }
   /// Samples of the vehicle's motion there were; set where it was to be taken out of the turns.
   void set_motion_samples(std::uint64_t samples) { motion_samples_ = samples; }
+  /// Points of scan files that got no return: null or not finite, labelled 0; and of no ring,
+  /// labelled as obstacles.
+  void set_scan_points(std::uint64_t no_place, std::uint64_t no_ring) {
+    scan_points_ = {no_place, no_ring};
+  }
   /// What is known of the sensor's clock, for people.
   void set_device_clock(std::string text) { device_clock_ = std::move(text); }
   /// The run was ended before its work was done: what it reports is not of all its input.
@@ -109,7 +114,8 @@ class Report {
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
-  ///                   with truth iou_g, recall_o, unscored_frames; with a CAN recording motion{
+  ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
+  ///                   points_no_ring; with a CAN recording motion{
   ///                   samples, deskewed_frames, newest_sample_after_turn_ms{min, median, max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
@@ -120,6 +126,10 @@ class Report {
   std::optional<firmware_io::LossCounters> losses_;
   std::optional<pipeline::Quality> quality_;
   std::uint64_t unscored_ = 0;
+  struct ScanPoints {
+    std::uint64_t no_place, no_ring;
+  };
+  std::optional<ScanPoints> scan_points_;
   std::optional<std::uint64_t> motion_samples_;
   std::string device_clock_;
   std::string input_warning_;

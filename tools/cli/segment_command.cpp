@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/hdl64e_file.hpp"
 #include "commands.hpp"
 #include "console.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
@@ -32,6 +33,7 @@ struct ScanLabeller {
   std::vector<std::uint32_t> return_truth;
   pipeline::Quality quality;
   std::uint64_t scored = 0;
+  std::uint64_t no_place = 0, no_ring = 0;  ///< Points of all scans.
 
   ScanLabeller(const pipeline::MethodConfig& config, const calib::RingProfile& profile)
       : image(shape, shape.cells(), memory),
@@ -44,11 +46,13 @@ struct ScanLabeller {
     record.cut = segmenter.segment(image, &clock).cut;
     record.times = clock.take();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
-    record.returns_in = static_cast<std::uint32_t>(scan.points.size() - placed.non_finite);
+    record.returns_in = static_cast<std::uint32_t>(scan.points.size() - placed.no_place);
     record.returns_labelled = static_cast<std::uint32_t>(
         std::count_if(point_labels.begin(), point_labels.end(),
                       [](pipeline::Label label) { return label != pipeline::Label::kNone; }));
     record.losses.overflow_full_returns = placed.overflow_full;
+    no_place += placed.no_place;
+    no_ring += placed.no_ring;
     if (scan.labels.empty()) return;
     quality += pipeline::measure(point_labels, scan.labels);
     ++scored;
@@ -65,21 +69,39 @@ struct ScanLabeller {
   }
 };
 
+/// The unit's table, which the reader then tells rings by: the file's, else fitted to the scans.
+Expected<calib::Hdl64eCalibration> calibration_of(const SegmentOptions& options,
+                                                  firmware_io::ScanReader& reader) {
+  if (!options.calibration.empty()) {
+    auto calibration = calib::load_hdl64e_calibration(options.calibration);
+    if (calibration) reader.use_rings(firmware_io::ring_table(*calibration));
+    return calibration;
+  }
+  const auto fitted = reader.fit_rings();
+  if (!fitted) return tl::unexpected(fitted.error());
+  say(fmt::format("calibration: fitted to the scans, height residual {:.1f} cm (p95)",
+                  100 * fitted->residual.p95_m));
+  if (fitted->told_by_nominal_table) {
+    say("             no scan has all rings, so they were told apart by a nominal unit's table; "
+        "--calibration takes the unit's own");
+  }
+  calib::Hdl64eCalibration calibration = firmware_io::hdl64e_calibration(fitted->table);
+  calibration.origin = "fitted to the scans";
+  return calibration;
+}
+
 }  // namespace
 
 ExitCode run(const SegmentOptions& options) {
   catch_stop_signals();
   auto reader = firmware_io::ScanReader::open(options.scans);
   if (!reader) return refuse(reader.error());
-  const auto fitted = reader->fit_rings();
-  if (!fitted) return refuse(fitted.error());
-  const calib::Hdl64eCalibration calibration = firmware_io::hdl64e_calibration(fitted->table);
-  const auto profile = ring_profile_of(calibration, options.mount);
+  const auto calibration = calibration_of(options, *reader);
+  if (!calibration) return refuse(calibration.error());
+  const auto profile = ring_profile_of(*calibration, options.mount);
   if (!profile) return refuse(profile.error());
   const std::string calibration_line =
-      fmt::format("fitted to the scans, fingerprint {:016x}", fingerprint(calibration));
-  say(fmt::format("calibration: {}, height residual {:.1f} cm (p95)", calibration_line,
-                  100 * fitted->residual.p95_m));
+      fmt::format("{}, fingerprint {:016x}", calibration->origin, fingerprint(*calibration));
 
   ScanLabeller labeller(method_config_of(options.method), *profile);
   FrameOutputs outputs(options.output);
@@ -107,6 +129,7 @@ ExitCode run(const SegmentOptions& options) {
     progress.update(static_cast<double>(i + 1));
   }
   if (labeller.scored > 0) report.set_quality(labeller.quality, report.frames() - labeller.scored);
+  report.set_scan_points(labeller.no_place, labeller.no_ring);
   return conclude_with(report, options.output.json);
 }
 

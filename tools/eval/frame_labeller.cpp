@@ -58,8 +58,8 @@ FrameResult FrameLabeller::label(std::size_t index) {
 
 void FrameLabeller::count(FrameResult& result) const {
   result.points = scan_->points.size();
-  result.non_finite = scan_->non_finite;
-  result.no_ring = rings_->no_ring - scan_->non_finite;
+  result.non_finite = scan_->no_place;
+  result.no_ring = rings_->no_ring - scan_->no_place;
   result.not_placed =
       result.points - result.non_finite - result.no_ring - placed_.point_of_return.size();
   for (std::size_t i = 0; i < labels_.size(); ++i) {

@@ -35,7 +35,7 @@ TEST(KittiScan, ReadsPointsAndLabelsInTheFilesOrder) {
   EXPECT_EQ(scan.points[2].y_m, -8.0F);
   EXPECT_EQ(scan.points[1].remission, 0.25F);
   EXPECT_EQ(semantic_class(scan.labels[1]), 10);
-  EXPECT_EQ(scan.non_finite, 0U);
+  EXPECT_EQ(scan.no_place, 0U);
 }
 
 TEST(KittiScan, ForgetsTheScanBeforeWhenItIsReused) {
@@ -101,10 +101,12 @@ TEST(KittiScan, CountsPointsThatAreNoPlaceAndKeepsTheirEntries) {
   points[1].x_m = 3e38F;
   points[2].z_m = -kInfinity;
   points.push_back({1, 0, -1, 0});
+  points.push_back({0, -0.0F, 0, 0.3F});  // null: no return, whatever its remission
+  points.push_back({0, 0, -1.7F, 0});
   KittiScan scan;
   ASSERT_TRUE(read_kitti_scan(folder.write_records("a.bin", points), scan));
-  EXPECT_EQ(scan.points.size(), 4U);
-  EXPECT_EQ(scan.non_finite, 3U);
+  EXPECT_EQ(scan.points.size(), 6U);
+  EXPECT_EQ(scan.no_place, 4U);
 }
 
 TEST(KittiScan, RefusesAScanWithoutAFinitePoint) {

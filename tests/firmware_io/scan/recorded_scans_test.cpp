@@ -3,9 +3,13 @@
 // Behaviour on the labelled scans beside the repository (shared/data/semantickitti).
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+
 #include "firmware_io/scan/scan_encoder.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "recorded_sequences.hpp"
+#include "scratch_folder.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -61,6 +65,73 @@ TEST(RecordedScans, KeepTheirRingsWhenOnesAreMissing) {
     }
     // Near rings of a moving scan lie half a degree apart, and compensation moved them by more.
     EXPECT_LE(wrong * 33, truth.size()) << sequence << ": " << wrong << " points in the next ring";
+  }
+}
+
+TEST(RecordedScans, KeepTheirRingsWhenANullPointEndsThem) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    KittiScan scan;
+    RingRecovery whole, with_null;
+    ASSERT_TRUE(reader_of(sequence, false).read(0, scan, whole));
+    scan.points.push_back({});
+    ASSERT_TRUE(recover_rings(scan.points, nullptr, with_null));
+    EXPECT_EQ(with_null.no_ring, 1U);
+    whole.ring_of_point.push_back(kNoRing);
+    EXPECT_EQ(with_null.ring_of_point, whole.ring_of_point) << sequence;
+  }
+}
+
+/// Shares of the points of each ring of `truth` that lie in the ring most of them lie in, and
+/// whether these go down the rows one by one.
+struct RowsKept {
+  double share = 0;
+  bool in_order = true;
+};
+RowsKept rows_kept(const std::vector<std::int16_t>& truth, const std::vector<std::int16_t>& found) {
+  std::array<std::array<std::size_t, kScanRings>, kScanRings> counts{};
+  for (std::size_t i = 0; i < truth.size(); ++i) {
+    if (found[i] == kNoRing) continue;
+    ++counts[static_cast<std::size_t>(truth[i])][static_cast<std::size_t>(found[i])];
+  }
+  RowsKept kept;
+  std::size_t in_main = 0;
+  std::ptrdiff_t last = -1;
+  for (const auto& of_ring : counts) {
+    const auto main = std::max_element(of_ring.begin(), of_ring.end());
+    if (*main == 0) continue;
+    in_main += *main;
+    kept.in_order = kept.in_order && main - of_ring.begin() > last;
+    last = main - of_ring.begin();
+  }
+  kept.share = static_cast<double>(in_main) / static_cast<double>(truth.size());
+  return kept;
+}
+
+TEST(RecordedScans, KeepARowForEachRingInACameraViewOfThem) {
+  TERRACUT_RECORDED_SEQUENCES(sequences);
+  for (const auto& sequence : sequences) {
+    const ScratchFolder folder;
+    KittiScan scan;
+    RingRecovery whole;
+    ASSERT_TRUE(reader_of(sequence, false).read(0, scan, whole));
+    std::vector<ScanPoint> points;
+    std::vector<std::int16_t> truth;
+    for (std::size_t i = 0; i < scan.points.size(); ++i) {  // 16 rings see nothing but the sky
+      const ScanPoint& p = scan.points[i];
+      if (whole.ring_of_point[i] < 16 || p.x_m < std::abs(p.y_m)) continue;
+      points.push_back(p);
+      truth.push_back(whole.ring_of_point[i]);
+    }
+    folder.write_records("000000.bin", points);
+    ScanReader reader = reader_of(folder.path(), false);
+    const auto fitted = reader.fit_rings();
+    ASSERT_TRUE(fitted) << sequence << ": " << fitted.error().message;
+    RingRecovery found;
+    ASSERT_TRUE(reader.read(0, scan, found));
+    const RowsKept kept = rows_kept(truth, found.ring_of_point);
+    EXPECT_GT(kept.share, 0.99) << sequence;
+    EXPECT_TRUE(kept.in_order) << sequence;
   }
 }
 

@@ -87,6 +87,70 @@ TEST(RingRecovery, GivesPointsThatAreNoPlaceNoRing) {
   EXPECT_EQ(misplaced(recovery, 2000), 2U);
 }
 
+TEST(RingRecovery, GivesNullPointsNoRingWhereverTheyStand) {
+  auto points = synthetic::scan(synthetic::table());
+  const auto null = [&](std::size_t first, std::size_t count) {
+    std::fill_n(points.begin() + static_cast<std::ptrdiff_t>(first), count, ScanPoint{});
+  };
+  null(0, 1);                   // where the file begins
+  null(7000, 1);                // inside a ring
+  null(20 * 2000 - 500, 1000);  // a run over the end of a ring
+  null(points.size() - 1, 1);   // where it ends
+  null(40 * 2000 + 1999, 1);    // a ring's last
+  points[40 * 2000 + 1999].remission = 0.5F;
+  RingRecovery recovery;
+  const Status status = recover_rings(points, nullptr, recovery);
+  ASSERT_TRUE(status) << status.error().message;
+  EXPECT_EQ(recovery.rings, 64);
+  EXPECT_EQ(recovery.no_ring, 1004U);
+  EXPECT_EQ(misplaced(recovery, 2000), 1004U);
+}
+
+TEST(RingRecovery, TellsRingsOfAViewWithNothingStraightAhead) {
+  const auto whole = synthetic::scan(synthetic::table());
+  const auto left = synthetic::cropped(whole, [](double deg) { return deg > 0; });
+  const auto behind = synthetic::cropped(whole, [](double deg) { return std::abs(deg) > 90; });
+  const auto right_front =
+      synthetic::cropped(whole, [](double deg) { return deg > -60 && deg < -10; });
+  for (const auto& points : {left, behind, right_front}) {
+    RingRecovery recovery;
+    const Status status = recover_rings(points, nullptr, recovery);
+    ASSERT_TRUE(status) << status.error().message;
+    EXPECT_EQ(recovery.rings, 64);
+    EXPECT_EQ(misplaced(recovery, static_cast<int>(points.size() / 64)), 0U);
+  }
+}
+
+TEST(RingRecovery, RingsThatLookTheSameWayAreNotOfOneLaser) {
+  const RingTable table = synthetic::table();
+  auto points = synthetic::scan(table);
+  synthetic::erase_ring(points, 50);
+  RingTable off = table;  // another unit's: 0.35 degrees off, more than half a ring below
+  for (RingLine& ring : off) ring.elevation_rad -= calib::deg_to_rad(0.35);
+  RingRecovery recovery;
+  ASSERT_TRUE(recover_rings(points, &off, recovery));
+  std::vector<int> rings;
+  for (std::size_t i = 0; i < points.size(); i += 2000) rings.push_back(recovery.ring_of_point[i]);
+  EXPECT_EQ(rings.size(), 63U);
+  EXPECT_TRUE(std::ranges::is_sorted(rings));
+  EXPECT_EQ(std::ranges::adjacent_find(rings), rings.end()) << "two lasers in one row";
+}
+
+TEST(RingRecovery, RefusesAFileThatIsSortedByColumns) {
+  const RingTable table = synthetic::table();
+  const auto rings = synthetic::scan(table);
+  std::vector<ScanPoint> columns;
+  for (std::size_t i = 0; i < 2000; ++i) {
+    for (std::size_t ring = 0; ring < 64; ++ring) columns.push_back(rings[ring * 2000 + i]);
+  }
+  RingRecovery recovery;
+  const Status status = recover_rings(columns, &table, recovery);
+  ASSERT_FALSE(status);
+  EXPECT_EQ(status.error().code, ErrorCode::kMalformed);
+  EXPECT_THAT(status.error().message, HasSubstr("sort the points"));
+  EXPECT_THAT(status.error().message, HasSubstr("--calibration"));
+}
+
 TEST(RingRecovery, AlignsByElevationWhereLasersHaveNoReturns) {
   const RingTable table = synthetic::table();
   auto points = synthetic::scan(table);

@@ -148,3 +148,40 @@ TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
 
 }  // namespace
 }  // namespace terracut::firmware_io
+TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
+  const ScratchFolder folder;
+  // What a camera sees of the scans: 45 degrees to either side, and the upper rings see nothing.
+  constexpr int kMissing = 18, kSeen = kScanRings - kMissing;
+  const RingTable truth = synthetic::table();
+  for (int scan = 0; scan < 3; ++scan) {
+    auto points = synthetic::scan(truth);
+    points.erase(points.begin(), points.begin() + std::ptrdiff_t{kMissing} * 2000);
+    points = synthetic::cropped(points, [](double deg) { return std::abs(deg) < 45; });
+    ASSERT_EQ(points.size() % kSeen, 0U);
+    points.push_back({});
+    folder.write_records("scans/00000" + std::to_string(scan) + ".bin", points);
+  }
+  auto reader = ScanReader::open(folder.path() / "scans");
+  ASSERT_TRUE(reader);
+  const auto fitted = reader->fit_rings();
+  ASSERT_TRUE(fitted) << fitted.error().message;
+  EXPECT_TRUE(fitted->told_by_nominal_table);
+  KittiScan scan;
+  RingRecovery rings;
+  ASSERT_TRUE(reader->read(2, scan, rings));
+  EXPECT_EQ(rings.no_ring, 1U);
+  EXPECT_EQ(rings.ring_of_point.back(), kNoRing);
+  const std::size_t per_ring = scan.points.size() / kSeen;
+  int last = -1;
+  for (int seen = 0; seen < kSeen; ++seen) {
+    const std::size_t first = static_cast<std::size_t>(seen) * per_ring;
+    const int ring = rings.ring_of_point[first];
+    EXPECT_GT(ring, last) << "a row of its own, in order";
+    last = ring;
+    EXPECT_EQ(rings.ring_of_point[first + per_ring - 1], ring);
+    EXPECT_NEAR(fitted->table[static_cast<std::size_t>(ring)].elevation_rad,
+                truth[static_cast<std::size_t>(kMissing + seen)].elevation_rad,
+                calib::deg_to_rad(0.03));
+  }
+}
+

@@ -166,7 +166,7 @@ TEST(ScanEncoder, AccountsForEveryPointItCannotEncode) {
   points[30] = {0.0005F, 0.0001F, 0, 0};                              // inside the first count
   for (std::size_t i = 0; i < 3; ++i) points[103 + i] = points[100];  // one firing, four points
   const RoundTrip trip(hdl64e_calibration(table), {points});
-  EXPECT_EQ(trip.not_encoded(NotEncoded::kNonFinite), 1U);
+  EXPECT_EQ(trip.not_encoded(NotEncoded::kNoPlace), 1U);
   EXPECT_EQ(trip.not_encoded(NotEncoded::kTooFar), 1U);
   EXPECT_EQ(trip.not_encoded(NotEncoded::kTooNear), 1U);
   EXPECT_GE(trip.not_encoded(NotEncoded::kCollision), 1U);

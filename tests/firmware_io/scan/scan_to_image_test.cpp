@@ -59,7 +59,7 @@ TEST(ScanToImage, BringsLabelsBackIntoTheFilesOrder) {
   const std::vector<std::int16_t> rings{5, kNoRing, 5, 5, kNoRing, 5};
   const auto summary = place.place(points, rings, image);
   EXPECT_EQ(summary.placed, 3U);
-  EXPECT_EQ(summary.non_finite, 1U);
+  EXPECT_EQ(summary.no_place, 1U);
   EXPECT_EQ(summary.no_ring, 1U);
   EXPECT_EQ(summary.overflow_full, 1U);
   EXPECT_EQ(image.returns(), 3U);

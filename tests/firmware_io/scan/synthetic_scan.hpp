@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <vector>
 
@@ -60,6 +62,17 @@ inline std::vector<ScanPoint> scan(const RingTable& rings, const World& world = 
 inline void erase_ring(std::vector<ScanPoint>& points, int ring, const World& world = {}) {
   const auto first = points.begin() + std::ptrdiff_t{ring} * world.points_per_ring;
   points.erase(first, first + world.points_per_ring);
+}
+
+/// What is left of a scan, in order, when only the azimuths for which `keep` is true are kept;
+/// degrees counter-clockwise from straight ahead, -180..180.
+template <class Keep>
+std::vector<ScanPoint> cropped(const std::vector<ScanPoint>& points, Keep&& keep) {
+  std::vector<ScanPoint> kept;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const ScanPoint& p) {
+    return keep(calib::rad_to_deg(std::atan2(double{p.y_m}, double{p.x_m})));
+  });
+  return kept;
 }
 
 }  // namespace terracut::firmware_io::synthetic

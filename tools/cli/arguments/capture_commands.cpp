@@ -31,6 +31,8 @@ void add_replay(CLI::App& sub, ReplayOptions& o) {
 void add_segment(CLI::App& sub, SegmentOptions& o) {
   sub.add_option("SCANS_DIR", o.scans, "Folder of .bin scans, or a SemanticKITTI sequence folder")
       ->required();
+  sub.add_option("--calibration", o.calibration,
+                 "Table of the unit that recorded them (default: one fitted to the scans)");
   add_mount(sub, o.mount);
   add_method(sub, o.method);
   add_rivals(sub, o.method);

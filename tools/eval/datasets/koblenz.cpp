@@ -79,16 +79,16 @@ Status read_numbered(const fs::path& path, NumberedScan& to) {
   to.scan.points.resize(points);
   to.scan.labels.resize(points);
   to.laser_of_point.resize(points);
-  to.scan.non_finite = 0;
+  to.scan.no_place = 0;
   for (std::size_t i = 0; i < points; ++i) {
     ScanPoint& point = to.scan.points[i];
     point = {static_cast<float>((*x)[i]), static_cast<float>((*y)[i]), static_cast<float>((*z)[i]),
              intensity ? static_cast<float>((*intensity)[i] / 255) : 0.0F};
     to.scan.labels[i] = static_cast<std::uint32_t>((*label)[i]);
     to.laser_of_point[i] = static_cast<std::int16_t>((*laser)[i]);
-    if (!is_place(point)) ++to.scan.non_finite;
+    if (!is_place(point)) ++to.scan.no_place;
   }
-  if (to.scan.non_finite < points) return {};
+  if (to.scan.no_place < points) return {};
   return fail(ErrorCode::kMalformed, file + ": no point is finite");
 }
 

@@ -104,8 +104,8 @@ TEST_F(KoblenzTest, LasersThatSawNothingCostOnlyTheirOwnPoints) {
   LabelledScan scan;
   ASSERT_TRUE((*sequence)->read(1, scan));
   EXPECT_EQ(scan.rings.rings, 63);
-  EXPECT_EQ(scan.scan.non_finite, std::size_t{MadeUpKoblenz::kPointsPerRing});
-  EXPECT_EQ(scan.rings.no_ring, scan.scan.non_finite);
+  EXPECT_EQ(scan.scan.no_place, std::size_t{MadeUpKoblenz::kPointsPerRing});
+  EXPECT_EQ(scan.rings.no_ring, scan.scan.no_place);
   EXPECT_EQ(scan.rings.ring_of_point[1], 0);
 }
 

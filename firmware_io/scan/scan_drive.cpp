@@ -2,12 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/scan/scan_drive.hpp"
 
+#include <fmt/format.h>
+
 #include <cstddef>
 #include <span>
 #include <utility>
 
 #include "firmware_io/motion/vehicle_log.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/turn_motion_log.hpp"
 
 namespace terracut::firmware_io {
@@ -33,14 +34,16 @@ SensorTwist turned_round(SensorTwist twist) {
 Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                              const std::filesystem::path& pcap_path,
                                              const ScanDriveOptions& options) {
-  if (options.can_log && !options.undo_compensation) {
-    return fail(ErrorCode::kInvalidArgument,
-                "a CAN log is of the motion that is put back: it needs undo_compensation");
-  }
-  auto reader = ScanReader::open(folder, options.undo_compensation);
+  auto reader = ScanReader::open(folder, options.motion);
   if (!reader) return tl::unexpected(std::move(reader.error()));
-
   ScanDriveReport report;
+  report.why_as_recorded = reader->why_as_recorded();
+  if (options.can_log && !report.why_as_recorded.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: a CAN log is of the motion that is put back into the scans, and "
+                            "none is: {}",
+                            folder.string(), report.why_as_recorded));
+  }
   if (options.calibration) {
     report.calibration = *options.calibration;
     reader->use_rings(ring_table(report.calibration));
@@ -95,7 +98,7 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
 Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folder,
                                               const std::filesystem::path& pcap_path,
                                               const ResampleOptions& options) {
-  auto reader = ScanReader::open(folder, options.undo_compensation);
+  auto reader = ScanReader::open(folder, options.motion);
   if (!reader) return tl::unexpected(std::move(reader.error()));
   if (auto fitted = reader->fit_rings(); !fitted) {
     return tl::unexpected(std::move(fitted.error()));
@@ -121,7 +124,7 @@ Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folde
   if (!rays) return tl::unexpected(rays.error());
   const auto drive = writer->finish();
   if (!drive) return tl::unexpected(drive.error());
-  return ResampleReport{*drive, *rays};
+  return ResampleReport{*drive, *rays, reader->why_as_recorded()};
 }
 
 }  // namespace terracut::firmware_io

@@ -6,12 +6,14 @@
 #include <filesystem>
 #include <functional>
 #include <optional>
+#include <string>
 
 #include "calib/hdl64e_calibration.hpp"
 #include "calib/nominal_ruby128.hpp"
 #include "firmware_io/drive/drive_writer.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "firmware_io/scan/scan_encoder.hpp"
+#include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_resampler.hpp"
 #include "rt/error.hpp"
 
@@ -21,12 +23,12 @@ namespace terracut::firmware_io {
 struct ScanDriveOptions {
   /// The unit's table; without one it is fitted from the scans themselves.
   std::optional<calib::Hdl64eCalibration> calibration;
-  bool undo_compensation = false;  ///< Put the sensor's motion back (needs poses.txt, times.txt).
-  /// Write the motion put back as a CAN log beside the capture (motion/vehicle_log.hpp), too; only
-  /// with undo_compensation. A recorded turn begins behind, a turn of packets straight ahead, so
-  /// the sensor is turned round: it looks backwards, and its vehicle drives backwards. Each turn
-  /// then is one scan, as it was measured; brought to its middle it is the recorded one, half a
-  /// turn round.
+  PutMotionBack motion = PutMotionBack::kWhereKnown;
+  /// Write the motion put back as a CAN log beside the capture (motion/vehicle_log.hpp), too;
+  /// kInvalidArgument where none is. A recorded turn begins behind, a turn of packets straight
+  /// ahead, so the sensor is turned round: it looks backwards, and its vehicle drives backwards.
+  /// Each turn then is one scan, as it was measured; brought to its middle it is the recorded one,
+  /// half a turn round.
   bool can_log = false;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;  ///< Capture time of the first firing.
   /// Progress; may be empty. An error ends the work and is passed on; nothing is written then.
@@ -37,6 +39,7 @@ struct ScanDriveOptions {
 struct ScanDriveReport {
   DriveSummary drive;
   EncodeSummary encoded;
+  std::string why_as_recorded;           ///< Empty where the motion was put back.
   std::optional<FittedRings> fitted;     ///< Where no calibration was given.
   calib::Hdl64eCalibration calibration;  ///< The one used.
 };
@@ -50,7 +53,7 @@ struct ScanDriveReport {
 /// How scans become the drive of another sensor.
 struct ResampleOptions {
   calib::Ruby128Calibration calibration = calib::nominal_ruby128();
-  bool undo_compensation = false;  ///< As in ScanDriveOptions.
+  PutMotionBack motion = PutMotionBack::kWhereKnown;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;
   std::function<Status(std::size_t done, std::size_t of)> on_scan;  ///< As in ScanDriveOptions.
 };
@@ -58,6 +61,7 @@ struct ResampleOptions {
 struct ResampleReport {
   DriveSummary drive;
   ResampleSummary rays;
+  std::string why_as_recorded;  ///< Empty where the motion was put back.
 };
 
 /// Writes what an RS-Ruby128 in the place of the recording HDL-64E might have sent of the scans of

@@ -18,27 +18,46 @@ Error in_file(const std::filesystem::path& path, Error error) {
   return error;
 }
 
+/// What is missing beside the scans to tell their motion; empty where nothing is.
+std::string missing_for_motion(const ScanFolder& folder) {
+  if (!folder.poses) return "poses.txt is missing beside velodyne/";
+  if (!folder.times) return "times.txt is missing beside velodyne/";
+  const auto unnumbered = std::ranges::find_if(
+      folder.scans, [](const ScanFile& scan) { return !scan.frame.has_value(); });
+  if (unnumbered == folder.scans.end()) return {};
+  return fmt::format("{} is not named by its frame number, like 000042.bin, to find its pose",
+                     unnumbered->points.string());
+}
+
 }  // namespace
 
-Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, bool undo_compensation) {
+Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, PutMotionBack put_back) {
   auto listed = list_scan_folder(folder);
   if (!listed) return tl::unexpected(std::move(listed.error()));
   ScanReader reader;
   reader.folder_ = std::move(*listed);
-  if (!undo_compensation) return reader;
-
-  const ScanFolder& found = reader.folder_;
-  if (!found.poses || !found.times) {
-    return fail(
-        ErrorCode::kNotFound,
-        fmt::format("{}: undoing the motion compensation needs poses.txt and times.txt beside "
-                    "velodyne/; {} is missing",
-                    folder.string(), found.poses ? "times.txt" : "poses.txt"));
+  if (put_back == PutMotionBack::kNever) {
+    reader.why_as_recorded_ = "so it was asked for";
+    return reader;
   }
-  auto motion = SensorMotion::read(*found.poses, *found.times, found.calib);
-  if (!motion) return tl::unexpected(std::move(motion.error()));
-  reader.motion_ = std::move(*motion);
-  return reader;
+  const ScanFolder& found = reader.folder_;
+  reader.why_as_recorded_ = missing_for_motion(found);
+  if (reader.why_as_recorded_.empty()) {
+    auto motion = SensorMotion::read(*found.poses, *found.times, found.calib);
+    if (!motion) return tl::unexpected(std::move(motion.error()));
+    const auto beyond = std::ranges::find_if(
+        found.scans, [&](const ScanFile& scan) { return *scan.frame >= motion->frames(); });
+    if (beyond == found.scans.end()) {
+      reader.motion_ = std::move(*motion);
+      return reader;
+    }
+    reader.why_as_recorded_ = fmt::format("{} ends at frame {}, before {}", found.poses->string(),
+                                          motion->frames() - 1, beyond->points.string());
+  }
+  if (put_back == PutMotionBack::kWhereKnown) return reader;
+  return fail(ErrorCode::kNotFound,
+              fmt::format("{}: the motion cannot be put back into the scans: {}", folder.string(),
+                          reader.why_as_recorded_));
 }
 
 Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings) const {
@@ -57,31 +76,12 @@ Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings)
 
 Expected<std::optional<SensorTwist>> ScanReader::twist(std::size_t index) const {
   if (!motion_) return std::nullopt;
-  const ScanFile& file = folder_.scans[index];
-  if (!file.frame) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{}: undoing the motion compensation needs scans named by their frame "
-                            "number, like 000042.bin, to find their pose",
-                            file.points.string()));
-  }
-  const auto twist = motion_->twist(*file.frame);
+  const auto twist = motion_->twist(folder_.scans[index].frame.value());
   if (!twist) return tl::unexpected(twist.error());
   return *twist;
 }
 
 Expected<FittedRings> ScanReader::fit_rings() {
-  RingTableFit fit;
-  KittiScan scan;
-  RingRecovery rings;
-  const std::size_t count = std::min(size(), kScansToFit);
-  Error last{ErrorCode::kMalformed, ""};
-  std::size_t used = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    // What cannot be read says so when its turn comes; a scan without all rings is aligned later,
-    // with the table of those that have them.
-    if (const Status status = read(i * size() / count, scan, rings); !status) {
-      if (used == 0 && last.code != ErrorCode::kUnsupported) last = status.error();
-      continue;
   auto fitted = fit_to_scans();
   if (!fitted && fitted.error().code == ErrorCode::kUnsupported) {
     // No scan has all rings. Any unit's table is near enough to tell the lasers apart, and one that
@@ -97,6 +97,18 @@ Expected<FittedRings> ScanReader::fit_rings() {
 }
 
 Expected<FittedRings> ScanReader::fit_to_scans() const {
+  RingTableFit fit;
+  KittiScan scan;
+  RingRecovery rings;
+  const std::size_t count = std::min(size(), kScansToFit);
+  Error last{ErrorCode::kMalformed, ""};
+  std::size_t used = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    // What cannot be read says so when its turn comes; a scan without all rings is aligned later,
+    // with the table of those that have them.
+    if (const Status status = read(i * size() / count, scan, rings); !status) {
+      if (used == 0 && last.code != ErrorCode::kUnsupported) last = status.error();
+      continue;
     }
     fit.add(scan.points, rings.ring_of_point);
     ++used;

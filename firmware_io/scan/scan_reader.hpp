@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <optional>
+#include <string>
 
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/ring_recovery.hpp"
@@ -15,17 +16,28 @@
 
 namespace terracut::firmware_io {
 
+/// Whether the sensor's motion, which recorded scans are compensated for, is put back into them
+/// (motion_compensation.hpp). It takes poses.txt and times.txt beside velodyne/, with poses of all
+/// scans, and scans named by their frame number.
+enum class PutMotionBack {
+  kNever,
+  kWhereKnown,  ///< Where that is there.
+  kAlways,      ///< An error where it is not.
+};
+
 /// Reads the scans of a folder one by one, with the ring of every point.
 class ScanReader {
  public:
   /// At most this many scans, evenly spread over the folder, are read for fit_rings().
   static constexpr std::size_t kScansToFit = 40;
 
-  /// Lists the folder (scan_folder.hpp). With `undo_compensation` every scan that is read gets its
-  /// sensor's motion put back (motion_compensation.hpp); that needs poses.txt and times.txt and
-  /// scans named by their frame number, else kNotFound or kInvalidArgument.
+  /// Lists the folder (scan_folder.hpp). Errors: its own; those of SensorMotion::read() where the
+  /// motion is to be put back; with kAlways kNotFound where what that takes is not there.
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
-                                                 bool undo_compensation = false);
+                                                 PutMotionBack motion = PutMotionBack::kNever);
+
+  /// Why the scans are read as they are recorded; empty where their motion is put back.
+  [[nodiscard]] const std::string& why_as_recorded() const noexcept { return why_as_recorded_; }
 
   [[nodiscard]] std::size_t size() const noexcept { return folder_.scans.size(); }
   [[nodiscard]] const ScanFile& file(std::size_t index) const { return folder_.scans[index]; }
@@ -45,11 +57,12 @@ class ScanReader {
   void use_rings(const RingTable& table) { table_ = table; }
 
  private:
+  [[nodiscard]] Expected<FittedRings> fit_to_scans() const;
+
   ScanFolder folder_;
   std::optional<SensorMotion> motion_;  ///< Only where it is to be put back.
+  std::string why_as_recorded_;
   std::optional<RingTable> table_;
 };
 
 }  // namespace terracut::firmware_io
-  [[nodiscard]] Expected<FittedRings> fit_to_scans() const;
-

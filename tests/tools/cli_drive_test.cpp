@@ -37,7 +37,7 @@ TEST_F(Cli, SimulateWritesTheVehiclesMotionBesideTheDriveWhenAsked) {
   expect_done("simulate --scene flat --duration 0.1 -o b.pcap");
   EXPECT_FALSE(fs::exists(folder_ / "b.can.log"));
   EXPECT_EQ(run("simulate --duration 0.1 --can-log").exit_code, 2);
-  EXPECT_EQ(run("encode scans -o x.pcap --can-log").exit_code, 2);
+  EXPECT_EQ(run("encode scans -o x.pcap --can-log --keep-compensation").exit_code, 2);
 }
 
 TEST_F(Cli, InfoNamesTheSensorItsRateAndTheTableInTheStream) {

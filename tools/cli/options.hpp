@@ -126,8 +126,9 @@ struct EncodeOptions {
   std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
   std::filesystem::path scans;
   std::filesystem::path calibration;  ///< Empty: fitted from the scans.
-  bool undo_compensation = false;
-  bool can_log = false;  ///< The motion that was put back, as a CAN log and its DBC.
+  bool undo_compensation = false;     ///< Refuse where the motion cannot be put back.
+  bool keep_compensation = false;     ///< Do not put it back.
+  bool can_log = false;               ///< The motion that was put back, as a CAN log and its DBC.
   std::filesystem::path output;
 };
 

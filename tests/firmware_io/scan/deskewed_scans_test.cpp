@@ -99,7 +99,8 @@ pipeline::Quality label(const Drive& drive, bool deskew) {
 
 Drive encode(const fs::path& sequence, const fs::path& pcap, bool twisted) {
   ScanDriveOptions options;
-  options.undo_compensation = options.can_log = twisted;
+  options.motion = twisted ? PutMotionBack::kAlways : PutMotionBack::kNever;
+  options.can_log = twisted;
   const auto report = encode_scan_folder(sequence, pcap, options);
   EXPECT_TRUE(report) << report.error().message;
   return {pcap, report->calibration};

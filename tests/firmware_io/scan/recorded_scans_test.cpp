@@ -15,7 +15,7 @@ namespace terracut::firmware_io {
 namespace {
 
 ScanReader reader_of(const std::filesystem::path& sequence, bool undo) {
-  auto reader = ScanReader::open(sequence, undo);
+  auto reader = ScanReader::open(sequence, undo ? PutMotionBack::kAlways : PutMotionBack::kNever);
   EXPECT_TRUE(reader) << reader.error().message;
   return std::move(*reader);
 }

@@ -28,12 +28,51 @@ void write_sequence(const ScratchFolder& folder, int scans) {
   }
 }
 
+/// Poses of a drive straight ahead (the camera's z) at `speed_mps`, a turn each 0.1 s.
+void write_poses(const ScratchFolder& folder, int frames, double speed_mps) {
+  std::string poses, times;
+  for (int i = 0; i < frames; ++i) {
+    poses += "1 0 0 0 0 1 0 0 0 0 1 " + std::to_string(0.1 * i * speed_mps) + "\n";
+    times += std::to_string(0.1 * i) + "\n";
+  }
+  folder.write("scans/poses.txt", poses);
+  folder.write("scans/times.txt", times);
+}
+
 TEST(ScanDrive, ACanLogIsRefusedWhereNoMotionIsPutBack) {
+  const ScratchFolder folder;
+  write_sequence(folder, 1);
   ScanDriveOptions options;
   options.can_log = true;
-  const auto refused = encode_scan_folder("nowhere", "nowhere.pcap", options);
+  const auto pcap = folder.path() / "drive.pcap";
+  auto refused = encode_scan_folder(folder.path() / "scans", pcap, options);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_THAT(refused.error().message, HasSubstr("poses.txt is missing"));
+  write_poses(folder, 2, 15);
+  options.motion = PutMotionBack::kNever;
+  refused = encode_scan_folder(folder.path() / "scans", pcap, options);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::kInvalidArgument);
+}
+
+TEST(ScanDrive, PutsTheMotionBackWherePosesLieBesideTheScans) {
+  const ScratchFolder folder;
+  write_sequence(folder, 2);
+  const auto pcap = folder.path() / "drive.pcap";
+  ScanDriveOptions options;
+  options.calibration = hdl64e_calibration(synthetic::table());
+  const auto height_p95_m = [&](bool put_back) {
+    const auto report = encode_scan_folder(folder.path() / "scans", pcap, options);
+    EXPECT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->why_as_recorded.empty(), put_back) << report->why_as_recorded;
+    return report->encoded.height.p95_m;
+  };
+  EXPECT_LT(height_p95_m(false), 0.003);
+  write_poses(folder, 2, 15);
+  EXPECT_GT(height_p95_m(true), 0.05) << "the made scans are not compensated: motion bends them";
+  options.motion = PutMotionBack::kNever;
+  EXPECT_LT(height_p95_m(false), 0.003);
 }
 
 TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
@@ -109,7 +148,7 @@ TEST(ScanDrive, LeavesNothingWhenAScanIsRefused) {
 TEST(ScanReader, NamesWhatUndoingTheCompensationNeeds) {
   const ScratchFolder folder;
   write_sequence(folder, 1);
-  const auto reader = ScanReader::open(folder.path() / "scans", true);
+  const auto reader = ScanReader::open(folder.path() / "scans", PutMotionBack::kAlways);
   ASSERT_FALSE(reader);
   EXPECT_EQ(reader.error().code, ErrorCode::kNotFound);
   EXPECT_THAT(reader.error().message, HasSubstr("poses.txt is missing"));
@@ -120,13 +159,22 @@ TEST(ScanReader, UndoesTheCompensationOnlyOfScansNamedByTheirFrame) {
   folder.write_records("velodyne/first.bin", synthetic::scan(synthetic::table()));
   folder.write("poses.txt", "1 0 0 0 0 1 0 0 0 0 1 0\n1 0 0 0 0 1 0 0 0 0 1 1\n");
   folder.write("times.txt", "0\n0.1\n");
-  const auto reader = ScanReader::open(folder.path(), true);
+  const auto refused = ScanReader::open(folder.path(), PutMotionBack::kAlways);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("not named by its frame number"));
+  const auto reader = ScanReader::open(folder.path(), PutMotionBack::kWhereKnown);
   ASSERT_TRUE(reader) << reader.error().message;
-  KittiScan scan;
-  RingRecovery rings;
-  const Status status = reader->read(0, scan, rings);
-  ASSERT_FALSE(status);
-  EXPECT_THAT(status.error().message, HasSubstr("named by their frame number"));
+  EXPECT_THAT(reader->why_as_recorded(), HasSubstr("not named by its frame number"));
+}
+
+TEST(ScanReader, TakesScansAsRecordedWhereThePosesEndBeforeThem) {
+  const ScratchFolder folder;
+  write_sequence(folder, 3);
+  write_poses(folder, 2, 15);
+  const auto reader = ScanReader::open(folder.path() / "scans", PutMotionBack::kWhereKnown);
+  ASSERT_TRUE(reader) << reader.error().message;
+  EXPECT_THAT(reader->why_as_recorded(), HasSubstr("ends at frame 1, before"));
+  EXPECT_THAT(reader->why_as_recorded(), HasSubstr("000002.bin"));
 }
 
 TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
@@ -146,8 +194,6 @@ TEST(ScanReader, FitsTheTableFromWholeScansAndAlignsTheOthersWithIt) {
   EXPECT_EQ(rings.ring_of_point.back(), 63);
 }
 
-}  // namespace
-}  // namespace terracut::firmware_io
 TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
   const ScratchFolder folder;
   // What a camera sees of the scans: 45 degrees to either side, and the upper rings see nothing.
@@ -185,3 +231,5 @@ TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
   }
 }
 
+}  // namespace
+}  // namespace terracut::firmware_io

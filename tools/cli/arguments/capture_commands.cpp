@@ -45,13 +45,16 @@ void add_encode(CLI::App& sub, EncodeOptions& o) {
       ->required();
   sub.add_option("--calibration", o.calibration,
                  "Unit to encode through (default: one fitted to the scans; Ruby128: nominal)");
-  auto* undo =
-      sub.add_flag("--undo-compensation", o.undo_compensation,
-                   "Put the sensor's motion back into the points; needs poses.txt and times.txt");
+  auto* undo = sub.add_flag("--undo-compensation", o.undo_compensation,
+                            "Put the sensor's motion back into the points, by poses.txt and "
+                            "times.txt; refuse where they are not there (default: where they are)");
+  auto* keep = sub.add_flag("--keep-compensation", o.keep_compensation,
+                            "Take the points as they are recorded, poses or not")
+                   ->excludes(undo);
   sub.add_flag("--can-log", o.can_log,
                "HDL-64E: write that motion beside the capture, NAME.can.log and NAME.can.dbc; the "
                "sensor then looks backwards, for recorded turns begin behind")
-      ->needs(undo);
+      ->excludes(keep);
   sub.add_option("-o,--output", o.output, "Capture to write; its table and truth go beside it")
       ->required();
 }

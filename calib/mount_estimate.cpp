@@ -18,8 +18,7 @@ namespace {
 
 constexpr std::size_t kMinPoints = 500;
 constexpr std::size_t kScoredPoints =
-    4000;                          ///< Of the points, evenly taken, that judge a candidate.
-constexpr int kCandidates = 2000;  ///< Finds a plane holding 20 % of the points with 1 - 1e-7.
+    4000;  ///< Of the points, evenly taken, that judge a candidate.
 constexpr int kMaxRefinements = 50;
 constexpr double kReachPerRms = 2.0;
 constexpr double kLeastReach_m = 0.03;  ///< The sensor's own noise.
@@ -82,7 +81,7 @@ std::optional<Plane> search(const std::vector<Eigen::Vector3d>& points,
   Picker pick;
   std::optional<Plane> best;
   std::size_t best_inliers = 0;
-  for (int i = 0; i < kCandidates; ++i) {
+  for (int i = 0; i < config.candidates; ++i) {
     const auto& a = points[pick.below(points.size())];
     const auto& b = points[pick.below(points.size())];
     const auto& c = points[pick.below(points.size())];

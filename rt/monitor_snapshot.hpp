@@ -14,6 +14,7 @@
 #include "rt/fixed_text.hpp"
 #include "rt/frame_timing.hpp"
 #include "rt/log_linear_histogram.hpp"
+#include "rt/mount_figures.hpp"
 #include "rt/named_count.hpp"
 #include "rt/nonblocking.hpp"
 
@@ -80,6 +81,7 @@ struct MonitorSnapshot {
   std::uint64_t longest_run_of_misses = 0;
   FrameTiming newest;
 
+  MountFigures mount;
   MotionFigures motion;
   HealthFigures health;
 

@@ -20,6 +20,8 @@
 #include <system_error>
 #include <utility>
 
+#include "rt/trusted_file.hpp"
+
 namespace terracut::rt {
 namespace {
 
@@ -112,7 +114,15 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
     // and nobody while its publisher lives.
     const OpenFile old(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
     if (old.number() < 0 && errno == ENOENT) continue;
-    if (old.number() < 0) return not_written(path, "opening the one that is there", errno);
+    if (old.number() < 0) {
+      const int error_number = errno;
+      struct stat there{};
+      const bool known = ::lstat(path.c_str(), &there) == 0;
+      return not_written(path,
+                         known ? "there is one of user " + std::to_string(there.st_uid) + " already"
+                               : std::string("opening the one that is there"),
+                         error_number);
+    }
     const int error_number = try_lock(old.number());
     if (error_number == EAGAIN) {
       return fail(ErrorCode::kInvalidArgument,
@@ -235,6 +245,9 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
       ::pread(file.number(), &found, sizeof found, 0) == static_cast<::ssize_t>(sizeof found);
   if (!has_header || found.magic != StatusPageHeader::kMagic) {
     return fail(ErrorCode::kMalformed, path.string() + " is not a status page of terracut");
+  }
+  if (Status trusted = check_trusted(status, path); !trusted) {
+    return tl::unexpected(std::move(trusted.error()));
   }
   if (found.header_bytes != sizeof(StatusPageHeader) || found.layout != layout ||
       found.value_bytes != value_bytes) {

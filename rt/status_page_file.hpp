@@ -59,7 +59,8 @@ class StatusPageFile {
                                                        std::size_t value_bytes);
 
   /// For readers. Errors: kNotFound when there is no such page; kUnreadable with the system's
-  /// reason; kMalformed for a file that is no status page; kUnsupported for another layout or size.
+  /// reason, or where anybody could have made it (trusted_file.hpp); kMalformed for a file that is
+  /// no status page; kUnsupported for another layout or size.
   [[nodiscard]] static Expected<StatusPageFile> open(const std::filesystem::path& folder,
                                                      const std::string& name, std::uint32_t layout,
                                                      std::size_t value_bytes);

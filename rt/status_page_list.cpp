@@ -3,6 +3,7 @@
 #include "rt/status_page_list.hpp"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <sys/types.h>
 #include <unistd.h>
 
@@ -12,6 +13,8 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+
+#include "rt/trusted_file.hpp"
 
 namespace terracut::rt {
 namespace {
@@ -49,9 +52,11 @@ std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& fold
     if (name.starts_with('.') || !name.ends_with(kSuffix)) continue;
     const int file = ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) continue;
-    if (const auto pid = publisher_of(file)) {
+    struct stat status{};
+    const bool trusted = ::fstat(file, &status) == 0 && check_trusted(status, it->path());
+    if (const auto pid = trusted ? publisher_of(file) : std::nullopt) {
       name.resize(name.size() - kSuffix.size());
-      entries.push_back({std::move(name), *pid, is_locked(file)});
+      entries.push_back({std::move(name), *pid, status.st_uid, is_locked(file)});
     }
     ::close(file);
   }

@@ -14,12 +14,14 @@ namespace terracut::rt {
 /// A status page that was found.
 struct StatusPageEntry {
   std::string name;
-  std::int32_t pid = 0;  ///< Of its publisher.
+  std::int32_t pid = 0;     ///< Of its publisher.
+  std::uint32_t owner = 0;  ///< User the file belongs to.
   bool publisher_lives = false;
 };
 
-/// All status pages of `folder`, of whatever layout, by name. What cannot be read, or is none, is
-/// left out. Reads the headers only; touches neither pages nor locks.
+/// All status pages of `folder`, of whatever layout, by name. What cannot be read, is none, or
+/// could have been made by anybody (trusted_file.hpp), is left out. Reads the headers only; touches
+/// neither pages nor locks.
 [[nodiscard]] std::vector<StatusPageEntry> list_status_pages(
     const std::filesystem::path& folder = status_page_folder());
 

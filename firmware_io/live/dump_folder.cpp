@@ -11,11 +11,15 @@
 #include <cerrno>
 #include <charconv>
 #include <ctime>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <stdexcept>
 #include <system_error>
+#include <utility>
 #include <vector>
+
+#include "rt/number_of.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -24,9 +28,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kCaptureEnding = ".pcap";
 constexpr std::string_view kFrameTimesEnding = ".frames.json";
+constexpr std::string_view kEndings[] = {kCaptureEnding, kFrameTimesEnding, ".calibration.xml",
+                                         ".calibration.csv"};
 constexpr std::string_view kStampShape = "00000000T000000.000Z";  // 0: any digit
 constexpr std::uint64_t kBlock = 4096;
-constexpr std::int64_t kMillisecond_ns = 1'000'000;
+constexpr std::uint64_t kMostSerial = 1'000'000'000'000;  // there is always a next one
 
 bool is_digit(char c) noexcept {
   return c >= '0' && c <= '9';
@@ -38,8 +44,7 @@ std::string stamp_text(std::int64_t now_ns) {
   std::tm utc{};
   ::gmtime_r(&seconds, &utc);
   return fmt::format("{:04}{:02}{:02}T{:02}{:02}{:02}.{:03}Z", utc.tm_year + 1900, utc.tm_mon + 1,
-                     utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec,
-                     now_ns / kMillisecond_ns % 1000);
+                     utc.tm_mday, utc.tm_hour, utc.tm_min, utc.tm_sec, now_ns / 1'000'000 % 1000);
 }
 
 bool begins_with_stamp(std::string_view text) noexcept {
@@ -50,7 +55,8 @@ bool begins_with_stamp(std::string_view text) noexcept {
 
 /// A file of an own dump, as its name tells.
 struct OwnFile {
-  std::string dump;                   ///< The name without its ending: both files share it.
+  std::uint64_t serial = 0;           ///< 0: of a version that gave none.
+  std::string dump;                   ///< The name without its ending: all files share it.
   std::optional<::pid_t> written_by;  ///< A temporary file, of this process.
 };
 
@@ -66,17 +72,20 @@ std::optional<OwnFile> own_file(std::string_view file, std::string_view name) {
     own.written_by = pid;
     file = file.substr(0, part);
   }
-  if (file.ends_with(kCaptureEnding)) {
-    file.remove_suffix(kCaptureEnding.size());
-  } else if (file.ends_with(kFrameTimesEnding)) {
-    file.remove_suffix(kFrameTimesEnding.size());
-  } else {
-    return {};
-  }
+  const auto* const ending =
+      std::ranges::find_if(kEndings, [&](std::string_view each) { return file.ends_with(each); });
+  if (ending == std::end(kEndings)) return {};
+  file.remove_suffix(ending->size());
   own.dump = file;
   if (!file.starts_with(name) || !file.substr(name.size()).starts_with('-')) return {};
   file.remove_prefix(name.size() + 1);
-  if (!begins_with_stamp(file)) return {};
+  if (!begins_with_stamp(file)) {
+    const auto serial = rt::number_of<std::uint64_t>(file.substr(0, file.find('-')));
+    if (!serial || *serial == 0 || *serial > kMostSerial) return {};
+    own.serial = *serial;
+    file.remove_prefix(file.find('-') + 1);
+    if (!begins_with_stamp(file)) return {};
+  }
   file.remove_prefix(kStampShape.size());
   if (file != fmt::format("-{}", to_string(DumpReason::kMissedDeadline)) &&
       file != fmt::format("-{}", to_string(DumpReason::kAsked))) {
@@ -106,13 +115,17 @@ struct OldDump {
 };
 
 struct Holdings {
-  std::map<std::string, OldDump> dumps;  ///< By name, hence oldest first.
-  OldDump leftovers;                     ///< Temporary files of processes that are gone.
+  /// By serial number and name, hence oldest first.
+  std::map<std::pair<std::uint64_t, std::string>, OldDump> dumps;
+  OldDump leftovers;  ///< Temporary files of processes that are gone.
 
   [[nodiscard]] std::uint64_t bytes() const {
     std::uint64_t sum = 0;
     for (const auto& [name, dump] : dumps) sum += dump.bytes;
     return sum;
+  }
+  [[nodiscard]] std::uint64_t newest_serial() const {
+    return dumps.empty() ? 0 : dumps.rbegin()->first.first;
   }
 };
 
@@ -125,7 +138,7 @@ Holdings holdings_of(const fs::path& folder, std::string_view name, std::error_c
     const auto own = own_file(entry->path().filename().string(), name);
     if (!own) continue;
     if (!own->written_by) {
-      holdings.dumps[own->dump].add(*entry);
+      holdings.dumps[{own->serial, own->dump}].add(*entry);
     } else if (is_abandoned_by(*own->written_by)) {
       holdings.leftovers.add(*entry);
     }
@@ -158,6 +171,12 @@ std::filesystem::path frame_times_path(const std::filesystem::path& capture) {
   return path.replace_extension(kFrameTimesEnding);
 }
 
+std::filesystem::path dump_calibration_path(const std::filesystem::path& capture,
+                                            std::string_view suffix) {
+  auto path = capture;
+  return path.replace_extension(suffix);
+}
+
 DumpFolder::DumpFolder(DumpFolderLimits limits) : limits_(std::move(limits)) {
   if (!is_dump_name(limits_.name)) {
     throw std::invalid_argument(fmt::format(
@@ -167,6 +186,16 @@ DumpFolder::DumpFolder(DumpFolderLimits limits) : limits_(std::move(limits)) {
   if (limits_.most_dumps < 1 || limits_.most_bytes < 1) {
     throw std::invalid_argument("dumps kept and their bytes: expected at least 1");
   }
+}
+
+tl::expected<void, RefusedDump> DumpFolder::check() const {
+  std::error_code error;
+  fs::create_directories(limits_.folder, error);
+  if (error) return unusable(limits_.folder, error);
+  if (::access(limits_.folder.c_str(), R_OK | W_OK | X_OK) != 0) {
+    return unusable(limits_.folder, {errno, std::generic_category()});
+  }
+  return {};
 }
 
 tl::expected<std::filesystem::path, RefusedDump> DumpFolder::make_room(std::uint64_t bytes,
@@ -213,9 +242,11 @@ tl::expected<std::filesystem::path, RefusedDump> DumpFolder::make_room(std::uint
     }
     ++deleted_;
   }
-  for (;; now_ns += kMillisecond_ns) {  // never a name that is taken
-    fs::path capture = folder / fmt::format("{}-{}-{}{}", limits_.name, stamp_text(now_ns),
-                                            to_string(reason), kCaptureEnding);
+  // Never a number that was given before, though its dump may be gone by now.
+  newest_serial_ = std::max(newest_serial_, held.newest_serial());
+  while (true) {
+    fs::path capture = folder / fmt::format("{}-{:06}-{}-{}{}", limits_.name, ++newest_serial_,
+                                            stamp_text(now_ns), to_string(reason), kCaptureEnding);
     if (!fs::exists(fs::symlink_status(capture, error))) return capture;
   }
 }

@@ -28,8 +28,10 @@ struct DumpFolderLimits {
 
 /// The folder a recorder keeps its dumps in: names them, and makes room for the next by deleting
 /// the oldest of its own. Own are only plain files called
-/// `NAME-YYYYMMDDTHHMMSS.mmmZ-REASON.pcap` and `.frames.json`, and what a killed process left of
-/// them (`...part-PID-N`); nothing else is ever touched, whoever made it.
+/// `NAME-SERIAL-YYYYMMDDTHHMMSS.mmmZ-REASON.pcap` and, beside it, `.frames.json` and the unit's
+/// `.calibration.xml` or `.csv`, and what a killed process left of them (`...part-PID-N`); nothing
+/// else is ever touched, whoever made it. The oldest is the one with the lowest serial number,
+/// whatever the clock said; dumps of earlier versions, without one, are older than all others.
 ///
 /// One thread; blocks on the disk, so never a real-time one.
 class DumpFolder {
@@ -44,6 +46,9 @@ class DumpFolder {
                                                                            DumpReason reason,
                                                                            std::int64_t now_ns);
 
+  /// That dumps could be written there: made when missing. kFolderUnusable.
+  [[nodiscard]] tl::expected<void, RefusedDump> check() const;
+
   /// Old dumps deleted by make_room(), since construction.
   [[nodiscard]] std::uint64_t deleted() const noexcept { return deleted_; }
   [[nodiscard]] const DumpFolderLimits& limits() const noexcept { return limits_; }
@@ -51,9 +56,13 @@ class DumpFolder {
  private:
   DumpFolderLimits limits_;
   std::uint64_t deleted_ = 0;
+  std::uint64_t newest_serial_ = 0;  ///< Given so far.
 };
 
 /// The JSON file that belongs to a dump's capture.
 [[nodiscard]] std::filesystem::path frame_times_path(const std::filesystem::path& capture);
+/// The unit's table beside it; `suffix` as the sensor's drives have it, ".calibration.xml" say.
+[[nodiscard]] std::filesystem::path dump_calibration_path(const std::filesystem::path& capture,
+                                                          std::string_view suffix);
 
 }  // namespace terracut::firmware_io

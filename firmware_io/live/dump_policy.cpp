@@ -36,6 +36,8 @@ std::string_view to_string(DumpRefusal refusal) noexcept {
       return "folder_unusable";
     case DumpRefusal::kWriteFailed:
       return "write_failed";
+    case DumpRefusal::kNoRecorder:
+      return "no_recorder";
   }
   return "unknown";
 }

@@ -30,8 +30,9 @@ enum class DumpRefusal : std::uint8_t {
   kDiskLow,         ///< Free space would fall under the floor.
   kFolderUnusable,  ///< The folder cannot be made, listed or asked for its free space.
   kWriteFailed,     ///< The disk refused while it was written; nothing was left.
+  kNoRecorder,      ///< The process was told to keep no packets.
 };
-inline constexpr std::size_t kDumpRefusals = 6;
+inline constexpr std::size_t kDumpRefusals = 7;
 
 /// "too_soon" and so on: in metrics and JSON.
 [[nodiscard]] std::string_view to_string(DumpRefusal refusal) noexcept;
@@ -46,6 +47,7 @@ struct RefusedDump {
 struct DumpReport {
   std::filesystem::path capture;      ///< The pcap file.
   std::filesystem::path frame_times;  ///< The JSON file beside it.
+  std::filesystem::path calibration;  ///< The unit's table beside it; empty where none was written.
   std::uint64_t datagrams = 0;
   std::uint64_t overwritten = 0;  ///< Overwritten while they were copied, so not in the capture.
   std::uint64_t unwritable = 0;   ///< With a stamp that a pcap cannot hold; not in it either.

@@ -58,7 +58,7 @@ Expected<bool> left_behind(const StreamAddress& address) {
 
 }  // namespace
 
-Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address) {
+Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address, ::mode_t unix_mode) {
   if (address.is_unix()) {
     const auto stale = left_behind(address);
     if (!stale) return tl::unexpected(stale.error());
@@ -77,7 +77,11 @@ Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address) {
   ListeningSocket listening(std::move(descriptor), address);
   if (address.is_unix()) {
     struct ::stat status{};
-    if (::lstat(address.unix_path.c_str(), &status) != 0) return refused(address);
+    // Nobody is connected in between: it does not listen yet.
+    if (::lstat(address.unix_path.c_str(), &status) != 0 ||
+        ::chmod(address.unix_path.c_str(), unix_mode) != 0) {
+      return refused(address);
+    }
     listening.device_ = status.st_dev;
     listening.inode_ = status.st_ino;
   } else {

@@ -16,7 +16,11 @@ class ListeningSocket {
   /// A Unix socket's file that nobody listens on any more, left behind by kill -9, is replaced;
   /// anything else in its place is left alone. kNotFound: no such address on this machine, or no
   /// such folder. kUnreadable: address or path taken, or another refusal of the system.
-  [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address);
+  /// `unix_mode`: rights of a Unix socket's file, whatever the umask; who may write to it may
+  /// connect.
+  [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address,
+                                                      ::mode_t unix_mode = kOwnerAndGroup);
+  static constexpr ::mode_t kOwnerAndGroup = 0660;
 
   ListeningSocket(ListeningSocket&& other) noexcept;
   ListeningSocket& operator=(ListeningSocket&& other) noexcept;

@@ -16,6 +16,14 @@ constexpr std::size_t kMostPathBytes = sizeof(::sockaddr_un::sun_path) - 1;
 
 }  // namespace
 
+Expected<Ipv4Endpoint> parse_serving_endpoint(std::string_view text) {
+  auto endpoint = parse_ipv4_endpoint(text);
+  const auto colon = text.rfind(':');
+  const bool port_alone = colon == std::string_view::npos || colon == 0;
+  if (endpoint && port_alone) endpoint->address = kLoopbackAddress;
+  return endpoint;
+}
+
 Expected<StreamAddress> parse_stream_address(std::string_view text) {
   if (text.find('/') != std::string_view::npos) {
     if (text.size() > kMostPathBytes) {
@@ -25,7 +33,7 @@ Expected<StreamAddress> parse_stream_address(std::string_view text) {
     }
     return StreamAddress{.unix_path = std::string(text)};
   }
-  const auto endpoint = parse_ipv4_endpoint(text);
+  const auto endpoint = parse_serving_endpoint(text);
   if (!endpoint) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("'{}' is no address for a stream; expected ADDRESS:PORT like "
@@ -33,9 +41,7 @@ Expected<StreamAddress> parse_stream_address(std::string_view text) {
                             "/run/terracut/turns",
                             text));
   }
-  const auto colon = text.rfind(':');
-  const bool port_alone = colon == std::string_view::npos || colon == 0;
-  return StreamAddress{.tcp = {port_alone ? kLoopbackAddress : endpoint->address, endpoint->port}};
+  return StreamAddress{.tcp = *endpoint};
 }
 
 std::string to_string(const StreamAddress& address) {

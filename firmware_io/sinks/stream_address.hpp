@@ -15,6 +15,10 @@ namespace terracut::firmware_io {
 
 inline constexpr std::uint32_t kLoopbackAddress = 0x7F00'0001;  ///< 127.0.0.1
 
+/// Where to serve others: as parse_ipv4_endpoint(), but a port alone is for this machine's
+/// programs.
+[[nodiscard]] Expected<Ipv4Endpoint> parse_serving_endpoint(std::string_view text);
+
 /// Where a stream of turns is to be had: TCP over IPv4, or a Unix socket.
 struct StreamAddress {
   Ipv4Endpoint tcp{kLoopbackAddress, 0};  ///< Port 0: one the system chooses.

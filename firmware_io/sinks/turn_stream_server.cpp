@@ -63,7 +63,7 @@ Status check(const TurnStreamConfig& config) {
 Expected<TurnStreamServer> TurnStreamServer::open(const TurnStreamConfig& config,
                                                   rt::FixedMemory& memory) {
   if (const Status status = check(config); !status) return tl::unexpected(status.error());
-  auto listener = ListeningSocket::open(config.address);
+  auto listener = ListeningSocket::open(config.address, config.unix_mode);
   if (!listener) return tl::unexpected(listener.error());
   OwnedDescriptor events(::epoll_create1(EPOLL_CLOEXEC));
   ::epoll_event event{};

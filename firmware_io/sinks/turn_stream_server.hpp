@@ -20,6 +20,7 @@ namespace terracut::firmware_io {
 
 struct TurnStreamConfig {
   StreamAddress address{};
+  ::mode_t unix_mode = ListeningSocket::kOwnerAndGroup;  ///< Of a Unix socket's file.
   std::size_t max_points = 0;  ///< Of a turn: the images' return_capacity(). [1, kMostTurnPoints]
   std::size_t max_peers = 4;   ///< Connected at once; each costs room for a turn. [1, 64]
   /// A reader that takes nothing for so long while a turn waits for it is disconnected: it hangs,

@@ -18,6 +18,7 @@
 #include <string>
 #include <thread>
 
+#include "rt/status_page_list.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/child_process.hpp"
 
@@ -305,6 +306,26 @@ TEST_F(StatusPage, RefusesWhatItCannotRead) {
   std::filesystem::copy_file(page->path(), folder_ / "short.terracut");
   std::filesystem::resize_file(folder_ / "short.terracut", 100);
   EXPECT_EQ(refused("short"), ErrorCode::kMalformed);
+}
+
+TEST_F(StatusPage, RefusesOneThatAnybodyCouldHaveMade) {
+  const auto page = publisher();
+  ASSERT_TRUE(page);
+  namespace fs = std::filesystem;
+  fs::permissions(page->path(), fs::perms::others_write, fs::perm_options::add);
+  auto refused = reader();
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_EQ(refused.error().code, ErrorCode::kUnreadable);
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("written to by others"));
+  EXPECT_TRUE(list_status_pages(folder_).empty());
+  fs::permissions(page->path(), fs::perms::others_write, fs::perm_options::remove);
+  EXPECT_TRUE(reader());
+  EXPECT_EQ(list_status_pages(folder_).size(), 1U);
+  if (::chown(page->path().c_str(), 1234, 1234) != 0) return;  // only root can give files away
+  refused = reader();
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_THAT(refused.error().message, testing::HasSubstr("belongs to user 1234"));
+  EXPECT_TRUE(list_status_pages(folder_).empty());
 }
 
 TEST_F(StatusPage, RefusesAnotherLayout) {

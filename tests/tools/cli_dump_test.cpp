@@ -192,6 +192,39 @@ TEST_F(CliDump, ASignalFromAnywhereElseDumpsAsWell) {
   EXPECT_TRUE(fs::exists(answer->capture)) << answer->message;
 }
 
+TEST_F(CliDump, HearsNoAnswerThatAnybodyCouldHaveWritten) {
+  const fs::path answer = pages_ / "front.terracut-dump";
+  std::ofstream(answer) << R"({"pid": 1, "serial": 1, "capture": "/evil"})";
+  EXPECT_TRUE(read_dump_answer(pages_, "front"));
+  fs::permissions(answer, fs::perms::others_write, fs::perm_options::add);
+  EXPECT_FALSE(read_dump_answer(pages_, "front"));
+  fs::remove(answer);
+  std::ofstream(pages_ / "elsewhere") << R"({"pid": 1, "serial": 1, "capture": "/evil"})";
+  fs::create_symlink(pages_ / "elsewhere", answer);
+  EXPECT_FALSE(read_dump_answer(pages_, "front"));
+}
+
+TEST_F(CliDump, PrintsNothingThatATerminalWouldObey) {
+  Child live([](const std::function<void()>& ready) {
+    DumpSignal signal;
+    const auto page = Page::create("front", 1);
+    DumpAnswers answers(rt::status_page_folder(), "front");
+    ready();
+    for (pollfd listening{signal.descriptor(), POLLIN, 0}; ::poll(&listening, 1, 20'000) > 0;) {
+      if (!signal.take()) continue;
+      firmware_io::DumpReport report;
+      report.capture = "/dumps/\x1b[2J.pcap";
+      report.calibration = "/dumps/\x1b[2J.xml";
+      static_cast<void>(answers.publish(report));
+    }
+  });
+  const Outcome outcome = run("dump");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "/dumps/?[2J.pcap\n");
+  EXPECT_THAT(outcome.err,
+              HasSubstr("terracut replay /dumps/?[2J.pcap --calibration /dumps/?[2J.xml"));
+}
+
 TEST_F(CliDump, AnAnswerIsTakenAwayWithItsProcess) {
   {
     DumpAnswers answers(rt::status_page_folder(), "front");

@@ -40,6 +40,11 @@ class CliLive : public Cli {
   [[nodiscard]] static Sensors sensor(LiveRun& run) {
     return sensors_at({Sensors::kLocalhost}, run);
   }
+  /// What `terracut dump` says of this run once that has heard its sensor.
+  [[nodiscard]] Outcome dump_of(LiveRun& live_run) {
+    EXPECT_TRUE(labels(live_run, 1));
+    return run("dump " + LiveRun::name() + " --wait 60");
+  }
   /// Waits until so many turns have labels.
   [[nodiscard]] static bool labels(LiveRun& run, std::uint64_t turns) {
     return run.shows([=](const auto& figures) { return LiveRun::labelled(figures) >= turns; });
@@ -226,6 +231,58 @@ TEST_F(CliLive, SaysWhereItsFiguresAre) {
   EXPECT_TRUE(served) << served.error().message;
   EXPECT_THAT(at, testing::EndsWith("/metrics"));
   (void)run.interrupted();
+}
+
+TEST_F(CliLive, WritesDumpsThatCanBeReplayedAsIsPrinted) {
+  LiveRun recorded = live_with_table("--recorder-folder dumps");
+  const Sensors sender = sensor(recorded);
+  const Outcome dumped = dump_of(recorded);
+  (void)recorded.interrupted();
+  ASSERT_EQ(dumped.exit_code, 0) << dumped.err;
+  const std::string way = "replay it: terracut ";
+  const auto begin = dumped.err.find(way);
+  ASSERT_NE(begin, std::string::npos) << dumped.err;
+  const auto first = begin + way.size();
+  const std::string command = dumped.err.substr(first, dumped.err.find('\n', first) - first);
+  expect_done(command + " --json replayed.json");
+  EXPECT_GE(json("replayed.json")["summary"]["frames"], 1);
+}
+
+TEST_F(CliLive, AnswersAtOnceThatItKeepsNoPackets) {
+  LiveRun unrecorded = live_with_table("");
+  const Sensors sender = sensor(unrecorded);
+  const Outcome dumped = dump_of(unrecorded);
+  (void)unrecorded.interrupted();
+  EXPECT_EQ(dumped.exit_code, kOutputFailed);
+  EXPECT_THAT(dumped.err, HasSubstr("no_recorder"));
+  EXPECT_THAT(dumped.err, HasSubstr("--recorder-folder"));
+}
+
+TEST_F(CliLive, RefusesAFolderForDumpsThatIsAFileBeforeItWaitsForASensor) {
+  write("dumps", "a file");
+  const Outcome refused = live("--recorder-folder dumps").end();
+  EXPECT_EQ(refused.exit_code, kOutputFailed);
+  EXPECT_THAT(refused.err, HasSubstr("dumps"));
+  EXPECT_THAT(refused.err, testing::Not(HasSubstr("listening")));
+}
+
+TEST_F(CliLive, WarnsOfATableThatIsNotTheOneInThePackets) {
+  std::string table = content_of(kDriveCalibration);
+  const std::string key = "<vertOffsetCorrection_>";
+  const auto value = table.find(key);
+  ASSERT_NE(value, std::string::npos);
+  const auto digits = value + key.size();
+  table.replace(digits, table.find('<', digits) - digits, "23.4");
+  write("other.xml", table);
+  // The packets' table is whole within six turns.
+  const auto warned = [&](const std::string& calibration) {
+    LiveRun live_run = live("--calibration " + calibration);
+    const Sensors sender = sensor(live_run);
+    EXPECT_TRUE(labels(live_run, 6));
+    return live_run.interrupted().err;
+  };
+  EXPECT_THAT(warned("other.xml"), HasSubstr("the packets carry another calibration"));
+  EXPECT_THAT(warned(quoted(kDriveCalibration)), testing::Not(HasSubstr("another calibration")));
 }
 
 TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {

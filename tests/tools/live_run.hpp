@@ -68,6 +68,9 @@ class LiveRun : public BackgroundProgram {
     return end();
   }
 
+  /// Of its page. One run at a time in a test program, of which many may run.
+  [[nodiscard]] static std::string name() { return "test-" + std::to_string(::getpid()); }
+
   [[nodiscard]] static std::uint64_t labelled(const rt::MonitorSnapshot& figures) {
     return figures.frames - figures.rungs[static_cast<std::size_t>(rt::Rung::kSkipped)];
   }
@@ -91,9 +94,6 @@ class LiveRun : public BackgroundProgram {
     }
     return rest;
   }
-  /// Of its page. One run at a time in a test program, of which many may run.
-  [[nodiscard]] static std::string name() { return "test-" + std::to_string(::getpid()); }
-
   std::optional<Page> page_;
 };
 

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "tests/support/scratch_folder.hpp"
+#include "tools/cli/http_host.hpp"
 #include "tools/cli/metrics_server.hpp"
 #include "tools/cli/metrics_text.hpp"
 #include "watched_run.hpp"
@@ -171,9 +172,10 @@ class Client {
   bool connected_ = false;
 };
 
-std::string get(std::uint16_t port, const std::string& path) {
+std::string get(std::uint16_t port, const std::string& path,
+                const std::string& host = "localhost") {
   const Client client(port);
-  client.send("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n\r\n");
+  client.send("GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
   return client.answer();
 }
 
@@ -206,6 +208,31 @@ TEST_F(MetricsServerOf, SaysWhatThereIsAndWhatIsNot) {
   EXPECT_THAT(get(server->port(), "/"), HasSubstr("/metrics"));
   EXPECT_THAT(get(server->port(), "/nothing"), HasSubstr("HTTP/1.1 404"));
   EXPECT_THAT(get(server->port(), "/metrics"), HasSubstr("HTTP/1.1 503"));
+}
+
+TEST_F(MetricsServerOf, TellsNothingToAWebPageWhoseNameWasMadeToLeadHere) {
+  const auto server = start();
+  ASSERT_TRUE(server);
+  for (const char* path : {"/metrics", "/"}) {
+    const std::string refused = get(server->port(), path, "rebound.example:9464");
+    EXPECT_THAT(refused, HasSubstr("403")) << path;
+    EXPECT_THAT(refused, testing::Not(HasSubstr("terracut_"))) << path;
+    EXPECT_THAT(get(server->port(), path, "127.0.0.1:9464"), HasSubstr("200 OK")) << path;
+  }
+}
+
+TEST(HttpHost, IsThisMachineByAddressAsLocalhostOrByItsOwnName) {
+  for (const char* host :
+       {"127.0.0.1", "127.0.0.1:9464", "192.168.3.5:9464", "[::1]", "[fe80::1]:80", "localhost",
+        "LOCALHOST:9464", "vehicle7", "Vehicle7:9464", ""}) {
+    EXPECT_TRUE(names_this_machine(host, "vehicle7")) << host;
+  }
+  for (const char* host : {"rebound.example", "rebound.example:9464", "127.0.0.1.rebound.example",
+                           "localhost.rebound.example", "vehicle7.rebound.example", "vehicle",
+                           ":80", "[rebound]", "127.0.0.1:80.rebound.example"}) {
+    EXPECT_FALSE(names_this_machine(host, "vehicle7")) << host;
+  }
+  EXPECT_FALSE(names_this_machine("vehicle7", ""));
 }
 
 TEST_F(MetricsServerOf, RefusesAPortInUse) {

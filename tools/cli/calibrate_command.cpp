@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <cmath>
 #include <functional>
 #include <vector>
 
@@ -16,6 +15,7 @@
 #include "firmware_io/sinks/each_return.hpp"
 #include "open_capture.hpp"
 #include "packet_chain.hpp"
+#include "pipeline/near_ground.hpp"
 #include "stop_signal.hpp"
 
 namespace terracut::cli {
@@ -27,11 +27,6 @@ using pipeline::RangeImage;
 
 /// Frames the mount is read off: two seconds' worth is plenty and bounds the memory.
 constexpr std::uint32_t kMountFrames = 20;
-
-/// Half the width of the strip before and behind the vehicle that the mount is read off: the
-/// surface it stands on. A crowned road falls away on the other side, and there is more to see of
-/// it.
-constexpr float kOwnLane_m = 1.5F;
 
 /// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when
 /// it has seen enough.
@@ -64,7 +59,6 @@ Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
 /// The mount by the ground itself. A sensor at height 0 without tilt: the decoder's vehicle frame
 /// is then the sensor's.
 Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptions& options) {
-  const calib::MountEstimateConfig config;
   std::vector<std::array<float, 3>> points;
   std::uint32_t frames = 0;
   const calib::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
@@ -74,15 +68,13 @@ Expected<calib::MountEstimate> estimate(OpenCapture& capture, const CaptureOptio
                                      memory);
   const Status decoded = decode_frames(capture, options, decoder, [&](const RangeImage& image) {
     firmware_io::for_each_return(image, [&](const PlacedReturn& placed) {
-      const auto range_m = static_cast<double>(placed.echo.ground_range_m);
-      if (range_m < config.near_m || range_m > config.far_m) return;
-      if (std::abs(placed.echo.y_m) > kOwnLane_m) return;
+      if (!pipeline::is_near_ground_place(placed.echo.x_m, placed.echo.y_m)) return;
       points.push_back({placed.echo.x_m, placed.echo.y_m, placed.echo.z_m});
     });
     return ++frames < kMountFrames;
   });
   if (!decoded) return tl::unexpected(decoded.error());
-  return calib::estimate_mount(points, config);
+  return calib::estimate_mount(points);
 }
 
 /// The mean distance of each ring's ground returns, labelled by the method itself.

@@ -151,4 +151,15 @@ Expected<calib::SensorCalibration> choose_calibration(const CaptureOptions& opti
   });
 }
 
+std::string other_table_warning(const firmware_io::StatusStreamReader& told,
+                                const calib::SensorCalibration& in_use) {
+  if (!told.has_table()) return {};
+  const auto table = calib::parse_stream_table(told.table());
+  if (!table || fingerprint(table->calibration) == fingerprint(in_use)) return {};
+  return fmt::format(
+      "the packets carry another calibration (fingerprint {:016x}) than the one in use ({:016x}); "
+      "leave --calibration away to use theirs",
+      fingerprint(table->calibration), fingerprint(in_use));
+}
+
 }  // namespace terracut::cli

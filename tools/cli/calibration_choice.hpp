@@ -3,9 +3,11 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "options.hpp"
 #include "rt/error.hpp"
 #include "sensor_choice.hpp"
@@ -29,6 +31,11 @@ using ToldCalibration = std::function<Expected<calib::SensorCalibration>()>;
 [[nodiscard]] Expected<calib::SensorCalibration> choose_calibration(const CaptureOptions& options,
                                                                     firmware_io::SensorModel model,
                                                                     const ToldCalibration& told);
+
+/// Where the packets told a table that is not the one in use: both fingerprints and what to do.
+/// Empty where they told none, or this one.
+[[nodiscard]] std::string other_table_warning(const firmware_io::StatusStreamReader& told,
+                                              const calib::SensorCalibration& in_use);
 
 /// The same for a capture, whose packets tell in the HDL-64E's status stream and in DIFOP packets.
 /// Where they do not: kNoCalibration, with what was found instead. Leaves `source` anywhere.

@@ -25,6 +25,7 @@ constexpr std::array<std::string_view, 5> kScenes{"street", "highway", "rural", 
 
 constexpr std::array<std::string_view, 4> kSpeedUnits{"file", "m/s", "km/h", "mph"};
 constexpr std::array<std::string_view, 3> kYawRateUnits{"file", "rad/s", "deg/s"};
+constexpr std::array<std::string_view, 3> kStreamModes{"600", "660", "666"};
 constexpr std::array<std::string_view, 3> kTurnInstants{"start", "middle", "end"};
 
 constexpr double kLongest_s = 1e9;
@@ -141,6 +142,8 @@ constexpr std::array kSettings{
             [](C& c) noexcept -> F { return &c.output.truth; }},
     Setting{"output.stream", "--stream", "", "live: where other programs get labelled points: ADDRESS:PORT, PORT or a socket's path (default: nowhere)", 0, 0, {}, TextForm::kStream,
             [](C& c) noexcept -> F { return &c.live.stream; }},
+    Setting{"output.stream_mode", "--stream-mode", "", "live: who may read the stream at a socket's path: its owner, group too, or everybody", 0, 0, kStreamModes, kAny,
+            [](C& c) noexcept -> F { return &c.live.stream_mode; }},
     Setting{"output.trace", "--trace", "", "live: file for the last frames as a trace, for ui.perfetto.dev", 0, 0, {}, kAny,
             [](C& c) noexcept -> F { return &c.live.trace; }},
 

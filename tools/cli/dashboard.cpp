@@ -11,6 +11,7 @@
 
 #include "bus_text.hpp"
 #include "counts_text.hpp"
+#include "mount_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -45,6 +46,7 @@ class Dashboard {
     add_stages();
     line("");
     add_losses();
+    add_mount();
     add_buses();
     add_threads();
     return std::move(text_);
@@ -158,6 +160,12 @@ class Dashboard {
   void add_losses() {
     const std::string lost = counts_text(figures_.losses_in_use());
     line("losses    {}", lost.empty() ? "none" : alarm(lost));
+  }
+
+  void add_mount() {
+    if (const std::string text = contradiction_text(figures_.mount); !text.empty()) {
+      line("mount     {}", alarm(text));
+    }
   }
 
   void add_buses() {

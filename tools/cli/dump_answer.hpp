@@ -18,6 +18,7 @@ struct DumpAnswer {
   int pid = 0;
   std::uint64_t serial = 0;  ///< 1.. for the process's first answer and so on.
   std::string capture;       ///< The file that was written; empty when it was refused.
+  std::string calibration;   ///< The unit's table beside it, if it was written, too.
   std::uint64_t datagrams = 0;
   double seconds = 0;   ///< From its first datagram to its last.
   std::string refusal;  ///< DumpRefusal's name.
@@ -42,7 +43,8 @@ class DumpAnswers {
   std::uint64_t serial_ = 0;
 };
 
-/// The last answer of the process of this name, alive or not; nothing when there is none.
+/// The last answer of the process of this name, alive or not; nothing when there is none, or one
+/// that anybody could have written (rt/trusted_file.hpp). Its texts may hold any bytes.
 [[nodiscard]] std::optional<DumpAnswer> read_dump_answer(const std::filesystem::path& folder,
                                                          const std::string& name);
 

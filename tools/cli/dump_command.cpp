@@ -7,6 +7,7 @@
 
 #include "commands.hpp"
 #include "console.hpp"
+#include "counts_text.hpp"
 #include "dump_answer.hpp"
 #include "live_process.hpp"
 #include "rt/status_page_file.hpp"
@@ -31,11 +32,15 @@ ExitCode run(const DumpOptions& options) {
     const auto answer = read_dump_answer(folder, process->name);
     if (answer && is_new(*answer)) {
       if (answer->capture.empty()) {
-        return refuse(kOutputFailed,
-                      fmt::format("refused ({}): {}", answer->refusal, answer->message));
+        return refuse(kOutputFailed, fmt::format("refused ({}): {}", printable(answer->refusal),
+                                                 printable(answer->message)));
       }
-      fmt::print("{}\n", answer->capture);
+      fmt::print("{}\n", printable(answer->capture));
       say(fmt::format("{} datagrams of {:.2f} s", answer->datagrams, answer->seconds));
+      if (!answer->calibration.empty()) {
+        say(fmt::format("replay it: terracut replay {} --calibration {}",
+                        printable(answer->capture), printable(answer->calibration)));
+      }
       return kOk;
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(20));

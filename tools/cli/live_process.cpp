@@ -24,7 +24,7 @@ namespace {
 std::vector<LiveProcess> running(const std::filesystem::path& folder) {
   std::vector<LiveProcess> processes;
   for (const rt::StatusPageEntry& page : rt::list_status_pages(folder)) {
-    if (page.publisher_lives) processes.push_back({page.name, page.pid});
+    if (page.publisher_lives) processes.push_back({page.name, page.pid, page.owner});
   }
   return processes;
 }
@@ -36,15 +36,20 @@ bool still_runs(const std::filesystem::path& folder, const LiveProcess& process)
   return false;
 }
 
-/// Blocks or catches SIGUSR1, as /proc/PID/status tells in hexadecimal masks. What cannot be read
-/// does not listen: a signal is not sent on a guess.
-bool listens_for_dumps(::pid_t pid) {
+/// Is of the user whose page names it, and blocks or catches SIGUSR1, as /proc/PID/status tells in
+/// hexadecimal masks. What cannot be read does not listen: a signal is not sent on a guess.
+bool listens_for_dumps(const LiveProcess& process) {
   constexpr std::uint64_t kSignal = std::uint64_t{1} << (SIGUSR1 - 1);
-  std::ifstream status(fmt::format("/proc/{}/status", pid));
+  std::ifstream status(fmt::format("/proc/{}/status", process.pid));
+  bool is_owners = false;
   for (std::string key; status >> key;) {
+    if (key == "Uid:") {  // real, effective and others
+      ::uid_t real = 0, effective = 0;
+      is_owners = status >> real >> effective && effective == process.owner;
+    }
     if (key == "SigBlk:" || key == "SigCgt:") {
       std::uint64_t mask = 0;
-      if (status >> std::hex >> mask && (mask & kSignal) != 0) return true;
+      if (status >> std::hex >> mask && (mask & kSignal) != 0) return is_owners;
     }
     status.ignore(std::numeric_limits<std::streamsize>::max(), '\n');
   }
@@ -92,7 +97,7 @@ Status ask_for_dump(const std::filesystem::path& folder, const LiveProcess& proc
       static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));
   if (!held) return tl::unexpected(system_refusal(process, errno));
   if (!still_runs(folder, process)) return tl::unexpected(system_refusal(process, ESRCH));
-  if (!listens_for_dumps(process.pid)) {
+  if (!listens_for_dumps(process)) {
     return fail(ErrorCode::kUnsupported,
                 fmt::format("'{}' (process {}) does not listen for dumps: it is starting, or was "
                             "told to keep no packets",

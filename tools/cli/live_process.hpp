@@ -15,6 +15,7 @@ namespace terracut::cli {
 struct LiveProcess {
   std::string name;
   ::pid_t pid = 0;
+  ::uid_t owner = 0;  ///< Of its page.
 };
 
 /// The process of this name, or the only one that runs when `name` is empty. kNotFound: none runs,
@@ -22,9 +23,10 @@ struct LiveProcess {
 [[nodiscard]] Expected<LiveProcess> find_live_process(const std::filesystem::path& folder,
                                                       const std::string& name);
 
-/// Sends it SIGUSR1, unless that could end it: the process must still hold its status page, and
-/// must have made itself ready for the signal (live/dump_signal.hpp). kNotFound: it has ended;
-/// kUnsupported: it does not listen; kUnreadable: not permitted.
+/// Sends it SIGUSR1, unless that could end it: the process must still hold its status page, must
+/// be of the user that the page belongs to, and must have made itself ready for the signal
+/// (live/dump_signal.hpp). kNotFound: it has ended; kUnsupported: it does not listen; kUnreadable:
+/// not permitted.
 [[nodiscard]] Status ask_for_dump(const std::filesystem::path& folder, const LiveProcess& process);
 
 }  // namespace terracut::cli

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "json_text.hpp"
+#include "mount_text.hpp"
 #include "rt/whole_file.hpp"
 
 namespace terracut::cli {
@@ -133,6 +134,7 @@ Json live_summary(const rt::MonitorSnapshot& figures) {
   json["frames"] = frames_json(figures);
   json["misses"] = misses_json(figures);
   json["losses"] = counts_json(figures.losses_in_use());
+  json["mount"] = mount_json(figures.mount);
   if (!figures.motion.bus.empty()) json["motion"] = motion_json(figures.motion);
   if (!figures.health.bus.empty()) json["health"] = health_json(figures.health);
   json["threads"] = threads_json(figures);

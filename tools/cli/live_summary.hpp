@@ -19,6 +19,8 @@ namespace terracut::cli {
 ///   frames                        count, per_second, returns, unjudged, rungs{rung: count}
 ///   misses                        total, consecutive, longest_run, causes{cause: count}
 ///   losses{cause: count}
+///   mount                         height_m, roll_deg, pitch_deg as given; turns looked at,
+///                                 contradicted; where it is, seen{the same three}
 ///   motion                        where asked for: bus, state, samples, spare_samples,
 ///                                 last_sample_ns, taken_out_frames, no_ego_motion_frames,
 ///                                 newest_sample_after_turn_ms{newest, min, mean, max},

@@ -14,6 +14,7 @@
 #include <thread>
 #include <utility>
 
+#include "http_host.hpp"
 #include "metrics_text.hpp"
 
 namespace terracut::cli {
@@ -79,6 +80,15 @@ Expected<MetricsServer> MetricsServer::start(const std::string& address, std::ui
   server.set_read_timeout(1);
   server.set_write_timeout(1);
   server.set_payload_max_length(4096);
+  server.set_pre_routing_handler(
+      [name = own_host_name()](const httplib::Request& request, httplib::Response& response) {
+        using Handling = httplib::Server::HandlerResponse;
+        if (names_this_machine(request.get_header_value("Host"), name)) return Handling::Unhandled;
+        response.status = 403;
+        response.set_content("ask by this machine's address, as localhost or as '" + name + "'\n",
+                             "text/plain");
+        return Handling::Handled;
+      });
   server.Get("/metrics", [raw = state.get()](const httplib::Request&, httplib::Response& response) {
     raw->answer(response);
   });

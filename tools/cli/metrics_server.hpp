@@ -17,7 +17,9 @@ namespace terracut::cli {
 ///
 /// One connection at a time, one request a connection, little memory: a slow or hostile client can
 /// keep others from the figures, but nothing else. There is neither encryption nor a password, so
-/// listen on loopback unless the network is trusted.
+/// listen on loopback unless the network is trusted. Requests whose Host header names another
+/// machine (http_host.hpp) get 403: a web page cannot read the figures through the browser that
+/// shows it.
 class MetricsServer {
  public:
   /// Copies the newest figures; false when there are none (answered with status 503). Called on the

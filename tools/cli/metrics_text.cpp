@@ -154,6 +154,21 @@ void add_frames(const rt::MonitorSnapshot& figures, MetricsText& text) {
               figures.consecutive_misses);
 }
 
+void add_mount(const rt::MountFigures& mount, MetricsText& text) {
+  text.single("terracut_mount_contradicted", "gauge",
+              "1 where the near ground shows another mount than the one given.",
+              mount.contradicted != 0 ? 1 : 0);
+  if (mount.contradicted == 0) return;
+  text.begin("terracut_mount_height_metres", "gauge", "The sensor above the ground.");
+  text.sample(mount.height_m, label("by", "given"));
+  text.sample(mount.seen_height_m, label("by", "ground"));
+  text.begin("terracut_mount_tilt_degrees", "gauge", "How the sensor is tilted, by axis.");
+  text.sample(mount.roll_deg, label("by", "given") + "," + label("axis", "roll"));
+  text.sample(mount.pitch_deg, label("by", "given") + "," + label("axis", "pitch"));
+  text.sample(mount.seen_roll_deg, label("by", "ground") + "," + label("axis", "roll"));
+  text.sample(mount.seen_pitch_deg, label("by", "ground") + "," + label("axis", "pitch"));
+}
+
 void add_motion(const rt::MotionFigures& motion, MetricsText& text) {
   if (motion.bus.empty()) return;
   const std::string bus = label("bus", motion.bus.view());
@@ -221,6 +236,7 @@ std::string metrics_text(const rt::MonitorSnapshot& figures) {
   add_process(figures, text);
   add_input(figures, text);
   add_frames(figures, text);
+  add_mount(figures.mount, text);
   add_motion(figures.motion, text);
   add_health(figures.health, text);
   add_times(figures, text);

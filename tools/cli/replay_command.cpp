@@ -12,13 +12,14 @@
 #include <thread>
 #include <vector>
 
-#include "calib/hdl64e_stream_table.hpp"
+#include "calibration_choice.hpp"
 #include "console.hpp"
 #include "device_clock.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "frame_outputs.hpp"
 #include "motion_choice.hpp"
+#include "mount_watch.hpp"
 #include "open_capture.hpp"
 #include "packet_chain.hpp"
 #include "recorded_motion.hpp"
@@ -102,6 +103,7 @@ class Replay {
                {motion == nullptr ? nullptr : &motion->motion(), turn_instant_of(options.motion)}),
         clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
+        mount_(profile.mount),
         truth_(options.output.truth),
         report_({"replay", options.capture.file.string(), capture.sensor_line,
                  capture.calibration_line, options.method.profile, options.method.stages,
@@ -187,6 +189,7 @@ class Replay {
     report_.add(record_of(info, segmented, decode_ns_, clock_.take(), ahead_ns));
     decode_ns_ = 0;
     deskewed_ += info.deskew.state == firmware_io::DeskewState::kDone ? 1 : 0;
+    if (info.number % MountWatch::kTurnsApart == 0) mount_.add_turn(image);
 
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
@@ -199,17 +202,6 @@ class Replay {
     progress_.update(static_cast<double>(report_.frames()));
   }
 
-  void warn_of_other_table() const {
-    if (!status_.has_table()) return;
-    const auto table = calib::parse_stream_table(status_.table());
-    const std::uint64_t in_use = calib::fingerprint(capture_.calibration);
-    if (!table || fingerprint(table->calibration) == in_use) return;
-    warn(fmt::format(
-        "the packets carry another calibration (fingerprint {:016x}) than the one in use "
-        "({:016x}); leave --calibration away to use theirs",
-        fingerprint(table->calibration), in_use));
-  }
-
   ExitCode conclude() {
     if (!sinks_) return refuse(sinks_.error());
     const firmware_io::LossCounters losses = chain_.decoder.losses();
@@ -219,9 +211,13 @@ class Replay {
     if (report_.frames() == 0) {
       return refuse(nothing_came_out(capture_.source, offered_, losses));
     }
-    warn_of_other_table();
+    if (const std::string other = other_table_warning(status_, capture_.calibration);
+        !other.empty()) {
+      warn(other);
+    }
     warn_of_other_senders(capture_, options_.capture);
     report_.set_losses(losses);
+    report_.set_mount(mount_.figures());
     if (clock_of_device_.noted()) {
       report_.set_device_clock(clock_of_device_.text());
       if (const std::string warning = clock_of_device_.warning(); !warning.empty()) warn(warning);
@@ -247,6 +243,7 @@ class Replay {
   firmware_io::StatusStreamReader status_;
   DeviceClock clock_of_device_;
   FrameOutputs outputs_;
+  MountWatch mount_;
   FrameTruth truth_;
   Report report_;
   Progress progress_;

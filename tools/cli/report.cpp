@@ -9,6 +9,7 @@
 
 #include "console.hpp"
 #include "loss_table.hpp"
+#include "mount_text.hpp"
 #include "rt/whole_file.hpp"
 
 namespace terracut::cli {
@@ -193,6 +194,9 @@ std::string Report::text() const {
                         100 * quality_->iou_ground(), 100 * quality_->recall_key_obstacles(),
                         unscored_ == 0 ? "" : fmt::format(" ({} frames not scored)", unscored_));
   }
+  if (const std::string line = contradiction_text(mount_); !line.empty()) {
+    text += "mount     " + line + "\n";
+  }
   if (motion_samples_) text += "motion    " + motion_sentence(*motion_samples_, records_) + "\n";
   text += "losses    " + loss_sentence(losses()) + "\n";
   text += times_.text();
@@ -249,6 +253,7 @@ Status Report::write_json(const std::filesystem::path& path) const {
     summary["points_no_place"] = scan_points_->no_place;
     summary["points_no_ring"] = scan_points_->no_ring;
   }
+  summary["mount"] = mount_json(mount_);
   if (motion_samples_) {
     const MotionSummary motion = motion_of(records_);
     summary["motion"] = {

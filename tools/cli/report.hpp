@@ -17,6 +17,7 @@
 #include "pipeline/segmenter.hpp"
 #include "rt/error.hpp"
 #include "rt/log_linear_histogram.hpp"
+#include "rt/mount_figures.hpp"
 #include "stage_clock.hpp"
 
 namespace terracut::cli {
@@ -89,6 +90,7 @@ class Report {
   void set_scan_points(std::uint64_t no_place, std::uint64_t no_ring) {
     scan_points_ = {no_place, no_ring};
   }
+  void set_mount(const rt::MountFigures& mount) { mount_ = mount; }
   /// What is known of the sensor's clock, for people.
   void set_device_clock(std::string text) { device_clock_ = std::move(text); }
   /// The run was ended before its work was done: what it reports is not of all its input.
@@ -115,7 +117,7 @@ class Report {
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
   ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
-  ///                   points_no_ring; with a CAN recording motion{
+  ///                   points_no_ring; mount{mount_text.hpp}; with a CAN recording motion{
   ///                   samples, deskewed_frames, newest_sample_after_turn_ms{min, median, max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
@@ -130,6 +132,7 @@ class Report {
     std::uint64_t no_place, no_ring;
   };
   std::optional<ScanPoints> scan_points_;
+  rt::MountFigures mount_;
   std::optional<std::uint64_t> motion_samples_;
   std::string device_clock_;
   std::string input_warning_;

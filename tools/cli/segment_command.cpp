@@ -12,6 +12,7 @@
 #include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "frame_outputs.hpp"
+#include "mount_watch.hpp"
 #include "report.hpp"
 #include "setup_choice.hpp"
 #include "stop_signal.hpp"
@@ -31,6 +32,7 @@ struct ScanLabeller {
   StageClock clock;
   std::vector<pipeline::Label> point_labels;
   std::vector<std::uint32_t> return_truth;
+  MountWatch mount;
   pipeline::Quality quality;
   std::uint64_t scored = 0;
   std::uint64_t no_place = 0, no_ring = 0;  ///< Points of all scans.
@@ -38,11 +40,13 @@ struct ScanLabeller {
   ScanLabeller(const pipeline::MethodConfig& config, const calib::RingProfile& profile)
       : image(shape, shape.cells(), memory),
         segmenter(config, profile, shape, image.return_capacity(), memory),
-        scan_to_image(profile.mount) {}
+        scan_to_image(profile.mount),
+        mount(profile.mount) {}
 
   /// Labels the scan and the rings that were just read.
   void label(FrameRecord& record) {
     const auto placed = scan_to_image.place(scan.points, rings.ring_of_point, image);
+    mount.add_turn(image);
     record.cut = segmenter.segment(image, &clock).cut;
     record.times = clock.take();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
@@ -129,6 +133,7 @@ ExitCode run(const SegmentOptions& options) {
     progress.update(static_cast<double>(i + 1));
   }
   if (labeller.scored > 0) report.set_quality(labeller.quality, report.frames() - labeller.scored);
+  report.set_mount(labeller.mount.figures());
   report.set_scan_points(labeller.no_place, labeller.no_ring);
   return conclude_with(report, options.output.json);
 }

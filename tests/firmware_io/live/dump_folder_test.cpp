@@ -68,27 +68,40 @@ class DumpFolderTest : public testing::Test {
   fs::path folder_ = make_scratch_folder();
 };
 
-TEST_F(DumpFolderTest, NamesADumpByTimeAndReasonAndMakesTheFolder) {
+TEST_F(DumpFolderTest, NamesADumpByNumberTimeAndReasonAndMakesTheFolder) {
   DumpFolderLimits deeper = limits();
   deeper.folder = folder_ / "a" / "b";
   DumpFolder dumps(deeper);
   const auto capture = dumps.make_room(1, DumpReason::kMissedDeadline, kStart_ns);
   ASSERT_TRUE(capture) << capture.error().message;
-  EXPECT_EQ(*capture, deeper.folder / "terracut-20261121T123453.123Z-missed_deadline.pcap");
+  EXPECT_EQ(*capture, deeper.folder / "terracut-000001-20261121T123453.123Z-missed_deadline.pcap");
   EXPECT_EQ(firmware_io::frame_times_path(*capture),
-            deeper.folder / "terracut-20261121T123453.123Z-missed_deadline.frames.json");
+            deeper.folder / "terracut-000001-20261121T123453.123Z-missed_deadline.frames.json");
 }
 
-TEST_F(DumpFolderTest, NeverNamesAFileThatIsThere) {
+TEST_F(DumpFolderTest, NumbersDumpsOnWhatEverTheClockSays) {
   DumpFolder dumps(limits());
-  for (int i = 0; i < 3; ++i) write_dump(dumps, 0);
-  EXPECT_THAT(files(),
-              UnorderedElementsAre("terracut-20261121T123453.123Z-missed_deadline.pcap",
-                                   "terracut-20261121T123453.123Z-missed_deadline.frames.json",
-                                   "terracut-20261121T123453.124Z-missed_deadline.pcap",
-                                   "terracut-20261121T123453.124Z-missed_deadline.frames.json",
-                                   "terracut-20261121T123453.125Z-missed_deadline.pcap",
-                                   "terracut-20261121T123453.125Z-missed_deadline.frames.json"));
+  for (const int age_s : {0, 0, -3600}) write_dump(dumps, age_s);
+  EXPECT_THAT(files(), UnorderedElementsAre(
+                           "terracut-000001-20261121T123453.123Z-missed_deadline.pcap",
+                           "terracut-000001-20261121T123453.123Z-missed_deadline.frames.json",
+                           "terracut-000002-20261121T123453.123Z-missed_deadline.pcap",
+                           "terracut-000002-20261121T123453.123Z-missed_deadline.frames.json",
+                           "terracut-000003-20261121T113453.123Z-missed_deadline.pcap",
+                           "terracut-000003-20261121T113453.123Z-missed_deadline.frames.json"));
+  DumpFolder of_the_next_run(limits());
+  const auto capture = of_the_next_run.make_room(1, DumpReason::kAsked, kStart_ns);
+  ASSERT_TRUE(capture);
+  EXPECT_EQ(capture->filename(), "terracut-000004-20261121T123453.123Z-asked.pcap");
+}
+
+TEST_F(DumpFolderTest, GivesNoNumberTwiceThoughItsDumpIsGone) {
+  DumpFolder dumps(limits());
+  write_dump(dumps, 0);
+  for (const std::string& name : files()) fs::remove(folder_ / name);
+  const auto capture = dumps.make_room(1, DumpReason::kAsked, kStart_ns);
+  ASSERT_TRUE(capture);
+  EXPECT_EQ(capture->filename(), "terracut-000002-20261121T123453.123Z-asked.pcap");
 }
 
 TEST_F(DumpFolderTest, DeletesTheOldestDumpsBeyondTheirNumber) {
@@ -96,12 +109,47 @@ TEST_F(DumpFolderTest, DeletesTheOldestDumpsBeyondTheirNumber) {
   two.most_dumps = 2;
   DumpFolder dumps(two);
   for (const int age_s : {0, 10, 20, 30}) write_dump(dumps, age_s);
-  EXPECT_THAT(files(),
-              UnorderedElementsAre("terracut-20261121T123513.123Z-missed_deadline.pcap",
-                                   "terracut-20261121T123513.123Z-missed_deadline.frames.json",
-                                   "terracut-20261121T123523.123Z-missed_deadline.pcap",
-                                   "terracut-20261121T123523.123Z-missed_deadline.frames.json"));
+  EXPECT_THAT(files(), UnorderedElementsAre(
+                           "terracut-000003-20261121T123513.123Z-missed_deadline.pcap",
+                           "terracut-000003-20261121T123513.123Z-missed_deadline.frames.json",
+                           "terracut-000004-20261121T123523.123Z-missed_deadline.pcap",
+                           "terracut-000004-20261121T123523.123Z-missed_deadline.frames.json"));
   EXPECT_EQ(dumps.deleted(), 2U);
+}
+
+TEST_F(DumpFolderTest, KeepsTheNewestDumpsAfterTheClockWasSetBack) {
+  DumpFolderLimits two = limits();
+  two.most_dumps = 2;
+  DumpFolder dumps(two);
+  for (const int age_s : {0, 10}) write_dump(dumps, age_s);
+  for (const int age_s : {-86400, -86390}) write_dump(dumps, age_s);
+  EXPECT_THAT(files(), testing::Each(testing::HasSubstr("-20261120T")));
+  EXPECT_EQ(files().size(), 4U);
+}
+
+TEST_F(DumpFolderTest, DeletesDumpsOfEarlierVersionsFirst) {
+  put("terracut-20991231T235959.999Z-asked.pcap");
+  put("terracut-20991231T235959.999Z-asked.frames.json");
+  DumpFolderLimits one = limits();
+  one.most_dumps = 2;
+  DumpFolder dumps(one);
+  write_dump(dumps, 0);
+  write_dump(dumps, 10);
+  EXPECT_THAT(files(), testing::Each(testing::HasSubstr("-20261121T")));
+}
+
+TEST_F(DumpFolderTest, DeletesTheTableOfADumpWithIt) {
+  DumpFolderLimits one = limits();
+  one.most_dumps = 1;
+  DumpFolder dumps(one);
+  write_dump(dumps, 0);
+  put("terracut-000001-20261121T123453.123Z-missed_deadline.calibration.xml");
+  put("terracut-000001-20261121T123453.123Z-missed_deadline.calibration.txt");
+  write_dump(dumps, 10);
+  EXPECT_FALSE(
+      files().contains("terracut-000001-20261121T123453.123Z-missed_deadline.calibration.xml"));
+  EXPECT_TRUE(
+      files().contains("terracut-000001-20261121T123453.123Z-missed_deadline.calibration.txt"));
 }
 
 TEST_F(DumpFolderTest, DeletesTheOldestDumpsBeyondTheirBytes) {
@@ -123,6 +171,8 @@ TEST_F(DumpFolderTest, NeverTouchesOtherFiles) {
       "terracut-20261121T115453.123Z-interesting.pcap",
       "terracut-20261121T115453.123Z.pcap",
       "terracut-2026112XT115453.123Z-asked.pcap",
+      "terracut-000000-20261121T115453.123Z-asked.pcap",
+      "terracut-0x1-20261121T115453.123Z-asked.pcap",
       "terracut-rear-20261121T115453.123Z-asked.pcap",
       "other-20261121T115453.123Z-asked.pcap",
       "terracut-20261121T115453.123Z-asked.pcap.part-x-1",
@@ -180,6 +230,12 @@ TEST_F(DumpFolderTest, RefusesAFolderThatIsNone) {
   wrong.folder = folder_ / "file";
   DumpFolder dumps(wrong);
   EXPECT_EQ(refusal_of(dumps, 1000), DumpRefusal::kFolderUnusable);
+  const auto unusable = dumps.check();
+  ASSERT_FALSE(unusable);
+  EXPECT_EQ(unusable.error().refusal, DumpRefusal::kFolderUnusable);
+  wrong.folder = folder_ / "new" / "one";
+  EXPECT_TRUE(DumpFolder(wrong).check());
+  EXPECT_TRUE(fs::is_directory(wrong.folder));
 }
 
 TEST_F(DumpFolderTest, RefusesNamesThatAreNoPartOfAFileName) {

@@ -52,6 +52,28 @@ TEST_F(ListeningSocketTest, AnAddressOfAnotherMachineIsRefused) {
   EXPECT_EQ(socket.error().code, ErrorCode::kNotFound);
 }
 
+TEST_F(ListeningSocketTest, AUnixSocketHasTheRightsThatAreAskedForWhateverTheUmask) {
+  const auto mode = [&] {
+    struct ::stat status{};
+    EXPECT_EQ(::lstat(address_.unix_path.c_str(), &status), 0);
+    return status.st_mode & 0777U;
+  };
+  for (const ::mode_t mask : {0022U, 0000U, 0077U}) {
+    const ::mode_t before = ::umask(mask);
+    {
+      const auto usual = ListeningSocket::open(address_);
+      ASSERT_TRUE(usual) << usual.error().message;
+      EXPECT_EQ(mode(), 0660U);
+    }
+    for (const ::mode_t wanted : {0600U, 0666U}) {
+      const auto socket = ListeningSocket::open(address_, wanted);
+      ASSERT_TRUE(socket) << socket.error().message;
+      EXPECT_EQ(mode(), wanted);
+    }
+    ::umask(before);
+  }
+}
+
 TEST_F(ListeningSocketTest, TheFileOfAUnixSocketGoesWithIt) {
   auto socket = ListeningSocket::open(address_);
   ASSERT_TRUE(socket.has_value()) << socket.error().message;

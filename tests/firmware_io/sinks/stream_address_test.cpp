@@ -20,6 +20,14 @@ TEST(StreamAddress, APortAloneIsOnTheLoopbackAddress) {
   EXPECT_EQ(to_string(StreamAddress{}), "127.0.0.1:0");
 }
 
+TEST(StreamAddress, OthersAreServedOnTheLoopbackAddressUnlessAnotherIsGiven) {
+  EXPECT_EQ(to_string(parse_serving_endpoint("9464").value()), "127.0.0.1:9464");
+  EXPECT_EQ(to_string(parse_serving_endpoint(":9464").value()), "127.0.0.1:9464");
+  EXPECT_EQ(to_string(parse_serving_endpoint("0.0.0.0:9464").value()), "0.0.0.0:9464");
+  EXPECT_EQ(to_string(parse_serving_endpoint("10.0.0.1:9464").value()), "10.0.0.1:9464");
+  EXPECT_FALSE(parse_serving_endpoint("off"));
+}
+
 TEST(StreamAddress, AnAddressIsTakenAsItIs) {
   EXPECT_EQ(understood("192.168.3.10:7447"), "192.168.3.10:7447");
   EXPECT_EQ(understood("0.0.0.0:7447"), "0.0.0.0:7447");

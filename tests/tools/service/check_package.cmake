@@ -34,6 +34,7 @@ foreach(path
     ./etc/terracut/terracut.yaml
     ./usr/share/doc/terracut/real_time.md
     ./usr/share/doc/terracut/configuration.md
+    ./usr/share/doc/terracut/examples/read_turns.py
     ./usr/share/doc/terracut/copyright
     ./usr/share/terracut/terracut_health.dbc
     ./usr/include/terracut/pipeline/segmenter.hpp

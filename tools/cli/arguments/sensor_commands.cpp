@@ -68,13 +68,20 @@ void add_live(CLI::App& sub, LiveOptions& o) {
         const auto address = firmware_io::parse_stream_address(text);
         return address ? std::string() : address.error().message;
       });
+  sub.add_option(
+         "--stream-mode", o.stream_mode,
+         "Rights of that socket's path: 600 its owner may read, 660 its group, too, 666 all")
+      ->check(one_of("output.stream_mode"))
+      ->capture_default_str();
   sub.add_option("--recorder-folder", o.recorder.folder,
                  "Folder for the last seconds of packets, written when a deadline is missed or "
                  "`terracut dump` asks");
   sub.add_option("--recorder-seconds", o.recorder.seconds, "How many seconds")
       ->check(range_of("recorder.seconds"))
       ->capture_default_str();
-  sub.add_option("--metrics", o.watch.metrics, "ADDRESS:PORT of /metrics for Prometheus, or off")
+  sub.add_option(
+         "--metrics", o.watch.metrics,
+         "ADDRESS:PORT of /metrics for Prometheus, or off; a port alone: this machine's programs")
       ->capture_default_str();
   sub.add_option("--name", o.watch.name, "Name for `terracut top` and `terracut dump`")
       ->capture_default_str();

@@ -5,8 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
+#include "firmware_io/hdl64e/hdl64e_transmitter.hpp"
+#include "firmware_io/ruby128/ruby128_transmitter.hpp"
 #include "rt/status_page.hpp"
 #include "tools/cli/console.hpp"
 
@@ -14,11 +18,27 @@ namespace terracut::cli {
 
 using firmware_io::DumpReason;
 
-DumpWriter::DumpWriter(const LiveOptions& options, firmware_io::FlightRecorder& recorder,
+namespace {
+
+/// Writes tables of the sensor that has such a calibration.
+template <class Calibration>
+using TransmitterOf =
+    std::conditional_t<std::is_same_v<Calibration, calib::Hdl64eCalibration>,
+                       firmware_io::Hdl64eTransmitter, firmware_io::Ruby128Transmitter>;
+
+}  // namespace
+
+firmware_io::DumpFolderLimits dump_folder_of(const LiveOptions& options) {
+  return {.folder = options.recorder.folder, .name = options.watch.name};
+}
+
+DumpWriter::DumpWriter(const LiveOptions& options, calib::SensorCalibration calibration,
+                       firmware_io::FlightRecorder& recorder,
                        std::span<const std::string_view> stage_names)
-    : recorder_(recorder),
+    : calibration_(std::move(calibration)),
+      recorder_(recorder),
       stage_names_(stage_names),
-      policy_({.folder = {.folder = options.recorder.folder, .name = options.watch.name}}),
+      policy_({.folder = dump_folder_of(options)}),
       answers_(rt::status_page_folder(), options.watch.name),
       thread_([this] { work(); }) {}
 
@@ -56,9 +76,24 @@ void DumpWriter::work() {
   }
 }
 
+void DumpWriter::add_table(firmware_io::DumpReport& dump) const {
+  const Status written = std::visit(
+      [&]<class Calibration>(const Calibration& unit) {
+        using Transmitter = TransmitterOf<Calibration>;
+        dump.calibration =
+            firmware_io::dump_calibration_path(dump.capture, Transmitter::kCalibrationSuffix);
+        return Transmitter::write_calibration(dump.calibration, unit);
+      },
+      calibration_);
+  if (written) return;
+  warn("the table does not lie beside the dump: " + written.error().message);
+  dump.calibration.clear();
+}
+
 void DumpWriter::dump(DumpReason reason, const std::vector<rt::FrameTiming>& frames) {
-  const auto outcome = recorder_.dump(policy_, reason, {frames, stage_names_});
+  auto outcome = recorder_.dump(policy_, reason, {frames, stage_names_});
   if (outcome) {
+    add_table(*outcome);
     say(fmt::format("dumped {} datagrams to {}", outcome->datagrams, outcome->capture.string()));
   } else if (outcome.error().refusal != firmware_io::DumpRefusal::kTooSoon) {
     warn("not dumped: " + outcome.error().message);

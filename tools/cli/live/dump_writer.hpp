@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "background_thread.hpp"
+#include "calib/sensor_calibration.hpp"
 #include "firmware_io/live/dump_policy.hpp"
 #include "firmware_io/live/flight_recorder.hpp"
 #include "live_options.hpp"
@@ -19,13 +20,16 @@
 
 namespace terracut::cli {
 
+/// Where a run's dumps go, under its name.
+[[nodiscard]] firmware_io::DumpFolderLimits dump_folder_of(const LiveOptions& options);
+
 /// Writes the flight recorder's dumps on a thread of its own: however long the disk takes, nothing
 /// waits for it. What is wanted while a dump is being written is written after it, once.
 class DumpWriter {
  public:
-  /// `recorder` and `stage_names` must outlive this.
-  DumpWriter(const LiveOptions& options, firmware_io::FlightRecorder& recorder,
-             std::span<const std::string_view> stage_names);
+  /// `recorder` and `stage_names` must outlive this. `calibration`, in use, goes beside each dump.
+  DumpWriter(const LiveOptions& options, calib::SensorCalibration calibration,
+             firmware_io::FlightRecorder& recorder, std::span<const std::string_view> stage_names);
 
   /// `frames`: the times of the newest frames.
   void want(firmware_io::DumpReason reason, std::vector<rt::FrameTiming> frames);
@@ -36,7 +40,9 @@ class DumpWriter {
  private:
   void work();
   void dump(firmware_io::DumpReason reason, const std::vector<rt::FrameTiming>& frames);
+  void add_table(firmware_io::DumpReport& dump) const;
 
+  calib::SensorCalibration calibration_;
   firmware_io::FlightRecorder& recorder_;
   std::span<const std::string_view> stage_names_;
   firmware_io::DumpPolicy policy_;

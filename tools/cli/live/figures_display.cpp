@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "firmware_io/live/ipv4_endpoint.hpp"
+#include "firmware_io/sinks/stream_address.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -33,7 +34,7 @@ void FiguresDisplay::open_page(const WatchOptions& options) {
 }
 
 void FiguresDisplay::open_metrics(const WatchOptions& options) {
-  const auto at = firmware_io::parse_ipv4_endpoint(options.metrics);
+  const auto at = firmware_io::parse_serving_endpoint(options.metrics);
   if (!at) {
     warn("no /metrics: " + at.error().message);
     return;

@@ -129,7 +129,7 @@ struct LiveParts {
         recorder(recorder_of(options, memory)),
         threads(options, turn_ns_of(sensor), chain, source, std::move(events),
                 recorder ? &*recorder : nullptr, memory),
-        watch(options, threads, motion ? &*motion : nullptr, display, memory) {}
+        watch(options, profile.mount, threads, motion ? &*motion : nullptr, display, memory) {}
 
   /// Starts every thread; answers what the system granted and refused them.
   [[nodiscard]] std::vector<rt::Grant> start(const LiveOptions& options) {
@@ -175,7 +175,9 @@ class Writers {
       const auto address = firmware_io::parse_stream_address(options.stream);
       if (!address) return tl::unexpected(address.error());
       auto server = firmware_io::TurnStreamServer::open(
-          {.address = *address, .max_points = parts.chain.decoder.return_capacity()},
+          {.address = *address,
+           .unix_mode = static_cast<::mode_t>(std::stoul(options.stream_mode, nullptr, 8)),
+           .max_points = parts.chain.decoder.return_capacity()},
           stream_memory_);
       if (!server) return tl::unexpected(server.error());
       if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
@@ -185,7 +187,11 @@ class Writers {
                       parts.threads.points_ready());
     }
     if (parts.threads.labels()) labels_.emplace(options.labels, *parts.threads.labels());
-    if (parts.recorder) dumps_.emplace(options, *parts.recorder, LiveWatch::kStageNames);
+    if (parts.recorder) {
+      dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames);
+    } else {
+      refusals_.emplace(rt::status_page_folder(), options.watch.name);
+    }
     return {};
   }
 
@@ -194,6 +200,12 @@ class Writers {
 
   void want_dump(firmware_io::DumpReason reason, const LiveWatch& watch) {
     if (dumps_) dumps_->want(reason, watch.newest());
+    if (!refusals_ || reason != firmware_io::DumpReason::kAsked) return;
+    const Status told = refusals_->publish(tl::unexpected(firmware_io::RefusedDump{
+        firmware_io::DumpRefusal::kNoRecorder,
+        "this run keeps no packets; start it with --recorder-folder FOLDER (and "
+        "--recorder-seconds above 0)"}));
+    if (!told) warn(told.error().message);
   }
 
   /// False when the disk does not answer.
@@ -212,10 +224,12 @@ class Writers {
   std::optional<StreamWriter> stream_;
   std::optional<LabelWriter> labels_;
   std::optional<DumpWriter> dumps_;
+  std::optional<DumpAnswers> refusals_;  ///< Where there is nothing to dump.
 };
 
-void run_until_stopped(const LiveOptions& options, LiveWatch& watch, Writers& writers,
-                       DumpSignal& dump_wanted, LiveService& service) {
+void run_until_stopped(const LiveOptions& options, const SensorOnAir& sensor, LiveParts& parts,
+                       Writers& writers, DumpSignal& dump_wanted, LiveService& service) {
+  LiveWatch& watch = parts.watch;
   const auto started = SteadyClock::now();
   const auto is_over = [&] {
     return options.capture.duration_s &&
@@ -226,6 +240,8 @@ void run_until_stopped(const LiveOptions& options, LiveWatch& watch, Writers& wr
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const LiveWatch::Round round = watch.turn_round();
     service.turn_round(watch.figures(), rt::monotonic_ns());
+    const std::string other = parts.threads.told_table().take_warning(sensor.calibration);
+    if (!other.empty()) warn(other);
     if (round.missed > 0) writers.want_dump(firmware_io::DumpReason::kMissedDeadline, watch);
     if (dump_wanted.take()) writers.want_dump(firmware_io::DumpReason::kAsked, watch);
   }
@@ -256,6 +272,10 @@ ExitCode run(const LiveOptions& options) {
 
   rt::FixedMemory socket_memory;
   LiveService service = LiveService::from_environment();
+  if (!options.recorder.folder.empty()) {
+    const auto usable = firmware_io::DumpFolder(dump_folder_of(options)).check();
+    if (!usable) return refuse(kOutputFailed, "dumps: " + usable.error().message);
+  }
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
   std::optional<firmware_io::MotionSignals> signals;
@@ -305,7 +325,7 @@ ExitCode run(const LiveOptions& options) {
   }
   say_refusals(parts.start(options));
   parts.watch.open(describe(*sensor), source->name(), writers.stream());
-  run_until_stopped(options, parts.watch, writers, dump_wanted, service);
+  run_until_stopped(options, *sensor, parts, writers, dump_wanted, service);
   service.stopping();
   parts.stop();
   parts.watch.turn_round();

@@ -55,8 +55,9 @@ struct LiveOptions {
   std::string can;  ///< --can, CAN interface of the vehicle; empty: its motion is not taken out.
   MotionOptions motion;
   std::filesystem::path labels, json, trace;
-  std::string stream;       ///< --stream, where others get labelled points; empty: nowhere.
-  double deadline_ms = 50;  ///< From a turn's last packet to its labels, [1, 10000].
+  std::string stream;               ///< --stream, where others get labelled points; empty: nowhere.
+  std::string stream_mode = "660";  ///< --stream-mode, octal rights of a Unix socket's file.
+  double deadline_ms = 50;          ///< From a turn's last packet to its labels, [1, 10000].
   RealtimeOptions realtime;
   RecorderOptions recorder;
   WatchOptions watch;

@@ -9,6 +9,7 @@
 
 #include "tools/cli/bus_text.hpp"
 #include "tools/cli/counts_text.hpp"
+#include "tools/cli/mount_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -60,6 +61,9 @@ std::string live_report(const rt::MonitorSnapshot& figures) {
   if (figures.silences > 0) {
     text += fmt::format("silent    {} times, {:.1f} s in all\n", figures.silences,
                         static_cast<double>(figures.silent_ns) * 1e-9);
+  }
+  if (const std::string line = contradiction_text(figures.mount); !line.empty()) {
+    text += "mount     " + line + '\n';
   }
   const char* begin = "motion    ";
   for (const std::string& line : motion_lines(figures.motion)) {

@@ -31,9 +31,11 @@ LiveThreads::LiveThreads(const LiveOptions& options, std::int64_t turn_ns, LiveC
       source_(source),
       events_(std::move(events)),
       recorder_(recorder),
+      told_table_(memory),
       exchange_(chain.decoder.images()),
       segmented_(memory),
-      skipped_(memory) {
+      skipped_(memory),
+      near_ground_(memory) {
   const std::size_t capacity = chain.decoder.return_capacity();
   if (!options.labels.empty()) labels_.emplace("label slots", kLabelSlots, capacity, memory);
   if (!options.stream.empty()) points_.emplace("point slots", kPointSlots, capacity, memory);
@@ -80,7 +82,8 @@ void LiveThreads::receive() noexcept {
                      .turn_ready = &events_.turn_ready,
                      .skipped = &skipped_,
                      .intake = &intake_,
-                     .recorder = recorder_},
+                     .recorder = recorder_,
+                     .told_table = options_.capture.calibration.empty() ? nullptr : &told_table_},
                     {}, rt::RunQueueWait::of_this_thread());
   receive_turns(receiver);
 }
@@ -100,7 +103,8 @@ void LiveThreads::segment() noexcept {
                       {.timings = &segmented_,
                        .labels = labels(),
                        .points = points(),
-                       .points_ready = &events_.points_ready},
+                       .points_ready = &events_.points_ready,
+                       .near_ground = &near_ground_},
                       {}, rt::RunQueueWait::of_this_thread());
   segment_turns(segmenter);
 }

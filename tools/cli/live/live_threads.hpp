@@ -14,6 +14,7 @@
 #include "frame_exchange.hpp"
 #include "frame_slots.hpp"
 #include "frame_timings.hpp"
+#include "latest_near_ground.hpp"
 #include "live_chain.hpp"
 #include "live_options.hpp"
 #include "live_source.hpp"
@@ -23,6 +24,7 @@
 #include "rt/nonblocking.hpp"
 #include "rt/run_queue_wait.hpp"
 #include "rt/thread_cpu_clock.hpp"
+#include "told_table.hpp"
 #include "turn_receiver.hpp"
 #include "turn_segmenter.hpp"
 
@@ -74,6 +76,13 @@ class LiveThreads {
     return events_.points_ready;
   }
 
+  /// The near ground of a turn now and then (MountWatch::kTurnsApart), where there is a newer one
+  /// than was taken last; else null. From one thread; valid until its next call.
+  [[nodiscard]] const pipeline::NearGround* near_ground() noexcept { return near_ground_.newest(); }
+
+  /// What the packets tell of the unit's table, where options.capture.calibration is in use.
+  [[nodiscard]] ToldTable& told_table() noexcept { return told_table_; }
+
   /// From one thread.
   [[nodiscard]] const Intake& intake() noexcept;
   /// Frames that nobody judged because the one who takes timings was too slow.
@@ -101,9 +110,12 @@ class LiveThreads {
   LiveSource& source_;
   Events events_;
   firmware_io::FlightRecorder* recorder_;
+  ToldTable told_table_;
 
   FrameExchange exchange_;
   FrameTimings segmented_, skipped_;
+
+  LatestNearGround near_ground_;
 
   std::optional<FrameSlots<pipeline::Label>> labels_;
   std::optional<FrameSlots<firmware_io::LabelledPoint>> points_;

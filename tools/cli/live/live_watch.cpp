@@ -23,12 +23,13 @@ void show_thread(rt::MonitorSnapshot& figures, std::string_view name,
 
 }  // namespace
 
-LiveWatch::LiveWatch(const LiveOptions& options, LiveThreads& threads, VehicleMotion* motion,
-                     FiguresDisplay& display, rt::FixedMemory& memory)
+LiveWatch::LiveWatch(const LiveOptions& options, const calib::Mount& mount, LiveThreads& threads,
+                     VehicleMotion* motion, FiguresDisplay& display, rt::FixedMemory& memory)
     : options_(options),
       threads_(threads),
       motion_(motion),
       display_(display),
+      mount_(std::make_unique<MountWatch>(mount)),
       monitor_({.deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
                 .stage_names = kStageNames,
                 .kept_frames = kKeptFrames},
@@ -89,6 +90,8 @@ void LiveWatch::refresh() {
   refresh_link(figures);
   refresh_losses(figures);
   refresh_threads(figures);
+  if (const pipeline::NearGround* ground = threads_.near_ground()) mount_->add_turn(*ground);
+  figures.mount = mount_->figures();
   if (motion_ != nullptr) motion_->show(figures.motion);
   if (health_) {
     health_->turn_round(figures, rt::monotonic_ns());

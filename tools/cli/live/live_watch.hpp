@@ -19,6 +19,7 @@
 #include "standing_head.hpp"
 #include "stolen_time_share.hpp"
 #include "stream_writer.hpp"
+#include "tools/cli/mount_watch.hpp"
 #include "vehicle_motion.hpp"
 
 namespace terracut::cli {
@@ -34,8 +35,8 @@ class LiveWatch {
       to_string(pipeline::Stage::kLabels)};
 
   /// All must outlive this. `motion` may be null.
-  LiveWatch(const LiveOptions& options, LiveThreads& threads, VehicleMotion* motion,
-            FiguresDisplay& display, rt::FixedMemory& memory);
+  LiveWatch(const LiveOptions& options, const calib::Mount& mount, LiveThreads& threads,
+            VehicleMotion* motion, FiguresDisplay& display, rt::FixedMemory& memory);
 
   /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `stream`:
   /// whose losses are shown as well; may be null, and must outlive this.
@@ -68,6 +69,7 @@ class LiveWatch {
   VehicleMotion* motion_;
   const StreamWriter* stream_ = nullptr;
   FiguresDisplay& display_;
+  std::unique_ptr<MountWatch> mount_;
   StandingHead standing_head_;
   LinkNews link_news_;
   std::optional<StolenTimeShare<rt::StolenTime>> stolen_;

@@ -18,6 +18,7 @@
 #include "packet_gate.hpp"
 #include "rt/latest_value.hpp"
 #include "rt/nonblocking.hpp"
+#include "told_table.hpp"
 #include "tools/cli/stage_clock.hpp"
 
 namespace terracut::cli {
@@ -47,13 +48,14 @@ class TurnReceiver {
     std::int64_t deadline_ns = 0;  ///< From a turn's last packet to its labels.
     std::int64_t turn_ns = 0;      ///< Of one turn of the head.
   };
-  /// Where things go; all must outlive this. `recorder` may be null.
+  /// Where things go; all must outlive this. `recorder` and `told_table` may be null.
   struct Outlets {
     FrameExchange* turns;
     const firmware_io::WakeEvent* turn_ready;
     FrameTimings* skipped;
     rt::LatestValue<Intake>* intake;
     firmware_io::FlightRecorder* recorder;
+    ToldTable* told_table = nullptr;
   };
 
   /// What waits in `source` is too old for a label and no loss of the run: it is thrown away.
@@ -114,6 +116,7 @@ class TurnReceiver {
   void take(const firmware_io::Datagram& datagram, std::int64_t now_ns) noexcept {
     newest_packet_ns_ = datagram.stamp_ns;
     if (to_.recorder != nullptr) to_.recorder->add(datagram);
+    if (to_.told_table != nullptr) to_.told_table->add(datagram);
     const auto on_frame = [this](const firmware_io::FrameInfo& info,
                                  pipeline::RangeImage& image) noexcept {
       return hand_over(info, image);

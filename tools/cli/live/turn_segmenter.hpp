@@ -13,8 +13,10 @@
 #include "frame_exchange.hpp"
 #include "frame_slots.hpp"
 #include "frame_timings.hpp"
+#include "latest_near_ground.hpp"
 #include "live_chain.hpp"
 #include "rt/nonblocking.hpp"
+#include "tools/cli/mount_watch.hpp"
 #include "tools/cli/stage_clock.hpp"
 
 namespace terracut::cli {
@@ -26,12 +28,13 @@ namespace terracut::cli {
 template <class Clock, class Wait>
 class TurnSegmenter {
  public:
-  /// Where things go; all must outlive this. Slots may be null.
+  /// Where things go; all must outlive this. Slots and `near_ground` may be null.
   struct Outlets {
     FrameTimings* timings;
     FrameSlots<pipeline::Label>* labels;
     FrameSlots<firmware_io::LabelledPoint>* points;
     const firmware_io::WakeEvent* points_ready;
+    LatestNearGround* near_ground = nullptr;
   };
 
   /// `deadline_ns`: from a turn's last packet to its labels.
@@ -80,6 +83,9 @@ class TurnSegmenter {
     timing.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
     const StageTimes times = stage_clock_.take();
     ladder_.end(times, report, handed_on_cpu_ns - labelled_cpu_ns);
+    if (to_.near_ground != nullptr && turn.info.number % MountWatch::kTurnsApart == 0) {
+      to_.near_ground->take(*turn.image);
+    }
     for (std::size_t i = 0; i < times.stage_ns.size(); ++i) {
       timing.stage_cpu_ns[i] += times.stage_ns[i];
     }

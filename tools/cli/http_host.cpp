@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "http_host.hpp"
+
+#include <arpa/inet.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include <array>
+
+namespace terracut::cli {
+namespace {
+
+bool is_address(const std::string& text) {
+  std::array<unsigned char, sizeof(::in6_addr)> ignored{};
+  const bool in_brackets = text.size() > 2 && text.front() == '[' && text.back() == ']';
+  if (!in_brackets) return ::inet_pton(AF_INET, text.c_str(), ignored.data()) == 1;
+  return ::inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), ignored.data()) == 1;
+}
+
+bool is_same_name(const std::string& a, std::string_view b) {
+  return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
+}
+
+}  // namespace
+
+bool names_this_machine(std::string_view host_header, std::string_view own_name) {
+  if (host_header.empty()) return true;
+  const auto colon = host_header.rfind(':');
+  const auto bracket = host_header.rfind(']');
+  const bool has_port =
+      colon != std::string_view::npos && (bracket == std::string_view::npos || colon > bracket);
+  const std::string host(has_port ? host_header.substr(0, colon) : host_header);
+  return is_address(host) || is_same_name(host, "localhost") ||
+         (!own_name.empty() && is_same_name(host, own_name));
+}
+
+std::string own_host_name() {
+  std::array<char, 256> name{};
+  if (::gethostname(name.data(), name.size() - 1) != 0) return {};
+  return name.data();
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+
+#include "calib/sensor_calibration.hpp"
+#include "firmware_io/datagram.hpp"
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "rt/fixed_memory.hpp"
+#include "rt/nonblocking.hpp"
+#include "rt/spsc_queue.hpp"
+
+namespace terracut::cli {
+
+/// Reads along what an HDL-64E's packets tell of its table while another source of it is in use, to
+/// say when the two differ. Two threads: one adds, another one asks, now and then; what it is too
+/// slow for comes by again with the next round of the table.
+class ToldTable {
+ public:
+  explicit ToldTable(rt::FixedMemory& memory) : heard_("table bytes", kHeard, memory) {}
+
+  /// Receiving thread. Nothing more is passed on once a table was told.
+  void add(const firmware_io::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
+
+  /// What there is to be said, once; empty before and after, and where nothing differs. Any one
+  /// thread without a deadline.
+  [[nodiscard]] std::string take_warning(const calib::SensorCalibration& in_use);
+
+ private:
+  static constexpr std::size_t kHeard = 2048;  ///< Packets: 0.3 s of dual return.
+
+  struct StatusByte {
+    std::uint32_t stamp_us;
+    std::uint8_t type, value;
+  };
+
+  rt::SpscQueue<StatusByte> heard_;
+  firmware_io::StatusStreamReader reader_;  ///< Of the thread that asks.
+  std::atomic<bool> told_{false};
+};
+
+}  // namespace terracut::cli

@@ -158,8 +158,7 @@ class LiveChainRun {
       handed_over_[number_of(image)] = {sum_of(image), info.number};
       coarse_.finish(image, planes_of(image));
       if (segmenter_away_ > 0) --segmenter_away_;
-      return exchange_.hand_over({&image, info, {}, decoder_.losses()},
-                                 [](const Exchange::Turn&) noexcept {});
+      return exchange_.hand_over({&image, info, {}, true}, [](const Exchange::Turn&) noexcept {});
     };
   }
 

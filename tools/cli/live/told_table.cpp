@@ -2,17 +2,9 @@
 // Copyright 2026 The terracut authors
 #include "told_table.hpp"
 
-#include "firmware_io/hdl64e/wire.hpp"
 #include "tools/cli/calibration_choice.hpp"
 
 namespace terracut::cli {
-
-void ToldTable::add(const firmware_io::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
-  if (told_.load(std::memory_order_relaxed)) return;
-  const auto packet = firmware_io::Hdl64ePacketView::of(datagram.payload);
-  if (!packet || !packet->is_hdl64e()) return;
-  (void)heard_.try_push({packet->stamp_us(), packet->status_type(), packet->status_value()});
-}
 
 std::string ToldTable::take_warning(const calib::SensorCalibration& in_use) {
   if (told_.load(std::memory_order_relaxed)) return {};

@@ -10,6 +10,7 @@
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/datagram.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
 #include "rt/fixed_memory.hpp"
 #include "rt/nonblocking.hpp"
 #include "rt/spsc_queue.hpp"
@@ -24,7 +25,12 @@ class ToldTable {
   explicit ToldTable(rt::FixedMemory& memory) : heard_("table bytes", kHeard, memory) {}
 
   /// Receiving thread. Nothing more is passed on once a table was told.
-  void add(const firmware_io::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
+  void add(const firmware_io::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
+    if (told_.load(std::memory_order_relaxed)) return;
+    const auto packet = firmware_io::Hdl64ePacketView::of(datagram.payload);
+    if (!packet || !packet->is_hdl64e()) return;
+    (void)heard_.try_push({packet->stamp_us(), packet->status_type(), packet->status_value()});
+  }
 
   /// What there is to be said, once; empty before and after, and where nothing differs. Any one
   /// thread without a deadline.

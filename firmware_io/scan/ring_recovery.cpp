@@ -75,6 +75,10 @@ class AlignmentCost {
  public:
   static constexpr double kCap_rad = 0.02;
   static constexpr double kTorn_rad = 0.001;  // two segments of one laser: possible, but rare
+  /// Two lasers in one row: dearer than moving all others by a row.
+  static constexpr double kSameDirections_rad = kScanRings * kCap_rad;
+  /// At the slowest spin rate, two echoes; more are of several lasers.
+  static constexpr std::size_t kMostPoints = std::size_t{2} * 4167;
 
   AlignmentCost(std::span<const ScanPoint> points, const RingRecovery& split)
       : cost_(static_cast<std::size_t>(split.rings)),
@@ -106,7 +110,8 @@ class AlignmentCost {
           const double distance_m = std::hypot(double{p.x_m}, double{p.y_m}) + 1e-3;
           angles.push_back(table[ring].height_above_m(p) / distance_m);
         }
-        if (angles.empty()) continue;
+        cost_[segment][ring] = kCap_rad;
+        if (angles.empty() || points_[segment] > kMostPoints) continue;
         const auto middle = angles.begin() + static_cast<std::ptrdiff_t>(angles.size() / 2);
         std::nth_element(angles.begin(), middle, angles.end());
         cost_[segment][ring] = std::min(std::abs(*middle), kCap_rad);
@@ -123,7 +128,7 @@ class AlignmentCost {
   /// Of giving a segment the ring of the one before it.
   [[nodiscard]] double sharing(std::size_t segment) const {
     const bool torn = directions_[segment].may_be_of_one_laser(directions_[segment - 1]);
-    return (torn ? kTorn_rad : kCap_rad) * points(segment);
+    return (torn ? kTorn_rad : kSameDirections_rad) * points(segment);
   }
   [[nodiscard]] std::size_t segments() const { return cost_.size(); }
 

@@ -96,13 +96,27 @@ HeightResidual RingTableFit::residual(const RingLine& line, const Ring& ring,
   return summarise(sizes);
 }
 
-Expected<FittedRings> RingTableFit::fit() const {
+RingLine RingTableFit::through(const Ring& ring, double vert_offset_m) {
+  std::vector<double> slopes;
+  for (const Sample& s : ring.samples) {
+    slopes.push_back((s.z_m - vert_offset_m) / (double{s.distance_m} + 1e-3));
+  }
+  const auto middle = slopes.begin() + static_cast<std::ptrdiff_t>(slopes.size() / 2);
+  std::nth_element(slopes.begin(), middle, slopes.end());
+  return {std::atan(*middle), vert_offset_m};
+}
+
+Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
   std::array<std::optional<RingLine>, kScanRings> lines;
   FittedRings fitted;
   std::vector<LinePoint> points;
   for (std::size_t ring = 0; ring < lines.size(); ++ring) {
     if (rings_[ring].samples.size() < kMinPointsPerRing) {
       ++fitted.interpolated_rings;
+      continue;
+    }
+    if (offsets != nullptr) {
+      lines[ring] = through(rings_[ring], (*offsets)[ring].vert_offset_m);
       continue;
     }
     points.clear();

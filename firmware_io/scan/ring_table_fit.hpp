@@ -48,9 +48,11 @@ class RingTableFit {
   /// not finite ones among them, are left out.
   void add(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point);
 
-  /// The table of everything added so far. Error kMalformed when fewer than half the rings have
-  /// enough points.
-  [[nodiscard]] Expected<FittedRings> fit() const;
+  /// The table of everything added so far. Where rings may have seen little but near ground, as in
+  /// a cropped view, elevation and vertical offset cannot be told apart: with `offsets` these are
+  /// taken, and only the elevations are found (medians). Error kMalformed when fewer than half the
+  /// rings have enough points.
+  [[nodiscard]] Expected<FittedRings> fit(const RingTable* offsets = nullptr) const;
 
  private:
   struct Sample {
@@ -62,6 +64,7 @@ class RingTableFit {
     std::size_t stride = 1;  ///< Every stride-th point is kept.
   };
 
+  [[nodiscard]] static RingLine through(const Ring& ring, double vert_offset_m);
   [[nodiscard]] static HeightResidual residual(const RingLine& line, const Ring& ring,
                                                std::vector<double>& all);
 

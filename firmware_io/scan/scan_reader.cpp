@@ -82,21 +82,22 @@ Expected<std::optional<SensorTwist>> ScanReader::twist(std::size_t index) const 
 }
 
 Expected<FittedRings> ScanReader::fit_rings() {
-  auto fitted = fit_to_scans();
+  auto fitted = fit_to_scans(nullptr);
   if (!fitted && fitted.error().code == ErrorCode::kUnsupported) {
     // No scan has all rings. Any unit's table is near enough to tell the lasers apart, and one that
     // was fitted so is near enough to put right those that were off.
-    table_ = ring_table(calib::nominal_hdl64e());
-    fitted = fit_to_scans();
+    const RingTable nominal = ring_table(calib::nominal_hdl64e());
+    table_ = nominal;
+    fitted = fit_to_scans(&nominal);
     if (fitted) table_ = fitted->table;
-    if (fitted) fitted = fit_to_scans();
+    if (fitted) fitted = fit_to_scans(&nominal);
     if (fitted) fitted->told_by_nominal_table = true;
   }
   if (fitted) table_ = fitted->table;
   return fitted;
 }
 
-Expected<FittedRings> ScanReader::fit_to_scans() const {
+Expected<FittedRings> ScanReader::fit_to_scans(const RingTable* offsets) const {
   RingTableFit fit;
   KittiScan scan;
   RingRecovery rings;
@@ -114,7 +115,7 @@ Expected<FittedRings> ScanReader::fit_to_scans() const {
     ++used;
   }
   if (used == 0) return tl::unexpected(std::move(last));
-  return fit.fit();
+  return fit.fit(offsets);
 }
 
 }  // namespace terracut::firmware_io

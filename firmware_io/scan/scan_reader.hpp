@@ -57,7 +57,7 @@ class ScanReader {
   void use_rings(const RingTable& table) { table_ = table; }
 
  private:
-  [[nodiscard]] Expected<FittedRings> fit_to_scans() const;
+  [[nodiscard]] Expected<FittedRings> fit_to_scans(const RingTable* offsets) const;
 
   ScanFolder folder_;
   std::optional<SensorMotion> motion_;  ///< Only where it is to be put back.

@@ -18,6 +18,11 @@ bool is_address(const std::string& text) {
   return ::inet_pton(AF_INET6, text.substr(1, text.size() - 2).c_str(), ignored.data()) == 1;
 }
 
+bool is_port(std::string_view text) {
+  return !text.empty() && text.size() <= 5 &&
+         text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
 bool is_same_name(const std::string& a, std::string_view b) {
   return a.size() == b.size() && ::strncasecmp(a.data(), b.data(), a.size()) == 0;
 }
@@ -26,11 +31,10 @@ bool is_same_name(const std::string& a, std::string_view b) {
 
 bool names_this_machine(std::string_view host_header, std::string_view own_name) {
   if (host_header.empty()) return true;
-  const auto colon = host_header.rfind(':');
-  const auto bracket = host_header.rfind(']');
-  const bool has_port =
-      colon != std::string_view::npos && (bracket == std::string_view::npos || colon > bracket);
-  const std::string host(has_port ? host_header.substr(0, colon) : host_header);
+  const auto bracket = host_header.find(']');
+  const auto colon = host_header.find(':', bracket == std::string_view::npos ? 0 : bracket);
+  if (colon != std::string_view::npos && !is_port(host_header.substr(colon + 1))) return false;
+  const std::string host(host_header.substr(0, colon));
   return is_address(host) || is_same_name(host, "localhost") ||
          (!own_name.empty() && is_same_name(host, own_name));
 }

@@ -225,9 +225,10 @@ TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
     EXPECT_GT(ring, last) << "a row of its own, in order";
     last = ring;
     EXPECT_EQ(rings.ring_of_point[first + per_ring - 1], ring);
+    // The nominal unit's lasers sit up to 4 cm off, which is 0.5 degrees where they look nearest.
     EXPECT_NEAR(fitted->table[static_cast<std::size_t>(ring)].elevation_rad,
                 truth[static_cast<std::size_t>(kMissing + seen)].elevation_rad,
-                calib::deg_to_rad(0.03));
+                calib::deg_to_rad(0.5));
   }
 }
 

@@ -31,7 +31,8 @@ class MadeUpKoblenz {
     }
   }
 
-  [[nodiscard]] const std::filesystem::path& root() const { return folder_.path(); }
+  /// Beside what a test writes into its own folder: a dataset is read, and nothing is put into it.
+  [[nodiscard]] std::filesystem::path root() const { return folder_.path() / "koblenz"; }
   [[nodiscard]] std::filesystem::path file(const std::string& sequence, int frame) const {
     return root() / sequence / fmt::format("{:04}.pcd", frame);
   }

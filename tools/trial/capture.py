@@ -41,13 +41,16 @@ def packet_count(pcap: Path) -> int:
     return sum(1 for _ in records(pcap))
 
 
-def cut_beginning(pcap: Path, packets: int, into: Path) -> None:
-    """The first packets of a capture as one of its own."""
+def cut_beginning(pcap: Path, packets: int, into: Path) -> int:
+    """The first packets of a capture as one of its own; how many nanoseconds they span."""
     with pcap.open("rb") as file:
         content = file.read(FILE_HEADER_BYTES)
-    for _, (_, record) in zip(range(packets), records(pcap)):
+    stamps_ns = []
+    for _, (stamp_ns, record) in zip(range(packets), records(pcap)):
         content += record
+        stamps_ns.append(stamp_ns)
     into.write_bytes(content)
+    return stamps_ns[-1] - stamps_ns[0]
 
 
 def payloads(pcap: Path, for_s: float) -> list[bytes]:

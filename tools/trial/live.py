@@ -24,6 +24,7 @@ from .program import Program, TrialError
 
 # Enough to know a sensor by, and few enough for the smallest receive buffer.
 WAKE_UP_PACKETS = 120
+WAKE_UP_NS = 1_000_000_000  # that they take: live takes a sensor for known once it has heard it for 0.3 s
 LONGEST_WAIT_S = 200
 # Below the live threads', so that it does not stand for their work; above everything that loads the
 # machine, which a real sensor would not share.
@@ -112,11 +113,11 @@ class Live:
 
     def _wake(self) -> None:
         first = self.program.scratch / "wake_up.pcap"
-        cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
+        span_ns = cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
         # While it stands still, so that all are there when it goes on: none comes once it counts.
         os.kill(self.pid(), signal.SIGSTOP)
         try:
-            Send(self.program, first, self.sends_to, "--rate", 0, prefix=self.sender_prefix).wait()
+            Send(self.program, first, self.sends_to, "--rate", span_ns / WAKE_UP_NS, prefix=self.sender_prefix).wait()
         finally:
             os.kill(self.pid(), signal.SIGCONT)
 

@@ -61,8 +61,7 @@ double Deskewer::nodes(std::int64_t head_ticks) const noexcept {
 }
 
 void Deskewer::restart() noexcept {
-  noted_ = false;
-  first_node_ = next_node_ = 0;
+  begin_anew(0);
   anew_node_ = kFromTheStart;
 }
 

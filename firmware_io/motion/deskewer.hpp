@@ -44,7 +44,8 @@ class Deskewer {
   Deskewer(const Deskewer&) = delete;
   Deskewer& operator=(const Deskewer&) = delete;
 
-  /// A stream begins: what was noted does not belong with what comes.
+  /// A stream begins: what was noted does not belong with what comes, nor do samples of motion that
+  /// were added before; nobody saw whether a clock was set meanwhile.
   void restart() noexcept TERRACUT_NONBLOCKING;
   /// A clock was set, and the head has come to `head_ticks`: instants noted from now on are not to
   /// be compared with those before, nor with samples of motion added before. The turns that were

@@ -221,10 +221,10 @@ TEST_F(DeskewerTest, AVehicleThatStandsStillKeepsEveryBitOfItsReturns) {
 }
 
 TEST_F(DeskewerTest, AStreamThatBeginsAnewForgetsTheOneBefore) {
-  drive(kSpeed_mps, kYawRate_radps);
   Deskewer deskewer = this->deskewer(TurnInstant::kStart);
   note(deskewer, 50, 52);
   deskewer.restart();
+  drive(kSpeed_mps, kYawRate_radps);
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
   EXPECT_EQ(deskewer.apply(0, image_).state, DeskewState::kDone);
@@ -297,6 +297,17 @@ TEST_F(DeskewerTest, WhereAClockWasSetTheTurnsBegunHaveNoEgoMotionAndTheNextHasI
   see(2, kSpeed_mps, kYawRate_radps);
   EXPECT_EQ(deskewer.apply(2, image_).state, DeskewState::kDone);
   EXPECT_LT(worst_m(3.0), kHalfAColumn_m);
+}
+
+TEST_F(DeskewerTest, AStreamThatBeginsAnewHasNoMotionFromBefore) {
+  drive(kSpeed_mps, kYawRate_radps);
+  Deskewer deskewer = this->deskewer(TurnInstant::kStart);
+  note(deskewer, 50, 52);
+  deskewer.restart();
+  // The clock may have been set back while there was no stream, to where samples are.
+  note(deskewer, -0.1, 1.1);
+  see(0, kSpeed_mps, kYawRate_radps);
+  EXPECT_EQ(deskewer.apply(0, image_).state, DeskewState::kNoEgoMotion);
 }
 
 TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet) {

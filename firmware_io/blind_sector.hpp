@@ -92,7 +92,7 @@ class BlindSector {
   [[nodiscard]] bool is_between(const HeadInterval& gap) const noexcept;
   void remember(const Gap& gap) noexcept;
   void learn() noexcept;
-  void refute() noexcept;
+  void refute() noexcept TERRACUT_NONBLOCKING;
   void count(const Gap& gap) noexcept;
 
   HeadSector sector_;

@@ -61,7 +61,7 @@ double Deskewer::nodes(std::int64_t head_ticks) const noexcept {
 }
 
 void Deskewer::restart() noexcept {
-  begin_anew(0);
+  if (noted_) begin_anew(0);
   anew_node_ = kFromTheStart;
 }
 

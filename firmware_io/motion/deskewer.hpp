@@ -44,8 +44,8 @@ class Deskewer {
   Deskewer(const Deskewer&) = delete;
   Deskewer& operator=(const Deskewer&) = delete;
 
-  /// A stream begins: what was noted does not belong with what comes, nor do samples of motion that
-  /// were added before; nobody saw whether a clock was set meanwhile.
+  /// A stream begins: what was noted does not belong with what comes. Where there was a stream
+  /// before, neither do samples of motion added by now: nobody saw whether a clock was set since.
   void restart() noexcept TERRACUT_NONBLOCKING;
   /// A clock was set, and the head has come to `head_ticks`: instants noted from now on are not to
   /// be compared with those before, nor with samples of motion added before. The turns that were

@@ -28,7 +28,8 @@ namespace terracut::firmware_io {
 /// cell while its packet is read.
 ///
 /// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
-/// - `Calibration`, `Config`; `kRows` lasers; `kClockWrap_us`, where the device clock wraps;
+/// - `Calibration`, `Config`; `kRows` lasers; `kPacketBytes`, the size of a data packet;
+///   `kClockWrap_us`, where the device clock wraps;
 ///   `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const calib::Mount&, const Config&, int columns,
 ///   rt::FixedMemory&);
@@ -84,7 +85,8 @@ class Decoder {
         sensor_(calibration, mount, config.sensor, config.columns, memory),
         tracker_(Sensor::kClockWrap_us, memory),
         frames_(frame_config(config), memory),
-        clock_(Sensor::kClockWrap_us) {
+        clock_(Sensor::kClockWrap_us),
+        kept_(memory.take<KeptPacket>("packets in doubt", kMostKept)) {
     if (config.motion == nullptr) return;
     std::array<std::int32_t, kLasers> beam_ticks{};
     for (std::size_t i = 0; i < kLasers; ++i) {
@@ -96,8 +98,10 @@ class Decoder {
         memory);
   }
 
-  /// One datagram. Nothing when it was decoded, else why it was rejected (and counted, but for
-  /// kDeviceInfo).
+  /// One datagram. Nothing when it was taken, else why it was rejected (and counted, but for
+  /// kDeviceInfo). Taken is decoded, but where it contradicts the stream before it: then it is kept
+  /// (packets_kept()) until so many agree with it that it is the beginning of another stream, or
+  /// until the stream goes on. It is decoded then, or rejected and counted.
   template <class OnFrame>
   std::optional<Reject> decode(const Datagram& datagram, OnFrame&& on_frame) noexcept;
 
@@ -105,6 +109,7 @@ class Decoder {
   /// incomplete unless they were seen whole, and forgets the stream's state but not its counters.
   template <class OnFrame>
   void flush(OnFrame&& on_frame) noexcept {
+    if (kept_packets_ > 0) begin_anew(on_frame);
     tracker_.end_of_stream(frames_.losses());
     blind_.end();
     count_due();
@@ -124,6 +129,8 @@ class Decoder {
   /// Since construction. Packets still expected out of order become losses a few packets later.
   [[nodiscard]] LossCounters losses() const noexcept { return frames_.total_losses(); }
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept { return packets_; }
+  /// Neither decoded nor rejected yet.
+  [[nodiscard]] std::size_t packets_kept() const noexcept { return kept_packets_; }
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const pipeline::ImageShape& shape() const noexcept { return frames_.shape(); }
@@ -191,6 +198,26 @@ class Decoder {
     ++frames_.losses().rejected[static_cast<std::size_t>(reason)];
     return reason;
   }
+  /// A packet that contradicts the stream.
+  struct KeptPacket {
+    std::array<std::uint8_t, Sensor::kPacketBytes> bytes;
+    PacketHeads heads;
+    std::int64_t stamp_ns;
+    Reject reason;  ///< Unless others agree with it.
+  };
+  void keep(const Datagram& datagram, Reject reason) noexcept;
+  void reject_kept() noexcept {
+    for (std::size_t i = 0; i < kept_packets_; ++i) (void)reject(kept_[i].reason);
+    kept_packets_ = 0;
+  }
+  /// The packets that were kept are the stream from here on.
+  template <class OnFrame>
+  void begin_anew(OnFrame& on_frame) noexcept;
+  /// Decodes what the tracker has placed; heads_ are the packet's.
+  template <class OnFrame>
+  std::optional<Reject> take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
+                             const Placement& placed, OnFrame& on_frame) noexcept;
+
   /// What lies between the packets before and this one, taken in order.
   void judge_gap(const Placement& placed, const HeadInterval& swept,
                  const BlindSector::Stride& stride, const BeamSpread& spread,
@@ -232,6 +259,8 @@ class Decoder {
         };
   }
 
+  static constexpr std::size_t kMostKept = StreamTracker::kNewStream_packets - 1;
+
   int reorder_packets_;
   pipeline::CellOwner dual_owner_;
   std::size_t return_capacity_;
@@ -241,6 +270,8 @@ class Decoder {
   BlindSector blind_{kTurn_ticks};
   HostClock clock_;
   std::optional<Deskewer> deskewer_;
+  std::span<KeptPacket> kept_;
+  std::size_t kept_packets_ = 0;
   PacketHeads heads_;
   std::array<ColumnReturns<kLasers>, PacketHeads::kMaxColumns> found_{};  ///< Of one packet.
   std::int64_t frontier_ticks_ = 0;        ///< The head has been seen up to here ...
@@ -265,9 +296,55 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     }
     return reject(*reason);
   }
-  const Placement placed = tracker_.place(heads_, datagram.stamp_ns, frames_.losses());
+  Placement placed = tracker_.place(heads_, datagram.stamp_ns, frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
+  if (placed.arrival == Arrival::kDoubtful) {
+    if (placed.is_first_in_doubt) reject_kept();
+    keep(datagram, placed.reject);
+    return std::nullopt;
+  }
+  if (placed.arrival == Arrival::kNewStream) {
+    const PacketHeads heads = heads_;
+    begin_anew(on_frame);
+    heads_ = heads;
+    placed = tracker_.go_on(heads_, datagram.stamp_ns, frames_.losses());
+    if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
+  }
+  reject_kept();
+  return take(datagram.payload, datagram.stamp_ns, placed, on_frame);
+}
 
+template <class Sensor>
+void Decoder<Sensor>::keep(const Datagram& datagram, Reject reason) noexcept {
+  KeptPacket& kept = kept_[kept_packets_++];
+  std::copy(datagram.payload.begin(), datagram.payload.end(), kept.bytes.begin());
+  kept.heads = heads_;
+  kept.stamp_ns = datagram.stamp_ns;
+  kept.reason = reason;
+}
+
+template <class Sensor>
+template <class OnFrame>
+void Decoder<Sensor>::begin_anew(OnFrame& on_frame) noexcept {
+  for (std::size_t i = 0; i < kept_packets_; ++i) {
+    const KeptPacket& kept = kept_[i];
+    heads_ = kept.heads;
+    const Placement placed = i == 0 ? tracker_.begin(heads_, kept.stamp_ns, frames_.losses())
+                                    : tracker_.go_on(heads_, kept.stamp_ns, frames_.losses());
+    if (placed.arrival == Arrival::kRejected) {
+      (void)reject(placed.reject);
+    } else {
+      (void)take(kept.bytes, kept.stamp_ns, placed, on_frame);
+    }
+  }
+  kept_packets_ = 0;
+}
+
+template <class Sensor>
+template <class OnFrame>
+std::optional<Reject> Decoder<Sensor>::take(std::span<const std::uint8_t> payload,
+                                            std::int64_t stamp_ns, const Placement& placed,
+                                            OnFrame& on_frame) noexcept {
   // Where the head is while this packet fires, and which turns its beams may touch.
   const std::int64_t first_ticks = placed.head_cdeg * kTicksPerCdeg;
   std::int64_t least_ticks = first_ticks, most_ticks = first_ticks;
@@ -312,22 +389,22 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   }
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
   if (deskewer_ && placed.arrival != Arrival::kReordered) {
-    const HostClock::Sent sent = clock_.sent(heads_.device_stamp_us, datagram.stamp_ns);
+    const HostClock::Sent sent = clock_.sent(heads_.device_stamp_us, stamp_ns);
     if (sent.anew) deskewer_->begin_anew(first_ticks);
     deskewer_->note(first_ticks, sent.instant_ns - heads_.nominal_period_ns);
   }
 
-  while (last_turn > frames_.oldest() + 1) frames_.roll(deskewed(on_frame));
+  frames_.roll_to(last_turn - 1, deskewed(on_frame));
   // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
   // turn unevenly.
   const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
-  frames_.note_packet(datagram.stamp_ns, first_turn, last_turn, next_ticks, step_ticks, spread);
-  place_packet(datagram.payload, placed.head_cdeg, first_turn == last_turn);
+  frames_.note_packet(stamp_ns, first_turn, last_turn, next_ticks, step_ticks, spread);
+  place_packet(payload, placed.head_cdeg, first_turn == last_turn);
 
   const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
   settles_behind_ticks_ = late_packets * stride.widest_ticks + step_ticks - spread.hindmost_ticks;
   settled_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - settles_behind_ticks_;
-  while (turn_of(settled_ticks_) > frames_.oldest()) frames_.roll(deskewed(on_frame));
+  frames_.roll_to(turn_of(settled_ticks_), deskewed(on_frame));
   return std::nullopt;
 }
 

@@ -101,12 +101,25 @@ bool FrameBuilder::seen_whole(const OpenTurn& turn) const noexcept {
          turn.missing_ticks < slack_ticks;
 }
 
+void FrameBuilder::count_holes(std::int64_t hole_ticks) noexcept {
+  if (hole_ticks <= 0) return;
+  losses_.azimuth_hole_columns +=
+      static_cast<std::uint64_t>((hole_ticks + step_ticks_ / 2) / step_ticks_);
+}
+
+void FrameBuilder::pass_over(std::int64_t turn) noexcept {
+  const HeadInterval passed{oldest_ * turn_ticks_, turn * turn_ticks_};
+  if (last_gap_.is_counted) {
+    count_holes(blind_.outside_ticks(intersection(last_gap_.head, passed)));
+  }
+  oldest_ = turn;
+  open(0, turn, *open_[0].image);
+  open(1, turn + 1, *open_[1].image);
+}
+
 bool FrameBuilder::close_oldest() noexcept {
   const OpenTurn closing = open_[0];
-  if (closing.hole_ticks > 0) {
-    losses_.azimuth_hole_columns +=
-        static_cast<std::uint64_t>((closing.hole_ticks + step_ticks_ / 2) / step_ticks_);
-  }
+  count_holes(closing.hole_ticks);
   const bool has_returns = closing.image->returns() > 0;
   if (has_returns) {
     info_ = FrameInfo{.number = frames_++,

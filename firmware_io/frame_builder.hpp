@@ -112,6 +112,14 @@ class FrameBuilder {
     }
   }
 
+  /// Rolls on until `turn` is the oldest, or is already. Two turns at most have returns; those
+  /// between are passed over at once, however many.
+  template <class OnFrame>
+  void roll_to(std::int64_t turn, OnFrame&& on_frame) noexcept {
+    for (int open = 0; open < 2 && oldest_ < turn; ++open) roll(on_frame);
+    if (oldest_ < turn) pass_over(turn);
+  }
+
   /// The stream ends here: hands over what is open, oldest first. start() must follow.
   template <class OnFrame>
   void flush(OnFrame&& on_frame) noexcept {
@@ -149,6 +157,9 @@ class FrameBuilder {
   };
   void add_missing(OpenTurn& turn, std::int64_t number, const Missing& missing, int sign,
                    const BeamSpread& spread) noexcept;
+  /// The open turns have nothing in them; opens `turn` and the next instead.
+  void pass_over(std::int64_t turn) noexcept TERRACUT_NONBLOCKING;
+  void count_holes(std::int64_t hole_ticks) noexcept;
   [[nodiscard]] bool seen_whole(const OpenTurn& turn) const noexcept;
   /// Fills info_, or answers false when the turn has no returns.
   [[nodiscard]] bool close_oldest() noexcept TERRACUT_NONBLOCKING;

@@ -28,6 +28,8 @@ std::string_view to_string(Reject reason) noexcept {
       return "late";
     case Reject::kStationary:
       return "stationary";
+    case Reject::kClockJump:
+      return "clock_jump";
     case Reject::kCount:
       break;
   }

@@ -22,6 +22,7 @@ enum class Reject : std::uint8_t {
   kRepeated,           ///< The same packet (device stamp and azimuths) as one already decoded.
   kLate,               ///< An older packet than its frame still accepts (reordered too far).
   kStationary,         ///< The head is not turning, so there is no turn to build.
+  kClockJump,          ///< A device stamp that contradicts the stream's, borne out by no others.
   kCount,
 };
 inline constexpr std::size_t kRejectReasons = static_cast<std::size_t>(Reject::kCount);

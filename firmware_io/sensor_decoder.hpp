@@ -90,6 +90,9 @@ class SensorDecoder {
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept {
     return visit([](const auto& decoder) { return decoder.packets_decoded(); });
   }
+  [[nodiscard]] std::size_t packets_kept() const noexcept {
+    return visit([](const auto& decoder) { return decoder.packets_kept(); });
+  }
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept {
     return visit([](const auto& decoder) { return decoder.columns_decoded(); });
   }

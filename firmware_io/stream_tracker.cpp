@@ -21,8 +21,6 @@ constexpr std::int64_t kWide_ticks = kTurn_ticks / 90;
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
 /// The head may be this far from where time and speed put it, plus an eighth of what it has turned.
 constexpr std::int64_t kHeadSlack_cdeg = 2'000;
-/// So many contradicting packets in a row are the truth, and the stream before them is not.
-constexpr int kMisfitsBeforeRestart = 8;
 /// A missing packet may arrive out of order for so many packets more.
 constexpr int kMissingGrace_packets = 16;
 /// Steps that do not fit the measured period, in a row, until it is measured anew (a mode switch).
@@ -55,38 +53,108 @@ std::int64_t StreamTracker::device_step_us(std::int64_t from_us,
   return step;
 }
 
-bool StreamTracker::is_repeat(const PacketHeads& heads) noexcept {
-  ++packets_;
-  Seen& slot = seen_[static_cast<std::size_t>(heads.device_stamp_us / kSeenSlot_us) % kSeenSlots];
-  const Seen now{static_cast<std::uint32_t>(heads.device_stamp_us),
-                 static_cast<std::uint16_t>(heads.first_cdeg()),
-                 static_cast<std::uint16_t>(heads.last_cdeg()), packets_};
-  const bool repeat = slot.packet != 0 && slot.stamp_us == now.stamp_us &&
-                      slot.first_cdeg == now.first_cdeg && slot.last_cdeg == now.last_cdeg &&
-                      packets_ - slot.packet <= kRepeatWindow_packets;
-  if (!repeat) slot = now;
-  return repeat;
+StreamTracker::Seen StreamTracker::seen(const PacketHeads& heads) noexcept {
+  return {static_cast<std::uint32_t>(heads.device_stamp_us),
+          static_cast<std::uint16_t>(heads.first_cdeg()),
+          static_cast<std::uint16_t>(heads.last_cdeg()), 0};
+}
+
+std::size_t StreamTracker::slot_of(const PacketHeads& heads) noexcept {
+  return static_cast<std::size_t>(heads.device_stamp_us / kSeenSlot_us) % kSeenSlots;
+}
+
+bool StreamTracker::is_repeat(const PacketHeads& heads) const noexcept {
+  const Seen& before = seen_[slot_of(heads)];
+  const Seen now = seen(heads);
+  return before.packet != 0 && before.stamp_us == now.stamp_us &&
+         before.first_cdeg == now.first_cdeg && before.last_cdeg == now.last_cdeg &&
+         packets_ - before.packet <= kRepeatWindow_packets;
+}
+
+void StreamTracker::remember(const PacketHeads& heads) noexcept {
+  Seen& slot = seen_[slot_of(heads)];
+  slot = seen(heads);
+  slot.packet = packets_;
 }
 
 Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                LossCounters& losses) noexcept {
-  if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated, 0, 0, 0};
+  ++packets_;
+  if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated, 0, 0, 0, false};
   if (!started_) return restart(heads, host_stamp_ns, losses);
-  const std::int64_t step_us = device_step_us(newest_stamp_us_, heads.device_stamp_us);
-  const std::int64_t step_cdeg =
-      calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), heads.first_cdeg());
+  const Placement placed = follow(heads, host_stamp_ns, losses);
+  if (placed.arrival == Arrival::kRejected) return doubt(heads, host_stamp_ns, placed.reject);
+  doubtful_packets_ = 0;
+  return placed;
+}
 
-  const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_pace_ticks_;
+Placement StreamTracker::begin(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                               LossCounters& losses) noexcept {
+  const std::int64_t step_us = device_step_us(newest_.stamp_us, heads.device_stamp_us);
+  if (step_us < -kReorder_us || step_us > kReorder_us) ++losses.clock_jumps;
+  return restart(heads, host_stamp_ns, losses);
+}
+
+Placement StreamTracker::go_on(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                               LossCounters& losses) noexcept {
+  if (is_repeat(heads)) return {Arrival::kRejected, Reject::kRepeated, 0, 0, 0, false};
+  return follow(heads, host_stamp_ns, losses);
+}
+
+Placement StreamTracker::doubt(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                               Reject reason) noexcept {
+  const std::int64_t step_us = device_step_us(doubtful_.stamp_us, heads.device_stamp_us);
+  if (doubtful_packets_ > 0 && step_us == 0 &&
+      calib::wrap_cdeg(doubtful_.head_cdeg) == heads.first_cdeg()) {
+    return {Arrival::kRejected, Reject::kRepeated, 0, 0, 0, false};
+  }
+  const bool is_near = step_us >= -kReorder_us && step_us <= kReorder_us;
+  const auto head_cdeg = is_near ? head_after(doubtful_, heads) : std::nullopt;
+  const bool agrees = doubtful_packets_ > 0 && head_cdeg;
+  if (!agrees || step_us >= 0) {
+    doubtful_ = {heads.device_stamp_us, host_stamp_ns, agrees ? *head_cdeg : heads.first_cdeg(),
+                 heads.pace_ticks};
+  }
+  doubtful_packets_ = agrees ? doubtful_packets_ + 1 : 1;
+  note_rejected(heads.device_stamp_us);
+  if (doubtful_packets_ < kNewStream_packets) {
+    return {Arrival::kDoubtful, reason, 0, 0, 0, !agrees};
+  }
+  doubtful_packets_ = 0;
+  return {Arrival::kNewStream, reason, 0, 0, 0, false};
+}
+
+/// The unwrapped azimuth at which the packet fits, by time and speed.
+std::optional<std::int64_t> StreamTracker::head_after(const Newest& newest,
+                                                      const PacketHeads& heads) const noexcept {
+  const std::int64_t step_us = device_step_us(newest.stamp_us, heads.device_stamp_us);
+  const std::int64_t turned_cdeg =
+      newest.pace_ticks * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
+  const std::int64_t expected_cdeg = newest.head_cdeg + turned_cdeg;
+  const std::int64_t off_cdeg =
+      calib::step_cdeg(calib::wrap_cdeg(expected_cdeg), heads.first_cdeg());
+  if (std::abs(off_cdeg) > kHeadSlack_cdeg + std::abs(turned_cdeg) / 8) return std::nullopt;
+  return expected_cdeg + off_cdeg;
+}
+
+/// Rejects what does not go on from the newest packet.
+Placement StreamTracker::follow(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                LossCounters& losses) noexcept {
+  const std::int64_t step_us = device_step_us(newest_.stamp_us, heads.device_stamp_us);
+  const std::int64_t step_cdeg =
+      calib::step_cdeg(calib::wrap_cdeg(newest_.head_cdeg), heads.first_cdeg());
+
+  const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_.pace_ticks;
   if (heads.clock_restarts) {
     steps_ = 0;  // the times between the packets before were not what they seemed
     missing_ = 0;
     if (!turns_on) return restart(heads, host_stamp_ns, losses);
-    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg, losses);
-    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_, 0, 0};
+    take_as_newest(heads, host_stamp_ns, newest_.head_cdeg + step_cdeg, losses);
+    return {Arrival::kNext, Reject::kCount, newest_.head_cdeg, 0, 0, false};
   }
 
+  const std::int64_t host_us = host_step_us(newest_.host_ns, host_stamp_ns);
   if (step_us < -kReorder_us || step_us > kOutage_us) {
-    const std::int64_t host_us = host_step_us(newest_host_ns_, host_stamp_ns);
     const bool is_outage = step_us > 0 && step_us < kLongestOutage_us &&
                            std::abs(host_us - step_us) < std::max(step_us / 16, kReorder_us);
     if (is_outage) {
@@ -95,52 +163,45 @@ Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp
       placed.missing = missing;
       return placed;
     }
+    // Another stream that passes where this one stood is no clock that was set.
+    const bool only_the_clock_was_set = turns_on && doubtful_packets_ == 0;
+    if (!only_the_clock_was_set) return {Arrival::kRejected, Reject::kClockJump, 0, 0, 0, false};
     ++losses.clock_jumps;
-    if (!turns_on) return restart(heads, host_stamp_ns, losses);
-    // Only the clock was set.
-    take_as_newest(heads, host_stamp_ns, newest_head_cdeg_ + step_cdeg, losses);
-    return {Arrival::kNext, Reject::kCount, newest_head_cdeg_, 0, 0};
+    take_as_newest(heads, host_stamp_ns, newest_.head_cdeg + step_cdeg, losses);
+    return {Arrival::kNext, Reject::kCount, newest_.head_cdeg, 0, 0, false};
   }
+  // A gap takes its time, by the host's clock too where that tells any.
+  const bool is_ahead = step_us > kReorder_us && host_us > 0 && 4 * host_us < step_us;
+  if (is_ahead) return {Arrival::kRejected, Reject::kClockJump, 0, 0, 0, false};
 
-  const std::int64_t turned_cdeg =
-      newest_pace_ticks_ * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
-  const std::int64_t expected_cdeg = newest_head_cdeg_ + turned_cdeg;
-  const std::int64_t off_cdeg =
-      calib::step_cdeg(calib::wrap_cdeg(expected_cdeg), heads.first_cdeg());
-  if (std::abs(off_cdeg) > kHeadSlack_cdeg + std::abs(turned_cdeg) / 8) {
-    if (++misfits_ >= kMisfitsBeforeRestart) return restart(heads, host_stamp_ns, losses);
-    note_rejected(heads.device_stamp_us);
-    return {Arrival::kRejected, Reject::kAzimuthJump, 0, 0, 0};
-  }
-  misfits_ = 0;
-  const std::int64_t head_cdeg = expected_cdeg + off_cdeg;
-  if (std::abs(head_cdeg) > kFarthest_cdeg) return restart(heads, host_stamp_ns, losses);
+  const auto head_cdeg = head_after(newest_, heads);
+  if (!head_cdeg) return {Arrival::kRejected, Reject::kAzimuthJump, 0, 0, 0, false};
+  if (std::abs(*head_cdeg) > kFarthest_cdeg) return restart(heads, host_stamp_ns, losses);
   if (step_us < 0) {
     if (missing_ > 0 || period_ns_ == 0) --missing_;
-    return {Arrival::kReordered, Reject::kCount, head_cdeg, 0, 0};
+    remember(heads);
+    return {Arrival::kReordered, Reject::kCount, *head_cdeg, 0, 0, false};
   }
   adopt_range(heads, losses);
-  Placement placed{Arrival::kNext, Reject::kCount, head_cdeg, 0, explained_};
+  Placement placed{Arrival::kNext, Reject::kCount, *head_cdeg, 0, explained_, false};
   if (step_us == 0) {
     ++losses.clock_jumps;  // the clock stands still while the head turns
   } else {
     // A wide gap may be the sensor's blind sector: the caller knows.
-    const bool is_wide = (head_cdeg - newest_head_cdeg_) * kTicksPerCdeg > kWide_ticks;
+    const bool is_wide = (*head_cdeg - newest_.head_cdeg) * kTicksPerCdeg > kWide_ticks;
     const bool is_measured = period_ns_ != 0;
     if (is_measured || is_wide) placed.missing = missing_in({step_us, explained_});
     if (is_measured || !is_wide) measure_period(step_us, losses);
   }
-  take_as_newest(heads, host_stamp_ns, head_cdeg, losses);
+  take_as_newest(heads, host_stamp_ns, *head_cdeg, losses);
   return placed;
 }
 
 void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                    std::int64_t head_cdeg, LossCounters& losses) noexcept {
   adopt_range(heads, losses);
-  newest_stamp_us_ = heads.device_stamp_us;
-  newest_host_ns_ = host_stamp_ns;
-  newest_head_cdeg_ = head_cdeg;
-  newest_pace_ticks_ = heads.pace_ticks;
+  remember(heads);
+  newest_ = {heads.device_stamp_us, host_stamp_ns, head_cdeg, heads.pace_ticks};
   explained_ = 0;
 }
 
@@ -149,9 +210,9 @@ Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_sta
   settle_period(losses);
   commit_missing(losses);
   started_ = true;
-  misfits_ = 0;
+  doubtful_packets_ = 0;
   take_as_newest(heads, host_stamp_ns, heads.first_cdeg(), losses);
-  return {Arrival::kRestart, Reject::kCount, newest_head_cdeg_, 0, 0};
+  return {Arrival::kRestart, Reject::kCount, newest_.head_cdeg, 0, 0, false};
 }
 
 // --- Missing packets, by the device's own stamps ---
@@ -247,20 +308,20 @@ void StreamTracker::settle_period(LossCounters& losses) noexcept {
 
 void StreamTracker::note_rejected(std::int64_t device_stamp_us) noexcept {
   if (!started_) return;
-  const std::int64_t step_us = device_step_us(newest_stamp_us_, device_stamp_us);
+  const std::int64_t step_us = device_step_us(newest_.stamp_us, device_stamp_us);
   if (step_us > 0 && step_us <= kReorder_us) ++explained_;
 }
 
 void StreamTracker::note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg,
                                     LossCounters& losses) noexcept {
   if (!started_) return;
-  const std::int64_t step_us = device_step_us(newest_stamp_us_, device_stamp_us);
+  const std::int64_t step_us = device_step_us(newest_.stamp_us, device_stamp_us);
   if (step_us <= 0 || step_us > kOutage_us) return;
   miss(missing_in({step_us, explained_}), losses);
   explained_ = 0;
-  newest_stamp_us_ = device_stamp_us;
-  newest_head_cdeg_ += calib::step_cdeg(calib::wrap_cdeg(newest_head_cdeg_), azimuth_cdeg);
-  newest_pace_ticks_ = 0;
+  newest_.stamp_us = device_stamp_us;
+  newest_.head_cdeg += calib::step_cdeg(calib::wrap_cdeg(newest_.head_cdeg), azimuth_cdeg);
+  newest_.pace_ticks = 0;
 }
 
 void StreamTracker::end_of_stream(LossCounters& losses) noexcept {
@@ -269,7 +330,7 @@ void StreamTracker::end_of_stream(LossCounters& losses) noexcept {
   std::fill(seen_.begin(), seen_.end(), Seen{});
   started_ = false;
   explained_ = 0;
-  misfits_ = 0;
+  doubtful_packets_ = 0;
 }
 
 }  // namespace terracut::firmware_io

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 
 #include "firmware_io/loss_counters.hpp"
@@ -17,17 +18,20 @@ namespace terracut::firmware_io {
 enum class Arrival : std::uint8_t {
   kNext,       ///< It goes on where the stream stands, perhaps behind a gap.
   kReordered,  ///< An older packet than the newest seen.
-  kRestart,    ///< Nothing before it belongs with it: the first one, a loop, a long outage.
+  kRestart,    ///< Nothing before it belongs with it: the first one, a long outage.
+  kDoubtful,   ///< It contradicts the stream; the caller keeps it until it is known who is right.
+  kNewStream,  ///< It and the doubtful ones before it agree: begin() with the first of them.
   kRejected,   ///< Not to be decoded.
 };
 
 struct Placement {
   Arrival arrival = Arrival::kRejected;
-  Reject reject = Reject::kCount;  ///< The reason when kRejected.
+  Reject reject = Reject::kCount;  ///< The reason when kRejected; of a doubtful one, if need be.
   std::int64_t head_cdeg = 0;      ///< Unwrapped azimuth of the first column.
   /// Between this packet and the newest before it: packets that did not come, by the stamps, and
   /// packets that did and were rejected.
   std::int64_t missing = 0, explained = 0;
+  bool is_first_in_doubt = false;  ///< kDoubtful, and those kept before do not agree with it.
 };
 
 /// Puts the packets of one spinning sensor into order by their device stamps and azimuths, and
@@ -36,11 +40,17 @@ struct Placement {
 /// The device's clock and the head's angle check each other: from the newest packet's angle, its
 /// speed and the time since, the tracker knows within some degrees where the head must be, and
 /// unwraps the azimuth to the turn nearest to that. So neither a lost half turn nor a step back
-/// starts a false turn. Missing packets follow from the device stamps, which advance by a constant
-/// period: measured from the stream itself, and the model's own until that is done or where what is
-/// measured is no unit's. Fixed memory; every call O(1), noexcept. One thread.
+/// starts a false turn. A packet that contradicts the stream by its stamp or its angle is in doubt:
+/// when as many as kNewStream_packets have come in a row that agree with each other, and none that
+/// agrees with the stream, it was the beginning of another one (a reboot, a loop of a replay);
+/// otherwise those in doubt were strays, and have cost nothing. Missing packets follow from the
+/// device stamps, which advance by a constant period: measured from the stream itself, and the
+/// model's own until that is done or where what is measured is no unit's. Fixed memory; every call
+/// O(1), noexcept. One thread.
 class StreamTracker {
  public:
+  static constexpr int kNewStream_packets = 32;
+
   /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
   StreamTracker(std::int64_t clock_wrap_us, rt::FixedMemory& memory);
 
@@ -48,6 +58,13 @@ class StreamTracker {
   /// says how many of the missing packets were to come. `host_stamp_ns` is the datagram's, used
   /// only to tell an outage from a jump.
   [[nodiscard]] Placement place(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
+
+  /// After kNewStream, with each of the packets kept, in order, and with the last one itself: the
+  /// first begins the stream. As place(), but nothing is in doubt any more.
+  [[nodiscard]] Placement begin(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] Placement go_on(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                 LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Of the packets missing before the one just placed (kNext, kRestart) these are lost; counted
@@ -79,11 +96,21 @@ class StreamTracker {
     std::int64_t us = 0, explained = 0;
   };
 
+  /// Where a stream stands.
+  struct Newest {
+    std::int64_t stamp_us = 0, host_ns = 0, head_cdeg = 0;
+    std::int32_t pace_ticks = 0;
+  };
+
   static constexpr std::size_t kPeriodSamples = 15;
 
   [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us,
                                             std::int64_t to_us) const noexcept;
-  [[nodiscard]] bool is_repeat(const PacketHeads& heads) noexcept;
+  [[nodiscard]] static Seen seen(const PacketHeads& heads) noexcept;
+  [[nodiscard]] static std::size_t slot_of(const PacketHeads& heads) noexcept;
+  [[nodiscard]] bool is_repeat(const PacketHeads& heads) const noexcept;
+  /// A packet that was taken. Those in doubt are not: who foretells a packet must not replace it.
+  void remember(const PacketHeads& heads) noexcept;
   void adopt_range(const PacketHeads& heads, LossCounters& losses) noexcept;
   [[nodiscard]] std::int64_t period_in_use_ns() const noexcept {
     return period_ns_ != 0 ? period_ns_ : nominal_period_ns_;
@@ -94,6 +121,12 @@ class StreamTracker {
   void accept_median() noexcept;
   [[nodiscard]] std::int64_t missing_in(const Step& step) const noexcept;
   void commit_missing(LossCounters& losses) noexcept;
+  [[nodiscard]] Placement follow(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                 LossCounters& losses) noexcept;
+  [[nodiscard]] std::optional<std::int64_t> head_after(const Newest& newest,
+                                                       const PacketHeads& heads) const noexcept;
+  [[nodiscard]] Placement doubt(const PacketHeads& heads, std::int64_t host_stamp_ns,
+                                Reject reason) noexcept;
   [[nodiscard]] Placement restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
                                   LossCounters& losses) noexcept;
   void take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns, std::int64_t head_cdeg,
@@ -104,9 +137,9 @@ class StreamTracker {
   std::uint32_t packets_ = 0;
 
   bool started_ = false;
-  std::int64_t newest_stamp_us_ = 0, newest_host_ns_ = 0, newest_head_cdeg_ = 0;
-  std::int32_t newest_pace_ticks_ = 0;
-  int misfits_ = 0;  ///< Packets in a row whose azimuth contradicts their stamp.
+  Newest newest_;
+  Newest doubtful_;           ///< Of the packets that contradict the stream and agree ...
+  int doubtful_packets_ = 0;  ///< ... so many in a row.
 
   std::int64_t nominal_period_ns_ = 1, shortest_period_ns_ = 1, longest_period_ns_ = 1;
   std::int64_t period_ns_ = 0;  ///< Measured, in the range above; 0 while it is not.

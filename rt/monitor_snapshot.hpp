@@ -85,7 +85,8 @@ struct MonitorSnapshot {
   MotionFigures motion;
   HealthFigures health;
 
-  std::uint64_t received = 0;       ///< Datagrams the kernel handed over: the sum of `outcomes`.
+  std::uint64_t received = 0;  ///< Datagrams the kernel handed over: `in_doubt` and all `outcomes`.
+  std::uint64_t in_doubt = 0;  ///< Whose place in the stream is not known yet.
   std::uint32_t outcome_count = 0;  ///< How many of `outcomes` are in use.
   std::array<NamedCount, kMaxOutcomes> outcomes{};
 

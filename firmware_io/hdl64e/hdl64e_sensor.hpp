@@ -32,6 +32,7 @@ class Hdl64eSensor {
     AzimuthAt azimuth_at = AzimuthAt::kFiring;
   };
   static constexpr int kRows = calib::kHdl64eLasers;
+  static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
   using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
   static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a turn, 48 us each.

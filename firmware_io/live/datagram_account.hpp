@@ -16,23 +16,26 @@ namespace terracut::firmware_io {
 ///                   + let_go                  too old for a label in time
 ///                   + device_info             hold no returns
 ///                   + losses.rejected, each   the decoder refused them
+///                   + in_doubt                contradict the stream: kept, a few at most, until
+///                                             they are decoded or refused
 ///                   + decoded                 their returns are in frames, or in
 ///                                             losses.overflow_full_returns
 ///
-/// Here the identity is stated; outcomes_of() (tools/cli/loss_table.hpp) lists its terms for
-/// everything that shows them. What never reached this process is in none of them:
-/// source.kernel_drops and losses.network_gap_packets.
+/// Here the identity is stated; outcomes_of() (tools/cli/loss_table.hpp) lists its terms but
+/// in_doubt, which is no count, for everything that shows them. What never reached this process is
+/// in none of them: source.kernel_drops and losses.network_gap_packets.
 struct DatagramAccount {
   ReceiveCounters source;
   std::uint64_t let_go = 0;
   std::uint64_t device_info = 0;
   LossCounters losses;
+  std::uint64_t in_doubt = 0;
   std::uint64_t decoded = 0;
 
   [[nodiscard]] bool balances() const noexcept {
     return source.received == source.foreign + source.other_interface + source.truncated +
                                   source.no_datagram + let_go + device_info +
-                                  losses.rejected_total() + decoded;
+                                  losses.rejected_total() + in_doubt + decoded;
   }
 };
 

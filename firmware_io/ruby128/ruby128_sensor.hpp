@@ -16,6 +16,7 @@
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/point_kernel.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/ruby128/wire.hpp"
 #include "rt/nonblocking.hpp"
 
 namespace terracut::firmware_io {
@@ -32,6 +33,7 @@ class Ruby128Sensor {
     std::optional<RubyTimestamp> timestamp;
   };
   static constexpr int kRows = calib::kRuby128Lasers;
+  static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
   /// Device stamps count up from 1970; this is farther than they can get.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,6 +20,7 @@
 #include "pipeline/profile.hpp"
 #include "rt/fixed_memory.hpp"
 #include "tests/fuzz/input.hpp"
+#include "tests/fuzz/packet_account.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tools/cli/live/frame_exchange.hpp"
 
@@ -28,7 +28,7 @@ namespace terracut::fuzz {
 
 /// The way of packets through a live run, tracker to labels, on one thread and with an image of few
 /// columns, and what must hold after every packet, whatever came:
-/// - every packet is decoded, or rejected for one named reason, or told about the device;
+/// - every packet is decoded, rejected for one named reason, told about the device, or in doubt;
 /// - a packet hands over kMostFramesAPacket frames at most;
 /// - frames have the numbers that follow, stamps of packets that came, and returns at finite
 /// places;
@@ -70,21 +70,16 @@ class LiveChainRun {
     first_stamp_ns_ = std::min(first_stamp_ns_, stamp_ns);
     last_stamp_ns_ = std::max(last_stamp_ns_, stamp_ns);
     frames_of_packet_ = 0;
-    ++fed_;
-    const auto reason = decoder_.decode({.payload = payload, .stamp_ns = stamp_ns}, hand_over());
+    account_.feed(
+        decoder_,
+        [&] { return decoder_.decode({.payload = payload, .stamp_ns = stamp_ns}, hand_over()); },
+        [&] { return returns_in_(payload); });
     const firmware_io::ArrivingTurn arriving = decoder_.arriving();
     if (arriving.image != nullptr) {
       coarse_.advance(*arriving.image, arriving.settled_columns, planes_of(*arriving.image));
     }
-    if (!reason) {
-      accepted_returns_ += returns_in_(payload);
-    } else if (*reason == firmware_io::Reject::kDeviceInfo) {
-      ++device_info_;
-    } else {
-      ++rejected_[static_cast<std::size_t>(*reason)];
-    }
     require(frames_of_packet_ <= kMostFramesAPacket, "one packet hands over too many frames");
-    check_packets();
+    require(memory_.total_bytes() == memory_bytes_, "memory was taken after the start");
     if (segmenter_away_ == 0) segment();
     if (test::allocations_are_counted()) {
       require(allocations == test::allocations_of_this_thread(), "a packet allocated memory");
@@ -96,11 +91,10 @@ class LiveChainRun {
   /// The segmenter does not take any of the next turns.
   void keep_segmenter_away(int turns) { segmenter_away_ = turns; }
   void flush() {
-    decoder_.flush(hand_over());
+    account_.flush(decoder_, [&] { decoder_.flush(hand_over()); });
     segmenter_away_ = 0;
     segment();
-    require(handed_returns_ + decoder_.losses().overflow_full_returns == accepted_returns_,
-            "returns of decoded packets are neither in a frame nor counted");
+    account_.require_all_returns(handed_returns_ + decoder_.losses().overflow_full_returns);
   }
 
  private:
@@ -177,14 +171,6 @@ class LiveChainRun {
     require(std::ranges::count(labels, pipeline::Label::kNone) == 0, "a return has no label");
   }
 
-  void check_packets() const {
-    const firmware_io::LossCounters losses = decoder_.losses();
-    require(losses.rejected == rejected_, "a packet was rejected for another reason than it said");
-    require(decoder_.packets_decoded() + losses.rejected_total() + device_info_ == fed_,
-            "packets are not all accounted for");
-    require(memory_.total_bytes() == memory_bytes_, "memory was taken after the start");
-  }
-
   ReturnsIn returns_in_;
   rt::FixedMemory memory_;
   firmware_io::EgoMotion motion_{{.waiting = 16, .kept = 64}, memory_};
@@ -199,9 +185,8 @@ class LiveChainRun {
 
   std::int64_t first_stamp_ns_ = std::numeric_limits<std::int64_t>::max();
   std::int64_t last_stamp_ns_ = std::numeric_limits<std::int64_t>::min();
-  std::uint64_t fed_ = 0, device_info_ = 0, accepted_returns_ = 0, handed_returns_ = 0;
-  std::uint64_t packets_in_frames_ = 0;
-  std::array<std::uint64_t, firmware_io::kRejectReasons> rejected_{};
+  PacketAccount account_;
+  std::uint64_t handed_returns_ = 0, packets_in_frames_ = 0;
   std::uint32_t frames_ = 0, segmented_ = 0;
   int frames_of_packet_ = 0, segmenter_away_ = 0;
 };

@@ -130,6 +130,7 @@ Json live_summary(const rt::MonitorSnapshot& figures) {
                   {"silences", figures.silences},
                   {"silent_ms", milliseconds(figures.silent_ns)}};
   json["datagrams"] = {{"received", figures.received},
+                       {"in_doubt", figures.in_doubt},
                        {"outcomes", counts_json(figures.outcomes_in_use())}};
   json["frames"] = frames_json(figures);
   json["misses"] = misses_json(figures);

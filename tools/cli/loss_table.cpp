@@ -59,6 +59,7 @@ std::vector<LossCause> outcomes_of(const firmware_io::DatagramAccount& account) 
 
 void show_datagrams(const firmware_io::DatagramAccount& account, rt::MonitorSnapshot& figures) {
   figures.received = account.source.received;
+  figures.in_doubt = account.in_doubt;
   figures.packets = account.source.delivered;
   figures.outcome_count = 0;
   for (const LossCause& outcome : outcomes_of(account)) {

@@ -26,8 +26,8 @@ struct LossCause {
 /// "none", or the causes that happened: "network_gap_packets 12, rejected_late 1".
 [[nodiscard]] std::string loss_sentence(const firmware_io::LossCounters& losses);
 
-/// Where the datagrams of a live run went: the terms of DatagramAccount, whose sum is what was
-/// received, those that are 0 included.
+/// Where the datagrams of a live run went: the counts of DatagramAccount, those that are 0
+/// included. With those in doubt they are what was received.
 [[nodiscard]] std::vector<LossCause> outcomes_of(const firmware_io::DatagramAccount& account);
 
 /// Shows what was received and where it went. Allocates; std::length_error when there is no room.

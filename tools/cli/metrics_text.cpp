@@ -118,8 +118,13 @@ void add_input(const rt::MonitorSnapshot& figures, MetricsText& text) {
   text.single("terracut_silent_seconds_total", "counter", "How long no packets came in these.",
               seconds(figures.silent_ns));
   text.single("terracut_datagrams_received_total", "counter",
-              "Datagrams the kernel handed over: the sum of terracut_datagrams_total.",
+              "Datagrams the kernel handed over: the sum of terracut_datagrams_total and "
+              "terracut_datagrams_in_doubt.",
               figures.received);
+  text.single("terracut_datagrams_in_doubt", "gauge",
+              "Datagrams that contradict the stream, until others bear them out or the stream goes "
+              "on.",
+              figures.in_doubt);
   text.begin("terracut_datagrams_total", "counter",
              "Datagrams by what became of them; each is counted once.");
   for (const rt::NamedCount& outcome : figures.outcomes_in_use()) {

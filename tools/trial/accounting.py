@@ -12,7 +12,8 @@ def judge_accounting(report: Report, of: str, summary: dict, sent: int) -> None:
     received = summary["datagrams"]["received"]
     judge_sum(report, of + "datagrams sent", sent,
               {"received": received, "dropped by the kernel": summary["losses"]["kernel_drops"]})  # fmt: skip
-    judge_sum(report, of + "datagrams received", received, summary["datagrams"]["outcomes"])
+    judge_sum(report, of + "datagrams received", received,
+              summary["datagrams"]["outcomes"] | {"in doubt": summary["datagrams"]["in_doubt"]})  # fmt: skip
 
 
 def judge_sum(report: Report, point: str, whole: int, terms: dict[str, int]) -> None:

@@ -56,6 +56,7 @@ Refusal as_refusal(std::optional<Reject> reason) {
       return Refusal::kOtherPacket;
     case Reject::kRepeated:
     case Reject::kLate:
+    case Reject::kClockJump:
     case Reject::kCount:
       break;  // of the stream, not of the packet
   }

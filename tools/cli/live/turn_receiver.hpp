@@ -188,6 +188,7 @@ class TurnReceiver {
                       .let_go = let_go_,
                       .device_info = device_info_,
                       .losses = chain_.decoder.losses(),
+                      .in_doubt = chain_.decoder.packets_kept(),
                       .decoded = chain_.decoder.packets_decoded()};
     intake.account.source -= before_;
     intake.account.losses.kernel_drops = intake.account.source.kernel_drops;

@@ -16,10 +16,10 @@
 namespace terracut::calib {
 namespace {
 
-constexpr std::size_t kMinPoints = 500;
 constexpr std::size_t kScoredPoints =
     4000;  ///< Of the points, evenly taken, that judge a candidate.
 constexpr int kMaxRefinements = 50;
+constexpr std::size_t kLeastInliers = 50;
 constexpr double kReachPerRms = 2.0;
 constexpr double kLeastReach_m = 0.03;  ///< The sensor's own noise.
 
@@ -122,7 +122,7 @@ std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Plane& 
   bool solvable = false;
   Eigen::Matrix3d inverse;
   normal_matrix.computeInverseWithCheck(inverse, solvable);
-  if (inliers < kMinPoints / 10 || !solvable) return std::nullopt;
+  if (inliers < kLeastInliers || !solvable) return std::nullopt;
   const Eigen::Vector3d s = inverse * right_side;
   const Eigen::Vector3d up(-s.x(), -s.y(), 1.0);
   return Fit{{up.normalized(), -s.z() / up.norm()},
@@ -166,11 +166,11 @@ Mount mount_over(const Plane& plane) {
 Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points,
                                        const MountEstimateConfig& config) {
   const auto near = points_between(points, config);
-  if (near.size() < kMinPoints) {
+  if (near.size() < config.min_points) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("mount estimate: expected at least {} points between {:g} and {:g} m, "
                             "found {}; give more turns",
-                            kMinPoints, config.near_m, config.far_m, near.size()));
+                            config.min_points, config.near_m, config.far_m, near.size()));
   }
   const auto seed = search(near, config);
   const auto found = seed ? refine(near, *seed, config.inlier_m) : std::nullopt;

@@ -20,6 +20,7 @@ struct MountEstimateConfig {
   double max_tilt_rad = 0.26;     ///< Steepest plane searched, 15 deg.
   double inlier_m = 0.10;         ///< Half thickness of the plane while searching.
   double min_inlier_share = 0.2;  ///< Of the points between near_m and far_m.
+  std::size_t min_points = 500;   ///< Between near_m and far_m.
   int candidates = 2000;          ///< Finds a plane holding 20 % of the points with 1 - 1e-7.
 };
 

@@ -12,13 +12,15 @@
 namespace terracut::pipeline {
 
 /// Returns that the mount can be read off: of the strip before and behind the vehicle, the surface
-/// it stands on. A crowned road falls away on the other side, and there is more to see of it.
+/// it stands on. A crowned road falls away on the other side, and there is more to see of it. What
+/// lies farther is no plane any more where a slope begins: by the ground to 25 m a sensor 3 m up
+/// seems 0.7 m higher on the simulated hill, by the ground to 15 m 0.1 m lower.
 struct NearGround {
   static constexpr float kHalfWidth_m = 1.5F;
   static constexpr float kNearest_m = 3.0F;  ///< Nearer ones may be the vehicle itself.
-  static constexpr float kFarthest_m = 25.0F;
+  static constexpr float kFarthest_m = 15.0F;
   static constexpr std::size_t kMost = 8192;
-  static constexpr std::size_t kMostCellsLookedAt = 2 * kMost;
+  static constexpr std::size_t kMostCellsLookedAt = 4 * kMost;
 
   std::size_t count = 0;
   std::array<std::array<float, 3>, kMost> points;  ///< x, y, z in the vehicle frame, metres.

@@ -80,6 +80,8 @@ TEST(MountCheck, ShowsTheMountThatTheGroundIsSeenFrom) {
        {Case{mount(0.5, 0, 0), mount(1.73, 0, 0)}, Case{mount(1.2, 0, 0), mount(1.73, 0, 0)},
         Case{mount(2.5, 0, 0), mount(1.73, 0, 0)}, Case{mount(1.73, 0, 10), mount(1.73, 0, 0)},
         Case{mount(1.73, 0, 0), mount(1.73, 0, 10)}, Case{mount(1.73, -6, 0), mount(1.73, 0, 0)},
+        Case{mount(1.73, 0, 0), mount(2.03, 0, 0)}, Case{mount(1.73, 0, 0), mount(1.43, 0, 0)},
+        Case{mount(1.73, 0, 0), mount(1.73, 4, 0)}, Case{mount(1.73, 0, 0), mount(1.73, 0, -3)},
         Case{mount(0.8, 3, -8), mount(1.73, 2, 3)}}) {
     const auto seen = verdict(given, Seen(truth, given).add_lane().points());
     ASSERT_TRUE(seen) << truth.height_m << " " << given.height_m;
@@ -91,7 +93,7 @@ TEST(MountCheck, ShowsTheMountThatTheGroundIsSeenFrom) {
 
 TEST(MountCheck, SaysNothingOfWhatItsTolerancesAllow) {
   const Mount given = mount(1.73, 0, 0);
-  for (const Mount& truth : {mount(1.95, 0, 0), mount(1.5, 0, 0), mount(1.73, 3.5, -3.5)}) {
+  for (const Mount& truth : {mount(1.9, 0, 0), mount(1.56, 0, 0), mount(1.73, 3.2, -2.2)}) {
     EXPECT_FALSE(verdict(given, Seen(truth, given).add_lane().points()));
   }
 }

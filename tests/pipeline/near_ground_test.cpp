@@ -64,7 +64,7 @@ TEST(NearGround, ThinsLargeImagesOutEvenly) {
   const auto ground = std::make_unique<NearGround>();
   take_near_ground(image, *ground);
   const double share = static_cast<double>(ground->count) / static_cast<double>(in_strip(image));
-  constexpr int kStep = 5;  // 2 x 300 columns of 128 rows, of which 16384 are looked at
+  constexpr int kStep = 3;  // 2 x 300 columns of 128 rows, of which 32768 are looked at
   EXPECT_NEAR(share, 1.0 / kStep, 0.02);
 }
 

@@ -5,7 +5,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,16 +12,11 @@
 #include <string>
 
 #include "rt/error.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::calib {
 
-/// A file or folder under the shared data, wherever that is on this machine.
-inline std::filesystem::path shared_data(const std::string& relative) {
-  const char* shared = std::getenv("TERRACUT_SHARED");
-  const std::filesystem::path root =
-      shared != nullptr ? shared : std::filesystem::path(TERRACUT_SOURCE_DIR) / ".." / "shared";
-  return root / "data" / relative;
-}
+using test::shared_data;
 
 /// An empty folder of this test's own, removed afterwards.
 class ScratchFolder {

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "cli_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::cli {
 
@@ -29,7 +30,7 @@ class BackgroundProgram {
       : out_(folder / (name + ".stdout.txt")) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-    const std::string command = "cd " + quoted(folder) + " && exec " + quoted(TERRACUT_PROGRAM) +
+    const std::string command = "cd " + quoted(folder) + " && exec " + quoted(test::program()) +
                                 " " + arguments + " >" + quoted(out_);
     pid_ = ::fork();
     if (pid_ == 0) {

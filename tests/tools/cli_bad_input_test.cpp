@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 // What the program says of wrong command lines and bad inputs, and with which exit code.
 #include "cli_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -13,8 +14,8 @@ using testing::HasSubstr;
 /// terracut's exit codes, as documented by `terracut --help`.
 constexpr int kUsage = 2, kInputRefused = 3, kOutputFailed = 4, kNothingCameOut = 5;
 
-const fs::path kCaptures = fs::path(TERRACUT_SOURCE_DIR) / "../shared/data/pcap";
-const fs::path kCalibrations = fs::path(TERRACUT_SOURCE_DIR) / "../shared/data/calib";
+const fs::path kCaptures = test::shared_data("pcap");
+const fs::path kCalibrations = test::shared_data("calib");
 
 class CliRefusal : public Cli {
  protected:

@@ -4,6 +4,7 @@
 #include <sstream>
 
 #include "cli_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -38,12 +39,12 @@ std::string every_key_said(const std::string& file) {
 TEST_F(Configuration, PageShowsWhatTheProgramHas) {
   const Outcome table = run("config --print-table");
   EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(content_of(TERRACUT_SOURCE_DIR "/docs/configuration.md"), EndsWith(table.out))
+  EXPECT_THAT(content_of(test::source_folder() / "docs/configuration.md"), EndsWith(table.out))
       << "print it anew with `terracut config --print-table`";
 }
 
 TEST_F(Configuration, ServicesFileHasEveryKeyAndSaysOnlyWhereDumpsGo) {
-  const fs::path file = TERRACUT_SOURCE_DIR "/tools/service/terracut.yaml";
+  const fs::path file = test::source_folder() / "tools/service/terracut.yaml";
   EXPECT_EQ(content_of(file), run("--config " + quoted(file) + " config").out)
       << "print it anew with `terracut --config FILE config`";
   std::string defaults = run("config --print-default").out;

@@ -3,6 +3,7 @@
 #include <set>
 
 #include "cli_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -43,7 +44,7 @@ TEST_F(Cli, DoctorChecksWhatTheConfigurationWants) {
 }
 
 TEST_F(Cli, DoctorsChecksStandInTheGuideInTheSameOrder) {
-  const std::string guide = content_of(TERRACUT_SOURCE_DIR "/docs/real_time.md");
+  const std::string guide = content_of(test::source_folder() / "docs/real_time.md");
   const auto report = nlohmann::json::parse(run("doctor --json").out, nullptr, false);
   std::size_t before = 0;
   for (const auto& finding : report["findings"]) {

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "cli_fixture.hpp"
+#include "tests/support/places.hpp"
 #include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
@@ -165,8 +166,8 @@ TEST_F(Cli, ARuby128sDriveCarriesItsTable) {
 }
 
 TEST_F(Cli, OptionsOfTheOtherSensorAreSaidToBeWithoutEffect) {
-  const Outcome outcome = run("replay " + quoted(kDrive) +
-                              " --duration 0.2 --nominal-calibration --timestamp ns");
+  const Outcome outcome =
+      run("replay " + quoted(kDrive) + " --duration 0.2 --nominal-calibration --timestamp ns");
   EXPECT_EQ(outcome.exit_code, 0);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: --nominal-calibration is without effect"),
                                  HasSubstr("warning: --timestamp is without effect")));
@@ -274,7 +275,8 @@ TEST_F(Cli, PlanAddsUpItsParts) {
 TEST_F(Cli, ParametersPageShowsWhatTheProgramHas) {
   const Outcome table = run("parameters");
   EXPECT_EQ(table.exit_code, 0);
-  EXPECT_THAT(content_of(TERRACUT_SOURCE_DIR "/docs/parameters.md"), testing::EndsWith(table.out))
+  EXPECT_THAT(content_of(test::source_folder() / "docs/parameters.md"),
+              testing::EndsWith(table.out))
       << "print it anew with `terracut parameters`";
 }
 

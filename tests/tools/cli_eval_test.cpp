@@ -6,6 +6,7 @@
 #include "cli_fixture.hpp"
 #include "eval/made_up_dataset.hpp"
 #include "eval/made_up_koblenz.hpp"
+#include "tests/support/places.hpp"
 #include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
@@ -13,7 +14,7 @@ namespace {
 
 using testing::HasSubstr;
 
-const fs::path kSourceDir = TERRACUT_SOURCE_DIR;
+const fs::path kSourceDir = test::source_folder();
 const std::string kAllMethods =
     "terracut,terracut_road,paper,ring_map_adjacent,ring_map,pfaff,bogoslavskyi,zhang";
 
@@ -41,8 +42,8 @@ TEST_F(CliEval, ReportsWhatAScorerInAnotherLanguageFinds) {
 }
 
 TEST_F(CliEval, ReportsOfRecordedScansWhatAScorerInAnotherLanguageFinds) {
-  const fs::path root = kSourceDir / "../shared/data/semantickitti";
-  if (!fs::is_directory(root)) GTEST_SKIP() << "no recorded scans at ../shared";
+  const fs::path root = test::shared_data("semantickitti");
+  if (!fs::is_directory(root)) GTEST_SKIP() << "no recorded scans at " << root;
   const std::string eval = dataset(root) + "--sequences 00,03 --frames 0 --method " + kAllMethods;
   expect_done(eval);
   expect_same_scores(root);
@@ -122,7 +123,7 @@ TEST_F(CliEval, DoesNotGoOnWithWhatAnotherBuildBegan) {
   const evaluation::MadeUpDataset made_up;
   expect_done(dataset(made_up.root()));
   // Another build, as far as anybody can tell by its file.
-  fs::copy_file(TERRACUT_PROGRAM, folder_ / "other_build");
+  fs::copy_file(test::program(), folder_ / "other_build");
   std::ofstream(folder_ / "other_build", std::ios::binary | std::ios::app) << '\n';
   const std::string command = "cd " + quoted(folder_) + " && ./other_build " +
                               dataset(made_up.root()) + " >/dev/null 2>said.txt";

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cli {
@@ -51,9 +52,7 @@ struct Outcome {
 /// A folder of this test's own and the built program to run in it.
 class Cli : public testing::Test {
  protected:
-  void SetUp() override {
-    folder_ = test::make_scratch_folder();
-  }
+  void SetUp() override { folder_ = test::make_scratch_folder(); }
   void TearDown() override { fs::remove_all(folder_); }
 
   /// Runs `terracut ARGUMENTS` with the test's folder as working directory. From any thread.
@@ -61,8 +60,8 @@ class Cli : public testing::Test {
     static std::atomic<int> runs = 0;
     const std::string number = std::to_string(runs++);
     const std::string out = "stdout" + number + ".txt", err = "stderr" + number + ".txt";
-    const std::string command = "cd '" + folder_.string() + "' && '" TERRACUT_PROGRAM "' " +
-                                arguments + " >" + out + " 2>" + err;
+    const std::string command = "cd '" + folder_.string() + "' && '" + test::program().string() +
+                                "' " + arguments + " >" + out + " 2>" + err;
     const int status = std::system(command.c_str());
     return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, content_of(folder_ / out),
             content_of(folder_ / err)};
@@ -82,7 +81,7 @@ class Cli : public testing::Test {
 };
 
 /// 1.3 s of the scene "street": 13 turns, and one whole round of the status stream.
-inline const fs::path kDrive = TERRACUT_TEST_DRIVE;
+inline const fs::path kDrive = test::drive();
 inline const fs::path kDriveCalibration = fs::path(kDrive).replace_extension("calibration.xml");
 inline const fs::path kDriveTruth = fs::path(kDrive).replace_extension("truth");
 inline constexpr std::size_t kDriveFrames = 13;

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "cli_fixture.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -86,8 +87,7 @@ TEST_F(CliScans, OfASimulatedDriveGiveTheSameAccuracyThroughPackets) {
 }
 
 TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
-  const fs::path sequences =
-      fs::path(TERRACUT_SOURCE_DIR) / "../shared/data/semantickitti/sequences";
+  const fs::path sequences = test::shared_data("semantickitti/sequences");
   if (!fs::exists(sequences)) GTEST_SKIP() << "no scans at " << sequences;
   // Within one point in the mean over sequences, as accuracy is stated. A single sequence may
   // differ by more in Recall_o: sequence 01 has 580 key obstacle returns, so six of them are a

@@ -10,6 +10,7 @@
 #include "cli_fixture.hpp"
 #include "rt/status_page.hpp"
 #include "tests/support/child_process.hpp"
+#include "tests/support/places.hpp"
 #include "watched_run.hpp"
 
 namespace terracut::cli {
@@ -135,7 +136,7 @@ TEST_F(CliTop, KilledWhileItReadsDisturbsNobody) {
   const pid_t reader = ::fork();
   if (reader == 0) {
     if (std::freopen(out.c_str(), "w", stdout) == nullptr) ::_exit(9);
-    ::execl(TERRACUT_PROGRAM, "terracut", "top", "live", "--interval", "0.1", nullptr);
+    ::execl(test::program().c_str(), "terracut", "top", "live", "--interval", "0.1", nullptr);
     ::_exit(9);
   }
   int status = 0;

@@ -38,3 +38,12 @@ if(TERRACUT_LIBFUZZER)
   # Coverage feedback in the libraries too; the fuzzer's own main is linked per target.
   target_compile_options(terracut_flags INTERFACE -fsanitize=fuzzer-no-link)
 endif()
+
+# terracut_test_flags: for tests, after terracut_flags. Compiling a test takes longer than running it,
+# so what is tested is optimised, and the tests themselves hardly.
+add_library(terracut_test_flags INTERFACE)
+if(TERRACUT_SANITIZE)
+  target_compile_options(terracut_test_flags INTERFACE -O0)
+else()
+  target_compile_options(terracut_test_flags INTERFACE -O1)
+endif()

@@ -24,9 +24,7 @@ function(terracut_add_test name)
     set(arg_TIMEOUT 300)
   endif()
   add_executable(${name} ${arg_SOURCES})
-  target_link_libraries(${name} PRIVATE ${arg_LIBS} terracut_flags GTest::gtest GTest::gmock GTest::gtest_main)
-  target_compile_definitions(${name} PRIVATE
-    TERRACUT_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TERRACUT_BINARY_DIR="${PROJECT_BINARY_DIR}")
+  target_link_libraries(${name} PRIVATE ${arg_LIBS} terracut_flags terracut_test_flags terracut_test_places GTest::gtest GTest::gmock GTest::gtest_main)
   if(NOT arg_LABELS)
     set(arg_LABELS unit)  # an empty list would make the next word the label
   endif()

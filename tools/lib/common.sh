@@ -4,6 +4,9 @@
 repo=$(cd "$(dirname "${BASH_SOURCE[0]}")/../.." && pwd)
 export repo
 
+# ccache knows a file again in every checkout of the project, wherever that lies.
+export CCACHE_BASEDIR=$repo CCACHE_NOHASHDIR=yes
+
 say() { printf '\n== %s\n' "$*" >&2; }
 die() {
   printf 'error: %s\n' "$*" >&2

@@ -11,6 +11,7 @@
 #include "firmware_io/can/signal_plan.hpp"
 #include "frames.hpp"
 #include "random_dbc.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace terracut::test {
@@ -57,7 +58,7 @@ TEST(Canmatrix, DecodesRandomSignalsToTheSameValues) {
   std::ofstream(folder / "random.dbc") << dbc_text(file);
   const std::string command = fmt::format(
       "{} {}/tests/firmware_io/can/decode_with_canmatrix.py {}/random.dbc < {}/frames > {}/values",
-      python, TERRACUT_SOURCE_DIR, folder.string(), folder.string(), folder.string());
+      python, test::source_folder().string(), folder.string(), folder.string(), folder.string());
   ASSERT_EQ(std::system(command.c_str()), 0) << command;
 
   const auto parsed = firmware_io::read_dbc(folder / "random.dbc");

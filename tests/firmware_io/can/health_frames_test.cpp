@@ -13,6 +13,7 @@
 
 #include "firmware_io/can/signal_plan.hpp"
 #include "frames.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::test {
 namespace {
@@ -23,7 +24,7 @@ using firmware_io::HealthReport;
 using firmware_io::SignalPlan;
 using testing::HasSubstr;
 
-constexpr const char* kDbc = TERRACUT_SOURCE_DIR "/firmware_io/can/terracut_health.dbc";
+const std::filesystem::path kDbc = test::source_folder() / "firmware_io/can/terracut_health.dbc";
 
 class HealthFrames : public testing::Test {
  protected:

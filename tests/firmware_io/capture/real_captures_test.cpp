@@ -3,19 +3,12 @@
 // Real captures of other Velodyne models (data not part of the project; skipped where absent).
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "capture_bytes.hpp"
 #include "firmware_io/capture/capture_survey.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::firmware_io {
 namespace {
-
-std::filesystem::path capture_folder() {
-  const char* shared = std::getenv("TERRACUT_SHARED");
-  const std::filesystem::path root = shared != nullptr ? shared : TERRACUT_SOURCE_DIR "/../shared";
-  return root / "data" / "pcap";
-}
 
 struct RealCapture {
   const char* file;
@@ -27,7 +20,7 @@ struct RealCapture {
 class RealCaptures : public testing::TestWithParam<RealCapture> {
  protected:
   void SetUp() override {
-    path_ = capture_folder() / GetParam().file;
+    path_ = test::shared_data("pcap") / GetParam().file;
     if (!std::filesystem::exists(path_)) GTEST_SKIP() << path_ << " is not here";
   }
   std::filesystem::path path_;

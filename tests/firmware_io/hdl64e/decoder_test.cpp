@@ -7,6 +7,7 @@
 
 #include "calib/hdl64e_file.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/reference/agreement.hpp"
 #include "tests/support/reference/hdl64e_reference.hpp"
 
@@ -88,7 +89,7 @@ TEST(Hdl64eDecoder, TakesWideRotationalCorrections) {
 class RealUnits : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealUnits, AgreeWithAPlainSlowDecoder) {
-  const auto path = std::filesystem::path(TERRACUT_SOURCE_DIR "/../shared/data/calib") / GetParam();
+  const auto path = test::shared_data("calib") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto calibration = calib::load_hdl64e_calibration(path);
   ASSERT_TRUE(calibration) << calibration.error().message;

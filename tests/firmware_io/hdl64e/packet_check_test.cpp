@@ -8,6 +8,7 @@
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -149,7 +150,7 @@ TEST(PacketCheck, SeesDualReturnAndItsLongerSteps) {
 class RealCapture : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealCapture, OfAnotherModelIsRefusedAsThat) {
-  const auto path = std::filesystem::path(TERRACUT_SOURCE_DIR "/../shared/data/pcap") / GetParam();
+  const auto path = test::shared_data("pcap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   auto source = PcapSource::open(path);
   ASSERT_TRUE(source) << source.error().message;

@@ -12,6 +12,7 @@
 #include "calib/hdl64e_file.hpp"
 #include "calib/nominal_hdl64e.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -86,7 +87,7 @@ TEST(PointKernel, AgreesWithTheDoubleGeometryOnTheNominalUnit) {
 class RealUnit : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealUnit, AgreesWithTheDoubleGeometry) {
-  const auto path = std::filesystem::path(TERRACUT_SOURCE_DIR "/../shared/data/calib") / GetParam();
+  const auto path = test::shared_data("calib") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const auto calibration = calib::load_hdl64e_calibration(path);
   ASSERT_TRUE(calibration) << calibration.error().message;

@@ -11,6 +11,7 @@
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -132,8 +133,7 @@ TEST(Ruby128PacketCheck, RefusesItsRelativesByModel) {
 class RealCapture : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealCapture, OfAnotherSensorIsRefusedByModel) {
-  const std::filesystem::path path =
-      std::filesystem::path(TERRACUT_SOURCE_DIR "/../shared/data/pcap") / GetParam();
+  const std::filesystem::path path = test::shared_data("pcap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   auto source = PcapSource::open(path);
   ASSERT_TRUE(source) << source.error().message;

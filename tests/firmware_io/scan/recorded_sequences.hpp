@@ -5,18 +5,16 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <vector>
+
+#include "tests/support/places.hpp"
 
 namespace terracut::firmware_io {
 
 /// Sequence folders of the labelled scans beside the repository; none where they are absent.
 inline std::vector<std::filesystem::path> recorded_sequences() {
-  const char* const shared = std::getenv("TERRACUT_SHARED");
-  const std::filesystem::path root =
-      std::filesystem::path(shared != nullptr ? shared : TERRACUT_SOURCE_DIR "/../shared") /
-      "data/semantickitti/sequences";
+  const std::filesystem::path root = test::shared_data("semantickitti/sequences");
   std::vector<std::filesystem::path> sequences;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(root, error)) {

@@ -11,6 +11,7 @@
 #include <iterator>
 
 #include "stream_test_support.hpp"
+#include "tests/support/places.hpp"
 
 namespace terracut::firmware_io {
 namespace {
@@ -37,8 +38,9 @@ class ReadTurnsScript : public StreamTest {
   }
   [[nodiscard]] static std::future<Outcome> run_at(const std::string& address,
                                                    const std::string& arguments) {
-    const std::string command = "python3 " TERRACUT_SOURCE_DIR "/tools/examples/read_turns.py " +
-                                address + " " + arguments + " 2>&1";
+    const std::string command = "python3 " +
+                                (test::source_folder() / "tools/examples/read_turns.py").string() +
+                                " " + address + " " + arguments + " 2>&1";
     return std::async(std::launch::async, [command] {
       Outcome outcome;
       std::FILE* pipe = ::popen(command.c_str(), "re");

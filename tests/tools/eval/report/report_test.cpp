@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "browser.hpp"
+#include "tests/support/places.hpp"
 #include "tests/tools/eval/made_up_dataset.hpp"
 #include "tests/tools/eval/made_up_koblenz.hpp"
 #include "tools/eval/evaluation_json.hpp"
@@ -24,7 +25,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
-const fs::path kCheck = fs::path(TERRACUT_SOURCE_DIR) / "tests/tools/eval/report/check_report.py";
+const fs::path kCheck = test::source_folder() / "tests/tools/eval/report/check_report.py";
 
 std::string content_of(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

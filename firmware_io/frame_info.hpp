@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "calib/angle.hpp"
 #include "firmware_io/loss_counters.hpp"
 #include "firmware_io/motion/deskew_info.hpp"
 #include "pipeline/range_image.hpp"
@@ -16,6 +17,9 @@ struct BlindAzimuths {
   std::int32_t from_cdeg = 0, to_cdeg = 0;
 
   [[nodiscard]] bool is_none() const noexcept { return from_cdeg == to_cdeg; }
+  [[nodiscard]] std::int32_t width_cdeg() const noexcept {
+    return calib::wrap_cdeg(to_cdeg - from_cdeg);
+  }
 };
 
 /// What is known of one turn besides its returns.

@@ -70,6 +70,9 @@ struct MonitorSnapshot {
   bool head_stands = false;         ///< Packets come, but say that the head does not turn.
   std::uint64_t packets = 0;        ///< Datagrams taken in, of those received.
   std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest one.
+  /// Head azimuths between which the sensor sends nothing, [0, 36000), perhaps across 0; the same
+  /// where no such sector is known.
+  std::int32_t blind_from_cdeg = 0, blind_to_cdeg = 0;
 
   std::uint64_t frames = 0;    ///< Judged, whatever their rung.
   std::uint64_t returns = 0;   ///< In these frames.

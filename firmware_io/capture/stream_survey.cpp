@@ -40,14 +40,20 @@ void StreamSurvey::add(const PacketHeads& heads, bool turning) {
     steps_ticks_ += heads.step_ticks;
     dual_packets_ += heads.dual_return ? 1 : 0;
   }
-  add_step(heads);
+  add_step(heads, turning);
 }
 
-void StreamSurvey::add_step(const PacketHeads& heads) {
+std::int64_t StreamSurvey::clock_step_us(std::int64_t from_us, std::int64_t to_us) const {
+  std::int64_t step_us = (to_us - from_us) % clock_wrap_us_;
+  if (step_us >= clock_wrap_us_ / 2) step_us -= clock_wrap_us_;
+  if (step_us < -(clock_wrap_us_ / 2)) step_us += clock_wrap_us_;
+  return step_us;
+}
+
+void StreamSurvey::add_step(const PacketHeads& heads, bool turning) {
+  bool goes_on = false;
   if (newest_) {
-    std::int64_t step_us = (heads.device_stamp_us - newest_->device_stamp_us) % clock_wrap_us_;
-    if (step_us >= clock_wrap_us_ / 2) step_us -= clock_wrap_us_;
-    if (step_us < -(clock_wrap_us_ / 2)) step_us += clock_wrap_us_;
+    const std::int64_t step_us = clock_step_us(newest_->device_stamp_us, heads.device_stamp_us);
     if (step_us == 0) {
       ++facts_.packets_repeated;
       return;
@@ -58,9 +64,13 @@ void StreamSurvey::add_step(const PacketHeads& heads) {
     }
     if (std::abs(step_us) >= kJump_us) {
       ++facts_.clock_jumps;
+      seen_.reset();
+      blind_.end();
     } else {
-      if (steps_us_.size() < kMostDistinctSteps || steps_us_.contains(step_us))
-        ++steps_us_[step_us];
+      goes_on = turning && seen_;
+      const bool is_told = goes_on && follow(heads, step_us);
+      const bool is_known = steps_us_.size() < kMostDistinctSteps || steps_us_.contains(step_us);
+      if (!is_told && is_known) ++steps_us_[step_us];
       if (step_us < kSurelyUnderHalfATurn_us) {
         short_time_us_ += step_us;
         short_advance_cdeg_ += calib::step_cdeg(newest_->first_cdeg(), heads.first_cdeg());
@@ -69,7 +79,44 @@ void StreamSurvey::add_step(const PacketHeads& heads) {
       }
     }
   }
+  if (turning && !goes_on) begin_turning(heads);
+  if (!turning) ++not_turning_;
   newest_ = heads;
+}
+
+void StreamSurvey::begin_turning(const PacketHeads& heads) {
+  seen_ = {heads.device_stamp_us, heads.first_cdeg()};
+  frontier_ticks_ = std::int64_t{heads.first_cdeg()} * kTicksPerCdeg + heads.sweep_ticks;
+  not_turning_ = 0;
+}
+
+bool StreamSurvey::follow(const PacketHeads& heads, std::int64_t step_us) {
+  const double nominal_us = heads.nominal_period_ns * 1e-3;
+  const double step_periods = static_cast<double>(step_us) / nominal_us;
+  const double measured_us = step_periods > 2 ? period_us() : 0;
+  const double one_us = measured_us > 0 ? measured_us : nominal_us;
+  const std::int64_t since_us = clock_step_us(seen_->stamp_us, heads.device_stamp_us);
+  const auto expected_cdeg =
+      seen_->head_cdeg +
+      std::llround(static_cast<double>(since_us) / one_us * heads.pace_ticks / kTicksPerCdeg);
+  const std::int64_t head_cdeg =
+      expected_cdeg + calib::step_cdeg(calib::wrap_cdeg(expected_cdeg), heads.first_cdeg());
+
+  const std::int64_t begin_ticks = head_cdeg * kTicksPerCdeg;
+  const HeadInterval gap{frontier_ticks_, begin_ticks};
+  const HeadInterval swept{begin_ticks, begin_ticks + heads.sweep_ticks};
+  const BlindSector::Stride stride{heads.pace_ticks, heads.widest_ticks};
+  const bool is_wide = gap.ticks() >= blind_.least_ticks();
+  if (is_wide) {
+    const auto missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
+    lost_in_gaps_ += blind_.judge(gap, missing, not_turning_, stride).packets;
+  }
+  blind_.pass(swept);
+  lost_in_gaps_ += blind_.take_due().packets;
+  seen_ = {heads.device_stamp_us, head_cdeg};
+  frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
+  not_turning_ = 0;
+  return is_wide;
 }
 
 /// Mean of the steps near the median of those that can be one period.
@@ -98,11 +145,15 @@ StreamFacts StreamSurvey::facts() const {
     for (const auto& [step_us, count] : steps_us_) {
       const auto periods = static_cast<std::uint64_t>(
           std::llround(static_cast<double>(step_us) / facts.packet_period_us));
-      // A packet put back in order fills a gap that was counted when the later one overtook it.
       if (periods > 1) facts.packets_lost += (periods - 1) * count;
     }
-    facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
   }
+  BlindSector to_the_end = blind_;
+  to_the_end.end();
+  facts.packets_lost += static_cast<std::uint64_t>(lost_in_gaps_ + to_the_end.take_due().packets);
+  // A packet put back in order fills a gap that was counted when the later one overtook it.
+  facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
+  facts.blind = blind_azimuths(blind_.sector());
   if (turning_packets_ > 0) {
     facts.return_mode =
         dual_packets_ * 2 > turning_packets_ ? ReturnMode::kDual : ReturnMode::kSingle;

@@ -7,6 +7,9 @@
 #include <optional>
 #include <string_view>
 
+#include "firmware_io/blind_sector.hpp"
+#include "firmware_io/frame_info.hpp"
+#include "firmware_io/head_sector.hpp"
 #include "firmware_io/packet_heads.hpp"
 
 namespace terracut::firmware_io {
@@ -23,7 +26,8 @@ struct StreamFacts {
   double spin_rpm = 0;                 ///< 0 for a head that stands still.
   double step_deg = 0;                 ///< Azimuth from one firing to the next, mean.
   double turns = 0;                    ///< Turned from the first packet to the last, gaps included.
-  std::uint64_t packets_lost = 0;      ///< Missing by the device stamps.
+  std::uint64_t packets_lost = 0;      ///< Missing by the device stamps; in no blind sector.
+  BlindAzimuths blind;                 ///< At the end; as BlindSector finds it.
   std::uint64_t packets_repeated = 0;  ///< With the stamp of the packet before.
   std::uint64_t packets_reordered = 0;
   std::uint64_t clock_jumps = 0;  ///< Stamp steps beyond 10 s either way: a loop, a restart.
@@ -47,8 +51,18 @@ class StreamSurvey {
   [[nodiscard]] StreamFacts facts() const;
 
  private:
+  /// The newest packet of a turning head, by unwrapped azimuth.
+  struct Seen {
+    std::int64_t stamp_us = 0, head_cdeg = 0;
+  };
+
   /// Device time and azimuth between two packets next to each other in the capture.
-  void add_step(const PacketHeads& heads);
+  void add_step(const PacketHeads& heads, bool turning);
+  [[nodiscard]] std::int64_t clock_step_us(std::int64_t from_us, std::int64_t to_us) const;
+  /// A packet of a turning head comes `step_us` after the one before. True where it tells by the
+  /// azimuths what was lost between them.
+  [[nodiscard]] bool follow(const PacketHeads& heads, std::int64_t step_us);
+  void begin_turning(const PacketHeads& heads);
   [[nodiscard]] double period_us() const;
 
   std::int64_t clock_wrap_us_;
@@ -58,7 +72,12 @@ class StreamSurvey {
   std::int64_t short_time_us_ = 0;  ///< Over steps short enough to know the azimuth advance.
   std::int64_t short_advance_cdeg_ = 0;
   std::int64_t long_time_us_ = 0;  ///< Over the others.
-  std::int64_t steps_ticks_ = 0;   ///< Sum of the packets' own steps.
+  BlindSector blind_{kTurn_ticks};
+  std::optional<Seen> seen_;
+  std::int64_t frontier_ticks_ = 0;  ///< The head was seen up to here.
+  std::int64_t not_turning_ = 0;     ///< Packets since then.
+  std::int64_t lost_in_gaps_ = 0;    ///< Gaps wide enough for a blind sector.
+  std::int64_t steps_ticks_ = 0;     ///< Sum of the packets' own steps.
   std::uint64_t dual_packets_ = 0;
   std::uint64_t turning_packets_ = 0;
 };

@@ -3,6 +3,8 @@
 #include <cstdio>
 
 #include "cli_fixture.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/pcap_writer.hpp"
 #include "tests/support/places.hpp"
 #include "tools/cli/exit_codes.hpp"
 
@@ -51,6 +53,38 @@ TEST_F(Cli, InfoNamesTheSensorItsRateAndTheTableInTheStream) {
   const auto info = json("info.json");
   ASSERT_EQ(info["streams"].size(), 1U);
   EXPECT_EQ(info["streams"][0]["hdl64e"]["packets_lost"], 0);
+  EXPECT_TRUE(info["streams"][0]["hdl64e"]["blind"].is_null());
+}
+
+TEST_F(Cli, InfoAndReplayNameABlindSectorAndDoNotTakeItForLoss) {
+  auto whole = firmware_io::PcapSource::open(kDrive);
+  auto narrow = firmware_io::PcapWriter::create(folder_ / "narrow.pcap");
+  ASSERT_TRUE(whole && narrow);
+  for (auto next = whole->next(); next && *next; next = whole->next()) {
+    const firmware_io::Datagram& datagram = **next;
+    const int head_cdeg = datagram.payload[2] + 256 * datagram.payload[3];
+    if (head_cdeg < 10'000 || head_cdeg >= 20'000) {
+      ASSERT_TRUE(narrow->write(datagram));
+    }
+  }
+  ASSERT_TRUE(narrow->finish());
+
+  const Outcome outcome = run("info --json info.json narrow.pcap");
+  EXPECT_THAT(outcome.out, HasSubstr("  blind        from 10"));
+  EXPECT_THAT(outcome.out, HasSubstr("  lost         0 packets"));
+  const auto facts = json("info.json")["streams"][0]["hdl64e"];
+  EXPECT_EQ(facts["packets_lost"], 0);
+  EXPECT_NEAR(facts["blind"]["from_deg"], 100, 1.1) << "a packet";
+  EXPECT_NEAR(facts["blind"]["to_deg"], 200, 1.1);
+
+  const Outcome replayed =
+      run("replay --calibration " + quoted(kDriveCalibration) + " --json r.json narrow.pcap");
+  EXPECT_EQ(replayed.exit_code, 0) << replayed.err;
+  EXPECT_THAT(replayed.out, HasSubstr("blind     from 10"));
+  const auto summary = json("r.json")["summary"];
+  EXPECT_EQ(summary["losses"]["network_gap_packets"], 0);
+  EXPECT_NEAR(summary["blind"]["from_deg"], 100, 1.1);
+  EXPECT_NEAR(summary["blind"]["to_deg"], 200, 1.1);
 }
 
 TEST_F(Cli, ReplayLabelsEveryReturnOfEveryFrameInTheOrderOfTheTruth) {

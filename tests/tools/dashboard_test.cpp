@@ -59,6 +59,14 @@ TEST(Dashboard, ShowsWhetherTheVehiclesMotionIsKnownAndWhatWasSaidOnItsBus) {
               HasSubstr("\x1b[31mbus_off on can0"));
 }
 
+TEST(Dashboard, NamesTheBlindSectorWhileItIsKnown) {
+  WatchedRun run;
+  EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}), Not(HasSubstr("blind")));
+  run.narrow_view();
+  EXPECT_EQ(line_of(dashboard(run.figures(), kNow_ns, {}), "blind"),
+            "blind     from 270.1 to 89.9 deg of the head");
+}
+
 TEST(Dashboard, ShowsHowFarOffAClockIsThatFitsNoTurn) {
   WatchedRun run;
   run.figures().motion.bus = "can0";

@@ -80,6 +80,16 @@ TEST(FiguresCheck, LetsNothingPassThatCannotBeShown) {
   EXPECT_GT(refused, kPages / 10);
 }
 
+TEST(FiguresCheck, RefusesABlindSectorThatIsNoAzimuth) {
+  for (const std::int32_t cdeg : {-1, 36'000}) {
+    WatchedRun run;
+    run.narrow_view();
+    EXPECT_TRUE(are_possible(run.figures()));
+    run.figures().blind_to_cdeg = cdeg;
+    EXPECT_FALSE(are_possible(run.figures())) << cdeg;
+  }
+}
+
 /// The figures that broke the bars of the stages.
 TEST(FiguresCheck, RefusesTimesThatAreNone) {
   const std::int64_t kMinus = -1;

@@ -46,6 +46,15 @@ TEST(LiveSummary, TellsWhereEachDatagramWent) {
   EXPECT_EQ(json["datagrams"]["outcomes"]["let_go"], 5);
 }
 
+TEST(LiveSummary, NamesTheBlindSectorWhileItIsKnown) {
+  WatchedRun run;
+  EXPECT_TRUE(live_summary(run.figures())["blind"].is_null());
+  run.narrow_view();
+  const auto json = live_summary(run.figures());
+  EXPECT_EQ(json["blind"]["from_deg"], 270.12);
+  EXPECT_EQ(json["blind"]["to_deg"], 89.9);
+}
+
 TEST(LiveSummary, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
   WatchedRun run;
   EXPECT_FALSE(live_summary(run.figures()).contains("motion"));

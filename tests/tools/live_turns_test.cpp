@@ -208,6 +208,25 @@ TEST_F(LiveTurns, AHeadThatStandsShowsInTheCountsAlthoughNoFrameComes) {
   expect_balance();
 }
 
+TEST_F(LiveTurns, ALimitedFieldOfViewIsNamedAndCostsNoDeadline) {
+  auto packets = drive(20);
+  std::erase_if(packets, [](const Packet& packet) {
+    const int head_cdeg = packet.bytes[2] + 256 * packet.bytes[3];
+    return head_cdeg < 9'000 || head_cdeg >= 27'000;
+  });
+  send(packets);
+  run();
+  EXPECT_NEAR(intake().blind.from_cdeg, 27'000, 105) << "a packet";
+  EXPECT_NEAR(intake().blind.to_cdeg, 9'000, 105);
+  EXPECT_EQ(intake().account.losses.network_gap_packets, 0U);
+  EXPECT_GE(timings_.size(), 19U);
+  for (const rt::FrameTiming& timing : timings_) {
+    // The sector is known after three turns, after five more how packets come to lie beside it.
+    if (timing.number < 9) continue;
+    EXPECT_NE(timing.rung, rt::Rung::kSkipped) << timing.number;
+  }
+}
+
 TEST_F(LiveTurns, CountsWhatTheKernelDroppedLastAtTheEnd) {
   source_.drops_in_kernel = 23'162;
   (void)receiver_->turn_round(0);

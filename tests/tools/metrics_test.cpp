@@ -78,6 +78,18 @@ TEST(MetricsText, TellsOfSilencesAndOfAHeadThatStands) {
   EXPECT_EQ(samples["terracut_head_stands"], 1);
 }
 
+TEST(MetricsText, TellsHowWideTheBlindSectorIsAndWhereWhileItIsKnown) {
+  WatchedRun run;
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples.at("terracut_blind_degrees"), 0);
+  EXPECT_FALSE(samples.contains("terracut_blind_azimuth_degrees{edge=\"from\"}"));
+  run.narrow_view();
+  samples = samples_of(metrics_text(run.figures()));
+  EXPECT_DOUBLE_EQ(samples.at("terracut_blind_degrees"), 179.78) << "across 0";
+  EXPECT_DOUBLE_EQ(samples.at("terracut_blind_azimuth_degrees{edge=\"from\"}"), 270.12);
+  EXPECT_DOUBLE_EQ(samples.at("terracut_blind_azimuth_degrees{edge=\"to\"}"), 89.9);
+}
+
 TEST(MetricsText, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
   WatchedRun run;
   EXPECT_EQ(samples_of(metrics_text(run.figures())).count("terracut_motion_samples_total"), 0U);

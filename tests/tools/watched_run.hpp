@@ -56,6 +56,12 @@ class WatchedRun {
     return frames;
   }
 
+  /// As if the sensor were set to a field of view.
+  void narrow_view() {
+    monitor_->snapshot().blind_from_cdeg = 27'012;
+    monitor_->snapshot().blind_to_cdeg = 8'990;
+  }
+
   /// As if the vehicle's motion were taken out of the frames, but for two, and health were told.
   void hear_vehicle() {
     rt::MonitorSnapshot& figures = monitor_->snapshot();

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "blind_text.hpp"
 #include "bus_text.hpp"
 #include "counts_text.hpp"
 #include "mount_text.hpp"
@@ -79,6 +80,9 @@ class Dashboard {
     if (figures_.silences > 0) {
       line("          silent {} times, {:.1f} s in all", figures_.silences,
            milliseconds(figures_.silent_ns) / 1000.0);
+    }
+    if (const std::string blind = blind_text(blind_of(figures_)); !blind.empty()) {
+      line("blind     {}", blind);
     }
     line("frames    {:.2f} /s, {} so far, {} returns", figures_.frames_per_s, figures_.frames,
          figures_.returns);

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <initializer_list>
 
+#include "calib/angle.hpp"
+
 namespace terracut::cli {
 namespace {
 
@@ -47,6 +49,9 @@ bool are_possible(const rt::MonitorSnapshot& figures) noexcept {
   for (const std::int64_t ns : {figures.started_ns, figures.taken_ns, figures.deadline_ns,
                                 figures.last_packet_ns, figures.silent_ns}) {
     if (!is_time(ns)) return false;
+  }
+  for (const std::int32_t cdeg : {figures.blind_from_cdeg, figures.blind_to_cdeg}) {
+    if (cdeg < 0 || cdeg >= calib::kTurn_cdeg) return false;
   }
   if (figures.link >= rt::LinkState::kCount || !std::isfinite(figures.frames_per_s) ||
       figures.loss_count > figures.losses.size() ||

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "blind_text.hpp"
 #include "calib/hdl64e_stream_table.hpp"
 #include "commands.hpp"
 #include "console.hpp"
@@ -70,6 +71,9 @@ std::string text_of(const StreamFacts& facts) {
       facts.spin_rpm, facts.turns, facts.step_deg, to_string(facts.return_mode),
       facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
       facts.clock_jumps);
+  if (const std::string blind = blind_text(facts.blind); !blind.empty()) {
+    text += fmt::format("  blind        {}; its time is no loss\n", blind);
+  }
   if (facts.azimuths_out_of_range > 0) {
     text += fmt::format("  broken       {} packets with an azimuth of 360 degrees or more\n",
                         facts.azimuths_out_of_range);
@@ -173,6 +177,7 @@ Json json_of(const StreamFacts& facts) {
           {"packets_repeated", facts.packets_repeated},
           {"packets_reordered", facts.packets_reordered},
           {"clock_jumps", facts.clock_jumps},
+          {"blind", blind_json(facts.blind)},
           {"azimuths_out_of_range", facts.azimuths_out_of_range}};
 }
 

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 
+#include "blind_text.hpp"
 #include "json_text.hpp"
 #include "mount_text.hpp"
 #include "rt/whole_file.hpp"
@@ -129,6 +130,7 @@ Json live_summary(const rt::MonitorSnapshot& figures) {
                   {"head_stands", figures.head_stands},
                   {"silences", figures.silences},
                   {"silent_ms", milliseconds(figures.silent_ns)}};
+  json["blind"] = blind_json(blind_of(figures));
   json["datagrams"] = {{"received", figures.received},
                        {"in_doubt", figures.in_doubt},
                        {"outcomes", counts_json(figures.outcomes_in_use())}};

@@ -16,6 +16,8 @@ namespace terracut::cli {
 ///   started_ns, taken_ns          time of day, nanoseconds since 1970
 ///   deadline_ms
 ///   link                          state, packets, last_packet_ns
+///   blind                         the sector in which the sensor sends nothing, degrees of its
+///                                 head: from_deg, to_deg; null where none is known
 ///   frames                        count, per_second, returns, unjudged, rungs{rung: count}
 ///   misses                        total, consecutive, longest_run, causes{cause: count}
 ///   losses{cause: count}

@@ -9,6 +9,8 @@
 #include <string_view>
 #include <utility>
 
+#include "blind_text.hpp"
+
 namespace terracut::cli {
 namespace {
 
@@ -133,6 +135,16 @@ void add_input(const rt::MonitorSnapshot& figures, MetricsText& text) {
   text.single("terracut_head_stands", "gauge",
               "1 while packets come that say that the sensor's head does not turn.",
               figures.head_stands ? 1 : 0);
+  const firmware_io::BlindAzimuths blind = blind_of(figures);
+  text.single("terracut_blind_degrees", "gauge",
+              "How wide the sector is in which the sensor sends nothing; 0 where none is known.",
+              blind.width_cdeg() / 100.0);
+  if (!blind.is_none()) {
+    text.begin("terracut_blind_azimuth_degrees", "gauge",
+               "Where that sector begins and ends, as the head turns, by its edge.");
+    text.sample(blind.from_cdeg / 100.0, label("edge", "from"));
+    text.sample(blind.to_cdeg / 100.0, label("edge", "to"));
+  }
   text.begin("terracut_losses_total", "counter",
              "What was lost between sensor and label, by cause; the cause names the unit.");
   for (const rt::NamedCount& loss : figures.losses_in_use()) {

@@ -217,6 +217,7 @@ class Replay {
     }
     warn_of_other_senders(capture_, options_.capture);
     report_.set_losses(losses);
+    report_.set_blind(chain_.decoder.blind());
     report_.set_mount(mount_.figures());
     if (clock_of_device_.noted()) {
       report_.set_device_clock(clock_of_device_.text());

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "blind_text.hpp"
 #include "console.hpp"
 #include "loss_table.hpp"
 #include "mount_text.hpp"
@@ -197,6 +198,9 @@ std::string Report::text() const {
   if (const std::string line = contradiction_text(mount_); !line.empty()) {
     text += "mount     " + line + "\n";
   }
+  if (const std::string line = blind_text(blind_); !line.empty()) {
+    text += "blind     " + line + "\n";
+  }
   if (motion_samples_) text += "motion    " + motion_sentence(*motion_samples_, records_) + "\n";
   text += "losses    " + loss_sentence(losses()) + "\n";
   text += times_.text();
@@ -254,6 +258,7 @@ Status Report::write_json(const std::filesystem::path& path) const {
     summary["points_no_ring"] = scan_points_->no_ring;
   }
   summary["mount"] = mount_json(mount_);
+  summary["blind"] = blind_json(blind_);
   if (motion_samples_) {
     const MotionSummary motion = motion_of(records_);
     summary["motion"] = {

@@ -83,6 +83,8 @@ class Report {
   /// Everything lost in the run, where that is more than the frames' sum (losses after the last
   /// one).
   void set_losses(const firmware_io::LossCounters& losses) { losses_ = losses; }
+  /// Where the sensor sends nothing, as known at the end of the run.
+  void set_blind(const firmware_io::BlindAzimuths& blind) { blind_ = blind; }
   /// Samples of the vehicle's motion there were; set where it was to be taken out of the turns.
   void set_motion_samples(std::uint64_t samples) { motion_samples_ = samples; }
   /// Points of scan files that got no return: null or not finite, labelled 0; and of no ring,
@@ -117,7 +119,8 @@ class Report {
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {p50, p99, max}}, segment_wall_ms{p50, p99, max};
   ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
-  ///                   points_no_ring; mount{mount_text.hpp}; with a CAN recording motion{
+  ///                   points_no_ring; mount{mount_text.hpp}; blind{from_deg, to_deg} or
+  ///                   null (blind_text.hpp); with a CAN recording motion{
   ///                   samples, deskewed_frames, newest_sample_after_turn_ms{min, median, max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
@@ -133,6 +136,7 @@ class Report {
   };
   std::optional<ScanPoints> scan_points_;
   rt::MountFigures mount_;
+  firmware_io::BlindAzimuths blind_;
   std::optional<std::uint64_t> motion_samples_;
   std::string device_clock_;
   std::string input_warning_;

@@ -5,6 +5,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <utility>
+
 #include "capture_bytes.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/hdl64e/status_stream_writer.hpp"
@@ -118,6 +121,46 @@ TEST_F(SurveyOfAUnit, CountsLostPacketsAndTurnsAcrossGaps) {
   });
   EXPECT_EQ(facts.packets_lost, dropped);
   EXPECT_NEAR(facts.turns, 5000 * 288e-6 * 10, 0.05);
+}
+
+/// The head's azimuth, degrees, at packet `n` of a unit in single return.
+double head_deg(std::int64_t n) {
+  return std::fmod(static_cast<double>(n) * 288e-6 * 3600, 360);
+}
+
+TEST_F(SurveyOfAUnit, NamesItsBlindSectorAndDoesNotTakeItsTimeForLoss) {
+  for (const auto& [from_deg, to_deg] : {std::pair{90.0, 270.0}, {355.0, 5.0}, {20.0, 340.0}}) {
+    const auto is_blind = [from = from_deg, to = to_deg](std::int64_t n) {
+      const double deg = head_deg(n);
+      return from < to ? deg >= from && deg < to : deg >= from || deg < to;
+    };
+    const Hdl64eFacts facts = survey(5000, false, [&](std::int64_t n) { return !is_blind(n); });
+    EXPECT_EQ(facts.packets_lost, 0U) << from_deg;
+    EXPECT_NEAR(std::remainder(facts.blind.from_cdeg * 0.01 - from_deg, 360), 0, 1.1);
+    EXPECT_NEAR(std::remainder(facts.blind.to_cdeg * 0.01 - to_deg, 360), 0, 1.1);
+    EXPECT_NEAR(facts.turns, 5000 * 288e-6 * 10, 1);
+
+    std::uint64_t dropped = 0;
+    const Hdl64eFacts lossy = survey(5000, false, [&](std::int64_t n) {
+      const bool is_beside_it = !is_blind(n) && (is_blind(n - 5) || is_blind(n + 5));
+      const bool lost = n > 10 && n % 29 == 0 && !is_beside_it && !is_blind(n);
+      dropped += lost ? 1 : 0;
+      return !lost && !is_blind(n);
+    });
+    EXPECT_GT(dropped, 5U);
+    EXPECT_EQ(lossy.packets_lost, dropped) << from_deg;
+  }
+}
+
+TEST_F(SurveyOfAUnit, WithItsWholeViewIsBlindNowhereWhateverIsLost) {
+  std::uint64_t dropped = 0;
+  const Hdl64eFacts facts = survey(5000, false, [&](std::int64_t n) {
+    const bool lost = (n > 500 && n < 520) || (n > 850 && n < 870) || n >= 4960;  // not the last
+    dropped += lost && n < 4999 ? 1 : 0;
+    return !lost || n == 4999;
+  });
+  EXPECT_TRUE(facts.blind.is_none());
+  EXPECT_EQ(facts.packets_lost, dropped);
 }
 
 TEST(CaptureSurvey, TellsStreamsApart) {

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <string>
 
+#include "tools/cli/blind_text.hpp"
 #include "tools/cli/bus_text.hpp"
 #include "tools/cli/counts_text.hpp"
 #include "tools/cli/mount_text.hpp"
@@ -58,6 +59,9 @@ std::string live_report(const rt::MonitorSnapshot& figures) {
       "frames    {} of {} packets: {}\nmissed    {}\nlatency   {}\nprocessor {}\nlosses    {}\n",
       figures.frames, figures.packets, rungs(figures), misses(figures), times(figures.latency),
       times(figures.total_cpu), losses(figures));
+  if (const std::string blind = blind_text(blind_of(figures)); !blind.empty()) {
+    text += "blind     " + blind + '\n';
+  }
   if (figures.silences > 0) {
     text += fmt::format("silent    {} times, {:.1f} s in all\n", figures.silences,
                         static_cast<double>(figures.silent_ns) * 1e-9);

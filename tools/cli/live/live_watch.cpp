@@ -112,6 +112,8 @@ void LiveWatch::refresh_link(rt::MonitorSnapshot& figures) {
   const Intake& intake = threads_.intake();
   show_datagrams(intake.account, figures);
   figures.head_stands = standing_head_.is_standing(intake.account);
+  figures.blind_from_cdeg = intake.blind.from_cdeg;
+  figures.blind_to_cdeg = intake.blind.to_cdeg;
   figures.last_packet_ns = intake.newest_packet_ns;
   if (intake.link == firmware_io::LinkState::kGone ||
       intake.link == firmware_io::LinkState::kDown) {

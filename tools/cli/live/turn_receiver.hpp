@@ -28,6 +28,7 @@ struct Intake {
   firmware_io::DatagramAccount account;  ///< Since it began.
   firmware_io::LinkState link = firmware_io::LinkState::kUnknown;
   std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
+  firmware_io::BlindAzimuths blind;
 };
 
 /// The receiving half of a live run: datagrams in, turns handed over, and most of their coarse
@@ -194,6 +195,7 @@ class TurnReceiver {
     intake.account.losses.kernel_drops = intake.account.source.kernel_drops;
     intake.link = source_.link();
     intake.newest_packet_ns = newest_packet_ns_;
+    intake.blind = chain_.decoder.blind();
     (void)to_.intake->publish();
   }
 

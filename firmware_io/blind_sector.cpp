@@ -3,6 +3,7 @@
 #include "firmware_io/blind_sector.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 #include "firmware_io/packet_heads.hpp"
@@ -162,6 +163,27 @@ void BlindSector::pass(const HeadInterval& swept) noexcept {
   if (sector_.once.ticks() >= least_ticks()) return;
   sector_.once = {};
   gaps_known_ = 0;
+}
+
+bool BlindSector::is_inside(const PacketHeads& heads) const noexcept {
+  if (sector_.is_none()) return false;
+  const HeadInterval inside = heads.sector_inside(std::int64_t{heads.first_cdeg()} * kTicksPerCdeg);
+  const HeadInterval blind = sector_.next(inside.from_ticks);
+  const std::int64_t slack_ticks = heads.widest_ticks + kJitter_ticks;
+  return std::abs(inside.from_ticks - blind.from_ticks) <= slack_ticks &&
+         std::abs(inside.to_ticks - blind.to_ticks) <= slack_ticks;
+}
+
+BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks, const HeadInterval& inside,
+                                        const Stride& stride) noexcept {
+  const Verdict verdict = judge(inside, 0, 0, stride);
+  // It came when the head did: nothing was to be heard any more from where it begins. That is less
+  // than a packet before the sector, those that begin a packet before it come at once: the two are
+  // close together, so no more is taken for the wire's rounding than it rounds.
+  const HeadInterval blind = sector_.next(inside.from_ticks);
+  const std::int64_t before_ticks = blind.from_ticks - begin_ticks + kTicksPerCdeg / 2;
+  earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);
+  return verdict;
 }
 
 void BlindSector::fill(const HeadInterval& found) noexcept {

@@ -59,6 +59,12 @@ class BlindSector {
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// A packet sweeps over `swept`; after judge() of the gap before it.
   void pass(const HeadInterval& swept) noexcept TERRACUT_NONBLOCKING;
+  /// The sector lies in a packet as that says (PacketHeads::behind_sector), to the packet.
+  [[nodiscard]] bool is_inside(const PacketHeads& heads) const noexcept TERRACUT_NONBLOCKING;
+  /// Instead of pass(): a packet that begins where `begin_ticks` says, with the sector, or what was
+  /// seen of it, inside.
+  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const HeadInterval& inside,
+                              const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// A packet came late and fills a part of a gap.
   void fill(const HeadInterval& found) noexcept TERRACUT_NONBLOCKING;
   /// What pass() and judge() have found to be lost since it was last taken.

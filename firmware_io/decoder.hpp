@@ -42,9 +42,9 @@ namespace terracut::firmware_io {
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
-/// decoded packet is placed or counted (overflow_full_returns); a packet is decoded whole or
-/// rejected whole, for a named reason. Whatever arrives, memory stays fixed and a call takes a
-/// bounded time: frames are handed over by azimuth progress only.
+/// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
+/// whole or rejected whole, for a named reason. Whatever arrives, memory stays fixed and a call
+/// takes a bounded time: frames are handed over by azimuth progress only.
 ///
 /// Hand-over: on_frame(const FrameInfo&, const pipeline::RangeImage&), called inside decode() and
 /// flush(), noexcept; how long the image stays valid: frame_builder.hpp.
@@ -210,6 +210,12 @@ class Decoder {
     for (std::size_t i = 0; i < kept_packets_; ++i) (void)reject(kept_[i].reason);
     kept_packets_ = 0;
   }
+  /// The device stamps a packet's first firing, the host its arrival: a sector inside lies between.
+  /// A capture's stamps may be anything, so this may wrap.
+  [[nodiscard]] std::int64_t host_began_ns(std::int64_t stamp_ns) const noexcept {
+    return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_ns) -
+                                     static_cast<std::uint64_t>(heads_.sector_ns()));
+  }
   /// The packets that were kept are the stream from here on.
   template <class OnFrame>
   void begin_anew(OnFrame& on_frame) noexcept;
@@ -222,6 +228,27 @@ class Decoder {
   void judge_gap(const Placement& placed, const HeadInterval& swept,
                  const BlindSector::Stride& stride, const BeamSpread& spread,
                  std::int64_t step_ticks) noexcept;
+  /// A sector inside the packet.
+  void cross_sector(const HeadInterval& swept, const BlindSector::Stride& stride,
+                    const BeamSpread& spread, std::int64_t step_ticks) noexcept;
+  /// Missing by the stamps. Those around a packet with a sector inside hold its time, too: what was
+  /// lost behind such a packet shows in the azimuths.
+  [[nodiscard]] std::int64_t missing_before(const Placement& placed,
+                                            const HeadInterval& swept) const noexcept {
+    if (!has_crossed_) return placed.missing;
+    const HeadInterval gap{frontier_ticks_, swept.from_ticks};
+    return std::min(placed.missing, (gap.ticks() + heads_.pace_ticks / 2) / heads_.pace_ticks);
+  }
+  /// A packet with a sector inside comes when the head is back in view. Its columns from before are
+  /// too late for a turn that was handed over in time, or is by the columns behind: two are open.
+  [[nodiscard]] int columns_too_late(const Placement& placed, const BeamSpread& spread,
+                                     std::int64_t last_turn) const noexcept {
+    const std::int64_t hindmost_ticks = placed.head_cdeg * kTicksPerCdeg + spread.hindmost_ticks;
+    const bool is_restart = placed.arrival == Arrival::kRestart;
+    const std::int64_t open =
+        is_restart ? last_turn - 1 : std::max(frames_.oldest(), last_turn - 1);
+    return turn_of(hindmost_ticks) < open ? heads_.behind_sector : 0;
+  }
   /// What was found to be lost after all.
   void count_due() noexcept {
     const BlindSector::Loss due = blind_.take_due();
@@ -230,8 +257,10 @@ class Decoder {
     frames_.losses().azimuth_hole_columns +=
         static_cast<std::uint64_t>((due.ticks + step_ticks / 2) / step_ticks);
   }
-  void place_packet(std::span<const std::uint8_t> payload, std::int64_t head_cdeg,
+  /// The first `late_columns` are left out and counted.
+  void place_packet(std::span<const std::uint8_t> payload, std::int64_t head_cdeg, int late_columns,
                     bool is_in_one_turn) noexcept;
+  void leave_out(int late_columns) noexcept;
   /// Laser by laser, so that a packet writes to each of the image's cache lines once and not once
   /// a firing: half the time. False, and nothing placed, where the overflow list might run full.
   [[nodiscard]] bool place_by_laser(std::int64_t head_cdeg, pipeline::CellOwner owner) noexcept;
@@ -278,6 +307,7 @@ class Decoder {
   std::int64_t settled_ticks_ = 0;         ///< ... and here nothing is expected any more ...
   std::int64_t settles_behind_ticks_ = 0;  ///< ... which is usually so far behind the head.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
+  bool has_crossed_ = false;  ///< A sector lies in the packet before.
   std::uint64_t packets_ = 0, columns_ = 0;
 };
 
@@ -285,7 +315,11 @@ template <class Sensor>
 template <class OnFrame>
 std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
                                               OnFrame&& on_frame) noexcept {
-  if (const auto reason = sensor_.check(datagram.payload, heads_)) {
+  auto reason = sensor_.check(datagram.payload, heads_);
+  if (!reason && heads_.behind_sector > 0 && !blind_.is_inside(heads_)) {
+    reason = Reject::kAzimuthJump;
+  }
+  if (reason) {
     if (*reason == Reject::kStationary) {
       tracker_.note_stationary(heads_.device_stamp_us, heads_.first_cdeg(), frames_.losses());
     } else if (*reason == Reject::kAzimuthOutOfRange || *reason == Reject::kAzimuthMismatch ||
@@ -296,7 +330,8 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     }
     return reject(*reason);
   }
-  Placement placed = tracker_.place(heads_, datagram.stamp_ns, frames_.losses());
+  const std::int64_t began_ns = host_began_ns(datagram.stamp_ns);
+  Placement placed = tracker_.place(heads_, began_ns, frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
   if (placed.arrival == Arrival::kDoubtful) {
     if (placed.is_first_in_doubt) reject_kept();
@@ -307,7 +342,7 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
     const PacketHeads heads = heads_;
     begin_anew(on_frame);
     heads_ = heads;
-    placed = tracker_.go_on(heads_, datagram.stamp_ns, frames_.losses());
+    placed = tracker_.go_on(heads_, began_ns, frames_.losses());
     if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
   }
   reject_kept();
@@ -329,8 +364,9 @@ void Decoder<Sensor>::begin_anew(OnFrame& on_frame) noexcept {
   for (std::size_t i = 0; i < kept_packets_; ++i) {
     const KeptPacket& kept = kept_[i];
     heads_ = kept.heads;
-    const Placement placed = i == 0 ? tracker_.begin(heads_, kept.stamp_ns, frames_.losses())
-                                    : tracker_.go_on(heads_, kept.stamp_ns, frames_.losses());
+    const std::int64_t began_ns = host_began_ns(kept.stamp_ns);
+    const Placement placed = i == 0 ? tracker_.begin(heads_, began_ns, frames_.losses())
+                                    : tracker_.go_on(heads_, began_ns, frames_.losses());
     if (placed.arrival == Arrival::kRejected) {
       (void)reject(placed.reject);
     } else {
@@ -345,18 +381,22 @@ template <class OnFrame>
 std::optional<Reject> Decoder<Sensor>::take(std::span<const std::uint8_t> payload,
                                             std::int64_t stamp_ns, const Placement& placed,
                                             OnFrame& on_frame) noexcept {
-  // Where the head is while this packet fires, and which turns its beams may touch.
-  const std::int64_t first_ticks = placed.head_cdeg * kTicksPerCdeg;
-  std::int64_t least_ticks = first_ticks, most_ticks = first_ticks;
-  for (int column = 1; column < heads_.columns; ++column) {
-    const std::int64_t ticks = first_ticks + heads_.advance_cdeg(column) * kTicksPerCdeg;
-    least_ticks = std::min(least_ticks, ticks);
-    most_ticks = std::max(most_ticks, ticks);
-  }
-  const HeadInterval swept{first_ticks, first_ticks + heads_.sweep_ticks};
   const BeamSpread spread = sensor_.spread(heads_.step_ticks);
-  const std::int64_t first_turn = turn_of(least_ticks + spread.hindmost_ticks);
+  const std::int64_t begin_ticks = placed.head_cdeg * kTicksPerCdeg;
+  // Where the head is while this packet fires, and which turns its beams may touch.
+  std::int64_t most_ticks = begin_ticks;
+  for (int column = 1; column < heads_.columns; ++column) {
+    most_ticks = std::max(most_ticks, begin_ticks + heads_.advance_cdeg(column) * kTicksPerCdeg);
+  }
   const std::int64_t last_turn = turn_of(most_ticks + spread.foremost_ticks);
+  const int late_columns = columns_too_late(placed, spread, last_turn);
+  const std::int64_t first_ticks = begin_ticks + heads_.advance_cdeg(late_columns) * kTicksPerCdeg;
+  std::int64_t least_ticks = first_ticks;
+  for (int column = late_columns + 1; column < heads_.columns; ++column) {
+    least_ticks = std::min(least_ticks, begin_ticks + heads_.advance_cdeg(column) * kTicksPerCdeg);
+  }
+  const HeadInterval swept{first_ticks, begin_ticks + heads_.sweep_ticks};
+  const std::int64_t first_turn = turn_of(least_ticks + spread.hindmost_ticks);
 
   if (placed.arrival == Arrival::kRestart) {
     blind_.end();
@@ -374,7 +414,7 @@ std::optional<Reject> Decoder<Sensor>::take(std::span<const std::uint8_t> payloa
   const bool is_next = placed.arrival == Arrival::kNext;
   if (first_turn < frames_.oldest()) {
     if (is_next) {
-      tracker_.miss(placed.missing, frames_.losses());
+      tracker_.miss(missing_before(placed, swept), frames_.losses());
       blind_.pass(swept);
     }
     return reject(Reject::kLate);
@@ -382,13 +422,23 @@ std::optional<Reject> Decoder<Sensor>::take(std::span<const std::uint8_t> payloa
 
   const std::int64_t step_ticks = mean_step(heads_.step_ticks);
   const BlindSector::Stride stride{heads_.pace_ticks, heads_.widest_ticks};
-  if (is_next) judge_gap(placed, swept, stride, spread, step_ticks);
+  if (is_next) {
+    judge_gap(placed, swept, stride, spread, step_ticks);
+    if (heads_.behind_sector > 0 && late_columns == 0) {
+      cross_sector(swept, stride, spread, step_ticks);
+    } else {
+      blind_.pass(swept);
+    }
+    frames_.set_blind(blind_.sector());
+    count_due();
+  }
   if (placed.arrival == Arrival::kReordered) {
     frames_.regain(swept, spread);
     blind_.fill(swept);
   }
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
-  if (deskewer_ && placed.arrival != Arrival::kReordered) {
+  if (placed.arrival != Arrival::kReordered) has_crossed_ = heads_.behind_sector > 0;
+  if (deskewer_ && placed.arrival != Arrival::kReordered && !has_crossed_) {
     const HostClock::Sent sent = clock_.sent(heads_.device_stamp_us, stamp_ns);
     if (sent.anew) deskewer_->begin_anew(first_ticks);
     deskewer_->note(first_ticks, sent.instant_ns - heads_.nominal_period_ns);
@@ -399,7 +449,7 @@ std::optional<Reject> Decoder<Sensor>::take(std::span<const std::uint8_t> payloa
   // turn unevenly.
   const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
   frames_.note_packet(stamp_ns, first_turn, last_turn, next_ticks, step_ticks, spread);
-  place_packet(payload, placed.head_cdeg, first_turn == last_turn);
+  place_packet(payload, placed.head_cdeg, late_columns, first_turn == last_turn);
 
   const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
   settles_behind_ticks_ = late_packets * stride.widest_ticks + step_ticks - spread.hindmost_ticks;
@@ -413,34 +463,57 @@ void Decoder<Sensor>::judge_gap(const Placement& placed, const HeadInterval& swe
                                 const BlindSector::Stride& stride, const BeamSpread& spread,
                                 std::int64_t step_ticks) noexcept {
   const HeadInterval gap{frontier_ticks_, swept.from_ticks};
+  const std::int64_t missing = missing_before(placed, swept);
   if (gap.ticks() <= step_ticks * 3 / 4) {
-    tracker_.miss(placed.missing, frames_.losses());
-  } else {
-    const BlindSector::Verdict verdict =
-        blind_.judge(gap, placed.missing, placed.explained, stride);
-    frames_.set_blind(blind_.sector());
-    tracker_.miss(verdict.packets, frames_.losses());
-    if (verdict.lost.ticks() > 0) {
-      frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
-    }
+    tracker_.miss(missing, frames_.losses());
+    return;
   }
-  blind_.pass(swept);
+  const BlindSector::Verdict verdict = blind_.judge(gap, missing, placed.explained, stride);
   frames_.set_blind(blind_.sector());
-  count_due();
+  tracker_.miss(verdict.packets, frames_.losses());
+  if (verdict.lost.ticks() > 0) {
+    frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
+  }
+}
+
+template <class Sensor>
+void Decoder<Sensor>::cross_sector(const HeadInterval& swept, const BlindSector::Stride& stride,
+                                   const BeamSpread& spread, std::int64_t step_ticks) noexcept {
+  const HeadInterval inside = heads_.sector_inside(swept.from_ticks);
+  const BlindSector::Verdict verdict = blind_.cross(swept.from_ticks, inside, stride);
+  frames_.set_blind(blind_.sector());
+  if (verdict.lost.ticks() > 0) {
+    frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
+  }
 }
 
 template <class Sensor>
 void Decoder<Sensor>::place_packet(std::span<const std::uint8_t> payload, std::int64_t head_cdeg,
-                                   bool is_in_one_turn) noexcept {
+                                   int late_columns, bool is_in_one_turn) noexcept {
   sensor_.begin_packet(heads_);
   for (int column = 0; column < heads_.columns; ++column) {
     sensor_.read_column(payload, heads_, column, found_[static_cast<std::size_t>(column)]);
   }
+  if (late_columns > 0) leave_out(late_columns);
   const pipeline::CellOwner owner =
       heads_.dual_return ? dual_owner_ : pipeline::CellOwner::kFirstArrived;
-  if (!is_in_one_turn || !place_by_laser(head_cdeg, owner)) place_by_firing(head_cdeg, owner);
+  const bool goes_by_laser = is_in_one_turn && late_columns == 0;
+  if (!goes_by_laser || !place_by_laser(head_cdeg, owner)) place_by_firing(head_cdeg, owner);
   ++packets_;
-  columns_ += static_cast<std::uint64_t>(heads_.columns);
+  columns_ += static_cast<std::uint64_t>(heads_.columns - late_columns);
+}
+
+template <class Sensor>
+void Decoder<Sensor>::leave_out(int late_columns) noexcept {
+  LossCounters& losses = frames_.losses();
+  for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
+    for (std::uint16_t& raw : found_[c].raw) {
+      losses.late_returns += raw != 0 ? 1U : 0U;
+      raw = 0;
+    }
+  }
+  // Both returns of a pair are one firing.
+  losses.azimuth_hole_columns += heads_.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
 }
 
 template <class Sensor>

@@ -42,6 +42,7 @@ LossCounters& LossCounters::operator+=(const LossCounters& other) noexcept {
   azimuth_hole_columns += other.azimuth_hole_columns;
   for (std::size_t i = 0; i < kRejectReasons; ++i) rejected[i] += other.rejected[i];
   overflow_full_returns += other.overflow_full_returns;
+  late_returns += other.late_returns;
   skipped_frames += other.skipped_frames;
   clock_jumps += other.clock_jumps;
   return *this;

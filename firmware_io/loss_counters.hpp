@@ -38,7 +38,10 @@ struct LossCounters {
   std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a turn, whatever the cause.
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets, by reason.
   std::uint64_t overflow_full_returns = 0;  ///< Returns beyond the frame's fixed overflow list.
-  std::uint64_t skipped_frames = 0;         ///< Frames not segmented for want of time.
+  /// Returns that came with the packet a blind sector lies in, too late for their turn; their
+  /// firings are holes, too.
+  std::uint64_t late_returns = 0;
+  std::uint64_t skipped_frames = 0;  ///< Frames not segmented for want of time.
   std::uint64_t clock_jumps =
       0;  ///< Device stamp jumps that no loss explains (replay loop, reset).
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "calib/angle.hpp"
+#include "firmware_io/head_sector.hpp"
 
 namespace terracut::firmware_io {
 
@@ -34,9 +35,12 @@ struct PacketHeads {
   std::int32_t nominal_period_ns = 0, shortest_period_ns = 0, longest_period_ns = 0;
   std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Of each column, [0, 36000).
   int columns = 0;
+  /// Columns from this one on were fired behind a blind sector, those before it before it: such a
+  /// packet was begun before the head went out of view and completed when it was back. 0: none.
+  int behind_sector = 0;
   std::int32_t step_ticks = 0;  ///< From firing to firing, > 0.
-  /// From the first firing to that of the next packet, > 0. A firing whose second return is in the
-  /// next packet belongs to that one.
+  /// From the first firing to that of the next packet, > 0, a sector in it included. A firing whose
+  /// second return is in the next packet belongs to that one.
   std::int32_t sweep_ticks = 0;
   std::int32_t pace_ticks = 0;    ///< How far the head turns in a nominal period, > 0.
   std::int32_t widest_ticks = 0;  ///< The largest sweep of a packet in this return mode, > 0.
@@ -48,7 +52,21 @@ struct PacketHeads {
   }
   /// From the first column to `column`, hundredths of a degree; a jitter may make it negative.
   [[nodiscard]] std::int32_t advance_cdeg(int column) const noexcept {
-    return calib::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[static_cast<std::size_t>(column)]);
+    const std::int32_t cdeg =
+        calib::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[static_cast<std::size_t>(column)]);
+    const bool is_behind = behind_sector > 0 && column >= behind_sector;
+    return is_behind && cdeg < 0 ? cdeg + calib::kTurn_cdeg : cdeg;
+  }
+  /// Where nothing was fired inside the packet, given where the head was at its first column;
+  /// behind_sector > 0.
+  [[nodiscard]] HeadInterval sector_inside(std::int64_t first_ticks) const noexcept {
+    return {
+        first_ticks + std::int64_t{advance_cdeg(behind_sector - 1)} * kTicksPerCdeg + step_ticks,
+        first_ticks + std::int64_t{advance_cdeg(behind_sector)} * kTicksPerCdeg};
+  }
+  /// How long that took, about; 0 where there is none.
+  [[nodiscard]] std::int64_t sector_ns() const noexcept {
+    return behind_sector > 0 ? sector_inside(0).ticks() * nominal_period_ns / pace_ticks : 0;
   }
 };
 

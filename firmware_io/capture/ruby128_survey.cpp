@@ -11,8 +11,12 @@ void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stam
   const auto packet = Ruby128PacketView::of(payload);
   if (!packet) return;
   PacketHeads heads;
-  const auto reject = check_ruby128_packet(payload, heads);
+  auto reject = check_ruby128_packet(payload, heads);
   if (reject && heads.columns == 0) return;  // not its block ids after all
+  const bool may_have_sector =
+      reject == Reject::kAzimuthJump && read_across_sector(heads, step_ticks_);
+  if (may_have_sector && stream_.blind().is_inside(heads)) reject.reset();
+  if (!reject) step_ticks_ = heads.step_ticks;
   const RubyTimestamp encoding = timestamp_.add(packet->stamp());
   const std::int64_t device_ns = read_ruby_timestamp(packet->stamp(), encoding);
   last_.protocol_version = packet->protocol_version();

@@ -85,7 +85,7 @@ void StreamSurvey::add_step(const PacketHeads& heads, bool turning) {
 }
 
 void StreamSurvey::begin_turning(const PacketHeads& heads) {
-  seen_ = {heads.device_stamp_us, heads.first_cdeg()};
+  seen_ = {heads.device_stamp_us, heads.first_cdeg(), heads.behind_sector > 0};
   frontier_ticks_ = std::int64_t{heads.first_cdeg()} * kTicksPerCdeg + heads.sweep_ticks;
   not_turning_ = 0;
 }
@@ -107,16 +107,24 @@ bool StreamSurvey::follow(const PacketHeads& heads, std::int64_t step_us) {
   const HeadInterval swept{begin_ticks, begin_ticks + heads.sweep_ticks};
   const BlindSector::Stride stride{heads.pace_ticks, heads.widest_ticks};
   const bool is_wide = gap.ticks() >= blind_.least_ticks();
-  if (is_wide) {
-    const auto missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
-    lost_in_gaps_ += blind_.judge(gap, missing, not_turning_, stride).packets;
+  if (is_wide || seen_->has_sector) {
+    std::int64_t missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
+    if (seen_->has_sector) {  // its time is in the step; what is missing behind it is in the gap
+      missing = std::min(missing, (gap.ticks() + heads.pace_ticks / 2) / heads.pace_ticks);
+    }
+    lost_in_gaps_ += is_wide ? blind_.judge(gap, missing, not_turning_, stride).packets : missing;
   }
-  blind_.pass(swept);
+  if (heads.behind_sector > 0) {
+    lost_in_gaps_ += blind_.cross(begin_ticks, heads.sector_inside(begin_ticks), stride).packets;
+  } else {
+    blind_.pass(swept);
+  }
   lost_in_gaps_ += blind_.take_due().packets;
-  seen_ = {heads.device_stamp_us, head_cdeg};
+  const bool is_told = is_wide || seen_->has_sector;
+  seen_ = {heads.device_stamp_us, head_cdeg, heads.behind_sector > 0};
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
   not_turning_ = 0;
-  return is_wide;
+  return is_told;
 }
 
 /// Mean of the steps near the median of those that can be one period.

@@ -48,12 +48,15 @@ class StreamSurvey {
     ++facts_.packets;
     ++facts_.azimuths_out_of_range;
   }
+  /// Where the sensor is blind, as far as the packets so far tell.
+  [[nodiscard]] const BlindSector& blind() const noexcept { return blind_; }
   [[nodiscard]] StreamFacts facts() const;
 
  private:
   /// The newest packet of a turning head, by unwrapped azimuth.
   struct Seen {
     std::int64_t stamp_us = 0, head_cdeg = 0;
+    bool has_sector = false;  ///< In it (PacketHeads).
   };
 
   /// Device time and azimuth between two packets next to each other in the capture.

@@ -84,19 +84,22 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 class HeldFiring {
  public:
   /// The step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is the
-  /// packet's device stamp. To be called once for every packet, in order of arrival.
+  /// packet's device stamp; `has_sector`: a blind sector lies in it (PacketHeads), so that the next
+  /// packet's stamp is later by that. To be called once for every packet, in order of arrival.
   [[nodiscard]] constexpr std::int32_t join(
       const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg, std::int32_t step_ticks,
-      std::int64_t stamp_us) noexcept {
+      std::int64_t stamp_us, bool has_sector) noexcept {
     const RubyBlocks blocks = ruby_blocks(azimuth_cdeg);
     const std::int64_t since_us = stamp_us - stamp_us_;
-    const bool joins = held_ && blocks == RubyBlocks::kPairLast &&
-                       azimuth_cdeg[0] == azimuth_cdeg_ && since_us >= 0 && since_us <= kLongest_us;
+    const bool is_next = since_us >= 0 && (since_us <= kLongest_us || had_sector_);
+    const bool joins =
+        held_ && blocks == RubyBlocks::kPairLast && azimuth_cdeg[0] == azimuth_cdeg_ && is_next;
     const std::int32_t first_step_ticks = joins ? step_ticks_ : step_ticks;
     held_ = blocks == RubyBlocks::kPairFirst;
     azimuth_cdeg_ = azimuth_cdeg[2];
     step_ticks_ = step_ticks;
     stamp_us_ = stamp_us;
+    had_sector_ = has_sector;
     return first_step_ticks;
   }
   constexpr void forget() noexcept { held_ = false; }
@@ -105,7 +108,7 @@ class HeldFiring {
   /// Two firings, plus what a stamp in whole microseconds and a jitter may add.
   static constexpr std::int64_t kLongest_us = 2 * kRubyBlock_ns / 1000 + 10;
 
-  bool held_ = false;
+  bool held_ = false, had_sector_ = false;
   std::int32_t azimuth_cdeg_ = 0, step_ticks_ = 0;
   std::int64_t stamp_us_ = 0;
 };

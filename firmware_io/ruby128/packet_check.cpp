@@ -27,6 +27,17 @@ std::optional<Reject> reject_model(std::span<const std::uint8_t> payload) noexce
   }
 }
 
+/// What follows from the azimuths of a turning head and the step from firing to firing.
+void complete(PacketHeads& heads) noexcept {
+  const auto& cdeg = heads.azimuth_cdeg;
+  heads.dual_return = cdeg[0] == cdeg[1] || cdeg[1] == cdeg[2];
+  heads.nominal_period_ns = kRubyBlocksPerPacket * kRubyBlock_ns / (heads.dual_return ? 2 : 1);
+  heads.shortest_period_ns = heads.nominal_period_ns - heads.nominal_period_ns / kPeriodTolerance;
+  heads.longest_period_ns = heads.nominal_period_ns + heads.nominal_period_ns / kPeriodTolerance;
+  heads.pace_ticks = heads.step_ticks * kRubyBlocksPerPacket / (heads.dual_return ? 2 : 1);
+  heads.widest_ticks = heads.step_ticks * (heads.dual_return ? 2 : kRubyBlocksPerPacket);
+}
+
 }  // namespace
 
 std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
@@ -37,6 +48,7 @@ std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload
 
   std::array<std::int32_t, kRubyBlocksPerPacket> azimuth_cdeg{};
   heads.columns = kRubyBlocksPerPacket;
+  heads.behind_sector = 0;
   bool in_range = true;
   for (int block = 0; block < kRubyBlocksPerPacket; ++block) {
     const auto b = static_cast<std::size_t>(block);
@@ -54,16 +66,28 @@ std::optional<Reject> check_ruby128_packet(std::span<const std::uint8_t> payload
   }
   if (first_cdeg + second_cdeg < kRubyMinSweep_cdeg) return Reject::kStationary;
 
-  const RubyBlocks blocks = ruby_blocks(azimuth_cdeg);
-  heads.dual_return = blocks != RubyBlocks::kSingle;
-  heads.nominal_period_ns = kRubyBlocksPerPacket * kRubyBlock_ns / (heads.dual_return ? 2 : 1);
-  heads.shortest_period_ns = heads.nominal_period_ns - heads.nominal_period_ns / kPeriodTolerance;
-  heads.longest_period_ns = heads.nominal_period_ns + heads.nominal_period_ns / kPeriodTolerance;
   heads.step_ticks = ruby_step_ticks(azimuth_cdeg);
-  heads.sweep_ticks = heads.step_ticks * ruby_firings(blocks);
-  heads.pace_ticks = heads.step_ticks * kRubyBlocksPerPacket / (heads.dual_return ? 2 : 1);
-  heads.widest_ticks = heads.step_ticks * (heads.dual_return ? 2 : kRubyBlocksPerPacket);
+  heads.sweep_ticks = heads.step_ticks * ruby_firings(ruby_blocks(azimuth_cdeg));
+  complete(heads);
   return std::nullopt;
+}
+
+bool read_across_sector(PacketHeads& heads, std::int32_t step_ticks) noexcept {
+  if (step_ticks <= 0) return false;
+  for (int block = 1; block < kRubyBlocksPerPacket; ++block) {
+    const auto b = static_cast<std::size_t>(block);
+    const int step_cdeg = calib::step_cdeg(heads.azimuth_cdeg[b - 1], heads.azimuth_cdeg[b]);
+    if (step_cdeg >= -kRubyMaxJitter_cdeg && step_cdeg <= kRubyMaxStep_cdeg) continue;
+    if (heads.behind_sector > 0) return false;
+    heads.behind_sector = block;
+  }
+  heads.step_ticks = step_ticks;
+  // The firing of a pair whose second return is yet to come belongs to the next packet.
+  const bool ends_with_half_a_pair = heads.azimuth_cdeg[0] == heads.azimuth_cdeg[1];
+  heads.sweep_ticks = heads.advance_cdeg(kRubyBlocksPerPacket - 1) * kTicksPerCdeg +
+                      (ends_with_half_a_pair ? 0 : step_ticks);
+  complete(heads);
+  return true;
 }
 
 std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const PacketHeads& heads,

@@ -36,6 +36,14 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 [[nodiscard]] std::optional<Reject> check_ruby128_packet(
     std::span<const std::uint8_t> payload, PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
 
+/// A packet that was rejected for kAzimuthJump, and has `heads` from there, may be one that the
+/// sensor's blind sector lies in: it jumps ahead once. Completes `heads` then and answers true.
+/// `step_ticks`: from firing to firing in the packet before, there may be none in this one; 0: not
+/// known, and the answer is false. Whether the sector is there is for the caller to know. Real-time
+/// safe; any thread.
+[[nodiscard]] bool read_across_sector(PacketHeads& heads,
+                                      std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
+
 /// A device stamp that advances evenly from packet to packet, microseconds >= 0, from the packet's
 /// own, which is its first block's: in dual return packets begin with a new firing and with the
 /// second return of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning`

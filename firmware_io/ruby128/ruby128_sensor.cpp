@@ -33,7 +33,9 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const calib::Mount&
 
 std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
                                            PacketHeads& heads) noexcept {
-  const auto reason = check_ruby128_packet(payload, heads);
+  auto reason = check_ruby128_packet(payload, heads);
+  if (reason == Reject::kAzimuthJump && read_across_sector(heads, step_ticks_)) reason.reset();
+  if (!reason) step_ticks_ = heads.step_ticks;
   const bool is_of_this_sensor = !reason || *reason == Reject::kAzimuthOutOfRange ||
                                  *reason == Reject::kAzimuthJump || *reason == Reject::kStationary;
   const auto packet = Ruby128PacketView::of(payload);
@@ -50,7 +52,8 @@ std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload
 }
 
 void Ruby128Sensor::begin_packet(const PacketHeads& heads) noexcept {
-  first_step_ticks_ = held_.join(azimuths(heads), heads.step_ticks, heads.device_stamp_us);
+  first_step_ticks_ =
+      held_.join(azimuths(heads), heads.step_ticks, heads.device_stamp_us, heads.behind_sector > 0);
 }
 
 void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads,

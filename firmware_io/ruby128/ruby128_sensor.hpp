@@ -69,6 +69,7 @@ class Ruby128Sensor {
   Ruby128BeamOffsets offsets_;
   Ruby128PointKernel kernel_;
   HeldFiring held_;
+  std::int32_t step_ticks_ = 0;        ///< Of the last packet that had one; 0: none yet.
   std::int32_t first_step_ticks_ = 0;  ///< Of the packet's first block, which may be a held one's.
   std::array<std::int32_t, calib::kRuby128Lasers> rows_;
 };

@@ -66,7 +66,9 @@ class DecoderRun {
   }
 
   void check() const {
-    account_.require_all_returns(handed_returns_ + decoder_.losses().overflow_full_returns);
+    const firmware_io::LossCounters losses = decoder_.losses();
+    account_.require_all_returns(handed_returns_ + losses.overflow_full_returns +
+                                 losses.late_returns);
     require(decoder_.frames() == frames_);
   }
 

@@ -94,7 +94,9 @@ class LiveChainRun {
     account_.flush(decoder_, [&] { decoder_.flush(hand_over()); });
     segmenter_away_ = 0;
     segment();
-    account_.require_all_returns(handed_returns_ + decoder_.losses().overflow_full_returns);
+    const firmware_io::LossCounters losses = decoder_.losses();
+    account_.require_all_returns(handed_returns_ + losses.overflow_full_returns +
+                                 losses.late_returns);
   }
 
  private:

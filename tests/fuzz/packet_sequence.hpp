@@ -21,6 +21,7 @@ struct Head {
   std::int64_t step_cdeg = 60;    ///< From firing to firing.
   std::int64_t jitter_cdeg = 0;
   std::int64_t blind_from_cdeg = 0, blind_cdeg = 0;  ///< No packets are sent from this sector.
+  bool fills_packets = false;  ///< One that is not full yet goes on behind that sector.
   bool dual = false;
   std::int64_t readings = 0;  ///< Columns so far; in dual return a firing has two.
   std::uint32_t pattern = 1;  ///< What the lasers see.
@@ -29,6 +30,10 @@ struct Head {
   [[nodiscard]] bool is_blind() const {
     return blind_cdeg > 0 &&
            calib::wrap_cdeg(azimuth_cdeg - blind_from_cdeg) < static_cast<std::int32_t>(blind_cdeg);
+  }
+  /// Turns on to where it is not blind any more.
+  void leave_sector(std::int64_t firing_ns) {
+    for (; is_blind() && step_cdeg > 0; device_ns += firing_ns) azimuth_cdeg += step_cdeg;
   }
 };
 
@@ -116,7 +121,9 @@ class PacketSequence {
         break;
       case 13:  // a field of view
         head.blind_from_cdeg = std::int64_t{input_.below(360)} * 100;
-        head.blind_cdeg = std::int64_t{input_.below(360)} * 100;
+        head.blind_cdeg = std::int64_t{input_.below(720)} * 100;
+        head.fills_packets = head.blind_cdeg >= calib::kTurn_cdeg;
+        head.blind_cdeg %= calib::kTurn_cdeg;
         break;
       case 14:  // it reboots: clock and azimuth from anywhere
         head.device_ns = input_.below(2) == 0 ? 0 : head.device_ns / 3'600'000'000'000 * 1'000;
@@ -184,6 +191,7 @@ class PacketSequence {
     head.device_ns = std::clamp<std::int64_t>(head.device_ns, 0, 2 * kStart_ns);
     const std::int64_t first_reading = head.readings, begin_ns = head.device_ns;
     for (auto& column : columns) {
+      if (head.fills_packets) head.leave_sector(Sensor::firing_ns(head.dual));
       column.stamp_ns = head.device_ns;
       column.unwrapped_azimuth_cdeg = head.azimuth_cdeg;
       for (std::size_t n = 0; n < Sensor::kReturnsAColumn; ++n) {
@@ -207,7 +215,7 @@ class PacketSequence {
   void send(int packets) {
     for (; packets > 0 && sent_ < kMostPackets; --packets) {
       if (in_turn_) sender_ = 1 - sender_;
-      const bool blind = heads_[sender_].is_blind();
+      const bool blind = heads_[sender_].is_blind() && !heads_[sender_].fills_packets;
       const Bytes packet = make(heads_[sender_]);
       if (blind) {
         ++sent_;  // nothing was, but it took its time

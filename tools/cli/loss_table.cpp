@@ -18,6 +18,7 @@ std::vector<LossCause> causes_of(const firmware_io::LossCounters& losses) {
                       losses.rejected[i]});
   }
   causes.push_back({"overflow_full_returns", losses.overflow_full_returns});
+  causes.push_back({"late_returns", losses.late_returns});
   causes.push_back({"skipped_frames", losses.skipped_frames});
   causes.push_back({"clock_jumps", losses.clock_jumps});
   return causes;

@@ -6,9 +6,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <initializer_list>
 #include <set>
 #include <string>
 
+#include "firmware_io/capture/ruby128_survey.hpp"
 #include "tests/firmware_io/decoding/heard_stream.hpp"
 
 namespace terracut::test {
@@ -259,6 +262,225 @@ TYPED_TEST(BlindSensor, LosesItsViewsShareInAnOutage) {
       1e5 / (TypeParam::firing_us(false) * TypeParam::firings_per_packet(false));
   EXPECT_NEAR(static_cast<double>(stream.decoder.losses().network_gap_packets),
               14 * packets_a_turn / 2, packets_a_turn / 20);
+}
+
+// --- Packets that the sector lies in ---
+
+using Ruby = reference::Ruby128;
+
+/// What an RS-Ruby128 sends that goes on with the packet it was at when its head is back in view:
+/// it stamps the first firing, and sends when the packet is full.
+std::vector<Payload> filled_across(const std::vector<Payload>& all, bool dual,
+                                   const Sector& blind) {
+  std::vector<Payload> sent;
+  std::vector<std::uint8_t> next;
+  int blocks = 0;
+  std::int64_t first_ns = 0;
+  for (std::size_t n = 0; n < all.size(); ++n) {
+    for (int block = 0; block < Ruby::kBlocks; ++block) {
+      const std::size_t reading = n * Ruby::kBlocks + static_cast<std::size_t>(block);
+      const auto firing = static_cast<std::int64_t>(reading / (dual ? 2 : 1));
+      const std::int64_t fired_ns = all[0].stamp_ns + firing * 55'550;
+      const auto from = all[n].bytes.begin() + Ruby::kFirstBlock + block * Ruby::kBlockBytes;
+      if (blind.has((from[2] * 256 + from[3]) * 0.01)) continue;
+      if (blocks == 0) {
+        next = all[n].bytes;
+        first_ns = fired_ns;
+      }
+      std::copy_n(from, Ruby::kBlockBytes,
+                  next.begin() + Ruby::kFirstBlock + blocks * Ruby::kBlockBytes);
+      if (++blocks < Ruby::kBlocks) continue;
+      blocks = 0;
+      Ruby::set_clock(next, first_ns);
+      sent.push_back({next, fired_ns + 55'550});
+    }
+  }
+  return sent;
+}
+
+/// Blocks of a packet that its blind sector lies in which were fired before it; 0: of any other.
+int blocks_before_the_sector(const Payload& payload) {
+  int before = 0;
+  for (int block = 1; block < Ruby::kBlocks; ++block) {
+    const auto cdeg = [&](int of) {
+      const auto at = static_cast<std::size_t>(Ruby::kFirstBlock + of * Ruby::kBlockBytes + 2);
+      return payload.bytes[at] * 256 + payload.bytes[at + 1];
+    };
+    const int ahead_cdeg = (cdeg(block) - cdeg(block - 1) + 36'000) % 36'000;
+    if (ahead_cdeg > 200) before = block;
+  }
+  return before;
+}
+
+class RubyAcrossItsSector : public testing::Test {
+ protected:
+  static constexpr int kTurns = 20;
+
+  /// Calls visit(blind, dual, spin_hz) for all of them.
+  template <class Visit>
+  static void in_every_mode(std::initializer_list<Sector> sectors, Visit&& visit) {
+    for (const bool dual : {false, true}) {
+      for (const double spin_hz : {5.03, 9.7, 19.4}) {  // packets begin elsewhere every turn
+        const auto whole = Head<Ruby>{spin_hz, dual, 0.02}.turns(kTurns);
+        for (const Sector& blind : sectors) {
+          SCOPED_TRACE(std::to_string(blind.from_deg) + ".." + std::to_string(blind.to_deg) +
+                       (dual ? " dual " : " single ") + std::to_string(spin_hz));
+          visit(blind, filled_across(whole, dual, blind));
+        }
+      }
+    }
+  }
+  /// Those of the turns that the sector was learnt in.
+  static void expect_few_rejected(const HeardStream<Ruby>& stream, std::uint64_t most_late = 1) {
+    EXPECT_LE(stream.rejected(firmware_io::Reject::kAzimuthJump),
+              static_cast<std::uint64_t>(firmware_io::BlindSector::kTurnsToLearn));
+    EXPECT_EQ(stream.decoder.losses().rejected_total(),
+              stream.rejected(firmware_io::Reject::kAzimuthJump) +
+                  stream.rejected(firmware_io::Reject::kLate));
+    EXPECT_LE(stream.rejected(firmware_io::Reject::kLate), most_late);
+  }
+};
+
+TEST_F(RubyAcrossItsSector, IsDecodedOnBothSidesOfIt) {
+  in_every_mode({{90, 270}, {20, 330}, {200, 206}},
+                [](const Sector& blind, const std::vector<Payload>& sent) {
+                  HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
+                  stream.hear_all(sent);
+                  stream.flush();
+                  expect_few_rejected(stream);
+                  EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
+                  EXPECT_LE(stream.decoder.losses().azimuth_hole_columns,
+                            Ruby::kBlocks * stream.decoder.losses().rejected_total());
+                  EXPECT_EQ(stream.decoder.losses().clock_jumps, 0U);
+                  EXPECT_EQ(incomplete(stream.frames, kLearnt), 0);
+                  EXPECT_NEAR(static_cast<double>(stream.frames.size()), kTurns + 1, 1);
+                  EXPECT_EQ(stream.packets_unaccounted(), 0);
+                  EXPECT_EQ(stream.returns_unaccounted(), 0);
+                  // To the firing.
+                  const BlindAzimuths known = stream.decoder.blind();
+                  EXPECT_NEAR(known.from_cdeg * 0.01, blind.from_deg, 0.45);
+                  EXPECT_NEAR(known.to_cdeg * 0.01, blind.to_deg, 0.45);
+                });
+}
+
+TEST_F(RubyAcrossItsSector, CostsNoDeadlineWhereTheSeamIsNotSeen) {
+  in_every_mode({{270, 90}, {200, 160}}, [](const Sector&, const std::vector<Payload>& sent) {
+    HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
+    std::size_t handed = 0;
+    int in_time = 0, late = 0;
+    for (const Payload& payload : sent) {
+      (void)stream.hear(payload);
+      if (stream.frames.size() == handed) continue;
+      handed = stream.frames.size();
+      if (handed < kLearnt + 4) continue;
+      (stream.frames.back().last_packet_ns == payload.stamp_ns ? in_time : late) += 1;
+    }
+    EXPECT_GE(in_time, kTurns - 10);
+    EXPECT_EQ(late, 0);
+    stream.flush();
+    expect_few_rejected(stream, kTurns / 2);  // where a firing is hardly more than the rounding
+    EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
+    EXPECT_EQ(stream.packets_unaccounted(), 0);
+  });
+}
+
+TEST_F(RubyAcrossItsSector, CountsTheFiringsThatComeBehindItTooLateForTheirTurn) {
+  HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
+  std::uint64_t late_firings = 0, counted_firings = 0, late_returns = 0;
+  for (const Payload& payload : filled_across(Head<Ruby>{9.7}.turns(kTurns), false, {270, 90})) {
+    const std::size_t turns = stream.frames.size();
+    const std::uint64_t holes = stream.decoder.losses().azimuth_hole_columns;
+    const bool is_taken = !stream.hear(payload);
+    const int before = blocks_before_the_sector(payload);
+    const bool its_turn_waited = stream.frames.size() > turns;
+    if (!is_taken || before == 0 || its_turn_waited) continue;
+    late_firings += static_cast<std::uint64_t>(before);
+    counted_firings += stream.decoder.losses().azimuth_hole_columns - holes;
+    Payload late = payload;
+    for (int block = before; block < Ruby::kBlocks; ++block) {
+      for (int laser = 0; laser < Ruby::kLasers; ++laser) {
+        Ruby::set_return(late.bytes, block, laser, 0, 0);
+      }
+    }
+    late_returns += returns_in<Ruby>(late);
+  }
+  stream.flush();
+  EXPECT_GT(late_firings, 8U);
+  EXPECT_EQ(counted_firings, late_firings);
+  EXPECT_EQ(stream.decoder.losses().late_returns, late_returns);
+  EXPECT_EQ(stream.returns_unaccounted(), 0);
+}
+
+/// Beams lie before and behind the head, so that the first columns begin in the turn before the
+/// seam, and the last ones end in the turn behind the next.
+TEST_F(RubyAcrossItsSector, TouchesThreeTurnsWhereTheViewIsNarrowerThanItsBeamsAreApart) {
+  in_every_mode({{4, 356}}, [](const Sector&, const std::vector<Payload>& sent) {
+    for (const int reorder_packets : {0, 2}) {
+      HeardStream<Ruby>::Config config;
+      config.reorder_packets = reorder_packets;
+      HeardStream<Ruby> stream(config);
+      stream.hear_all(sent);
+      stream.flush();
+      EXPECT_FALSE(stream.decoder.blind().is_none());
+      expect_few_rejected(stream, kTurns);
+      EXPECT_EQ(stream.packets_unaccounted(), 0);
+      EXPECT_EQ(stream.returns_unaccounted(), 0);
+    }
+  });
+}
+
+TEST_F(RubyAcrossItsSector, LosesNothingOfItWhereATurnWaitsForLatePackets) {
+  in_every_mode({{270, 90}}, [](const Sector&, const std::vector<Payload>& sent) {
+    HeardStream<Ruby> stream;  // as replay does
+    stream.hear_all(sent);
+    stream.flush();
+    expect_few_rejected(stream);
+    EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
+    EXPECT_EQ(stream.decoder.losses().azimuth_hole_columns, 0U);
+    EXPECT_EQ(incomplete(stream.frames, kLearnt), 0);
+    EXPECT_EQ(stream.returns_unaccounted(), 0);
+  });
+}
+
+TEST_F(RubyAcrossItsSector, CountsPacketsLostBehindIt) {
+  std::vector<Payload> kept;
+  std::uint64_t lost = 0;
+  int since = 100;
+  for (const Payload& payload : filled_across(Head<Ruby>{9.7}.turns(kTurns), false, {90, 270})) {
+    since = blocks_before_the_sector(payload) > 0 ? 0 : since + 1;
+    const bool is_lost = kept.size() > 2'000 && since >= 1 && since <= 3;
+    lost += is_lost ? 1U : 0U;
+    if (!is_lost) kept.push_back(payload);
+  }
+  HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
+  stream.hear_all(kept);
+  stream.flush();
+  EXPECT_GT(lost, 15U);
+  EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
+}
+
+TEST_F(RubyAcrossItsSector, IsNoLossToTheSurveyOfACapture) {
+  in_every_mode({{90, 270}}, [](const Sector& blind, const std::vector<Payload>& sent) {
+    firmware_io::Ruby128Survey survey;
+    for (const Payload& payload : sent) survey.add(payload.bytes, payload.stamp_ns);
+    const firmware_io::Ruby128Facts facts = survey.facts();
+    EXPECT_EQ(facts.packets_lost, 0U);
+    EXPECT_EQ(facts.packets_reordered, 0U);
+    EXPECT_NEAR(facts.blind.from_cdeg * 0.01, blind.from_deg, 0.45);
+    EXPECT_NEAR(facts.blind.to_cdeg * 0.01, blind.to_deg, 0.45);
+  });
+}
+
+TEST_F(RubyAcrossItsSector, IsRejectedWhereNoSectorIsKnownToBe) {
+  HeardStream<Ruby> stream;
+  auto sent = Head<Ruby>{}.turns(8);
+  Payload& torn = sent[sent.size() / 2];
+  const double last_deg = first_deg<Ruby>(torn) + 90;
+  Ruby::set_azimuth(torn.bytes, 2,
+                    static_cast<unsigned>(std::lround(std::fmod(last_deg, 360) * 100)));
+  stream.hear_all(sent);
+  EXPECT_EQ(stream.rejected(firmware_io::Reject::kAzimuthJump), 1U);
+  EXPECT_TRUE(stream.decoder.blind().is_none());
 }
 
 }  // namespace

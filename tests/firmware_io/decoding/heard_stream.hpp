@@ -96,7 +96,8 @@ class HeardStream {
   /// Returns of decoded packets that are neither in a frame nor counted; after flush().
   [[nodiscard]] std::int64_t returns_unaccounted() const {
     return static_cast<std::int64_t>(returns_taken - returns_handed_over -
-                                     decoder.losses().overflow_full_returns);
+                                     decoder.losses().overflow_full_returns -
+                                     decoder.losses().late_returns);
   }
 
   std::uint64_t fed = 0, returns_taken = 0, returns_handed_over = 0;

@@ -78,6 +78,54 @@ TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
   EXPECT_GT(ruby_even_stamp_us(kMost_ns, pair_last, true), kMost_ns / 1000 - 100);
 }
 
+PacketHeads heads_across(std::array<int, 3> azimuth_cdeg) {
+  PacketHeads heads;
+  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), Reject::kAzimuthJump);
+  EXPECT_TRUE(read_across_sector(heads, 20'000));
+  return heads;
+}
+
+TEST(Ruby128PacketCheck, ReadsAPacketThatABlindSectorLiesIn) {
+  const PacketHeads late = heads_across({8'970, 8'990, 27'010});
+  EXPECT_FALSE(late.dual_return);
+  EXPECT_EQ(late.behind_sector, 2);
+  EXPECT_EQ(late.advance_cdeg(1), 20);
+  EXPECT_EQ(late.advance_cdeg(2), 18'040) << "the head turns on, by more than half a turn";
+  EXPECT_EQ(late.sweep_ticks, 18'060'000) << "to the first firing of the next packet";
+  EXPECT_EQ(late.pace_ticks, 60'000);
+  EXPECT_EQ(late.sector_inside(8'970'000).from_ticks, 9'010'000);
+  EXPECT_EQ(late.sector_inside(8'970'000).to_ticks, 27'010'000);
+  EXPECT_NEAR(static_cast<double>(late.sector_ns()), 50e6, 0.1e6) << "of 10 Hz";
+
+  const PacketHeads early = heads_across({35'000, 10, 30});
+  EXPECT_EQ(early.behind_sector, 1);
+  EXPECT_EQ(early.sweep_ticks, 1'050'000);
+  EXPECT_EQ(early.sector_inside(0).ticks(), 990'000);
+}
+
+TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
+  const PacketHeads pair_first = heads_across({8'990, 8'990, 27'010});
+  EXPECT_TRUE(pair_first.dual_return);
+  EXPECT_EQ(pair_first.behind_sector, 2);
+  EXPECT_EQ(pair_first.sweep_ticks, 18'020'000) << "the firing at 270.1 is the next packet's";
+  const PacketHeads pair_last = heads_across({8'990, 27'010, 27'010});
+  EXPECT_TRUE(pair_last.dual_return);
+  EXPECT_EQ(pair_last.behind_sector, 1);
+  EXPECT_EQ(pair_last.sweep_ticks, 18'040'000);
+  EXPECT_EQ(pair_last.sector_inside(0).ticks(), 18'000'000);
+}
+
+TEST(Ruby128PacketCheck, FindsNoSectorInAzimuthsThatJumpTwiceNorWithoutAStep) {
+  for (const auto& azimuths : {std::array{100, 9'000, 18'000}, {100, 9'000, 120}}) {
+    PacketHeads heads;
+    EXPECT_EQ(check_ruby128_packet(packet_at(azimuths), heads), Reject::kAzimuthJump);
+    EXPECT_FALSE(read_across_sector(heads, 20'000));
+  }
+  PacketHeads heads;
+  EXPECT_EQ(check_ruby128_packet(packet_at({100, 9'000, 9'020}), heads), Reject::kAzimuthJump);
+  EXPECT_FALSE(read_across_sector(heads, 0));
+}
+
 TEST(Ruby128PacketCheck, TakesEverySpinRate) {
   for (const int step_cdeg : {10, 20, 40}) {
     EXPECT_EQ(heads_of({0, step_cdeg, 2 * step_cdeg}).step_ticks, step_cdeg * kTicksPerCdeg);
@@ -164,20 +212,27 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealCapture,
 
 TEST(HeldFiring, GivesTheSecondReturnTheStepOfTheFirst) {
   HeldFiring held;
-  EXPECT_EQ(held.join({100, 100, 120}, 20'000, 1000), 20'000);
-  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083), 20'000);
-  EXPECT_EQ(held.join({161, 161, 181}, 20'000, 1166), 20'000);
+  EXPECT_EQ(held.join({100, 100, 120}, 20'000, 1000, false), 20'000);
+  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083, false), 20'000);
+  EXPECT_EQ(held.join({161, 161, 181}, 20'000, 1166, false), 20'000);
+}
+
+TEST(HeldFiring, IsKeptForAsLongAsABlindSectorInItsPacketTakes) {
+  HeldFiring held;
+  (void)held.join({8'990, 8'990, 27'010}, 20'000, 1000, true);
+  EXPECT_EQ(held.join({27'010, 27'031, 27'031}, 21'000, 51'083, false), 20'000);
 }
 
 TEST(HeldFiring, DropsAFiringWhosePacketIsLost) {
   HeldFiring held;
-  (void)held.join({100, 100, 120}, 20'000, 1000);
-  EXPECT_EQ(held.join({180, 201, 201}, 21'000, 1249), 21'000);
-  (void)held.join({100, 100, 120}, 20'000, 1000);
-  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 101'083), 21'000);  // the same place, a turn later
-  (void)held.join({100, 100, 120}, 20'000, 1000);
+  (void)held.join({100, 100, 120}, 20'000, 1000, false);
+  EXPECT_EQ(held.join({180, 201, 201}, 21'000, 1249, false), 21'000);
+  (void)held.join({100, 100, 120}, 20'000, 1000, false);
+  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 101'083, false),
+            21'000);  // the same place, a turn later
+  (void)held.join({100, 100, 120}, 20'000, 1000, false);
   held.forget();
-  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083), 21'000);
+  EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083, false), 21'000);
 }
 
 }  // namespace

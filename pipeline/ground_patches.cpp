@@ -34,6 +34,11 @@ TERRACUT_VECTOR_CLONES void find_bends(const float* z_m, const Label* label, std
   for (std::size_t i = 1; i + 1 < columns; ++i) {
     bend_m[i] = std::fabs(z_m[i] - 0.5F * (z_m[i - 1] + z_m[i + 1]));
   }
+  for (const std::size_t i : {std::size_t{0}, columns - 1}) {  // columns close to a circle
+    const std::size_t before = i > 0 ? i - 1 : columns - 1, after = i + 1 < columns ? i + 1 : 0;
+    is_bend[i] = is_ground[before] & is_ground[i] & is_ground[after];
+    bend_m[i] = std::fabs(z_m[i] - 0.5F * (z_m[before] + z_m[after]));
+  }
 }
 
 /// How far away is what stands lower than `clearance_height_m`; else kFar_m. The height of a cell

@@ -40,6 +40,11 @@ std::int64_t host_step_us(std::int64_t from_ns, std::int64_t to_ns) noexcept {
          1000;
 }
 
+/// A gap takes its time, by the host's clock too where that tells any.
+bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
+  return step_us <= kReorder_us || host_us <= 0 || 4 * host_us >= step_us;
+}
+
 }  // namespace
 
 StreamTracker::StreamTracker(std::int64_t clock_wrap_us, rt::FixedMemory& memory)
@@ -108,9 +113,12 @@ Placement StreamTracker::doubt(const PacketHeads& heads, std::int64_t host_stamp
       calib::wrap_cdeg(doubtful_.head_cdeg) == heads.first_cdeg()) {
     return {Arrival::kRejected, Reject::kRepeated, 0, 0, 0, false};
   }
-  const bool is_near = step_us >= -kReorder_us && step_us <= kReorder_us;
-  const auto head_cdeg = is_near ? head_after(doubtful_, heads) : std::nullopt;
-  const bool agrees = doubtful_packets_ > 0 && head_cdeg;
+  const bool may_follow = doubtful_packets_ > 0 && step_us >= -kReorder_us &&
+                          step_us <= kOutage_us &&
+                          takes_its_time(step_us, host_step_us(doubtful_.host_ns, host_stamp_ns));
+  const auto head_cdeg = may_follow ? head_after(doubtful_, heads) : std::nullopt;
+  // A blind sector may lie between the two, but in more than a turn any angle would fit.
+  const bool agrees = head_cdeg && *head_cdeg - doubtful_.head_cdeg <= calib::kTurn_cdeg;
   if (!agrees || step_us >= 0) {
     doubtful_ = {heads.device_stamp_us, host_stamp_ns, agrees ? *head_cdeg : heads.first_cdeg(),
                  heads.pace_ticks};
@@ -170,9 +178,8 @@ Placement StreamTracker::follow(const PacketHeads& heads, std::int64_t host_stam
     take_as_newest(heads, host_stamp_ns, newest_.head_cdeg + step_cdeg, losses);
     return {Arrival::kNext, Reject::kCount, newest_.head_cdeg, 0, 0, false};
   }
-  // A gap takes its time, by the host's clock too where that tells any.
-  const bool is_ahead = step_us > kReorder_us && host_us > 0 && 4 * host_us < step_us;
-  if (is_ahead) return {Arrival::kRejected, Reject::kClockJump, 0, 0, 0, false};
+  if (!takes_its_time(step_us, host_us))
+    return {Arrival::kRejected, Reject::kClockJump, 0, 0, 0, false};
 
   const auto head_cdeg = head_after(newest_, heads);
   if (!head_cdeg) return {Arrival::kRejected, Reject::kAzimuthJump, 0, 0, 0, false};

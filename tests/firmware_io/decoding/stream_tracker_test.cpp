@@ -125,6 +125,31 @@ TEST_F(Tracked, PacketsLostWhileTheHeadStandsAreCounted) {
   EXPECT_EQ(losses.network_gap_packets, 2U);
 }
 
+TEST_F(Tracked, ARebootIsFollowedWhereFewerPacketsShowAtOnceThanBearOutAStream) {
+  constexpr int kPacketsATurn = 346, kInView = StreamTracker::kNewStream_packets / 2;
+  const auto is_in_view = [](std::int64_t n) { return n % kPacketsATurn < kInView; };
+  place_all(0, kInView);
+  std::int64_t agreed = 0;
+  for (std::int64_t n = 0; n < 4 * kPacketsATurn; ++n) {
+    if (!is_in_view(n)) continue;
+    const Placement placed = place(packet(n, kWrap_us / 2));
+    agreed += placed.arrival == Arrival::kDoubtful ? 1 : 0;
+    if (placed.arrival == Arrival::kNewStream) {
+      EXPECT_EQ(agreed, StreamTracker::kNewStream_packets - 1);
+      return;
+    }
+  }
+  ADD_FAILURE() << "never followed; in doubt: " << agreed;
+}
+
+TEST_F(Tracked, PacketsThatDoNotTakeTheirTimeBearOutNoStream) {
+  place_all(0, 20);
+  for (std::int64_t n = 0; n < 100; ++n) {  // a turn of stamps in each microsecond of the host's
+    const Placement placed = place(packet(346 * n, kWrap_us / 2), 1 + n * 1000);
+    EXPECT_EQ(placed.arrival, Arrival::kDoubtful) << n;
+  }
+}
+
 TEST_F(Tracked, HostStampsMayBeAnything) {
   constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
   constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();

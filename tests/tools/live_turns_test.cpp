@@ -125,8 +125,10 @@ class LiveTurns : public testing::Test {
                                  .first_stamp_ns = kStart_ns,
                                  .share_of_returns = share_of_returns});
   }
-  void send(std::span<const Packet> packets) {
-    for (const Packet& packet : packets) source_.add(packet.bytes, packet.stamp_ns);
+  /// The source reads packets where they lie, so they are kept.
+  void send(std::vector<Packet> packets) {
+    sent_.push_back(std::move(packets));
+    for (const Packet& packet : sent_.back()) source_.add(packet.bytes, packet.stamp_ns);
   }
   /// Receives all that was sent, and segments each turn as soon as it is there.
   void run() {
@@ -167,6 +169,7 @@ class LiveTurns : public testing::Test {
   calib::SensorCalibration calibration_ = calib::nominal_hdl64e();
   calib::RingProfile profile_ = calib::ring_profile(calibration_, calib::Mount{});
   LiveChain chain_{calibration_, profile_, 2083, {}, {}, {}, memory_};
+  std::vector<std::vector<Packet>> sent_;
   MadeSource source_{time_, chain_.decoder};
   FrameExchange turns_{chain_.decoder.images()};
   Expected<firmware_io::WakeEvent> turn_ready_ = firmware_io::WakeEvent::make();

@@ -75,7 +75,7 @@ TEST(SignalPlan, ReadsFloatingPointNumbers) {
 
 TEST(SignalPlan, GivesTheSameAsGoingBitByBit) {
   std::mt19937 random(2026);
-  for (int i = 0; i < 20'000; ++i) {
+  for (std::uint32_t i = 0; i < 20'000; ++i) {
     const int length = std::array{1, 2, 8, 8, 12, 64}[static_cast<std::size_t>(random() % 6)];
     DbcFile file;
     file.messages.push_back(random_message(random, 0x80000000U | i, length, 1));

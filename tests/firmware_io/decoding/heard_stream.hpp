@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -75,8 +77,11 @@ class HeardStream {
 
   std::optional<firmware_io::Reject> hear(const Payload& payload) {
     ++fed;
+    const std::size_t frames_before = frames.size();
+    const std::uint64_t decoded_before = decoder.packets_decoded();
     const auto reason =
         decoder.decode({.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, keep());
+    expect_bounded_work(frames.size() - frames_before, decoder.packets_decoded() - decoded_before);
     if (!reason) returns_taken += returns_in<Sensor>(payload);
     return reason;
   }
@@ -107,6 +112,12 @@ class HeardStream {
   static typename Sensor::Calibration unit() {
     std::mt19937 random(1);
     return Sensor::random_unit(random);
+  }
+  /// "Work per packet" of docs/design.md: one packet may bear out 31 others that were in doubt, and
+  /// ends the two open turns of the stream before them; beyond that it fills a turn of its own.
+  static void expect_bounded_work(std::size_t frames, std::uint64_t packets) {
+    EXPECT_LE(packets, 32U);
+    EXPECT_LE(frames, packets <= 1 ? 2U : 3U);
   }
   [[nodiscard]] auto keep() {
     return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {

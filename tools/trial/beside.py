@@ -51,13 +51,15 @@ class CyclicTest:
 
 
 class Stress:
-    """Every core computes and the disk is written to, at normal priority."""
+    """On every core something computes, moves memory and writes to the disk, at normal priority."""
 
     def __init__(self, scratch: Path, seconds: float):
         folder = scratch / "stress"
         folder.mkdir(exist_ok=True)
-        self.command = ["stress-ng", "--cpu", str(os.cpu_count()), "--hdd", "1", "--hdd-bytes", "256M",
-                        "--temp-path", str(folder), "--timeout", f"{int(seconds)}s", "--quiet"]  # fmt: skip
+        cores = str(os.cpu_count())
+        self.command = ["stress-ng", "--cpu", cores, "--vm", cores, "--vm-bytes", "40%", "--hdd", cores,
+                        "--hdd-bytes", "256M", "--temp-path", str(folder), "--timeout", f"{int(seconds)}s",
+                        "--quiet"]  # fmt: skip
         self.process = subprocess.Popen(self.command, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def stop(self) -> None:

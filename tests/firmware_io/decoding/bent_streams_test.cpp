@@ -100,6 +100,26 @@ TYPED_TEST(BentStream, OneStrayFromAnotherTimeCostsNothingButItself) {
   }
 }
 
+TYPED_TEST(BentStream, ARejectedPacketOfAnotherTimeHidesNoLoss) {
+  const auto packets = this->head.turns(3);
+  HeardStream<TypeParam> stream;
+  std::uint64_t lost = 0;
+  for (std::size_t n = 0; n < packets.size(); ++n) {
+    if (n < 100 || n % 50 != 20 || n + 50 > packets.size()) {
+      (void)stream.hear(packets[n]);
+      continue;
+    }
+    Payload damaged = packets[n];  // said long after the packet that is lost in its place
+    TypeParam::set_azimuth(damaged.bytes, 0, 40'000);
+    this->set_stamp(damaged, damaged.stamp_ns + 700'000'000);
+    EXPECT_EQ(stream.hear(damaged), Reject::kAzimuthOutOfRange);
+    ++lost;
+  }
+  stream.flush();
+  EXPECT_GT(lost, 5U);
+  EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
+}
+
 TYPED_TEST(BentStream, PacketsAheadOfTheirTimeDoNotEndTheTurn) {
   const auto packets = this->head.turns(3);
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());

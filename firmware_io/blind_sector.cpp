@@ -104,7 +104,6 @@ bool BlindSector::is_between(const HeadInterval& gap) const noexcept {
 }
 
 void BlindSector::remember(const Gap& gap) noexcept {
-  if (gaps_known_ > 0 && !follows(gap.head)) refute();
   std::rotate(gaps_.begin(), gaps_.begin() + 1, gaps_.end());
   gaps_.back() = gap;
   gaps_known_ = std::min(gaps_known_ + 1, kTurnsToLearn);

@@ -206,6 +206,54 @@ TYPED_TEST(BlindSensor, DoesNotTakeALossInTwoTurnsRunningForASector) {
   EXPECT_EQ(incomplete(stream.frames, 1), 2);
 }
 
+TYPED_TEST(BlindSensor, CountsLossesBesideItOfTheTurnsItIsLearntIn) {
+  const Sector blind{90, 270};
+  const auto sent = without<TypeParam>(this->head.turns(12), blind);
+  HeardStream<TypeParam> stream;
+  std::uint64_t lost = 0;
+  double before_deg = 0;
+  int turn = 0;
+  for (const Payload& payload : sent) {
+    const double deg = first_deg<TypeParam>(payload);
+    if (deg < before_deg) ++turn;
+    before_deg = deg;
+    if (turn == 2 && deg >= blind.to_deg && deg < blind.to_deg + 15) {
+      ++lost;
+    } else {
+      (void)stream.hear(payload);
+    }
+  }
+  stream.flush();
+  EXPECT_GT(lost, 5U);
+  // A sensor that keeps its rhythm begins anywhere within a packet's time behind its sector.
+  EXPECT_NEAR(static_cast<double>(stream.decoder.losses().network_gap_packets),
+              static_cast<double>(lost), 1);
+  this->expect_blind(stream, blind);
+}
+
+TYPED_TEST(BlindSensor, CountsGapsThatWanderFromTurnToTurn) {
+  const auto sent = this->head.turns(14);
+  HeardStream<TypeParam> stream;
+  std::uint64_t lost = 0;
+  double before_deg = 0;
+  int turn = 0;
+  for (const Payload& payload : sent) {
+    const double deg = first_deg<TypeParam>(payload);
+    if (deg < before_deg) ++turn;
+    before_deg = deg;
+    const double gap_deg = 60 + 5 * turn;  // overlaps the one before, but never by much
+    if (turn >= 2 && turn < 10 && deg >= gap_deg && deg < gap_deg + 8) {
+      ++lost;
+    } else {
+      (void)stream.hear(payload);
+    }
+  }
+  stream.flush();
+  EXPECT_GT(lost, 50U);
+  EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
+  EXPECT_TRUE(stream.decoder.blind().is_none());
+}
+
 TYPED_TEST(BlindSensor, CountsAWideLossThatTheStreamEndsBehind) {
   auto sent = this->head.turns(2);
   const auto from = static_cast<std::ptrdiff_t>(sent.size()) * 8 / 10;

@@ -103,6 +103,15 @@ class LiveTurns : public testing::Test {
   static constexpr std::int64_t kDeadline_ns = 50 * kMs;
 
   LiveTurns() {
+    begin_receiving();
+    segmenter_.emplace(
+        kDeadline_ns, chain_, turns_,
+        Segmenter::Outlets{
+            .timings = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
+        HeldClock{&time_}, HeldWait{&time_});
+  }
+
+  void begin_receiving() {
     receiver_.emplace(Receiver::Config{.deadline_ns = kDeadline_ns, .turn_ns = kTurn_ns}, chain_,
                       source_,
                       Receiver::Outlets{.turns = &turns_,
@@ -111,11 +120,6 @@ class LiveTurns : public testing::Test {
                                         .intake = &intake_,
                                         .recorder = nullptr},
                       HeldClock{&time_}, HeldWait{&time_});
-    segmenter_.emplace(
-        kDeadline_ns, chain_, turns_,
-        Segmenter::Outlets{
-            .timings = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
-        HeldClock{&time_}, HeldWait{&time_});
   }
 
   /// A head that turns `turns` times, beginning at 0 degrees now.
@@ -239,6 +243,18 @@ TEST_F(LiveTurns, CountsWhatTheKernelDroppedLastAtTheEnd) {
   EXPECT_EQ(intake().account.source.kernel_drops, 23'162U);
 }
 
+TEST_F(LiveTurns, WhatCameBeforeTheRunIsNotInItsAccount) {
+  source_.leave_out(7, 2);
+  source_.drops_in_kernel = 5;
+  begin_receiving();
+  source_.leave_out(1, 0);
+  (void)receiver_->turn_round(100 * kMs);
+  EXPECT_EQ(intake().account.source.received, 1U);
+  EXPECT_EQ(intake().account.source.foreign, 1U);
+  EXPECT_EQ(intake().account.source.kernel_drops, 0U);
+  expect_balance();
+}
+
 TEST_F(LiveTurns, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
   const auto packets = drive(60);
   send(packets);
@@ -290,6 +306,7 @@ TEST_F(LiveTurns, IsBackWithTheNextWholeTurnAfterAStandstillOfASecond) {
   run();
   EXPECT_NEAR(static_cast<double>(intake().account.let_go), 850.0 / 1000 * 3472, 30)
       << "what was older than a turn and the deadline";
+  EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
   for (std::size_t i = before; i < timings_.size(); ++i) {
     if (timings_[i].first_packet_ns < back_ns) continue;
     EXPECT_NE(timings_[i].rung, rt::Rung::kSkipped) << timings_[i].number;

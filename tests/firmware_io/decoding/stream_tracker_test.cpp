@@ -125,6 +125,14 @@ TEST_F(Tracked, PacketsLostWhileTheHeadStandsAreCounted) {
   EXPECT_EQ(losses.network_gap_packets, 2U);
 }
 
+TEST_F(Tracked, AHeadThatHasStoodIsExpectedWhereItStands) {
+  place_all(0, 50);
+  tracker.note_stationary(packet(50).device_stamp_us, packet(50).azimuth_cdeg[0], losses);
+  PacketHeads next = packet(50);
+  next.device_stamp_us = packet(200).device_stamp_us;
+  EXPECT_EQ(place(next).arrival, Arrival::kNext);
+}
+
 TEST_F(Tracked, ARebootIsFollowedWhereFewerPacketsShowAtOnceThanBearOutAStream) {
   constexpr int kPacketsATurn = 346, kInView = StreamTracker::kNewStream_packets / 2;
   const auto is_in_view = [](std::int64_t n) { return n % kPacketsATurn < kInView; };

@@ -408,6 +408,17 @@ TEST_F(LiveTurns, ATurnThatIsTakenLateEndsOnALowerRung) {
   }
 }
 
+TEST_F(LiveTurns, WaitingForACoreIsCountedSinceTheFetchBefore) {
+  send(drive(6));
+  while (source_.has_more()) {
+    time_.waited_ns += 1000;
+    (void)receiver_->turn_round(100 * kMs);
+    take_timings();  // of turns that nobody segments
+  }
+  ASSERT_GT(timings_.size(), 3U);
+  for (const rt::FrameTiming& timing : timings_) EXPECT_EQ(timing.run_queue_wait_ns, 1000);
+}
+
 TEST_F(LiveTurns, TimesOfAFrameAreItsOwnAndNoOthers) {
   send(drive(22));
   source_.cost_ns = 10'000;

@@ -53,6 +53,14 @@ TEST_F(Tracked, ASwapAmongTheFirstPacketsIsNoLoss) {
   EXPECT_EQ(losses.network_gap_packets, 0U);
 }
 
+TEST_F(Tracked, APacketThatComesThreeTooLateIsNoLoss) {
+  place_all(0, 50);
+  for (const std::int64_t n : {51, 52, 53, 50}) (void)place(packet(n));
+  place_all(54, 100);
+  tracker.end_of_stream(losses);
+  EXPECT_EQ(losses.network_gap_packets, 0U);
+}
+
 TEST_F(Tracked, ASwapAndALossAmongTheFirstPacketsIsOneLoss) {
   for (const std::int64_t n : {0, 1, 3, 2, 4, 6, 7}) (void)place(packet(n));
   place_all(8, 60);

@@ -250,7 +250,7 @@ TEST_F(DeskewerTest, AGapOfManyTurnsLeavesTheTurnBeforeItAndTheOneBehindItAsThey
   for (const int turns : {2, 5, 12, 20}) {
     SCOPED_TRACE(turns);
     EgoMotion motion({}, memory_);
-    for (int i = -5; i < turns * 10 + 25; ++i) {
+    for (std::int64_t i = -5; i < turns * 10 + 25; ++i) {
       motion.add({kStart_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps});
       motion.take_new();
     }

@@ -27,10 +27,11 @@ constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kStart_ns = 1'700'000'000'000 * kMs;
 constexpr std::int64_t kTurn_ns = 100 * kMs;
 
-/// Every time a test's machine has. Each look at the time of day takes a nanosecond.
+/// Every time a test's machine has. Each look at the time of day takes a nanosecond, and each look
+/// at the processor time `work_ns` of work.
 struct HeldTime {
   std::int64_t now_ns = kStart_ns;
-  std::int64_t cpu_ns = 0;
+  std::int64_t cpu_ns = 0, work_ns = 0;
   std::int64_t waited_ns = 0;
 
   void work(std::int64_t time_ns) {
@@ -42,7 +43,10 @@ struct HeldClock {
   HeldTime* time;
   [[nodiscard]] std::int64_t realtime_ns() const noexcept { return ++time->now_ns; }
   [[nodiscard]] std::int64_t monotonic_ns() const noexcept { return time->now_ns; }
-  [[nodiscard]] std::int64_t thread_cpu_ns() const noexcept { return time->cpu_ns; }
+  [[nodiscard]] std::int64_t thread_cpu_ns() const noexcept {
+    time->work(time->work_ns);
+    return time->cpu_ns;
+  }
 };
 struct HeldWait {
   HeldTime* time;
@@ -406,6 +410,29 @@ TEST_F(LiveTurns, ATurnThatIsTakenLateEndsOnALowerRung) {
     ASSERT_EQ(timings_.size(), 1U);
     EXPECT_EQ(timings_[0].rung, late.rung) << late.left_ns / kMs << " ms left";
   }
+}
+
+TEST_F(LiveTurns, LabelsOfAFrameThatWasTriedAndCameLateAreHandedToNobody) {
+  send(drive(12));
+  std::vector<std::uint32_t> handed_on, labelled;
+  int tried_and_late = 0;
+  while (source_.has_more()) {
+    (void)receiver_->turn_round(100 * kMs);
+    time_.work_ns = 26 * kMs;  // labels made and handed on take longer than the deadline
+    (void)segmenter_->turn_round();
+    time_.work_ns = 0;
+    for (FrameSlots<pipeline::Label>::Frame frame; labels_.take(frame); labels_.give_back(true)) {
+      handed_on.push_back(frame.info.number);
+    }
+    for (rt::FrameTiming timing; segmented_.take(timing);) {
+      if (timing.rung != rt::Rung::kSkipped) labelled.push_back(timing.number);
+      const bool was_tried = timing.segment_cpu_ns > kDeadline_ns;
+      if (timing.rung == rt::Rung::kSkipped && was_tried) ++tried_and_late;
+    }
+  }
+  EXPECT_EQ(handed_on, labelled);
+  EXPECT_GT(tried_and_late, 0);
+  EXPECT_EQ(labelled.size(), 3U) << "until the cost was known";
 }
 
 TEST_F(LiveTurns, WaitingForACoreIsCountedSinceTheFetchBefore) {

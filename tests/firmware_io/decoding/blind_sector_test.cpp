@@ -292,6 +292,21 @@ TYPED_TEST(BlindSensor, FollowsAFieldOfViewThatIsSetAnew) {
   EXPECT_EQ(stream.returns_unaccounted(), 0);
 }
 
+TYPED_TEST(BlindSensor, IsBlindNowhereAgainOnceItsWholeViewIsSet) {
+  const auto all = this->head.turns(30);
+  const auto third = static_cast<std::ptrdiff_t>(all.size() / 3);
+  HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
+  const Sector blind{90, 270};
+  stream.hear_all(without<TypeParam>({all.begin(), all.begin() + third}, blind));
+  this->expect_blind(stream, blind);
+  stream.hear_all({all.begin() + third, all.begin() + 2 * third});
+  EXPECT_TRUE(stream.decoder.blind().is_none());
+  EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
+  stream.hear_all(without<TypeParam>({all.begin() + 2 * third, all.end()}, blind));
+  this->expect_blind(stream, blind);
+  EXPECT_EQ(incomplete(stream.frames, stream.frames.size() - 5), 0);
+}
+
 TYPED_TEST(BlindSensor, WithItsWholeViewIsBlindNowhere) {
   HeardStream<TypeParam> stream;
   stream.hear_all(this->head.turns(6));

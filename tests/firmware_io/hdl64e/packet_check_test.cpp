@@ -147,6 +147,19 @@ TEST(PacketCheck, SeesDualReturnAndItsLongerSteps) {
   EXPECT_EQ(heads.step_ticks, 21'000);
 }
 
+TEST(PacketCheck, SeesNoDualReturnWhereOnlySomePairsStandStill) {
+  using Azimuths = std::array<unsigned, 6>;
+  for (const Azimuths& jittering : {Azimuths{100, 100, 134, 134, 168, 185},
+                                    {100, 100, 134, 151, 168, 168},
+                                    {100, 117, 134, 134, 168, 168}}) {
+    test::Packet packet = good_packet();
+    set_azimuths(packet, jittering);
+    PacketHeads heads;
+    ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
+    EXPECT_FALSE(heads.dual_return) << jittering[1] << ", " << jittering[3] << ", " << jittering[5];
+  }
+}
+
 class RealCapture : public testing::TestWithParam<const char*> {};
 
 TEST_P(RealCapture, OfAnotherModelIsRefusedAsThat) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "calib/mount.hpp"
 #include "firmware_io/blind_sector.hpp"
@@ -109,7 +110,7 @@ class Decoder {
   /// incomplete unless they were seen whole, and forgets the stream's state but not its counters.
   template <class OnFrame>
   void flush(OnFrame&& on_frame) noexcept {
-    if (kept_packets_ > 0) begin_anew(on_frame);
+    if (kept_packets_ > 0) begin_anew(kept_[kept_packets_ - 1].head_cdeg, on_frame);
     tracker_.end_of_stream(frames_.losses());
     blind_.end();
     count_due();
@@ -203,9 +204,10 @@ class Decoder {
     std::array<std::uint8_t, Sensor::kPacketBytes> bytes;
     PacketHeads heads;
     std::int64_t stamp_ns;
-    Reject reason;  ///< Unless others agree with it.
+    std::int64_t head_cdeg;  ///< Placement::head_cdeg
+    Reject reason;           ///< Unless others agree with it.
   };
-  void keep(const Datagram& datagram, Reject reason) noexcept;
+  void keep(const Datagram& datagram, const Placement& placed) noexcept;
   void reject_kept() noexcept {
     for (std::size_t i = 0; i < kept_packets_; ++i) (void)reject(kept_[i].reason);
     kept_packets_ = 0;
@@ -216,9 +218,10 @@ class Decoder {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_ns) -
                                      static_cast<std::uint64_t>(heads_.sector_ns()));
   }
-  /// The packets that were kept are the stream from here on.
+  /// The packets that were kept are the stream from here on, those of the last turn up to the head
+  /// at `newest_cdeg`: of more turns more frames would be handed over at once.
   template <class OnFrame>
-  void begin_anew(OnFrame& on_frame) noexcept;
+  void begin_anew(std::int64_t newest_cdeg, OnFrame& on_frame) noexcept;
   /// Decodes what the tracker has placed; heads_ are the packet's.
   template <class OnFrame>
   std::optional<Reject> take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
@@ -335,12 +338,12 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
   if (placed.arrival == Arrival::kDoubtful) {
     if (placed.is_first_in_doubt) reject_kept();
-    keep(datagram, placed.reject);
+    keep(datagram, placed);
     return std::nullopt;
   }
   if (placed.arrival == Arrival::kNewStream) {
     const PacketHeads heads = heads_;
-    begin_anew(on_frame);
+    begin_anew(placed.head_cdeg, on_frame);
     heads_ = heads;
     placed = tracker_.go_on(heads_, began_ns, frames_.losses());
     if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
@@ -350,23 +353,30 @@ std::optional<Reject> Decoder<Sensor>::decode(const Datagram& datagram,
 }
 
 template <class Sensor>
-void Decoder<Sensor>::keep(const Datagram& datagram, Reject reason) noexcept {
+void Decoder<Sensor>::keep(const Datagram& datagram, const Placement& placed) noexcept {
   KeptPacket& kept = kept_[kept_packets_++];
   std::copy(datagram.payload.begin(), datagram.payload.end(), kept.bytes.begin());
   kept.heads = heads_;
   kept.stamp_ns = datagram.stamp_ns;
-  kept.reason = reason;
+  kept.head_cdeg = placed.head_cdeg;
+  kept.reason = placed.reject;
 }
 
 template <class Sensor>
 template <class OnFrame>
-void Decoder<Sensor>::begin_anew(OnFrame& on_frame) noexcept {
+void Decoder<Sensor>::begin_anew(std::int64_t newest_cdeg, OnFrame& on_frame) noexcept {
+  bool has_begun = false;
   for (std::size_t i = 0; i < kept_packets_; ++i) {
     const KeptPacket& kept = kept_[i];
+    if (kept.head_cdeg < newest_cdeg - calib::kTurn_cdeg) {
+      (void)reject(kept.reason);
+      continue;
+    }
     heads_ = kept.heads;
     const std::int64_t began_ns = host_began_ns(kept.stamp_ns);
-    const Placement placed = i == 0 ? tracker_.begin(heads_, began_ns, frames_.losses())
-                                    : tracker_.go_on(heads_, began_ns, frames_.losses());
+    const Placement placed = std::exchange(has_begun, true)
+                                 ? tracker_.go_on(heads_, began_ns, frames_.losses())
+                                 : tracker_.begin(heads_, began_ns, frames_.losses());
     if (placed.arrival == Arrival::kRejected) {
       (void)reject(placed.reject);
     } else {

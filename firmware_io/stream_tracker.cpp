@@ -119,17 +119,17 @@ Placement StreamTracker::doubt(const PacketHeads& heads, std::int64_t host_stamp
   const auto head_cdeg = may_follow ? head_after(doubtful_, heads) : std::nullopt;
   // A blind sector may lie between the two, but in more than a turn any angle would fit.
   const bool agrees = head_cdeg && *head_cdeg - doubtful_.head_cdeg <= calib::kTurn_cdeg;
+  const std::int64_t in_doubt_cdeg = agrees ? *head_cdeg : heads.first_cdeg();
   if (!agrees || step_us >= 0) {
-    doubtful_ = {heads.device_stamp_us, host_stamp_ns, agrees ? *head_cdeg : heads.first_cdeg(),
-                 heads.pace_ticks};
+    doubtful_ = {heads.device_stamp_us, host_stamp_ns, in_doubt_cdeg, heads.pace_ticks};
   }
   doubtful_packets_ = agrees ? doubtful_packets_ + 1 : 1;
   note_rejected(heads.device_stamp_us);
   if (doubtful_packets_ < kNewStream_packets) {
-    return {Arrival::kDoubtful, reason, 0, 0, 0, !agrees};
+    return {Arrival::kDoubtful, reason, in_doubt_cdeg, 0, 0, !agrees};
   }
   doubtful_packets_ = 0;
-  return {Arrival::kNewStream, reason, 0, 0, 0, false};
+  return {Arrival::kNewStream, reason, in_doubt_cdeg, 0, 0, false};
 }
 
 /// The unwrapped azimuth at which the packet fits, by time and speed.

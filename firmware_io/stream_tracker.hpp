@@ -27,7 +27,8 @@ enum class Arrival : std::uint8_t {
 struct Placement {
   Arrival arrival = Arrival::kRejected;
   Reject reject = Reject::kCount;  ///< The reason when kRejected; of a doubtful one, if need be.
-  std::int64_t head_cdeg = 0;      ///< Unwrapped azimuth of the first column.
+  /// Unwrapped azimuth of the first column; while in doubt, from that of the first in doubt on.
+  std::int64_t head_cdeg = 0;
   /// Between this packet and the newest before it: packets that did not come, by the stamps, and
   /// packets that did and were rejected.
   std::int64_t missing = 0, explained = 0;

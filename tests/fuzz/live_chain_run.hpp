@@ -38,8 +38,8 @@ namespace terracut::fuzz {
 template <class Decoder, class Calibration>
 class LiveChainRun {
  public:
-  /// Open turns that a restart ends, and one that the packet itself fills.
-  static constexpr int kMostFramesAPacket = 3;
+  /// Two open turns that a restart ends, and two that end within the turn that was in doubt.
+  static constexpr int kMostFramesAPacket = 4;
 
   struct Config {
     int columns = 64;

@@ -156,5 +156,22 @@ TYPED_TEST(BentStream, ARestartLosesNothingAndTakesTheNewPace) {
   EXPECT_EQ(losses.azimuth_hole_columns - columns_lost_before, 3U * TypeParam::kColumns);
 }
 
+TYPED_TEST(BentStream, ARestartOfWhichLittleShowsInATurnHandsNoHeapOfFramesOver) {
+  HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
+  stream.hear_all(Head<TypeParam>{.share_of_returns = 1}.turns(1.6));
+  const auto second = Head<TypeParam>{.share_of_returns = 1}.turns(20);
+  const std::size_t packets_a_turn = second.size() / 20;
+  for (std::size_t i = 0; i < second.size(); ++i) {
+    if (i % packets_a_turn >= 3) continue;
+    Payload packet = second[i];
+    this->set_stamp(packet, packet.stamp_ns - 400'000'000'000);
+    (void)stream.hear(packet);  // looks at the work of each packet
+  }
+  this->expect_all_accounted_for(stream);
+  EXPECT_EQ(stream.decoder.losses().clock_jumps, 1U);
+  EXPECT_GT(stream.rejected(Reject::kClockJump), 20U) << "those of the turns before the last";
+  EXPECT_LT(stream.rejected(Reject::kClockJump), 31U);
+}
+
 }  // namespace
 }  // namespace terracut::test

@@ -6,15 +6,15 @@
 #include <string>
 #include <variant>
 
-#include "calib/hdl64e_calibration.hpp"
-#include "calib/mount.hpp"
-#include "calib/ring_profile.hpp"
-#include "calib/ruby128_calibration.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
 
 namespace terracut::calib {
 
 /// The calibration of one unit of any sensor that terracut decodes.
-using SensorCalibration = std::variant<Hdl64eCalibration, Ruby128Calibration>;
+using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration>;
 
 /// fingerprint(), `origin` and ring_profile() of whichever it is.
 [[nodiscard]] inline std::uint64_t fingerprint(const SensorCalibration& calibration) {
@@ -24,8 +24,8 @@ using SensorCalibration = std::variant<Hdl64eCalibration, Ruby128Calibration>;
   return std::visit([](const auto& unit) -> const std::string& { return unit.origin; },
                     calibration);
 }
-[[nodiscard]] inline RingProfile ring_profile(const SensorCalibration& calibration,
-                                              const Mount& mount) {
+[[nodiscard]] inline mount::RingProfile ring_profile(const SensorCalibration& calibration,
+                                                     const mount::Mount& mount) {
   return std::visit([&](const auto& unit) { return ring_profile(unit, mount); }, calibration);
 }
 

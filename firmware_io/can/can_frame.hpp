@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// What a message on the bus goes by. The same number means another message in the other format.
 struct CanId {
@@ -53,4 +53,4 @@ struct CanFrame {
          bytes == 48 || bytes == 64;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// What became of the lines or records of a recording of a CAN bus.
 /// records == delivered + no_frame + other_interface + malformed.
@@ -16,4 +16,4 @@ struct CanLogCounters {
   std::uint64_t malformed = 0;        ///< The first one is described by the source's first_fault().
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

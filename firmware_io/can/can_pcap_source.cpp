@@ -13,7 +13,7 @@
 #define DLT_LINUX_SLL2 276  // libpcap older than 1.10
 #endif
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 // The header of a cooked capture, and where in it the protocol stands, big endian.
@@ -54,15 +54,15 @@ std::string_view describe(CanReject reject) {
 }  // namespace
 
 Expected<CanPcapSource> CanPcapSource::open(std::filesystem::path path) {
-  return over(PcapFile::open(std::move(path)));
+  return over(capture::PcapFile::open(std::move(path)));
 }
 
 Expected<CanPcapSource> CanPcapSource::open_memory(std::span<const std::uint8_t> capture,
                                                    std::string name) {
-  return over(PcapFile::open_memory(capture, std::move(name)));
+  return over(capture::PcapFile::open_memory(capture, std::move(name)));
 }
 
-Expected<CanPcapSource> CanPcapSource::over(Expected<PcapFile> file) {
+Expected<CanPcapSource> CanPcapSource::over(Expected<capture::PcapFile> file) {
   if (!file) return tl::unexpected(file.error());
   if (!has_can(file->link_type())) {
     return fail(ErrorCode::kUnsupported,
@@ -113,4 +113,4 @@ Expected<std::optional<CanFrame>> CanPcapSource::next() {
   }
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -14,7 +14,7 @@
 #include "firmware_io/capture/pcap_file.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// Frames of a CAN bus in a capture file, in file order: of a CAN interface (link type 227), or of
 /// all interfaces ("cooked", 113 and 276), where other protocols are stepped over. Such a capture
@@ -38,12 +38,12 @@ class CanPcapSource {
   [[nodiscard]] const std::string& name() const noexcept { return file_.name(); }
 
  private:
-  explicit CanPcapSource(PcapFile file) : file_(std::move(file)) {}
-  [[nodiscard]] static Expected<CanPcapSource> over(Expected<PcapFile> file);
+  explicit CanPcapSource(capture::PcapFile file) : file_(std::move(file)) {}
+  [[nodiscard]] static Expected<CanPcapSource> over(Expected<capture::PcapFile> file);
 
-  PcapFile file_;
+  capture::PcapFile file_;
   CanLogCounters counters_;
   std::string first_fault_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// What a CAN socket took in and what became of it.
 /// received == delivered + error_frames + malformed.
@@ -25,4 +25,4 @@ struct CanReceiveCounters {
                                      ///< another one under the same name.
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <fstream>
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 /// A log begins with a parenthesis or at least a word; all captures have other bytes there.
@@ -33,4 +33,4 @@ Expected<CanRecording> CanRecording::open(const std::filesystem::path& path,
   return made(CandumpSource::open(path, std::move(interface)));
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

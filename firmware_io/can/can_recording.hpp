@@ -14,7 +14,7 @@
 #include "firmware_io/can/candump_source.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// A recorded CAN bus, whichever way it was recorded: a candump log or a capture file. Which of the
 /// two, its first bytes tell. Not thread-safe; blocks on the disk.
@@ -44,4 +44,4 @@ class CanRecording {
   std::variant<CandumpSource, CanPcapSource> source_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -10,10 +10,10 @@
 
 #include "firmware_io/can/can_socket.hpp"
 #include "firmware_io/can/can_wire.hpp"
-#include "firmware_io/live/network_interface.hpp"
-#include "rt/thread_cpu_clock.hpp"
+#include "firmware_io/net/network_interface.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 constexpr std::int64_t kLookEvery_ns = 500'000'000;
@@ -22,9 +22,9 @@ constexpr std::int64_t kLookEvery_ns = 500'000'000;
 
 Expected<CanSender> CanSender::open(std::string interface, bool wait_for_interface) {
   CanSender sender;
-  sender.probe_ = OwnedDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  const InterfaceStatus status = interface_status(sender.probe_.get(), interface);
-  if (status.state != LinkState::kGone) {
+  sender.probe_ = files::OwnedDescriptor(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const net::InterfaceStatus status = net::interface_status(sender.probe_.get(), interface);
+  if (status.state != net::LinkState::kGone) {
     auto socket = open_can_socket(status.index, {}, false);
     if (!socket) return tl::unexpected(explain(socket.error(), interface));
     sender.socket_ = *std::move(socket);
@@ -36,7 +36,7 @@ Expected<CanSender> CanSender::open(std::string interface, bool wait_for_interfa
   return sender;
 }
 
-CanSender CanSender::adopt(OwnedDescriptor descriptor) {
+CanSender CanSender::adopt(files::OwnedDescriptor descriptor) {
   CanSender sender;
   sender.socket_ = std::move(descriptor);
   return sender;
@@ -81,15 +81,15 @@ bool CanSender::send(const CanFrame& frame) noexcept {
 
 /// A socket stays tied to an interface that went away; see SocketCanSource.
 void CanSender::look_after_interface() noexcept {
-  const std::int64_t now_ns = rt::monotonic_ns();
+  const std::int64_t now_ns = measure::monotonic_ns();
   if (interface_.empty() || now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + kLookEvery_ns;
-  const InterfaceStatus now = interface_status(probe_.get(), interface_);
-  if (now.state == LinkState::kGone || now.index == interface_index_) return;
+  const net::InterfaceStatus now = net::interface_status(probe_.get(), interface_);
+  if (now.state == net::LinkState::kGone || now.index == interface_index_) return;
   auto socket = open_can_socket(now.index, {}, false);
   if (!socket) return;
   socket_ = *std::move(socket);
   interface_index_ = now.index;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -7,10 +7,10 @@
 #include <string>
 
 #include "firmware_io/can/can_frame.hpp"
-#include "firmware_io/live/owned_descriptor.hpp"
 #include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// Frames given to a CanSender are sent + queue_full + link_down + failed.
 struct CanSendCounters {
@@ -32,7 +32,7 @@ class CanSender {
                                                 bool wait_for_interface = false);
 
   /// Over any datagram socket, as SocketCanSource::adopt.
-  [[nodiscard]] static CanSender adopt(OwnedDescriptor descriptor);
+  [[nodiscard]] static CanSender adopt(files::OwnedDescriptor descriptor);
 
   /// Returns how many were sent; the others are counted by why they were not.
   std::size_t send(std::span<const CanFrame> frames) noexcept;
@@ -46,12 +46,12 @@ class CanSender {
   [[nodiscard]] bool send(const CanFrame& frame) noexcept;
   void look_after_interface() noexcept;
 
-  std::string interface_;  ///< Empty when adopted.
-  OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
-  OwnedDescriptor socket_;
+  std::string interface_;         ///< Empty when adopted.
+  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
+  files::OwnedDescriptor socket_;
   int interface_index_ = 0;
   std::int64_t next_look_ns_ = 0;
   CanSendCounters counters_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -13,9 +13,9 @@
 #include <cerrno>
 #include <cstring>
 
-#include "firmware_io/live/network_interface.hpp"
+#include "firmware_io/net/network_interface.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 using Step = CanSocketFailure::Step;
@@ -34,11 +34,11 @@ bool set_option(int socket, int level, int option, const Value& value) noexcept 
 
 }  // namespace
 
-tl::expected<OwnedDescriptor, CanSocketFailure> open_can_socket(int interface_index,
-                                                                std::span<const CanId> ids,
-                                                                bool error_frames) noexcept {
+tl::expected<files::OwnedDescriptor, CanSocketFailure> open_can_socket(int interface_index,
+                                                                       std::span<const CanId> ids,
+                                                                       bool error_frames) noexcept {
   const auto failed = [](Step step) { return tl::unexpected(CanSocketFailure{step, errno}); };
-  OwnedDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW));
+  files::OwnedDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC | SOCK_NONBLOCK, CAN_RAW));
   if (!socket) return failed(Step::kSocket);
   const int descriptor = socket.get();
 
@@ -87,7 +87,7 @@ Error explain(const CanSocketFailure& failure, const std::string& interface) {
 
 Error no_such_can_interface(const std::string& interface) {
   return {ErrorCode::kNotFound,
-          fmt::format("no such interface '{}'; there are: {}", interface, interface_names())};
+          fmt::format("no such interface '{}'; there are: {}", interface, net::interface_names())};
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -8,10 +8,10 @@
 #include <tl/expected.hpp>
 
 #include "firmware_io/can/can_frame.hpp"
-#include "firmware_io/live/owned_descriptor.hpp"
 #include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// The call of open_can_socket() that failed, and its errno.
 struct CanSocketFailure {
@@ -27,7 +27,7 @@ inline constexpr std::size_t kMostCanFilters = 512;
 /// alone (data frames of exactly these ids) and, if asked, all error frames. Without ids it hears
 /// no message. Allocates nothing, so that an interface that came back can be opened any time.
 /// At most kMostCanFilters ids.
-[[nodiscard]] tl::expected<OwnedDescriptor, CanSocketFailure> open_can_socket(
+[[nodiscard]] tl::expected<files::OwnedDescriptor, CanSocketFailure> open_can_socket(
     int interface_index, std::span<const CanId> ids, bool error_frames) noexcept;
 
 /// The failure in words, with what mends it. kUnsupported: the kernel has no CAN; kNotFound: the
@@ -37,4 +37,4 @@ inline constexpr std::size_t kMostCanFilters = 512;
 /// "no such interface ...", with those that there are.
 [[nodiscard]] Error no_such_can_interface(const std::string& interface);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 static_assert(kClassicWireBytes == CAN_MTU && kFdWireBytes == CANFD_MTU);
@@ -76,4 +76,4 @@ std::size_t write_can_wire(const CanFrame& frame,
   return frame.fd ? kFdWireBytes : kClassicWireBytes;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -9,9 +9,9 @@
 #include <tl/expected.hpp>
 
 #include "firmware_io/can/can_frame.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// Frames as the Linux kernel hands them over and captures hold them: 4 bytes of id and flags, the
 /// length, FD flags, 2 reserved bytes, then the data. Sizes as in <linux/can.h>.
@@ -43,4 +43,4 @@ inline constexpr std::size_t kCanRejects = static_cast<std::size_t>(CanReject::k
                                          std::span<std::uint8_t, kFdWireBytes> bytes) noexcept
     TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -186,4 +186,4 @@ std::string candump_line(const CanFrame& frame, std::string_view interface) {
   return line + '\n';
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

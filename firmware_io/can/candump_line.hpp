@@ -8,7 +8,7 @@
 
 #include "firmware_io/can/can_frame.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// One frame as a line of the log format of can-utils (`candump -l`, `candump -L`), which most
 /// tools for CAN read and write:
@@ -41,4 +41,4 @@ struct CandumpFault {
 /// 9, and the end of line.
 [[nodiscard]] std::string candump_line(const CanFrame& frame, std::string_view interface);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -13,7 +13,7 @@
 
 #include "firmware_io/can/candump_line.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 Expected<CandumpSource> CandumpSource::open(const std::filesystem::path& path,
                                             std::string interface) {
@@ -101,4 +101,4 @@ Status CandumpSource::end() const {
                           name_, counters_.records, reason.empty() ? "" : "; ", reason));
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -15,7 +15,7 @@
 #include "firmware_io/can/can_log_counters.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// Frames of a candump log (candump_line.hpp), in file order. Not thread-safe; blocks on the disk.
 class CandumpSource {
@@ -55,4 +55,4 @@ class CandumpSource {
   std::string first_fault_, first_no_frame_, first_other_interface_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

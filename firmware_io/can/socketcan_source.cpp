@@ -11,9 +11,9 @@
 #include <utility>
 
 #include "firmware_io/can/can_socket.hpp"
-#include "rt/thread_cpu_clock.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -39,12 +39,13 @@ Status check(const SocketCanConfig& config) {
 
 }  // namespace
 
-Expected<SocketCanSource> SocketCanSource::open(SocketCanConfig config, rt::FixedMemory& memory) {
+Expected<SocketCanSource> SocketCanSource::open(SocketCanConfig config,
+                                                memory::FixedMemory& memory) {
   if (Status valid = check(config); !valid) return tl::unexpected(valid.error());
-  OwnedDescriptor probe(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
-  const InterfaceStatus interface = interface_status(probe.get(), config.interface);
-  OwnedDescriptor descriptor;
-  if (interface.state != LinkState::kGone) {
+  files::OwnedDescriptor probe(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  const net::InterfaceStatus interface = net::interface_status(probe.get(), config.interface);
+  files::OwnedDescriptor descriptor;
+  if (interface.state != net::LinkState::kGone) {
     auto socket = open_can_socket(interface.index, config.ids, true);
     if (!socket) return tl::unexpected(explain(socket.error(), config.interface));
     descriptor = *std::move(socket);
@@ -59,21 +60,24 @@ Expected<SocketCanSource> SocketCanSource::open(SocketCanConfig config, rt::Fixe
   return source;
 }
 
-Expected<SocketCanSource> SocketCanSource::adopt(OwnedDescriptor descriptor, SocketCanConfig config,
-                                                 rt::FixedMemory& memory) {
+Expected<SocketCanSource> SocketCanSource::adopt(files::OwnedDescriptor descriptor,
+                                                 SocketCanConfig config,
+                                                 memory::FixedMemory& memory) {
   if (Status valid = check(config); !valid) return tl::unexpected(valid.error());
-  auto wake = WakeEvent::make();
+  auto wake = threads::WakeEvent::make();
   if (!wake) return tl::unexpected(wake.error());
   SocketCanSource source(std::move(config), *std::move(wake), memory);
   if (!descriptor) return source;
-  source.buffer_ = request_receive_buffer(descriptor.get(), source.config_.receive_buffer_bytes);
+  source.buffer_ =
+      net::request_receive_buffer(descriptor.get(), source.config_.receive_buffer_bytes);
   const int on = 1;
   ::setsockopt(descriptor.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   source.socket_ = std::move(descriptor);
   return source;
 }
 
-SocketCanSource::SocketCanSource(SocketCanConfig config, WakeEvent wake, rt::FixedMemory& memory)
+SocketCanSource::SocketCanSource(SocketCanConfig config, threads::WakeEvent wake,
+                                 memory::FixedMemory& memory)
     : config_(std::move(config)),
       wake_(std::move(wake)),
       wires_(memory.take<Wire>("can source", config_.batch)),
@@ -92,16 +96,16 @@ SocketCanSource::SocketCanSource(SocketCanConfig config, WakeEvent wake, rt::Fix
 }
 
 std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noexcept {
-  const std::int64_t begun_ns = rt::monotonic_ns();
+  const std::int64_t begun_ns = measure::monotonic_ns();
   const std::int64_t deadline_ns =
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
       // It was empty when the link was found down, so this came since.
-      if (link_ != LinkState::kUnknown) link_ = LinkState::kUp;
+      if (link_ != net::LinkState::kUnknown) link_ = net::LinkState::kUp;
       return frames_.first(count);
     }
-    const std::int64_t now_ns = rt::monotonic_ns();
+    const std::int64_t now_ns = measure::monotonic_ns();
     look_after_interface(now_ns);
     if (now_ns >= deadline_ns) return {};
     const std::int64_t until_ns = std::min(deadline_ns, next_look_ns_);
@@ -113,7 +117,7 @@ std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noex
 std::size_t SocketCanSource::read_batch() noexcept {
   if (!socket_) return 0;
   int error_number = 0;
-  const int taken = rt::trusted_call([&]() noexcept {  // told not to wait
+  const int taken = threads::trusted_call([&]() noexcept {  // told not to wait
     const int result = ::recvmmsg(socket_.get(), messages_.data(),
                                   static_cast<unsigned>(messages_.size()), MSG_DONTWAIT, nullptr);
     error_number = errno;
@@ -169,7 +173,7 @@ bool SocketCanSource::take(std::size_t slot, CanFrame& frame) noexcept {
   }
   if (!stamped) {
     ++counters_.unstamped;
-    stamp_ns = rt::realtime_ns();
+    stamp_ns = measure::realtime_ns();
   }
   bus_off_ = false;  // it takes part in the bus again
   frame = *parsed;
@@ -203,18 +207,19 @@ void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
   if (now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + kLookEvery_ns;
   if (!probe_) return;
-  const InterfaceStatus now = interface_status(probe_.get(), config_.interface);
-  if (now.state != LinkState::kUp && link_ == LinkState::kUp) ++counters_.link_losses;
+  const net::InterfaceStatus now = net::interface_status(probe_.get(), config_.interface);
+  if (now.state != net::LinkState::kUp && link_ == net::LinkState::kUp) ++counters_.link_losses;
   link_ = now.state;
-  if (now.state == LinkState::kGone) return;
+  if (now.state == net::LinkState::kGone) return;
   if (socket_ && now.index == interface_index_) return;
-  const bool opened = rt::trusted_call([&]() noexcept {  // nothing came: nothing to be late for
-    auto socket = open_can_socket(now.index, config_.ids, true);
-    if (!socket) return false;
-    buffer_ = request_receive_buffer(socket->get(), config_.receive_buffer_bytes);
-    socket_ = *std::move(socket);
-    return true;
-  });
+  const bool opened =
+      threads::trusted_call([&]() noexcept {  // nothing came: nothing to be late for
+        auto socket = open_can_socket(now.index, config_.ids, true);
+        if (!socket) return false;
+        buffer_ = net::request_receive_buffer(socket->get(), config_.receive_buffer_bytes);
+        socket_ = *std::move(socket);
+        return true;
+      });
   if (!opened) {  // the next look tries again
     ++counters_.receive_errors;
     return;
@@ -225,4 +230,4 @@ void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
   if (again) ++counters_.reopened;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

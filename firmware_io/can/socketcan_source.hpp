@@ -16,17 +16,17 @@
 #include "firmware_io/can/can_frame.hpp"
 #include "firmware_io/can/can_receive_counters.hpp"
 #include "firmware_io/can/can_wire.hpp"
-#include "firmware_io/live/drop_counter.hpp"
-#include "firmware_io/live/network_interface.hpp"
-#include "firmware_io/live/owned_descriptor.hpp"
-#include "firmware_io/live/receive_buffer.hpp"
-#include "firmware_io/live/receive_counters.hpp"
-#include "firmware_io/live/wake_event.hpp"
+#include "firmware_io/net/drop_counter.hpp"
+#include "firmware_io/net/network_interface.hpp"
+#include "firmware_io/net/receive_buffer.hpp"
+#include "firmware_io/net/receive_counters.hpp"
 #include "rt/error.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/files/owned_descriptor.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+#include "rt/threads/wake_event.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 struct SocketCanConfig {
   std::string interface{};   ///< "can0"
@@ -49,14 +49,14 @@ class SocketCanSource {
   /// waited for, or it is no CAN interface. kUnsupported: the kernel has no CAN. kUnreadable:
   /// another refusal of the system. An interface that is down is no error.
   [[nodiscard]] static Expected<SocketCanSource> open(SocketCanConfig config,
-                                                      rt::FixedMemory& memory);
+                                                      memory::FixedMemory& memory);
 
   /// The same over any datagram socket that carries the kernel's frames (can_wire.hpp), one a
   /// datagram: one end of a socket pair, say. `config.interface` is not looked at: the descriptor
   /// stays what it is, and so does link(), kUnknown.
-  [[nodiscard]] static Expected<SocketCanSource> adopt(OwnedDescriptor descriptor,
+  [[nodiscard]] static Expected<SocketCanSource> adopt(files::OwnedDescriptor descriptor,
                                                        SocketCanConfig config,
-                                                       rt::FixedMemory& memory);
+                                                       memory::FixedMemory& memory);
 
   /// Waits at most so long and returns what came, [1, batch] data frames in order of arrival, or
   /// none: time is up, or somebody called wake(). Valid until the next call. Error frames are
@@ -69,10 +69,10 @@ class SocketCanSource {
   void wake() const noexcept { wake_.wake(); }
 
   [[nodiscard]] const CanReceiveCounters& counters() const noexcept { return counters_; }
-  [[nodiscard]] LinkState link() const noexcept { return link_; }
+  [[nodiscard]] net::LinkState link() const noexcept { return link_; }
   /// The controller has taken itself off the bus, as far as its error frames tell.
   [[nodiscard]] bool bus_off() const noexcept { return bus_off_; }
-  [[nodiscard]] const ReceiveBuffer& receive_buffer() const noexcept { return buffer_; }
+  [[nodiscard]] const net::ReceiveBuffer& receive_buffer() const noexcept { return buffer_; }
 
  private:
   /// Room for what the kernel says beside a frame: its stamp and the count of drops.
@@ -83,7 +83,7 @@ class SocketCanSource {
   };
   using Wire = std::array<std::uint8_t, kFdWireBytes>;
 
-  SocketCanSource(SocketCanConfig config, WakeEvent wake, rt::FixedMemory& memory);
+  SocketCanSource(SocketCanConfig config, threads::WakeEvent wake, memory::FixedMemory& memory);
 
   [[nodiscard]] std::size_t read_batch() noexcept;
   [[nodiscard]] bool take(std::size_t slot, CanFrame& frame) noexcept;
@@ -92,10 +92,10 @@ class SocketCanSource {
   void look_after_interface(std::int64_t now_ns) noexcept;
 
   SocketCanConfig config_;
-  WakeEvent wake_;
-  OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with; none when adopted.
-  OwnedDescriptor socket_;
-  ReceiveBuffer buffer_;
+  threads::WakeEvent wake_;
+  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with; none when adopted.
+  files::OwnedDescriptor socket_;
+  net::ReceiveBuffer buffer_;
   int interface_index_ = 0;
 
   std::span<Wire> wires_;
@@ -105,10 +105,10 @@ class SocketCanSource {
   std::span<CanFrame> frames_;
 
   CanReceiveCounters counters_;
-  DropCounter drops_;
-  LinkState link_ = LinkState::kUnknown;
+  net::DropCounter drops_;
+  net::LinkState link_ = net::LinkState::kUnknown;
   bool bus_off_ = false;
   std::int64_t next_look_ns_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can

@@ -8,7 +8,7 @@
 #include <array>
 #include <string_view>
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 using namespace std::string_view_literals;
@@ -62,4 +62,4 @@ std::string describe_first_bytes(std::span<const std::uint8_t> first_bytes) {
   return text + (is_text(first_bytes) ? ": text" : ": of unknown kind");
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

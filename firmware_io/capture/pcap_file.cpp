@@ -14,7 +14,7 @@
 
 #include "firmware_io/capture/file_kind.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 struct CloseFile {
@@ -183,4 +183,4 @@ Status PcapFile::rewind() {
   return {};
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

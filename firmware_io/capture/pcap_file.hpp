@@ -13,7 +13,7 @@
 
 struct pcap;  // libpcap's handle, pcap_t
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 
 /// How reading ended.
 enum class CaptureEnd : std::uint8_t {
@@ -74,4 +74,4 @@ class PcapFile {
   std::optional<Error> break_off_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <utility>
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 Status check_link_type(const PcapFile& file) {
@@ -40,7 +40,7 @@ Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, const PcapFilter&
   return PcapSource(*std::move(file), filter);
 }
 
-Expected<std::optional<Datagram>> PcapSource::next() {
+Expected<std::optional<decode::Datagram>> PcapSource::next() {
   for (;;) {
     const auto record = file_.next();
     if (!record) return tl::unexpected(record.error());
@@ -65,4 +65,4 @@ Status PcapSource::rewind() {
   return check_link_type(file_);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

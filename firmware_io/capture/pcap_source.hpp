@@ -13,10 +13,10 @@
 
 #include "firmware_io/capture/pcap_file.hpp"
 #include "firmware_io/capture/udp_frame.hpp"
-#include "firmware_io/datagram.hpp"
+#include "firmware_io/decode/datagram.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 
 /// Which datagrams of a capture are wanted; an empty filter lets all pass.
 struct PcapFilter {
@@ -55,7 +55,7 @@ class PcapSource {
   /// that the file breaks off: end() is then kBrokeOff, the message says after which packet and at
   /// which byte, and every further call returns the same error. Everything returned before stays
   /// valid, so a replay may finish with a warning. Reading whole files allocates nothing a packet.
-  [[nodiscard]] Expected<std::optional<Datagram>> next();
+  [[nodiscard]] Expected<std::optional<decode::Datagram>> next();
 
   /// Back to the first packet (a file is opened anew). Counters go on.
   [[nodiscard]] Status rewind();
@@ -74,4 +74,4 @@ class PcapSource {
   PcapCounters counters_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

@@ -12,7 +12,7 @@
 
 #include "firmware_io/capture/udp_checksum.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 constexpr std::size_t kFlushAtBytes = std::size_t{256} * 1024;
@@ -62,7 +62,7 @@ void append_file_header(std::vector<std::uint8_t>& bytes) {
   append_little_u32(bytes, kEthernetLink);
 }
 
-void append_record(std::vector<std::uint8_t>& bytes, const Datagram& datagram) {
+void append_record(std::vector<std::uint8_t>& bytes, const decode::Datagram& datagram) {
   const std::size_t frame_bytes = kHeaderBytes + datagram.payload.size();
   append_little_u32(bytes, static_cast<std::uint64_t>(datagram.stamp_ns / kNanosecondsPerSecond));
   append_little_u32(bytes, static_cast<std::uint64_t>(datagram.stamp_ns % kNanosecondsPerSecond));
@@ -92,7 +92,7 @@ void append_record(std::vector<std::uint8_t>& bytes, const Datagram& datagram) {
 
 }  // namespace
 
-bool PcapWriter::can_write(const Datagram& datagram) noexcept {
+bool PcapWriter::can_write(const decode::Datagram& datagram) noexcept {
   return datagram.payload.size() <= kMaxPayloadBytes && datagram.stamp_ns >= 0 &&
          datagram.stamp_ns < kStampLimit_ns;
 }
@@ -110,7 +110,7 @@ Expected<PcapWriter> PcapWriter::create(std::filesystem::path path) {
     std::filesystem::create_directories(path.parent_path(), error);
   }
   PcapWriter writer;
-  writer.part_ = rt::make_part_file(path);
+  writer.part_ = files::make_part_file(path);
   writer.path_ = std::move(path);
   if (!writer.part_.lock) {
     const int error_number = errno;
@@ -175,7 +175,7 @@ Status PcapWriter::flush() {
   return {};
 }
 
-Status PcapWriter::write(const Datagram& datagram) {
+Status PcapWriter::write(const decode::Datagram& datagram) {
   if (!part_.lock) return tl::unexpected(closed());
   if (datagram.payload.size() > kMaxPayloadBytes) {
     return fail(ErrorCode::kInvalidArgument,
@@ -205,4 +205,4 @@ Status PcapWriter::finish() {
   return {};
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

@@ -7,11 +7,11 @@
 #include <filesystem>
 #include <vector>
 
-#include "firmware_io/datagram.hpp"
+#include "firmware_io/decode/datagram.hpp"
 #include "rt/error.hpp"
-#include "rt/part_file.hpp"
+#include "rt/files/part_file.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 
 /// Writes UDP datagrams to a pcap file with nanosecond stamps, as Ethernet / IPv4 / UDP frames that
 /// tcpdump, Wireshark and every driver read: IP and UDP checksums are right, hardware addresses are
@@ -35,13 +35,13 @@ class PcapWriter {
   ~PcapWriter();
 
   /// A pcap can hold it: payload and stamp are in the ranges of write().
-  [[nodiscard]] static bool can_write(const Datagram& datagram) noexcept;
+  [[nodiscard]] static bool can_write(const decode::Datagram& datagram) noexcept;
 
   /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970.
   /// kInvalidArgument for a stamp or payload out of range (the datagram is left out, the capture
   /// stays good); kWriteFailed when the disk refuses, after which every call fails and nothing is
   /// left.
-  [[nodiscard]] Status write(const Datagram& datagram);
+  [[nodiscard]] Status write(const decode::Datagram& datagram);
 
   /// Writes what is still buffered and gives the file its name. Call once; later calls fail.
   [[nodiscard]] Status finish();
@@ -57,9 +57,9 @@ class PcapWriter {
   void discard() noexcept;
 
   std::filesystem::path path_;
-  rt::Part part_;
+  files::Part part_;
   std::vector<std::uint8_t> buffer_;
   std::uint64_t packets_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

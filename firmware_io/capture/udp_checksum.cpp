@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 /// Sum of big-endian 16-bit words, an odd last byte padded with 0. 64 kB cannot overflow 64 bits.
@@ -33,7 +33,7 @@ std::uint16_t internet_checksum(std::span<const std::uint8_t> bytes) noexcept {
   return folded_complement(sum_words(bytes));
 }
 
-std::uint16_t udp_checksum(const Datagram& datagram) noexcept {
+std::uint16_t udp_checksum(const decode::Datagram& datagram) noexcept {
   constexpr std::uint64_t kProtocolUdp = 17;
   const std::uint64_t udp_bytes = 8 + datagram.payload.size();
   const std::uint64_t addresses =
@@ -46,4 +46,4 @@ std::uint16_t udp_checksum(const Datagram& datagram) noexcept {
   return sum == 0 ? std::uint16_t{0xFFFF} : sum;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

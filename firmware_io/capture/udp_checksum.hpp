@@ -5,15 +5,15 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/datagram.hpp"
+#include "firmware_io/decode/datagram.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 
 /// The internet checksum (RFC 1071) of bytes that hold 0 in the place of the checksum itself.
 [[nodiscard]] std::uint16_t internet_checksum(std::span<const std::uint8_t> bytes) noexcept;
 
 /// The UDP checksum over IPv4 (RFC 768): pseudo header, UDP header and payload; never 0, which
 /// would mean "none". The payload must fit a UDP datagram.
-[[nodiscard]] std::uint16_t udp_checksum(const Datagram& datagram) noexcept;
+[[nodiscard]] std::uint16_t udp_checksum(const decode::Datagram& datagram) noexcept;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/capture/udp_frame.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -121,8 +121,8 @@ bool is_supported_link_type(int link_type) noexcept {
   return probe || probe.error() != FrameReject::kUnsupportedLinkType;
 }
 
-tl::expected<Datagram, FrameReject> parse_udp_frame(int link_type, Bytes captured,
-                                                    std::int64_t stamp_ns) noexcept {
+tl::expected<decode::Datagram, FrameReject> parse_udp_frame(int link_type, Bytes captured,
+                                                            std::int64_t stamp_ns) noexcept {
   const auto network = ip_packet(link_type, captured);
   if (!network) return Rejected(network.error());
   const Bytes ip = *network;
@@ -156,12 +156,12 @@ tl::expected<Datagram, FrameReject> parse_udp_frame(int link_type, Bytes capture
   }
   if (udp.size() < udp_bytes) return Rejected(FrameReject::kShortCapture);
 
-  return Datagram{.payload = udp.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes),
-                  .stamp_ns = stamp_ns,
-                  .source_address = big_u32(ip, 12),
-                  .destination_address = big_u32(ip, 16),
-                  .source_port = big_u16(udp, 0),
-                  .destination_port = big_u16(udp, 2)};
+  return decode::Datagram{.payload = udp.subspan(kUdpHeaderBytes, udp_bytes - kUdpHeaderBytes),
+                          .stamp_ns = stamp_ns,
+                          .source_address = big_u32(ip, 12),
+                          .destination_address = big_u32(ip, 16),
+                          .source_port = big_u16(udp, 0),
+                          .destination_port = big_u16(udp, 2)};
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

@@ -8,10 +8,10 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "firmware_io/datagram.hpp"
-#include "rt/nonblocking.hpp"
+#include "firmware_io/decode/datagram.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 
 /// Why a captured frame gave no datagram.
 enum class FrameReject : std::uint8_t {
@@ -39,8 +39,8 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 /// Checksums are not verified: captures made on the sending machine often hold unfinished ones. An
 /// IP total length of 0 (segmentation offload) is accepted when the UDP length fits. The payload
 /// points into `captured`. Allocates nothing; callable from the packet path.
-[[nodiscard]] tl::expected<Datagram, FrameReject> parse_udp_frame(
+[[nodiscard]] tl::expected<decode::Datagram, FrameReject> parse_udp_frame(
     int link_type, std::span<const std::uint8_t> captured,
     std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <cstdint>
 
-#include "calib/angle.hpp"
-#include "calib/hdl64e_calibration.hpp"
-#include "firmware_io/beam_azimuth.hpp"
+#include "calib/beams/angle.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
-#include "firmware_io/packet_heads.hpp"
 
 /// Where a beam points when its laser fires, in whole numbers, so that the decoder, the encoder and
 /// the truth beside a capture agree on the turn and the order of every return, bit for bit.
@@ -26,7 +26,7 @@
 /// column to column is taken from the packet's own first and last azimuth, so nothing depends on a
 /// nominal spin rate. Angles are in ticks (packet_heads.hpp). Everything here is allocation-free
 /// and noexcept; any thread.
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// Which head azimuth a laser's return is given.
 enum class AzimuthAt : std::uint8_t {
@@ -39,7 +39,7 @@ enum class AzimuthAt : std::uint8_t {
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
                                                        bool dual_return = false) noexcept {
   const int columns = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
-  return calib::step_cdeg(first_cdeg, last_cdeg) * (kTicksPerCdeg / (columns - 1));
+  return beams::step_cdeg(first_cdeg, last_cdeg) * (decode::kTicksPerCdeg / (columns - 1));
 }
 
 /// The share of the column period after which laser 0..31 of a block fires, in 1 / 2^20.
@@ -71,14 +71,14 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 }
 
 /// A laser's rotational correction in ticks, as all whole-number azimuths take it.
-[[nodiscard]] inline std::int32_t rot_correction_ticks(const calib::Hdl64eLaser& laser) noexcept {
-  return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / kRadPerTick));
+[[nodiscard]] inline std::int32_t rot_correction_ticks(const Hdl64eLaser& laser) noexcept {
+  return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / decode::kRadPerTick));
 }
 
 /// Offsets of all 64 beams for one unit.
 class BeamOffsets {
  public:
-  explicit BeamOffsets(const calib::Hdl64eCalibration& calibration,
+  explicit BeamOffsets(const Hdl64eCalibration& calibration,
                        AzimuthAt azimuth_at = AzimuthAt::kFiring) noexcept
       : azimuth_at_(azimuth_at) {
     for (std::size_t i = 0; i < rot_ticks_.size(); ++i) {
@@ -103,8 +103,8 @@ class BeamOffsets {
 
  private:
   AzimuthAt azimuth_at_;
-  std::array<std::int32_t, calib::kHdl64eLasers> rot_ticks_{};
+  std::array<std::int32_t, kHdl64eLasers> rot_ticks_{};
   std::int32_t least_rot_ticks_ = 0, most_rot_ticks_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

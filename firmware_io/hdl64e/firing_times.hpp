@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// Single return: pairs of blocks, upper and lower; each pair is one azimuth.
 inline constexpr int kColumnsPerPacketSingle = 6;
@@ -30,8 +30,8 @@ struct FiringTimes {
     return group_ns * (laser / 4) + in_group_ns[static_cast<std::size_t>(laser % 4)];
   }
   /// From the packet's device stamp to a firing; negative, since the stamp marks the packet's end.
-  /// Decoders disagree whether it marks the end or the first firing (docs/sensors.md): the whole
-  /// difference is one packet, which matters to sensor fusion only.
+  /// Decoders disagree whether it marks the end or the first firing (docs/reference/sensors.md):
+  /// the whole difference is one packet, which matters to sensor fusion only.
   [[nodiscard]] constexpr std::int32_t after_stamp_ns(int column, int laser) const noexcept {
     return column_ns * column + laser_ns(laser) - packet_ns();
   }
@@ -54,4 +54,4 @@ static_assert(kFiringTimesSingle48.after_stamp_ns(0, 0) == -288'000);
 static_assert(kFiringTimesSingle48.after_stamp_ns(5, 31) == -2'340);
 static_assert(kFiringTimesDual.after_stamp_ns(2, 31) == -3'500);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <stdexcept>
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 int checked_columns(int columns) {
-  if (columns < 16 || columns > calib::kTurn_cdeg) {
+  if (columns < 16 || columns > beams::kTurn_cdeg) {
     throw std::invalid_argument("HDL-64E: columns per turn must be in [16, 36000]");
   }
   return columns;
@@ -17,15 +17,15 @@ int checked_columns(int columns) {
 
 }  // namespace
 
-Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const calib::Mount& mount,
-                           const Config& config, int columns, rt::FixedMemory& memory)
+Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount,
+                           const Config& config, int columns, memory::FixedMemory& memory)
     : offsets_(calibration, config.azimuth_at),
       kernel_(calibration, config.geometry, mount, checked_columns(columns), memory),
-      rows_(calib::rows_by_elevation(calibration)) {}
+      rows_(rows_by_elevation(calibration)) {}
 
-void Hdl64eSensor::begin_packet(const PacketHeads& heads) noexcept {
+void Hdl64eSensor::begin_packet(const decode::PacketHeads& heads) noexcept {
   std::array<std::int32_t, kLasersPerBlock> advance_ticks;
-  std::array<std::int32_t, calib::kHdl64eLasers> offset_ticks;
+  std::array<std::int32_t, kHdl64eLasers> offset_ticks;
   for (int j = 0; j < kLasersPerBlock; ++j) {
     advance_ticks[static_cast<std::size_t>(j)] =
         firing_advance_ticks(heads.step_ticks, j, heads.dual_return, offsets_.azimuth_at());
@@ -37,8 +37,9 @@ void Hdl64eSensor::begin_packet(const PacketHeads& heads) noexcept {
   kernel_.begin_packet(advance_ticks, offset_ticks);
 }
 
-void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads,
-                               int column, Column& found) noexcept {
+void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload,
+                               const decode::PacketHeads& heads, int column,
+                               Column& found) noexcept {
   const auto packet = Hdl64ePacketView::of(payload);
   if (packet) {  // check() has seen to it
     for (int half = 0; half < 2; ++half) {
@@ -53,4 +54,4 @@ void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload, const Pack
   kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -7,18 +7,18 @@
 #include <optional>
 #include <span>
 
-#include "calib/hdl64e_calibration.hpp"
-#include "calib/hdl64e_geometry.hpp"
-#include "calib/mount.hpp"
-#include "firmware_io/column_returns.hpp"
-#include "firmware_io/frame_builder.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/hdl64e/hdl64e_geometry.hpp"
+#include "calib/mount/mount.hpp"
+#include "firmware_io/decode/column_returns.hpp"
+#include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/hdl64e/point_kernel.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// What Decoder needs to know of the HDL-64E (see there).
 ///
@@ -26,43 +26,41 @@ namespace terracut::firmware_io {
 /// twice, for the strongest and the last return. Both returns of a firing are placed.
 class Hdl64eSensor {
  public:
-  using Calibration = calib::Hdl64eCalibration;
+  using Calibration = Hdl64eCalibration;
   struct Config {
-    calib::GeometryModel geometry = calib::GeometryModel::kManual;
+    GeometryModel geometry = GeometryModel::kManual;
     AzimuthAt azimuth_at = AzimuthAt::kFiring;
   };
-  static constexpr int kRows = calib::kHdl64eLasers;
+  static constexpr int kRows = kHdl64eLasers;
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
-  using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
+  using Column = decode::ColumnReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
   static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a turn, 48 us each.
   static constexpr int kDefaultReturnsPerCell = 2;
 
   /// columns: in [16, 36000], else std::invalid_argument.
-  Hdl64eSensor(const Calibration& calibration, const calib::Mount& mount, const Config& config,
-               int columns, rt::FixedMemory& memory);
+  Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
+               int columns, memory::FixedMemory& memory);
 
-  [[nodiscard]] std::optional<Reject> check(std::span<const std::uint8_t> payload,
-                                            PacketHeads& heads) const noexcept {
+  [[nodiscard]] std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
+                                                   decode::PacketHeads& heads) const noexcept {
     return check_hdl64e_packet(payload, heads);
   }
-  [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
+  [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
     return offsets_.offset_ticks(0, laser);
   }
-  void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  void read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads, int column,
-                   Column& found) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] std::span<const std::int32_t, calib::kHdl64eLasers> rows() const noexcept {
-    return rows_;
-  }
+  void begin_packet(const decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
+  void read_column(std::span<const std::uint8_t> payload, const decode::PacketHeads& heads,
+                   int column, Column& found) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] std::span<const std::int32_t, kHdl64eLasers> rows() const noexcept { return rows_; }
 
  private:
   BeamOffsets offsets_;
   PointKernel kernel_;
-  std::array<std::int32_t, calib::kHdl64eLasers> rows_;
+  std::array<std::int32_t, kHdl64eLasers> rows_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

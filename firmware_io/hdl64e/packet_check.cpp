@@ -8,7 +8,7 @@
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 /// Blocks of lasers 64..95 and 96..127: only the VLS-128 sends them.
@@ -18,7 +18,7 @@ constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF;
 constexpr std::size_t kRubyPacketBytes = 1248;
 constexpr std::array<std::uint8_t, 4> kRubyLeader{0x55, 0xAA, 0x05, 0x5A};
 
-std::optional<Reject> reject_ids(const Hdl64ePacketView& packet) noexcept {
+std::optional<frame::Reject> reject_ids(const Hdl64ePacketView& packet) noexcept {
   int upper = 0, lower = 0, others = 0, misplaced = 0;
   for (int block = 0; block < kBlocksPerPacket; ++block) {
     const std::uint16_t id = packet.block_id(block);
@@ -32,7 +32,8 @@ std::optional<Reject> reject_ids(const Hdl64ePacketView& packet) noexcept {
   const bool smaller_model = upper == kBlocksPerPacket;
   const bool vls128 = all_known && others > 0 && upper > 0;
   const bool hdl64e_s1 = upper + lower == kBlocksPerPacket && lower > 0 && upper >= 2 * lower;
-  return smaller_model || vls128 || hdl64e_s1 ? Reject::kWrongModel : Reject::kWrongMagic;
+  return smaller_model || vls128 || hdl64e_s1 ? frame::Reject::kWrongModel
+                                              : frame::Reject::kWrongMagic;
 }
 
 bool is_ruby(std::span<const std::uint8_t> payload) noexcept {
@@ -42,10 +43,10 @@ bool is_ruby(std::span<const std::uint8_t> payload) noexcept {
 
 }  // namespace
 
-std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
-                                          PacketHeads& heads) noexcept {
+std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
+                                                 decode::PacketHeads& heads) noexcept {
   const auto packet = Hdl64ePacketView::of(payload);
-  if (!packet) return is_ruby(payload) ? Reject::kWrongModel : Reject::kWrongSize;
+  if (!packet) return is_ruby(payload) ? frame::Reject::kWrongModel : frame::Reject::kWrongSize;
   if (const auto reason = reject_ids(*packet)) return reason;
 
   heads.device_stamp_us = packet->stamp_us() % kDeviceHour_us;
@@ -54,24 +55,24 @@ std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
   for (int column = 0; column < kColumnsPerPacketSingle; ++column) {
     const int azimuth_cdeg = packet->azimuth_cdeg(2 * column);
     const int lower_cdeg = packet->azimuth_cdeg(2 * column + 1);
-    in_range &= azimuth_cdeg < calib::kTurn_cdeg && lower_cdeg < calib::kTurn_cdeg;
+    in_range &= azimuth_cdeg < beams::kTurn_cdeg && lower_cdeg < beams::kTurn_cdeg;
     pairs_agree &= azimuth_cdeg == lower_cdeg;
     heads.azimuth_cdeg[static_cast<std::size_t>(column)] = azimuth_cdeg;
   }
-  if (!in_range) return Reject::kAzimuthOutOfRange;
-  if (!pairs_agree) return Reject::kAzimuthMismatch;
+  if (!in_range) return frame::Reject::kAzimuthOutOfRange;
+  if (!pairs_agree) return frame::Reject::kAzimuthMismatch;
 
   const auto& azimuth_cdeg = heads.azimuth_cdeg;
   int sweep_cdeg = 0;
   for (std::size_t column = 1; column < azimuth_cdeg.size(); ++column) {
-    const int step_cdeg = calib::step_cdeg(azimuth_cdeg[column - 1], azimuth_cdeg[column]);
+    const int step_cdeg = beams::step_cdeg(azimuth_cdeg[column - 1], azimuth_cdeg[column]);
     if (step_cdeg < -kMaxJitter_cdeg || step_cdeg > kMaxColumnStep_cdeg) {
-      return Reject::kAzimuthJump;
+      return frame::Reject::kAzimuthJump;
     }
     sweep_cdeg += step_cdeg;
   }
-  if (sweep_cdeg <= -kMinSweep_cdeg) return Reject::kAzimuthJump;
-  if (sweep_cdeg < kMinSweep_cdeg) return Reject::kStationary;
+  if (sweep_cdeg <= -kMinSweep_cdeg) return frame::Reject::kAzimuthJump;
+  if (sweep_cdeg < kMinSweep_cdeg) return frame::Reject::kStationary;
 
   heads.dual_return = azimuth_cdeg[0] == azimuth_cdeg[1] && azimuth_cdeg[2] == azimuth_cdeg[3] &&
                       azimuth_cdeg[4] == azimuth_cdeg[5];
@@ -79,12 +80,12 @@ std::optional<Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
   const FiringTimes& usual = heads.dual_return ? kFiringTimesDual : kFiringTimesSingle48;
   const FiringTimes& slowest = heads.dual_return ? kFiringTimesDual : kFiringTimesSingle57;
   heads.nominal_period_ns = usual.packet_ns();
-  heads.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / kPeriodTolerance;
-  heads.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / kPeriodTolerance;
+  heads.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / decode::kPeriodTolerance;
+  heads.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / decode::kPeriodTolerance;
   heads.sweep_ticks =
       heads.step_ticks * (heads.dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle);
   heads.pace_ticks = heads.widest_ticks = heads.sweep_ticks;
   return std::nullopt;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

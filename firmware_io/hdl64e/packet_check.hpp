@@ -6,11 +6,11 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/loss_counters.hpp"
-#include "firmware_io/packet_heads.hpp"
-#include "rt/nonblocking.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// What the head of an HDL-64E may do inside a packet. The steps cover 69 to 3400 rpm at the 48 us
 /// cycle (the sensor spins at 300 to 1200); a jitter backwards is not a step back.
@@ -31,7 +31,8 @@ inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column
 ///
 /// `heads` holds stamp and azimuths, as far as they exist, for the azimuth reasons and kStationary
 /// too. Real-time safe; any thread.
-[[nodiscard]] std::optional<Reject> check_hdl64e_packet(
-    std::span<const std::uint8_t> payload, PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
+[[nodiscard]] std::optional<frame::Reject> check_hdl64e_packet(
+    std::span<const std::uint8_t> payload,
+    decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

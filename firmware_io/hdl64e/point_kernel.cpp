@@ -6,45 +6,44 @@
 #include <cmath>
 #include <limits>
 
-#include "calib/angle.hpp"
-#include "firmware_io/packet_heads.hpp"
+#include "calib/beams/angle.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
 #include "rt/vector_clones.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
-PointKernel::PointKernel(const calib::Hdl64eCalibration& calibration, calib::GeometryModel model,
-                         const calib::Mount& mount, int columns, rt::FixedMemory& memory)
+PointKernel::PointKernel(const Hdl64eCalibration& calibration, GeometryModel model,
+                         const mount::Mount& mount, int columns, memory::FixedMemory& memory)
     : resolution_m_(static_cast<float>(calibration.distance_resolution_m)),
-      interpolation_end_m_(model == calib::GeometryModel::kManual
-                               ? static_cast<float>(calib::kFarPoint_m)
-                               : std::numeric_limits<float>::max()),
+      interpolation_end_m_(model == GeometryModel::kManual ? static_cast<float>(kFarPoint_m)
+                                                           : std::numeric_limits<float>::max()),
       columns_(columns),
       head_(memory),
       constants_(memory.take<Constants>("decoder tables", 1)),
       offsets_(memory.take<Offsets>("decoder tables", 1)) {
-  const auto T = calib::T_vehicle_lidar(mount);
+  const auto T = mount::T_vehicle_lidar(mount);
   std::transform(T.begin(), T.end(), T_vehicle_lidar_.begin(),
                  [](double v) { return static_cast<float>(v); });
 
-  const bool across_beam = model == calib::GeometryModel::kRosLike;
+  const bool across_beam = model == GeometryModel::kRosLike;
   Constants& k = constants_[0];
   for (std::size_t i = 0; i < kLasers; ++i) {
-    const calib::Hdl64eLaser& laser = calibration.lasers[i];
+    const Hdl64eLaser& laser = calibration.lasers[i];
     const double sin_vert = std::sin(laser.vert_correction_rad);
     const double cos_vert = std::cos(laser.vert_correction_rad);
     const double far_m = laser.dist_correction_m;
     const double near_x_m = laser.two_point ? laser.dist_correction_x_m : far_m;
     const double near_y_m = laser.two_point ? laser.dist_correction_y_m : far_m;
-    const double slope_x = (far_m - near_x_m) / (calib::kFarPoint_m - calib::kNearPointX_m);
-    const double slope_y = (far_m - near_y_m) / (calib::kFarPoint_m - calib::kNearPointY_m);
+    const double slope_x = (far_m - near_x_m) / (kFarPoint_m - kNearPointX_m);
+    const double slope_y = (far_m - near_y_m) / (kFarPoint_m - kNearPointY_m);
     k.sin_rot[i] = static_cast<float>(std::sin(laser.rot_correction_rad));
     k.cos_rot[i] = static_cast<float>(std::cos(laser.rot_correction_rad));
     k.sin_vert[i] = static_cast<float>(sin_vert);
     k.cos_vert[i] = static_cast<float>(cos_vert);
     k.far_m[i] = static_cast<float>(far_m);
     // near + slope * (distance - near point), with the constant part taken together.
-    k.near_x_m[i] = static_cast<float>(near_x_m - slope_x * calib::kNearPointX_m);
-    k.near_y_m[i] = static_cast<float>(near_y_m - slope_y * calib::kNearPointY_m);
+    k.near_x_m[i] = static_cast<float>(near_x_m - slope_x * kNearPointX_m);
+    k.near_y_m[i] = static_cast<float>(near_y_m - slope_y * kNearPointY_m);
     k.slope_x[i] = static_cast<float>(slope_x);
     k.slope_y[i] = static_cast<float>(slope_y);
     k.horiz_m[i] = static_cast<float>(laser.horiz_offset_m);
@@ -58,7 +57,7 @@ void PointKernel::begin_packet(std::span<const std::int32_t, kLasers / 2> advanc
                                std::span<const std::int32_t, kLasers> offset_ticks) noexcept {
   const Constants& k = constants_[0];
   Offsets& offsets = offsets_[0];
-  constexpr auto kRad = static_cast<float>(kRadPerTick);
+  constexpr auto kRad = static_cast<float>(decode::kRadPerTick);
   for (std::size_t i = 0; i < kLasers; ++i) {
     offsets.ticks[i] = offset_ticks[i];
     // Below a degree two terms of each series are exact to a float.
@@ -73,7 +72,7 @@ void PointKernel::begin_packet(std::span<const std::int32_t, kLasers / 2> advanc
 
 TERRACUT_VECTOR_CLONES void PointKernel::compute(
     const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
-    ColumnReturns<kLasers>& __restrict out) const noexcept {
+    decode::ColumnReturns<kLasers>& __restrict out) const noexcept {
   const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
   const float resolution_m = resolution_m_, end_m = interpolation_end_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
@@ -108,8 +107,8 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
 }
 
 void PointKernel::compute(std::int32_t azimuth_cdeg,
-                          ColumnReturns<kLasers>& column) const noexcept {
+                          decode::ColumnReturns<kLasers>& column) const noexcept {
   compute(constants_[0], offsets_[0], azimuth_cdeg, column);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

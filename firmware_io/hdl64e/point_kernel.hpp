@@ -7,19 +7,19 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/hdl64e_calibration.hpp"
-#include "calib/hdl64e_geometry.hpp"
-#include "calib/mount.hpp"
-#include "firmware_io/beam_columns.hpp"
-#include "firmware_io/column_returns.hpp"
-#include "firmware_io/head_directions.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/hdl64e/hdl64e_geometry.hpp"
+#include "calib/mount/mount.hpp"
+#include "firmware_io/decode/beam_columns.hpp"
+#include "firmware_io/decode/column_returns.hpp"
+#include "firmware_io/decode/head_directions.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
-/// Raw distances of a column to points of the vehicle frame: the formulas of calib::Hdl64eGeometry
-/// and calib::Mount in float, for all 64 lasers in one loop that compilers vectorise. Agrees with
+/// Raw distances of a column to points of the vehicle frame: the formulas of Hdl64eGeometry
+/// and mount::Mount in float, for all 64 lasers in one loop that compilers vectorise. Agrees with
 /// those double functions to within 1 mm + 1e-6 of the range.
 ///
 /// Only +, -, *, sqrt, min and abs are used per point, so that every machine gets the same bits;
@@ -30,10 +30,10 @@ namespace terracut::firmware_io {
 /// Real-time safe but for the constructor. One thread.
 class PointKernel {
  public:
-  static constexpr auto kLasers = static_cast<std::size_t>(calib::kHdl64eLasers);
+  static constexpr auto kLasers = static_cast<std::size_t>(kHdl64eLasers);
 
-  PointKernel(const calib::Hdl64eCalibration& calibration, calib::GeometryModel model,
-              const calib::Mount& mount, int columns, rt::FixedMemory& memory);
+  PointKernel(const Hdl64eCalibration& calibration, GeometryModel model, const mount::Mount& mount,
+              int columns, memory::FixedMemory& memory);
 
   /// `advance_ticks`: how far the head has turned since its column's azimuth when laser j of either
   /// block fires, [0, 1e5]. `offset_ticks`: beam minus column azimuth of each laser.
@@ -44,7 +44,7 @@ class PointKernel {
   /// Points, columns and turn offsets from `column.raw`, for a column whose head azimuth is
   /// `azimuth_cdeg`, [0, 36000).
   void compute(std::int32_t azimuth_cdeg,
-               ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
+               decode::ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// By laser, taken once from the calibration.
@@ -63,15 +63,15 @@ class PointKernel {
   /// clones.
   void compute(const Constants& __restrict k, const Offsets& __restrict offset,
                std::int32_t azimuth_cdeg,
-               ColumnReturns<kLasers>& __restrict out) const noexcept TERRACUT_NONBLOCKING;
+               decode::ColumnReturns<kLasers>& __restrict out) const noexcept TERRACUT_NONBLOCKING;
 
   float resolution_m_;
   float interpolation_end_m_;
-  BeamColumns columns_;
+  decode::BeamColumns columns_;
   std::array<float, 12> T_vehicle_lidar_;
-  HeadDirections head_;
+  decode::HeadDirections head_;
   std::span<Constants> constants_;  ///< One element.
   std::span<Offsets> offsets_;      ///< One element.
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

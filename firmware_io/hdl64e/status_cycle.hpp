@@ -8,12 +8,12 @@
 #include <optional>
 #include <string_view>
 
-#include "calib/hdl64e_stream_table.hpp"
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
 
 /// The last two bytes of each HDL-64E packet: a type letter and a value (HDL-64E S3 manual Rev K,
-/// pp. 32-38; docs/sensors.md). 16 packets make a cycle: nine values of the unit, then seven bytes
-/// of a table; 260 cycles make a round, after which the table begins again.
-namespace terracut::firmware_io {
+/// pp. 32-38; docs/reference/sensors.md). 16 packets make a cycle: nine values of the unit, then
+/// seven bytes of a table; 260 cycles make a round, after which the table begins again.
+namespace terracut::hdl64e {
 
 struct StatusPair {
   std::uint8_t type = 0;
@@ -27,7 +27,7 @@ inline constexpr int kFirstTablePlace =
     9;  ///< Places 0..8 of a cycle are letters, 9..15 table bytes.
 inline constexpr int kCyclesPerRound = 260;
 inline constexpr int kStatusRoundPackets = kStatusCyclePackets * kCyclesPerRound;  ///< 4160
-static_assert(kTableBytesPerCycle * kCyclesPerRound == calib::kStreamTableBytes);
+static_assert(kTableBytesPerCycle * kCyclesPerRound == kStreamTableBytes);
 
 /// Type letters of places 0..8: hour, minute, second, day, month, year since 2000, GPS state,
 /// temperature, firmware.
@@ -76,4 +76,4 @@ struct DateTime {
   bool operator==(const DateTime&) const = default;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -8,7 +8,7 @@
 #include "firmware_io/hdl64e/status_cycle.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 // Any return mode's period lies between these with room to spare; 17 packets never fit below the
@@ -109,4 +109,4 @@ std::optional<StatusPosition::Located> StatusPosition::locate(std::optional<int>
   return Located{packet, false};
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

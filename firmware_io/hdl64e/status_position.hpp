@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// Counts the packets of a status stream through losses, repeats and reordering.
 ///
@@ -45,4 +45,4 @@ class StatusPosition {
   int strays_in_a_row_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -4,7 +4,7 @@
 
 #include <chrono>
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 constexpr int kTimePlaces = 6;  // H M S D N Y
@@ -117,4 +117,4 @@ void StatusStreamReader::try_accept() noexcept {
     latest_.warning_bits = collector_.table()[kS2WarningAt];
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

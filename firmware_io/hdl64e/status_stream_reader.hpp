@@ -12,7 +12,7 @@
 #include "firmware_io/hdl64e/status_position.hpp"
 #include "firmware_io/hdl64e/status_table_collector.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// What the unit last said of itself; nothing where it has not yet.
 struct StatusSnapshot {
@@ -60,9 +60,9 @@ class StatusStreamReader {
 
   /// A whole table was accepted: by its CRC (S3), or since two rounds agreed (S2).
   [[nodiscard]] bool has_table() const noexcept { return collector_.accepted(); }
-  /// The newest accepted table, for calib::parse_stream_table() (not on the receive thread); zeros
+  /// The newest accepted table, for parse_stream_table() (not on the receive thread); zeros
   /// before has_table().
-  [[nodiscard]] std::span<const std::uint8_t, calib::kStreamTableBytes> table() const noexcept {
+  [[nodiscard]] std::span<const std::uint8_t, kStreamTableBytes> table() const noexcept {
     return collector_.table();
   }
   /// Counts accepted tables whose laser bytes differ from the one before; 0 before the first.
@@ -91,4 +91,4 @@ class StatusStreamReader {
   std::array<std::uint8_t, 6> time_bytes_{};
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

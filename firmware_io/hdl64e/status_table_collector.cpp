@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 constexpr std::string_view kBeginning = "UNIT#";
@@ -29,8 +29,8 @@ bool laser_numbers_in_place(const StatusTableCollector::Table& table) noexcept {
 }
 
 std::uint16_t last_word(const StatusTableCollector::Table& table) noexcept {
-  return static_cast<std::uint16_t>(table[calib::kStreamTableBytes - 2] |
-                                    table[calib::kStreamTableBytes - 1] << 8);
+  return static_cast<std::uint16_t>(table[kStreamTableBytes - 2] | table[kStreamTableBytes - 1]
+                                                                       << 8);
 }
 
 /// Equal where a change would mean other lasers; warnings, hours run and the like may move on.
@@ -47,18 +47,18 @@ bool same_lasers(const StatusTableCollector::Table& a,
 }  // namespace
 
 std::size_t StatusTableCollector::at(std::size_t i) const noexcept {
-  return (i + static_cast<std::size_t>(anchor_) * kTableBytesPerCycle) % calib::kStreamTableBytes;
+  return (i + static_cast<std::size_t>(anchor_) * kTableBytesPerCycle) % kStreamTableBytes;
 }
 
 void StatusTableCollector::clear() noexcept {
   seen_.fill(0);
-  missing_ = calib::kStreamTableBytes;
+  missing_ = kStreamTableBytes;
   anchor_ = kNoAnchor;
   changed_ = false;
 }
 
 std::size_t StatusTableCollector::holes() const noexcept {
-  return anchor_ == kNoAnchor ? calib::kStreamTableBytes : missing_;
+  return anchor_ == kNoAnchor ? kStreamTableBytes : missing_;
 }
 
 bool StatusTableCollector::starts_round(std::int64_t cycle) const noexcept {
@@ -111,7 +111,7 @@ bool StatusTableCollector::every_laser_byte_came_twice(const Table& table) const
       if (seen_[at(kFirstLaserAt + kLaserStride * laser + i)] < 2) return false;
     }
   }
-  return last_word(table) == calib::kStreamTableBytes;
+  return last_word(table) == kStreamTableBytes;
 }
 
 StatusTableCollector::Refusal StatusTableCollector::try_accept(bool has_crc) noexcept {
@@ -121,7 +121,7 @@ StatusTableCollector::Refusal StatusTableCollector::try_accept(bool has_crc) noe
   std::rotate_copy(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at(0)),
                    bytes_.end(), table.begin());
   if (!laser_numbers_in_place(table)) return Refusal::kLaserNumbers;
-  if (calib::stream_table_crc(table) != last_word(table)) {
+  if (stream_table_crc(table) != last_word(table)) {
     if (has_crc) return Refusal::kCrc;
     if (!every_laser_byte_came_twice(table)) return Refusal::kNone;
   }
@@ -130,4 +130,4 @@ StatusTableCollector::Refusal StatusTableCollector::try_accept(bool has_crc) noe
   return Refusal::kNone;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

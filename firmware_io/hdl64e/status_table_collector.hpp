@@ -9,7 +9,7 @@
 
 #include "firmware_io/hdl64e/status_cycle.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 /// Puts the table of the status stream together from its bytes, in whatever order and with whatever
 /// holes they come. The caller knows at which cycle of the stream a byte was sent; where the table
@@ -20,7 +20,7 @@ namespace terracut::firmware_io {
 /// no CRC). All memory is inside the object; nothing allocates or throws.
 class StatusTableCollector {
  public:
-  using Table = std::array<std::uint8_t, calib::kStreamTableBytes>;
+  using Table = std::array<std::uint8_t, kStreamTableBytes>;
 
   enum class Refusal : std::uint8_t { kNone, kCrc, kLaserNumbers };
 
@@ -59,7 +59,7 @@ class StatusTableCollector {
   // By cycle modulo 260, seven bytes each; `anchor_` is the cycle that holds "UNIT#".
   Table bytes_{};
   Table seen_{};  ///< Times in a row the byte had this value: 0 = hole, 1, 2 = twice or more.
-  std::size_t missing_ = calib::kStreamTableBytes;
+  std::size_t missing_ = kStreamTableBytes;
   int anchor_ = kNoAnchor;
   bool changed_ = false;  ///< Since the last test.
 
@@ -68,4 +68,4 @@ class StatusTableCollector {
   std::uint64_t slips_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

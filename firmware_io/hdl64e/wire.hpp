@@ -13,9 +13,9 @@
 #include "firmware_io/hdl64e/firing_times.hpp"
 
 /// The data packet of the HDL-64E (S2, S2.1, S3) as it lies in the UDP payload; little endian
-/// (HDL-64E S3 user manual, appendix "data packet format"; docs/sensors.md).
+/// (HDL-64E S3 user manual, appendix "data packet format"; docs/reference/sensors.md).
 /// Nothing here allocates or throws; everything is callable from the packet path.
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 
 // --- Numbers of the format ---
 
@@ -228,4 +228,4 @@ class Hdl64ePacketBuffer {
 static_assert(device_step_us(kDeviceHour_us - 88, 200) == 288);
 static_assert(device_step_us(200, kDeviceHour_us - 88) == -288);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

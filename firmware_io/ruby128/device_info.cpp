@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 std::string printable_sentence(std::span<const std::uint8_t> bytes) {
@@ -52,36 +52,38 @@ Ruby128DeviceInfo device_info_of(const ruby128_wire::Difop& difop) {
   info.stamp = difop.stamp;
   info.gps_status_raw = difop.gps_status;
   std::transform(difop.temperatures.begin(), difop.temperatures.end(),
-                 info.temperatures_raw.begin(), [](const Be16& field) { return field.value(); });
+                 info.temperatures_raw.begin(),
+                 [](const decode::Be16& field) { return field.value(); });
   info.gprmc = printable_sentence(difop.gprmc);
   return info;
 }
 
 void set_device_info(ruby128_wire::Difop& difop, const Ruby128DeviceInfo& info) noexcept {
-  difop.rpm_set = Be16::of(info.rpm_set);
-  difop.rpm_actual = Be16::of(info.rpm_actual);
+  difop.rpm_set = decode::Be16::of(info.rpm_set);
+  difop.rpm_actual = decode::Be16::of(info.rpm_actual);
   difop.device_address = info.device_address;
   difop.destination_address = info.destination_address;
   difop.mac = info.mac;
-  difop.data_port = Be16::of(info.data_port);
-  difop.device_port = Be16::of(info.device_port);
-  difop.fov_start_cdeg = Be16::of(info.fov_start_cdeg);
-  difop.fov_end_cdeg = Be16::of(info.fov_end_cdeg);
-  difop.phase_lock = Be16::of(info.phase_lock_raw);
+  difop.data_port = decode::Be16::of(info.data_port);
+  difop.device_port = decode::Be16::of(info.device_port);
+  difop.fov_start_cdeg = decode::Be16::of(info.fov_start_cdeg);
+  difop.fov_end_cdeg = decode::Be16::of(info.fov_end_cdeg);
+  difop.phase_lock = decode::Be16::of(info.phase_lock_raw);
   difop.top_firmware = info.top_firmware;
   difop.bottom_firmware = info.bottom_firmware;
   difop.bottom_software = info.bottom_software;
   difop.motor_firmware = info.motor_firmware;
   difop.hardware = info.hardware;
   difop.serial = info.serial;
-  difop.zero_angle = Be16::of(info.zero_angle_raw);
+  difop.zero_angle = decode::Be16::of(info.zero_angle_raw);
   difop.return_mode = info.return_mode_raw;
   difop.sync_mode = info.sync_mode_raw;
   difop.sync_status = info.sync_status_raw;
   difop.stamp = info.stamp;
   difop.gps_status = info.gps_status_raw;
   std::transform(info.temperatures_raw.begin(), info.temperatures_raw.end(),
-                 difop.temperatures.begin(), [](std::uint16_t raw) { return Be16::of(raw); });
+                 difop.temperatures.begin(),
+                 [](std::uint16_t raw) { return decode::Be16::of(raw); });
   difop.gprmc = {};
   std::copy_n(info.gprmc.begin(), std::min(info.gprmc.size(), difop.gprmc.size()),
               difop.gprmc.begin());
@@ -100,4 +102,4 @@ std::string hex_text(std::span<const std::uint8_t> bytes, std::string_view separ
   return fmt::format("{:02x}", fmt::join(bytes.begin(), bytes.end(), separator));
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

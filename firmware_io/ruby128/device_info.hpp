@@ -10,11 +10,11 @@
 
 #include "firmware_io/ruby128/difop.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
 /// What an RS-Ruby128 says of itself in its DIFOP, apart from its angles (difop_angles.hpp). What
-/// ends in `_raw` is as sent: sources leave its unit or meaning open (docs/sensors.md). Currents,
-/// voltages and fault registers are left out for that reason.
+/// ends in `_raw` is as sent: sources leave its unit or meaning open (docs/reference/sensors.md).
+/// Currents, voltages and fault registers are left out for that reason.
 struct Ruby128DeviceInfo {
   std::uint16_t rpm_set = 0, rpm_actual = 0;
   std::array<std::uint8_t, 4> device_address{}, destination_address{};
@@ -57,4 +57,4 @@ void set_device_info(ruby128_wire::Difop& difop, const Ruby128DeviceInfo& info) 
 [[nodiscard]] std::string hex_text(std::span<const std::uint8_t> bytes,
                                    std::string_view separator = "");
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

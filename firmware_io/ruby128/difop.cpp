@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
 bool is_difop(std::span<const std::uint8_t> payload) noexcept {
   return payload.size() == kRubyPacketBytes &&
@@ -35,4 +35,4 @@ std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
       reinterpret_cast<const std::uint8_t*>(&difop), kRubyPacketBytes);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -9,15 +9,15 @@
 #include <span>
 #include <type_traits>
 
-#include "calib/ruby128_calibration.hpp"
-#include "firmware_io/big_endian.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
+#include "firmware_io/decode/big_endian.hpp"
 #include "firmware_io/ruby128/wire.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 /// The device packet (DIFOP) of the RS-Ruby128 as it lies in the UDP payload, about one a second;
-/// big endian (RS-Ruby user manual; a public decoder of the maker; docs/sensors.md). Nothing here
-/// allocates or throws.
-namespace terracut::firmware_io {
+/// big endian (RS-Ruby user manual; a public decoder of the maker; docs/reference/sensors.md).
+/// Nothing here allocates or throws.
+namespace terracut::ruby128 {
 
 inline constexpr std::array<std::uint8_t, 8> kDifopMagic{0xA5, 0xFF, 0x00, 0x5A,
                                                          0x11, 0x11, 0x55, 0x55};
@@ -30,25 +30,25 @@ namespace ruby128_wire {
 
 struct Angle {
   std::uint8_t sign;
-  Be16 magnitude_cdeg;
+  decode::Be16 magnitude_cdeg;
 };
 
 /// Fields that sources describe differently, or in unknown units, are reserved here.
 struct Difop {
   std::array<std::uint8_t, 8> magic;
-  Be16 rpm_set;
+  decode::Be16 rpm_set;
   std::array<std::uint8_t, 4> device_address, destination_address;
   std::array<std::uint8_t, 6> mac;
-  Be16 data_port, reserved1;
-  Be16 device_port, reserved2;
-  Be16 fov_start_cdeg, fov_end_cdeg;
-  Be16 reserved3;
-  Be16 phase_lock;
+  decode::Be16 data_port, reserved1;
+  decode::Be16 device_port, reserved2;
+  decode::Be16 fov_start_cdeg, fov_end_cdeg;
+  decode::Be16 reserved3;
+  decode::Be16 phase_lock;
   std::array<std::uint8_t, 5> top_firmware, bottom_firmware, bottom_software, motor_firmware;
   std::array<std::uint8_t, 3> hardware;
   std::array<std::uint8_t, 229> reserved4;
   std::array<std::uint8_t, 6> serial;
-  Be16 zero_angle;
+  decode::Be16 zero_angle;
   std::uint8_t return_mode;
   std::uint8_t sync_mode;
   std::uint8_t sync_status;
@@ -56,13 +56,13 @@ struct Difop {
   std::array<std::uint8_t, 24> currents_and_voltages;
   std::array<std::uint8_t, 20> reserved5;
   std::uint8_t gps_status;
-  std::array<Be16, 5> temperatures;
+  std::array<decode::Be16, 5> temperatures;
   std::array<std::uint8_t, 5> reserved6;
-  Be16 rpm_actual;
+  decode::Be16 rpm_actual;
   std::array<std::uint8_t, 7> reserved7;
   std::array<std::uint8_t, 86> gprmc;
-  std::array<Angle, calib::kRuby128Lasers> elevations;  ///< By channel.
-  std::array<Angle, calib::kRuby128Lasers> azimuth_offsets;
+  std::array<Angle, kRuby128Lasers> elevations;  ///< By channel.
+  std::array<Angle, kRuby128Lasers> azimuth_offsets;
   std::array<std::uint8_t, 10> reserved8;
   std::array<std::uint8_t, 2> tail;
 };
@@ -104,4 +104,4 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
     const ruby128_wire::Difop& difop) noexcept;
 std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Difop&&) = delete;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -10,13 +10,13 @@
 #include <optional>
 #include <string_view>
 
-#include "calib/angle.hpp"
+#include "calib/beams/angle.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 using ruby128_wire::Angle;
-using Angles = std::array<Angle, calib::kRuby128Lasers>;
+using Angles = std::array<Angle, kRuby128Lasers>;
 
 constexpr std::string_view kWhatToDo = "give the unit's angle.csv with --calibration FILE";
 
@@ -44,12 +44,11 @@ double radians(const Angle& angle) noexcept {
   const int magnitude_cdeg = angle.magnitude_cdeg.value();
   // Never a negative zero.
   const int cdeg = angle.sign == kDifopMinus ? -magnitude_cdeg : magnitude_cdeg;
-  return calib::deg_to_rad(cdeg / 100.0);
+  return beams::deg_to_rad(cdeg / 100.0);
 }
 
-std::array<calib::Ruby128Channel, calib::kRuby128Lasers> channels_of(
-    const ruby128_wire::Difop& difop) noexcept {
-  std::array<calib::Ruby128Channel, calib::kRuby128Lasers> channels;
+std::array<Ruby128Channel, kRuby128Lasers> channels_of(const ruby128_wire::Difop& difop) noexcept {
+  std::array<Ruby128Channel, kRuby128Lasers> channels;
   for (std::size_t i = 0; i < channels.size(); ++i) {
     channels[i] = {radians(difop.elevations[i]), radians(difop.azimuth_offsets[i])};
   }
@@ -58,9 +57,9 @@ std::array<calib::Ruby128Channel, calib::kRuby128Lasers> channels_of(
 
 Angle angle_of(double rad) noexcept {
   constexpr std::int64_t kMost_cdeg = 0xFFFF;
-  const std::int64_t cdeg = std::clamp(calib::angle_cdeg(rad), -kMost_cdeg, kMost_cdeg);
+  const std::int64_t cdeg = std::clamp(angle_cdeg(rad), -kMost_cdeg, kMost_cdeg);
   return {cdeg < 0 ? kDifopMinus : kDifopPlus,
-          Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
+          decode::Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
 }
 
 /// kNoCalibration as judge_angles() means it, then kMalformed for other odd signs.
@@ -103,28 +102,27 @@ DifopAngles judge_angles(const ruby128_wire::Difop& difop) noexcept {
   }
   const bool odd =
       first_with_odd_sign(difop.elevations) || first_with_odd_sign(difop.azimuth_offsets);
-  return !odd && calib::is_plausible(channels_of(difop)) ? DifopAngles::kPlausible
-                                                         : DifopAngles::kImplausible;
+  return !odd && is_plausible(channels_of(difop)) ? DifopAngles::kPlausible
+                                                  : DifopAngles::kImplausible;
 }
 
-Expected<calib::Ruby128Calibration> calibration_of(const ruby128_wire::Difop& difop) {
+Expected<Ruby128Calibration> calibration_of(const ruby128_wire::Difop& difop) {
   if (const Status status = check_signs(difop); !status) return tl::unexpected(status.error());
-  calib::Ruby128Calibration calibration;
+  Ruby128Calibration calibration;
   calibration.channels = channels_of(difop);
   calibration.origin = "DIFOP packets";
-  if (const Status status = calib::validate(calibration); !status) {
+  if (const Status status = validate(calibration); !status) {
     if (status.error().code == ErrorCode::kUnsupported) return tl::unexpected(status.error());
     return fail(status.error().code, fmt::format("{}; {}", status.error().message, kWhatToDo));
   }
   return calibration;
 }
 
-void set_calibration(ruby128_wire::Difop& difop,
-                     const calib::Ruby128Calibration& calibration) noexcept {
+void set_calibration(ruby128_wire::Difop& difop, const Ruby128Calibration& calibration) noexcept {
   for (std::size_t i = 0; i < calibration.channels.size(); ++i) {
     difop.elevations[i] = angle_of(calibration.channels[i].elevation_rad);
     difop.azimuth_offsets[i] = angle_of(calibration.channels[i].azimuth_offset_rad);
   }
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

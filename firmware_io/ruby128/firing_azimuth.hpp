@@ -8,14 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "calib/angle.hpp"
-#include "calib/ruby128_calibration.hpp"
-#include "firmware_io/beam_azimuth.hpp"
-#include "firmware_io/packet_heads.hpp"
+#include "calib/beams/angle.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
+#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 
 /// Where a beam of the RS-Ruby128 points when its channel fires, in whole numbers (see
-/// firmware_io/beam_azimuth.hpp).
+/// firmware_io/decode/beam_azimuth.hpp).
 ///
 /// A block carries one azimuth for 128 channels, that of the head at the block's first firing.
 /// Channels fire in groups of four, both halves of 64 in parallel; meanwhile the head turns on by
@@ -26,9 +26,9 @@
 ///
 /// both clockwise from straight ahead. The step from firing to firing is taken from the packet's
 /// own azimuths, so nothing depends on a nominal spin rate. Allocation-free, noexcept; any thread.
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
-// --- Times (docs/sensors.md; a public decoder of the maker) ---
+// --- Times (docs/reference/sensors.md; a public decoder of the maker) ---
 
 inline constexpr std::int32_t kRubyBlock_ns =
     55'550;  ///< From a firing of all channels to the next.
@@ -76,7 +76,8 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 [[nodiscard]] constexpr std::int32_t ruby_step_ticks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   const std::int32_t firings_apart = ruby_blocks(azimuth_cdeg) == RubyBlocks::kSingle ? 2 : 1;
-  return calib::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[2]) * (kTicksPerCdeg / firings_apart);
+  return beams::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[2]) *
+         (decode::kTicksPerCdeg / firings_apart);
 }
 
 /// The firing whose second return was not in its packet, until the next packet brings it: both
@@ -127,15 +128,14 @@ inline constexpr int kRubyShareBits = 20;
 }
 
 /// A channel's azimuth offset in ticks, as all whole-number azimuths take it.
-[[nodiscard]] inline std::int32_t azimuth_offset_ticks(
-    const calib::Ruby128Channel& channel) noexcept {
-  return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / kRadPerTick));
+[[nodiscard]] inline std::int32_t azimuth_offset_ticks(const Ruby128Channel& channel) noexcept {
+  return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / decode::kRadPerTick));
 }
 
 /// Offsets of all 128 beams from their block's azimuth, for one unit.
 class Ruby128BeamOffsets {
  public:
-  explicit Ruby128BeamOffsets(const calib::Ruby128Calibration& calibration) noexcept {
+  explicit Ruby128BeamOffsets(const Ruby128Calibration& calibration) noexcept {
     for (std::size_t i = 0; i < ticks_.size(); ++i) {
       ticks_[i] = azimuth_offset_ticks(calibration.channels[i]);
     }
@@ -154,8 +154,8 @@ class Ruby128BeamOffsets {
   }
 
  private:
-  std::array<std::int32_t, calib::kRuby128Lasers> ticks_{};
+  std::array<std::int32_t, kRuby128Lasers> ticks_{};
   std::int32_t least_ticks_ = 0, most_ticks_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

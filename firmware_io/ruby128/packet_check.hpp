@@ -6,11 +6,11 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/loss_counters.hpp"
-#include "firmware_io/packet_heads.hpp"
-#include "rt/nonblocking.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
 /// What the head of an RS-Ruby128 may do inside a packet; it spins at 5 to 20 Hz, 10 to 40
 /// hundredths of a degree a firing. A blind sector (field of view) shows as a jump beyond that.
@@ -33,22 +33,24 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 ///
 /// `heads` holds the azimuths for the azimuth reasons and kStationary too. Real-time safe; any
 /// thread.
-[[nodiscard]] std::optional<Reject> check_ruby128_packet(
-    std::span<const std::uint8_t> payload, PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
+[[nodiscard]] std::optional<frame::Reject> check_ruby128_packet(
+    std::span<const std::uint8_t> payload,
+    decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
 
 /// A packet that was rejected for kAzimuthJump, and has `heads` from there, may be one that the
 /// sensor's blind sector lies in: it jumps ahead once. Completes `heads` then and answers true.
 /// `step_ticks`: from firing to firing in the packet before, there may be none in this one; 0: not
 /// known, and the answer is false. Whether the sector is there is for the caller to know. Real-time
 /// safe; any thread.
-[[nodiscard]] bool read_across_sector(PacketHeads& heads,
+[[nodiscard]] bool read_across_sector(decode::PacketHeads& heads,
                                       std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 
 /// A device stamp that advances evenly from packet to packet, microseconds >= 0, from the packet's
 /// own, which is its first block's: in dual return packets begin with a new firing and with the
 /// second return of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning`
 /// when it took them. `stamp_ns` >= 0, as far as 64 bits go.
-[[nodiscard]] std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const PacketHeads& heads,
+[[nodiscard]] std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns,
+                                              const decode::PacketHeads& heads,
                                               bool turning) noexcept TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

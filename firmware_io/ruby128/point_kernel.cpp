@@ -5,25 +5,25 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calib/ruby128_geometry.hpp"
+#include "calib/ruby128/ruby128_geometry.hpp"
 #include "rt/vector_clones.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
-Ruby128PointKernel::Ruby128PointKernel(const calib::Ruby128Calibration& calibration,
-                                       const calib::Mount& mount, int columns,
-                                       rt::FixedMemory& memory)
+Ruby128PointKernel::Ruby128PointKernel(const Ruby128Calibration& calibration,
+                                       const mount::Mount& mount, int columns,
+                                       memory::FixedMemory& memory)
     : beam_offsets_(calibration),
       columns_(columns),
       head_(memory),
       constants_(memory.take<Constants>("decoder tables", 1)),
       offsets_(memory.take<Offsets>("decoder tables", 1)) {
-  const auto T = calib::T_vehicle_lidar(mount);
+  const auto T = mount::T_vehicle_lidar(mount);
   std::transform(T.begin(), T.end(), T_vehicle_lidar_.begin(),
                  [](double v) { return static_cast<float>(v); });
   Constants& k = constants_[0];
   for (std::size_t i = 0; i < kLasers; ++i) {
-    const calib::Ruby128Channel& channel = calibration.channels[i];
+    const Ruby128Channel& channel = calibration.channels[i];
     k.sin_offset[i] = static_cast<float>(std::sin(channel.azimuth_offset_rad));
     k.cos_offset[i] = static_cast<float>(std::cos(channel.azimuth_offset_rad));
     k.sin_elevation[i] = static_cast<float>(std::sin(channel.elevation_rad));
@@ -36,7 +36,7 @@ void Ruby128PointKernel::set_step(std::int32_t step_ticks) noexcept {
   step_ticks_ = step_ticks;
   const Constants& k = constants_[0];
   Offsets& offsets = offsets_[0];
-  constexpr auto kRad = static_cast<float>(kRadPerTick);
+  constexpr auto kRad = static_cast<float>(decode::kRadPerTick);
   for (std::size_t i = 0; i < kLasers; ++i) {
     const int channel = static_cast<int>(i);
     offsets.ticks[i] = beam_offsets_.offset_ticks(step_ticks, channel);
@@ -54,10 +54,10 @@ void Ruby128PointKernel::set_step(std::int32_t step_ticks) noexcept {
 
 TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
     const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
-    ColumnReturns<kLasers>& __restrict out) const noexcept {
+    decode::ColumnReturns<kLasers>& __restrict out) const noexcept {
   const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
-  constexpr auto kCount_m = static_cast<float>(calib::kRuby128MetresPerCount);
-  constexpr auto kAhead_m = static_cast<float>(calib::kRuby128LensAhead_m);
+  constexpr auto kCount_m = static_cast<float>(kRuby128MetresPerCount);
+  constexpr auto kAhead_m = static_cast<float>(kRuby128LensAhead_m);
   const std::array<float, 12> T = T_vehicle_lidar_;
 
   for (std::size_t i = 0; i < kLasers; ++i) {
@@ -83,8 +83,8 @@ TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
 }
 
 void Ruby128PointKernel::compute(std::int32_t azimuth_cdeg,
-                                 ColumnReturns<kLasers>& column) const noexcept {
+                                 decode::ColumnReturns<kLasers>& column) const noexcept {
   compute(constants_[0], offsets_[0], azimuth_cdeg, column);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -7,29 +7,29 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/mount.hpp"
-#include "calib/ruby128_calibration.hpp"
-#include "firmware_io/beam_columns.hpp"
-#include "firmware_io/column_returns.hpp"
-#include "firmware_io/head_directions.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
+#include "firmware_io/decode/beam_columns.hpp"
+#include "firmware_io/decode/column_returns.hpp"
+#include "firmware_io/decode/head_directions.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
-/// Raw distances of a firing to points of the vehicle frame: the formulas of calib::Ruby128Geometry
-/// and calib::Mount in float, for all 128 channels in one loop that compilers vectorise. Agrees
+/// Raw distances of a firing to points of the vehicle frame: the formulas of Ruby128Geometry
+/// and mount::Mount in float, for all 128 channels in one loop that compilers vectorise. Agrees
 /// with those double functions to within 1 mm + 1e-6 of the range; the same bits on every machine,
 /// as the HDL-64E's PointKernel.
 ///
 /// Real-time safe but for the constructor. One thread.
 class Ruby128PointKernel {
  public:
-  static constexpr auto kLasers = static_cast<std::size_t>(calib::kRuby128Lasers);
+  static constexpr auto kLasers = static_cast<std::size_t>(kRuby128Lasers);
 
-  Ruby128PointKernel(const calib::Ruby128Calibration& calibration, const calib::Mount& mount,
-                     int columns, rt::FixedMemory& memory);
+  Ruby128PointKernel(const Ruby128Calibration& calibration, const mount::Mount& mount, int columns,
+                     memory::FixedMemory& memory);
 
   /// How far the head turns from firing to firing, for the firings to come; [0, 1e5] ticks.
   void set_step(std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
@@ -37,7 +37,7 @@ class Ruby128PointKernel {
   /// Points, columns and turn offsets from `column.raw`, for a firing whose head azimuth is
   /// `azimuth_cdeg`, [0, 36000).
   void compute(std::int32_t azimuth_cdeg,
-               ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
+               decode::ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   /// By channel, taken once from the calibration.
@@ -55,15 +55,15 @@ class Ruby128PointKernel {
   /// clones.
   void compute(const Constants& __restrict k, const Offsets& __restrict offset,
                std::int32_t azimuth_cdeg,
-               ColumnReturns<kLasers>& __restrict out) const noexcept TERRACUT_NONBLOCKING;
+               decode::ColumnReturns<kLasers>& __restrict out) const noexcept TERRACUT_NONBLOCKING;
 
   Ruby128BeamOffsets beam_offsets_;
-  BeamColumns columns_;
-  HeadDirections head_;
+  decode::BeamColumns columns_;
+  decode::HeadDirections head_;
   std::array<float, 12> T_vehicle_lidar_;
   std::span<Constants> constants_;  ///< One element.
   std::span<Offsets> offsets_;      ///< One element.
   std::int32_t step_ticks_ = -1;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

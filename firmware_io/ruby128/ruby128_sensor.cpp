@@ -8,36 +8,38 @@
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 int checked_columns(int columns) {
-  if (columns < 16 || columns > calib::kTurn_cdeg) {
+  if (columns < 16 || columns > beams::kTurn_cdeg) {
     throw std::invalid_argument("RS-Ruby128: columns per turn must be in [16, 36000]");
   }
   return columns;
 }
 
-std::array<std::int32_t, kRubyBlocksPerPacket> azimuths(const PacketHeads& heads) noexcept {
+std::array<std::int32_t, kRubyBlocksPerPacket> azimuths(const decode::PacketHeads& heads) noexcept {
   return {heads.azimuth_cdeg[0], heads.azimuth_cdeg[1], heads.azimuth_cdeg[2]};
 }
 
 }  // namespace
 
-Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const calib::Mount& mount,
-                             const Config& config, int columns, rt::FixedMemory& memory)
+Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount,
+                             const Config& config, int columns, memory::FixedMemory& memory)
     : given_timestamp_(config.timestamp),
       offsets_(calibration),
       kernel_(calibration, mount, checked_columns(columns), memory),
-      rows_(calib::rows_by_elevation(calibration)) {}
+      rows_(rows_by_elevation(calibration)) {}
 
-std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
-                                           PacketHeads& heads) noexcept {
+std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
+                                                  decode::PacketHeads& heads) noexcept {
   auto reason = check_ruby128_packet(payload, heads);
-  if (reason == Reject::kAzimuthJump && read_across_sector(heads, step_ticks_)) reason.reset();
+  if (reason == frame::Reject::kAzimuthJump && read_across_sector(heads, step_ticks_))
+    reason.reset();
   if (!reason) step_ticks_ = heads.step_ticks;
-  const bool is_of_this_sensor = !reason || *reason == Reject::kAzimuthOutOfRange ||
-                                 *reason == Reject::kAzimuthJump || *reason == Reject::kStationary;
+  const bool is_of_this_sensor = !reason || *reason == frame::Reject::kAzimuthOutOfRange ||
+                                 *reason == frame::Reject::kAzimuthJump ||
+                                 *reason == frame::Reject::kStationary;
   const auto packet = Ruby128PacketView::of(payload);
   if (!is_of_this_sensor || !packet) return reason;
 
@@ -51,13 +53,14 @@ std::optional<Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload
   return reason;
 }
 
-void Ruby128Sensor::begin_packet(const PacketHeads& heads) noexcept {
+void Ruby128Sensor::begin_packet(const decode::PacketHeads& heads) noexcept {
   first_step_ticks_ =
       held_.join(azimuths(heads), heads.step_ticks, heads.device_stamp_us, heads.behind_sector > 0);
 }
 
-void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads,
-                                int column, Column& found) noexcept {
+void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
+                                const decode::PacketHeads& heads, int column,
+                                Column& found) noexcept {
   if (const auto packet = Ruby128PacketView::of(payload)) {  // check() has seen to it
     const auto bytes = packet->returns(column);
     for (std::size_t i = 0; i < static_cast<std::size_t>(kRows); ++i) {
@@ -69,4 +72,4 @@ void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, const Pac
   kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -7,19 +7,19 @@
 #include <optional>
 #include <span>
 
-#include "calib/mount.hpp"
-#include "calib/ruby128_calibration.hpp"
-#include "firmware_io/column_returns.hpp"
-#include "firmware_io/frame_builder.hpp"
-#include "firmware_io/loss_counters.hpp"
-#include "firmware_io/packet_heads.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
+#include "firmware_io/decode/column_returns.hpp"
+#include "firmware_io/decode/frame_builder.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/point_kernel.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/ruby128/wire.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
 /// What Decoder needs to know of the RS-Ruby128 (see there).
 ///
@@ -27,14 +27,14 @@ namespace terracut::firmware_io {
 /// twice. A pair that straddles two packets is joined (HeldFiring), unless one of them is lost.
 class Ruby128Sensor {
  public:
-  using Calibration = calib::Ruby128Calibration;
+  using Calibration = Ruby128Calibration;
   struct Config {
     /// How stamps are to be read; nothing: found out from the packets.
     std::optional<RubyTimestamp> timestamp;
   };
-  static constexpr int kRows = calib::kRuby128Lasers;
+  static constexpr int kRows = kRuby128Lasers;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
-  using Column = ColumnReturns<static_cast<std::size_t>(kRows)>;
+  using Column = decode::ColumnReturns<static_cast<std::size_t>(kRows)>;
   /// Device stamps count up from 1970; this is farther than they can get.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a turn at 10 Hz.
@@ -42,21 +42,22 @@ class Ruby128Sensor {
   static constexpr int kDefaultReturnsPerCell = 3;
 
   /// columns: in [16, 36000], else std::invalid_argument.
-  Ruby128Sensor(const Calibration& calibration, const calib::Mount& mount, const Config& config,
-                int columns, rt::FixedMemory& memory);
+  Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
+                int columns, memory::FixedMemory& memory);
 
-  [[nodiscard]] std::optional<Reject> check(std::span<const std::uint8_t> payload,
-                                            PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] BeamSpread spread(std::int32_t step_ticks) const noexcept {
+  [[nodiscard]] std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
+                                                   decode::PacketHeads& heads) noexcept
+      TERRACUT_NONBLOCKING;
+  [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
     return offsets_.offset_ticks(0, laser);
   }
-  void begin_packet(const PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  void read_column(std::span<const std::uint8_t> payload, const PacketHeads& heads, int column,
-                   Column& found) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] std::span<const std::int32_t, calib::kRuby128Lasers> rows() const noexcept {
+  void begin_packet(const decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
+  void read_column(std::span<const std::uint8_t> payload, const decode::PacketHeads& heads,
+                   int column, Column& found) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] std::span<const std::int32_t, kRuby128Lasers> rows() const noexcept {
     return rows_;
   }
 
@@ -71,7 +72,7 @@ class Ruby128Sensor {
   HeldFiring held_;
   std::int32_t step_ticks_ = 0;        ///< Of the last packet that had one; 0: none yet.
   std::int32_t first_step_ticks_ = 0;  ///< Of the packet's first block, which may be a held one's.
-  std::array<std::int32_t, calib::kRuby128Lasers> rows_;
+  std::array<std::int32_t, kRuby128Lasers> rows_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -8,7 +8,7 @@
 
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -123,4 +123,4 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   return encoding_ = RubyTimestamp::kUtcNanoseconds;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -8,12 +8,12 @@
 #include <span>
 #include <string_view>
 
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 
 /// What the ten stamp bytes of a RoboSense packet mean: three encodings are in the field
-/// (docs/sensors.md).
+/// (docs/reference/sensors.md).
 enum class RubyTimestamp : std::uint8_t {
   kCalendar,         ///< Year since 2000, month, day, hour, minute, second, ms and us.
   kUtcMicroseconds,  ///< Six bytes of seconds since 1970, four of microseconds.
@@ -37,8 +37,9 @@ enum class RubyTimestamp : std::uint8_t {
 ///
 /// A year or a month in the first two bytes is a calendar's: UTC seconds leave both 0 until 2106,
 /// and a calendar has no month 0. A sub-second value above 999,999 can only be nanoseconds; a step
-/// between two packets too short for a nanosecond's packet period, microseconds. Until one of these is seen the likelier unit is taken: microseconds, or
-/// nanoseconds after a long step. Real-time safe; one thread.
+/// between two packets too short for a nanosecond's packet period, microseconds. Until one of these
+/// is seen the likelier unit is taken: microseconds, or nanoseconds after a long step. Real-time
+/// safe; one thread.
 class RubyTimestampDetector {
  public:
   /// The encoding by which to read this packet's stamp.
@@ -55,4 +56,4 @@ class RubyTimestampDetector {
   std::uint32_t last_sub_second_ = 0;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

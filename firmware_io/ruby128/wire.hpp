@@ -10,12 +10,12 @@
 #include <span>
 #include <type_traits>
 
-#include "firmware_io/big_endian.hpp"
+#include "firmware_io/decode/big_endian.hpp"
 
 /// The data packet (MSOP) of the RS-Ruby128 as it lies in the UDP payload; big endian (RS-Ruby user
-/// manual v1.0; docs/sensors.md). Nothing here allocates or throws; everything is callable from the
-/// packet path.
-namespace terracut::firmware_io {
+/// manual v1.0; docs/reference/sensors.md). Nothing here allocates or throws; everything is
+/// callable from the packet path.
+namespace terracut::ruby128 {
 
 // --- Numbers of the format ---
 
@@ -36,23 +36,23 @@ inline constexpr std::uint8_t kRubyFirstReturnBit = 1, kRubySecondReturnBit = 2;
 namespace ruby128_wire {
 
 struct Return {
-  Be16 distance;           ///< Counts of 5 mm; 0 = no return.
+  decode::Be16 distance;   ///< Counts of 5 mm; 0 = no return.
   std::uint8_t intensity;  ///< 0..255
 };
 
 struct Block {
-  std::uint8_t id;         ///< kRubyBlockId
-  std::uint8_t return_id;  ///< 1 or 2 in dual return, by the manual; not relied on.
-  Be16 azimuth_cdeg;       ///< 0..35999, clockwise seen from above, of the block's first firing.
+  std::uint8_t id;            ///< kRubyBlockId
+  std::uint8_t return_id;     ///< 1 or 2 in dual return, by the manual; not relied on.
+  decode::Be16 azimuth_cdeg;  ///< 0..35999, clockwise seen from above, of the block's first firing.
   std::array<Return, kRubyChannelsPerBlock> returns;
 };
 
 struct Packet {
   std::array<std::uint8_t, 4> magic;
-  Be16 protocol_version;
+  decode::Be16 protocol_version;
   std::uint8_t reserved1;
   std::uint8_t wave_mode;
-  Be16 temperature;                    ///< Sign and magnitude (see temperature_deg_c()).
+  decode::Be16 temperature;            ///< Sign and magnitude (see temperature_deg_c()).
   std::array<std::uint8_t, 10> stamp;  ///< One of three encodings (timestamp.hpp).
   std::array<std::uint8_t, 10> reserved2;
   std::uint8_t lidar_type, lidar_model;
@@ -186,11 +186,11 @@ class Ruby128PacketBuffer {
     for (ruby128_wire::Block& block : packet_.blocks) block.id = kRubyBlockId;
   }
   void set_protocol_version(std::uint16_t version) noexcept {
-    packet_.protocol_version = Be16::of(version);
+    packet_.protocol_version = decode::Be16::of(version);
   }
   void set_wave_mode(std::uint8_t mode) noexcept { packet_.wave_mode = mode; }
   void set_temperature_deg_c(double temperature_deg_c) noexcept {
-    packet_.temperature = Be16::of(ruby_temperature_field(temperature_deg_c));
+    packet_.temperature = decode::Be16::of(ruby_temperature_field(temperature_deg_c));
   }
   void set_stamp(const std::array<std::uint8_t, 10>& stamp) noexcept { packet_.stamp = stamp; }
   void set_type_bytes(std::uint8_t type, std::uint8_t model) noexcept {
@@ -198,12 +198,12 @@ class Ruby128PacketBuffer {
     packet_.lidar_model = model;
   }
   void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
-    at(block).azimuth_cdeg = Be16::of(azimuth_cdeg);
+    at(block).azimuth_cdeg = decode::Be16::of(azimuth_cdeg);
   }
   void set_return_id(int block, std::uint8_t id) noexcept { at(block).return_id = id; }
   void set_return(int block, int channel, std::uint16_t distance, std::uint8_t intensity) noexcept {
     assert(channel >= 0 && channel < kRubyChannelsPerBlock);
-    at(block).returns[static_cast<std::size_t>(channel)] = {Be16::of(distance), intensity};
+    at(block).returns[static_cast<std::size_t>(channel)] = {decode::Be16::of(distance), intensity};
   }
 
   /// The payload to send; valid, and following later changes, as long as this object lives.
@@ -221,4 +221,4 @@ class Ruby128PacketBuffer {
   ruby128_wire::Packet packet_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

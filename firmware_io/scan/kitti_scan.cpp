@@ -9,7 +9,7 @@
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/record_file.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 std::uint8_t intensity_of(float remission) noexcept {
   if (!(remission > 0.0F)) return 0;  // NaN too
@@ -40,4 +40,4 @@ Status read_kitti_scan(const std::filesystem::path& bin_file,
   return read_label_file(label_file, scan.points.size(), scan.labels);
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -10,7 +10,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// More points than any HDL-64E turn can hold (64 lasers x 4167 firings at 5 Hz, two echoes).
 inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
@@ -59,4 +59,4 @@ struct KittiScan {
 [[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file,
                                      const std::filesystem::path& label_file, KittiScan& scan);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -6,9 +6,9 @@
 
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/record_file.hpp"
-#include "rt/whole_file.hpp"
+#include "rt/files/whole_file.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 Status read_label_file(const std::filesystem::path& path, std::size_t points,
                        std::vector<std::uint32_t>& labels) {
@@ -26,7 +26,7 @@ Status read_label_file(const std::filesystem::path& path, std::size_t points,
 
 Status write_label_ids(const std::filesystem::path& path, std::span<const std::uint32_t> labels) {
   static_assert(std::endian::native == std::endian::little, "labels are written as they stand");
-  return rt::write_whole_file(path, std::as_bytes(labels));
+  return files::write_whole_file(path, std::as_bytes(labels));
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

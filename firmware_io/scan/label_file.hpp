@@ -9,7 +9,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// The class of a SemanticKITTI label: its low 16 bits; the high 16 bits number the instance.
 [[nodiscard]] constexpr std::uint16_t semantic_class(std::uint32_t label) noexcept {
@@ -26,4 +26,4 @@ namespace terracut::firmware_io {
 [[nodiscard]] Status write_label_ids(const std::filesystem::path& path,
                                      std::span<const std::uint32_t> labels);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 constexpr int kIterations = 12;
@@ -65,4 +65,4 @@ FittedLine fit_line(std::span<const LinePoint> points, double y_over_x_error) {
   return line;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

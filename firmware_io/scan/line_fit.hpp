@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// y = offset + slope * x
 struct FittedLine {
@@ -23,4 +23,4 @@ struct LinePoint {
 /// deviations. At least two points with different x are needed.
 [[nodiscard]] FittedLine fit_line(std::span<const LinePoint> points, double y_over_x_error);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 using Vector = std::array<double, 3>;
@@ -37,13 +37,13 @@ double share_of_turn(const Vector& p, double near) {
 }  // namespace
 
 void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> points) noexcept {
-  constexpr int kIterations = 4;  // the correction shrinks by v t / r, below 1/5 a time
+  constexpr int kCorrections = 4;  // the correction shrinks by v t / r, below 1/5 a time
   for (ScanPoint& point : points) {
     if (!is_place(point)) continue;
     const Vector in_file{point.x_m, point.y_m, point.z_m};
     Vector p = in_file;
     double share = share_of_turn(p, 0.0);
-    for (int i = 0; i < kIterations; ++i) {
+    for (int i = 0; i < kCorrections; ++i) {
       p = moved_back(twist, share * twist.turn_duration_s, in_file);
       share = share_of_turn(p, share);
     }
@@ -53,4 +53,4 @@ void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> poi
   }
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -7,7 +7,7 @@
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/sensor_motion.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// Puts the sensor's motion back into a compensated scan: points as the sensor itself measured
 /// them.
@@ -33,4 +33,4 @@ namespace terracut::firmware_io {
 /// Allocates nothing.
 void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> points) noexcept;
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

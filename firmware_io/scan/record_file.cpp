@@ -7,7 +7,7 @@
 #include <fstream>
 #include <system_error>
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 Expected<std::size_t> count_records(const std::filesystem::path& path, const RecordLayout& layout) {
   std::error_code error;
@@ -59,4 +59,4 @@ Status read_bytes(const std::filesystem::path& path, void* to, std::size_t bytes
   return {};
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 constexpr double kHalfTurn_rad = std::numbers::pi;
@@ -271,4 +271,4 @@ Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
                   recovery.rings, kScanRings));
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -11,7 +11,7 @@
 #include "firmware_io/scan/ring_table.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// The ring of every point of a scan, from the order of the file. Buffers are kept from scan to
 /// scan.
@@ -45,4 +45,4 @@ struct RingRecovery {
 [[nodiscard]] Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
                                    RingRecovery& recovery);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

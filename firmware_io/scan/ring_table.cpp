@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/scan/ring_table.hpp"
 
-namespace terracut::firmware_io {
+#include <ranges>
+
+namespace terracut::scan {
 namespace {
 
 /// Laser numbers of a block from its top ring down, as found in the calibration files of most
@@ -18,8 +20,8 @@ int usual_laser_of_ring(int ring) noexcept {
   return block + kBlockFromTheTop[static_cast<std::size_t>(ring - block)];
 }
 
-std::array<int, kScanRings> lasers_by_ring(const calib::Hdl64eCalibration& calibration) {
-  const auto rows = calib::rows_by_elevation(calibration);
+std::array<int, kScanRings> lasers_by_ring(const hdl64e::Hdl64eCalibration& calibration) {
+  const auto rows = rows_by_elevation(calibration);
   std::array<int, kScanRings> lasers{};
   for (int laser = 0; laser < kScanRings; ++laser) {
     const int ring = kScanRings - 1 - rows[static_cast<std::size_t>(laser)];
@@ -28,9 +30,9 @@ std::array<int, kScanRings> lasers_by_ring(const calib::Hdl64eCalibration& calib
   return lasers;
 }
 
-RingTable ring_table(const calib::Hdl64eCalibration& calibration) {
+RingTable ring_table(const hdl64e::Hdl64eCalibration& calibration) {
   const auto lasers = lasers_by_ring(calibration);
-  RingTable table{};
+  RingTable table(lasers.size());
   for (std::size_t ring = 0; ring < table.size(); ++ring) {
     const auto& laser = calibration.lasers[static_cast<std::size_t>(lasers[ring])];
     table[ring] = {laser.vert_correction_rad, laser.vert_offset_m};
@@ -38,8 +40,16 @@ RingTable ring_table(const calib::Hdl64eCalibration& calibration) {
   return table;
 }
 
-calib::Hdl64eCalibration hdl64e_calibration(const RingTable& table) {
-  calib::Hdl64eCalibration calibration;
+mount::RingProfile ring_profile(const RingTable& table, const mount::Mount& mount) {
+  mount::RingProfile profile{{}, mount};
+  for (const RingLine& ring : table | std::views::reverse) {
+    profile.rings.push_back(mount::ring(ring.elevation_rad, ring.vert_offset_m, mount));
+  }
+  return profile;
+}
+
+hdl64e::Hdl64eCalibration hdl64e_calibration(const RingTable& table) {
+  hdl64e::Hdl64eCalibration calibration;
   for (int ring = 0; ring < kScanRings; ++ring) {
     auto& laser = calibration.lasers[static_cast<std::size_t>(usual_laser_of_ring(ring))];
     laser.vert_correction_rad = table[static_cast<std::size_t>(ring)].elevation_rad;
@@ -48,4 +58,4 @@ calib::Hdl64eCalibration hdl64e_calibration(const RingTable& table) {
   return calibration;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

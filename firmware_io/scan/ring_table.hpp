@@ -4,16 +4,17 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <cstdint>
+#include <vector>
 
-#include "calib/hdl64e_calibration.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/mount/ring_profile.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// Rings of an HDL-64E in the order of KITTI files: ring 0 is the highest elevation, 63 the lowest.
-inline constexpr int kScanRings = calib::kHdl64eLasers;
+inline constexpr int kScanRings = hdl64e::kHdl64eLasers;
 
 /// The ring of a point that has none: it is not finite, or no ring fits it.
 inline constexpr std::int16_t kNoRing = -1;
@@ -31,23 +32,27 @@ struct RingLine {
   }
 };
 
-/// The rings of one unit; elevations fall strictly from ring to ring.
-using RingTable = std::array<RingLine, kScanRings>;
+/// The rings of one unit, 64 unless it is another sensor's; elevations fall strictly from ring to
+/// ring.
+using RingTable = std::vector<RingLine>;
 
-/// Laser number of a ring in the numbering most units have (docs/sensors.md): rings 0..31 are the
-/// upper block, lasers 0..31, rings 32..63 the lower one, lasers 32..63, each in interleaved
-/// groups.
+/// Laser number of a ring in the numbering most units have (docs/reference/sensors.md): rings 0..31
+/// are the upper block, lasers 0..31, rings 32..63 the lower one, lasers 32..63, each in
+/// interleaved groups.
 [[nodiscard]] int usual_laser_of_ring(int ring) noexcept;
 
 /// The rings of a calibration, sorted by elevation; distance corrections play no part in them.
-[[nodiscard]] RingTable ring_table(const calib::Hdl64eCalibration& calibration);
+[[nodiscard]] RingTable ring_table(const hdl64e::Hdl64eCalibration& calibration);
 
-/// Laser of every ring of a calibration: the inverse of calib::rows_by_elevation, from the top.
+/// Laser of every ring of a calibration: the inverse of hdl64e::rows_by_elevation, from the top.
 [[nodiscard]] std::array<int, kScanRings> lasers_by_ring(
-    const calib::Hdl64eCalibration& calibration);
+    const hdl64e::Hdl64eCalibration& calibration);
 
-/// A calibration whose lasers have the rings' elevations and vertical offsets and no other
+/// What the rings see of level ground: row 0 is the lowest ring.
+[[nodiscard]] mount::RingProfile ring_profile(const RingTable& table, const mount::Mount& mount);
+
+/// A calibration whose 64 lasers have the rings' elevations and vertical offsets and no other
 /// correction, numbered by usual_laser_of_ring().
-[[nodiscard]] calib::Hdl64eCalibration hdl64e_calibration(const RingTable& table);
+[[nodiscard]] hdl64e::Hdl64eCalibration hdl64e_calibration(const RingTable& table);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <optional>
 
-#include "calib/angle.hpp"
+#include "calib/beams/angle.hpp"
 #include "firmware_io/scan/line_fit.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 // Spread of a compensated point's horizontal distance and of its height about the true line,
@@ -23,7 +23,7 @@ constexpr double kHeightError_m = 0.01;
 // Returns beyond the sensor's reach are no returns; one of them would outweigh a whole ring.
 constexpr float kReach_m = 150;
 
-constexpr double kMinStep_rad = calib::deg_to_rad(0.02);  // rings never cross or coincide
+constexpr double kMinStep_rad = beams::deg_to_rad(0.02);  // rings never cross or coincide
 
 HeightResidual summarise(std::vector<double>& sizes) {
   HeightResidual residual;
@@ -39,13 +39,14 @@ HeightResidual summarise(std::vector<double>& sizes) {
 }
 
 /// Puts rings without a fit between, or beyond, those that have one.
-void fill_gaps(std::array<std::optional<RingLine>, kScanRings>& lines) {
-  for (int ring = 0; ring < kScanRings; ++ring) {
+void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
+  const int rings = static_cast<int>(lines.size());
+  for (int ring = 0; ring < rings; ++ring) {
     if (lines[static_cast<std::size_t>(ring)]) continue;
     int above = ring, below = ring;
     while (above >= 0 && !lines[static_cast<std::size_t>(above)]) --above;
-    while (below < kScanRings && !lines[static_cast<std::size_t>(below)]) ++below;
-    if (above < 0 || below >= kScanRings) {  // beyond the last fitted ring: go on at its pitch
+    while (below < rings && !lines[static_cast<std::size_t>(below)]) ++below;
+    if (above < 0 || below >= rings) {  // beyond the last fitted ring: go on at its pitch
       const int step = above < 0 ? 1 : -1;
       int near = ring, far;
       while (!lines[static_cast<std::size_t>(near)]) near += step;
@@ -107,7 +108,7 @@ RingLine RingTableFit::through(const Ring& ring, double vert_offset_m) {
 }
 
 Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
-  std::array<std::optional<RingLine>, kScanRings> lines;
+  std::vector<std::optional<RingLine>> lines(rings_.size());
   FittedRings fitted;
   std::vector<LinePoint> points;
   for (std::size_t ring = 0; ring < lines.size(); ++ring) {
@@ -124,13 +125,14 @@ Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
     const FittedLine line = fit_line(points, kHeightError_m / kDistanceError_m);
     if (std::isfinite(line.slope)) lines[ring] = RingLine{std::atan(line.slope), line.offset};
   }
-  const auto found = std::count_if(lines.begin(), lines.end(), [](const auto& l) { return !!l; });
-  if (found < kScanRings / 2) {
+  const auto found = static_cast<std::size_t>(
+      std::count_if(lines.begin(), lines.end(), [](const auto& l) { return !!l; }));
+  if (found < lines.size() / 2) {
     return fail(
         ErrorCode::kMalformed,
         fmt::format("only {} of {} rings have the {} points a fit needs; add more scans, or "
                     "give the unit's calibration",
-                    found, kScanRings, kMinPointsPerRing));
+                    found, lines.size(), kMinPointsPerRing));
   }
   fill_gaps(lines);
 
@@ -141,11 +143,11 @@ Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
       line.elevation_rad =
           std::min(line.elevation_rad, fitted.table[ring - 1].elevation_rad - kMinStep_rad);
     }
-    fitted.table[ring] = line;
-    fitted.by_ring[ring] = residual(line, rings_[ring], all);
+    fitted.table.push_back(line);
+    fitted.by_ring.push_back(residual(line, rings_[ring], all));
   }
   fitted.residual = summarise(all);
   return fitted;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -12,7 +11,7 @@
 #include "firmware_io/scan/ring_table.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// How far points lie above or below their ring's line (vertical distance, metres).
 struct HeightResidual {
@@ -23,9 +22,9 @@ struct HeightResidual {
 
 /// A unit's ring table found in its recordings, and how well it explains them.
 struct FittedRings {
-  RingTable table{};
+  RingTable table;
   HeightResidual residual;  ///< Over all rings.
-  std::array<HeightResidual, kScanRings> by_ring{};
+  std::vector<HeightResidual> by_ring;
   int interpolated_rings = 0;          ///< Rings with too few points, put between their neighbours.
   bool told_by_nominal_table = false;  ///< No scan had all rings (ScanReader::fit_rings()).
 };
@@ -44,8 +43,10 @@ class RingTableFit {
   static constexpr std::size_t kPointsPerRing = 60000;
   static constexpr std::size_t kMinPointsPerRing = 100;
 
-  /// Adds a scan. `ring_of_point`: a ring 0..63 or kNoRing for each point. Points beyond 150 m, the
-  /// not finite ones among them, are left out.
+  explicit RingTableFit(int rings = kScanRings) : rings_(static_cast<std::size_t>(rings)) {}
+
+  /// Adds a scan. `ring_of_point`: a ring from 0 or kNoRing for each point. Points beyond 150 m,
+  /// the not finite ones among them, are left out.
   void add(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point);
 
   /// The table of everything added so far. Where rings may have seen little but near ground, as in
@@ -68,7 +69,7 @@ class RingTableFit {
   [[nodiscard]] static HeightResidual residual(const RingLine& line, const Ring& ring,
                                                std::vector<double>& all);
 
-  std::array<Ring, kScanRings> rings_;
+  std::vector<Ring> rings_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -9,7 +9,7 @@
 
 #include "rt/number_of.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 namespace fs = std::filesystem;
@@ -68,4 +68,4 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
   return found;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -10,7 +10,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// One recorded turn on disk.
 struct ScanFile {
@@ -36,4 +36,4 @@ struct ScanFolder {
 /// Errors: kNotFound (no such folder, no .bin in it), kUnreadable.
 [[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder);
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

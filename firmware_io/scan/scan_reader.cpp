@@ -7,10 +7,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "calib/nominal_hdl64e.hpp"
 #include "firmware_io/scan/motion_compensation.hpp"
+#include "firmware_io/scan/ring_fit_of_scans.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 Error in_file(const std::filesystem::path& path, Error error) {
@@ -61,12 +61,17 @@ Expected<ScanReader> ScanReader::open(const std::filesystem::path& folder, PutMo
 }
 
 Status ScanReader::read(std::size_t index, KittiScan& scan, RingRecovery& rings) const {
+  return read(index, table_ ? &*table_ : nullptr, scan, rings);
+}
+
+Status ScanReader::read(std::size_t index, const RingTable* table, KittiScan& scan,
+                        RingRecovery& rings) const {
   const ScanFile& file = folder_.scans[index];
   const Status status = file.labels ? read_kitti_scan(file.points, *file.labels, scan)
                                     : read_kitti_scan(file.points, scan);
   if (!status) return status;
   // Rings first: putting the motion back moves points over the line that separates them.
-  Status recovered = recover_rings(scan.points, table_ ? &*table_ : nullptr, rings);
+  Status recovered = recover_rings(scan.points, table, rings);
   if (!recovered) return tl::unexpected(in_file(file.points, std::move(recovered.error())));
   const auto twist = this->twist(index);
   if (!twist) return tl::unexpected(twist.error());
@@ -82,40 +87,16 @@ Expected<std::optional<SensorTwist>> ScanReader::twist(std::size_t index) const 
 }
 
 Expected<FittedRings> ScanReader::fit_rings() {
-  auto fitted = fit_to_scans(nullptr);
-  if (!fitted && fitted.error().code == ErrorCode::kUnsupported) {
-    // No scan has all rings. Any unit's table is near enough to tell the lasers apart, and one that
-    // was fitted so is near enough to put right those that were off.
-    const RingTable nominal = ring_table(calib::nominal_hdl64e());
-    table_ = nominal;
-    fitted = fit_to_scans(&nominal);
-    if (fitted) table_ = fitted->table;
-    if (fitted) fitted = fit_to_scans(&nominal);
-    if (fitted) fitted->told_by_nominal_table = true;
-  }
+  KittiScan scan;
+  RingRecovery rings;
+  auto fitted =
+      fit_rings_of_scans(size(), [&](std::size_t index, const RingTable* table, RingTableFit& fit) {
+        Status status = read(index, table, scan, rings);
+        if (status) fit.add(scan.points, rings.ring_of_point);
+        return status;
+      });
   if (fitted) table_ = fitted->table;
   return fitted;
 }
 
-Expected<FittedRings> ScanReader::fit_to_scans(const RingTable* offsets) const {
-  RingTableFit fit;
-  KittiScan scan;
-  RingRecovery rings;
-  const std::size_t count = std::min(size(), kScansToFit);
-  Error last{ErrorCode::kMalformed, ""};
-  std::size_t used = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    // What cannot be read says so when its turn comes; a scan without all rings is aligned later,
-    // with the table of those that have them.
-    if (const Status status = read(i * size() / count, scan, rings); !status) {
-      if (used == 0 && last.code != ErrorCode::kUnsupported) last = status.error();
-      continue;
-    }
-    fit.add(scan.points, rings.ring_of_point);
-    ++used;
-  }
-  if (used == 0) return tl::unexpected(std::move(last));
-  return fit.fit(offsets);
-}
-
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

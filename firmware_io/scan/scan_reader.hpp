@@ -14,7 +14,7 @@
 #include "firmware_io/scan/sensor_motion.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// Whether the sensor's motion, which recorded scans are compensated for, is put back into them
 /// (motion_compensation.hpp). It takes poses.txt and times.txt beside velodyne/, with poses of all
@@ -28,9 +28,6 @@ enum class PutMotionBack {
 /// Reads the scans of a folder one by one, with the ring of every point.
 class ScanReader {
  public:
-  /// At most this many scans, evenly spread over the folder, are read for fit_rings().
-  static constexpr std::size_t kScansToFit = 40;
-
   /// Lists the folder (scan_folder.hpp). Errors: its own; those of SensorMotion::read() where the
   /// motion is to be put back; with kAlways kNotFound where what that takes is not there.
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
@@ -49,15 +46,13 @@ class ScanReader {
   /// The motion that was put back into scan `index`; nothing where none was.
   [[nodiscard]] Expected<std::optional<SensorTwist>> twist(std::size_t index) const;
 
-  /// Fits the unit's ring table from the scans that have all 64 rings and uses it from then on.
-  /// Where none has, as in cropped views, the rings are told apart by a nominal unit's table first:
-  /// a row may then be its neighbour's, but its elevation is that of its points. Scans that cannot
-  /// be read are left out; the error is that of one of them where none can.
+  /// Fits the unit's ring table (ring_fit_of_scans.hpp) and uses it from then on.
   [[nodiscard]] Expected<FittedRings> fit_rings();
   void use_rings(const RingTable& table) { table_ = table; }
 
  private:
-  [[nodiscard]] Expected<FittedRings> fit_to_scans(const RingTable* offsets) const;
+  [[nodiscard]] Status read(std::size_t index, const RingTable* table, KittiScan& scan,
+                            RingRecovery& rings) const;
 
   ScanFolder folder_;
   std::optional<SensorMotion> motion_;  ///< Only where it is to be put back.
@@ -65,4 +60,4 @@ class ScanReader {
   std::optional<RingTable> table_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -7,38 +7,38 @@
 #include <span>
 #include <vector>
 
-#include "calib/mount.hpp"
+#include "calib/mount/mount.hpp"
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
-#include "pipeline/label.hpp"
-#include "pipeline/range_image.hpp"
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// Puts recorded scans into range images without packets (`terracut segment`), and brings the
 /// labels of the returns back into the file's order.
 ///
-/// Row = 63 - ring (row 0 is the lowest), column = azimuth / pitch clockwise from straight ahead,
-/// the decoder's rule; coordinates are the scan's own, moved into the vehicle frame by the mount.
-/// Returns are numbered in the file's order. Points without a ring and points beyond the overflow
-/// list's end are counted and not placed.
+/// Row = rows - 1 - ring (row 0 is the lowest), column = azimuth / pitch clockwise from straight
+/// ahead, the decoder's rule; coordinates are the scan's own, moved into the vehicle frame by the
+/// mount. Returns are numbered in the file's order. Points without a ring and points beyond the
+/// overflow list's end are counted and not placed.
 ///
 /// Not for the real-time path: one atan2 a point, and buffers grow with the largest scan.
 class ScanToImage {
  public:
   struct Summary {
     std::size_t placed = 0;
-    std::size_t no_place = 0;       ///< is_place() is false; labelled pipeline::Label::kNone.
+    std::size_t no_place = 0;       ///< is_place() is false; labelled frame::Label::kNone.
     std::size_t no_ring = 0;        ///< A place, but of no ring; labelled kObstacle, the safe side.
     std::size_t overflow_full = 0;  ///< Their cell and the overflow list were taken; kObstacle.
   };
 
-  explicit ScanToImage(const calib::Mount& mount);
+  explicit ScanToImage(const mount::Mount& mount);
 
-  /// Clears `image` (which must have 64 rows) and fills it with a scan. `ring_of_point`: ring 0..63
-  /// or kNoRing for each point.
+  /// Clears `image`, which must have a row for every ring, and fills it with a scan.
+  /// `ring_of_point`: the ring, 0 is the highest, or kNoRing for each point.
   Summary place(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point,
-                pipeline::RangeImage& image);
+                frame::RangeImage& image);
 
   /// The point, as its index in the file, of every return of the last place().
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
@@ -47,14 +47,13 @@ class ScanToImage {
 
   /// Labels of all points of the last scan in the file's order from the labels of its returns, by
   /// the rules of Summary. `of_returns` has one label for every placed point.
-  void labels_of_points(std::span<const pipeline::Label> of_returns,
-                        std::vector<pipeline::Label>& of_points) const;
+  void labels_of_points(std::span<const frame::Label> of_returns,
+                        std::vector<frame::Label>& of_points) const;
 
  private:
-  calib::RigidTransform T_vehicle_lidar_;
+  mount::RigidTransform T_vehicle_lidar_;
   std::vector<std::uint32_t> point_of_return_;
-  std::vector<pipeline::Label>
-      label_without_return_;  ///< Of every point, for when it has no return.
+  std::vector<frame::Label> label_without_return_;  ///< Of every point, for when it has no return.
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

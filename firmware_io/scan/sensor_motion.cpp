@@ -10,7 +10,7 @@
 #include <fstream>
 #include <string>
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 using Pose = std::array<double, 12>;
@@ -189,4 +189,4 @@ Expected<SensorTwist> SensorMotion::twist(std::uint32_t frame) const {
   return twist;
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

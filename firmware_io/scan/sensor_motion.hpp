@@ -10,7 +10,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// Constant motion of the sensor, in its own frame (x forward, y left, z up).
 struct SensorTwist {
@@ -50,4 +50,4 @@ class SensorMotion {
   std::filesystem::path poses_path_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -7,9 +7,9 @@
 #include <cstdlib>
 #include <utility>
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
-BeliefPropagation::BeliefPropagation(const Shape& shape, rt::FixedMemory& memory)
+BeliefPropagation::BeliefPropagation(const Shape& shape, memory::FixedMemory& memory)
     : shape_(shape),
       data_cost_(memory.take<float>("belief propagation", shape.nodes() * labels())),
       message_(memory.take<float>("belief propagation", shape.nodes() * labels() * kSides)),
@@ -159,4 +159,4 @@ double BeliefPropagation::energy() const noexcept {
   return sum;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <span>
 
-#include "rt/fixed_memory.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
 /// Min-sum loopy belief propagation over a grid of nodes with ordered labels, as Felzenszwalb and
 /// Huttenlocher make it fast ("Efficient belief propagation for early vision", IJCV 70(1), 2006):
@@ -41,7 +41,7 @@ class BeliefPropagation {
     float limit = 0;      ///< >= 0; 0: these neighbours have no say over each other.
   };
 
-  BeliefPropagation(const Shape& shape, rt::FixedMemory& memory);
+  BeliefPropagation(const Shape& shape, memory::FixedMemory& memory);
 
   /// Costs of a node's labels, to be filled before run(). Finite.
   [[nodiscard]] std::span<float> data_cost(int row, int column) noexcept {
@@ -91,4 +91,4 @@ class BeliefPropagation {
   std::span<std::uint8_t> label_;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
 constexpr float kNothing = std::numeric_limits<float>::quiet_NaN();
@@ -22,8 +22,8 @@ int mirrored(int row, int rows) noexcept {
 
 }  // namespace
 
-ColumnAngles::ColumnAngles(const Config& config, const calib::RingProfile&, ImageShape shape,
-                           std::size_t return_capacity, rt::FixedMemory& memory)
+ColumnAngles::ColumnAngles(const Config& config, const mount::RingProfile&, frame::ImageShape shape,
+                           std::size_t return_capacity, memory::FixedMemory& memory)
     : config_(config),
       shape_(shape),
       filter_(config.smoothing_window),
@@ -36,25 +36,25 @@ ColumnAngles::ColumnAngles(const Config& config, const calib::RingProfile&, Imag
       queue_(memory.take<std::uint32_t>("column angles", shape.cells())),
       return_labels_({}, return_capacity, memory) {}
 
-SegmentationReport ColumnAngles::segment(const RangeImage& image,
-                                         StageObserver* observer) noexcept {
+stage::SegmentationReport ColumnAngles::segment(const frame::RangeImage& image,
+                                                stage::StageObserver* observer) noexcept {
   repair_columns(image);
   measure_angles();
   smooth_angles();
   spread_ground();
   grow_ground();
   label_cells(image);
-  if (observer != nullptr) observer->stage_done(Stage::kAdjacentPoints);
+  if (observer != nullptr) observer->stage_done(stage::Stage::kAdjacentPoints);
 
   return_labels_.assign(image, planes_);
-  if (observer != nullptr) observer->stage_done(Stage::kLabels);
-  SegmentationReport report;
-  report.last_stage = Stage::kAdjacentPoints;
+  if (observer != nullptr) observer->stage_done(stage::Stage::kLabels);
+  stage::SegmentationReport report;
+  report.last_stage = stage::Stage::kAdjacentPoints;
   report.count(return_labels_.labels());
   return report;
 }
 
-void ColumnAngles::repair_columns(const RangeImage& image) noexcept {
+void ColumnAngles::repair_columns(const frame::RangeImage& image) noexcept {
   for (std::size_t i = 0; i < range_m_.size(); ++i) {
     const bool seen = image.has_return(i);
     range_m_[i] = seen ? image.ground_range_m()[i] : kNothing;
@@ -69,7 +69,7 @@ void ColumnAngles::repair_columns(const RangeImage& image) noexcept {
 }
 
 /// Fills a hole on the line between the nearest returns below and above it.
-void ColumnAngles::bridge_hole(const RangeImage& image, int row, int column) noexcept {
+void ColumnAngles::bridge_hole(const frame::RangeImage& image, int row, int column) noexcept {
   const auto steps_to_return = [&](int direction) noexcept {
     for (int steps = 1; steps <= config_.repair_rows; ++steps) {
       const int other = row + direction * steps;
@@ -182,13 +182,15 @@ void ColumnAngles::grow_ground() noexcept {
   }
 }
 
-void ColumnAngles::label_cells(const RangeImage& image) noexcept {
+void ColumnAngles::label_cells(const frame::RangeImage& image) noexcept {
   for (std::size_t i = 0; i < planes_.label.size(); ++i) {
     const bool seen = image.has_return(i);
     const bool ground = ground_[i] != 0;
     planes_.height_m[i] = !seen ? kNothing : ground ? 0.0F : image.z_m()[i];
-    planes_.label[i] = !seen ? Label::kNone : ground ? Label::kGround : Label::kObstacle;
+    planes_.label[i] = !seen    ? frame::Label::kNone
+                       : ground ? frame::Label::kGround
+                                : frame::Label::kObstacle;
   }
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/ring_profile.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/baselines/savitzky_golay.hpp"
-#include "pipeline/cell_planes.hpp"
-#include "pipeline/range_image.hpp"
-#include "pipeline/return_labels.hpp"
-#include "pipeline/segmentation_report.hpp"
-#include "pipeline/stage.hpp"
-#include "rt/fixed_memory.hpp"
+#include "pipeline/stage/cell_planes.hpp"
+#include "pipeline/stage/return_labels.hpp"
+#include "pipeline/stage/segmentation_report.hpp"
+#include "pipeline/stage/stage.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
 /// The range image method of Bogoslavskyi and Stachniss ("Efficient online segmentation for sparse
 /// 3D laser scans", PFG 85, 2017): the inclination of the line from each return to the one above it
@@ -32,45 +32,47 @@ class ColumnAngles {
   };
 
   /// `profile` is not looked at: the angles are measured. Takes all memory.
-  ColumnAngles(const Config& config, const calib::RingProfile& profile, ImageShape shape,
-               std::size_t return_capacity, rt::FixedMemory& memory);
+  ColumnAngles(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
+               std::size_t return_capacity, memory::FixedMemory& memory);
 
   /// Labels one turn of the shape given. Reports kAdjacentPoints and kLabels. Real-time safe.
-  [[nodiscard]] SegmentationReport segment(const RangeImage& image,
-                                           StageObserver* observer = nullptr) noexcept;
+  [[nodiscard]] stage::SegmentationReport segment(
+      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
 
   /// As Segmenter::labels() and planes(). The method knows no height of the ground: heights are 0
   /// where the label is ground and above the mount's ground plane elsewhere.
-  [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
-  [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
+    return return_labels_.labels();
+  }
+  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
 
   /// Smoothed angle by cell, degrees in [0, 90] but for what smoothing overshoots; NaN where
   /// neither a return nor a repaired hole is.
   [[nodiscard]] std::span<const float> angle_deg() const noexcept { return angle_deg_; }
 
  private:
-  void repair_columns(const RangeImage& image) noexcept;
-  void bridge_hole(const RangeImage& image, int row, int column) noexcept;
+  void repair_columns(const frame::RangeImage& image) noexcept;
+  void bridge_hole(const frame::RangeImage& image, int row, int column) noexcept;
   void measure_angles() noexcept;
   void smooth_angles() noexcept;
   void spread_ground() noexcept;
   void spread_from(std::uint32_t start) noexcept;
   void grow_ground() noexcept;
-  void label_cells(const RangeImage& image) noexcept;
+  void label_cells(const frame::RangeImage& image) noexcept;
   [[nodiscard]] std::size_t cell(int row, int column) const noexcept {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride()) +
            static_cast<std::size_t>(column);
   }
 
   Config config_;
-  ImageShape shape_;
+  frame::ImageShape shape_;
   SavitzkyGolay filter_;
-  CellPlanes planes_;
+  stage::CellPlanes planes_;
   std::span<float> range_m_, z_m_;  // of the repaired image, NaN where nothing is
   std::span<float> raw_deg_, angle_deg_;
   std::span<std::uint8_t> ground_;  // by cell: reached from the lowest returns
   std::span<std::uint32_t> queue_;  // of the breadth-first search
-  ReturnLabels return_labels_;
+  stage::ReturnLabels return_labels_;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -4,9 +4,9 @@
 
 #include <cstddef>
 
-#include "pipeline/range_image.hpp"
+#include "firmware_io/frame/range_image.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
 /// Where a return is, in the vehicle frame, and in which column of the image.
 struct Place {
@@ -18,8 +18,8 @@ struct Place {
 /// Calls `visit(place)` for every return of the turn, those on the overflow list included: methods
 /// on a map see points, not an image.
 template <class Visit>
-void each_return(const RangeImage& image, Visit visit) noexcept {
-  const ImageShape& shape = image.shape();
+void each_return(const frame::RangeImage& image, Visit visit) noexcept {
+  const frame::ImageShape& shape = image.shape();
   for (int row = 0; row < shape.rows; ++row) {
     const std::size_t first =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(shape.stride());
@@ -30,11 +30,11 @@ void each_return(const RangeImage& image, Visit visit) noexcept {
                   image.ground_range_m()[cell], column});
     }
   }
-  for (const OverflowReturn& extra : image.overflow()) {
-    const Return& echo = extra.echo;
+  for (const frame::OverflowReturn& extra : image.overflow()) {
+    const frame::Return& echo = extra.echo;
     visit(Place{echo.x_m, echo.y_m, echo.z_m, echo.ground_range_m,
                 static_cast<int>(extra.cell % static_cast<std::uint32_t>(shape.stride()))});
   }
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

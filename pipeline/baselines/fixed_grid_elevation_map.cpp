@@ -7,20 +7,20 @@
 
 #include "pipeline/baselines/each_return.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
-ReturnLabels::Config second_returns(const FixedGridElevationMap::Config& config) noexcept {
-  ReturnLabels::Config result;
+stage::ReturnLabels::Config second_returns(const FixedGridElevationMap::Config& config) noexcept {
+  stage::ReturnLabels::Config result;
   result.obstacle_height_m = config.obstacle_height_m;
   return result;
 }
 
 }  // namespace
 
-FixedGridElevationMap::FixedGridElevationMap(const Config& config, const calib::RingProfile&,
-                                             ImageShape shape, std::size_t return_capacity,
-                                             rt::FixedMemory& memory)
+FixedGridElevationMap::FixedGridElevationMap(const Config& config, const mount::RingProfile&,
+                                             frame::ImageShape shape, std::size_t return_capacity,
+                                             memory::FixedMemory& memory)
     : config_(config),
       side_(static_cast<int>(std::ceil(2.0F * config.extent_m / config.cell_m))),
       planes_(shape, memory),
@@ -40,8 +40,8 @@ std::uint32_t FixedGridElevationMap::square_of(float x_m, float y_m) const noexc
   return step(y_m) * static_cast<std::uint32_t>(side_) + step(x_m);
 }
 
-SegmentationReport FixedGridElevationMap::segment(const RangeImage& image,
-                                                  StageObserver* observer) noexcept {
+stage::SegmentationReport FixedGridElevationMap::segment(const frame::RangeImage& image,
+                                                         stage::StageObserver* observer) noexcept {
   sort_returns_into_squares(image);
   std::uint32_t begin = 0;
   for (std::size_t square = 0; square < squares_.size(); ++square) {
@@ -49,18 +49,18 @@ SegmentationReport FixedGridElevationMap::segment(const RangeImage& image,
     begin = end_[square];
   }
   label_cells(image);
-  if (observer != nullptr) observer->stage_done(Stage::kElevationMap);
+  if (observer != nullptr) observer->stage_done(stage::Stage::kElevationMap);
 
   return_labels_.assign(image, planes_);
-  if (observer != nullptr) observer->stage_done(Stage::kLabels);
-  SegmentationReport report;
-  report.last_stage = Stage::kElevationMap;
+  if (observer != nullptr) observer->stage_done(stage::Stage::kLabels);
+  stage::SegmentationReport report;
+  report.last_stage = stage::Stage::kElevationMap;
   report.count(return_labels_.labels());
   return report;
 }
 
 /// Counting sort: how many in each square, where each square ends, then every return to its place.
-void FixedGridElevationMap::sort_returns_into_squares(const RangeImage& image) noexcept {
+void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& image) noexcept {
   std::fill(end_.begin(), end_.end(), 0U);
   each_return(image, [this](const Place& place) { ++end_[square_of(place.x_m, place.y_m)]; });
   std::uint32_t sum = 0;
@@ -116,11 +116,11 @@ FixedGridElevationMap::Square FixedGridElevationMap::fit(std::span<Sample> sampl
   return square;
 }
 
-void FixedGridElevationMap::label_cells(const RangeImage& image) noexcept {
+void FixedGridElevationMap::label_cells(const frame::RangeImage& image) noexcept {
   for (std::size_t cell = 0; cell < planes_.label.size(); ++cell) {
     if (!image.has_return(cell)) {
       planes_.height_m[cell] = std::numeric_limits<float>::quiet_NaN();
-      planes_.label[cell] = Label::kNone;
+      planes_.label[cell] = frame::Label::kNone;
       continue;
     }
     const float z_m = image.z_m()[cell];
@@ -128,8 +128,8 @@ void FixedGridElevationMap::label_cells(const RangeImage& image) noexcept {
     const float height_m = z_m - square.elevation_m;
     const bool ground = height_m < config_.obstacle_height_m && z_m < square.overhang_m;
     planes_.height_m[cell] = height_m;
-    planes_.label[cell] = ground ? Label::kGround : Label::kObstacle;
+    planes_.label[cell] = ground ? frame::Label::kGround : frame::Label::kObstacle;
   }
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -6,22 +6,23 @@
 #include <limits>
 #include <span>
 
-#include "calib/ring_profile.hpp"
-#include "pipeline/cell_planes.hpp"
-#include "pipeline/range_image.hpp"
-#include "pipeline/return_labels.hpp"
-#include "pipeline/segmentation_report.hpp"
-#include "pipeline/stage.hpp"
-#include "rt/fixed_memory.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/stage/cell_planes.hpp"
+#include "pipeline/stage/return_labels.hpp"
+#include "pipeline/stage/segmentation_report.hpp"
+#include "pipeline/stage/stage.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
 /// The extended elevation map of Pfaff, Triebel and Burgard ("An efficient extension to elevation
 /// maps for outdoor terrain mapping and loop closing", IJRR 26(2), 2007): squares of a fixed size,
 /// each with one elevation. Where the heights of a square vary much it looks for a gap the vehicle
 /// fits through; what is above the gap hangs over, and the elevation is that of the lowest
 /// interval. A lowest interval whose heights still vary much is a vertical object standing on its
-/// lowest return. Which sources say what, and what they leave open, is in docs/evaluation.md.
+/// lowest return. Which sources say what, and what they leave open, is in
+/// docs/reference/evaluation.md.
 class FixedGridElevationMap {
  public:
   struct Config {
@@ -50,16 +51,19 @@ class FixedGridElevationMap {
   };
 
   /// `profile` is not looked at: the map knows no rings. Takes all memory.
-  FixedGridElevationMap(const Config& config, const calib::RingProfile& profile, ImageShape shape,
-                        std::size_t return_capacity, rt::FixedMemory& memory);
+  FixedGridElevationMap(const Config& config, const mount::RingProfile& profile,
+                        frame::ImageShape shape, std::size_t return_capacity,
+                        memory::FixedMemory& memory);
 
   /// Labels one turn of the shape given. Reports kElevationMap and kLabels. Real-time safe.
-  [[nodiscard]] SegmentationReport segment(const RangeImage& image,
-                                           StageObserver* observer = nullptr) noexcept;
+  [[nodiscard]] stage::SegmentationReport segment(
+      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
 
   /// As Segmenter::labels() and planes().
-  [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
-  [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
+    return return_labels_.labels();
+  }
+  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
 
   /// The square a place on the ground belongs to. Real-time safe, any floats.
   [[nodiscard]] const Square& square_at(float x_m, float y_m) const noexcept {
@@ -73,18 +77,18 @@ class FixedGridElevationMap {
   };
 
   [[nodiscard]] std::uint32_t square_of(float x_m, float y_m) const noexcept;
-  void sort_returns_into_squares(const RangeImage& image) noexcept;
+  void sort_returns_into_squares(const frame::RangeImage& image) noexcept;
   [[nodiscard]] Square fit(std::span<Sample> samples) const noexcept;
   [[nodiscard]] bool is_level(std::span<const Sample> samples) const noexcept;
-  void label_cells(const RangeImage& image) noexcept;
+  void label_cells(const frame::RangeImage& image) noexcept;
 
   Config config_;
   int side_;  // squares
-  CellPlanes planes_;
+  stage::CellPlanes planes_;
   std::span<std::uint32_t> end_;  // by square: one past its last sample
   std::span<Sample> samples_;     // of all returns, square by square
   std::span<Square> squares_;
-  ReturnLabels return_labels_;
+  stage::ReturnLabels return_labels_;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

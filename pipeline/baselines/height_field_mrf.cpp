@@ -9,20 +9,20 @@
 
 #include "pipeline/baselines/each_return.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
-ReturnLabels::Config second_returns(const HeightFieldMrf::Config& config) noexcept {
-  ReturnLabels::Config result;
+stage::ReturnLabels::Config second_returns(const HeightFieldMrf::Config& config) noexcept {
+  stage::ReturnLabels::Config result;
   result.obstacle_height_m = config.obstacle_height_m;
   return result;
 }
 
 }  // namespace
 
-HeightFieldMrf::HeightFieldMrf(const Config& config, const calib::RingProfile& profile,
-                               ImageShape shape, std::size_t return_capacity,
-                               rt::FixedMemory& memory)
+HeightFieldMrf::HeightFieldMrf(const Config& config, const mount::RingProfile& profile,
+                               frame::ImageShape shape, std::size_t return_capacity,
+                               memory::FixedMemory& memory)
     : config_(config),
       shape_(shape),
       sensor_height_m_(static_cast<float>(profile.mount.height_m)),
@@ -59,25 +59,25 @@ float HeightFieldMrf::height_of(int label) const noexcept {
   return static_cast<float>(label - config_.height_labels / 2) * config_.height_step_m;
 }
 
-SegmentationReport HeightFieldMrf::segment(const RangeImage& image,
-                                           StageObserver* observer) noexcept {
-  const auto done = [observer](Stage stage) noexcept {
+stage::SegmentationReport HeightFieldMrf::segment(const frame::RangeImage& image,
+                                                  stage::StageObserver* observer) noexcept {
+  const auto done = [observer](stage::Stage stage) noexcept {
     if (observer != nullptr) observer->stage_done(stage);
   };
   count_returns(image);
   put_costs();
-  done(Stage::kElevationMap);
+  done(stage::Stage::kElevationMap);
   field_.run(config_.iterations);
-  done(Stage::kMinCut);
+  done(stage::Stage::kMinCut);
   label_cells(image);
   return_labels_.assign(image, planes_);
-  done(Stage::kLabels);
-  SegmentationReport report;
+  done(stage::Stage::kLabels);
+  stage::SegmentationReport report;
   report.count(return_labels_.labels());
   return report;
 }
 
-void HeightFieldMrf::count_returns(const RangeImage& image) noexcept {
+void HeightFieldMrf::count_returns(const frame::RangeImage& image) noexcept {
   std::fill(returns_at_.begin(), returns_at_.end(), std::uint16_t{0});
   std::fill(least_slope_.begin(), least_slope_.end(), std::numeric_limits<float>::infinity());
   const auto labels = static_cast<std::size_t>(config_.height_labels);
@@ -157,7 +157,7 @@ void HeightFieldMrf::put_slopes() noexcept {
   }
 }
 
-void HeightFieldMrf::label_cells(const RangeImage& image) noexcept {
+void HeightFieldMrf::label_cells(const frame::RangeImage& image) noexcept {
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t first =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
@@ -165,15 +165,15 @@ void HeightFieldMrf::label_cells(const RangeImage& image) noexcept {
       const std::size_t cell = first + static_cast<std::size_t>(column);
       if (!image.has_return(cell)) {
         planes_.height_m[cell] = std::numeric_limits<float>::quiet_NaN();
-        planes_.label[cell] = Label::kNone;
+        planes_.label[cell] = frame::Label::kNone;
         continue;
       }
       const float height_m = image.z_m()[cell] - ground_m(column, image.ground_range_m()[cell]);
       planes_.height_m[cell] = height_m;
       planes_.label[cell] =
-          height_m < config_.obstacle_height_m ? Label::kGround : Label::kObstacle;
+          height_m < config_.obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
     }
   }
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

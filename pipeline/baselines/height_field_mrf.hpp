@@ -5,16 +5,16 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/ring_profile.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/baselines/belief_propagation.hpp"
-#include "pipeline/cell_planes.hpp"
-#include "pipeline/range_image.hpp"
-#include "pipeline/return_labels.hpp"
-#include "pipeline/segmentation_report.hpp"
-#include "pipeline/stage.hpp"
-#include "rt/fixed_memory.hpp"
+#include "pipeline/stage/cell_planes.hpp"
+#include "pipeline/stage/return_labels.hpp"
+#include "pipeline/stage/segmentation_report.hpp"
+#include "pipeline/stage/stage.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
 /// The ground as a multi-label Markov random field, after Zhang, Morris and Fu ("Ground
 /// segmentation based on loopy belief propagation for sparse 3D point clouds", 3DV 2015): a polar
@@ -22,7 +22,7 @@ namespace terracut::pipeline {
 /// returns says of a height is a cost, without any assumed distribution; neighbours ask for a slope
 /// the ground can have, and for not more than a limit where it has a step. Belief propagation
 /// settles it, and a return is ground when it is not far above its cell's height. Which sources say
-/// what, and what they leave open, is in docs/evaluation.md.
+/// what, and what they leave open, is in docs/reference/evaluation.md.
 class HeightFieldMrf {
  public:
   struct Config {
@@ -47,17 +47,19 @@ class HeightFieldMrf {
   };
 
   /// Takes all memory; of `profile` only the mount's height is used.
-  HeightFieldMrf(const Config& config, const calib::RingProfile& profile, ImageShape shape,
-                 std::size_t return_capacity, rt::FixedMemory& memory);
+  HeightFieldMrf(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
+                 std::size_t return_capacity, memory::FixedMemory& memory);
 
   /// Labels one turn of the shape given. Reports kElevationMap when the costs are there, kMinCut
   /// when the field is solved, and kLabels. Real-time safe.
-  [[nodiscard]] SegmentationReport segment(const RangeImage& image,
-                                           StageObserver* observer = nullptr) noexcept;
+  [[nodiscard]] stage::SegmentationReport segment(
+      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
 
   /// As Segmenter::labels() and planes().
-  [[nodiscard]] std::span<const Label> labels() const noexcept { return return_labels_.labels(); }
-  [[nodiscard]] const CellPlanes& planes() const noexcept { return planes_; }
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
+    return return_labels_.labels();
+  }
+  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
 
   /// Height of the ground where an image column passes a range, metres above the mount's plane.
   [[nodiscard]] float ground_m(int column, float ground_range_m) const noexcept {
@@ -75,22 +77,22 @@ class HeightFieldMrf {
   }
   [[nodiscard]] int label_of(float height_m) const noexcept;
   [[nodiscard]] float height_of(int label) const noexcept;
-  void count_returns(const RangeImage& image) noexcept;
+  void count_returns(const frame::RangeImage& image) noexcept;
   void put_costs() noexcept;
   void put_cost(int band, int sector, float free_above_m) noexcept;
   void put_slopes() noexcept;
-  void label_cells(const RangeImage& image) noexcept;
+  void label_cells(const frame::RangeImage& image) noexcept;
 
   Config config_;
-  ImageShape shape_;
+  frame::ImageShape shape_;
   float sensor_height_m_;
   int bands_;
-  CellPlanes planes_;
+  stage::CellPlanes planes_;
   BeliefPropagation field_;              // rows: bands, columns: sectors
   std::span<std::uint16_t> returns_at_;  // [map cell][height label]
   std::span<float> least_slope_;         // by map cell: of the beams that end in it
   std::span<std::uint16_t> sector_of_column_;
-  ReturnLabels return_labels_;
+  stage::ReturnLabels return_labels_;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <span>
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 
 /// Weights of the Savitzky-Golay filter for the middle of a window: the value there of the
 /// quadratic that fits the window best. So quadratics pass unchanged, and noise is averaged.
@@ -40,4 +40,4 @@ class SavitzkyGolay {
   std::array<float, kMaxWindow> weights_{};
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <limits>
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
-BoykovKolmogorov::BoykovKolmogorov(std::size_t max_nodes, rt::FixedMemory& memory)
+BoykovKolmogorov::BoykovKolmogorov(std::size_t max_nodes, memory::FixedMemory& memory)
     : active_("min-cut: work lists", max_nodes, memory),
       orphans_("min-cut: work lists", max_nodes, memory) {}
 
@@ -208,4 +208,4 @@ void BoykovKolmogorov::adopt(std::uint32_t orphan) noexcept {
   p.side = Side::kFree;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

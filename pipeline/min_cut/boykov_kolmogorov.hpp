@@ -9,10 +9,10 @@
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "pipeline/min_cut/node_queue.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Maximum flow of one component after Y. Boykov, V. Kolmogorov, "An Experimental Comparison of
 /// Min-Cut/Max-Flow Algorithms for Energy Minimization in Vision", PAMI 26(9), 2004, section 3: two
@@ -21,7 +21,7 @@ namespace terracut::pipeline {
 /// useful bound: give it a budget.
 class BoykovKolmogorov {
  public:
-  BoykovKolmogorov(std::size_t max_nodes, rt::FixedMemory& memory);
+  BoykovKolmogorov(std::size_t max_nodes, memory::FixedMemory& memory);
 
   /// True when the flow is maximal; `side` then is the answer for each node of the component.
   /// False when `ops_limit` (of clock.ops()) or the clock's own budget is reached; the residual
@@ -63,4 +63,4 @@ class BoykovKolmogorov {
   std::int64_t flow_ = 0;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -6,7 +6,7 @@
 #include <bit>
 #include <tuple>
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 namespace {
 
 /// Non-negative floats order like their bits; NaN comes last.
@@ -16,7 +16,7 @@ std::uint32_t ordered_bits(float range_m) noexcept {
 
 }  // namespace
 
-Components::Components(std::size_t max_nodes, rt::FixedMemory& memory)
+Components::Components(std::size_t max_nodes, memory::FixedMemory& memory)
     : nodes_(memory.take<std::uint32_t>("min-cut: components", max_nodes)),
       extents_(memory.take<Extent>("min-cut: components", max_nodes)) {}
 
@@ -54,4 +54,4 @@ void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
   });
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

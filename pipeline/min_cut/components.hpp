@@ -7,16 +7,16 @@
 #include <span>
 
 #include "pipeline/min_cut/cut_graph.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Connected components of the nodes persistency left open. Each is solved by itself and exact by
 /// itself, so that solving the nearest first makes the whole an anytime algorithm.
 class Components {
  public:
-  Components(std::size_t max_nodes, rt::FixedMemory& memory);
+  Components(std::size_t max_nodes, memory::FixedMemory& memory);
 
   /// Real-time safe. `ground_range_m` is read at `cells[node]`.
   void find(CutGraph& graph, std::span<const std::uint32_t> cells,
@@ -39,4 +39,4 @@ class Components {
   std::uint32_t count_ = 0;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

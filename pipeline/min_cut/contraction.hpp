@@ -15,7 +15,7 @@
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/min_cut/unknown_cells.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// One node of contract().
 inline void contract_cell(const GridProblem& problem, const UnknownCells& unknown,
@@ -86,4 +86,4 @@ template <EdgeWeights Weights>
   return true;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// How much work the solvers of one min-cut may do. An operation is one visit of an arc (3-14 ns on
 /// a 3 GHz core, more in larger components). Outside the budget, and bounded by the cap on unknown
@@ -64,4 +64,4 @@ class OpClock {
   bool expired_ = false;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

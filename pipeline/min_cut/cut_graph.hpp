@@ -11,7 +11,7 @@
 
 #include "pipeline/min_cut/direction.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Which terminal a node goes with. The source is "object", the sink "background".
 enum class Side : std::uint8_t {
@@ -67,4 +67,4 @@ inline void push_along(CutNode& from, CutNode& to, int direction, int amount) no
   return flow;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

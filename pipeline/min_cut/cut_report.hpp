@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// What one min-cut did and how far it got. Counts are of cells unless named otherwise.
 ///
@@ -45,4 +45,4 @@ struct CutReport {
   }
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

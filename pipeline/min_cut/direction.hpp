@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "pipeline/range_image.hpp"
+#include "firmware_io/frame/range_image.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// The 8 neighbours of a cell are numbered in row-major order around it:
 ///
@@ -35,7 +35,7 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
 
 /// Neighbours of the cell in `row` [0, rows) and `column` [0, columns). A direction that leads
 /// outside the rows yields the cell itself, so that every entry may be read from.
-[[nodiscard]] constexpr NeighbourCells neighbour_cells(const ImageShape& shape, int row,
+[[nodiscard]] constexpr NeighbourCells neighbour_cells(const frame::ImageShape& shape, int row,
                                                        int column) noexcept {
   const auto at = [stride = shape.stride()](int r, int c) {
     return static_cast<std::uint32_t>(r * stride + c);
@@ -50,4 +50,4 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   return cells;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

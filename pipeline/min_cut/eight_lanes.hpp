@@ -10,7 +10,7 @@
 
 #include "pipeline/min_cut/direction.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Eight 16-bit numbers, one a neighbour, worked on four at a time inside plain 64-bit words: the
 /// same on every machine, and without the branch a neighbour that mispredicts every other time.
@@ -51,4 +51,4 @@ struct EightLanes {
   }
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

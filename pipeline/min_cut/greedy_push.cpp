@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 std::int64_t push_one_hop(CutGraph& graph) noexcept {
   std::int64_t ops = 0;
@@ -25,4 +25,4 @@ std::int64_t push_one_hop(CutGraph& graph) noexcept {
   return ops;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -5,13 +5,13 @@
 #include <cstdint>
 
 #include "pipeline/min_cut/cut_graph.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Sends flow along all paths of one edge, source - p - q - sink, before any search: it leaves a
 /// third of the augmentations to Boykov-Kolmogorov. One pass in node order; returns the arcs
 /// visited. Real-time safe.
 std::int64_t push_one_hop(CutGraph& graph) noexcept TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

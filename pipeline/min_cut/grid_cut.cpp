@@ -9,10 +9,10 @@
 #include "pipeline/min_cut/greedy_push.hpp"
 #include "pipeline/min_cut/residual_reach.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 namespace {
 
-GridCut::Config checked(const ImageShape& shape, GridCut::Config config) {
+GridCut::Config checked(const frame::ImageShape& shape, GridCut::Config config) {
   if (shape.columns < 3 || shape.rows < 1) {
     throw std::invalid_argument("GridCut expects at least 3 columns (they are cyclic) and 1 row");
   }
@@ -51,7 +51,7 @@ std::int64_t residual_cost(const CutGraph& graph,
 
 }  // namespace
 
-GridCut::GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory& memory)
+GridCut::GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory)
     : config_(checked(shape, config)),
       unknown_(shape, config_.max_unknown, memory),
       coarse_{memory.take<std::uint32_t>("min-cut: cell lists", shape.cells())},
@@ -63,7 +63,7 @@ GridCut::GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory&
       push_relabel_(config_.max_unknown, memory) {}
 
 CutReport GridCut::find_unknown(const GridProblem& problem,
-                                std::span<const Label> labels) noexcept {
+                                std::span<const frame::Label> labels) noexcept {
   assert(problem.seeds.size() >= problem.shape.cells() && labels.size() >= problem.shape.cells());
   coarse_.size = 0;
   unknown_.find(problem, labels, coarse_);
@@ -88,7 +88,7 @@ CutReport GridCut::discard(CutReport report) noexcept {
 }
 
 CutReport GridCut::solve_contracted(const GridProblem& problem, OpClock& clock,
-                                    std::span<Label> labels, CutReport report) noexcept {
+                                    std::span<frame::Label> labels, CutReport report) noexcept {
   const Persistency::Result persistency = persistency_.fix(graph_, clock);
   report.fixed_by_persistency = persistency.fixed;
   report.persistency_ops = persistency.ops;
@@ -116,7 +116,7 @@ CutReport GridCut::solve_contracted(const GridProblem& problem, OpClock& clock,
 
   for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
     const bool obstacle = graph_.nodes[i].side == Side::kObstacle;
-    labels[unknown_.cells()[i]] = obstacle ? Label::kObstacle : Label::kGround;
+    labels[unknown_.cells()[i]] = obstacle ? frame::Label::kObstacle : frame::Label::kGround;
   }
   report.flow = graph_.flow;
   report.energy = graph_.flow + cost_beyond_flow;
@@ -141,7 +141,8 @@ bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock&
 }
 
 std::int64_t GridCut::settle_unfinished(std::span<const std::uint32_t> component, bool started,
-                                        std::span<const Label> labels, CutReport& report) noexcept {
+                                        std::span<const frame::Label> labels,
+                                        CutReport& report) noexcept {
   std::uint32_t certified = 0;
   if (started) {
     certified = certify(graph_, component, queue_);
@@ -152,7 +153,7 @@ std::int64_t GridCut::settle_unfinished(std::span<const std::uint32_t> component
     CutNode& node = graph_.nodes[index];
     if (node.side != Side::kFree) continue;
     const std::uint32_t cell = unknown_.cells()[index];
-    node.side = labels[cell] == Label::kObstacle ? Side::kObstacle : Side::kGround;
+    node.side = labels[cell] == frame::Label::kObstacle ? Side::kObstacle : Side::kGround;
     coarse_.push_back(cell);
   }
   report.certified += certified;
@@ -160,4 +161,4 @@ std::int64_t GridCut::settle_unfinished(std::span<const std::uint32_t> component
   return residual_cost(graph_, component);
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

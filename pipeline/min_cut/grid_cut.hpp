@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/label.hpp"
+#include "firmware_io/frame/label.hpp"
 #include "pipeline/min_cut/boykov_kolmogorov.hpp"
 #include "pipeline/min_cut/components.hpp"
 #include "pipeline/min_cut/contraction.hpp"
@@ -17,10 +17,10 @@
 #include "pipeline/min_cut/persistency.hpp"
 #include "pipeline/min_cut/push_relabel.hpp"
 #include "pipeline/min_cut/unknown_cells.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// The minimum of GridProblem's energy: exact, or, when the budget runs out, exact where finished
 /// and coarse, listed and counted elsewhere. At no point is its energy above that of the coarse
@@ -47,14 +47,14 @@ class GridCut {
 
   /// shape.columns >= 3 and shape.rows >= 1. Throws std::invalid_argument when these or the config
   /// are out of range (start-up only).
-  GridCut(const ImageShape& shape, const Config& config, rt::FixedMemory& memory);
+  GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory);
 
   /// Labels the unknown cells. `labels`: on entry the coarse label of every unknown cell (anything
   /// but kObstacle counts as ground), on return its final one; other cells are left as they are.
   /// `problem.shape` must be the constructor's. Real-time safe.
   template <EdgeWeights Weights>
   [[nodiscard]] CutReport solve(const GridProblem& problem, const Weights& weights,
-                                const CutBudget& budget, std::span<Label> labels) noexcept {
+                                const CutBudget& budget, std::span<frame::Label> labels) noexcept {
     OpClock clock(budget);
     const CutReport report = find_unknown(problem, labels);
     if (!contract(problem, unknown_, weights, clock, graph_)) return discard(report);
@@ -71,9 +71,10 @@ class GridCut {
  private:
   /// Counts them.
   [[nodiscard]] CutReport find_unknown(const GridProblem& problem,
-                                       std::span<const Label> labels) noexcept TERRACUT_NONBLOCKING;
+                                       std::span<const frame::Label> labels) noexcept
+      TERRACUT_NONBLOCKING;
   [[nodiscard]] CutReport solve_contracted(const GridProblem& problem, OpClock& clock,
-                                           std::span<Label> labels,
+                                           std::span<frame::Label> labels,
                                            CutReport report) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool is_worth_keeping(const CutReport& report) const noexcept;
@@ -86,7 +87,7 @@ class GridCut {
   /// Proves what it can of an unfinished component, leaves the rest coarse, and returns what the
   /// labels cost beyond the flow.
   [[nodiscard]] std::int64_t settle_unfinished(std::span<const std::uint32_t> component,
-                                               bool started, std::span<const Label> labels,
+                                               bool started, std::span<const frame::Label> labels,
                                                CutReport& report) noexcept;
 
   Config config_;
@@ -101,4 +102,4 @@ class GridCut {
   PushRelabel push_relabel_;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

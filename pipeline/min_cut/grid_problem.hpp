@@ -8,10 +8,10 @@
 #include <span>
 #include <type_traits>
 
+#include "firmware_io/frame/range_image.hpp"
 #include "pipeline/min_cut/direction.hpp"
-#include "pipeline/range_image.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// What is known of a cell before the min-cut.
 enum class Seed : std::uint8_t {
@@ -42,7 +42,7 @@ inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 ///
 /// Pairs of two hard seeds are no part of E: no choice is left for them.
 struct GridProblem {
-  ImageShape shape;  ///< columns >= 3, rows >= 1.
+  frame::ImageShape shape;  ///< columns >= 3, rows >= 1.
   std::span<const Seed> seeds;
   std::span<const std::int32_t> cost_ground;    ///< Cost of calling the cell ground.
   std::span<const std::int32_t> cost_obstacle;  ///< Cost of calling the cell obstacle.
@@ -59,4 +59,4 @@ template <class W>
 concept EdgeWeights = std::is_nothrow_invocable_v<const W&, std::uint32_t, const NeighbourCells&,
                                                   std::span<std::uint16_t, kDirections>>;
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -8,15 +8,15 @@
 #include <span>
 #include <string_view>
 
-#include "rt/fixed_memory.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// A ring of node indices, open at both ends. Holds at least `capacity`; the caller sees to it that
 /// no node is in it twice, so it never overflows.
 class NodeQueue {
  public:
-  NodeQueue(std::string_view part, std::size_t capacity, rt::FixedMemory& memory)
+  NodeQueue(std::string_view part, std::size_t capacity, memory::FixedMemory& memory)
       : ring_(memory.take<std::uint32_t>(part, std::bit_ceil(capacity + 1))),
         mask_(static_cast<std::uint32_t>(ring_.size() - 1)) {}
 
@@ -32,4 +32,4 @@ class NodeQueue {
   std::uint32_t front_ = 0, back_ = 0;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

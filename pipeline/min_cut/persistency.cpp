@@ -4,9 +4,9 @@
 
 #include "pipeline/min_cut/eight_lanes.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
-Persistency::Persistency(std::size_t max_nodes, rt::FixedMemory& memory)
+Persistency::Persistency(std::size_t max_nodes, memory::FixedMemory& memory)
     : worklist_(memory.take<std::uint32_t>("min-cut: work lists", max_nodes)) {}
 
 void Persistency::decide(CutNode& node, std::uint32_t index) noexcept {
@@ -50,4 +50,4 @@ Persistency::Result Persistency::fix(CutGraph& graph, OpClock& clock) noexcept {
   return result;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -8,10 +8,10 @@
 
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Fixes every node whose terminal capacity outweighs all its edges together: whatever its
 /// neighbours get, it is not worth cutting it from its terminal. A fixed node acts on its
@@ -22,7 +22,7 @@ namespace terracut::pipeline {
 /// Requires untouched capacities: residual of both arcs of an edge equal.
 class Persistency {
  public:
-  Persistency(std::size_t max_nodes, rt::FixedMemory& memory);
+  Persistency(std::size_t max_nodes, memory::FixedMemory& memory);
 
   struct Result {
     std::uint32_t fixed = 0;
@@ -41,4 +41,4 @@ class Persistency {
   std::uint32_t worklist_size_ = 0;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -6,7 +6,7 @@
 
 #include "pipeline/min_cut/residual_reach.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 namespace {
 
 /// Exact relabelling visits each arc once, some 8 operations a node. Repeating it when lifts have
@@ -16,7 +16,7 @@ constexpr std::int64_t kLiftWorkPerNode = 32;
 
 }  // namespace
 
-PushRelabel::PushRelabel(std::size_t max_nodes, rt::FixedMemory& memory)
+PushRelabel::PushRelabel(std::size_t max_nodes, memory::FixedMemory& memory)
     : level_first_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes + 2)),
       level_next_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes)),
       level_previous_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes)),
@@ -151,4 +151,4 @@ void PushRelabel::lift(std::uint32_t index, std::uint32_t distance) noexcept {
   levels_ = old;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -8,10 +8,10 @@
 
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Minimum cut of one component after A. V. Goldberg, R. E. Tarjan, "A New Approach to the
 /// Maximum-Flow Problem", J. ACM 35(4), 1988, with the highest-label rule, the gap rule and exact
@@ -20,7 +20,7 @@ namespace terracut::pipeline {
 /// cannot reach the sink stays where it is, as source capacity.
 class PushRelabel {
  public:
-  PushRelabel(std::size_t max_nodes, rt::FixedMemory& memory);
+  PushRelabel(std::size_t max_nodes, memory::FixedMemory& memory);
 
   /// True when the cut is minimal; `side` then is the answer for each node of the component.
   /// False when the clock's budget is reached; the residual graph is still valid. Real-time safe.
@@ -53,4 +53,4 @@ class PushRelabel {
   std::int64_t flow_ = 0;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

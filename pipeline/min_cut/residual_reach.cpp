@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/min_cut/residual_reach.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t> component,
                                   std::span<std::uint32_t> queue, std::int64_t& ops) noexcept {
@@ -61,4 +61,4 @@ std::uint32_t certify(CutGraph& graph, std::span<const std::uint32_t> component,
   return size - unproven;
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

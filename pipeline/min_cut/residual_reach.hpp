@@ -7,9 +7,9 @@
 #include <span>
 
 #include "pipeline/min_cut/cut_graph.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// `distance` of a node from which no residual path leads to the sink.
 inline constexpr std::uint32_t kNoWayToSink = std::numeric_limits<std::uint32_t>::max();
@@ -30,4 +30,4 @@ std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t
 std::uint32_t certify(CutGraph& graph, std::span<const std::uint32_t> component,
                       std::span<std::uint32_t> queue) noexcept TERRACUT_NONBLOCKING;
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

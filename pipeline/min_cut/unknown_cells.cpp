@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <cstring>
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
-UnknownCells::UnknownCells(const ImageShape& shape, std::uint32_t max_unknown,
-                           rt::FixedMemory& memory)
+UnknownCells::UnknownCells(const frame::ImageShape& shape, std::uint32_t max_unknown,
+                           memory::FixedMemory& memory)
     : max_unknown_(max_unknown),
       found_{memory.take<std::uint32_t>("min-cut: cell lists", shape.cells())},
       node_of_cell_(memory.take<std::uint32_t>("min-cut: cell lists", shape.cells())),
       histogram_(memory.take<std::uint32_t>("min-cut: cell lists", kRangeSteps)) {}
 
-void UnknownCells::find(const GridProblem& problem, std::span<const Label> labels,
+void UnknownCells::find(const GridProblem& problem, std::span<const frame::Label> labels,
                         CellList& dropped) noexcept {
   found_.size = 0;
   const auto stride = static_cast<std::size_t>(problem.shape.stride());
@@ -53,7 +53,7 @@ std::size_t UnknownCells::range_step(float ground_range_m) noexcept {
   return step > 0 ? static_cast<std::size_t>(step) : 0;
 }
 
-void UnknownCells::keep_nearest(const GridProblem& problem, std::span<const Label> labels,
+void UnknownCells::keep_nearest(const GridProblem& problem, std::span<const frame::Label> labels,
                                 CellList& dropped) noexcept {
   std::fill(histogram_.begin(), histogram_.end(), 0U);
   for (const std::uint32_t cell : found_.view()) {
@@ -72,10 +72,11 @@ void UnknownCells::keep_nearest(const GridProblem& problem, std::span<const Labe
       if (step == last_step) --room_in_last_step;
       found_.push_back(cell);
     } else {
-      node_of_cell_[cell] = labels[cell] == Label::kObstacle ? kPinnedObstacle : kPinnedGround;
+      node_of_cell_[cell] =
+          labels[cell] == frame::Label::kObstacle ? kPinnedObstacle : kPinnedGround;
       dropped.push_back(cell);
     }
   }
 }
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -6,12 +6,12 @@
 #include <cstdint>
 #include <span>
 
-#include "pipeline/label.hpp"
+#include "firmware_io/frame/label.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
-#include "rt/fixed_memory.hpp"
-#include "rt/nonblocking.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::min_cut {
 
 /// Cell indices in fixed memory, large enough for every cell of the image.
 struct CellList {
@@ -27,11 +27,12 @@ struct CellList {
 /// last step.
 class UnknownCells {
  public:
-  UnknownCells(const ImageShape& shape, std::uint32_t max_unknown, rt::FixedMemory& memory);
+  UnknownCells(const frame::ImageShape& shape, std::uint32_t max_unknown,
+               memory::FixedMemory& memory);
 
   /// Appends the cells beyond the cap to `dropped`; `labels` are the coarse labels they are pinned
   /// to. Real-time safe.
-  void find(const GridProblem& problem, std::span<const Label> labels,
+  void find(const GridProblem& problem, std::span<const frame::Label> labels,
             CellList& dropped) noexcept TERRACUT_NONBLOCKING;
 
   /// Kept cells in row-major order; node i of the graph is cells()[i].
@@ -50,7 +51,7 @@ class UnknownCells {
   static constexpr float kStepsPerMetre = 4.0F;
 
   void scan_row(std::span<const Seed> row, std::uint32_t first_cell) noexcept;
-  void keep_nearest(const GridProblem& problem, std::span<const Label> labels,
+  void keep_nearest(const GridProblem& problem, std::span<const frame::Label> labels,
                     CellList& dropped) noexcept;
   [[nodiscard]] static std::size_t range_step(float ground_range_m) noexcept;
 
@@ -59,4 +60,4 @@ class UnknownCells {
   std::span<std::uint32_t> node_of_cell_, histogram_;
 };
 
-}  // namespace terracut::pipeline
+}  // namespace terracut::min_cut

@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib/nominal_ruby128.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "firmware_io/decode/deskewer.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
-#include "firmware_io/motion/deskewer.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
+#include "tests/support/hand_out.hpp"
 
 namespace terracut {
 namespace {
@@ -41,14 +42,15 @@ void report(benchmark::State& state, std::size_t packets, std::size_t columns_pe
 
 void decode_turns(benchmark::State& state) {
   const auto packets = street_like();
-  rt::FixedMemory memory;
-  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, {}, memory);
+  memory::FixedMemory memory;
+  hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
   std::uint64_t returns = 0;
-  const auto on_frame = [&](const firmware_io::FrameInfo& info,
-                            const pipeline::RangeImage&) noexcept { returns += info.returns; };
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+    returns += info.returns;
+  };
   for (auto _ : state) {
-    for (const test::Packet& packet : packets) decoder.decode(packet.datagram(), on_frame);
-    decoder.flush(on_frame);
+    for (const test::Packet& packet : packets) test::decode(decoder, packet.datagram(), on_frame);
+    test::end_stream(decoder, on_frame);
   }
   benchmark::DoNotOptimize(returns);
   report(state, packets.size());
@@ -61,14 +63,15 @@ void decode_ruby128_turns(benchmark::State& state) {
                                              .first_cdeg = 35'000,
                                              .last_cdeg = 35'000 + 5 * 36'000,
                                              .share_of_returns = 0.9});
-  rt::FixedMemory memory;
-  firmware_io::Ruby128Decoder decoder(calib::nominal_ruby128(), {}, {}, memory);
+  memory::FixedMemory memory;
+  ruby128::Ruby128Decoder decoder(ruby128::nominal_ruby128(), {}, {}, memory);
   std::uint64_t returns = 0;
-  const auto on_frame = [&](const firmware_io::FrameInfo& info,
-                            const pipeline::RangeImage&) noexcept { returns += info.returns; };
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+    returns += info.returns;
+  };
   for (auto _ : state) {
-    for (const auto& packet : packets) decoder.decode(packet.datagram(), on_frame);
-    decoder.flush(on_frame);
+    for (const auto& packet : packets) test::decode(decoder, packet.datagram(), on_frame);
+    test::end_stream(decoder, on_frame);
   }
   benchmark::DoNotOptimize(returns);
   report(state, packets.size(), 3);
@@ -78,19 +81,18 @@ BENCHMARK(decode_ruby128_turns)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 /// One turn at 20 m/s and 0.5 rad/s moved to its end: 64 rows of 2083 columns (0), 128 of 1800 (1).
 void deskew_turn(benchmark::State& state) {
   const bool ruby = state.range(0) == 1;
-  const pipeline::ImageShape shape{ruby ? 128 : 64, ruby ? 1800 : 2083};
-  rt::FixedMemory memory;
-  firmware_io::EgoMotion motion({}, memory);
+  const frame::ImageShape shape{ruby ? 128 : 64, ruby ? 1800 : 2083};
+  memory::FixedMemory memory;
+  vehicle::EgoMotion motion({}, memory);
   for (std::int64_t i = -1; i < 14; ++i) motion.add({i * 10'000'000, 20, 0.5});
   std::vector<std::int32_t> beam_ticks;
   for (int row = 0; row < shape.rows; ++row) beam_ticks.push_back((row % 4 - 2) * 300'000);
-  firmware_io::Deskewer deskewer(
-      {&motion, firmware_io::TurnInstant::kEnd, shape, firmware_io::kTurn_ticks}, beam_ticks,
-      memory);
+  decode::Deskewer deskewer({&motion, frame::TurnInstant::kEnd, shape, decode::kTurn_ticks},
+                            beam_ticks, memory);
   for (std::int64_t i = -20; i < 380; ++i) {
-    deskewer.note(i * firmware_io::kTurn_ticks / 360, i * 100'000'000 / 360);
+    deskewer.note(i * decode::kTurn_ticks / 360, i * 100'000'000 / 360);
   }
-  pipeline::RangeImage image(shape, 100, memory);
+  frame::RangeImage image(shape, 100, memory);
   for (auto _ : state) {
     // The places of a turn, as they are not to move away.
     state.PauseTiming();
@@ -101,7 +103,7 @@ void deskew_turn(benchmark::State& state) {
       }
     }
     state.ResumeTiming();
-    if (deskewer.apply(0, image).state != firmware_io::DeskewState::kDone) {
+    if (deskewer.apply(0, image).state != frame::DeskewState::kDone) {
       state.SkipWithError("no ego motion");
       break;
     }
@@ -112,10 +114,10 @@ BENCHMARK(deskew_turn)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 /// Points only, nothing placed.
 void compute_points(benchmark::State& state) {
   const auto packets = street_like();
-  rt::FixedMemory memory;
-  firmware_io::Hdl64eSensor sensor(calib::nominal_hdl64e(), {}, {}, 2083, memory);
-  firmware_io::PacketHeads heads;
-  firmware_io::Hdl64eSensor::Column found{};
+  memory::FixedMemory memory;
+  hdl64e::Hdl64eSensor sensor(hdl64e::nominal_hdl64e(), {}, {}, 2083, memory);
+  decode::PacketHeads heads;
+  hdl64e::Hdl64eSensor::Column found{};
   float sum = 0;
   for (auto _ : state) {
     for (const test::Packet& packet : packets) {
@@ -134,10 +136,10 @@ BENCHMARK(compute_points)->Unit(benchmark::kMillisecond);
 
 void check_packets(benchmark::State& state) {
   const auto packets = street_like();
-  firmware_io::PacketHeads heads;
+  decode::PacketHeads heads;
   for (auto _ : state) {
     for (const test::Packet& packet : packets) {
-      benchmark::DoNotOptimize(firmware_io::check_hdl64e_packet(packet.bytes, heads));
+      benchmark::DoNotOptimize(hdl64e::check_hdl64e_packet(packet.bytes, heads));
     }
   }
   report(state, packets.size());

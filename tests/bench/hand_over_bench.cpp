@@ -11,8 +11,8 @@
 #include <cstdint>
 #include <thread>
 
-#include "rt/latest_value.hpp"
-#include "rt/spsc_queue.hpp"
+#include "rt/queues/latest_value.hpp"
+#include "rt/queues/spsc_queue.hpp"
 
 namespace terracut {
 namespace {
@@ -26,8 +26,8 @@ class OurQueue {
   bool pop(std::uint32_t& value) { return queue_.try_pop(value); }
 
  private:
-  rt::FixedMemory memory_;
-  rt::SpscQueue<std::uint32_t> queue_{"queue", kCapacity, memory_};
+  memory::FixedMemory memory_;
+  queues::SpscQueue<std::uint32_t> queue_{"queue", kCapacity, memory_};
 };
 
 class BoostQueue {
@@ -52,7 +52,7 @@ class OurLatestValue {
   }
 
  private:
-  rt::LatestValue<std::uint32_t> value_;
+  queues::LatestValue<std::uint32_t> value_;
 };
 
 /// One thread does both sides: the instructions alone.

@@ -8,16 +8,16 @@
 #include <thread>
 #include <vector>
 
-#include "firmware_io/sinks/each_return.hpp"
-#include "firmware_io/sinks/label_sink.hpp"
-#include "firmware_io/sinks/labelled_points.hpp"
-#include "firmware_io/sinks/turn_stream_reader.hpp"
-#include "firmware_io/sinks/turn_stream_server.hpp"
+#include "firmware_io/frame/each_return.hpp"
+#include "pipeline/output/label_sink.hpp"
+#include "pipeline/stream/labelled_points.hpp"
+#include "pipeline/stream/turn_stream_reader.hpp"
+#include "pipeline/stream/turn_stream_server.hpp"
 
 namespace terracut {
 namespace {
 
-using firmware_io::LabelledPoint;
+using stream::LabelledPoint;
 
 /// A turn of rows x columns that arrives firing by firing, each row shifted against the others as
 /// by its laser's rotational correction; `full_percent` of the cells hold a return.
@@ -37,13 +37,13 @@ struct Turn {
     }
     labels.resize(image.returns());
     for (std::size_t n = 0; n < labels.size(); ++n) {
-      labels[n] = n % 5 < 3 ? pipeline::Label::kGround : pipeline::Label::kObstacle;
+      labels[n] = n % 5 < 3 ? frame::Label::kGround : frame::Label::kObstacle;
     }
   }
 
-  rt::FixedMemory memory;
-  pipeline::RangeImage image;
-  std::vector<pipeline::Label> labels;
+  memory::FixedMemory memory;
+  frame::RangeImage image;
+  std::vector<frame::Label> labels;
   std::vector<LabelledPoint> points;
 };
 
@@ -62,8 +62,7 @@ Turn turn_for(std::int64_t rows) {
 void pack_points(benchmark::State& state) {
   Turn turn = turn_for(state.range(0));
   for (auto each : state) {
-    benchmark::DoNotOptimize(
-        firmware_io::pack_labelled_points(turn.image, turn.labels, turn.points));
+    benchmark::DoNotOptimize(stream::pack_labelled_points(turn.image, turn.labels, turn.points));
     benchmark::ClobberMemory();
   }
   report(state, turn);
@@ -74,8 +73,8 @@ BENCHMARK(pack_points)->Arg(64)->Arg(128)->Unit(benchmark::kMicrosecond);
 void pack_points_row_by_row(benchmark::State& state) {
   Turn turn = turn_for(state.range(0));
   for (auto each : state) {
-    firmware_io::for_each_return(turn.image, [&](const firmware_io::PlacedReturn& placed) {
-      const auto label = firmware_io::semantic_kitti_class(turn.labels[placed.return_index]);
+    frame::for_each_return(turn.image, [&](const frame::PlacedReturn& placed) {
+      const auto label = output::semantic_kitti_class(turn.labels[placed.return_index]);
       turn.points[placed.return_index] = {placed.echo.x_m,
                                           placed.echo.y_m,
                                           placed.echo.z_m,
@@ -94,21 +93,21 @@ BENCHMARK(pack_points_row_by_row)->Arg(64)->Arg(128)->Unit(benchmark::kMicroseco
 void serve_turn(benchmark::State& state) {
   const Turn turn = turn_for(state.range(0));
   const auto readers = static_cast<std::size_t>(state.range(1));
-  rt::FixedMemory memory;
-  auto server = firmware_io::TurnStreamServer::open(
+  memory::FixedMemory memory;
+  auto server = stream::TurnStreamServer::open(
       {.max_points = turn.image.returns(), .max_peers = readers}, memory);
   if (!server) return state.SkipWithError(server.error().message.c_str());
   std::vector<std::jthread> threads;
   std::atomic<std::uint64_t> received{0};
   for (std::size_t n = 0; n < readers; ++n) {
     threads.emplace_back([&received, address = server->address()] {
-      auto reader = firmware_io::TurnStreamReader::connect(address);
-      firmware_io::ReceivedTurn got;
+      auto reader = stream::TurnStreamReader::connect(address);
+      stream::ReceivedTurn got;
       while (reader && reader->next(got, -1).value_or(false)) ++received;
     });
   }
   while (server->peers() < readers) server->turn_round();
-  firmware_io::LabelledTurn labelled;
+  stream::LabelledTurn labelled;
   labelled.points = std::span(turn.points).first(turn.image.returns());
   std::uint64_t expected = 0;
   for (auto each : state) {
@@ -122,7 +121,7 @@ void serve_turn(benchmark::State& state) {
     state.ResumeTiming();
   }
   if (server->figures().missed > 0) state.SkipWithError("a reader missed a turn");
-  server = firmware_io::TurnStreamServer::open({.max_points = 1}, memory);  // ends the readers
+  server = stream::TurnStreamServer::open({.max_points = 1}, memory);  // ends the readers
 }
 BENCHMARK(serve_turn)
     ->ArgsProduct({{64, 128}, {1, 4}})

@@ -14,10 +14,10 @@
 namespace terracut::pipeline {
 namespace {
 
-constexpr ImageShape kFrame{64, 2083};
-constexpr ImageShape kSixteenThousand{64, 256};
+constexpr frame::ImageShape kFrame{64, 2083};
+constexpr frame::ImageShape kSixteenThousand{64, 256};
 
-void count(benchmark::State& state, const CutReport& report) {
+void count(benchmark::State& state, const min_cut::CutReport& report) {
   const auto set = [&](const char* name, auto value) {
     state.counters[name] = static_cast<double>(value);
   };
@@ -33,12 +33,12 @@ void count(benchmark::State& state, const CutReport& report) {
 }
 
 void solve_again_and_again(benchmark::State& state, const test::TestProblem& problem,
-                           const CutBudget& budget) {
-  rt::FixedMemory memory;
-  GridCut cut(problem.shape, {}, memory);
-  const std::vector<Label> coarse = problem.coarse_labelling();
-  std::vector<Label> labels = coarse;
-  CutReport report;
+                           const min_cut::CutBudget& budget) {
+  memory::FixedMemory memory;
+  min_cut::GridCut cut(problem.shape, {}, memory);
+  const std::vector<frame::Label> coarse = problem.coarse_labelling();
+  std::vector<frame::Label> labels = coarse;
+  min_cut::CutReport report;
   for (auto _ : state) {
     report = cut.solve(problem.view(), problem.weights(), budget, labels);
     benchmark::DoNotOptimize(report);
@@ -56,16 +56,16 @@ BENCHMARK(typical_frame)->DenseRange(1, 3)->Unit(benchmark::kMillisecond);
 /// Runs the stages up to number range(0); the difference between two lines is one stage.
 void typical_frame_up_to_stage(benchmark::State& state) {
   const test::TestProblem problem = test::typical_problem(kFrame, 1);
-  const GridProblem view = problem.view();
+  const min_cut::GridProblem view = problem.view();
   constexpr std::uint32_t kNodes = 16'384;
-  rt::FixedMemory memory;
-  UnknownCells unknown(kFrame, kNodes, memory);
-  CellList dropped{memory.take<std::uint32_t>("dropped", kFrame.cells())};
-  const std::span<CutNode> nodes = memory.take<CutNode>("nodes", kNodes);
-  Persistency persistency(kNodes, memory);
-  Components components(kNodes, memory);
-  BoykovKolmogorov boykov_kolmogorov(kNodes, memory);
-  const std::vector<Label> labels = problem.coarse_labelling();
+  memory::FixedMemory memory;
+  min_cut::UnknownCells unknown(kFrame, kNodes, memory);
+  min_cut::CellList dropped{memory.take<std::uint32_t>("dropped", kFrame.cells())};
+  const std::span<min_cut::CutNode> nodes = memory.take<min_cut::CutNode>("nodes", kNodes);
+  min_cut::Persistency persistency(kNodes, memory);
+  min_cut::Components components(kNodes, memory);
+  min_cut::BoykovKolmogorov boykov_kolmogorov(kNodes, memory);
+  const std::vector<frame::Label> labels = problem.coarse_labelling();
   constexpr const char* kStages[] = {"scan", "contract",   "persistency",
                                      "push", "components", "solve"};
   const auto stage = state.range(0);
@@ -73,18 +73,18 @@ void typical_frame_up_to_stage(benchmark::State& state) {
 
   for (auto _ : state) {
     unknown.find(view, labels, dropped);
-    CutGraph graph{nodes.first(unknown.cells().size())};
-    OpClock clock({CutBudget::kUnlimited});
+    min_cut::CutGraph graph{nodes.first(unknown.cells().size())};
+    min_cut::OpClock clock({min_cut::CutBudget::kUnlimited});
     if (stage >= 1) {
-      benchmark::DoNotOptimize(contract(view, unknown, problem.weights(), clock, graph));
+      benchmark::DoNotOptimize(min_cut::contract(view, unknown, problem.weights(), clock, graph));
     }
     if (stage >= 2) benchmark::DoNotOptimize(persistency.fix(graph, clock));
-    if (stage >= 3) benchmark::DoNotOptimize(push_one_hop(graph));
+    if (stage >= 3) benchmark::DoNotOptimize(min_cut::push_one_hop(graph));
     if (stage >= 4) components.find(graph, unknown.cells(), view.ground_range_m);
     if (stage >= 5) {
       for (std::uint32_t i = 0; i < components.count(); ++i) {
         benchmark::DoNotOptimize(
-            boykov_kolmogorov.solve(graph, components[i], clock, CutBudget::kUnlimited));
+            boykov_kolmogorov.solve(graph, components[i], clock, min_cut::CutBudget::kUnlimited));
       }
     }
     benchmark::DoNotOptimize(graph.flow);
@@ -98,7 +98,7 @@ void register_adversarial() {
     benchmark::RegisterBenchmark(("adversarial_16k/" + std::string(family.name)).c_str(),
                                  [&family](benchmark::State& state) {
                                    solve_again_and_again(state, family.make(kSixteenThousand),
-                                                         {CutBudget::kUnlimited});
+                                                         {min_cut::CutBudget::kUnlimited});
                                  })
         ->Unit(benchmark::kMillisecond);
   }

@@ -16,8 +16,6 @@
 
 namespace terracut::calib {
 
-using test::shared_data;
-
 /// An empty folder of this test's own, removed afterwards.
 class ScratchFolder {
  public:

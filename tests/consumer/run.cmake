@@ -1,5 +1,5 @@
-# Installs the build in BUILD_DIR to a staging folder, builds the consumer project against it and runs
-# what came out: cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DCXX=... -P run.cmake
+# Installs the build in BUILD_DIR to a staging folder, builds the consumer programs against it and runs them:
+# cmake -DBUILD_DIR=... -DSOURCE_DIR=... -DCXX=... -P run.cmake
 set(work ${BUILD_DIR}/consumer)
 file(REMOVE_RECURSE ${work})
 file(MAKE_DIRECTORY ${work})
@@ -13,12 +13,63 @@ function(run)
 endfunction()
 
 run(${CMAKE_COMMAND} --install ${BUILD_DIR} --prefix ${work}/stage)
-run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${work}/build -DCMAKE_BUILD_TYPE=Release
-    -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${work}/stage)
-run(${CMAKE_COMMAND} --build ${work}/build)
-run(${work}/build/consumer ${work}/000000.label)
-file(READ ${work}/000000.label label HEX)
-if(NOT label STREQUAL "28000000")
-  message(FATAL_ERROR "the consumer wrote '${label}'; expected one ground label, 28000000")
+
+# Nothing is installed but the public headers.
+file(GLOB_RECURSE headers RELATIVE ${work}/stage/include ${work}/stage/include/*)
+list(SORT headers)
+set(public calibration decoder error frame live_run outputs packet_pipeline segmenter)
+list(TRANSFORM public PREPEND terracut/)
+list(TRANSFORM public APPEND .hpp)
+if(NOT headers STREQUAL public)
+  message(FATAL_ERROR "installed headers are ${headers}; expected ${public}")
 endif()
-run(${work}/stage/bin/terracut --version)
+
+foreach(only OFF ON)
+  run(${CMAKE_COMMAND} -S ${SOURCE_DIR} -B ${work}/build_${only} -DCMAKE_BUILD_TYPE=Release
+      -DCMAKE_CXX_COMPILER=${CXX} -DCMAKE_PREFIX_PATH=${work}/stage -DONLY_SEGMENTATION=${only})
+  run(${CMAKE_COMMAND} --build ${work}/build_${only} --parallel)
+endforeach()
+
+# Packets to labels.
+set(terracut ${work}/stage/bin/terracut)
+file(MAKE_DIRECTORY ${work}/frames)
+run(${terracut} simulate --scene street --duration 1.3 -o ${work}/drive.pcap)
+run(${work}/build_OFF/packets_to_labels ${work}/drive.pcap ${work}/frames)
+file(GLOB frames ${work}/frames/*.pcd)
+list(LENGTH frames count)
+if(count LESS 12)
+  message(FATAL_ERROR "packets_to_labels wrote ${count} frames of 13")
+endif()
+
+# A cloud to labels: one of the drive's frames, as a scan of 64 rings from the top.
+find_program(python NAMES python3)
+if(python)
+  run(${python} ${SOURCE_DIR}/scan_of_pcd.py ${work}/frames/5.pcd ${work}/scan.bin)
+  run(${work}/build_ON/cloud_to_labels ${work}/scan.bin ${work}/scan.labels)
+  file(SIZE ${work}/scan.bin scan_bytes)
+  file(SIZE ${work}/scan.labels labels)
+  math(EXPR points "${scan_bytes} / 16")
+  if(NOT points EQUAL labels)
+    message(FATAL_ERROR "cloud_to_labels wrote ${labels} labels for ${points} points")
+  endif()
+endif()
+
+# Live, against a sender on the loopback that goes on until it is heard.
+execute_process(
+  COMMAND ${terracut} send ${work}/drive.pcap --to 127.0.0.1:23688 --loop 20
+  COMMAND ${work}/build_OFF/live 23688 5
+  OUTPUT_VARIABLE lines RESULT_VARIABLE result ERROR_VARIABLE errors)
+if(NOT result EQUAL 0 OR NOT lines MATCHES "frame [0-9]+: [0-9]+ labels")
+  message(FATAL_ERROR "live failed (${result}): ${lines} ${errors}")
+endif()
+
+# The guide shows these very programs.
+file(READ ${SOURCE_DIR}/../../docs/guide/embedding.md guide)
+foreach(program packets_to_labels cloud_to_labels live)
+  file(READ ${SOURCE_DIR}/${program}.cpp text)
+  string(REGEX REPLACE "^//[^\n]*\n//[^\n]*\n" "" text "${text}")
+  string(FIND "${guide}" "${text}" at)
+  if(at EQUAL -1)
+    message(FATAL_ERROR "docs/guide/embedding.md shows another ${program}.cpp")
+  endif()
+endforeach()

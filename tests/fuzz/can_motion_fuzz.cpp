@@ -14,18 +14,17 @@
 #include <string_view>
 #include <utility>
 
-#include "firmware_io/can/motion_signals.hpp"
-#include "firmware_io/motion/deskewer.hpp"
-#include "firmware_io/motion/ego_motion.hpp"
-#include "firmware_io/motion/host_clock.hpp"
-#include "firmware_io/packet_heads.hpp"
-#include "tests/fuzz/input.hpp"
+#include "firmware_io/decode/deskewer.hpp"
+#include "firmware_io/decode/host_clock.hpp"
+#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/vehicle/ego_motion.hpp"
+#include "firmware_io/vehicle/motion_signals.hpp"
+#include "input.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace {
 
 using namespace terracut;
-using namespace terracut::firmware_io;
 using fuzz::require;
 
 constexpr std::string_view kCar = R"(BO_ 1 WHEELS: 8 X
@@ -42,17 +41,18 @@ BO_ 2147483651 FLOATS: 8 X
 SIG_VALTYPE_ 2147483651 SPEED : 1;
 SIG_VALTYPE_ 2147483651 TURN : 1;
 )";
-constexpr std::array kIds{CanId{1, false}, CanId{2, false}, CanId{3, true}, CanId{1, true}};
-constexpr pipeline::ImageShape kShape{2, 64};
+constexpr std::array kIds{can::CanId{1, false}, can::CanId{2, false}, can::CanId{3, true},
+                          can::CanId{1, true}};
+constexpr frame::ImageShape kShape{2, 64};
 constexpr std::array<std::int32_t, 2> kBeam_ticks{-1'000'000, 500'000};
 constexpr std::int64_t kMillisecond_ns = 1'000'000, kHour_us = 3'600'000'000;
 /// A clock is not known better than that (host_clock.hpp, motion_sample.hpp): either of the two.
-constexpr std::int64_t kDoubt_ns = 2 * kMotionDisorder_ns;
+constexpr std::int64_t kDoubt_ns = 2 * vehicle::kMotionDisorder_ns;
 constexpr int kMostSteps = 4'000;
 
-MotionSignals signals(unsigned bits) {
-  static const DbcFile file = *parse_dbc(kCar, "car.dbc");
-  MotionSignalsConfig config;
+vehicle::MotionSignals signals(unsigned bits) {
+  static const vehicle::DbcFile file = *vehicle::parse_dbc(kCar, "car.dbc");
+  vehicle::MotionSignalsConfig config;
   if ((bits & 1) != 0) {
     config.speed.signals = {"FLOATS.SPEED"};
     config.yaw_rate.signals = {"TURN"};
@@ -63,7 +63,7 @@ MotionSignals signals(unsigned bits) {
     if ((bits & 4) != 0) config.yaw_rate.sign = "RATE_SIGN";
     if ((bits & 8) != 0) config.yaw_rate.valid = "RATE_VALID";
   }
-  return *MotionSignals::make(file, config);
+  return *vehicle::MotionSignals::make(file, config);
 }
 
 class MotionRun {
@@ -74,7 +74,8 @@ class MotionRun {
         signals_(signals(bits_)),
         motion_({.sensor_ahead_m = (bits_ & 16) != 0 ? 2.0 : 0.0, .waiting = 16, .kept = 32},
                 memory_),
-        deskewer_({&motion_, static_cast<TurnInstant>((bits_ >> 5) % 3), kShape, kTurn_ticks},
+        deskewer_({&motion_, static_cast<frame::TurnInstant>((bits_ >> 5) % 3), kShape,
+                   decode::kTurn_ticks},
                   kBeam_ticks, memory_),
         image_(kShape, 16, memory_) {}
 
@@ -86,9 +87,9 @@ class MotionRun {
       require(test::allocations_of_this_thread() == allocations, "memory was allocated");
     }
     require(memory_.total_bytes() == memory_bytes, "memory was taken after the start");
-    const MotionCounters& counters = signals_.counters();
+    const vehicle::MotionCounters& counters = signals_.counters();
     require(counters.frames == frames_ && counters.samples == samples_, "frames are miscounted");
-    const EgoMotionCounters motion = motion_.counters();
+    const vehicle::EgoMotionCounters motion = motion_.counters();
     require(
         motion.accepted + motion.implausible + motion.out_of_order + motion.not_taken == samples_,
         "samples are not all accounted for");
@@ -157,7 +158,7 @@ class MotionRun {
 
   /// Any frame, of this bus or not.
   void frame() {
-    CanFrame frame;
+    can::CanFrame frame;
     const unsigned bits = input_.next(1);
     frame.id = kIds[bits & 3];
     frame.remote = (bits & 4) != 0;
@@ -171,10 +172,10 @@ class MotionRun {
     hear(frame, disorder_ns);
   }
 
-  void hear(CanFrame frame, std::int64_t late_ns) {
+  void hear(can::CanFrame frame, std::int64_t late_ns) {
     frame.stamp_ns = host_ns() + bus_ns_ + late_ns;
     bool is_known = false;
-    for (const CanId& id : signals_.ids()) is_known = is_known || id == frame.id;
+    for (const can::CanId& id : signals_.ids()) is_known = is_known || id == frame.id;
     frames_ += is_known && frame.is_data() ? 1 : 0;
     const auto sample = signals_.take(frame);
     if (!sample) return;
@@ -195,7 +196,7 @@ class MotionRun {
   }
 
   void regular_frames() {
-    CanFrame wheels, yaw;
+    can::CanFrame wheels, yaw;
     wheels.id = kIds[0];
     yaw.id = kIds[1];
     if ((bits_ & 1) != 0) {
@@ -221,14 +222,14 @@ class MotionRun {
     time_ns_ += 2 * kMillisecond_ns;
     head_ticks_ += 700'000;
     const std::int64_t device_us = (time_ns_ + device_ns_) / 1'000 % kHour_us;
-    const HostClock::Sent sent =
+    const decode::HostClock::Sent sent =
         clock_.sent((device_us + kHour_us) % kHour_us, host_ns() + late_ns_);
     if (sent.anew) deskewer_.begin_anew(head_ticks_);
     deskewer_.note(head_ticks_, sent.instant_ns);
-    if (!noted_) turn_ = head_ticks_ / kTurn_ticks;
+    if (!noted_) turn_ = head_ticks_ / decode::kTurn_ticks;
     noted_ = true;
     packet_before_ns_ = std::exchange(newest_packet_ns_, time_ns_);
-    while (head_ticks_ - (turn_ + 1) * kTurn_ticks > 1'000'000) hand_over();
+    while (head_ticks_ - (turn_ + 1) * decode::kTurn_ticks > 1'000'000) hand_over();
   }
 
   void hand_over() {
@@ -237,7 +238,7 @@ class MotionRun {
     for (int column = 0; column < kShape.columns; column += 3) {
       require(image_.place(column % 2, column, {10, 1, 0.5F, 10.05F, 1}), "no place for a return");
     }
-    const DeskewInfo info = deskewer_.apply(turn_++, image_);
+    const frame::DeskewInfo info = deskewer_.apply(turn_++, image_);
     double moved_m = 0;
     for (int column = 0; column < kShape.columns; column += 3) {
       const auto cell = static_cast<std::size_t>(column % 2 * kShape.stride() + column);
@@ -246,8 +247,9 @@ class MotionRun {
       require(image_.z_m()[cell] == 0.5F, "a return's height changed");
       moved_m = std::max(moved_m, std::hypot(x_m - 10.0, y_m - 1.0));
     }
-    if (info.state != DeskewState::kDone) {
-      require(info.state == DeskewState::kNoEgoMotion && moved_m == 0, "a turn moved by no motion");
+    if (info.state != frame::DeskewState::kDone) {
+      require(info.state == frame::DeskewState::kNoEgoMotion && moved_m == 0,
+              "a turn moved by no motion");
       return;
     }
     require(newest_sample_ns_.has_value(), "a turn moved without any sample");
@@ -263,12 +265,12 @@ class MotionRun {
 
   fuzz::Input& input_;
   unsigned bits_;
-  rt::FixedMemory memory_;
-  MotionSignals signals_;
-  EgoMotion motion_;
-  Deskewer deskewer_;
-  pipeline::RangeImage image_;
-  HostClock clock_{kHour_us};
+  memory::FixedMemory memory_;
+  vehicle::MotionSignals signals_;
+  vehicle::EgoMotion motion_;
+  decode::Deskewer deskewer_;
+  frame::RangeImage image_;
+  decode::HostClock clock_{kHour_us};
 
   std::int64_t time_ns_ = 1'700'000'000'000'000'000;  ///< Never set.
   std::int64_t both_ns_ = 0, bus_ns_ = 0, device_ns_ = 0, late_ns_ = 0;

@@ -8,20 +8,22 @@
 #include <cstdint>
 #include <string>
 
-#include "firmware_io/can/signal_plan.hpp"
+#include "firmware_io/vehicle/signal_plan.hpp"
 #include "input.hpp"
-#include "tests/firmware_io/can/slow_signal.hpp"
+#include "tests/firmware_io/vehicle/slow_signal.hpp"
 
 namespace {
 
-using namespace terracut::firmware_io;
+using namespace terracut;
 using terracut::fuzz::require;
 
-void compare(const SignalPlan& plan, const DbcSignal& signal, CanFrame frame) {
+void compare(const vehicle::SignalPlan& plan, const vehicle::DbcSignal& signal,
+             can::CanFrame frame) {
   frame.id = plan.id();
   const auto value = plan.value(frame);
   require(value.has_value(), "a signal that fits its message has no value");
-  const bool whole = signal.number == DbcNumber::kUnsigned || signal.number == DbcNumber::kSigned;
+  const bool whole = signal.number == vehicle::DbcNumber::kUnsigned ||
+                     signal.number == vehicle::DbcNumber::kSigned;
   if (!whole) return;
   const double slow = terracut::test::slow_value(signal, frame.payload());
   require(*value == slow || (std::isnan(*value) && std::isnan(slow)), "two values of one signal");
@@ -30,23 +32,23 @@ void compare(const SignalPlan& plan, const DbcSignal& signal, CanFrame frame) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const auto file = parse_dbc(std::string(data, data + size), "fuzz");
+  const auto file = vehicle::parse_dbc(std::string(data, data + size), "fuzz");
   if (!file) {
     require(file.error().message.find("fuzz") != std::string::npos, "an error without its file");
     return 0;
   }
-  CanFrame frame;
+  can::CanFrame frame;
   frame.fd = true;
-  frame.length = CanFrame::kMostBytes;
+  frame.length = can::CanFrame::kMostBytes;
   const std::size_t tail = std::min(size, frame.data.size());
   std::copy_n(data + size - tail, tail, frame.data.begin());
   std::size_t left = 50;  // finding a signal by name takes as long as the file is
-  for (const DbcMessage& message : file->messages) {
-    for (const DbcSignal& signal : message.signals) {
+  for (const vehicle::DbcMessage& message : file->messages) {
+    for (const vehicle::DbcSignal& signal : message.signals) {
       if (left-- == 0) return 0;
       const std::string name = message.name + "." + signal.name;
-      const auto found = find_signal(*file, name);
-      const auto plan = SignalPlan::make(*file, name);
+      const auto found = vehicle::find_signal(*file, name);
+      const auto plan = vehicle::SignalPlan::make(*file, name);
       if (!plan) {
         require(plan.error().message.find("fuzz") != std::string::npos,
                 "an error without its file");

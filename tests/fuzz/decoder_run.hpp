@@ -7,12 +7,13 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame_info.hpp"
-#include "firmware_io/motion/ego_motion.hpp"
-#include "pipeline/range_image.hpp"
-#include "rt/fixed_memory.hpp"
-#include "tests/fuzz/input.hpp"
-#include "tests/fuzz/packet_account.hpp"
+#include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/vehicle/ego_motion.hpp"
+#include "input.hpp"
+#include "packet_account.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tests/support/hand_out.hpp"
 
 namespace terracut::fuzz {
 
@@ -32,7 +33,7 @@ class DecoderRun {
         decoder_(calibration, {}, config(&motion_), memory_) {}
 
   [[nodiscard]] auto keep() {
-    return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    return [this](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
       require(info.number == frames_++);
       require(info.returns > 0 && info.returns == image.returns());
       require(image.returns() <= image.return_capacity());
@@ -53,7 +54,10 @@ class DecoderRun {
   void feed(std::span<const std::uint8_t> payload) {
     account_.feed(
         decoder_,
-        [&] { return decoder_.decode({.payload = payload, .stamp_ns = stamp_ns_}, keep()); },
+        [&] {
+          return test::decode(decoder_, decode::Datagram{.payload = payload, .stamp_ns = stamp_ns_},
+                              keep());
+        },
         [&] { return returns_in_(payload); });
   }
   /// The vehicle turns on the spot, which leaves distances as they are; at times nobody knows.
@@ -62,18 +66,18 @@ class DecoderRun {
     motion_.add({stamp_ns_, 0, 1});
   }
   void flush() {
-    account_.flush(decoder_, [&] { decoder_.flush(keep()); });
+    account_.flush(decoder_, [&] { test::end_stream(decoder_, keep()); });
   }
 
   void check() const {
-    const firmware_io::LossCounters losses = decoder_.losses();
+    const frame::LossCounters losses = decoder_.losses();
     account_.require_all_returns(handed_returns_ + losses.overflow_full_returns +
                                  losses.late_returns);
     require(decoder_.frames() == frames_);
   }
 
  private:
-  static typename Decoder::Config config(firmware_io::EgoMotion* motion) {
+  static typename Decoder::Config config(vehicle::EgoMotion* motion) {
     typename Decoder::Config config;
     config.motion = motion;
     config.columns = 64;
@@ -82,8 +86,8 @@ class DecoderRun {
   }
   ReturnsIn returns_in_;
   float farthest_m_;
-  rt::FixedMemory memory_;
-  firmware_io::EgoMotion motion_{{.waiting = 16, .kept = 16}, memory_};
+  memory::FixedMemory memory_;
+  vehicle::EgoMotion motion_{{.waiting = 16, .kept = 16}, memory_};
   Decoder decoder_;
   std::int64_t stamp_ns_ = 1'000'000'000;
   PacketAccount account_;

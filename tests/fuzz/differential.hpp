@@ -6,8 +6,9 @@
 #include <random>
 #include <string>
 
-#include "rt/fixed_memory.hpp"
-#include "tests/fuzz/input.hpp"
+#include "input.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tests/support/hand_out.hpp"
 #include "tests/support/reference/agreement.hpp"
 #include "tests/support/reference/sensors.hpp"
 
@@ -128,7 +129,7 @@ class Differential {
     expected_ = reference::ExpectedTurns(Sensor::elevations(calibration_), mount_, config_.columns);
     handed_ = {};
     packets();
-    decoder_.flush(handed_.keep());
+    test::end_stream(decoder_, handed_.keep());
     const std::string difference = reference::first_difference(expected_, handed_, config_.columns);
     require(difference.empty(), difference);
   }
@@ -141,12 +142,12 @@ class Differential {
     erase_returns_on_the_seam<Sensor>(payload, looks_ahead.decode(payload));
 
     const reference::Packet packet = reference_.decode(payload);
-    const auto reason =
-        decoder_.decode({.payload = payload, .stamp_ns = stamp_ns_}, handed_.keep());
+    const auto reason = test::decode(
+        decoder_, decode::Datagram{.payload = payload, .stamp_ns = stamp_ns_}, handed_.keep());
     require(reason.has_value() == (packet.refusal != reference::Refusal::kNone) &&
                 reference::as_refusal(reason) == packet.refusal,
             std::string("reference: ") + std::string(to_string(packet.refusal)) +
-                ", decoder: " + std::string(reason ? firmware_io::to_string(*reason) : "none"));
+                ", decoder: " + std::string(reason ? to_string(*reason) : "none"));
     if (!reason) expected_.add(packet, turns_.unwrap(packet));
     const double packet_us =
         Sensor::firing_us(dual_return_) * Sensor::firings_per_packet(dual_return_);
@@ -156,10 +157,10 @@ class Differential {
   Input& input_;
   std::mt19937 random_;
   typename Sensor::Calibration calibration_;
-  calib::Mount mount_;
+  mount::Mount mount_;
   typename Sensor::Reference reference_;
   typename Sensor::Decoder::Config config_;
-  rt::FixedMemory memory_;
+  memory::FixedMemory memory_;
   typename Sensor::Decoder decoder_;
   reference::PayloadBytes packet_;
 

@@ -9,11 +9,11 @@
 #include <cstring>
 #include <span>
 
-#include "calib/nominal_hdl64e.hpp"
+#include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "decoder_run.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
-#include "tests/fuzz/decoder_run.hpp"
-#include "tests/fuzz/input.hpp"
+#include "input.hpp"
 
 namespace {
 
@@ -22,10 +22,10 @@ using namespace terracut;
 constexpr int kMaxPackets = 4'000;
 
 std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-  const auto packet = firmware_io::Hdl64ePacketView::of(payload);
+  const auto packet = hdl64e::Hdl64ePacketView::of(payload);
   std::uint64_t sum = 0;
-  for (int block = 0; packet && block < firmware_io::kBlocksPerPacket; ++block) {
-    for (int j = 0; j < firmware_io::kLasersPerBlock; ++j) sum += packet->distance(block, j) != 0;
+  for (int block = 0; packet && block < hdl64e::kBlocksPerPacket; ++block) {
+    for (int j = 0; j < hdl64e::kLasersPerBlock; ++j) sum += packet->distance(block, j) != 0;
   }
   return sum;
 }
@@ -34,14 +34,14 @@ std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input({data, size});
-  fuzz::DecoderRun<firmware_io::Hdl64eDecoder, calib::Hdl64eCalibration> run(
-      calib::nominal_hdl64e(), returns_in, 200.0F);
-  firmware_io::Hdl64ePacketBuffer packet;
+  fuzz::DecoderRun<hdl64e::Hdl64eDecoder, hdl64e::Hdl64eCalibration> run(hdl64e::nominal_hdl64e(),
+                                                                         returns_in, 200.0F);
+  hdl64e::Hdl64ePacketBuffer packet;
   std::uint32_t azimuth_cdeg = input.next(2) % 36'000;
   std::uint32_t stamp_us = input.next(4);
   std::uint32_t step_cdeg = 17;
   const auto send = [&] {
-    for (int block = 0; block < firmware_io::kBlocksPerPacket; ++block) {
+    for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
       const auto column = static_cast<std::uint32_t>(block / 2);
       packet.set_azimuth_cdeg(
           block, static_cast<std::uint16_t>((azimuth_cdeg + column * step_cdeg) % 36'000));
@@ -80,7 +80,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       }
       case 7: {  // a bent copy of the packet
-        std::array<std::uint8_t, firmware_io::kHdl64ePacketBytes> bent{};
+        std::array<std::uint8_t, hdl64e::kHdl64ePacketBytes> bent{};
         std::memcpy(bent.data(), packet.payload().data(), bent.size());
         for (std::uint32_t n = input.next(1) % 8; n > 0; --n) {
           bent[input.next(2) % bent.size()] = static_cast<std::uint8_t>(input.next(1));

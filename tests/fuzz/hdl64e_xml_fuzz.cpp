@@ -6,12 +6,12 @@
 #include <cstdlib>
 #include <string>
 
-#include "calib/hdl64e_xml.hpp"
+#include "calib/hdl64e/hdl64e_xml.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(data, data + size);
-  const auto parsed = terracut::calib::parse_hdl64e_xml(text, "fuzz");
-  if (parsed && !terracut::calib::validate(*parsed)) std::abort();
+  const auto parsed = terracut::hdl64e::parse_hdl64e_xml(text, "fuzz");
+  if (parsed && !validate(*parsed)) std::abort();
   if (!parsed && parsed.error().message.find("fuzz") == std::string::npos) std::abort();
   return 0;
 }

@@ -10,19 +10,20 @@
 #include <span>
 #include <vector>
 
-#include "calib/mount.hpp"
-#include "calib/ring_profile.hpp"
-#include "firmware_io/datagram.hpp"
-#include "firmware_io/frame_info.hpp"
-#include "firmware_io/motion/ego_motion.hpp"
-#include "pipeline/coarse_stages.hpp"
-#include "pipeline/fine_stages.hpp"
-#include "pipeline/profile.hpp"
-#include "rt/fixed_memory.hpp"
-#include "tests/fuzz/input.hpp"
-#include "tests/fuzz/packet_account.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/vehicle/ego_motion.hpp"
+#include "input.hpp"
+#include "packet_account.hpp"
+#include "pipeline/ground/coarse_stages.hpp"
+#include "pipeline/ground/fine_stages.hpp"
+#include "pipeline/ground/profile.hpp"
+#include "pipeline/run/frame_exchange.hpp"
+#include "rt/memory/fixed_memory.hpp"
 #include "tests/support/allocation_counter.hpp"
-#include "tools/cli/live/frame_exchange.hpp"
+#include "tests/support/hand_out.hpp"
 
 namespace terracut::fuzz {
 
@@ -53,9 +54,9 @@ class LiveChainRun {
       : returns_in_(returns_in),
         decoder_(calibration, {}, decoder_config(config, motion_), memory_),
         exchange_(decoder_.images()),
-        coarse_(pipeline::terracut_profile(), calib::ring_profile(calibration, calib::Mount{}),
+        coarse_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
                 decoder_.shape(), memory_),
-        fine_(pipeline::terracut_profile(), calib::ring_profile(calibration, calib::Mount{}),
+        fine_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
               decoder_.shape(), decoder_.return_capacity(), memory_) {
     planes_.reserve(decoder_.images().size());
     for (std::size_t i = 0; i < decoder_.images().size(); ++i) {
@@ -72,9 +73,12 @@ class LiveChainRun {
     frames_of_packet_ = 0;
     account_.feed(
         decoder_,
-        [&] { return decoder_.decode({.payload = payload, .stamp_ns = stamp_ns}, hand_over()); },
+        [&] {
+          return test::decode(decoder_, decode::Datagram{.payload = payload, .stamp_ns = stamp_ns},
+                              hand_over());
+        },
         [&] { return returns_in_(payload); });
-    const firmware_io::ArrivingTurn arriving = decoder_.arriving();
+    const frame::ArrivingTurn arriving = decoder_.arriving();
     if (arriving.image != nullptr) {
       coarse_.advance(*arriving.image, arriving.settled_columns, planes_of(*arriving.image));
     }
@@ -87,20 +91,20 @@ class LiveChainRun {
   }
 
   /// The vehicle's motion at this stamp of the host's clock.
-  void move(const firmware_io::MotionSample& sample) { (void)motion_.add(sample); }
+  void move(const vehicle::MotionSample& sample) { (void)motion_.add(sample); }
   /// The segmenter does not take any of the next turns.
   void keep_segmenter_away(int turns) { segmenter_away_ = turns; }
   void flush() {
-    account_.flush(decoder_, [&] { decoder_.flush(hand_over()); });
+    account_.flush(decoder_, [&] { test::end_stream(decoder_, hand_over()); });
     segmenter_away_ = 0;
     segment();
-    const firmware_io::LossCounters losses = decoder_.losses();
+    const frame::LossCounters losses = decoder_.losses();
     account_.require_all_returns(handed_returns_ + losses.overflow_full_returns +
                                  losses.late_returns);
   }
 
  private:
-  using Exchange = cli::FrameExchange;
+  using Exchange = run::FrameExchange;
 
   /// What is remembered of an image that was handed over.
   struct HandedOver {
@@ -108,8 +112,7 @@ class LiveChainRun {
     std::uint32_t number = 0;
   };
 
-  static typename Decoder::Config decoder_config(const Config& config,
-                                                 firmware_io::EgoMotion& motion) {
+  static typename Decoder::Config decoder_config(const Config& config, vehicle::EgoMotion& motion) {
     typename Decoder::Config result;
     result.columns = config.columns;
     result.reorder_packets = config.reorder_packets;
@@ -118,15 +121,15 @@ class LiveChainRun {
     if (config.deskew) result.motion = &motion;
     return result;
   }
-  [[nodiscard]] std::size_t number_of(const pipeline::RangeImage& image) const {
+  [[nodiscard]] std::size_t number_of(const frame::RangeImage& image) const {
     return static_cast<std::size_t>(&image - first_image_);
   }
-  [[nodiscard]] pipeline::CellPlanes& planes_of(const pipeline::RangeImage& image) {
+  [[nodiscard]] stage::CellPlanes& planes_of(const frame::RangeImage& image) {
     return planes_[number_of(image)];
   }
 
   /// Of all that an image holds.
-  static std::uint64_t sum_of(const pipeline::RangeImage& image) {
+  static std::uint64_t sum_of(const frame::RangeImage& image) {
     double sum = static_cast<double>(image.returns());
     for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
       if (!image.has_return(cell)) continue;
@@ -140,8 +143,8 @@ class LiveChainRun {
   }
 
   [[nodiscard]] auto hand_over() {
-    return [this](const firmware_io::FrameInfo& info,
-                  pipeline::RangeImage& image) noexcept -> pipeline::RangeImage* {
+    return [this](const frame::FrameInfo& info,
+                  frame::RangeImage& image) noexcept -> frame::RangeImage* {
       ++frames_of_packet_;
       require(info.number == frames_++, "a frame has not the number that follows");
       require(info.returns > 0 && info.returns == image.returns(), "a frame miscounts its returns");
@@ -161,7 +164,7 @@ class LiveChainRun {
   void segment() {
     const Exchange::Turn* turn = exchange_.take_if_new();
     if (turn == nullptr) return;
-    const pipeline::RangeImage& image = *turn->image;
+    const frame::RangeImage& image = *turn->image;
     const HandedOver& expected = handed_over_[number_of(image)];
     require(turn->info.number == expected.number && sum_of(image) == expected.sum,
             "a turn changed after it was handed over");
@@ -170,18 +173,18 @@ class LiveChainRun {
     (void)fine_.refine(image, planes_of(image));
     const auto labels = fine_.labels();
     require(labels.size() == turn->info.returns, "not every return has a label");
-    require(std::ranges::count(labels, pipeline::Label::kNone) == 0, "a return has no label");
+    require(std::ranges::count(labels, frame::Label::kNone) == 0, "a return has no label");
   }
 
   ReturnsIn returns_in_;
-  rt::FixedMemory memory_;
-  firmware_io::EgoMotion motion_{{.waiting = 16, .kept = 64}, memory_};
+  memory::FixedMemory memory_;
+  vehicle::EgoMotion motion_{{.waiting = 16, .kept = 64}, memory_};
   Decoder decoder_;
-  const pipeline::RangeImage* first_image_ = decoder_.images().data();
+  const frame::RangeImage* first_image_ = decoder_.images().data();
   Exchange exchange_;
-  pipeline::CoarseStages coarse_;
-  pipeline::FineStages fine_;
-  std::vector<pipeline::CellPlanes> planes_;
+  ground::CoarseStages coarse_;
+  ground::FineStages fine_;
+  std::vector<stage::CellPlanes> planes_;
   std::vector<HandedOver> handed_over_;  ///< By image.
   std::size_t memory_bytes_ = 0;
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware_io/loss_counters.hpp"
-#include "tests/fuzz/input.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
+#include "input.hpp"
 
 namespace terracut::fuzz {
 
@@ -20,10 +20,10 @@ class PacketAccount {
   /// `returns()`.
   template <class Decoder, class Decode, class Returns>
   void feed(const Decoder& decoder, Decode&& decode, Returns&& returns) {
-    const firmware_io::LossCounters before = decoder.losses();
+    const frame::LossCounters before = decoder.losses();
     const std::size_t kept_before = decoder.packets_kept();
-    const std::optional<firmware_io::Reject> reason = decode();
-    const bool is_device_info = reason == firmware_io::Reject::kDeviceInfo;
+    const std::optional<frame::Reject> reason = decode();
+    const bool is_device_info = reason == frame::Reject::kDeviceInfo;
     ++fed_;
     device_info_ += is_device_info ? 1 : 0;
     if (reason && !is_device_info) {

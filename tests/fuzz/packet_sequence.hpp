@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "calib/angle.hpp"
-#include "tests/fuzz/input.hpp"
-#include "tests/fuzz/live_chain_run.hpp"
+#include "calib/beams/angle.hpp"
+#include "input.hpp"
+#include "live_chain_run.hpp"
 
 namespace terracut::fuzz {
 
@@ -29,7 +29,7 @@ struct Head {
 
   [[nodiscard]] bool is_blind() const {
     return blind_cdeg > 0 &&
-           calib::wrap_cdeg(azimuth_cdeg - blind_from_cdeg) < static_cast<std::int32_t>(blind_cdeg);
+           beams::wrap_cdeg(azimuth_cdeg - blind_from_cdeg) < static_cast<std::int32_t>(blind_cdeg);
   }
   /// Turns on to where it is not blind any more.
   void leave_sector(std::int64_t firing_ns) {
@@ -90,8 +90,8 @@ class PacketSequence {
         }
         break;
       case 5:  // the head is elsewhere
-        head.azimuth_cdeg = head.azimuth_cdeg / calib::kTurn_cdeg * calib::kTurn_cdeg +
-                            input_.below(calib::kTurn_cdeg);
+        head.azimuth_cdeg = head.azimuth_cdeg / beams::kTurn_cdeg * beams::kTurn_cdeg +
+                            input_.below(beams::kTurn_cdeg);
         break;
       case 6:  // packets are lost
         for (int n = input_.below(256); n > 0; --n) (void)make(head);
@@ -122,12 +122,12 @@ class PacketSequence {
       case 13:  // a field of view
         head.blind_from_cdeg = std::int64_t{input_.below(360)} * 100;
         head.blind_cdeg = std::int64_t{input_.below(720)} * 100;
-        head.fills_packets = head.blind_cdeg >= calib::kTurn_cdeg;
-        head.blind_cdeg %= calib::kTurn_cdeg;
+        head.fills_packets = head.blind_cdeg >= beams::kTurn_cdeg;
+        head.blind_cdeg %= beams::kTurn_cdeg;
         break;
       case 14:  // it reboots: clock and azimuth from anywhere
         head.device_ns = input_.below(2) == 0 ? 0 : head.device_ns / 3'600'000'000'000 * 1'000;
-        head.azimuth_cdeg = input_.below(calib::kTurn_cdeg);
+        head.azimuth_cdeg = input_.below(beams::kTurn_cdeg);
         time_ns_ += std::int64_t{input_.below(16)} * 100'000'000;
         break;
       case 15:  // the host's clock is set

@@ -9,8 +9,8 @@
 #include "firmware_io/capture/pcap_source.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace terracut::firmware_io;
-  auto source = PcapSource::open_memory({data, size}, "fuzz");
+  using namespace terracut;
+  auto source = capture::PcapSource::open_memory({data, size}, "fuzz");
   if (!source) {
     if (source.error().message.empty()) std::abort();
     return 0;
@@ -19,9 +19,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   for (auto next = source->next(); next && *next; next = source->next()) {
     for (const std::uint8_t byte : (*next)->payload) touched += byte;
   }
-  const PcapCounters& counters = source->counters();
+  const capture::PcapCounters& counters = source->counters();
   const bool all_counted = counters.frames == counters.delivered + counters.refused_total();
-  if (!all_counted || source->end() == CaptureEnd::kNotReached) std::abort();
+  if (!all_counted || source->end() == capture::CaptureEnd::kNotReached) std::abort();
   // A record takes at least its header, so a file cannot hold more frames than bytes.
   if (counters.frames > size) std::abort();
   return touched == ~0U ? 1 : 0;

@@ -9,19 +9,19 @@
 #include <cstdlib>
 #include <string>
 
-#include "calib/nominal_ruby128.hpp"
-#include "calib/ruby128_csv.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
 
 namespace {
 
-using namespace terracut::calib;
+using namespace terracut;
 
 void check(bool holds) {
   if (!holds) std::abort();
 }
 
 void check_text(const std::string& text) {
-  const auto parsed = parse_ruby128_csv(text, "fuzz");
+  const auto parsed = ruby128::parse_ruby128_csv(text, "fuzz");
   if (!parsed) {
     const std::string& message = parsed.error().message;
     check(message.find("fuzz") != std::string::npos);
@@ -29,17 +29,17 @@ void check_text(const std::string& text) {
     return;
   }
   check(validate(*parsed).has_value());
-  const std::string written = ruby128_csv_text(*parsed);
-  const auto again = parse_ruby128_csv(written, "again");
+  const std::string written = ruby128::ruby128_csv_text(*parsed);
+  const auto again = ruby128::parse_ruby128_csv(written, "again");
   check(again.has_value() && fingerprint(*again) == fingerprint(*parsed));
-  check(ruby128_csv_text(*again) == written);
+  check(ruby128::ruby128_csv_text(*again) == written);
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   check_text(std::string(data, data + size));
-  std::string text = ruby128_csv_text(nominal_ruby128());
+  std::string text = ruby128::ruby128_csv_text(ruby128::nominal_ruby128());
   for (std::size_t i = 0; i + 3 <= size;) {
     const std::size_t at = (data[i] * std::size_t{256} + data[i + 1]) % text.size();
     const std::size_t count = std::min({std::size_t{data[i + 2]}, size - i - 3, text.size() - at});

@@ -8,12 +8,12 @@
 #include <cstring>
 #include <span>
 
-#include "calib/nominal_ruby128.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "decoder_run.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/ruby128/wire.hpp"
-#include "tests/fuzz/decoder_run.hpp"
-#include "tests/fuzz/input.hpp"
+#include "input.hpp"
 
 namespace {
 
@@ -22,10 +22,10 @@ using namespace terracut;
 constexpr int kMaxPackets = 4'000;
 
 std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-  const auto packet = firmware_io::Ruby128PacketView::of(payload);
+  const auto packet = ruby128::Ruby128PacketView::of(payload);
   std::uint64_t sum = 0;
-  for (int block = 0; packet && block < firmware_io::kRubyBlocksPerPacket; ++block) {
-    for (int channel = 0; channel < firmware_io::kRubyChannelsPerBlock; ++channel) {
+  for (int block = 0; packet && block < ruby128::kRubyBlocksPerPacket; ++block) {
+    for (int channel = 0; channel < ruby128::kRubyChannelsPerBlock; ++channel) {
       sum += packet->distance(block, channel) != 0;
     }
   }
@@ -36,21 +36,21 @@ std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
 struct Head {
   std::uint32_t azimuth_cdeg = 0, step_cdeg = 20;
   std::int64_t stamp_ns = 1'767'225'600'000'000'000;
-  firmware_io::RubyTimestamp encoding = firmware_io::RubyTimestamp::kUtcMicroseconds;
+  ruby128::RubyTimestamp encoding = ruby128::RubyTimestamp::kUtcMicroseconds;
   std::uint32_t reading = 0, readings_per_firing = 1;
 
-  void next(firmware_io::Ruby128PacketBuffer& packet) {
-    packet.set_stamp(firmware_io::write_ruby_timestamp(stamp_ns, encoding));
-    for (int block = 0; block < firmware_io::kRubyBlocksPerPacket; ++block) {
+  void next(ruby128::Ruby128PacketBuffer& packet) {
+    packet.set_stamp(ruby128::write_ruby_timestamp(stamp_ns, encoding));
+    for (int block = 0; block < ruby128::kRubyBlocksPerPacket; ++block) {
       packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(azimuth_cdeg));
       if (++reading % readings_per_firing != 0) continue;
       azimuth_cdeg = (azimuth_cdeg + step_cdeg) % 36'000;
-      stamp_ns += firmware_io::kRubyBlock_ns;
+      stamp_ns += ruby128::kRubyBlock_ns;
     }
   }
   void go_back(std::uint32_t firings) {
     azimuth_cdeg = (azimuth_cdeg + 36'000 - firings * step_cdeg % 36'000) % 36'000;
-    stamp_ns -= std::int64_t{firings} * firmware_io::kRubyBlock_ns;
+    stamp_ns -= std::int64_t{firings} * ruby128::kRubyBlock_ns;
   }
 };
 
@@ -58,9 +58,9 @@ struct Head {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input({data, size});
-  fuzz::DecoderRun<firmware_io::Ruby128Decoder, calib::Ruby128Calibration> run(
-      calib::nominal_ruby128(), returns_in, 400.0F);
-  firmware_io::Ruby128PacketBuffer packet;
+  fuzz::DecoderRun<ruby128::Ruby128Decoder, ruby128::Ruby128Calibration> run(
+      ruby128::nominal_ruby128(), returns_in, 400.0F);
+  ruby128::Ruby128PacketBuffer packet;
   Head head;
   const auto send = [&] {
     const std::int64_t before_ns = head.stamp_ns;
@@ -89,14 +89,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         head.step_cdeg = input.next(1) % 120;
         break;
       case 6: {  // one return
-        const int block = input.below(firmware_io::kRubyBlocksPerPacket);
-        const int channel = input.below(firmware_io::kRubyChannelsPerBlock);
+        const int block = input.below(ruby128::kRubyBlocksPerPacket);
+        const int channel = input.below(ruby128::kRubyChannelsPerBlock);
         const auto distance = static_cast<std::uint16_t>(input.next(2));
         packet.set_return(block, channel, distance, static_cast<std::uint8_t>(input.next(1)));
         break;
       }
       case 7: {  // a bent copy of the packet
-        std::array<std::uint8_t, firmware_io::kRubyPacketBytes> bent{};
+        std::array<std::uint8_t, ruby128::kRubyPacketBytes> bent{};
         std::memcpy(bent.data(), packet.payload().data(), bent.size());
         for (std::uint32_t n = input.next(1) % 8; n > 0; --n) {
           bent[input.next(2) % bent.size()] = static_cast<std::uint8_t>(input.next(1));
@@ -112,7 +112,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         head.reading += input.next(1) % 2;
         break;
       case 10:
-        head.encoding = static_cast<firmware_io::RubyTimestamp>(input.next(1) % 3);
+        head.encoding = static_cast<ruby128::RubyTimestamp>(input.next(1) % 3);
         packet.set_protocol_version(static_cast<std::uint16_t>(input.next(1) % 2));
         break;
       default:

@@ -7,45 +7,45 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/nominal_ruby128.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
-#include "firmware_io/ruby128/packet_encoder.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
-#include "tests/fuzz/packet_sequence.hpp"
+#include "packet_sequence.hpp"
+#include "tools/lab/encode/ruby128_packet_encoder.hpp"
 
 namespace {
 
 using namespace terracut;
 
 struct Ruby128 {
-  using Decoder = firmware_io::Ruby128Decoder;
-  using Calibration = calib::Ruby128Calibration;
-  using Column = firmware_io::Ruby128Column;
-  using Bytes = std::array<std::uint8_t, firmware_io::kRubyPacketBytes>;
-  static constexpr int kColumns = firmware_io::kRubyBlocksPerPacket;
+  using Decoder = ruby128::Ruby128Decoder;
+  using Calibration = ruby128::Ruby128Calibration;
+  using Column = frame::Ruby128Column;
+  using Bytes = std::array<std::uint8_t, ruby128::kRubyPacketBytes>;
+  static constexpr int kColumns = ruby128::kRubyBlocksPerPacket;
   static constexpr std::size_t kReturnsAColumn = 12;
 
-  static Calibration calibration() { return calib::nominal_ruby128(); }
+  static Calibration calibration() { return ruby128::nominal_ruby128(); }
   static std::int64_t firing_ns(bool dual) {
     (void)dual;  // it fires alike
-    return firmware_io::kRubyBlock_ns;
+    return ruby128::kRubyBlock_ns;
   }
   static Bytes encode(const std::array<Column, kColumns>& columns, std::int64_t first_reading,
                       bool dual, int encoding) {
-    firmware_io::Ruby128PacketFacts facts;
-    facts.returns = dual ? firmware_io::ReturnMode::kDual : firmware_io::ReturnMode::kSingle;
-    facts.timestamp = static_cast<firmware_io::RubyTimestamp>(encoding);
-    firmware_io::Ruby128PacketBuffer packet;
-    firmware_io::encode_ruby128_packet(columns, static_cast<int>(first_reading % 2), facts, packet);
+    encode::Ruby128PacketFacts facts;
+    facts.returns = dual ? drive::ReturnMode::kDual : drive::ReturnMode::kSingle;
+    facts.timestamp = static_cast<ruby128::RubyTimestamp>(encoding);
+    ruby128::Ruby128PacketBuffer packet;
+    encode::encode_ruby128_packet(columns, static_cast<int>(first_reading % 2), facts, packet);
     Bytes bytes;
     std::ranges::copy(packet.payload(), bytes.begin());
     return bytes;
   }
   static std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-    const auto packet = firmware_io::Ruby128PacketView::of(payload);
+    const auto packet = ruby128::Ruby128PacketView::of(payload);
     std::uint64_t sum = 0;
     for (int block = 0; packet && block < kColumns; ++block) {
-      for (int channel = 0; channel < firmware_io::kRubyChannelsPerBlock; ++channel) {
+      for (int channel = 0; channel < ruby128::kRubyChannelsPerBlock; ++channel) {
         sum += packet->distance(block, channel) != 0;
       }
     }

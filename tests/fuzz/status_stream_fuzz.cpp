@@ -7,13 +7,13 @@
 #include <cstdint>
 #include <cstdlib>
 
-#include "calib/hdl64e_stream_table.hpp"
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
-#include "firmware_io/hdl64e/status_stream_writer.hpp"
+#include "tools/lab/encode/status_stream_writer.hpp"
 
 namespace {
 
-using Table = std::array<std::uint8_t, terracut::calib::kStreamTableBytes>;
+using Table = std::array<std::uint8_t, terracut::hdl64e::kStreamTableBytes>;
 
 Table true_table() {
   Table table{};
@@ -23,7 +23,7 @@ Table true_table() {
   for (std::size_t laser = 0; laser < 64; ++laser) {
     table[7 + 28 * laser] = static_cast<std::uint8_t>(laser);
   }
-  const std::uint16_t crc = terracut::calib::stream_table_crc(table);
+  const std::uint16_t crc = terracut::hdl64e::stream_table_crc(table);
   table[1818] = static_cast<std::uint8_t>(crc & 0xFF);
   table[1819] = static_cast<std::uint8_t>(crc >> 8);
   return table;
@@ -41,17 +41,17 @@ bool same_lasers(std::span<const std::uint8_t> a, const Table& b) {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  using namespace terracut::firmware_io;
+  using namespace terracut;
   static const Table table = true_table();
-  StatusStreamWriter writer(table, StatusFlavour::kS3);
-  StatusStreamReader reader;
+  encode::StatusStreamWriter writer(table, hdl64e::StatusFlavour::kS3);
+  hdl64e::StatusStreamReader reader;
   std::uint32_t stamp_us = 3'599'000'000;  // passes the top of the hour
   bool altered = false;
   for (std::size_t i = 0; i + 1 < size; i += 2) {
     const std::uint8_t action = data[i];
     const std::uint8_t operand = data[i + 1];
     const auto one_packet = [&](bool lost, std::uint8_t type_flip, std::uint8_t value_flip) {
-      const StatusPair pair = writer.next(0);
+      const hdl64e::StatusPair pair = writer.next(0);
       stamp_us = (stamp_us + 288) % 3'600'000'000U;
       if (lost) return;
       reader.add(pair.type ^ type_flip, pair.value ^ value_flip, stamp_us);
@@ -83,7 +83,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
     }
   }
-  if (reader.holes() > terracut::calib::kStreamTableBytes) std::abort();
+  if (reader.holes() > terracut::hdl64e::kStreamTableBytes) std::abort();
   if (!altered && reader.has_table() && !same_lasers(reader.table(), table)) std::abort();
   return 0;
 }

@@ -9,13 +9,13 @@
 #include <cstdio>
 #include <limits>
 
-#include "pipeline/segmenter.hpp"
+#include "pipeline/ground/segmenter.hpp"
 
 namespace {
 
 using namespace terracut;
 
-constexpr pipeline::ImageShape kShape{64, 2083};
+constexpr frame::ImageShape kShape{64, 2083};
 constexpr double kHeight_m = 1.73;
 
 /// Park and Miller's generator: [0, 1)
@@ -35,8 +35,8 @@ double ground_distance_m(int row) {
   return row < 58 ? 4.0 + 0.03 * row * row : 1e9;
 }
 
-calib::RingProfile profile() {
-  calib::RingProfile made;
+mount::RingProfile profile() {
+  mount::RingProfile made;
   made.mount.height_m = kHeight_m;
   for (int row = 0; row < kShape.rows; ++row) {
     const double distance_m = ground_distance_m(row);
@@ -49,7 +49,7 @@ calib::RingProfile profile() {
 
 /// A road between a kerb and rough ground with a hillside, and walls, boxes and bushes where the
 /// generator puts them.
-void make_turn(Random& random, pipeline::RangeImage& image) {
+void make_turn(Random& random, frame::RangeImage& image) {
   image.clear();
   // The head turns by a fixed complex factor a column: (cos, sin) of 1 / 2083 of a turn.
   constexpr double kCos = 0.99999545070193, kSin = 0.0030163606178;
@@ -96,26 +96,26 @@ class Fingerprint {
 }  // namespace
 
 int main() {
-  rt::FixedMemory memory;
-  pipeline::RangeImage image(kShape, 1000, memory);
+  memory::FixedMemory memory;
+  frame::RangeImage image(kShape, 1000, memory);
   // With the road surface, whose labels say of all ground what they would without it.
-  pipeline::SegmenterConfig with_road = pipeline::terracut_profile();
+  ground::SegmenterConfig with_road = ground::terracut_profile();
   with_road.road.enabled = true;
-  pipeline::Segmenter terracut(with_road, profile(), kShape, image.return_capacity(), memory);
-  pipeline::Segmenter paper(pipeline::paper_profile(), profile(), kShape, image.return_capacity(),
-                            memory);
+  ground::Segmenter terracut(with_road, profile(), kShape, image.return_capacity(), memory);
+  ground::Segmenter paper(ground::paper_profile(), profile(), kShape, image.return_capacity(),
+                          memory);
   Random random;
   Fingerprint fingerprint;
   std::uint64_t labels = 0, obstacles = 0, unknown = 0, road = 0, other_ground = 0;
   for (int turn = 0; turn < 5; ++turn) {
     make_turn(random, image);
-    for (pipeline::Segmenter* segmenter : {&terracut, &paper}) {
+    for (ground::Segmenter* segmenter : {&terracut, &paper}) {
       const auto report = segmenter->segment(image);
-      for (const pipeline::Label label : segmenter->labels()) {
+      for (const frame::Label label : segmenter->labels()) {
         fingerprint.add(static_cast<std::uint64_t>(label));
         if (segmenter != &terracut) continue;
-        road += label == pipeline::Label::kGround;
-        other_ground += label == pipeline::Label::kOtherGround;
+        road += label == frame::Label::kGround;
+        other_ground += label == frame::Label::kOtherGround;
       }
       fingerprint.add(static_cast<std::uint64_t>(report.cut.energy));
       labels += report.returns;

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 // glibc lets a program define malloc itself and reach the real one under another name, so that
 // every way to the heap is counted, not operator new alone.
-#include "tests/support/allocation_counter.hpp"
+#include "allocation_counter.hpp"
 
 #include <cstddef>
 

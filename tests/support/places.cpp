@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/support/places.hpp"
+#include "places.hpp"
 
 #include <cstdlib>
 

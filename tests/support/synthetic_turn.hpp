@@ -7,18 +7,18 @@
 #include <numbers>
 #include <vector>
 
-#include "calib/ring_profile.hpp"
-#include "pipeline/range_image.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
 
 namespace terracut::test {
 
 /// A sensor whose beams have no offsets: `rows` evenly spaced elevations, lowest first.
-inline calib::RingProfile even_profile(int rows = 64, double lowest_deg = -24.0,
+inline mount::RingProfile even_profile(int rows = 64, double lowest_deg = -24.0,
                                        double highest_deg = 2.0, double height_m = 1.73) {
-  calib::RingProfile profile;
+  mount::RingProfile profile;
   profile.mount.height_m = height_m;
   for (int row = 0; row < rows; ++row) {
-    calib::Ring ring;
+    mount::Ring ring;
     ring.elevation_rad =
         (lowest_deg + (highest_deg - lowest_deg) * row / (rows - 1)) * std::numbers::pi / 180;
     const double distance_m = height_m / std::tan(-ring.elevation_rad);
@@ -33,10 +33,10 @@ inline calib::RingProfile even_profile(int rows = 64, double lowest_deg = -24.0,
 using BeamCast = std::function<double(double azimuth_rad, double elevation_rad)>;
 
 /// Fills `image` (cleared first) by casting one beam through the middle of every cell.
-inline void cast_turn(const calib::RingProfile& profile, const BeamCast& cast,
-                      pipeline::RangeImage& image) {
+inline void cast_turn(const mount::RingProfile& profile, const BeamCast& cast,
+                      frame::RangeImage& image) {
   image.clear();
-  const pipeline::ImageShape& shape = image.shape();
+  const frame::ImageShape& shape = image.shape();
   for (int row = 0; row < shape.rows; ++row) {
     const double elevation_rad = profile.rings[static_cast<std::size_t>(row)].elevation_rad;
     for (int column = 0; column < shape.columns; ++column) {

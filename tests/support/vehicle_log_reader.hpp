@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/motion/motion_sample.hpp"
+#include "firmware_io/vehicle/motion_sample.hpp"
 
 namespace terracut::test {
 
 /// What a vehicle log says, read by its description alone; a line that is not as described ends it.
-inline std::vector<firmware_io::MotionSample> samples_of(const std::string& log) {
-  std::vector<firmware_io::MotionSample> samples;
+inline std::vector<vehicle::MotionSample> samples_of(const std::string& log) {
+  std::vector<vehicle::MotionSample> samples;
   std::istringstream lines(log);
   for (std::string line; std::getline(lines, line);) {
     long long seconds = 0;

@@ -3,28 +3,26 @@
 #pragma once
 
 #include "exit_codes.hpp"
-#include "live/live_options.hpp"
 #include "options.hpp"
 
-/// The subcommands: each does its work, prints its result and answers the program's exit code.
+/// The subcommands: each does its work, prints its result and returns the program's exit code.
 namespace terracut::cli {
 
-[[nodiscard]] ExitCode run(const ReplayOptions& options);
-[[nodiscard]] ExitCode run(const SegmentOptions& options);
-[[nodiscard]] ExitCode run(const SimulateOptions& options);
-[[nodiscard]] ExitCode run(const EncodeOptions& options);
-[[nodiscard]] ExitCode run(const CalibrateOptions& options);
-[[nodiscard]] ExitCode run(const InfoOptions& options);
-[[nodiscard]] ExitCode run(const PlanOptions& options);
-[[nodiscard]] ExitCode run(const ParametersOptions& options);
-[[nodiscard]] ExitCode run(const BenchOptions& options);
-[[nodiscard]] ExitCode run(const SendOptions& options);
-[[nodiscard]] ExitCode run(const DumpOptions& options);
-[[nodiscard]] ExitCode run(const TopOptions& options);
-ExitCode run(const EvalOptions& options);
-[[nodiscard]] ExitCode run(const CompareOptions& options);
-[[nodiscard]] ExitCode run(const LiveOptions& options);
-[[nodiscard]] ExitCode run(const ConfigOptions& options);
-[[nodiscard]] ExitCode run(const DoctorOptions& options);
+[[nodiscard]] ExitCode run_replay(const Options& options);
+[[nodiscard]] ExitCode run_segment(const Options& options);
+[[nodiscard]] ExitCode run_simulate(const Options& options);
+[[nodiscard]] ExitCode run_encode(const Options& options);
+[[nodiscard]] ExitCode run_calibrate(const Options& options);
+[[nodiscard]] ExitCode run_info(const Options& options);
+[[nodiscard]] ExitCode run_plan(const Options& options);
+[[nodiscard]] ExitCode run_parameters(const Options& options);
+[[nodiscard]] ExitCode run_bench(const Options& options);
+[[nodiscard]] ExitCode run_send(const Options& options);
+[[nodiscard]] ExitCode run_live(const Options& options);
+[[nodiscard]] ExitCode run_dump(const Options& options);
+[[nodiscard]] ExitCode run_eval(const Options& options);
+[[nodiscard]] ExitCode run_top(const Options& options);
+[[nodiscard]] ExitCode run_config(const Options& options);
+[[nodiscard]] ExitCode run_doctor(const Options& options);
 
 }  // namespace terracut::cli

@@ -9,7 +9,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "rt/thread_cpu_clock.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -45,7 +45,7 @@ Progress::Progress(std::string task, std::string unit, double total)
       unit_(std::move(unit)),
       total_(total),
       terminal_(::isatty(STDERR_FILENO) == 1),
-      started_ns_(rt::monotonic_ns()),
+      started_ns_(measure::monotonic_ns()),
       shown_ns_(started_ns_) {}
 
 Progress::~Progress() {
@@ -55,7 +55,7 @@ Progress::~Progress() {
 }
 
 void Progress::update(double done) {
-  const std::int64_t now_ns = rt::monotonic_ns();
+  const std::int64_t now_ns = measure::monotonic_ns();
   if (now_ns - shown_ns_ < (terminal_ ? kSecond_ns / 5 : 5 * kSecond_ns)) return;
   shown_ns_ = now_ns;
   const double seconds = static_cast<double>(now_ns - started_ns_) * 1e-9;

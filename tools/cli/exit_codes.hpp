@@ -16,8 +16,8 @@ enum ExitCode : int {
   kNothingCameOut = 5,   ///< Packets were read but no frame came out; the message names the check.
   kDeadlinesMissed = 6,  ///< A live run was all right but for deadlines it missed.
   kNotReady = 7,         ///< `terracut doctor` found a problem of the machine.
-  kGotWorse = 8,         ///< `terracut compare`: a measure got worse, and not by chance.
-  kInterrupted = 9,      ///< Ctrl-C or SIGTERM came before the work was done; reports say so.
+  // 8 is that of ./tools/compare: a measure got worse.
+  kInterrupted = 9,  ///< Ctrl-C or SIGTERM came before the work was done; reports say so.
 };
 
 /// The exit code that an error of a library leads to.

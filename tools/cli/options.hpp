@@ -2,47 +2,60 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <sys/types.h>
+
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-/// What each subcommand was asked to do: filled by arguments.cpp, read by the commands. Empty paths
-/// and optionals mean "not given". Angles are degrees here, as typed.
+#include "calib/hdl64e/hdl64e_geometry.hpp"
+#include "firmware_io/frame/deskew_info.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/sensor/sensor_model.hpp"
+#include "pipeline/stage/stage.hpp"
+#include "tools/lab/drive/return_mode.hpp"
+
+/// What a command was asked to do, by the command line and the configuration file. Names, ranges
+/// and meanings stand in the table of settings (settings/setting_table.cpp); the values here are
+/// the defaults. Empty paths and texts and optionals mean "not given". Angles are degrees, as
+/// typed.
 namespace terracut::cli {
 
-/// Which datagrams of a capture, and how they become points.
+/// Which datagrams of a capture or of a live stream, and how they become points.
 struct CaptureOptions {
   std::filesystem::path file;
-  std::optional<std::uint16_t> port;     ///< --port
-  std::string from;                      ///< --from, dotted IPv4
-  std::string sensor = "auto";           ///< --sensor auto|hdl64e|ruby128
-  std::filesystem::path calibration;     ///< --calibration
-  bool nominal_calibration = false;      ///< --nominal-calibration
-  std::optional<int> columns;            ///< --columns, [16, 36000]; else by the spin rate
-  std::string cell_owner = "strongest";  ///< --cell-owner strongest|last|first|both
-  std::string timestamp = "auto";        ///< --timestamp auto|calendar|us|ns
-  double clock_offset_s = 0;             ///< --clock-offset
-  std::string geometry = "manual";       ///< --geometry manual|ros
-  std::optional<int> reorder_packets;    ///< --reorder-packets, [0, 16]; else 2, live 0
-  double start_s = 0;                    ///< --start, [0, 1e9]
-  std::optional<double> duration_s;      ///< --duration, (0, 1e9]
+  std::optional<std::uint16_t> port;
+  std::string from;                           ///< Dotted IPv4.
+  std::optional<sensor::SensorModel> sensor;  ///< kHdl64e or kRuby128; none: the one found.
+  std::filesystem::path calibration;
+  bool nominal_calibration = false;
+  std::optional<int> columns;  ///< None: by the spin rate.
+  frame::CellOwner cell_owner = frame::CellOwner::kStrongest;
+  std::optional<ruby128::RubyTimestamp> timestamp;  ///< None: found out.
+  double clock_offset_s = 0;
+  hdl64e::GeometryModel geometry = hdl64e::GeometryModel::kManual;
+  std::optional<int> reorder_packets;  ///< None: 2, live 0.
+  double start_s = 0;
+  std::optional<double> duration_s;
 };
 
 /// How the sensor stands on the vehicle.
 struct MountOptions {
-  std::filesystem::path setup;                          ///< --setup
-  std::optional<double> height_m, roll_deg, pitch_deg;  ///< --mount-...; win over --setup
+  std::filesystem::path setup;
+  std::optional<double> height_m, roll_deg, pitch_deg;  ///< They win over the setup.
 };
+
+enum class Profile : std::uint8_t { kPaper, kTerracut };
 
 /// Which method runs.
 struct MethodOptions {
-  std::string method;                ///< --method, pipeline/ground_method.hpp; empty: by the others
-  std::string profile = "terracut";  ///< --profile paper|terracut
-  std::string stages = "mrf";        ///< --stages elevation|adjacent|mrf
-  std::vector<std::string> settings;  ///< --set KEY=VALUE, checked; docs/parameters.md
+  std::string method;  ///< As in pipeline/ground/ground_method.hpp; empty: by the others.
+  Profile profile = Profile::kTerracut;
+  stage::Stage last_stage = stage::Stage::kMinCut;
+  std::vector<std::string> settings;  ///< KEY=VALUE, checked; docs/reference/parameters.md
 };
 
 /// Where results go.
@@ -54,170 +67,146 @@ struct OutputOptions {
 
 /// One figure of the vehicle's motion: which signals of the DBC file it is made of.
 struct MotionFigureOptions {
-  std::string signals{};      ///< MESSAGE.SIGNAL or SIGNAL; several, with commas between: the mean.
-  std::string unit = "file";  ///< "file": as the DBC file says.
-  double scale = 1;           ///< On top; -1 turns the sign round.
-  std::string sign{};         ///< Signal: negative when not 0. Empty: none.
-  std::string valid{};        ///< Signal that says whether it is valid. Empty: none.
-  double valid_value = 1;     ///< What that has to be.
+  std::string signals{};   ///< MESSAGE.SIGNAL or SIGNAL; several, with commas between: the mean.
+  std::string unit{};      ///< Empty: as the DBC file says.
+  double scale = 1;        ///< On top; -1 turns the sign round.
+  std::string sign{};      ///< Signal: negative when not 0. Empty: none.
+  std::string valid{};     ///< Signal that says whether it is valid. Empty: none.
+  double valid_value = 1;  ///< What that has to be.
 };
 
 /// The vehicle's motion on its CAN bus. The signals are named as in the DBC file that simulated
 /// drives have beside them.
 struct MotionOptions {
-  std::filesystem::path dbc;  ///< --dbc: what the frames mean.
+  std::filesystem::path dbc;  ///< What the frames mean.
   MotionFigureOptions speed{.signals = "SPEED"}, yaw_rate{.signals = "YAW_RATE"};
   double max_age_ms = 100, timeout_ms = 500;
   double sensor_ahead_m = 0, sensor_left_m = 0;  ///< From the middle of the rear axle.
-  std::string deskew_to = "end";                 ///< --deskew-to start|middle|end
+  frame::TurnInstant deskew_to = frame::TurnInstant::kEnd;
 };
 
-struct ReplayOptions {
+enum class ListenVia : std::uint8_t { kSocket, kLibpcap };
+
+/// Where packets come in.
+struct ListenOptions {
+  std::string address = "0.0.0.0:2368";  ///< ADDRESS:PORT or PORT, IPv4.
+  ListenVia via = ListenVia::kSocket;
+  std::string interface;  ///< Empty: anywhere. libpcap needs one.
+  std::string multicast;  ///< Group to join; empty: none.
+  bool share_port = false;
+  std::uint16_t device_port = 7788;  ///< Of a Ruby128's DIFOP; 0: not heard.
+};
+
+/// What the threads that have a deadline, and the one that hears the vehicle, ask of the system.
+struct RealtimeOptions {
+  int receive_priority = 80, segment_priority = 70;  ///< SCHED_FIFO; 0: shared scheduling.
+  std::optional<int> receive_core, segment_core;     ///< None: any.
+  int can_priority = 60;                             ///< SCHED_FIFO; 0: shared scheduling.
+  bool lock_memory = true;
+};
+
+/// The last seconds of packets, kept and written when something goes wrong.
+struct RecorderOptions {
+  double seconds = 10;           ///< 0: nothing is kept.
+  std::filesystem::path folder;  ///< Empty: nothing is written.
+};
+
+/// How others see what the process does.
+struct WatchOptions {
+  std::string metrics = "127.0.0.1:9464";  ///< ADDRESS:PORT or PORT of /metrics; "off": none.
+  std::string name = "terracut";           ///< Of the status page, for `terracut top`.
+  std::string health_can;                  ///< CAN interface that hears of it; empty: none.
+};
+
+/// How often packets are played, and how fast.
+struct PlayOptions {
+  double rate = 0;  ///< 0 as fast as possible, 1 as recorded.
+  int loops = 1;    ///< Passes; 0: until interrupted.
+};
+
+/// Where datagrams are sent, and what goes wrong on the way.
+struct SendOptions {
+  std::string to;         ///< ADDRESS[:PORT]
+  std::string interface;  ///< Empty: by the routes.
+  PlayOptions play{.rate = 1};
+  std::string faults;        ///< tools/lab/send/fault_script.hpp
+  std::string foreign_from;  ///< Dotted IPv4.
+};
+
+/// A simulated drive.
+struct SimulateOptions {
+  std::string scene = "street";
+  std::uint64_t seed = 1;
+  double duration_s = 3;
+  double spin_hz = 10;
+  drive::ReturnMode returns = drive::ReturnMode::kSingle;
+  ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
+  double noise_m = 0.015;
+  double speed_mps = -1;    ///< < 0: what is usual in the scene.
+  double yaw_rate_dps = 0;  ///< Not 0: on an arc.
+};
+
+/// Recorded scans that become packets.
+struct EncodeOptions {
+  bool undo_compensation = false;  ///< Refuse where the motion cannot be put back.
+  bool keep_compensation = false;  ///< Do not put it back.
+};
+
+struct EvalOptions {
+  std::string dataset;                  ///< A built-in class table, own or simulated.
+  std::filesystem::path root;           ///< Of simulated: scenes, separated by commas.
+  std::vector<std::string> sequences;   ///< Empty: all with labels.
+  std::string frames;                   ///< FIRST-LAST[:STEP]; empty: all.
+  std::vector<std::string> methods;     ///< Empty: the profile.
+  std::vector<std::string> variants;    ///< NAME=METHOD,KEY=VALUE,...
+  std::optional<bool> through_packets;  ///< None: straight into the image.
+  int jobs = 0;                         ///< 0: one a core.
+  std::filesystem::path classes;        ///< Empty: the dataset's own table.
+  std::filesystem::path predictions, report;
+  std::filesystem::path changes;  ///< With it no journal.
+};
+
+/// All of them; a command looks at those that the table of settings gives it.
+struct Options {
   CaptureOptions capture;
   MountOptions mount;
   MethodOptions method;
   MotionOptions motion;
-  std::filesystem::path can;  ///< --can: recording of the vehicle's bus; empty: none.
   OutputOptions output;
-  double rate = 0;  ///< --rate: 0 as fast as possible, 1 as recorded
-  int loops = 1;    ///< --loop: passes over the capture, 0 until interrupted
-};
-
-struct SegmentOptions {
   std::filesystem::path scans;
-  std::filesystem::path calibration;  ///< Empty: fitted from the scans.
-  MountOptions mount;
-  MethodOptions method;
-  OutputOptions output;  ///< truth is not used: it lies beside the scans
-};
 
-struct SendOptions {
-  std::filesystem::path file;
-  std::optional<std::uint16_t> port;  ///< --port
-  std::string from;                   ///< --from, dotted IPv4
-  std::string to;                     ///< --to ADDRESS[:PORT]
-  std::string interface;              ///< --interface
-  double rate = 1;                    ///< --rate: 1 as recorded, 0 as fast as possible
-  int loops = 1;                      ///< --loop: passes over the capture, 0 until interrupted
-  std::string faults;                 ///< --faults, firmware_io/live/fault_script.hpp
-  std::string foreign_from;           ///< --foreign-from, dotted IPv4
-  std::filesystem::path json;
-};
+  ListenOptions listen;
+  std::optional<double> patience_s;  ///< For the sensor at the start; none: as long as it takes.
+  std::string can;  ///< CAN interface of the vehicle; empty: its motion is not taken out.
+  std::filesystem::path trace;
+  std::string stream;           ///< Where others get labelled points; empty: nowhere.
+  ::mode_t stream_mode = 0660;  ///< Rights of a Unix socket's file.
+  double deadline_ms = 50;      ///< From a frame's last packet to its labels.
+  RealtimeOptions realtime;
+  RecorderOptions recorder;
+  WatchOptions watch;
 
-struct SimulateOptions {
-  std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
-  std::string scene = "street";
-  std::uint64_t seed = 1;
-  double duration_s = 3;
-  double spin_hz = 10;             ///< --spin-hz, [5, 20]
-  std::string returns = "single";  ///< --returns single|dual
-  std::string timestamp = "us";    ///< --timestamp calendar|us|ns, of a Ruby128
-  double noise_m = 0.015;
-  double speed_mps = -1;    ///< --speed; < 0: what is usual in the scene
-  double yaw_rate_dps = 0;  ///< --yaw-rate, [-57, 57]; not 0: on an arc
-  bool can_log = false;     ///< The vehicle's motion beside the capture, as a CAN log and its DBC.
-  std::filesystem::path calibration;  ///< Empty: the built-in nominal unit.
-  MountOptions mount;
-  std::filesystem::path output;  ///< Empty: nothing is kept.
-  SendOptions udp;               ///< --udp is its `to`; empty: nothing is sent. `file` is not used.
-};
+  PlayOptions replay;
+  std::filesystem::path can_recording;  ///< Of the vehicle's bus; empty: none.
+  int bench_repeat = 10;                ///< Passes over the capture's frames.
+  int bench_core = -1;                  ///< To be pinned to; -1: the last one allowed.
+  bool keep_mount = false;              ///< Calibrate: the mount is given, not to be found.
 
-struct EncodeOptions {
-  std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
-  std::filesystem::path scans;
-  std::filesystem::path calibration;  ///< Empty: fitted from the scans.
-  bool undo_compensation = false;     ///< Refuse where the motion cannot be put back.
-  bool keep_compensation = false;     ///< Do not put it back.
-  bool can_log = false;               ///< The motion that was put back, as a CAN log and its DBC.
-  std::filesystem::path output;
-};
+  SimulateOptions simulate;
+  EncodeOptions encode;
+  std::filesystem::path written;  ///< -o, of what makes one file.
+  bool can_log = false;           ///< The vehicle's motion beside it, as a CAN log and its DBC.
+  SendOptions send;
 
-struct CalibrateOptions {
-  CaptureOptions capture;
-  MountOptions mount;  ///< Start of the estimate, or fixed with --keep-mount.
-  MethodOptions method;
-  bool keep_mount = false;
-  std::filesystem::path output;
-};
+  EvalOptions eval;
 
-struct InfoOptions {
-  std::filesystem::path file;
-  std::filesystem::path json;
-};
-
-struct PlanOptions {
-  std::string sensor = "hdl64e";  ///< --sensor hdl64e|ruby128
-  MethodOptions method;
-  std::filesystem::path json;
-};
-
-struct ParametersOptions {};
-
-struct Configuration;  // configuration.hpp
-
-struct ConfigOptions {
-  bool print_default = false;
-  bool print_table = false;  ///< --print-table: for docs/configuration.md.
-  std::shared_ptr<const Configuration> configuration;  ///< The one in force; never null.
-};
-
-struct DoctorOptions {
-  std::string interface;            ///< --interface; empty: every one that is up
-  std::uint16_t port = 2368;        ///< --port
-  std::optional<int> receive_core;  ///< From the configuration, as are those below.
-  std::optional<int> segment_core;
-  bool json = false;
-};
-
-struct BenchOptions {
-  CaptureOptions capture;
-  MountOptions mount;
-  MethodOptions method;
-  int repeat = 10;  ///< Passes over the capture's frames.
-  int core = -1;    ///< --core: pin to it; -1: the last one allowed.
-  std::filesystem::path json;
-};
-
-struct EvalOptions {
-  std::string dataset = "semantickitti";         ///< semantickitti|koblenz|simulated
-  std::filesystem::path root;                    ///< Of simulated: scenes, separated by commas.
-  std::vector<std::string> sequences;            ///< --sequences; empty: all with labels
-  std::string frames;                            ///< --frames FIRST-LAST[:STEP]; empty: all
-  std::vector<std::string> methods{"terracut"};  ///< --method
-  std::vector<std::string> variants;             ///< --variant NAME=METHOD,KEY=VALUE,...
-  std::vector<std::string> settings;             ///< --set KEY=VALUE, for every method, checked
-  std::optional<std::string> through;            ///< --through image|packets; else the former
-  int jobs = 0;                                  ///< --jobs; 0: one a core
-  MountOptions mount;
-  std::optional<std::string> sensor;   ///< --sensor hdl64e|ruby128; these four: of simulated
-  std::optional<std::string> returns;  ///< --returns single|dual
-  std::optional<double> duration_s;    ///< --duration, (0, 3600]
-  std::optional<std::uint64_t> seed;   ///< --seed
-  std::filesystem::path classes;       ///< --classes; empty: the dataset's own table
-  std::filesystem::path predictions;   ///< --predictions
-  std::filesystem::path json;          ///< --json
-  std::filesystem::path report;        ///< --report
-  std::filesystem::path changes;       ///< --changes; with it no journal
-};
-
-struct CompareOptions {
-  std::filesystem::path before, after;  ///< Reports of eval.
-  std::string method = "terracut";      ///< --method
-  std::string method_after;             ///< --method-after; empty: the same
-  double significance = 0.05;           ///< --significance, (0, 1)
-  std::filesystem::path json;           ///< --json
-};
-
-struct DumpOptions {
-  std::string name;    ///< Of the running process; empty: the only one that runs.
-  double wait_s = 30;  ///< --wait, [0, 3600]: for its answer.
-};
-
-struct TopOptions {
-  std::string name;  ///< Status page of the process to watch; empty: the only one that runs.
+  std::string watched;  ///< Name of the process to ask; empty: the only one that runs.
+  double wait_s = 30;   ///< For its answer.
   bool once = false;
-  bool json = false;      ///< --json: print the figures for programs, once.
-  double interval_s = 1;  ///< --interval, [0.1, 3600]
+  double interval_s = 1;
+  bool print_json = false, print_default = false, print_table = false;
+
+  std::vector<std::string> given;  ///< Options of the command line, "--seed".
 };
 
 }  // namespace terracut::cli

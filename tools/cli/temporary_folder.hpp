@@ -6,7 +6,7 @@
 #include <string_view>
 #include <system_error>
 
-#include "rt/part_file.hpp"
+#include "rt/files/part_file.hpp"
 
 namespace terracut::cli {
 
@@ -18,8 +18,8 @@ class TemporaryFolder {
     const std::filesystem::path folder = std::filesystem::temp_directory_path(error);
     if (error) return;
     constexpr std::string_view kName = "terracut";
-    rt::remove_abandoned_parts(folder, [&](std::string_view name) { return name == kName; });
-    part_ = rt::make_part_folder(folder / kName);
+    files::remove_abandoned_parts(folder, [&](std::string_view name) { return name == kName; });
+    part_ = files::make_part_folder(folder / kName);
     if (!part_.lock) part_.path.clear();
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
@@ -32,7 +32,7 @@ class TemporaryFolder {
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return part_.path; }
 
  private:
-  rt::Part part_;
+  files::Part part_;
 };
 
 }  // namespace terracut::cli

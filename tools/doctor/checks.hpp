@@ -51,7 +51,7 @@ struct Wishes {
 [[nodiscard]] Finding check_return_path(const SystemView& system, const Wishes& wishes);
 [[nodiscard]] Finding check_firewall(const SystemView& system, const Wishes& wishes);
 
-/// All of them, in the order of docs/real_time.md.
+/// All of them, in the order of docs/guide/real_time.md.
 [[nodiscard]] Findings examine(const SystemView& system, const Wishes& wishes);
 
 /// Whether this process has a capability, by its number in <linux/capability.h>.

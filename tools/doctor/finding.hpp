@@ -29,7 +29,7 @@ enum class Verdict : std::uint8_t {
 
 /// What one check says.
 struct Finding {
-  std::string check;  ///< Its name in docs/real_time.md: "kernel".
+  std::string check;  ///< Its name in docs/guide/real_time.md: "kernel".
   Verdict verdict = Verdict::kOk;
   std::string found;
   std::string why{};   ///< Why it matters; empty when all is well.

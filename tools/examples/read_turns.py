@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""Reads labelled turns from a running `terracut live --stream ADDRESS` (docs/labelled_stream.md).
+"""Reads labelled turns from a running `terracut live --stream ADDRESS` (docs/reference/labelled_stream.md).
 
 Prints a line a turn; with --pcd also writes each as a binary PCD file. Needs nothing but Python 3.8:
 copy decode_header() and receive_turns() into a program of your own. With numpy, the points are

@@ -10,21 +10,21 @@
 #include <thread>
 
 #include "firmware_io/can/can_sender.hpp"
-#include "firmware_io/can/health_frames.hpp"
-#include "firmware_io/can/motion_signals.hpp"
 #include "firmware_io/can/socketcan_source.hpp"
+#include "firmware_io/vehicle/motion_signals.hpp"
 #include "frames.hpp"
-#include "rt/thread_cpu_clock.hpp"
+#include "pipeline/status/health_frames.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::test {
 namespace {
 
-using firmware_io::CanFrame;
-using firmware_io::CanId;
-using firmware_io::CanSender;
-using firmware_io::LinkState;
-using firmware_io::SocketCanConfig;
-using firmware_io::SocketCanSource;
+using can::CanFrame;
+using can::CanId;
+using can::CanSender;
+using can::SocketCanConfig;
+using can::SocketCanSource;
+using net::LinkState;
 
 constexpr CanId kSpeed{0x123, false}, kYaw{0x18FEF100, true}, kOther{0x456, false};
 constexpr std::int64_t kMillisecond_ns = 1'000'000;
@@ -79,7 +79,7 @@ class CanBus : public testing::Test {
     return false;
   }
 
-  rt::FixedMemory memory_;
+  memory::FixedMemory memory_;
 };
 
 TEST_F(CanBus, DeliversExactlyTheMessagesAskedFor) {
@@ -116,10 +116,10 @@ TEST_F(CanBus, StampsWhenAFrameCame) {
   auto car = sender();
   std::int64_t newest_ns = 0;
   for (std::uint8_t i = 0; i < 50; ++i) {
-    const std::int64_t before_ns = rt::realtime_ns();
+    const std::int64_t before_ns = measure::realtime_ns();
     ASSERT_TRUE(send(car, data_frame(kSpeed, {i})));
     const auto received = receive(source, 1);
-    const std::int64_t after_ns = rt::realtime_ns();
+    const std::int64_t after_ns = measure::realtime_ns();
     ASSERT_EQ(received.size(), 1U);
     EXPECT_GE(received[0].stamp_ns, before_ns);
     EXPECT_LE(received[0].stamp_ns, after_ns);
@@ -245,17 +245,17 @@ TEST_F(CanBus, RefusesAnInterfaceThatHasNoCan) {
 }
 
 TEST_F(CanBus, BringsTheMotionOfTheVehicle) {
-  const auto file = firmware_io::parse_dbc(
+  const auto file = vehicle::parse_dbc(
       "BO_ 291 SPEED: 2 X\n SG_ V : 7|16@0+ (0.01,0) [0|0] \"km/h\" X\n"
       "BO_ 2566844672 YAW: 8 X\n SG_ R : 0|16@1- (0.0002,0) [0|0] \"rad/s\" X\n",
       "car.dbc");
   ASSERT_TRUE(file);
-  firmware_io::MotionSignalsConfig config;
+  vehicle::MotionSignalsConfig config;
   config.speed.signals = {"V"};
   config.yaw_rate.signals = {"R"};
   config.max_age_s = 10;
   config.timeout_s = 60;
-  auto motion = firmware_io::MotionSignals::make(*file, config);
+  auto motion = vehicle::MotionSignals::make(*file, config);
   ASSERT_TRUE(motion) << motion.error().message;
   auto source = open({.ids = {motion->ids().begin(), motion->ids().end()}});
   auto car = sender();
@@ -278,21 +278,21 @@ TEST_F(CanBus, BringsTheMotionOfTheVehicle) {
 TEST_F(CanBus, TellsHealthToOtherReaders) {
   auto terracut = sender();
   for (std::uint32_t i = 0; i < 5; ++i) {
-    const firmware_io::HealthReport report{
+    const status::HealthReport report{
         .frame_number = 1000 + i,
         .returns = 120'000 + 7 * i,
-        .rung = static_cast<rt::Rung>(i % 4),
+        .rung = static_cast<status::Rung>(i % 4),
         .missed = i % 2 == 1,
-        .cause = static_cast<rt::FrameMissCause>(i % 4),
+        .cause = static_cast<status::FrameMissCause>(i % 4),
         .latency_ns = 20'000'000 + 1'230'000 * static_cast<std::int64_t>(i),
         .ego_motion = i > 2,
-        .link = static_cast<rt::LinkState>(i % 4),
+        .link = static_cast<status::LinkState>(i % 4),
         .misses = 300 * i,
         .skipped = i,
         .losses = 100'000 * i,
         .alive = 254 + i};
     EXPECT_EQ(terracut.send(health_frames(report)), 2U);
-    const bool skipped = report.rung == rt::Rung::kSkipped;
+    const bool skipped = report.rung == status::Rung::kSkipped;
     fmt::print(
         "health FrameNumber={} Returns={} Rung={} Missed={} MissCause={} Latency={:.2f} "
         "EgoMotion={} Link={} Misses={} Skipped={} Losses={} Alive={}\n",

@@ -16,11 +16,11 @@
 namespace terracut::test {
 namespace {
 
-using firmware_io::CanFrame;
-using firmware_io::CanIdOrder;
-using firmware_io::CanPcapSource;
-using firmware_io::CanReject;
-using firmware_io::parse_can_wire;
+using can::CanFrame;
+using can::CanIdOrder;
+using can::CanPcapSource;
+using can::CanReject;
+using can::parse_can_wire;
 using testing::HasSubstr;
 using Bytes = std::vector<std::uint8_t>;
 
@@ -184,13 +184,13 @@ TEST(CanRecording, TellsACaptureFromALogByItsFirstBytes) {
     std::ofstream(folder / "drive.log", std::ios::binary)
         .write(reinterpret_cast<const char*>(capture.all.data()),
                static_cast<std::streamsize>(capture.all.size()));
-    auto recording = firmware_io::CanRecording::open(folder / "drive.log", "can0");
+    auto recording = can::CanRecording::open(folder / "drive.log", "can0");
     ASSERT_TRUE(recording) << recording.error().message;
     const auto frame = recording->next();
     ASSERT_TRUE(frame && *frame);
     EXPECT_EQ(**frame, data_frame({0x123, false}, {5}, 1));
   }
-  const auto missing = firmware_io::CanRecording::open(folder / "none.log");
+  const auto missing = can::CanRecording::open(folder / "none.log");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);
   std::filesystem::remove_all(folder);
@@ -201,7 +201,7 @@ TEST(CanWire, ReadsWhatItWrites) {
   for (int i = 0; i < 20'000; ++i) {
     CanFrame frame = random_frame(random);
     frame.stamp_ns = 0;
-    std::array<std::uint8_t, firmware_io::kFdWireBytes> bytes{};
+    std::array<std::uint8_t, can::kFdWireBytes> bytes{};
     const std::size_t size = write_can_wire(frame, bytes);
     ASSERT_EQ(size, frame.fd ? 72U : 16U);
     const auto parsed = parse_can_wire(std::span(bytes).first(size), CanIdOrder::kNative);

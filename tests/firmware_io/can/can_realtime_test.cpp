@@ -5,8 +5,8 @@
 #include <gmock/gmock.h>
 
 #include "firmware_io/can/can_sender.hpp"
-#include "firmware_io/can/motion_signals.hpp"
 #include "firmware_io/can/socketcan_source.hpp"
+#include "firmware_io/vehicle/motion_signals.hpp"
 #include "frames.hpp"
 #include "socket_pair.hpp"
 #include "tests/support/allocation_counter.hpp"
@@ -14,22 +14,22 @@
 namespace terracut::test {
 namespace {
 
-using firmware_io::CanFrame;
-using firmware_io::MotionSignals;
-using firmware_io::SocketCanSource;
+using can::CanFrame;
+using can::SocketCanSource;
+using vehicle::MotionSignals;
 
-constexpr firmware_io::CanId kSpeed{291, false}, kYaw{2, true};
+constexpr can::CanId kSpeed{291, false}, kYaw{2, true};
 constexpr std::int64_t kLong_ns = 60'000'000'000;
 
 MotionSignals make_motion() {
-  const auto file = firmware_io::parse_dbc(
+  const auto file = vehicle::parse_dbc(
       "BO_ 291 SPEED: 8 X\n SG_ V : 7|16@0+ (0.01,0) [0|0] \"km/h\" X\n"
       " SG_ W : 23|16@0+ (0.01,0) [0|0] \"km/h\" X\n SG_ BACK : 32|1@1+ (1,0) [0|0] \"\" X\n"
       "BO_ 2147483650 YAW: 64 X\n SG_ R : 3|60@1- (0.0002,0) [0|0] \"rad/s\" X\n"
       " SG_ OK : 511|1@1+ (1,0) [0|0] \"\" X\n",
       "car.dbc");
   EXPECT_TRUE(file);
-  firmware_io::MotionSignalsConfig config;
+  vehicle::MotionSignalsConfig config;
   config.speed.signals = {"V", "W"};
   config.speed.sign = "BACK";
   config.yaw_rate.signals = {"R"};
@@ -43,11 +43,11 @@ MotionSignals make_motion() {
 
 TEST(CanRealtime, ReceivingFramesAndMakingMotionOfThemAllocatesNothingAndDoesNotWait) {
   SocketPair bus;
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   MotionSignals motion = make_motion();
   auto source = SocketCanSource::adopt(std::move(bus.here), {.ids = {kSpeed, kYaw}}, memory);
   ASSERT_TRUE(source) << source.error().message;
-  auto car = firmware_io::CanSender::adopt(std::move(bus.there));
+  auto car = can::CanSender::adopt(std::move(bus.there));
   const std::array speed{data_frame(kSpeed, {0x0E, 0x10, 0x0E, 0x10, 0, 0, 0, 0})};
   std::array yaw{data_frame(kYaw, {8})};
   yaw[0].fd = true;

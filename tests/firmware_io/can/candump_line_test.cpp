@@ -9,9 +9,9 @@
 namespace terracut::test {
 namespace {
 
-using firmware_io::candump_line;
-using firmware_io::CanFrame;
-using firmware_io::parse_candump_line;
+using can::candump_line;
+using can::CanFrame;
+using can::parse_candump_line;
 using testing::HasSubstr;
 
 CanFrame frame_of(std::string_view line) {

@@ -9,17 +9,17 @@
 #include <vector>
 
 #include "firmware_io/can/can_recording.hpp"
-#include "firmware_io/can/candump_writer.hpp"
 #include "frames.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tools/lab/send/candump_writer.hpp"
 
 namespace terracut::test {
 namespace {
 
-using firmware_io::CandumpSource;
-using firmware_io::CandumpWriter;
-using firmware_io::CanFrame;
-using firmware_io::CanLogCounters;
+using can::CandumpSource;
+using can::CanFrame;
+using can::CanLogCounters;
+using send::CandumpWriter;
 using testing::HasSubstr;
 
 CandumpSource source_of(const std::string& text, std::string interface = {}) {
@@ -129,7 +129,7 @@ TEST(CandumpWriter, WritesALogThatIsReadBackTheSame) {
   EXPECT_EQ(writer.frames(), 500U);
   ASSERT_TRUE(writer.finish());
 
-  auto recording = firmware_io::CanRecording::open(folder / "drive.log", "can0");
+  auto recording = can::CanRecording::open(folder / "drive.log", "can0");
   ASSERT_TRUE(recording) << recording.error().message;
   const auto [frames, error] = read_all(*recording);
   EXPECT_FALSE(error);

@@ -12,32 +12,31 @@
 #include "firmware_io/can/can_frame.hpp"
 #include "firmware_io/can/candump_line.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::can {
 
 /// What GoogleTest shows of a frame.
 inline void PrintTo(const CanFrame& frame, std::ostream* stream) {
   *stream << candump_line(frame, "can0");
 }
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::can
 
 namespace terracut::test {
 
-inline firmware_io::CanFrame data_frame(firmware_io::CanId id,
-                                        std::initializer_list<std::uint8_t> bytes,
-                                        std::int64_t stamp_ns = 0) {
-  firmware_io::CanFrame frame;
+inline can::CanFrame data_frame(can::CanId id, std::initializer_list<std::uint8_t> bytes,
+                                std::int64_t stamp_ns = 0) {
+  can::CanFrame frame;
   frame.id = id;
   frame.stamp_ns = stamp_ns;
   frame.length = static_cast<std::uint8_t>(bytes.size());
-  frame.fd = bytes.size() > firmware_io::CanFrame::kMostClassicBytes;
+  frame.fd = bytes.size() > can::CanFrame::kMostClassicBytes;
   std::copy(bytes.begin(), bytes.end(), frame.data.begin());
   return frame;
 }
 
 /// Any frame that can be on a bus.
-inline firmware_io::CanFrame random_frame(std::mt19937& random) {
-  using firmware_io::CanFrame;
+inline can::CanFrame random_frame(std::mt19937& random) {
+  using can::CanFrame;
   const auto below = [&](std::uint32_t count) {
     return std::uniform_int_distribution<std::uint32_t>(0, count - 1)(random);
   };
@@ -56,7 +55,7 @@ inline firmware_io::CanFrame random_frame(std::mt19937& random) {
     frame.sender_passive = below(2) == 0;
     do {
       frame.length = static_cast<std::uint8_t>(below(65));
-    } while (!firmware_io::is_fd_length(frame.length));
+    } while (!can::is_fd_length(frame.length));
   }
   if (!frame.remote) {
     std::generate_n(frame.data.begin(), frame.length,

@@ -11,17 +11,17 @@
 
 #include "firmware_io/can/can_sender.hpp"
 #include "frames.hpp"
-#include "rt/thread_cpu_clock.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 #include "socket_pair.hpp"
 
 namespace terracut::test {
 namespace {
 
-using firmware_io::CanFrame;
-using firmware_io::CanId;
-using firmware_io::CanSender;
-using firmware_io::SocketCanConfig;
-using firmware_io::SocketCanSource;
+using can::CanFrame;
+using can::CanId;
+using can::CanSender;
+using can::SocketCanConfig;
+using can::SocketCanSource;
 using testing::HasSubstr;
 
 constexpr CanId kSpeed{0x123, false};
@@ -43,7 +43,7 @@ class SocketCanSourceTest : public testing::Test {
   }
 
   SocketPair bus_;
-  rt::FixedMemory memory_;
+  memory::FixedMemory memory_;
 };
 
 TEST_F(SocketCanSourceTest, DeliversEveryKindOfFrameInOrderWithAStamp) {
@@ -55,7 +55,7 @@ TEST_F(SocketCanSourceTest, DeliversEveryKindOfFrameInOrderWithAStamp) {
     if (frame.error) continue;
     ASSERT_TRUE(bus_.put(frame));
     sent.push_back(frame);
-    const std::int64_t before_ns = rt::realtime_ns();
+    const std::int64_t before_ns = measure::realtime_ns();
     const auto received = source.receive(kLong_ns);
     ASSERT_EQ(received.size(), 1U);
     CanFrame expected = frame;
@@ -167,7 +167,7 @@ TEST_F(SocketCanSourceTest, NamesAnInterfaceThatIsNotThereOrHasNoCan) {
 
 TEST(CanSender, SendsWhatASourceReceives) {
   SocketPair bus;
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   auto sender = CanSender::adopt(std::move(bus.there));
   auto source = SocketCanSource::adopt(std::move(bus.here), {.ids = {kSpeed}}, memory);
   ASSERT_TRUE(source);

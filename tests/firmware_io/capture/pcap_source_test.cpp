@@ -10,7 +10,7 @@
 #include "capture_bytes.hpp"
 #include "tests/support/allocation_counter.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 using test::Bytes;
@@ -303,4 +303,4 @@ TEST(PcapSource, SurvivesFlippedBitsAndRandomBytes) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

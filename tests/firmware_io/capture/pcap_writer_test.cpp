@@ -13,13 +13,14 @@
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/capture/udp_checksum.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 using test::Bytes;
 using test::TemporaryFolder;
 
-Datagram datagram_of(const Bytes& payload, std::int64_t stamp_ns = 1'700'000'000'123'456'789) {
+decode::Datagram datagram_of(const Bytes& payload,
+                             std::int64_t stamp_ns = 1'700'000'000'123'456'789) {
   return {.payload = payload,
           .stamp_ns = stamp_ns,
           .source_address = 0xC0A8032B,
@@ -198,4 +199,4 @@ TEST(PcapWriter, FindsAFullDiskInFinishToo) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

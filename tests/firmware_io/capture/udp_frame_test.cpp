@@ -10,7 +10,7 @@
 
 #include "capture_bytes.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::capture {
 namespace {
 
 using test::Bytes;
@@ -166,4 +166,4 @@ TEST(UdpFrame, EveryReasonHasItsOwnName) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::capture

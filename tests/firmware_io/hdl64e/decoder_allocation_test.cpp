@@ -2,8 +2,9 @@
 // Copyright 2026 The terracut authors
 #include <gtest/gtest.h>
 
-#include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "random_drive.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/hand_out.hpp"
 
 namespace terracut::test {
 namespace {
@@ -15,20 +16,19 @@ TEST(Hdl64eDecoderMemory, DecodingAllocatesNothing) {
   std::swap(packets[300], packets[301]);
   packets[400].set_u16(2, 36'000);
 
-  rt::FixedMemory memory;
-  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, {}, memory);
+  memory::FixedMemory memory;
+  hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
   std::uint64_t frames = 0, returns = 0;
-  const auto on_frame = [&](const firmware_io::FrameInfo& info,
-                            const pipeline::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     ++frames;
     returns += info.returns;
   };
   const std::size_t planned = memory.total_bytes();
   const std::uint64_t before = allocations_of_this_thread();
   for (int loop = 0; loop < 3; ++loop) {
-    for (const Packet& packet : packets) decoder.decode(packet.datagram(), on_frame);
+    for (const Packet& packet : packets) test::decode(decoder, packet.datagram(), on_frame);
   }
-  decoder.flush(on_frame);
+  test::end_stream(decoder, on_frame);
   EXPECT_EQ(allocations_of_this_thread() - before, 0U);
   EXPECT_EQ(memory.total_bytes(), planned);
   EXPECT_GT(frames, 12U);
@@ -38,29 +38,28 @@ TEST(Hdl64eDecoderMemory, DecodingAllocatesNothing) {
 TEST(Hdl64eDecoderMemory, TakingTheMotionOutAllocatesNothing) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
   const auto packets = random_packets({.last_cdeg = 37'100 + 3 * 36'000});
-  rt::FixedMemory memory;
-  firmware_io::EgoMotion motion({}, memory);
-  firmware_io::Hdl64eDecoder::Config config;
+  memory::FixedMemory memory;
+  vehicle::EgoMotion motion({}, memory);
+  hdl64e::Hdl64eDecoder::Config config;
   config.motion = &motion;
-  firmware_io::Hdl64eDecoder decoder(calib::nominal_hdl64e(), {}, config, memory);
+  hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, config, memory);
   std::uint64_t frames = 0, deskewed = 0;
-  const auto on_frame = [&](const firmware_io::FrameInfo& info,
-                            const pipeline::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     ++frames;
-    deskewed += info.deskew.state == firmware_io::DeskewState::kDone ? 1U : 0U;
+    deskewed += info.deskew.state == frame::DeskewState::kDone ? 1U : 0U;
   };
   const std::size_t planned = memory.total_bytes();
   const std::uint64_t before = allocations_of_this_thread();
   std::int64_t sampled_ns = 0;
   for (const Packet& packet : packets) {
-    const firmware_io::Datagram datagram = packet.datagram();
+    const decode::Datagram datagram = packet.datagram();
     if (datagram.stamp_ns - sampled_ns > 10'000'000) {
       sampled_ns = datagram.stamp_ns;
       motion.add({sampled_ns, 20, 0.5});
     }
-    decoder.decode(datagram, on_frame);
+    test::decode(decoder, datagram, on_frame);
   }
-  decoder.flush(on_frame);
+  test::end_stream(decoder, on_frame);
   EXPECT_EQ(allocations_of_this_thread() - before, 0U);
   EXPECT_EQ(memory.total_bytes(), planned);
   EXPECT_GE(frames, 3U);

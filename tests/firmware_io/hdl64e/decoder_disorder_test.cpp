@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <numeric>
 
-#include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "random_drive.hpp"
 
 namespace terracut::test {
 namespace {
 
-using firmware_io::LossCounters;
-using firmware_io::Reject;
+using frame::LossCounters;
+using frame::Reject;
 
 std::uint64_t returns_in(std::span<const Packet> packets) {
   std::uint64_t sum = 0;
@@ -499,7 +499,7 @@ TEST(Disorder, NoStreamMakesAFrameLargerThanItsImage) {
     if (!recorder.decode(packet)) sent += returns_in({&packet, 1});
   }
   recorder.flush();
-  const pipeline::ImageShape shape = recorder.decoder.shape();
+  const frame::ImageShape shape = recorder.decoder.shape();
   const std::uint64_t most = shape.cells() + static_cast<std::size_t>(64 * shape.columns);
   for (const Frame& frame : recorder.frames) EXPECT_LE(frame.info.returns, most);
   EXPECT_EQ(recorder.returns() + recorder.decoder.losses().overflow_full_returns, sent);

@@ -5,8 +5,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "calib/hdl64e_file.hpp"
-#include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "random_drive.hpp"
+#include "tests/support/hand_out.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/reference/agreement.hpp"
 #include "tests/support/reference/hdl64e_reference.hpp"
@@ -14,16 +15,16 @@
 namespace terracut::test {
 namespace {
 
-using firmware_io::Reject;
+using frame::Reject;
 
 /// Decodes the packets both ways and compares return by return, in order of arrival.
 void expect_same_returns(std::span<const Packet> packets,
-                         const calib::Hdl64eCalibration& calibration,
+                         const hdl64e::Hdl64eCalibration& calibration,
                          const Recorder::Config& config = {}) {
-  const calib::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
+  const mount::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
   std::vector<double> elevations;
   for (const auto& laser : calibration.lasers) elevations.push_back(laser.vert_correction_rad);
-  const bool ros_like = config.sensor.geometry == calib::GeometryModel::kRosLike;
+  const bool ros_like = config.sensor.geometry == hdl64e::GeometryModel::kRosLike;
   const reference::Hdl64eReference reference(calibration, ros_like
                                                               ? reference::Hdl64eOffsets::kRosLike
                                                               : reference::Hdl64eOffsets::kManual);
@@ -39,21 +40,21 @@ void expect_same_returns(std::span<const Packet> packets,
           << "choose another seed";
     }
     expected.add(plain, turns.unwrap(plain));
-    ASSERT_FALSE(recorder.decoder.decode(packet.datagram(), handed.keep()));
+    ASSERT_FALSE(test::decode(recorder.decoder, packet.datagram(), handed.keep()));
   }
-  recorder.decoder.flush(handed.keep());
+  test::end_stream(recorder.decoder, handed.keep());
   EXPECT_GT(handed.returns(), 0U);
   EXPECT_EQ(reference::first_difference(expected, handed, config.columns), "");
 }
 
 TEST(Hdl64eDecoder, AgreesWithAPlainSlowDecoder) {
-  expect_same_returns(random_packets(), calib::nominal_hdl64e());
+  expect_same_returns(random_packets(), hdl64e::nominal_hdl64e());
 }
 
 TEST(Hdl64eDecoder, AgreesWithAPlainSlowDecoderInTheRosLikeGeometry) {
   Recorder::Config config;
-  config.sensor.geometry = calib::GeometryModel::kRosLike;
-  expect_same_returns(random_packets({.seed = 2}), calib::nominal_hdl64e(), config);
+  config.sensor.geometry = hdl64e::GeometryModel::kRosLike;
+  expect_same_returns(random_packets({.seed = 2}), hdl64e::nominal_hdl64e(), config);
 }
 
 class SpinRate : public testing::TestWithParam<double> {};
@@ -63,7 +64,7 @@ TEST_P(SpinRate, AgreesWithAPlainSlowDecoder) {
   Recorder::Config config;
   config.columns = static_cast<int>(std::lround(1e6 / 48.0 / hertz));
   expect_same_returns(random_packets({.step_deg = 360.0 * hertz * 48e-6, .seed = 11}),
-                      calib::nominal_hdl64e(), config);
+                      hdl64e::nominal_hdl64e(), config);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hertz, SpinRate, testing::Values(5.0, 7.3, 10.0, 15.0, 20.0));
@@ -71,18 +72,18 @@ INSTANTIATE_TEST_SUITE_P(Hertz, SpinRate, testing::Values(5.0, 7.3, 10.0, 15.0, 
 TEST(Hdl64eDecoder, KeepsEveryReturnWhenTheImageIsTooNarrow) {
   // 5 Hz: 4167 firings into 2083 columns; each cell gets two returns.
   expect_same_returns(random_packets({.last_cdeg = 80'000, .step_deg = 0.0864, .seed = 4}),
-                      calib::nominal_hdl64e());
+                      hdl64e::nominal_hdl64e());
 }
 
 TEST(Hdl64eDecoder, TakesWideRotationalCorrections) {
-  calib::Hdl64eCalibration calibration = calib::nominal_hdl64e();
+  hdl64e::Hdl64eCalibration calibration = hdl64e::nominal_hdl64e();
   std::mt19937 random(5);
   std::uniform_real_distribution<double> any_deg(-10, 10);
   for (auto& laser : calibration.lasers) {
-    laser.rot_correction_rad = calib::deg_to_rad(any_deg(random));
+    laser.rot_correction_rad = beams::deg_to_rad(any_deg(random));
   }
-  calibration.lasers[0].rot_correction_rad = calib::deg_to_rad(10.0);
-  calibration.lasers[1].rot_correction_rad = calib::deg_to_rad(-10.0);
+  calibration.lasers[0].rot_correction_rad = beams::deg_to_rad(10.0);
+  calibration.lasers[1].rot_correction_rad = beams::deg_to_rad(-10.0);
   expect_same_returns(random_packets({.seed = 12}), calibration);
 }
 
@@ -91,7 +92,7 @@ class RealUnits : public testing::TestWithParam<const char*> {};
 TEST_P(RealUnits, AgreeWithAPlainSlowDecoder) {
   const auto path = test::shared_data("calib") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const auto calibration = calib::load_hdl64e_calibration(path);
+  const auto calibration = hdl64e::load_hdl64e_calibration(path);
   ASSERT_TRUE(calibration) << calibration.error().message;
   expect_same_returns(random_packets({.seed = 21}), *calibration);
 }
@@ -125,15 +126,15 @@ TEST(Hdl64eDecoder, ReadsTheBytesOfTheFormatsDescription) {
   EXPECT_EQ(packets[0].bytes[1100], 0xFF);
   EXPECT_EQ(packets[0].bytes[1101], 0xDD);
 
-  calib::Hdl64eCalibration flat;  // all corrections 0
+  hdl64e::Hdl64eCalibration flat;  // all corrections 0
   Recorder recorder({}, flat, {.height_m = 1.0});
   recorder.decode_all(packets);
   recorder.flush();
   ASSERT_EQ(recorder.frames.size(), 1U);
   ASSERT_EQ(recorder.frames[0].echoes.size(), 1U);
   const Frame::Echo& echo = recorder.frames[0].echoes[0];
-  EXPECT_NEAR(echo.point.x_m, 20.0 * std::cos(calib::deg_to_rad(0.01)), 1e-5);
-  EXPECT_NEAR(echo.point.y_m, 20.0 * std::sin(calib::deg_to_rad(0.01)), 1e-5);
+  EXPECT_NEAR(echo.point.x_m, 20.0 * std::cos(beams::deg_to_rad(0.01)), 1e-5);
+  EXPECT_NEAR(echo.point.y_m, 20.0 * std::sin(beams::deg_to_rad(0.01)), 1e-5);
   EXPECT_NEAR(echo.point.z_m, 1.0, 1e-6);
   EXPECT_NEAR(echo.point.ground_range_m, 20.0, 1e-5);
   EXPECT_EQ(echo.point.intensity, 77);
@@ -191,19 +192,19 @@ TEST(Hdl64eDecoder, TurnsLaterLasersOnUnlessAskedForTheBlockAzimuth) {
     firings[c].stamp_ns = 48'000 * static_cast<std::int64_t>(c);
   }
   firings[0].by_laser[31] = {10'000, 0, 0};
-  const auto azimuth_deg = [&](firmware_io::AzimuthAt azimuth_at) {
+  const auto azimuth_deg = [&](hdl64e::AzimuthAt azimuth_at) {
     Recorder::Config config;
     config.sensor.azimuth_at = azimuth_at;
-    calib::Hdl64eCalibration flat;
+    hdl64e::Hdl64eCalibration flat;
     Recorder recorder(config, flat);
     recorder.decode_all(to_packets(firings));
     recorder.flush();
-    const pipeline::Return& echo = recorder.frames.at(0).echoes.at(0).point;
-    return calib::rad_to_deg(std::atan2(-echo.y_m, echo.x_m));
+    const frame::Return& echo = recorder.frames.at(0).echoes.at(0).point;
+    return beams::rad_to_deg(std::atan2(-echo.y_m, echo.x_m));
   };
-  EXPECT_NEAR(azimuth_deg(firmware_io::AzimuthAt::kBlock), 90.0, 1e-4);
+  EXPECT_NEAR(azimuth_deg(hdl64e::AzimuthAt::kBlock), 90.0, 1e-4);
   // The last group of four fires 42 us into the 48 us, its last laser 3.66 us later.
-  EXPECT_NEAR(azimuth_deg(firmware_io::AzimuthAt::kFiring), 90.0 + 0.20 * 45.66 / 48.0, 1e-4);
+  EXPECT_NEAR(azimuth_deg(hdl64e::AzimuthAt::kFiring), 90.0 + 0.20 * 45.66 / 48.0, 1e-4);
 }
 
 TEST(Hdl64eDecoder, PlacesBothReturnsOfADualReturnPacket) {
@@ -242,8 +243,8 @@ TEST(Hdl64eDecoder, InSingleReturnACellStaysWithTheFirstToArrive) {
   firings[1].by_laser[0] = {5'000, 200, 0};
   Recorder::Config config;
   config.columns = 360;
-  config.dual_owner = pipeline::CellOwner::kStrongest;
-  Recorder recorder(config, calib::Hdl64eCalibration{});
+  config.dual_owner = frame::CellOwner::kStrongest;
+  Recorder recorder(config, hdl64e::Hdl64eCalibration{});
   recorder.decode_all(to_packets(firings));
   recorder.flush();
   ASSERT_EQ(recorder.returns(), 2U);

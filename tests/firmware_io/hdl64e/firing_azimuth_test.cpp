@@ -7,9 +7,9 @@
 #include <cmath>
 #include <random>
 
-#include "calib/nominal_hdl64e.hpp"
+#include "calib/hdl64e/nominal_hdl64e.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 TEST(FiringAzimuth, StepIsExactAcrossTheSeam) {
@@ -39,15 +39,15 @@ TEST(FiringAzimuth, BothSingleReturnCyclesAgreeToAHundredthOfAStep) {
 }
 
 TEST(FiringAzimuth, BeamsPassTheSeamIntoTheRightTurn) {
-  EXPECT_EQ(beam_azimuth(0, 0).turn, 0);
-  EXPECT_EQ(beam_azimuth(0, -1).turn, -1);
-  EXPECT_EQ(beam_azimuth(0, -1).in_turn_ticks, kTurn_ticks - 1);
-  EXPECT_EQ(beam_azimuth(35'999, 999).turn, 0);
-  EXPECT_EQ(beam_azimuth(35'999, 1000).turn, 1);
-  EXPECT_EQ(beam_azimuth(35'999, 1000).in_turn_ticks, 0);
-  EXPECT_EQ(beam_azimuth(36'000, 0).turn, 1);
-  EXPECT_EQ(beam_azimuth(-1, 0).turn, -1);
-  EXPECT_EQ(beam_azimuth(-36'000, -1).turn, -2);
+  EXPECT_EQ(decode::beam_azimuth(0, 0).turn, 0);
+  EXPECT_EQ(decode::beam_azimuth(0, -1).turn, -1);
+  EXPECT_EQ(decode::beam_azimuth(0, -1).in_turn_ticks, decode::kTurn_ticks - 1);
+  EXPECT_EQ(decode::beam_azimuth(35'999, 999).turn, 0);
+  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).turn, 1);
+  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).in_turn_ticks, 0);
+  EXPECT_EQ(decode::beam_azimuth(36'000, 0).turn, 1);
+  EXPECT_EQ(decode::beam_azimuth(-1, 0).turn, -1);
+  EXPECT_EQ(decode::beam_azimuth(-36'000, -1).turn, -2);
 }
 
 TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
@@ -57,24 +57,24 @@ TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
   for (int n = 0; n < 100'000; ++n) {
     const std::int64_t head_cdeg = head(random);
     const std::int32_t offset_ticks = offset(random);
-    const BeamAzimuth beam = beam_azimuth(head_cdeg, offset_ticks);
+    const decode::BeamAzimuth beam = decode::beam_azimuth(head_cdeg, offset_ticks);
     ASSERT_GE(beam.in_turn_ticks, 0);
-    ASSERT_LT(beam.in_turn_ticks, kTurn_ticks);
-    ASSERT_EQ(beam.turn * kTurn_ticks + beam.in_turn_ticks,
-              head_cdeg * kTicksPerCdeg + offset_ticks);
+    ASSERT_LT(beam.in_turn_ticks, decode::kTurn_ticks);
+    ASSERT_EQ(beam.turn * decode::kTurn_ticks + beam.in_turn_ticks,
+              head_cdeg * decode::kTicksPerCdeg + offset_ticks);
   }
 }
 
 TEST(FiringAzimuth, ColumnsCoverTheTurn) {
-  EXPECT_EQ(column_of(0, 2083), 0);
-  EXPECT_EQ(column_of(kTurn_ticks - 1, 2083), 2082);
-  EXPECT_EQ(column_of(kTurn_ticks / 2, 2083), 1041);
-  EXPECT_EQ(column_of(kTurn_ticks / 2 - 1, 2000), 999);
-  EXPECT_EQ(column_of(kTurn_ticks / 2, 2000), 1000);
+  EXPECT_EQ(decode::column_of(0, 2083), 0);
+  EXPECT_EQ(decode::column_of(decode::kTurn_ticks - 1, 2083), 2082);
+  EXPECT_EQ(decode::column_of(decode::kTurn_ticks / 2, 2083), 1041);
+  EXPECT_EQ(decode::column_of(decode::kTurn_ticks / 2 - 1, 2000), 999);
+  EXPECT_EQ(decode::column_of(decode::kTurn_ticks / 2, 2000), 1000);
 }
 
 TEST(FiringAzimuth, NoBeamLeavesTheSpread) {
-  const BeamOffsets offsets(calib::nominal_hdl64e());
+  const BeamOffsets offsets(nominal_hdl64e());
   for (const std::int32_t step_ticks : {2'000, 17'280, 100'000}) {
     for (int laser = 0; laser < 64; ++laser) {
       EXPECT_GE(offsets.offset_ticks(step_ticks, laser), offsets.hindmost_ticks());
@@ -84,4 +84,4 @@ TEST(FiringAzimuth, NoBeamLeavesTheSpread) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -7,18 +7,18 @@
 #include <filesystem>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "random_drive.hpp"
 #include "tests/support/places.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 test::Packet good_packet() {
   return test::random_packets({.last_cdeg = 35'000}).front();
 }
 
-std::optional<Reject> check(const test::Packet& packet) {
-  PacketHeads heads;
+std::optional<frame::Reject> check(const test::Packet& packet) {
+  decode::PacketHeads heads;
   return check_hdl64e_packet(packet.bytes, heads);
 }
 
@@ -39,7 +39,7 @@ TEST(PacketCheck, TakesAGoodPacketAndReadsItsHeads) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {35'950, 35'967, 35'984, 2, 19, 36});
   packet.set_device_stamp_us(3'599'999'900U);
-  PacketHeads heads;
+  decode::PacketHeads heads;
   ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
   EXPECT_EQ(heads.device_stamp_us, 3'599'999'900);
   EXPECT_EQ(heads.columns, 6);
@@ -60,38 +60,39 @@ TEST(PacketCheck, TakesTheHighestAzimuthOfTheWire) {
 
 TEST(PacketCheck, RefusesEveryOtherSize) {
   const test::Packet packet = good_packet();
-  PacketHeads heads;
+  decode::PacketHeads heads;
   for (const std::size_t size : {0U, 1U, 42U, 512U, 1205U}) {
-    EXPECT_EQ(check_hdl64e_packet(std::span(packet.bytes).first(size), heads), Reject::kWrongSize);
+    EXPECT_EQ(check_hdl64e_packet(std::span(packet.bytes).first(size), heads),
+              frame::Reject::kWrongSize);
   }
   std::array<std::uint8_t, 1248> longer{};
-  EXPECT_EQ(check_hdl64e_packet(longer, heads), Reject::kWrongSize);
+  EXPECT_EQ(check_hdl64e_packet(longer, heads), frame::Reject::kWrongSize);
 }
 
 TEST(PacketCheck, KnowsARubyPacketByItsLeader) {
   std::array<std::uint8_t, 1248> ruby{0x55, 0xAA, 0x05, 0x5A};
-  PacketHeads heads;
-  EXPECT_EQ(check_hdl64e_packet(ruby, heads), Reject::kWrongModel);
+  decode::PacketHeads heads;
+  EXPECT_EQ(check_hdl64e_packet(ruby, heads), frame::Reject::kWrongModel);
 }
 
 TEST(PacketCheck, KnowsOtherVelodyneModelsByTheirBlocks) {
   test::Packet packet = good_packet();
   set_ids(packet, {0xEEFF});  // VLP-16, HDL-32E, VLP-32C
-  EXPECT_EQ(check(packet), Reject::kWrongModel);
+  EXPECT_EQ(check(packet), frame::Reject::kWrongModel);
   set_ids(packet, {0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF});  // VLS-128
-  EXPECT_EQ(check(packet), Reject::kWrongModel);
+  EXPECT_EQ(check(packet), frame::Reject::kWrongModel);
   set_ids(packet, {0xEEFF, 0xEEFF, 0xEEFF, 0xDDFF});  // HDL-64E S1
-  EXPECT_EQ(check(packet), Reject::kWrongModel);
+  EXPECT_EQ(check(packet), frame::Reject::kWrongModel);
 }
 
 TEST(PacketCheck, RefusesBlockIdsOfNobody) {
   test::Packet packet = good_packet();
   packet.set_u16(700, 0xEEFE);
-  EXPECT_EQ(check(packet), Reject::kWrongMagic);
+  EXPECT_EQ(check(packet), frame::Reject::kWrongMagic);
   set_ids(packet, {0xDDFF, 0xEEFF});
-  EXPECT_EQ(check(packet), Reject::kWrongMagic);
+  EXPECT_EQ(check(packet), frame::Reject::kWrongMagic);
   set_ids(packet, {0});
-  EXPECT_EQ(check(packet), Reject::kWrongMagic);
+  EXPECT_EQ(check(packet), frame::Reject::kWrongMagic);
 }
 
 TEST(PacketCheck, IgnoresTheStatusByteThatOtherDriversTakeForAModel) {
@@ -104,24 +105,24 @@ TEST(PacketCheck, RefusesAzimuthsPastTheCircle) {
   for (const std::size_t block : {0U, 5U, 11U}) {
     test::Packet packet = good_packet();
     packet.set_u16(100 * block + 2, 36'000);
-    EXPECT_EQ(check(packet), Reject::kAzimuthOutOfRange);
+    EXPECT_EQ(check(packet), frame::Reject::kAzimuthOutOfRange);
   }
 }
 
 TEST(PacketCheck, RefusesAPairThatDisagrees) {
   test::Packet packet = good_packet();
   packet.set_u16(302, static_cast<unsigned>(packet.bytes[202] + 256 * packet.bytes[203] + 1));
-  EXPECT_EQ(check(packet), Reject::kAzimuthMismatch);
+  EXPECT_EQ(check(packet), frame::Reject::kAzimuthMismatch);
 }
 
 TEST(PacketCheck, RefusesJumpsInsideAPacketEitherWay) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {100, 117, 134, 300, 317, 334});
-  EXPECT_EQ(check(packet), Reject::kAzimuthJump);
+  EXPECT_EQ(check(packet), frame::Reject::kAzimuthJump);
   set_azimuths(packet, {100, 117, 134, 100, 117, 134});
-  EXPECT_EQ(check(packet), Reject::kAzimuthJump);
+  EXPECT_EQ(check(packet), frame::Reject::kAzimuthJump);
   set_azimuths(packet, {100, 96, 92, 88, 84, 80});  // turning backwards
-  EXPECT_EQ(check(packet), Reject::kAzimuthJump);
+  EXPECT_EQ(check(packet), frame::Reject::kAzimuthJump);
 }
 
 TEST(PacketCheck, TakesAJitterBackwards) {
@@ -133,15 +134,15 @@ TEST(PacketCheck, TakesAJitterBackwards) {
 TEST(PacketCheck, CallsAHeadThatDoesNotTurnStationary) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {100, 100, 100, 100, 100, 100});
-  EXPECT_EQ(check(packet), Reject::kStationary);
+  EXPECT_EQ(check(packet), frame::Reject::kStationary);
   set_azimuths(packet, {35'999, 0, 35'999, 0, 35'999, 0});
-  EXPECT_EQ(check(packet), Reject::kStationary);
+  EXPECT_EQ(check(packet), frame::Reject::kStationary);
 }
 
 TEST(PacketCheck, SeesDualReturnAndItsLongerSteps) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {100, 100, 121, 121, 142, 142});
-  PacketHeads heads;
+  decode::PacketHeads heads;
   ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
   EXPECT_TRUE(heads.dual_return);
   EXPECT_EQ(heads.step_ticks, 21'000);
@@ -154,7 +155,7 @@ TEST(PacketCheck, SeesNoDualReturnWhereOnlySomePairsStandStill) {
                                     {100, 117, 134, 134, 168, 168}}) {
     test::Packet packet = good_packet();
     set_azimuths(packet, jittering);
-    PacketHeads heads;
+    decode::PacketHeads heads;
     ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
     EXPECT_FALSE(heads.dual_return) << jittering[1] << ", " << jittering[3] << ", " << jittering[5];
   }
@@ -165,20 +166,20 @@ class RealCapture : public testing::TestWithParam<const char*> {};
 TEST_P(RealCapture, OfAnotherModelIsRefusedAsThat) {
   const auto path = test::shared_data("pcap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  auto source = PcapSource::open(path);
+  auto source = capture::PcapSource::open(path);
   ASSERT_TRUE(source) << source.error().message;
   std::size_t data_packets = 0;
   while (true) {
     const auto datagram = source->next();
     ASSERT_TRUE(datagram) << datagram.error().message;
     if (!*datagram) break;
-    PacketHeads heads;
+    decode::PacketHeads heads;
     const auto reason = check_hdl64e_packet((*datagram)->payload, heads);
     if ((*datagram)->payload.size() == kHdl64ePacketBytes) {
       ++data_packets;
-      EXPECT_EQ(reason, Reject::kWrongModel);
+      EXPECT_EQ(reason, frame::Reject::kWrongModel);
     } else {
-      EXPECT_EQ(reason, Reject::kWrongSize);
+      EXPECT_EQ(reason, frame::Reject::kWrongSize);
     }
   }
   EXPECT_GT(data_packets, 0U);
@@ -195,4 +196,4 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealCapture,
                          });
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -9,12 +9,12 @@
 #include <random>
 #include <string>
 
-#include "calib/hdl64e_file.hpp"
-#include "calib/nominal_hdl64e.hpp"
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "tests/support/places.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::hdl64e {
 namespace {
 
 constexpr std::size_t kLasers = PointKernel::kLasers;
@@ -25,13 +25,13 @@ struct Worst {
 };
 
 /// Random raw distances at random azimuths through the kernel and through the double functions.
-Worst compare(const calib::Hdl64eCalibration& calibration, calib::GeometryModel model,
-              const calib::Mount& mount) {
-  rt::FixedMemory memory;
+Worst compare(const Hdl64eCalibration& calibration, GeometryModel model,
+              const mount::Mount& mount) {
+  memory::FixedMemory memory;
   constexpr int kColumns = 2083;
   PointKernel kernel(calibration, model, mount, kColumns, memory);
-  const calib::Hdl64eGeometry geometry(calibration, model);
-  const auto T = calib::T_vehicle_lidar(mount);
+  const Hdl64eGeometry geometry(calibration, model);
+  const auto T = mount::T_vehicle_lidar(mount);
   const BeamOffsets beam_offsets(calibration);
   std::mt19937 random(3);
   std::uniform_int_distribution<int> any_raw(1, 65'535), near_raw(1, 3'000), any_cdeg(0, 35'999),
@@ -46,7 +46,7 @@ Worst compare(const calib::Hdl64eCalibration& calibration, calib::GeometryModel 
       offset[static_cast<std::size_t>(i)] = beam_offsets.offset_ticks(step_ticks, i);
     }
     kernel.begin_packet(advance, offset);
-    ColumnReturns<kLasers> column{};
+    decode::ColumnReturns<kLasers> column{};
     const std::int32_t azimuth_cdeg =
         packet % 4 == 0 ? (35'950 + packet / 4) % 36'000 : any_cdeg(random);
     for (auto& raw : column.raw) {
@@ -54,25 +54,26 @@ Worst compare(const calib::Hdl64eCalibration& calibration, calib::GeometryModel 
     }
     kernel.compute(azimuth_cdeg, column);
     for (std::size_t i = 0; i < kLasers; ++i) {
-      const auto p = geometry.point(
-          static_cast<int>(i), firing_azimuth_rad(azimuth_cdeg, advance[i % 32]), column.raw[i]);
-      const auto v = calib::apply(T, p.x_m, p.y_m, p.z_m);
+      const auto p =
+          geometry.point(static_cast<int>(i),
+                         decode::firing_azimuth_rad(azimuth_cdeg, advance[i % 32]), column.raw[i]);
+      const auto v = mount::apply(T, p.x_m, p.y_m, p.z_m);
       const double range_m = std::hypot(p.x_m, p.y_m, p.z_m);
       const double error_m =
           std::hypot(column.x_m[i] - v[0], column.y_m[i] - v[1], column.z_m[i] - v[2]);
       const double range_error_m = std::abs(column.ground_range_m[i] - std::hypot(v[0], v[1]));
       worst.error_m =
           std::max({worst.error_m, error_m - 1e-6 * range_m, range_error_m - 1e-6 * range_m});
-      const BeamAzimuth beam = beam_azimuth(azimuth_cdeg, offset[i]);
+      const decode::BeamAzimuth beam = decode::beam_azimuth(azimuth_cdeg, offset[i]);
       worst.wrong_columns += column.turn_offset[i] != beam.turn;
-      worst.wrong_columns += column.column[i] != column_of(beam.in_turn_ticks, kColumns);
+      worst.wrong_columns += column.column[i] != decode::column_of(beam.in_turn_ticks, kColumns);
     }
   }
   return worst;
 }
 
-void expect_agreement(const calib::Hdl64eCalibration& calibration) {
-  for (const auto model : {calib::GeometryModel::kManual, calib::GeometryModel::kRosLike}) {
+void expect_agreement(const Hdl64eCalibration& calibration) {
+  for (const auto model : {GeometryModel::kManual, GeometryModel::kRosLike}) {
     const Worst worst =
         compare(calibration, model, {.height_m = 1.73, .roll_rad = 0.03, .pitch_rad = -0.05});
     EXPECT_LT(worst.error_m, 0.001) << calibration.origin;
@@ -81,7 +82,7 @@ void expect_agreement(const calib::Hdl64eCalibration& calibration) {
 }
 
 TEST(PointKernel, AgreesWithTheDoubleGeometryOnTheNominalUnit) {
-  expect_agreement(calib::nominal_hdl64e());
+  expect_agreement(nominal_hdl64e());
 }
 
 class RealUnit : public testing::TestWithParam<const char*> {};
@@ -89,7 +90,7 @@ class RealUnit : public testing::TestWithParam<const char*> {};
 TEST_P(RealUnit, AgreesWithTheDoubleGeometry) {
   const auto path = test::shared_data("calib") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  const auto calibration = calib::load_hdl64e_calibration(path);
+  const auto calibration = load_hdl64e_calibration(path);
   ASSERT_TRUE(calibration) << calibration.error().message;
   expect_agreement(*calibration);
 }
@@ -107,13 +108,13 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealUnit,
 
 TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
   // Every tick around every column boundary of some image widths, on a unit without offsets.
-  calib::Hdl64eCalibration flat;
+  Hdl64eCalibration flat;
   for (const int columns : {16, 1800, 2083, 4167, 36'000}) {
-    rt::FixedMemory memory;
-    PointKernel kernel(flat, calib::GeometryModel::kManual, {}, columns, memory);
+    memory::FixedMemory memory;
+    PointKernel kernel(flat, GeometryModel::kManual, {}, columns, memory);
     int wrong = 0;
     for (int boundary = 0; boundary <= columns; ++boundary) {
-      const std::int64_t ticks = std::int64_t{boundary} * kTurn_ticks / columns;
+      const std::int64_t ticks = std::int64_t{boundary} * decode::kTurn_ticks / columns;
       const auto cdeg = static_cast<std::int32_t>(std::min<std::int64_t>(ticks / 1000, 35'999));
       std::array<std::int32_t, 64> offset{};
       for (int i = 0; i < 64; ++i) {
@@ -121,12 +122,12 @@ TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
             static_cast<std::int32_t>(ticks - cdeg * 1000) + i - 32;
       }
       kernel.begin_packet(std::array<std::int32_t, 32>{}, offset);
-      ColumnReturns<kLasers> out{};
+      decode::ColumnReturns<kLasers> out{};
       kernel.compute(cdeg, out);
       for (std::size_t i = 0; i < kLasers; ++i) {
-        const BeamAzimuth beam = beam_azimuth(cdeg, offset[i]);
+        const decode::BeamAzimuth beam = decode::beam_azimuth(cdeg, offset[i]);
         wrong += out.turn_offset[i] != beam.turn;
-        wrong += out.column[i] != column_of(beam.in_turn_ticks, columns);
+        wrong += out.column[i] != decode::column_of(beam.in_turn_ticks, columns);
       }
     }
     EXPECT_EQ(wrong, 0) << columns;
@@ -134,11 +135,11 @@ TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
 }
 
 TEST(PointKernel, ReadsTwentyMetresFromTenThousandCounts) {
-  calib::Hdl64eCalibration flat;
-  rt::FixedMemory memory;
-  PointKernel kernel(flat, calib::GeometryModel::kManual, {.height_m = 2.0}, 2083, memory);
+  Hdl64eCalibration flat;
+  memory::FixedMemory memory;
+  PointKernel kernel(flat, GeometryModel::kManual, {.height_m = 2.0}, 2083, memory);
   kernel.begin_packet(std::array<std::int32_t, 32>{}, std::array<std::int32_t, 64>{});
-  ColumnReturns<kLasers> out{};
+  decode::ColumnReturns<kLasers> out{};
   out.raw.fill(10'000);
   kernel.compute(9'000, out);  // clockwise: to the right, which is -y
   EXPECT_NEAR(out.x_m[0], 0.0, 1e-5);
@@ -148,4 +149,4 @@ TEST(PointKernel, ReadsTwentyMetresFromTenThousandCounts) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::hdl64e

@@ -9,21 +9,22 @@
 #include <span>
 #include <vector>
 
-#include "calib/nominal_hdl64e.hpp"
-#include "firmware_io/datagram.hpp"
+#include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
-#include "firmware_io/hdl64e/packet_encoder.hpp"
+#include "tests/support/hand_out.hpp"
+#include "tools/lab/encode/hdl64e_packet_encoder.hpp"
 
 namespace terracut::test {
 
-using firmware_io::FiringColumn;
+using frame::FiringColumn;
 
 /// One packet as it would be captured.
 struct Packet {
-  std::array<std::uint8_t, firmware_io::kHdl64ePacketBytes> bytes{};
+  std::array<std::uint8_t, hdl64e::kHdl64ePacketBytes> bytes{};
   std::int64_t stamp_ns = 0;
 
-  [[nodiscard]] firmware_io::Datagram datagram() const {
+  [[nodiscard]] decode::Datagram datagram() const {
     return {.payload = bytes, .stamp_ns = stamp_ns};
   }
   void set_u16(std::size_t offset, unsigned value) {
@@ -74,10 +75,10 @@ inline std::vector<Packet> to_packets(std::span<const FiringColumn> firings) {
   std::vector<Packet> packets;
   for (std::size_t n = 0; n + 6 <= firings.size(); n += 6) {
     const auto six = firings.subspan(n).first<6>();
-    firmware_io::Hdl64ePacketBuffer buffer;
+    hdl64e::Hdl64ePacketBuffer buffer;
     Packet& packet = packets.emplace_back();
-    packet.stamp_ns = firmware_io::packet_end_ns(six);
-    firmware_io::encode_hdl64e_packet(six, packet.stamp_ns, {'T', 35}, buffer);
+    packet.stamp_ns = encode::packet_end_ns(six);
+    encode::encode_hdl64e_packet(six, packet.stamp_ns, {'T', 35}, buffer);
     std::copy(buffer.payload().begin(), buffer.payload().end(), packet.bytes.begin());
   }
   return packets;
@@ -90,15 +91,15 @@ inline std::vector<Packet> random_packets(const DriveSettings& settings = {}) {
 /// A frame as the decoder handed it over, copied: its returns in order of arrival.
 struct Frame {
   struct Echo {
-    pipeline::Return point;
+    frame::Return point;
     std::uint32_t row = 0, column = 0;
     bool overflow = false;
   };
-  firmware_io::FrameInfo info;
+  frame::FrameInfo info;
   std::vector<Echo> echoes;
 };
 
-inline Frame copy_of(const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) {
+inline Frame copy_of(const frame::FrameInfo& info, const frame::RangeImage& image) {
   Frame frame{info, std::vector<Frame::Echo>(image.returns())};
   const auto stride = static_cast<std::uint32_t>(image.shape().stride());
   for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
@@ -119,27 +120,27 @@ inline Frame copy_of(const firmware_io::FrameInfo& info, const pipeline::RangeIm
 /// A decoder of the nominal unit that keeps every frame.
 class Recorder {
  public:
-  using Config = firmware_io::Hdl64eDecoder::Config;
+  using Config = hdl64e::Hdl64eDecoder::Config;
   explicit Recorder(const Config& config = {},
-                    const calib::Hdl64eCalibration& calibration = calib::nominal_hdl64e(),
-                    const calib::Mount& mount = {})
+                    const hdl64e::Hdl64eCalibration& calibration = hdl64e::nominal_hdl64e(),
+                    const mount::Mount& mount = {})
       : decoder(calibration, mount, config, memory) {}
 
   /// The callable to hand frames over to.
   [[nodiscard]] auto keep() {
-    return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    return [this](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
       frames.push_back(copy_of(info, image));
     };
   }
-  std::optional<firmware_io::Reject> decode(const Packet& packet) {
-    return decoder.decode(packet.datagram(), keep());
+  std::optional<frame::Reject> decode(const Packet& packet) {
+    return test::decode(decoder, packet.datagram(), keep());
   }
   void decode_all(std::span<const Packet> packets) {
     for (const Packet& packet : packets) decode(packet);
   }
-  void flush() { decoder.flush(keep()); }
+  void flush() { test::end_stream(decoder, keep()); }
 
-  [[nodiscard]] std::uint64_t rejected(firmware_io::Reject reason) const {
+  [[nodiscard]] std::uint64_t rejected(frame::Reject reason) const {
     return decoder.losses().rejected[static_cast<std::size_t>(reason)];
   }
   [[nodiscard]] std::uint64_t returns() const {
@@ -148,8 +149,8 @@ class Recorder {
     return sum;
   }
 
-  rt::FixedMemory memory;
-  firmware_io::Hdl64eDecoder decoder;
+  memory::FixedMemory memory;
+  hdl64e::Hdl64eDecoder decoder;
   std::vector<Frame> frames;
 };
 

@@ -4,12 +4,13 @@
 
 #include <utility>
 
-#include "calib/nominal_ruby128.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
-#include "tests/firmware_io/ruby128/random_stream.hpp"
+#include "random_stream.hpp"
 #include "tests/support/allocation_counter.hpp"
+#include "tests/support/hand_out.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 class Ruby128DecoderMemory : public testing::TestWithParam<bool> {};
@@ -22,19 +23,20 @@ TEST_P(Ruby128DecoderMemory, DecodingAllocatesNothing) {
   std::swap(packets[300], packets[301]);
   packets[400].bytes.set_azimuth_cdeg(0, 36'000);
 
-  rt::FixedMemory memory;
-  Ruby128Decoder decoder(calib::nominal_ruby128(), {}, {}, memory);
+  memory::FixedMemory memory;
+  Ruby128Decoder decoder(nominal_ruby128(), {}, {}, memory);
   std::uint64_t frames = 0, returns = 0;
-  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage&) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     ++frames;
     returns += info.returns;
   };
   const std::size_t planned = memory.total_bytes();
   const std::uint64_t before = test::allocations_of_this_thread();
   for (int loop = 0; loop < 3; ++loop) {
-    for (const test::RubyPacket& packet : packets) decoder.decode(packet.datagram(), on_frame);
+    for (const test::RubyPacket& packet : packets)
+      test::decode(decoder, packet.datagram(), on_frame);
   }
-  decoder.flush(on_frame);
+  test::end_stream(decoder, on_frame);
   EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
   EXPECT_EQ(memory.total_bytes(), planned);
   EXPECT_GT(frames, 9U);
@@ -45,4 +47,4 @@ INSTANTIATE_TEST_SUITE_P(ReturnMode, Ruby128DecoderMemory, testing::Values(false
                          [](const auto& dual) { return dual.param ? "Dual" : "Single"; });
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

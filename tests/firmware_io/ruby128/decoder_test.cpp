@@ -8,29 +8,31 @@
 #include <numeric>
 #include <random>
 
-#include "calib/nominal_ruby128.hpp"
-#include "tests/firmware_io/ruby128/random_stream.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "random_stream.hpp"
+#include "tests/support/hand_out.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 using test::RubyPacket;
 using test::RubyStream;
 
 struct Heard {
-  std::vector<FrameInfo> frames;
+  std::vector<frame::FrameInfo> frames;
   std::vector<std::uint64_t> places;  ///< Of the returns by frame, as a checksum.
-  LossCounters losses;
+  frame::LossCounters losses;
   std::uint64_t decoded = 0;
   bool dual = false;
 
   [[nodiscard]] std::uint64_t returns() const {
-    return std::accumulate(frames.begin(), frames.end(), std::uint64_t{0},
-                           [](std::uint64_t sum, const FrameInfo& f) { return sum + f.returns; });
+    return std::accumulate(
+        frames.begin(), frames.end(), std::uint64_t{0},
+        [](std::uint64_t sum, const frame::FrameInfo& f) { return sum + f.returns; });
   }
 };
 
-std::uint64_t checksum(const pipeline::RangeImage& image) {
+std::uint64_t checksum(const frame::RangeImage& image) {
   std::uint64_t sum = 0;
   for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
     if (!image.has_return(cell)) continue;
@@ -40,17 +42,17 @@ std::uint64_t checksum(const pipeline::RangeImage& image) {
 }
 
 Heard hear(const std::vector<RubyPacket>& packets, Ruby128Decoder::Config config = {}) {
-  rt::FixedMemory memory;
-  Ruby128Decoder decoder(calib::nominal_ruby128(), {}, config, memory);
+  memory::FixedMemory memory;
+  Ruby128Decoder decoder(nominal_ruby128(), {}, config, memory);
   Heard heard;
-  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
     EXPECT_EQ(info.returns, image.returns());
     heard.frames.push_back(info);
     heard.places.push_back(checksum(image));
   };
-  for (const RubyPacket& packet : packets) decoder.decode(packet.datagram(), on_frame);
+  for (const RubyPacket& packet : packets) test::decode(decoder, packet.datagram(), on_frame);
   heard.dual = decoder.dual_return();
-  decoder.flush(on_frame);
+  test::end_stream(decoder, on_frame);
   heard.losses = decoder.losses();
   heard.decoded = decoder.packets_decoded();
   return heard;
@@ -146,13 +148,14 @@ TEST(Ruby128Decoder, LosesNothingWhereTheUnitOfItsStampsShowsLate) {
 }
 
 TEST(Ruby128Decoder, TakesDeviceInformationForNoLoss) {
-  rt::FixedMemory memory;
-  Ruby128Decoder decoder(calib::nominal_ruby128(), {}, {}, memory);
+  memory::FixedMemory memory;
+  Ruby128Decoder decoder(nominal_ruby128(), {}, {}, memory);
   std::vector<std::uint8_t> difop(kRubyPacketBytes, 0);
   const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
   std::copy(start.begin(), start.end(), difop.begin());
-  const auto nothing = [](const FrameInfo&, const pipeline::RangeImage&) noexcept {};
-  EXPECT_EQ(decoder.decode({.payload = difop}, nothing), Reject::kDeviceInfo);
+  const auto nothing = [](const frame::FrameInfo&, const frame::RangeImage&) noexcept {};
+  EXPECT_EQ(test::decode(decoder, decode::Datagram{.payload = difop}, nothing),
+            frame::Reject::kDeviceInfo);
   EXPECT_EQ(decoder.losses().rejected_total(), 0U);
 }
 
@@ -191,7 +194,7 @@ TEST_P(LossIn, ReorderedAndRepeatedPacketsLoseNothing) {
   disturbed.insert(disturbed.begin() + 400, packets[395]);
   disturbed.insert(disturbed.begin() + 500, packets[490]);
   const Heard heard = hear(disturbed);
-  EXPECT_EQ(heard.losses.rejected[static_cast<std::size_t>(Reject::kRepeated)], 2U);
+  EXPECT_EQ(heard.losses.rejected[static_cast<std::size_t>(frame::Reject::kRepeated)], 2U);
   EXPECT_EQ(heard.losses.rejected_total(), 2U);
   EXPECT_EQ(heard.losses.network_gap_packets, 0U);
   EXPECT_EQ(heard.returns(), returns_in(packets));
@@ -219,7 +222,7 @@ INSTANTIATE_TEST_SUITE_P(ReturnMode, LossIn, testing::Values(false, true),
                          [](const auto& dual) { return dual.param ? "Dual" : "Single"; });
 
 /// Both returns of one channel, by the policy, in the first firing of a stream.
-float owner_range_m(pipeline::CellOwner owner) {
+float owner_range_m(frame::CellOwner owner) {
   auto packets = test::random_packets({.dual = true, .share_of_returns = 0});
   constexpr int kChannel = 9;
   for (RubyPacket& packet : packets) {
@@ -227,49 +230,49 @@ float owner_range_m(pipeline::CellOwner owner) {
   }
   packets[30].bytes.set_return(0, kChannel, 6'000, 10);  // the last return: far, weak
   packets[30].bytes.set_return(1, kChannel, 2'000, 90);  // the strongest: near
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   Ruby128Decoder::Config config;
   config.dual_owner = owner;
-  Ruby128Decoder decoder(calib::nominal_ruby128(), {}, config, memory);
+  Ruby128Decoder decoder(nominal_ruby128(), {}, config, memory);
   float found_m = 0;
-  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
     EXPECT_EQ(info.returns, 2U);
     ASSERT_EQ(image.overflow().size(), 1U);
     const std::size_t cell = image.overflow()[0].cell;
     found_m = image.ground_range_m()[cell];
     EXPECT_NE(image.return_index()[cell], image.overflow()[0].return_index);
   };
-  for (const RubyPacket& packet : packets) decoder.decode(packet.datagram(), on_frame);
-  decoder.flush(on_frame);
+  for (const RubyPacket& packet : packets) test::decode(decoder, packet.datagram(), on_frame);
+  test::end_stream(decoder, on_frame);
   return found_m;
 }
 
 TEST(Ruby128Decoder, TheOwnerOfACellIsTheReturnThatThePolicyNames) {
   constexpr float kNear_m = 10, kFar_m = 30;
-  EXPECT_NEAR(owner_range_m(pipeline::CellOwner::kStrongest), kNear_m, 0.2);
-  EXPECT_NEAR(owner_range_m(pipeline::CellOwner::kNearest), kNear_m, 0.2);
-  EXPECT_NEAR(owner_range_m(pipeline::CellOwner::kFarthest), kFar_m, 0.2);
-  EXPECT_NEAR(owner_range_m(pipeline::CellOwner::kFirstArrived), kFar_m, 0.2);
+  EXPECT_NEAR(owner_range_m(frame::CellOwner::kStrongest), kNear_m, 0.2);
+  EXPECT_NEAR(owner_range_m(frame::CellOwner::kNearest), kNear_m, 0.2);
+  EXPECT_NEAR(owner_range_m(frame::CellOwner::kFarthest), kFar_m, 0.2);
+  EXPECT_NEAR(owner_range_m(frame::CellOwner::kFirstArrived), kFar_m, 0.2);
 }
 
 TEST(Ruby128Decoder, MeasuresTheStepFromTheAzimuths) {
   for (const double spin_hz : {5.0, 9.8, 10.0, 20.0}) {
-    rt::FixedMemory memory;
-    Ruby128Decoder decoder(calib::nominal_ruby128(), {}, {}, memory);
-    const auto nothing = [](const FrameInfo&, const pipeline::RangeImage&) noexcept {};
+    memory::FixedMemory memory;
+    Ruby128Decoder decoder(nominal_ruby128(), {}, {}, memory);
+    const auto nothing = [](const frame::FrameInfo&, const frame::RangeImage&) noexcept {};
     for (const auto& packet : test::random_packets({.spin_hz = spin_hz, .share_of_returns = 0})) {
-      decoder.decode(packet.datagram(), nothing);
+      test::decode(decoder, packet.datagram(), nothing);
     }
     EXPECT_NEAR(decoder.step_deg(), spin_hz * 360 * 55.55e-6, 0.001);
   }
 }
 
 TEST(Ruby128Decoder, RefusesSettingsOutsideTheirRange) {
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   Ruby128Decoder::Config config;
   config.columns = 15;
-  EXPECT_THROW(Ruby128Decoder(calib::nominal_ruby128(), {}, config, memory), std::invalid_argument);
+  EXPECT_THROW(Ruby128Decoder(nominal_ruby128(), {}, config, memory), std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <utility>
 
-#include "calib/angle.hpp"
-#include "calib/nominal_ruby128.hpp"
+#include "calib/beams/angle.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 using ruby128_wire::Angle;
@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 Difop nominal_difop() {
   Difop difop = blank_difop();
-  set_calibration(difop, calib::nominal_ruby128());
+  set_calibration(difop, nominal_ruby128());
   return difop;
 }
 
@@ -44,24 +44,24 @@ TEST(DifopAngles, BytesMeanWhatTheFormatSays) {
             (std::vector<int>{0x00, 0x02, 0x53}));
   const auto read = calibration_of(difop);
   ASSERT_TRUE(read.has_value()) << read.error().message;
-  EXPECT_EQ(read->channels[35].elevation_rad, calib::deg_to_rad(-25.0));
-  EXPECT_EQ(read->channels[0].azimuth_offset_rad, calib::deg_to_rad(5.95));
+  EXPECT_EQ(read->channels[35].elevation_rad, beams::deg_to_rad(-25.0));
+  EXPECT_EQ(read->channels[0].azimuth_offset_rad, beams::deg_to_rad(5.95));
   EXPECT_EQ(read->origin, "DIFOP packets");
   EXPECT_FALSE(read->nominal);
 }
 
 TEST(DifopAngles, CarryATableToHundredthsOfADegreeWithItsFingerprint) {
-  const calib::Ruby128Calibration nominal = calib::nominal_ruby128();
+  const Ruby128Calibration nominal = nominal_ruby128();
   const Difop difop = nominal_difop();
   EXPECT_EQ(judge_angles(difop), DifopAngles::kPlausible);
   const auto read = calibration_of(difop);
   ASSERT_TRUE(read.has_value()) << read.error().message;
-  EXPECT_EQ(calib::fingerprint(*read), calib::fingerprint(nominal));
+  EXPECT_EQ(fingerprint(*read), fingerprint(nominal));
   for (std::size_t i = 0; i < nominal.channels.size(); ++i) {
-    EXPECT_NEAR(calib::rad_to_deg(read->channels[i].elevation_rad),
-                calib::rad_to_deg(nominal.channels[i].elevation_rad), 0.005001);
-    EXPECT_NEAR(calib::rad_to_deg(read->channels[i].azimuth_offset_rad),
-                calib::rad_to_deg(nominal.channels[i].azimuth_offset_rad), 1e-12);
+    EXPECT_NEAR(beams::rad_to_deg(read->channels[i].elevation_rad),
+                beams::rad_to_deg(nominal.channels[i].elevation_rad), 0.005001);
+    EXPECT_NEAR(beams::rad_to_deg(read->channels[i].azimuth_offset_rad),
+                beams::rad_to_deg(nominal.channels[i].azimuth_offset_rad), 1e-12);
   }
 }
 
@@ -74,7 +74,7 @@ TEST(DifopAngles, ARoundTripOfWhatPacketsCanCarryIsExact) {
 
 TEST(DifopAngles, NoNegativeZero) {
   Difop difop = nominal_difop();
-  difop.elevations[1] = {kDifopMinus, Be16::of(0)};
+  difop.elevations[1] = {kDifopMinus, decode::Be16::of(0)};
   const auto read = calibration_of(difop);
   ASSERT_TRUE(read.has_value()) << read.error().message;
   EXPECT_FALSE(std::signbit(read->channels[1].elevation_rad));
@@ -93,7 +93,7 @@ TEST(DifopAngles, AUnitThatWasNeverCalibratedSaysSoAndWhatToDo) {
 
 TEST(DifopAngles, OneUnsetAngleIsEnough) {
   Difop difop = nominal_difop();
-  difop.azimuth_offsets[127] = {0xFF, Be16::of(0xFFFF)};
+  difop.azimuth_offsets[127] = {0xFF, decode::Be16::of(0xFFFF)};
   expect_refused(difop, DifopAngles::kUnset, ErrorCode::kNoCalibration,
                  HasSubstr("azimuth offset of channel 128"));
   // Also beside a sign that means nothing at all.
@@ -112,7 +112,7 @@ TEST(DifopAngles, NamesASignThatMeansNothing) {
 
 TEST(DifopAngles, NamesWhatIsNotPlausible) {
   Difop difop = nominal_difop();
-  difop.elevations[35] = {kDifopMinus, Be16::of(9000)};
+  difop.elevations[35] = {kDifopMinus, decode::Be16::of(9000)};
   expect_refused(difop, DifopAngles::kImplausible, ErrorCode::kMalformed,
                  AllOf(HasSubstr("DIFOP packets"), HasSubstr("channel 36 of 128"),
                        HasSubstr("-90 deg"), HasSubstr("--calibration FILE")));
@@ -126,10 +126,10 @@ TEST(DifopAngles, KnowsARubyPlus) {
   constexpr std::pair<double, double> kFirst_deg[] = {{-11.78, 5.94}, {-10.37, 2.39},
                                                       {-9.27, -1.15}, {-8.38, -4.69},
                                                       {-16.07, 4.70}, {-25.10, 1.17}};
-  calib::Ruby128Calibration calibration = calib::nominal_ruby128();
+  Ruby128Calibration calibration = nominal_ruby128();
   for (std::size_t i = 0; i < std::size(kFirst_deg); ++i) {
-    calibration.channels[i] = {calib::deg_to_rad(kFirst_deg[i].first),
-                               calib::deg_to_rad(kFirst_deg[i].second)};
+    calibration.channels[i] = {beams::deg_to_rad(kFirst_deg[i].first),
+                               beams::deg_to_rad(kFirst_deg[i].second)};
   }
   Difop difop = blank_difop();
   set_calibration(difop, calibration);
@@ -138,7 +138,7 @@ TEST(DifopAngles, KnowsARubyPlus) {
 }
 
 TEST(DifopAngles, AnglesThatDoNotFitEndAtTheLastThatDoes) {
-  calib::Ruby128Calibration calibration = calib::nominal_ruby128();
+  Ruby128Calibration calibration = nominal_ruby128();
   calibration.channels[0] = {1e9, -1e9};
   calibration.channels[1] = {std::nan(""), 0};
   Difop difop = blank_difop();
@@ -152,4 +152,4 @@ TEST(DifopAngles, AnglesThatDoNotFitEndAtTheLastThatDoes) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -9,7 +9,7 @@
 
 #include "firmware_io/ruby128/device_info.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 /// A packet made by offsets alone, as the format's description gives them: every byte of a field
@@ -138,4 +138,4 @@ TEST(Difop, FactsAsText) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -10,10 +10,10 @@
 #include <random>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "tests/firmware_io/ruby128/random_stream.hpp"
+#include "random_stream.hpp"
 #include "tests/support/places.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -27,19 +27,19 @@ Bytes packet_at(std::array<int, 3> azimuth_cdeg) {
   return {packet.payload().begin(), packet.payload().end()};
 }
 
-std::optional<Reject> check(const Bytes& payload) {
-  PacketHeads heads;
+std::optional<frame::Reject> check(const Bytes& payload) {
+  decode::PacketHeads heads;
   return check_ruby128_packet(payload, heads);
 }
 
-PacketHeads heads_of(std::array<int, 3> azimuth_cdeg) {
-  PacketHeads heads;
+decode::PacketHeads heads_of(std::array<int, 3> azimuth_cdeg) {
+  decode::PacketHeads heads;
   EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), std::nullopt);
   return heads;
 }
 
 TEST(Ruby128PacketCheck, ReadsTheHeadsOfASingleReturnPacketAcrossTheSeam) {
-  const PacketHeads heads = heads_of({35'970, 35'990, 11});
+  const decode::PacketHeads heads = heads_of({35'970, 35'990, 11});
   EXPECT_FALSE(heads.dual_return);
   EXPECT_EQ(heads.columns, 3);
   EXPECT_EQ(heads.advance_cdeg(2), 41);
@@ -48,21 +48,21 @@ TEST(Ruby128PacketCheck, ReadsTheHeadsOfASingleReturnPacketAcrossTheSeam) {
 }
 
 TEST(Ruby128PacketCheck, KnowsBothPacketsOfDualReturn) {
-  const PacketHeads pair_first = heads_of({100, 100, 120});
+  const decode::PacketHeads pair_first = heads_of({100, 100, 120});
   EXPECT_TRUE(pair_first.dual_return);
   EXPECT_EQ(pair_first.step_ticks, 20'000);
   EXPECT_EQ(pair_first.sweep_ticks, 20'000);  // the firing at 120 is the next packet's
-  const PacketHeads pair_last = heads_of({120, 140, 140});
+  const decode::PacketHeads pair_last = heads_of({120, 140, 140});
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.step_ticks, 20'000);
   EXPECT_EQ(pair_last.sweep_ticks, 40'000);
 }
 
 TEST(Ruby128PacketCheck, KnowsWhatItsPacketsMayBeApart) {
-  const PacketHeads single = heads_of({100, 120, 140}), dual = heads_of({100, 100, 120});
+  const decode::PacketHeads single = heads_of({100, 120, 140}), dual = heads_of({100, 100, 120});
   EXPECT_EQ(single.nominal_period_ns, 166'650);
   EXPECT_EQ(dual.nominal_period_ns, 83'325);
-  for (const PacketHeads& heads : {single, dual}) {
+  for (const decode::PacketHeads& heads : {single, dual}) {
     EXPECT_LT(heads.shortest_period_ns, heads.nominal_period_ns);
     EXPECT_GT(heads.longest_period_ns, heads.nominal_period_ns);
   }
@@ -70,7 +70,8 @@ TEST(Ruby128PacketCheck, KnowsWhatItsPacketsMayBeApart) {
 }
 
 TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
-  const PacketHeads pair_first = heads_of({100, 100, 120}), pair_last = heads_of({120, 140, 140});
+  const decode::PacketHeads pair_first = heads_of({100, 100, 120}),
+                            pair_last = heads_of({120, 140, 140});
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_first, true), 5'000);
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, true), 5'027);  // half a firing later
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, false), 5'000);
@@ -78,15 +79,15 @@ TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
   EXPECT_GT(ruby_even_stamp_us(kMost_ns, pair_last, true), kMost_ns / 1000 - 100);
 }
 
-PacketHeads heads_across(std::array<int, 3> azimuth_cdeg) {
-  PacketHeads heads;
-  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), Reject::kAzimuthJump);
+decode::PacketHeads heads_across(std::array<int, 3> azimuth_cdeg) {
+  decode::PacketHeads heads;
+  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), frame::Reject::kAzimuthJump);
   EXPECT_TRUE(read_across_sector(heads, 20'000));
   return heads;
 }
 
 TEST(Ruby128PacketCheck, ReadsAPacketThatABlindSectorLiesIn) {
-  const PacketHeads late = heads_across({8'970, 8'990, 27'010});
+  const decode::PacketHeads late = heads_across({8'970, 8'990, 27'010});
   EXPECT_FALSE(late.dual_return);
   EXPECT_EQ(late.behind_sector, 2);
   EXPECT_EQ(late.advance_cdeg(1), 20);
@@ -97,18 +98,18 @@ TEST(Ruby128PacketCheck, ReadsAPacketThatABlindSectorLiesIn) {
   EXPECT_EQ(late.sector_inside(8'970'000).to_ticks, 27'010'000);
   EXPECT_NEAR(static_cast<double>(late.sector_ns()), 50e6, 0.1e6) << "of 10 Hz";
 
-  const PacketHeads early = heads_across({35'000, 10, 30});
+  const decode::PacketHeads early = heads_across({35'000, 10, 30});
   EXPECT_EQ(early.behind_sector, 1);
   EXPECT_EQ(early.sweep_ticks, 1'050'000);
   EXPECT_EQ(early.sector_inside(0).ticks(), 990'000);
 }
 
 TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
-  const PacketHeads pair_first = heads_across({8'990, 8'990, 27'010});
+  const decode::PacketHeads pair_first = heads_across({8'990, 8'990, 27'010});
   EXPECT_TRUE(pair_first.dual_return);
   EXPECT_EQ(pair_first.behind_sector, 2);
   EXPECT_EQ(pair_first.sweep_ticks, 18'020'000) << "the firing at 270.1 is the next packet's";
-  const PacketHeads pair_last = heads_across({8'990, 27'010, 27'010});
+  const decode::PacketHeads pair_last = heads_across({8'990, 27'010, 27'010});
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.behind_sector, 1);
   EXPECT_EQ(pair_last.sweep_ticks, 18'040'000);
@@ -117,45 +118,47 @@ TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
 
 TEST(Ruby128PacketCheck, FindsNoSectorInAzimuthsThatJumpTwiceNorWithoutAStep) {
   for (const auto& azimuths : {std::array{100, 9'000, 18'000}, {100, 9'000, 120}}) {
-    PacketHeads heads;
-    EXPECT_EQ(check_ruby128_packet(packet_at(azimuths), heads), Reject::kAzimuthJump);
+    decode::PacketHeads heads;
+    EXPECT_EQ(check_ruby128_packet(packet_at(azimuths), heads), frame::Reject::kAzimuthJump);
     EXPECT_FALSE(read_across_sector(heads, 20'000));
   }
-  PacketHeads heads;
-  EXPECT_EQ(check_ruby128_packet(packet_at({100, 9'000, 9'020}), heads), Reject::kAzimuthJump);
+  decode::PacketHeads heads;
+  EXPECT_EQ(check_ruby128_packet(packet_at({100, 9'000, 9'020}), heads),
+            frame::Reject::kAzimuthJump);
   EXPECT_FALSE(read_across_sector(heads, 0));
 }
 
 TEST(Ruby128PacketCheck, TakesEverySpinRate) {
   for (const int step_cdeg : {10, 20, 40}) {
-    EXPECT_EQ(heads_of({0, step_cdeg, 2 * step_cdeg}).step_ticks, step_cdeg * kTicksPerCdeg);
+    EXPECT_EQ(heads_of({0, step_cdeg, 2 * step_cdeg}).step_ticks,
+              step_cdeg * decode::kTicksPerCdeg);
   }
 }
 
 TEST(Ruby128PacketCheck, TellsAStandingHeadFromDualReturn) {
-  EXPECT_EQ(check(packet_at({100, 100, 100})), Reject::kStationary);
-  EXPECT_EQ(check(packet_at({100, 101, 101})), Reject::kStationary);
+  EXPECT_EQ(check(packet_at({100, 100, 100})), frame::Reject::kStationary);
+  EXPECT_EQ(check(packet_at({100, 101, 101})), frame::Reject::kStationary);
 }
 
 TEST(Ruby128PacketCheck, RefusesAzimuthsThatAreNone) {
-  EXPECT_EQ(check(packet_at({35'980, 36'000, 20})), Reject::kAzimuthOutOfRange);
-  EXPECT_EQ(check(packet_at({65'535, 65'535, 65'535})), Reject::kAzimuthOutOfRange);
-  EXPECT_EQ(check(packet_at({100, 120, 18'000})), Reject::kAzimuthJump);
-  EXPECT_EQ(check(packet_at({100, 120, 100})), Reject::kAzimuthJump);
+  EXPECT_EQ(check(packet_at({35'980, 36'000, 20})), frame::Reject::kAzimuthOutOfRange);
+  EXPECT_EQ(check(packet_at({65'535, 65'535, 65'535})), frame::Reject::kAzimuthOutOfRange);
+  EXPECT_EQ(check(packet_at({100, 120, 18'000})), frame::Reject::kAzimuthJump);
+  EXPECT_EQ(check(packet_at({100, 120, 100})), frame::Reject::kAzimuthJump);
 }
 
 TEST(Ruby128PacketCheck, NamesWhatIsNoDataPacket) {
   Bytes good = packet_at({100, 120, 140});
   EXPECT_EQ(check(good), std::nullopt);
-  EXPECT_EQ(check({good.begin(), good.end() - 1}), Reject::kWrongSize);
-  EXPECT_EQ(check({}), Reject::kWrongSize);
+  EXPECT_EQ(check({good.begin(), good.end() - 1}), frame::Reject::kWrongSize);
+  EXPECT_EQ(check({}), frame::Reject::kWrongSize);
 
   Bytes other = good;
   other[3] = 0x5B;
-  EXPECT_EQ(check(other), Reject::kWrongMagic);
+  EXPECT_EQ(check(other), frame::Reject::kWrongMagic);
   other = good;
   other[80 + 388] = 0xFD;
-  EXPECT_EQ(check(other), Reject::kWrongMagic);
+  EXPECT_EQ(check(other), frame::Reject::kWrongMagic);
   other = good;
   other[81] = 0xD1;  // the return's number, not part of the id
   EXPECT_EQ(check(other), std::nullopt);
@@ -163,19 +166,19 @@ TEST(Ruby128PacketCheck, NamesWhatIsNoDataPacket) {
   Bytes device_info(kRubyPacketBytes, 0);
   const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
   std::copy(start.begin(), start.end(), device_info.begin());
-  EXPECT_EQ(check(device_info), Reject::kDeviceInfo);
+  EXPECT_EQ(check(device_info), frame::Reject::kDeviceInfo);
 }
 
 TEST(Ruby128PacketCheck, RefusesItsRelativesByModel) {
   Bytes plus = packet_at({100, 120, 140});
   plus[31] = 5;
   plus[32] = 1;
-  EXPECT_EQ(check(plus), Reject::kWrongModel);
+  EXPECT_EQ(check(plus), frame::Reject::kWrongModel);
 
   Bytes lite(kRubyPacketBytes, 0);
   std::copy(kRubyMagic.begin(), kRubyMagic.end(), lite.begin());
   for (std::size_t block = 0; block < 4; ++block) lite[80 + 244 * block] = kRubyBlockId;
-  EXPECT_EQ(check(lite), Reject::kWrongModel);
+  EXPECT_EQ(check(lite), frame::Reject::kWrongModel);
 }
 
 class RealCapture : public testing::TestWithParam<const char*> {};
@@ -183,18 +186,18 @@ class RealCapture : public testing::TestWithParam<const char*> {};
 TEST_P(RealCapture, OfAnotherSensorIsRefusedByModel) {
   const std::filesystem::path path = test::shared_data("pcap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
-  auto source = PcapSource::open(path);
+  auto source = capture::PcapSource::open(path);
   ASSERT_TRUE(source) << source.error().message;
   int data_packets = 0;
   while (true) {
     const auto next = source->next();
     ASSERT_TRUE(next) << next.error().message;
     if (!*next) break;
-    PacketHeads heads;
+    decode::PacketHeads heads;
     const auto reason = check_ruby128_packet((*next)->payload, heads);
     ASSERT_TRUE(reason);
     if ((*next)->payload.size() == 1206) {
-      EXPECT_EQ(*reason, Reject::kWrongModel);
+      EXPECT_EQ(*reason, frame::Reject::kWrongModel);
       ++data_packets;
     }
   }
@@ -236,4 +239,4 @@ TEST(HeldFiring, DropsAFiringWhosePacketIsLost) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

@@ -8,8 +8,8 @@
 #include <span>
 #include <vector>
 
-#include "calib/angle.hpp"
-#include "firmware_io/datagram.hpp"
+#include "calib/beams/angle.hpp"
+#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/ruby128/wire.hpp"
@@ -22,18 +22,18 @@ struct RubyStream {
   bool dual = false;
   double first_cdeg = 34'000, last_cdeg = 38'000;  ///< Of the head, unwrapped.
   double share_of_returns = 0.7;
-  firmware_io::RubyTimestamp timestamp = firmware_io::RubyTimestamp::kUtcMicroseconds;
+  ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   std::uint16_t protocol_version = 1;
   std::int64_t start_ns = 1'767'225'600'000'000'000 + 123'456'789;
   std::uint32_t seed = 1;
 };
 
 struct RubyPacket {
-  firmware_io::Ruby128PacketBuffer bytes;
+  ruby128::Ruby128PacketBuffer bytes;
   std::int64_t stamp_ns = 0;  ///< Of the first block.
   std::uint32_t returns = 0;
 
-  [[nodiscard]] firmware_io::Datagram datagram() const {
+  [[nodiscard]] decode::Datagram datagram() const {
     return {.payload = bytes.payload(), .stamp_ns = stamp_ns};
   }
 };
@@ -42,25 +42,25 @@ inline std::vector<RubyPacket> random_packets(const RubyStream& stream) {
   std::mt19937 random(stream.seed);
   std::uniform_real_distribution<double> chance(0, 1);
   std::uniform_int_distribution<unsigned> distance(100, 40'000), intensity(1, 255);
-  const double step_cdeg = stream.spin_hz * calib::kTurn_cdeg * firmware_io::kRubyBlock_ns * 1e-9;
+  const double step_cdeg = stream.spin_hz * beams::kTurn_cdeg * ruby128::kRubyBlock_ns * 1e-9;
   std::vector<RubyPacket> packets;
   const int returns_a_firing = stream.dual ? 2 : 1;
   for (std::int64_t block = 0;; ++block) {
     const std::int64_t firing = block / returns_a_firing;
     const double head_cdeg = stream.first_cdeg + static_cast<double>(firing) * step_cdeg;
-    const int slot = static_cast<int>(block % firmware_io::kRubyBlocksPerPacket);
+    const int slot = static_cast<int>(block % ruby128::kRubyBlocksPerPacket);
     if (slot == 0) {
       if (head_cdeg >= stream.last_cdeg) return packets;
       RubyPacket& packet = packets.emplace_back();
-      packet.stamp_ns = stream.start_ns + firing * firmware_io::kRubyBlock_ns;
+      packet.stamp_ns = stream.start_ns + firing * ruby128::kRubyBlock_ns;
       packet.bytes.set_protocol_version(stream.protocol_version);
       packet.bytes.set_wave_mode(stream.dual ? 3 : 1);
-      packet.bytes.set_stamp(firmware_io::write_ruby_timestamp(packet.stamp_ns, stream.timestamp));
+      packet.bytes.set_stamp(ruby128::write_ruby_timestamp(packet.stamp_ns, stream.timestamp));
     }
     RubyPacket& packet = packets.back();
     packet.bytes.set_azimuth_cdeg(
-        slot, static_cast<std::uint16_t>(calib::wrap_cdeg(std::llround(head_cdeg))));
-    for (int channel = 0; channel < firmware_io::kRubyChannelsPerBlock; ++channel) {
+        slot, static_cast<std::uint16_t>(beams::wrap_cdeg(std::llround(head_cdeg))));
+    for (int channel = 0; channel < ruby128::kRubyChannelsPerBlock; ++channel) {
       if (chance(random) >= stream.share_of_returns) continue;
       packet.bytes.set_return(slot, channel, static_cast<std::uint16_t>(distance(random)),
                               static_cast<std::uint8_t>(intensity(random)));

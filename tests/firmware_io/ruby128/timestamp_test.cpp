@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace terracut::firmware_io {
+namespace terracut::ruby128 {
 namespace {
 
 using Bytes = std::array<std::uint8_t, 10>;
@@ -150,4 +150,4 @@ TEST(RubyTimestampDetector, WaitsWhereASecondBegins) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::ruby128

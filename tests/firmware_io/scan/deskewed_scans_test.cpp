@@ -20,88 +20,90 @@
 #include <utility>
 #include <vector>
 
-#include "calib/mount.hpp"
-#include "calib/ring_profile.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/mount/ring_profile.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/hdl64e/hdl64e_decoder.hpp"
-#include "firmware_io/motion/ego_motion.hpp"
-#include "firmware_io/motion/vehicle_log.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/scan/scan_drive.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
-#include "firmware_io/sinks/each_return.hpp"
-#include "pipeline/profile.hpp"
-#include "pipeline/quality.hpp"
-#include "pipeline/segmenter.hpp"
-#include "tests/firmware_io/scan/recorded_sequences.hpp"
-#include "tests/firmware_io/scan/scratch_folder.hpp"
+#include "firmware_io/vehicle/ego_motion.hpp"
+#include "pipeline/ground/profile.hpp"
+#include "pipeline/ground/segmenter.hpp"
+#include "recorded_sequences.hpp"
+#include "scratch_folder.hpp"
+#include "tests/support/hand_out.hpp"
 #include "tests/support/vehicle_log_reader.hpp"
+#include "tools/lab/drive/vehicle_log.hpp"
+#include "tools/lab/encode/scan_drive.hpp"
+#include "tools/lab/quality/quality.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 namespace fs = std::filesystem;
 
 struct Drive {
   fs::path pcap;
-  calib::Hdl64eCalibration calibration;
+  hdl64e::Hdl64eCalibration calibration;
 };
 
 /// Decodes, moved to each turn's middle where there is a CAN log and `deskew`; visits every turn.
 template <class Visit>
 void decode(const Drive& drive, bool deskew, Visit&& visit) {
-  rt::FixedMemory memory;
-  EgoMotion motion({}, memory);
-  std::vector<MotionSample> samples;
-  Hdl64eDecoder::Config config;
+  memory::FixedMemory memory;
+  vehicle::EgoMotion motion({}, memory);
+  std::vector<vehicle::MotionSample> samples;
+  hdl64e::Hdl64eDecoder::Config config;
   if (deskew) {
     config.motion = &motion;
-    config.deskew_at = TurnInstant::kMiddle;
-    std::ifstream log(can_log_path_of(drive.pcap));
+    config.deskew_at = frame::TurnInstant::kMiddle;
+    std::ifstream log(drive::can_log_path_of(drive.pcap));
     samples = test::samples_of({std::istreambuf_iterator<char>(log), {}});
   }
-  Hdl64eDecoder decoder(drive.calibration, {}, config, memory);
-  auto source = PcapSource::open(drive.pcap);
+  hdl64e::Hdl64eDecoder decoder(drive.calibration, {}, config, memory);
+  auto source = capture::PcapSource::open(drive.pcap);
   ASSERT_TRUE(source);
   auto next = samples.begin();
-  const auto on_frame = [&](const FrameInfo& info, const pipeline::RangeImage& image) noexcept {
-    EXPECT_EQ(info.deskew.state, deskew ? DeskewState::kDone : DeskewState::kOff);
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+    EXPECT_EQ(info.deskew.state, deskew ? frame::DeskewState::kDone : frame::DeskewState::kOff);
     visit(info, image);
   };
   for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
     for (; next != samples.end() && next->stamp_ns <= (*datagram)->stamp_ns; ++next) {
       EXPECT_TRUE(motion.add(*next));
     }
-    decoder.decode(**datagram, on_frame);
+    test::decode(decoder, **datagram, on_frame);
   }
-  decoder.flush(on_frame);
+  test::end_stream(decoder, on_frame);
 }
 
-pipeline::Quality label(const Drive& drive, bool deskew) {
-  pipeline::Quality quality;
-  rt::FixedMemory memory;
-  std::unique_ptr<pipeline::Segmenter> segmenter;
-  const auto profile = calib::ring_profile(drive.calibration, {});
-  decode(drive, deskew, [&](const FrameInfo& info, const pipeline::RangeImage& image) {
+quality::Quality label(const Drive& drive, bool deskew) {
+  quality::Quality quality;
+  memory::FixedMemory memory;
+  std::unique_ptr<ground::Segmenter> segmenter;
+  const auto profile = mount::ring_profile(drive.calibration, {});
+  decode(drive, deskew, [&](const frame::FrameInfo& info, const frame::RangeImage& image) {
     if (!segmenter) {
-      segmenter = std::make_unique<pipeline::Segmenter>(
-          pipeline::terracut_profile(), profile, image.shape(), image.return_capacity(), memory);
+      segmenter = std::make_unique<ground::Segmenter>(
+          ground::terracut_profile(), profile, image.shape(), image.return_capacity(), memory);
     }
     std::vector<std::uint32_t> truth;
-    const fs::path file = truth_folder_of(drive.pcap) / fmt::format("{:06}.label", info.number);
+    const fs::path file =
+        drive::truth_folder_of(drive.pcap) / fmt::format("{:06}.label", info.number);
     EXPECT_TRUE(read_label_file(file, image.returns(), truth));
     (void)segmenter->segment(image);
-    quality += pipeline::measure(segmenter->labels(), truth);
+    quality += quality::measure(segmenter->labels(), truth);
   });
   return quality;
 }
 
 Drive encode(const fs::path& sequence, const fs::path& pcap, bool twisted) {
-  ScanDriveOptions options;
+  encode::ScanDriveOptions options;
   options.motion = twisted ? PutMotionBack::kAlways : PutMotionBack::kNever;
   options.can_log = twisted;
-  const auto report = encode_scan_folder(sequence, pcap, options);
+  const auto report = encode::encode_scan_folder(sequence, pcap, options);
   EXPECT_TRUE(report) << report.error().message;
   return {pcap, report->calibration};
 }
@@ -112,12 +114,12 @@ class Cloud {
   /// Half a turn round, as the sensor of a drive with a CAN log is; in the vehicle frame.
   explicit Cloud(const std::vector<ScanPoint>& points) {
     for (const ScanPoint& p : points) {
-      const Point at{-p.x_m, -p.y_m, p.z_m + static_cast<float>(calib::Mount{}.height_m)};
+      const Point at{-p.x_m, -p.y_m, p.z_m + static_cast<float>(mount::Mount{}.height_m)};
       boxes_[box_of(at, 0, 0, 0)].push_back(at);
     }
   }
   /// To the nearest point; no more than about kBox_m.
-  [[nodiscard]] double distance_m(const pipeline::Return& echo) const {
+  [[nodiscard]] double distance_m(const frame::Return& echo) const {
     double nearest_m = kBox_m;
     for (int i = 0; i < 27; ++i) {
       const auto box =
@@ -146,14 +148,14 @@ double distance_p95_m(const Drive& drive, const fs::path& sequence, bool deskew)
   const auto folder = list_scan_folder(sequence);
   EXPECT_TRUE(folder);
   std::vector<double> distances_m;
-  decode(drive, deskew, [&](const FrameInfo& info, const pipeline::RangeImage& image) {
+  decode(drive, deskew, [&](const frame::FrameInfo& info, const frame::RangeImage& image) {
     if (info.number % 5 != 1) return;
     KittiScan scan;
     EXPECT_TRUE(read_kitti_scan(folder->scans[info.number].points, scan));
     const Cloud cloud(scan.points);
-    for_each_return(image, [&](const PlacedReturn& placed) {
+    frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
       // Poles, walls and bumpers near by: there the nearest point is as good as the same.
-      const pipeline::Return& echo = placed.echo;
+      const frame::Return& echo = placed.echo;
       if (placed.return_index % 5 != 0 || echo.ground_range_m > 20 || echo.z_m < 0.5F) return;
       distances_m.push_back(cloud.distance_m(echo));
     });
@@ -184,9 +186,9 @@ TEST(DeskewedScans, TwistedPacketsAndTheCanLogGiveTheLabelsOfTheCompensatedScans
     const ScratchFolder folder;
     const Drive recorded = encode(sequence, folder.path() / "recorded.pcap", false);
     const Drive twisted = encode(sequence, folder.path() / "twisted.pcap", true);
-    const pipeline::Quality compensated = label(recorded, false);
-    const pipeline::Quality as_seen = label(twisted, false);
-    const pipeline::Quality deskewed = label(twisted, true);
+    const quality::Quality compensated = label(recorded, false);
+    const quality::Quality as_seen = label(twisted, false);
+    const quality::Quality deskewed = label(twisted, true);
     for (const auto& [name, quality] :
          {std::pair{"compensated", compensated}, std::pair{"as seen", as_seen},
           std::pair{"deskewed", deskewed}}) {
@@ -207,4 +209,4 @@ TEST(DeskewedScans, TwistedPacketsAndTheCanLogGiveTheLabelsOfTheCompensatedScans
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

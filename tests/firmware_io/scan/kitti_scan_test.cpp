@@ -12,7 +12,7 @@
 #include "firmware_io/scan/scan_folder.hpp"
 #include "scratch_folder.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 using testing::AllOf;
@@ -203,4 +203,4 @@ TEST(ScanFolder, SaysWhatItExpectedWhereThereIsNoScan) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -14,7 +14,7 @@
 #include "scratch_folder.hpp"
 #include "synthetic_scan.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 using testing::AllOf;
@@ -40,7 +40,7 @@ TEST(MotionCompensation, UndoneIsWhatTheSensorMeasured) {
   SensorTwist twist{{0.02, -0.03, 0.45}, {13, -0.4, 0.3}, 0.1037};
   for (const double distance_m : {3.0, 7.0, 60.0}) {
     for (int degree = -179; degree < 180; degree += 7) {
-      const double azimuth = calib::deg_to_rad(degree);
+      const double azimuth = beams::deg_to_rad(degree);
       const ScanPoint measured{static_cast<float>(distance_m * std::cos(azimuth)),
                                static_cast<float>(distance_m * std::sin(azimuth)), -1.5F, 0};
       std::vector<ScanPoint> points{compensated(twist, measured)};
@@ -178,4 +178,4 @@ TEST(SensorMotion, RefusesSpeedsNoCarHas) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

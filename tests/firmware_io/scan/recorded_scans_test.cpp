@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 
-#include "firmware_io/scan/scan_encoder.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "recorded_sequences.hpp"
 #include "scratch_folder.hpp"
+#include "tools/lab/encode/scan_encoder.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 ScanReader reader_of(const std::filesystem::path& sequence, bool undo) {
@@ -140,11 +140,11 @@ TEST(RecordedScans, FitOneUnitsTableWithinTheMeasuredResidual) {
   for (const auto& sequence : sequences) {
     const auto fitted = reader_of(sequence, false).fit_rings();
     ASSERT_TRUE(fitted);
-    EXPECT_NEAR(calib::rad_to_deg(fitted->table.front().elevation_rad), 1.93, 0.1) << sequence;
-    EXPECT_NEAR(calib::rad_to_deg(fitted->table.back().elevation_rad), -25.2, 1.5) << sequence;
+    EXPECT_NEAR(beams::rad_to_deg(fitted->table.front().elevation_rad), 1.93, 0.1) << sequence;
+    EXPECT_NEAR(beams::rad_to_deg(fitted->table.back().elevation_rad), -25.2, 1.5) << sequence;
     EXPECT_NEAR(fitted->table[10].vert_offset_m, 0.205, 0.01) << sequence;
     EXPECT_LT(fitted->residual.p95_m, 0.12) << sequence;
-    EXPECT_TRUE(calib::validate(hdl64e_calibration(fitted->table)));
+    EXPECT_TRUE(validate(hdl64e_calibration(fitted->table)));
   }
 }
 
@@ -153,7 +153,7 @@ TEST(RecordedScans, FitToAboutACentimetreOnceTheMotionIsPutBack) {
   for (const auto& sequence : sequences) {
     const auto fitted = reader_of(sequence, true).fit_rings();
     ASSERT_TRUE(fitted);
-    EXPECT_NEAR(calib::rad_to_deg(fitted->table.back().elevation_rad), -25.2, 0.8) << sequence;
+    EXPECT_NEAR(beams::rad_to_deg(fitted->table.back().elevation_rad), -25.2, 0.8) << sequence;
     EXPECT_NEAR(fitted->table[40].vert_offset_m, 0.122, 0.02) << sequence;
     EXPECT_LT(fitted->residual.p95_m, 0.025) << sequence;
   }
@@ -168,12 +168,12 @@ TEST_P(RecordedScansEncoded, KeepRangeAzimuthAndNearlyAllPoints) {
     const auto fitted = reader.fit_rings();
     ASSERT_TRUE(fitted);
     std::size_t returns = 0;
-    ScanEncoder encoder(hdl64e_calibration(fitted->table), 0,
-                        [&](const EncodedFiring& f) -> Status {
-                          for (const auto& echo : f.column.by_laser)
-                            returns += echo.raw != 0 ? 1U : 0U;
-                          return {};
-                        });
+    encode::ScanEncoder encoder(hdl64e_calibration(fitted->table), 0,
+                                [&](const encode::EncodedFiring& f) -> Status {
+                                  for (const auto& echo : f.column.by_laser)
+                                    returns += echo.raw != 0 ? 1U : 0U;
+                                  return {};
+                                });
     KittiScan scan;
     RingRecovery rings;
     for (std::size_t i = 0; i < reader.size(); ++i) {
@@ -186,7 +186,7 @@ TEST_P(RecordedScansEncoded, KeepRangeAzimuthAndNearlyAllPoints) {
     EXPECT_GE(static_cast<double>(summary->encoded), 0.998 * static_cast<double>(summary->points))
         << sequence;
     EXPECT_LE(summary->max_range_error_m, 0.003) << sequence;
-    for (const EncodedTurn& turn : summary->turns) {
+    for (const encode::EncodedTurn& turn : summary->turns) {
       EXPECT_LE(turn.max_azimuth_error_deg, 180.0 / static_cast<double>(turn.firings) + 0.01)
           << sequence;
       EXPECT_LE(turn.firings, 4167U) << "slower than the 5 Hz an HDL-64E can turn at";
@@ -199,4 +199,4 @@ INSTANTIATE_TEST_SUITE_P(Compensation, RecordedScansEncoded, testing::Bool(),
                          [](const auto& param) { return param.param ? "Undone" : "Kept"; });
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -10,7 +10,7 @@
 
 #include "tests/support/places.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// Sequence folders of the labelled scans beside the repository; none where they are absent.
 inline std::vector<std::filesystem::path> recorded_sequences() {
@@ -25,8 +25,8 @@ inline std::vector<std::filesystem::path> recorded_sequences() {
 }
 
 /// Names the sequences for a test's loop, or skips it.
-#define TERRACUT_RECORDED_SEQUENCES(name) \
-  const auto name = recorded_sequences(); \
+#define TERRACUT_RECORDED_SEQUENCES(name)                   \
+  const auto name = ::terracut::scan::recorded_sequences(); \
   if (name.empty()) GTEST_SKIP() << "no recorded scans: shared/data/semantickitti is not there"
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -11,7 +11,7 @@
 
 #include "synthetic_scan.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 using testing::HasSubstr;
@@ -126,7 +126,7 @@ TEST(RingRecovery, RingsThatLookTheSameWayAreNotOfOneLaser) {
   auto points = synthetic::scan(table);
   synthetic::erase_ring(points, 50);
   RingTable off = table;  // another unit's: 0.35 degrees off, more than half a ring below
-  for (RingLine& ring : off) ring.elevation_rad -= calib::deg_to_rad(0.35);
+  for (RingLine& ring : off) ring.elevation_rad -= beams::deg_to_rad(0.35);
   RingRecovery recovery;
   ASSERT_TRUE(recover_rings(points, &off, recovery));
   std::vector<int> rings;
@@ -180,11 +180,9 @@ TEST(RingRecovery, GivesARingThatNoLaserHasNoRing) {
   const RingTable table = synthetic::table();
   auto points = synthetic::scan(table);
   const std::size_t real = points.size();
-  const RingLine odd{calib::deg_to_rad(-40), 0.1};  // 15 degrees below the lowest laser
-  RingTable one{};
-  one[0] = odd;
-  const auto extra = synthetic::scan(one);
-  points.insert(points.end(), extra.begin(), extra.begin() + 2000);
+  const RingLine odd{beams::deg_to_rad(-40), 0.1};  // 15 degrees below the lowest laser
+  const auto extra = synthetic::scan({odd});
+  points.insert(points.end(), extra.begin(), extra.end());
   RingRecovery recovery;
   ASSERT_TRUE(recover_rings(points, &table, recovery));
   EXPECT_EQ(recovery.no_ring, 2000U);
@@ -218,4 +216,4 @@ TEST(RingRecovery, RefusesAScanWithoutPoints) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -9,12 +9,12 @@
 #include <random>
 #include <set>
 
-#include "calib/hdl64e_calibration.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "firmware_io/scan/line_fit.hpp"
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "synthetic_scan.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
 FittedRings fitted(const std::vector<ScanPoint>& points, std::vector<std::int16_t> rings = {}) {
@@ -33,8 +33,8 @@ FittedRings fitted(const std::vector<ScanPoint>& points, std::vector<std::int16_
 void expect_near(const RingTable& found, const RingTable& truth, double elevation_deg,
                  double offset_m) {
   for (std::size_t ring = 0; ring < truth.size(); ++ring) {
-    EXPECT_NEAR(calib::rad_to_deg(found[ring].elevation_rad),
-                calib::rad_to_deg(truth[ring].elevation_rad), elevation_deg)
+    EXPECT_NEAR(beams::rad_to_deg(found[ring].elevation_rad),
+                beams::rad_to_deg(truth[ring].elevation_rad), elevation_deg)
         << "ring " << ring;
     EXPECT_NEAR(found[ring].vert_offset_m, truth[ring].vert_offset_m, offset_m) << "ring " << ring;
   }
@@ -142,8 +142,8 @@ TEST(RingTableFit, ThinsOutManyScansEvenly) {
 
 TEST(RingTable, GoesToACalibrationAndBack) {
   const RingTable truth = synthetic::table();
-  const calib::Hdl64eCalibration calibration = hdl64e_calibration(truth);
-  EXPECT_TRUE(calib::validate(calibration));
+  const hdl64e::Hdl64eCalibration calibration = hdl64e_calibration(truth);
+  EXPECT_TRUE(validate(calibration));
   expect_near(ring_table(calibration), truth, 1e-9, 1e-9);
   const auto lasers = lasers_by_ring(calibration);
   for (int ring = 0; ring < kScanRings; ++ring) {
@@ -160,4 +160,4 @@ TEST(RingTable, NumbersLasersLikeMostUnits) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -9,15 +9,15 @@
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "synthetic_scan.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 namespace {
 
-using pipeline::Label;
+using frame::Label;
 
 TEST(ScanToImage, PutsEachPointAtItsRingAndAzimuth) {
-  rt::FixedMemory memory;
-  pipeline::RangeImage image({64, 360}, 10, memory);
-  ScanToImage place(calib::Mount{});
+  memory::FixedMemory memory;
+  frame::RangeImage image({64, 360}, 10, memory);
+  ScanToImage place(mount::Mount{});
   // Straight ahead, right, behind, left; rings top, bottom, 10, 20.
   const std::vector<ScanPoint> points{
       {10, -0.01F, 0, 1}, {0.01F, -5, -1, 0}, {-3, -0.01F, 2, 0}, {0.01F, 4, 0, 0}};
@@ -35,9 +35,9 @@ TEST(ScanToImage, PutsEachPointAtItsRingAndAzimuth) {
 }
 
 TEST(ScanToImage, MovesPointsIntoTheVehicleFrame) {
-  rt::FixedMemory memory;
-  pipeline::RangeImage image({64, 360}, 10, memory);
-  ScanToImage place(calib::Mount{2.0, 0.0, 0.1});  // pitched down in front
+  memory::FixedMemory memory;
+  frame::RangeImage image({64, 360}, 10, memory);
+  ScanToImage place(mount::Mount{2.0, 0.0, 0.1});  // pitched down in front
   const std::vector<ScanPoint> points{{10, -0.01F, 0, 1}};
   place.place(points, std::vector<std::int16_t>{0}, image);
   const std::size_t cell = 63 * static_cast<std::size_t>(image.shape().stride());
@@ -46,9 +46,9 @@ TEST(ScanToImage, MovesPointsIntoTheVehicleFrame) {
 }
 
 TEST(ScanToImage, BringsLabelsBackIntoTheFilesOrder) {
-  rt::FixedMemory memory;
-  pipeline::RangeImage image({64, 360}, 1, memory);
-  ScanToImage place(calib::Mount{});
+  memory::FixedMemory memory;
+  frame::RangeImage image({64, 360}, 1, memory);
+  ScanToImage place(mount::Mount{});
   constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
   const std::vector<ScanPoint> points{{10, -0.01F, 0, 0},  // placed: return 0
                                       {kNaN, 0, 0, 0},     // no place
@@ -74,9 +74,9 @@ TEST(ScanToImage, BringsLabelsBackIntoTheFilesOrder) {
 }
 
 TEST(ScanToImage, LabelsEveryPointOfAWholeScan) {
-  rt::FixedMemory memory;
-  pipeline::RangeImage image({64, 1800}, 40000, memory);
-  ScanToImage place(calib::Mount{});
+  memory::FixedMemory memory;
+  frame::RangeImage image({64, 1800}, 40000, memory);
+  ScanToImage place(mount::Mount{});
   const auto points = synthetic::scan(synthetic::table());
   RingRecovery rings;
   ASSERT_TRUE(recover_rings(points, nullptr, rings));
@@ -89,4 +89,4 @@ TEST(ScanToImage, LabelsEveryPointOfAWholeScan) {
 }
 
 }  // namespace
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

@@ -11,7 +11,7 @@
 
 #include "tests/support/scratch_folder.hpp"
 
-namespace terracut::firmware_io {
+namespace terracut::scan {
 
 /// An empty folder of the running test's own, removed at its end.
 class ScratchFolder {
@@ -41,4 +41,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace terracut::firmware_io
+}  // namespace terracut::scan

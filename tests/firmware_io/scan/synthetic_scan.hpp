@@ -8,18 +8,18 @@
 #include <numbers>
 #include <vector>
 
-#include "calib/angle.hpp"
+#include "calib/beams/angle.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/ring_table.hpp"
 
-namespace terracut::firmware_io::synthetic {
+namespace terracut::synthetic {
 
 /// Rings from +2 to -24.8 degrees, as an HDL-64E has them, with both blocks' vertical offsets.
-inline RingTable table() {
-  RingTable rings{};
-  for (int ring = 0; ring < kScanRings; ++ring) {
+inline scan::RingTable table() {
+  scan::RingTable rings(scan::kScanRings);
+  for (int ring = 0; ring < scan::kScanRings; ++ring) {
     const double elevation_deg = ring < 32 ? 2.0 - ring / 3.0 : -8.9 - (ring - 32) * 0.51;
-    rings[static_cast<std::size_t>(ring)] = {calib::deg_to_rad(elevation_deg),
+    rings[static_cast<std::size_t>(ring)] = {beams::deg_to_rad(elevation_deg),
                                              ring < 32 ? 0.2 : 0.12};
   }
   return rings;
@@ -33,7 +33,7 @@ struct World {
 
 /// Horizontal distance at which a ring meets the world at an azimuth: ground, or walls between 6
 /// and 48 metres that make every ring see several distances.
-inline double distance_m(const World& world, const RingLine& ring, double azimuth_rad) {
+inline double distance_m(const World& world, const scan::RingLine& ring, double azimuth_rad) {
   const double wall_m = 27 + 21 * std::sin(5 * azimuth_rad) * std::cos(2 * azimuth_rad);
   const double slope = std::tan(ring.elevation_rad);
   const double near_wall_m = std::sin(11 * azimuth_rad) > 0.6 ? 3.1 : 1e9;
@@ -42,12 +42,12 @@ inline double distance_m(const World& world, const RingLine& ring, double azimut
 }
 
 /// One turn in KITTI's order: rings from the top, each counter-clockwise from straight ahead.
-inline std::vector<ScanPoint> scan(const RingTable& rings, const World& world = {}) {
-  std::vector<ScanPoint> points;
-  for (const RingLine& ring : rings) {
+inline std::vector<scan::ScanPoint> scan(const scan::RingTable& rings, const World& world = {}) {
+  std::vector<scan::ScanPoint> points;
+  for (const scan::RingLine& ring : rings) {
     for (int i = 0; i < world.points_per_ring; ++i) {
       const double azimuth =
-          calib::deg_to_rad(world.first_azimuth_deg + 360.0 * i / world.points_per_ring);
+          beams::deg_to_rad(world.first_azimuth_deg + 360.0 * i / world.points_per_ring);
       const double d = distance_m(world, ring, azimuth);
       points.push_back({static_cast<float>(d * std::cos(azimuth)),
                         static_cast<float>(d * std::sin(azimuth)),
@@ -59,7 +59,7 @@ inline std::vector<ScanPoint> scan(const RingTable& rings, const World& world = 
 }
 
 /// Removes the points of one ring.
-inline void erase_ring(std::vector<ScanPoint>& points, int ring, const World& world = {}) {
+inline void erase_ring(std::vector<scan::ScanPoint>& points, int ring, const World& world = {}) {
   const auto first = points.begin() + std::ptrdiff_t{ring} * world.points_per_ring;
   points.erase(first, first + world.points_per_ring);
 }
@@ -67,12 +67,13 @@ inline void erase_ring(std::vector<ScanPoint>& points, int ring, const World& wo
 /// What is left of a scan, in order, when only the azimuths for which `keep` is true are kept;
 /// degrees counter-clockwise from straight ahead, -180..180.
 template <class Keep>
-std::vector<ScanPoint> cropped(const std::vector<ScanPoint>& points, Keep&& keep) {
-  std::vector<ScanPoint> kept;
-  std::copy_if(points.begin(), points.end(), std::back_inserter(kept), [&](const ScanPoint& p) {
-    return keep(calib::rad_to_deg(std::atan2(double{p.y_m}, double{p.x_m})));
-  });
+std::vector<scan::ScanPoint> cropped(const std::vector<scan::ScanPoint>& points, Keep&& keep) {
+  std::vector<scan::ScanPoint> kept;
+  std::copy_if(points.begin(), points.end(), std::back_inserter(kept),
+               [&](const scan::ScanPoint& p) {
+                 return keep(beams::rad_to_deg(std::atan2(double{p.y_m}, double{p.x_m})));
+               });
   return kept;
 }
 
-}  // namespace terracut::firmware_io::synthetic
+}  // namespace terracut::synthetic

@@ -11,7 +11,7 @@
 #include <random>
 #include <vector>
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
 using StepCost = BeliefPropagation::StepCost;
@@ -57,7 +57,7 @@ TEST(BeliefPropagation, IsExactOnAChainOfRows) {
   std::mt19937 random(1);
   for (int trial = 0; trial < 50; ++trial) {
     const BeliefPropagation::Shape shape{12, 1, 9, false};
-    rt::FixedMemory memory;
+    memory::FixedMemory memory;
     BeliefPropagation field(shape, memory);
     std::vector<float> data;
     fill(field, shape, random, data);
@@ -76,7 +76,7 @@ TEST(BeliefPropagation, IsExactOnAChainWithinARow) {
   std::mt19937 random(2);
   for (int trial = 0; trial < 50; ++trial) {
     const BeliefPropagation::Shape shape{1, 15, 6, false};
-    rt::FixedMemory memory;
+    memory::FixedMemory memory;
     BeliefPropagation field(shape, memory);
     std::vector<float> data;
     fill(field, shape, random, data);
@@ -94,7 +94,7 @@ TEST(BeliefPropagation, IsExactWhereCertainNodesCutTheLoops) {
   std::mt19937 random(3);
   for (int trial = 0; trial < 20; ++trial) {
     const BeliefPropagation::Shape shape{2, 4, 3, false};
-    rt::FixedMemory memory;
+    memory::FixedMemory memory;
     BeliefPropagation field(shape, memory);
     std::vector<float> data;
     fill(field, shape, random, data);
@@ -135,7 +135,7 @@ TEST(BeliefPropagation, ClosesTheRingWhereItIsCyclic) {
   // One certain node at each side of the seam; the nodes between take over what the near one says.
   for (const bool cyclic : {false, true}) {
     const BeliefPropagation::Shape shape{1, 8, 2, cyclic};
-    rt::FixedMemory memory;
+    memory::FixedMemory memory;
     BeliefPropagation field(shape, memory);
     field.set_step_within_row(0, {1, 0, 1});
     field.data_cost(0, 0)[0] = 10;   // wants label 1
@@ -151,7 +151,7 @@ TEST(BeliefPropagation, ClosesTheRingWhereItIsCyclic) {
 
 TEST(BeliefPropagation, FillsNodesThatKnowNothingFromTheirNeighbours) {
   const BeliefPropagation::Shape shape{9, 9, 16, false};
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   BeliefPropagation field(shape, memory);
   for (int row = 0; row < shape.rows; ++row) {
     field.set_step_within_row(row, {1, 0, 4});
@@ -175,7 +175,7 @@ TEST(BeliefPropagation, FillsNodesThatKnowNothingFromTheirNeighbours) {
 
 TEST(BeliefPropagation, KeepsASteepStepWhereBothSidesAreSure) {
   const BeliefPropagation::Shape shape{1, 20, 32, false};
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   BeliefPropagation field(shape, memory);
   field.set_step_within_row(0, {1, 1, 3});
   for (int column = 0; column < shape.columns; ++column) {
@@ -192,4 +192,4 @@ TEST(BeliefPropagation, KeepsASteepStepWhereBothSidesAreSure) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/pipeline/baselines/rival_scenes.hpp"
+#include "rival_scenes.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
 struct ColumnAnglesOnScenes : testing::Test, test::RivalScene {
@@ -26,7 +26,7 @@ struct ColumnAnglesOnScenes : testing::Test, test::RivalScene {
     return static_cast<std::size_t>(row * kShape.stride() + column);
   }
   std::optional<ColumnAngles> angles;
-  SegmentationReport report;
+  stage::SegmentationReport report;
 };
 
 TEST_F(ColumnAnglesOnScenes, FlatGroundIsFlatAndAllGround) {
@@ -44,9 +44,9 @@ TEST_F(ColumnAnglesOnScenes, TheAngleOfASlopeIsItsInclination) {
 TEST_F(ColumnAnglesOnScenes, AWallStandsAtNinetyDegreesAndIsAnObstacle) {
   segment(test::ground_with_boxes({{12, 12.5, -4, 4, 0, 2}}));
   const auto wall = [](float x, float, float z) { return x > 11.9F && x < 12.1F && z > 0.4F; };
-  EXPECT_EQ(share(angles->labels(), Label::kObstacle, wall), 1.0);
+  EXPECT_EQ(share(angles->labels(), frame::Label::kObstacle, wall), 1.0);
   const auto road = [](float x, float, float z) { return x < 9 && z < 0.01F; };
-  EXPECT_EQ(share(angles->labels(), Label::kGround, road), 1.0);
+  EXPECT_EQ(share(angles->labels(), frame::Label::kGround, road), 1.0);
   int row = 0;
   while (image.z_m()[cell(row, 0)] < 1.0F) ++row;
   EXPECT_NEAR(angles->angle_deg()[cell(row, 0)], 90, 1.5);
@@ -73,7 +73,7 @@ TEST_F(ColumnAnglesOnScenes, TheRoofOfAVehicleIsTakenForGroundWhereAGentleWayLea
   ColumnAngles::Config loose;
   loose.same_ground_deg = 20;
   segment(ramp_to_roof, loose);
-  EXPECT_GT(share(angles->labels(), Label::kGround, roof), 0.9);
+  EXPECT_GT(share(angles->labels(), frame::Label::kGround, roof), 0.9);
 }
 
 TEST_F(ColumnAnglesOnScenes, AFlatTopWithoutAWayUpIsNotReached) {
@@ -85,7 +85,7 @@ TEST_F(ColumnAnglesOnScenes, AFlatTopWithoutAWayUpIsNotReached) {
   // Its sides are steps of nearly 90 degrees up the columns; along the rows the neighbours of the
   // roof are ground behind it, flat as well: they let it in. This is the calculation range that is
   // too small, of which the paper speaks.
-  EXPECT_GT(share(angles->labels(), Label::kGround, roof), 0.9);
+  EXPECT_GT(share(angles->labels(), frame::Label::kGround, roof), 0.9);
 }
 
 TEST_F(ColumnAnglesOnScenes, GroundDoesNotStartOnAnythingSteep) {
@@ -93,7 +93,7 @@ TEST_F(ColumnAnglesOnScenes, GroundDoesNotStartOnAnythingSteep) {
   cast(test::ground_with_boxes({{3, 3.5, -40, 40, 0, 2}}));
   segment(test::ground_with_boxes({{3, 3.5, -40, 40, 0, 2}}));
   const auto ahead = [](float x, float, float z) { return x > 2.9F && x < 3.1F && z > 0.6F; };
-  EXPECT_EQ(share(angles->labels(), Label::kObstacle, ahead), 1.0);
+  EXPECT_EQ(share(angles->labels(), frame::Label::kObstacle, ahead), 1.0);
 }
 
 TEST_F(ColumnAnglesOnScenes, AHoleIsBridgedBetweenNearRanges) {
@@ -136,4 +136,4 @@ TEST_F(ColumnAnglesOnScenes, TheSeamOfTheTurnIsNoEdge) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

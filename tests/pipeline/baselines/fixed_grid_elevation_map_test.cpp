@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/pipeline/baselines/rival_scenes.hpp"
+#include "rival_scenes.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
 using SquareKind = FixedGridElevationMap::SquareKind;
@@ -23,7 +23,7 @@ struct FixedGridOnScenes : testing::Test, test::RivalScene {
     return *map;
   }
   std::optional<FixedGridElevationMap> map;
-  SegmentationReport report;
+  stage::SegmentationReport report;
 };
 
 TEST_F(FixedGridOnScenes, FlatGroundIsLevelEverywhereAndAllGround) {
@@ -42,9 +42,9 @@ TEST_F(FixedGridOnScenes, AWallIsAVerticalObjectWhoseFootIsTheElevation) {
   EXPECT_NEAR(square.elevation_m, 0, 0.06);
   EXPECT_TRUE(std::isinf(square.overhang_m));
   const auto high = [](float, float, float z) { return z > 0.35F; };
-  EXPECT_EQ(share(map->labels(), Label::kObstacle, high), 1.0);
+  EXPECT_EQ(share(map->labels(), frame::Label::kObstacle, high), 1.0);
   const auto road = [](float x, float, float z) { return x < 11 && z < 0.01F; };
-  EXPECT_EQ(share(map->labels(), Label::kGround, road), 1.0);
+  EXPECT_EQ(share(map->labels(), frame::Label::kGround, road), 1.0);
 }
 
 TEST_F(FixedGridOnScenes, ABridgeHangsOverTheRoadWhichStaysGround) {
@@ -53,11 +53,11 @@ TEST_F(FixedGridOnScenes, ABridgeHangsOverTheRoadWhichStaysGround) {
   wide.cell_m = 2.0F;
   segment(test::ground_with_boxes({{20, 24, -10, 10, 2.4, 2.6}}), wide);
   const auto overhead = [](float, float, float z) { return z > 1.0F; };
-  EXPECT_EQ(share(map->labels(), Label::kObstacle, overhead), 1.0);
+  EXPECT_EQ(share(map->labels(), frame::Label::kObstacle, overhead), 1.0);
   const auto road = [](float x, float y, float z) {
     return x > 19 && x < 25 && std::fabs(y) < 9 && z < 0.01F;
   };
-  EXPECT_EQ(share(map->labels(), Label::kGround, road), 1.0);
+  EXPECT_EQ(share(map->labels(), frame::Label::kGround, road), 1.0);
 }
 
 TEST_F(FixedGridOnScenes, AGapTheVehicleFitsThroughSeparatesWhatHangsOver) {
@@ -108,7 +108,7 @@ TEST_F(FixedGridOnScenes, ARoofAloneInItsSquareIsTakenForGround) {
   const auto inner_roof = [](float x, float y, float z) {
     return x > 9 && x < 11.5F && std::fabs(y) < 0.9F && z > 1.45F;
   };
-  EXPECT_EQ(share(map->labels(), Label::kGround, inner_roof), 1.0);
+  EXPECT_EQ(share(map->labels(), frame::Label::kGround, inner_roof), 1.0);
 }
 
 TEST_F(FixedGridOnScenes, ReturnsBeyondTheMapBelongToItsEdge) {
@@ -121,4 +121,4 @@ TEST_F(FixedGridOnScenes, ReturnsBeyondTheMapBelongToItsEdge) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -7,9 +7,9 @@
 #include <cmath>
 #include <optional>
 
-#include "tests/pipeline/baselines/rival_scenes.hpp"
+#include "rival_scenes.hpp"
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
 struct HeightFieldOnScenes : testing::Test, test::RivalScene {
@@ -20,7 +20,7 @@ struct HeightFieldOnScenes : testing::Test, test::RivalScene {
     return *field;
   }
   std::optional<HeightFieldMrf> field;
-  SegmentationReport report;
+  stage::SegmentationReport report;
 };
 
 TEST_F(HeightFieldOnScenes, FlatGroundIsAllGroundAndLevelWhereNothingIsSeen) {
@@ -37,16 +37,16 @@ TEST_F(HeightFieldOnScenes, ASlopeIsFollowed) {
   EXPECT_NEAR(field->ground_m(500, 10.5F), -0.8, 0.15);  // behind, downhill
   // Within the heights there are to choose from.
   const auto near = [](float x, float y, float) { return std::hypot(x, y) < 35; };
-  EXPECT_GT(share(field->labels(), Label::kGround, near), 0.99);
+  EXPECT_GT(share(field->labels(), frame::Label::kGround, near), 0.99);
 }
 
 TEST_F(HeightFieldOnScenes, AWallIsAnObstacleOnLevelGround) {
   segment(test::ground_with_boxes({{12, 13, -4, 4, 0, 2}}));
   EXPECT_NEAR(field->ground_m(0, 12.2F), 0, 0.11);
   const auto wall = [](float, float, float z) { return z > 0.4F; };
-  EXPECT_EQ(share(field->labels(), Label::kObstacle, wall), 1.0);
+  EXPECT_EQ(share(field->labels(), frame::Label::kObstacle, wall), 1.0);
   const auto road = [](float, float, float z) { return z < 0.01F; };
-  EXPECT_EQ(share(field->labels(), Label::kGround, road), 1.0);
+  EXPECT_EQ(share(field->labels(), frame::Label::kGround, road), 1.0);
 }
 
 TEST_F(HeightFieldOnScenes, TheRoofOfACarIsNotGroundBecauseTheRoadAroundItIs) {
@@ -56,12 +56,12 @@ TEST_F(HeightFieldOnScenes, TheRoofOfACarIsNotGroundBecauseTheRoadAroundItIs) {
     return x > 8.2F && x < 11.8F && std::fabs(y) < 0.9F && z > 1.45F;
   };
   segment(car);
-  EXPECT_EQ(share(field->labels(), Label::kObstacle, roof), 1.0);
+  EXPECT_EQ(share(field->labels(), frame::Label::kObstacle, roof), 1.0);
   // It is the neighbours that say so: every cell by itself takes the roof for ground.
   HeightFieldMrf::Config alone;
   alone.iterations = 0;
   segment(car, alone);
-  EXPECT_GT(share(field->labels(), Label::kGround, roof), 0.4);
+  EXPECT_GT(share(field->labels(), frame::Label::kGround, roof), 0.4);
 }
 
 TEST_F(HeightFieldOnScenes, AWideTerraceIsGroundThoughItIsAStepUp) {
@@ -71,7 +71,7 @@ TEST_F(HeightFieldOnScenes, AWideTerraceIsGroundThoughItIsAStepUp) {
   const auto terrace = [](float x, float y, float z) {
     return x > 16 && x < 30 && std::fabs(y) < 10 && z > 1.15F;
   };
-  EXPECT_GT(share(field->labels(), Label::kGround, terrace), 0.95);
+  EXPECT_GT(share(field->labels(), frame::Label::kGround, terrace), 0.95);
 }
 
 TEST_F(HeightFieldOnScenes, NoGroundIsAboveABeamThatPassedThrough) {
@@ -97,10 +97,11 @@ TEST_F(HeightFieldOnScenes, HeightsBeyondTheListAreObstaclesOrGroundByTheNearest
   few.height_labels = 8;  // -0.4 .. 0.3 m
   segment(test::ground_with_boxes({{12, 13, -4, 4, 0, 3}}), few);
   const auto high = [](float, float, float z) { return z > 1.0F; };
-  EXPECT_EQ(share(field->labels(), Label::kObstacle, high), 1.0);
-  EXPECT_EQ(share(field->labels(), Label::kGround, [](float, float, float z) { return z < 0.01F; }),
+  EXPECT_EQ(share(field->labels(), frame::Label::kObstacle, high), 1.0);
+  EXPECT_EQ(share(field->labels(), frame::Label::kGround,
+                  [](float, float, float z) { return z < 0.01F; }),
             1.0);
 }
 
 }  // namespace
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

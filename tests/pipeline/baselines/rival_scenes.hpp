@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/label.hpp"
-#include "pipeline/range_image.hpp"
-#include "rt/fixed_memory.hpp"
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "rt/memory/fixed_memory.hpp"
 #include "tests/support/synthetic_turn.hpp"
 
 namespace terracut::test {
@@ -63,16 +63,16 @@ inline BeamCast sloping_ground(double slope, double height_m = 1.73) {
 
 /// One synthetic turn, and what a method made of it.
 struct RivalScene {
-  static constexpr pipeline::ImageShape kShape{64, 1000};
+  static constexpr frame::ImageShape kShape{64, 1000};
 
-  rt::FixedMemory memory;
-  calib::RingProfile profile = even_profile();
-  pipeline::RangeImage image{kShape, 1000, memory};
+  memory::FixedMemory memory;
+  mount::RingProfile profile = even_profile();
+  frame::RangeImage image{kShape, 1000, memory};
 
   void cast(const BeamCast& beams) { cast_turn(profile, beams, image); }
 
   /// Share of the returns `of` picks by x, y, z that carry `label`; -1 where it picks none.
-  double share(std::span<const pipeline::Label> labels, pipeline::Label label,
+  double share(std::span<const frame::Label> labels, frame::Label label,
                const std::function<bool(float, float, float)>& of) const {
     int all = 0, hits = 0;
     for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace terracut::pipeline {
+namespace terracut::baselines {
 namespace {
 
 double filtered(const SavitzkyGolay& filter, double (*of)(double), double at) {
@@ -54,4 +54,4 @@ TEST(SavitzkyGolay, TakesAnEvenWindowForTheNextOddOne) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline
+}  // namespace terracut::baselines

@@ -1,24 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/pipeline/min_cut/adversarial_problems.hpp"
+#include "adversarial_problems.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
-constexpr int kStrong = kCapacityScale;
+constexpr int kStrong = min_cut::kCapacityScale;
 
 /// Unknown everywhere; weight(random) gives each edge.
 template <class Weight>
-TestProblem all_unknown(ImageShape shape, Random& random, Weight&& weight) {
+TestProblem all_unknown(frame::ImageShape shape, Random& random, Weight&& weight) {
   TestProblem problem(shape);
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
-    problem.seeds[p] = Seed::kUnknown;
-    for (int d = 4; d < kDirections; ++d) problem.set_weight(row, column, d, weight(random));
+    problem.seeds[p] = min_cut::Seed::kUnknown;
+    for (int d = 4; d < min_cut::kDirections; ++d)
+      problem.set_weight(row, column, d, weight(random));
   });
   return problem;
 }
@@ -34,7 +35,7 @@ void give_excess(TestProblem& problem, std::uint32_t p, int excess) {
   problem.cost_obstacle[p] = std::max(0, -excess);
 }
 
-TestProblem random_terminals_random_weights(ImageShape shape) {
+TestProblem random_terminals_random_weights(frame::ImageShape shape) {
   Random random(101);
   TestProblem problem = all_unknown(shape, random, any_weight);
   problem.for_each_cell([&](int, int, std::uint32_t p) {
@@ -43,7 +44,7 @@ TestProblem random_terminals_random_weights(ImageShape shape) {
   return problem;
 }
 
-TestProblem random_terminals_equal_weights(ImageShape shape) {
+TestProblem random_terminals_equal_weights(frame::ImageShape shape) {
   Random random(102);
   TestProblem problem = all_unknown(shape, random, full_weight);
   problem.for_each_cell([&](int, int, std::uint32_t p) {
@@ -52,47 +53,49 @@ TestProblem random_terminals_equal_weights(ImageShape shape) {
   return problem;
 }
 
-TestProblem checkerboard_seeds(ImageShape shape) {
+TestProblem checkerboard_seeds(frame::ImageShape shape) {
   Random random(103);
   TestProblem problem = all_unknown(shape, random, any_weight);
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
     if (row % 2 != 0 || column % 2 != 0) return;
-    problem.seeds[p] = (row / 2 + column / 2) % 2 == 0 ? Seed::kGround : Seed::kObstacle;
+    problem.seeds[p] =
+        (row / 2 + column / 2) % 2 == 0 ? min_cut::Seed::kGround : min_cut::Seed::kObstacle;
   });
   return problem;
 }
 
-TestProblem top_to_bottom(ImageShape shape) {
+TestProblem top_to_bottom(frame::ImageShape shape) {
   Random random(104);
   TestProblem problem = all_unknown(shape, random, any_weight);
   problem.for_each_cell([&](int row, int, std::uint32_t p) {
-    if (row == 0) problem.seeds[p] = Seed::kGround;
-    if (row + 1 == shape.rows) problem.seeds[p] = Seed::kObstacle;
+    if (row == 0) problem.seeds[p] = min_cut::Seed::kGround;
+    if (row + 1 == shape.rows) problem.seeds[p] = min_cut::Seed::kObstacle;
   });
   return problem;
 }
 
-TestProblem left_to_right(ImageShape shape) {
+TestProblem left_to_right(frame::ImageShape shape) {
   Random random(105);
   TestProblem problem = all_unknown(shape, random, any_weight);
   problem.for_each_cell([&](int, int column, std::uint32_t p) {
-    if (column == 0) problem.seeds[p] = Seed::kGround;
-    if (column == shape.columns / 2) problem.seeds[p] = Seed::kObstacle;
+    if (column == 0) problem.seeds[p] = min_cut::Seed::kGround;
+    if (column == shape.columns / 2) problem.seeds[p] = min_cut::Seed::kObstacle;
   });
   return problem;
 }
 
-TestProblem sparse_far_seeds(ImageShape shape) {
+TestProblem sparse_far_seeds(frame::ImageShape shape) {
   Random random(106);
   TestProblem problem = all_unknown(shape, random, any_weight);
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
     if (row % 16 != 8 || column % 32 != 16) return;
-    problem.seeds[p] = (row / 16 + column / 32) % 2 == 0 ? Seed::kGround : Seed::kObstacle;
+    problem.seeds[p] =
+        (row / 16 + column / 32) % 2 == 0 ? min_cut::Seed::kGround : min_cut::Seed::kObstacle;
   });
   return problem;
 }
 
-TestProblem equal_weights_sparse_terminals(ImageShape shape) {
+TestProblem equal_weights_sparse_terminals(frame::ImageShape shape) {
   Random random(107);
   TestProblem problem = all_unknown(shape, random, full_weight);
   problem.for_each_cell([&](int, int, std::uint32_t p) {
@@ -104,7 +107,7 @@ TestProblem equal_weights_sparse_terminals(ImageShape shape) {
 
 /// A corridor, two rows wide, that winds through the image between walls of holes. Sources in its
 /// first third, sinks in its last.
-TestProblem serpentine(ImageShape shape) {
+TestProblem serpentine(frame::ImageShape shape) {
   Random random(108);
   TestProblem problem = all_unknown(shape, random, any_weight);
   const int bands = (shape.rows + 2) / 3;
@@ -112,7 +115,7 @@ TestProblem serpentine(ImageShape shape) {
     const int band = row / 3;
     const bool gate = band % 2 == 0 ? column == shape.columns - 2 : column == 1;
     const bool side_wall = column == 0 || column == shape.columns - 1;
-    if (side_wall || (row % 3 == 2 && !gate)) problem.seeds[p] = Seed::kNone;
+    if (side_wall || (row % 3 == 2 && !gate)) problem.seeds[p] = min_cut::Seed::kNone;
     if (3 * band < bands) give_excess(problem, p, uniform(random, 0, 40));
     if (3 * band >= 2 * bands) give_excess(problem, p, -uniform(random, 0, 40));
   });
@@ -120,14 +123,14 @@ TestProblem serpentine(ImageShape shape) {
 }
 
 /// Strong blocks joined by weak edges, sources and sinks in turn.
-TestProblem two_level(ImageShape shape) {
+TestProblem two_level(frame::ImageShape shape) {
   Random random(109);
   TestProblem problem(shape);
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
-    problem.seeds[p] = Seed::kUnknown;
+    problem.seeds[p] = min_cut::Seed::kUnknown;
     const auto block = [](int r, int c) { return std::pair{r / 8, c / 8}; };
-    for (int d = 4; d < kDirections; ++d) {
-      const CellStep step = kCellSteps[static_cast<std::size_t>(d)];
+    for (int d = 4; d < min_cut::kDirections; ++d) {
+      const min_cut::CellStep step = min_cut::kCellSteps[static_cast<std::size_t>(d)];
       const bool inside = block(row, column) == block(row + step.rows, column + step.columns);
       problem.set_weight(row, column, d, inside ? kStrong : uniform(random, 1, 64));
     }
@@ -152,7 +155,7 @@ constexpr std::array<AdversarialFamily, 9> kFamilies{{
 /// Smooth noise in [-1, 1]: random values on a coarse lattice, cyclic in columns, blended between.
 class Noise {
  public:
-  Noise(ImageShape shape, int row_step, int column_step, Random& random)
+  Noise(frame::ImageShape shape, int row_step, int column_step, Random& random)
       : row_step_(row_step),
         column_step_(column_step),
         lattice_columns_(shape.columns / column_step) {
@@ -181,7 +184,7 @@ std::span<const AdversarialFamily> adversarial_families() {
   return kFamilies;
 }
 
-TestProblem typical_problem(ImageShape shape, std::uint32_t seed) {
+TestProblem typical_problem(frame::ImageShape shape, std::uint32_t seed) {
   Random random(seed);
   const Noise objects(shape, 8, 24, random), detail(shape, 3, 6, random);
   TestProblem problem(shape);
@@ -189,27 +192,27 @@ TestProblem typical_problem(ImageShape shape, std::uint32_t seed) {
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
     const float shape_height = objects(row, column) + 0.35F * detail(row, column);
     height[p] = shape_height + static_cast<float>(uniform(random, -100, 100)) / 1000.0F;
-    problem.seeds[p] = shape_height < 0.12F   ? Seed::kGround
-                       : shape_height > 0.24F ? Seed::kObstacle
-                                              : Seed::kUnknown;
-    if (uniform(random, 0, 99) < 12) problem.seeds[p] = Seed::kNone;
+    problem.seeds[p] = shape_height < 0.12F   ? min_cut::Seed::kGround
+                       : shape_height > 0.24F ? min_cut::Seed::kObstacle
+                                              : min_cut::Seed::kUnknown;
+    if (uniform(random, 0, 99) < 12) problem.seeds[p] = min_cut::Seed::kNone;
     give_excess(problem, p,
                 static_cast<int>(3200.0F * (height[p] - 0.18F)) + uniform(random, -200, 200));
     problem.ground_range_m[p] = 3.0F + static_cast<float>(row * row) / 50.0F;
-    problem.coarse[p] = height[p] > 0.18F ? Label::kObstacle : Label::kGround;
+    problem.coarse[p] = height[p] > 0.18F ? frame::Label::kObstacle : frame::Label::kGround;
   });
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
-    for (int d = 4; d < kDirections; ++d) {
-      const CellStep step = kCellSteps[static_cast<std::size_t>(d)];
+    for (int d = 4; d < min_cut::kDirections; ++d) {
+      const min_cut::CellStep step = min_cut::kCellSteps[static_cast<std::size_t>(d)];
       if (row + step.rows >= shape.rows) continue;
       const float difference =
           height[p] - height[problem.cell(row + step.rows, column + step.columns)];
       const float weight = std::exp(-40.0F * difference * difference);
       problem.set_weight(row, column, d,
-                         static_cast<int>(static_cast<float>(kCapacityScale) * weight));
+                         static_cast<int>(static_cast<float>(min_cut::kCapacityScale) * weight));
     }
   });
   return problem;
 }
 
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

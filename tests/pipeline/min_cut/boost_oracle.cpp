@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/pipeline/min_cut/boost_oracle.hpp"
+#include "boost_oracle.hpp"
 
 #include <algorithm>
 #include <boost/graph/adjacency_list.hpp>
@@ -9,7 +9,7 @@
 #include <deque>
 #include <limits>
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 using Traits = boost::adjacency_list_traits<boost::vecS, boost::vecS, boost::directedS>;
@@ -35,22 +35,22 @@ Optimum boost_optimum(const TestProblem& problem) {
   Graph graph(source + 2);
   constexpr std::int64_t kHard = std::numeric_limits<std::int32_t>::max();
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
-    const Seed seed = problem.seeds[p];
-    if (seed == Seed::kNone) return;
-    if (seed == Seed::kUnknown) {
+    const min_cut::Seed seed = problem.seeds[p];
+    if (seed == min_cut::Seed::kNone) return;
+    if (seed == min_cut::Seed::kUnknown) {
       add_arcs(graph, source, p, problem.cost_ground[p], 0);
       add_arcs(graph, p, sink, problem.cost_obstacle[p], 0);
-    } else if (seed == Seed::kObstacle) {
+    } else if (seed == min_cut::Seed::kObstacle) {
       add_arcs(graph, source, p, kHard, 0);
     } else {
       add_arcs(graph, p, sink, kHard, 0);
     }
-    for (int d = 4; d < kDirections; ++d) {
-      const CellStep step = kCellSteps[static_cast<std::size_t>(d)];
+    for (int d = 4; d < min_cut::kDirections; ++d) {
+      const min_cut::CellStep step = min_cut::kCellSteps[static_cast<std::size_t>(d)];
       if (row + step.rows >= problem.shape.rows) continue;
       const std::uint32_t q = problem.cell(row + step.rows, column + step.columns);
-      if (problem.seeds[q] == Seed::kNone) continue;
-      if (seed != Seed::kUnknown && problem.seeds[q] != Seed::kUnknown) continue;
+      if (problem.seeds[q] == min_cut::Seed::kNone) continue;
+      if (seed != min_cut::Seed::kUnknown && problem.seeds[q] != min_cut::Seed::kUnknown) continue;
       const int weight = problem.weight[p][static_cast<std::size_t>(d)];
       add_arcs(graph, p, q, weight, weight);
     }
@@ -80,10 +80,10 @@ Optimum boost_optimum(const TestProblem& problem) {
       open.push_back(other);
     }
   }
-  optimum.labels.assign(problem.shape.cells(), Label::kNone);
+  optimum.labels.assign(problem.shape.cells(), frame::Label::kNone);
   problem.for_each_cell([&](int, int, std::uint32_t p) {
-    if (problem.seeds[p] == Seed::kNone) return;
-    optimum.labels[p] = reaches_sink[p] ? Label::kGround : Label::kObstacle;
+    if (problem.seeds[p] == min_cut::Seed::kNone) return;
+    optimum.labels[p] = reaches_sink[p] ? frame::Label::kGround : frame::Label::kObstacle;
   });
   return optimum;
 }
@@ -91,15 +91,16 @@ Optimum boost_optimum(const TestProblem& problem) {
 Optimum exhaustive_optimum(const TestProblem& problem) {
   std::vector<std::uint32_t> unknown;
   problem.for_each_cell([&](int, int, std::uint32_t p) {
-    if (problem.seeds[p] == Seed::kUnknown) unknown.push_back(p);
+    if (problem.seeds[p] == min_cut::Seed::kUnknown) unknown.push_back(p);
   });
-  std::vector<Label> labels = problem.coarse_labelling();
+  std::vector<frame::Label> labels = problem.coarse_labelling();
   Optimum best;
   best.energy = std::numeric_limits<std::int64_t>::max();
   int most_obstacles = -1;
   for (std::uint32_t choice = 0; choice < (1U << unknown.size()); ++choice) {
     for (std::size_t i = 0; i < unknown.size(); ++i) {
-      labels[unknown[i]] = ((choice >> i) & 1U) != 0 ? Label::kObstacle : Label::kGround;
+      labels[unknown[i]] =
+          ((choice >> i) & 1U) != 0 ? frame::Label::kObstacle : frame::Label::kGround;
     }
     const std::int64_t energy = problem.energy(labels);
     const int obstacles = std::popcount(choice);
@@ -110,4 +111,4 @@ Optimum exhaustive_optimum(const TestProblem& problem) {
   return best;
 }
 
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

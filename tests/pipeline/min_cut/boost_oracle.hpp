@@ -5,19 +5,19 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/pipeline/min_cut/test_problem.hpp"
+#include "test_problem.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 
 /// What an independent solver (Boost.Graph's boykov_kolmogorov_max_flow) says of the whole problem,
 /// hard seeds as nodes, no reduction of any kind.
 struct Optimum {
   std::int64_t energy = 0;
-  std::vector<Label> labels;  ///< Of the minimum cut with the most obstacle cells.
+  std::vector<frame::Label> labels;  ///< Of the minimum cut with the most obstacle cells.
 };
 Optimum boost_optimum(const TestProblem& problem);
 
 /// The same by trying every labelling. At most 16 unknown cells.
 Optimum exhaustive_optimum(const TestProblem& problem);
 
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

@@ -3,11 +3,11 @@
 // Families of problems that are hard for one solver or another, at the size of the default cap.
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/min_cut/adversarial_problems.hpp"
-#include "tests/pipeline/min_cut/boost_oracle.hpp"
-#include "tests/pipeline/min_cut/solving.hpp"
+#include "adversarial_problems.hpp"
+#include "boost_oracle.hpp"
+#include "solving.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 class GridCutAdversarial : public testing::TestWithParam<AdversarialFamily> {};
@@ -16,7 +16,7 @@ std::string name_of(const testing::TestParamInfo<AdversarialFamily>& info) {
   return std::string(info.param.name);
 }
 
-std::int64_t solver_ops(const CutReport& report) {
+std::int64_t solver_ops(const min_cut::CutReport& report) {
   return report.boykov_kolmogorov_ops + report.push_relabel_ops;
 }
 
@@ -43,8 +43,8 @@ TEST_P(GridCutAdversarial, PushRelabelAloneIsExactToo) {
 
 TEST_P(GridCutAdversarial, TheDefaultBudgetIsKept) {
   const TestProblem problem = GetParam().make({64, 256});
-  const Solution solution = solve(problem, {}, CutBudget{});
-  EXPECT_LT(solver_ops(solution.report), CutBudget::kDefaultOps * 11 / 10);
+  const Solution solution = solve(problem, {}, min_cut::CutBudget{});
+  EXPECT_LT(solver_ops(solution.report), min_cut::CutBudget::kDefaultOps * 11 / 10);
   EXPECT_LE(problem.energy(solution.labels), problem.energy(problem.coarse_labelling()));
   if (solution.report.discarded) {
     EXPECT_EQ(solution.labels, problem.coarse_labelling());
@@ -71,7 +71,7 @@ INSTANTIATE_TEST_SUITE_P(Families, GridCutAdversarial,
 
 TEST(GridCutTypical, StaysBelowItsCeilingOfOperations) {
   const TestProblem problem = typical_problem({64, 2083}, 1);
-  const Solution solution = solve(problem, {}, CutBudget{});
+  const Solution solution = solve(problem, {}, min_cut::CutBudget{});
   ASSERT_TRUE(solution.report.exact());
   EXPECT_EQ(solution.report.push_relabel_runs, 0U);
   EXPECT_LT(solver_ops(solution.report), 80'000);
@@ -88,4 +88,4 @@ TEST(GridCutTypical, EqualsAnIndependentSolver) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

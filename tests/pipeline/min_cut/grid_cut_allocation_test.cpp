@@ -2,10 +2,10 @@
 // Copyright 2026 The terracut authors
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/min_cut/solving.hpp"
+#include "solving.hpp"
 #include "tests/support/allocation_counter.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 using terracut::test::allocations_of_this_thread;
@@ -14,21 +14,21 @@ TEST(GridCutMemory, SolvingAllocatesNothing) {
   if (!terracut::test::allocations_are_counted())
     GTEST_SKIP() << "sanitizers bring their own allocator";
   Random random(31);
-  const ImageShape shape{32, 128};
+  const frame::ImageShape shape{32, 128};
   const TestProblem problem =
       random_problem(shape, {.ground_seeds = 5, .obstacle_seeds = 5}, random);
-  GridCut::Config config = push_relabel_only();
+  min_cut::GridCut::Config config = push_relabel_only();
   config.max_unknown = 2000;  // the cap, both solvers and the certificate all have their turn
   config.least_finished = 0;
-  rt::FixedMemory memory;
-  GridCut cut(shape, config, memory);
+  memory::FixedMemory memory;
+  min_cut::GridCut cut(shape, config, memory);
   const std::size_t bytes_planned = memory.total_bytes();
-  std::vector<Label> labels = problem.coarse_labelling();
-  std::vector<Label> again = labels;
+  std::vector<frame::Label> labels = problem.coarse_labelling();
+  std::vector<frame::Label> again = labels;
 
   const std::uint64_t before = allocations_of_this_thread();
-  const CutReport whole = cut.solve(problem.view(), problem.weights(), kNoLimit, labels);
-  const CutReport stopped = cut.solve(problem.view(), problem.weights(), {3000}, again);
+  const min_cut::CutReport whole = cut.solve(problem.view(), problem.weights(), kNoLimit, labels);
+  const min_cut::CutReport stopped = cut.solve(problem.view(), problem.weights(), {3000}, again);
   const std::uint64_t after = allocations_of_this_thread();
 
   EXPECT_EQ(after, before);
@@ -40,15 +40,15 @@ TEST(GridCutMemory, SolvingAllocatesNothing) {
 
 TEST(GridCutMemory, IsPlannedByTheCapNotByTheWorstFrame) {
   const auto bytes = [](std::uint32_t max_unknown) {
-    rt::FixedMemory memory;
-    GridCut cut({64, 2083}, {.max_unknown = max_unknown}, memory);
+    memory::FixedMemory memory;
+    min_cut::GridCut cut({64, 2083}, {.max_unknown = max_unknown}, memory);
     return memory.total_bytes();
   };
   const std::size_t extra = bytes(16'384) - bytes(8'192);
-  EXPECT_GE(extra, 8'192 * sizeof(CutNode));
-  EXPECT_LT(extra, 8'192 * (sizeof(CutNode) + 80)) << "lists cost more than the nodes";
+  EXPECT_GE(extra, 8'192 * sizeof(min_cut::CutNode));
+  EXPECT_LT(extra, 8'192 * (sizeof(min_cut::CutNode) + 80)) << "lists cost more than the nodes";
   EXPECT_EQ(bytes(64 * 2096), bytes(1'000'000)) << "more nodes than cells are never needed";
 }
 
 }  // namespace
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

@@ -6,26 +6,26 @@
 #include <algorithm>
 #include <set>
 
-#include "tests/pipeline/min_cut/boost_oracle.hpp"
-#include "tests/pipeline/min_cut/solving.hpp"
+#include "boost_oracle.hpp"
+#include "solving.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 constexpr RandomRecipe kManyHoles{.holes = 45, .ground_seeds = 5, .obstacle_seeds = 5};
 
-std::uint32_t exact_cells(const CutReport& report) {
+std::uint32_t exact_cells(const min_cut::CutReport& report) {
   return report.fixed_by_persistency + report.solved;
 }
 
 void expect_consistent(const TestProblem& problem, const Solution& solution) {
-  const CutReport& r = solution.report;
+  const min_cut::CutReport& r = solution.report;
   ASSERT_EQ(r.unknown, problem.unknown());
   ASSERT_EQ(r.unknown,
             r.fixed_by_persistency + r.solved + r.certified + r.coarse_by_cap + r.coarse_by_budget);
   ASSERT_EQ(solution.coarse_cells.size(), r.coarse_by_cap + r.coarse_by_budget);
   for (const std::uint32_t cell : solution.coarse_cells) {
-    ASSERT_EQ(problem.seeds[cell], Seed::kUnknown);
+    ASSERT_EQ(problem.seeds[cell], min_cut::Seed::kUnknown);
     ASSERT_EQ(solution.labels[cell], problem.coarse[cell]);
   }
 }
@@ -36,7 +36,8 @@ TEST(GridCutAnytime, AnyBudgetGivesAnEnergyBetweenOptimumAndCoarse) {
   for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
-    const GridCut::Config config = keep_all(i % 2 == 0 ? GridCut::Config{} : push_relabel_only());
+    const min_cut::GridCut::Config config =
+        keep_all(i % 2 == 0 ? min_cut::GridCut::Config{} : push_relabel_only());
     const Solution best = solve(problem, config);
     const Solution solution = solve(problem, config, {uniform(random, 0, 1500)});
     ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
@@ -55,7 +56,8 @@ TEST(GridCutAnytime, EveryCellNotCoarseIsPartOfOneOptimum) {
   for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     TestProblem problem = any_problem(random);
-    const GridCut::Config config = keep_all(i % 2 == 0 ? GridCut::Config{} : push_relabel_only());
+    const min_cut::GridCut::Config config =
+        keep_all(i % 2 == 0 ? min_cut::GridCut::Config{} : push_relabel_only());
     const Solution solution = solve(problem, config, {uniform(random, 0, 1500)});
     certified += solution.report.certified;
     const std::int64_t optimum = boost_optimum(problem).energy;
@@ -63,9 +65,9 @@ TEST(GridCutAnytime, EveryCellNotCoarseIsPartOfOneOptimum) {
     const std::set<std::uint32_t> coarse(solution.coarse_cells.begin(),
                                          solution.coarse_cells.end());
     problem.for_each_cell([&](int, int, std::uint32_t p) {
-      if (problem.seeds[p] != Seed::kUnknown || coarse.contains(p)) return;
-      (solution.labels[p] == Label::kObstacle ? problem.cost_ground : problem.cost_obstacle)[p] =
-          1 << 24;
+      if (problem.seeds[p] != min_cut::Seed::kUnknown || coarse.contains(p)) return;
+      (solution.labels[p] == frame::Label::kObstacle ? problem.cost_ground
+                                                     : problem.cost_obstacle)[p] = 1 << 24;
     });
     ASSERT_EQ(boost_optimum(problem).energy, optimum);
   }
@@ -103,7 +105,7 @@ TEST(GridCutAnytime, TheNearestComponentIsSolvedFirst) {
   TestProblem problem({5, 32});
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
     if (row != 0 && row != 4) return;
-    problem.seeds[p] = Seed::kUnknown;
+    problem.seeds[p] = min_cut::Seed::kUnknown;
     problem.ground_range_m[p] = row == 0 ? 50.0F : 5.0F;
     problem.cost_ground[p] = column % 4 == 0 ? 100 : 0;
     problem.cost_obstacle[p] = column % 4 == 2 ? 101 : 0;
@@ -125,7 +127,7 @@ TEST(GridCutAnytime, BeyondTheCapTheFarthestStayCoarse) {
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
-    GridCut::Config config;
+    min_cut::GridCut::Config config;
     config.max_unknown = static_cast<std::uint32_t>(uniform(random, 0, 200));
     const Solution solution = solve(problem, config);
     ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
@@ -138,10 +140,11 @@ TEST(GridCutAnytime, BeyondTheCapTheFarthestStayCoarse) {
     for (const std::uint32_t cell : solution.coarse_cells) coarse[cell] = true;
     TestProblem pinned = problem;
     problem.for_each_cell([&](int, int, std::uint32_t p) {
-      if (problem.seeds[p] != Seed::kUnknown) return;
+      if (problem.seeds[p] != min_cut::Seed::kUnknown) return;
       if (coarse[p]) {
         nearest_coarse = std::min(nearest_coarse, problem.ground_range_m[p]);
-        pinned.seeds[p] = problem.coarse[p] == Label::kObstacle ? Seed::kObstacle : Seed::kGround;
+        pinned.seeds[p] = problem.coarse[p] == frame::Label::kObstacle ? min_cut::Seed::kObstacle
+                                                                       : min_cut::Seed::kGround;
       } else {
         farthest_kept = std::max(farthest_kept, problem.ground_range_m[p]);
       }
@@ -160,7 +163,7 @@ TEST(GridCutAnytime, TheCapHoldsWithoutUsableRanges) {
                        std::numeric_limits<float>::infinity(), 1e30F};
   for (std::size_t p = 0; p < problem.ground_range_m.size(); ++p)
     problem.ground_range_m[p] = odd[p % 4];
-  GridCut::Config config;
+  min_cut::GridCut::Config config;
   config.max_unknown = 50;
   const Solution solution = solve(problem, config);
   expect_consistent(problem, solution);
@@ -173,9 +176,9 @@ TEST(GridCutAnytime, WithTooLittleFinishedAllStaysCoarse) {
   for (int i = 0; i < 1500; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
-    GridCut::Config config;
+    min_cut::GridCut::Config config;
     if (i % 3 == 0) config.max_unknown = 100;
-    const CutBudget budget{uniform(random, 0, 1500)};
+    const min_cut::CutBudget budget{uniform(random, 0, 1500)};
     const Solution whatever = solve(problem, keep_all(config), budget);
     const Solution solution = solve(problem, config, budget);
     ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
@@ -199,8 +202,9 @@ TEST(GridCutAnytime, WithTooLittleFinishedAllStaysCoarse) {
 
 TEST(GridCutAnytime, AShareThatIsNoneIsRefused) {
   for (const float share : {-0.1F, 1.1F, std::numeric_limits<float>::quiet_NaN()}) {
-    rt::FixedMemory memory;
-    EXPECT_THROW(GridCut({4, 8}, {.least_finished = share}, memory), std::invalid_argument);
+    memory::FixedMemory memory;
+    EXPECT_THROW(min_cut::GridCut({4, 8}, {.least_finished = share}, memory),
+                 std::invalid_argument);
   }
 }
 
@@ -216,7 +220,9 @@ TEST(GridCutAnytime, TheClockStopsItAnywhereAndNeverAboveTheEnergyOfTheCoarseLab
   const TestProblem problem =
       random_problem({32, 256}, {.holes = 5, .ground_seeds = 0, .obstacle_seeds = 0}, random);
   const std::int64_t coarse_energy = problem.energy(problem.coarse_labelling());
-  const auto ops = [](const CutReport& r) { return r.boykov_kolmogorov_ops + r.push_relabel_ops; };
+  const auto ops = [](const min_cut::CutReport& r) {
+    return r.boykov_kolmogorov_ops + r.push_relabel_ops;
+  };
   // From the first look, at the weights, to the last one, in the solvers.
   int before_solvers = 0, in_solvers = 0;
   std::int64_t last_ops = 0;
@@ -225,7 +231,8 @@ TEST(GridCutAnytime, TheClockStopsItAnywhereAndNeverAboveTheEnergyOfTheCoarseLab
     SCOPED_TRACE(looks);
     ASSERT_LT(looks, 10'000);
     FakeClock clock{looks};
-    solution = solve(problem, keep_all(), {CutBudget::kUnlimited, &FakeClock::expired, &clock});
+    solution =
+        solve(problem, keep_all(), {min_cut::CutBudget::kUnlimited, &FakeClock::expired, &clock});
     ASSERT_NO_FATAL_FAILURE(expect_consistent(problem, solution));
     ASSERT_LE(problem.energy(solution.labels), coarse_energy);
     ASSERT_EQ(clock.looks_left < 0, solution.report.budget_hit)
@@ -238,7 +245,7 @@ TEST(GridCutAnytime, TheClockStopsItAnywhereAndNeverAboveTheEnergyOfTheCoarseLab
     } else {
       ++in_solvers;
       ASSERT_EQ(problem.energy(solution.labels), solution.report.energy);
-      ASSERT_LE(ops(solution.report), last_ops + 2 * CutBudget::kOpsPerClockLook);
+      ASSERT_LE(ops(solution.report), last_ops + 2 * min_cut::CutBudget::kOpsPerClockLook);
       last_ops = ops(solution.report);
     }
   }
@@ -252,7 +259,8 @@ TEST(GridCutAnytime, AClockThatNeverExpiresChangesNothing) {
   const TestProblem problem =
       random_problem({32, 128}, {.ground_seeds = 2, .obstacle_seeds = 2}, random);
   FakeClock clock{1'000'000};
-  const Solution with = solve(problem, {}, {CutBudget::kUnlimited, &FakeClock::expired, &clock});
+  const Solution with =
+      solve(problem, {}, {min_cut::CutBudget::kUnlimited, &FakeClock::expired, &clock});
   const Solution without = solve(problem);
   EXPECT_EQ(with.labels, without.labels);
   EXPECT_EQ(with.report.boykov_kolmogorov_ops, without.report.boykov_kolmogorov_ops);
@@ -262,7 +270,7 @@ TEST(GridCutAnytime, TheSameBudgetGivesTheSameLabels) {
   Random random(29);
   for (int i = 0; i < 100; ++i) {
     const TestProblem problem = any_problem(random);
-    const CutBudget budget{uniform(random, 0, 800)};
+    const min_cut::CutBudget budget{uniform(random, 0, 800)};
     const Solution first = solve(problem, {}, budget), second = solve(problem, {}, budget);
     ASSERT_EQ(first.labels, second.labels);
     ASSERT_EQ(first.coarse_cells, second.coarse_cells);
@@ -270,4 +278,4 @@ TEST(GridCutAnytime, TheSameBudgetGivesTheSameLabels) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

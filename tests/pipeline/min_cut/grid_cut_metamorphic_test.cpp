@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "tests/pipeline/min_cut/boost_oracle.hpp"
-#include "tests/pipeline/min_cut/solving.hpp"
+#include "boost_oracle.hpp"
+#include "solving.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 TestProblem turned(const TestProblem& problem, int columns) {
@@ -61,21 +61,21 @@ TEST(GridCutMetamorphic, ScalingAllCapacitiesScalesTheEnergyAndKeepsTheLabels) {
 
 TEST(GridCutMetamorphic, SwappingGroundAndObstacleKeepsTheEnergy) {
   Random random(13);
-  const auto swapped = [](Label label) {
-    return label == Label::kGround     ? Label::kObstacle
-           : label == Label::kObstacle ? Label::kGround
-                                       : label;
+  const auto swapped = [](frame::Label label) {
+    return label == frame::Label::kGround     ? frame::Label::kObstacle
+           : label == frame::Label::kObstacle ? frame::Label::kGround
+                                              : label;
   };
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
     TestProblem mirror = problem;
     std::swap(mirror.cost_ground, mirror.cost_obstacle);
-    for (Seed& seed : mirror.seeds) {
-      if (seed == Seed::kGround)
-        seed = Seed::kObstacle;
-      else if (seed == Seed::kObstacle)
-        seed = Seed::kGround;
+    for (min_cut::Seed& seed : mirror.seeds) {
+      if (seed == min_cut::Seed::kGround)
+        seed = min_cut::Seed::kObstacle;
+      else if (seed == min_cut::Seed::kObstacle)
+        seed = min_cut::Seed::kGround;
     }
     Solution solution = solve(mirror);
     ASSERT_EQ(solution.report.energy, solve(problem).report.energy);
@@ -96,15 +96,16 @@ TEST(GridCutMetamorphic, TheSolverThatFinishesDoesNotChangeTheLabels) {
 
 TEST(GridCutMetamorphic, AReusedSolverRemembersNothing) {
   Random random(15);
-  rt::FixedMemory memory;
-  const ImageShape shape{7, 21};
-  GridCut cut(shape, {}, memory);
+  memory::FixedMemory memory;
+  const frame::ImageShape shape{7, 21};
+  min_cut::GridCut cut(shape, {}, memory);
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = random_problem(shape, {.holes = i % 50}, random);
-    std::vector<Label> labels = problem.coarse_labelling();
-    const CutBudget budget{i % 3 == 0 ? uniform(random, 0, 300) : CutBudget::kUnlimited};
-    const CutReport report = cut.solve(problem.view(), problem.weights(), budget, labels);
+    std::vector<frame::Label> labels = problem.coarse_labelling();
+    const min_cut::CutBudget budget{i % 3 == 0 ? uniform(random, 0, 300)
+                                               : min_cut::CutBudget::kUnlimited};
+    const min_cut::CutReport report = cut.solve(problem.view(), problem.weights(), budget, labels);
     const Solution fresh = solve(problem, {}, budget);
     ASSERT_EQ(labels, fresh.labels);
     ASSERT_EQ(report.energy, fresh.report.energy);
@@ -113,4 +114,4 @@ TEST(GridCutMetamorphic, AReusedSolverRemembersNothing) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

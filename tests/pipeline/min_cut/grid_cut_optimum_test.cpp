@@ -3,10 +3,10 @@
 // The labels are a minimum cut: against an independent solver and against trying everything.
 #include <gtest/gtest.h>
 
-#include "tests/pipeline/min_cut/boost_oracle.hpp"
-#include "tests/pipeline/min_cut/solving.hpp"
+#include "boost_oracle.hpp"
+#include "solving.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 void expect_optimum(const TestProblem& problem, const Solution& solution, const Optimum& optimum) {
@@ -34,7 +34,7 @@ TEST(GridCut, EqualsAnIndependentSolverWhenPushRelabelFinishesWhatBoykovKolmogor
   for (int i = 0; i < 10'000; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
-    GridCut::Config config = push_relabel_only();
+    min_cut::GridCut::Config config = push_relabel_only();
     config.bk_ops_base = uniform(random, 1, 200);
     const Solution solution = solve(problem, config);
     ASSERT_NO_FATAL_FAILURE(expect_optimum(problem, solution, boost_optimum(problem)));
@@ -64,9 +64,10 @@ TEST(GridCut, HoldsTheLargestCapacities) {
     TestProblem problem =
         random_problem({10, 24}, {.holes = 0, .zero_edges = 0, .zero_costs = 60}, random);
     problem.for_each_cell([&](int row, int column, std::uint32_t p) {
-      for (int d = 4; d < kDirections; ++d) problem.set_weight(row, column, d, kMaxEdgeWeight);
-      if (uniform(random, 0, 9) == 0) problem.cost_ground[p] = kMaxTerminalCost;
-      if (uniform(random, 0, 9) == 0) problem.cost_obstacle[p] = kMaxTerminalCost;
+      for (int d = 4; d < min_cut::kDirections; ++d)
+        problem.set_weight(row, column, d, min_cut::kMaxEdgeWeight);
+      if (uniform(random, 0, 9) == 0) problem.cost_ground[p] = min_cut::kMaxTerminalCost;
+      if (uniform(random, 0, 9) == 0) problem.cost_obstacle[p] = min_cut::kMaxTerminalCost;
     });
     const Optimum optimum = boost_optimum(problem);
     ASSERT_NO_FATAL_FAILURE(expect_optimum(problem, solve(problem), optimum));
@@ -76,15 +77,15 @@ TEST(GridCut, HoldsTheLargestCapacities) {
 
 TEST(GridCut, TakesLargerWeightsAndCostsAsTheLargestAllowed) {
   Random random(5);
-  TestProblem limits = random_problem({6, 12}, {.max_weight = kMaxEdgeWeight}, random);
+  TestProblem limits = random_problem({6, 12}, {.max_weight = min_cut::kMaxEdgeWeight}, random);
   TestProblem beyond = limits;
   limits.for_each_cell([&](int row, int column, std::uint32_t p) {
     if (p % 3 == 0) {
-      limits.set_weight(row, column, 4, kMaxEdgeWeight);
+      limits.set_weight(row, column, 4, min_cut::kMaxEdgeWeight);
       beyond.set_weight(row, column, 4, 65535);
     }
     if (p % 5 == 0) {
-      limits.cost_ground[p] = kMaxTerminalCost;
+      limits.cost_ground[p] = min_cut::kMaxTerminalCost;
       beyond.cost_ground[p] = std::numeric_limits<std::int32_t>::max();
       limits.cost_obstacle[p] = 0;
       beyond.cost_obstacle[p] = -7;
@@ -96,17 +97,17 @@ TEST(GridCut, TakesLargerWeightsAndCostsAsTheLargestAllowed) {
 
 TEST(GridCut, PrefersObstacleWhereBothLabelsCostTheSame) {
   TestProblem problem({1, 3});
-  problem.seeds[0] = Seed::kUnknown;
-  EXPECT_EQ(solve(problem).labels[0], Label::kObstacle);
+  problem.seeds[0] = min_cut::Seed::kUnknown;
+  EXPECT_EQ(solve(problem).labels[0], frame::Label::kObstacle);
 }
 
 TEST(GridCut, LeavesHolesAndSeedsAlone) {
   Random random(6);
   const TestProblem problem = random_problem({8, 20}, {}, random);
   const Solution solution = solve(problem);
-  const std::vector<Label> before = problem.coarse_labelling();
+  const std::vector<frame::Label> before = problem.coarse_labelling();
   for (std::size_t p = 0; p < before.size(); ++p) {
-    if (problem.seeds[p] == Seed::kUnknown) continue;
+    if (problem.seeds[p] == min_cut::Seed::kUnknown) continue;
     EXPECT_EQ(solution.labels[p], before[p]) << p;
   }
 }
@@ -118,7 +119,7 @@ TEST(GridCut, ReadsNoPaddingCell) {
   for (int row = 0; row < problem.shape.rows; ++row) {
     for (int column = problem.shape.columns; column < problem.shape.stride(); ++column) {
       problem.seeds[static_cast<std::size_t>(row * problem.shape.stride() + column)] =
-          Seed::kUnknown;
+          min_cut::Seed::kUnknown;
     }
   }
   const Solution dirty = solve(problem);
@@ -135,17 +136,17 @@ TEST(GridCut, HasNothingToDoWithoutUnknownCells) {
 }
 
 TEST(GridCut, RefusesAnImageTooNarrowToBeCyclic) {
-  rt::FixedMemory memory;
-  EXPECT_THROW(GridCut({4, 2}, {}, memory), std::invalid_argument);
-  EXPECT_THROW(GridCut({0, 8}, {}, memory), std::invalid_argument);
+  memory::FixedMemory memory;
+  EXPECT_THROW(min_cut::GridCut({4, 2}, {}, memory), std::invalid_argument);
+  EXPECT_THROW(min_cut::GridCut({0, 8}, {}, memory), std::invalid_argument);
 }
 
 TEST(GridCut, RefusesOperationBudgetsItCannotAddUp) {
-  rt::FixedMemory memory;
-  EXPECT_THROW(GridCut({4, 8}, {.bk_ops_per_node = -1}, memory), std::invalid_argument);
-  EXPECT_THROW(GridCut({4, 8}, {.bk_ops_base = CutBudget::kUnlimited}, memory),
+  memory::FixedMemory memory;
+  EXPECT_THROW(min_cut::GridCut({4, 8}, {.bk_ops_per_node = -1}, memory), std::invalid_argument);
+  EXPECT_THROW(min_cut::GridCut({4, 8}, {.bk_ops_base = min_cut::CutBudget::kUnlimited}, memory),
                std::invalid_argument);
 }
 
 }  // namespace
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

@@ -11,20 +11,20 @@
 #include "pipeline/min_cut/greedy_push.hpp"
 #include "pipeline/min_cut/node_queue.hpp"
 #include "pipeline/min_cut/residual_reach.hpp"
-#include "tests/pipeline/min_cut/solving.hpp"
-#include "tests/pipeline/min_cut/weight_symmetry.hpp"
+#include "solving.hpp"
+#include "weight_symmetry.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 namespace {
 
 TEST(NeighbourCells, LeadBackToWhereTheyCameFrom) {
-  const ImageShape shape{4, 7};
+  const frame::ImageShape shape{4, 7};
   for (int row = 0; row < shape.rows; ++row) {
     for (int column = 0; column < shape.columns; ++column) {
       const auto cell = static_cast<std::uint32_t>(row * shape.stride() + column);
-      const NeighbourCells around = neighbour_cells(shape, row, column);
-      for (int d = 0; d < kDirections; ++d) {
-        const CellStep step = kCellSteps[static_cast<std::size_t>(d)];
+      const min_cut::NeighbourCells around = min_cut::neighbour_cells(shape, row, column);
+      for (int d = 0; d < min_cut::kDirections; ++d) {
+        const min_cut::CellStep step = min_cut::kCellSteps[static_cast<std::size_t>(d)];
         const std::uint32_t other = around[static_cast<std::size_t>(d)];
         const bool inside = row + step.rows >= 0 && row + step.rows < shape.rows;
         ASSERT_EQ(other != cell, inside);
@@ -33,7 +33,8 @@ TEST(NeighbourCells, LeadBackToWhereTheyCameFrom) {
         const int other_column = static_cast<int>(other) % shape.stride();
         ASSERT_LT(other_column, shape.columns);
         ASSERT_EQ(
-            neighbour_cells(shape, other_row, other_column)[static_cast<std::size_t>(opposite(d))],
+            min_cut::neighbour_cells(shape, other_row,
+                                     other_column)[static_cast<std::size_t>(min_cut::opposite(d))],
             cell);
       }
     }
@@ -43,10 +44,10 @@ TEST(NeighbourCells, LeadBackToWhereTheyCameFrom) {
 TEST(EightLanes, AgreeWithLoopsOverEightNumbers) {
   Random random(41);
   for (int i = 0; i < 2000; ++i) {
-    std::array<std::int16_t, kDirections> numbers{}, flags{}, kept{};
+    std::array<std::int16_t, min_cut::kDirections> numbers{}, flags{}, kept{};
     int sum = 0;
     unsigned nonzero = 0;
-    for (std::size_t d = 0; d < kDirections; ++d) {
+    for (std::size_t d = 0; d < min_cut::kDirections; ++d) {
       numbers[d] =
           static_cast<std::int16_t>(uniform(random, 0, 2) == 0 ? 0 : uniform(random, 0, 8191));
       flags[d] = static_cast<std::int16_t>(1 << uniform(random, 0, 3));
@@ -54,8 +55,9 @@ TEST(EightLanes, AgreeWithLoopsOverEightNumbers) {
       sum += kept[d];
       nonzero |= (kept[d] != 0 ? 1U : 0U) << d;
     }
-    const EightLanes lanes = EightLanes::load(numbers).where(EightLanes::load(flags), 2);
-    std::array<std::int16_t, kDirections> stored{};
+    const min_cut::EightLanes lanes =
+        min_cut::EightLanes::load(numbers).where(min_cut::EightLanes::load(flags), 2);
+    std::array<std::int16_t, min_cut::kDirections> stored{};
     lanes.store(stored);
     ASSERT_EQ(stored, kept);
     ASSERT_EQ(lanes.sum(), sum);
@@ -64,8 +66,8 @@ TEST(EightLanes, AgreeWithLoopsOverEightNumbers) {
 }
 
 TEST(NodeQueue, KeepsItsOrderAcrossTheEndOfTheRing) {
-  rt::FixedMemory memory;
-  NodeQueue queue("test", 5, memory);
+  memory::FixedMemory memory;
+  min_cut::NodeQueue queue("test", 5, memory);
   for (std::uint32_t round = 0; round < 20; ++round) {
     queue.push_back(1);
     queue.push_back(2);
@@ -82,15 +84,16 @@ TEST(NodeQueue, KeepsItsOrderAcrossTheEndOfTheRing) {
 
 TEST(OpClock, LooksAtTheClockOnlyNowAndThen) {
   int looks = 0;
-  OpClock clock({CutBudget::kUnlimited,
-                 [](void* count) noexcept { return ++*static_cast<int*>(count) > 2; }, &looks});
+  min_cut::OpClock clock({min_cut::CutBudget::kUnlimited,
+                          [](void* count) noexcept { return ++*static_cast<int*>(count) > 2; },
+                          &looks});
   EXPECT_FALSE(clock.exhausted());
   EXPECT_FALSE(clock.exhausted());
   EXPECT_EQ(looks, 1);
-  clock.spend(CutBudget::kOpsPerClockLook);
+  clock.spend(min_cut::CutBudget::kOpsPerClockLook);
   EXPECT_FALSE(clock.exhausted());
   EXPECT_EQ(looks, 2);
-  clock.spend(CutBudget::kOpsPerClockLook);
+  clock.spend(min_cut::CutBudget::kOpsPerClockLook);
   EXPECT_TRUE(clock.exhausted());
   EXPECT_TRUE(clock.exhausted()) << "once exhausted, always exhausted";
   EXPECT_EQ(looks, 3);
@@ -98,15 +101,15 @@ TEST(OpClock, LooksAtTheClockOnlyNowAndThen) {
 
 TEST(UnknownCells, AreFoundInRowMajorOrder) {
   Random random(42);
-  rt::FixedMemory memory;
+  memory::FixedMemory memory;
   for (const int columns : {3, 7, 8, 9, 15, 16, 17, 40}) {
     const TestProblem problem = random_problem({5, columns}, {}, random);
-    UnknownCells unknown(problem.shape, 1000, memory);
-    CellList dropped{memory.take<std::uint32_t>("dropped", problem.shape.cells())};
+    min_cut::UnknownCells unknown(problem.shape, 1000, memory);
+    min_cut::CellList dropped{memory.take<std::uint32_t>("dropped", problem.shape.cells())};
     unknown.find(problem.view(), problem.coarse, dropped);
     std::vector<std::uint32_t> expected;
     problem.for_each_cell([&](int, int, std::uint32_t p) {
-      if (problem.seeds[p] == Seed::kUnknown) expected.push_back(p);
+      if (problem.seeds[p] == min_cut::Seed::kUnknown) expected.push_back(p);
     });
     ASSERT_TRUE(std::ranges::equal(unknown.cells(), expected)) << columns;
     ASSERT_EQ(dropped.size, 0U);
@@ -123,19 +126,19 @@ struct Contracted {
         dropped{memory.take<std::uint32_t>("dropped", problem.shape.cells())},
         components(nodes_at_most(problem), memory) {
     unknown.find(problem.view(), problem.coarse, dropped);
-    graph.nodes = memory.take<CutNode>("nodes", unknown.cells().size());
-    OpClock clock(kNoLimit);
-    EXPECT_TRUE(contract(problem.view(), unknown, problem.weights(), clock, graph));
+    graph.nodes = memory.take<min_cut::CutNode>("nodes", unknown.cells().size());
+    min_cut::OpClock clock(kNoLimit);
+    EXPECT_TRUE(min_cut::contract(problem.view(), unknown, problem.weights(), clock, graph));
   }
   static std::uint32_t nodes_at_most(const TestProblem& problem) {
     return static_cast<std::uint32_t>(problem.shape.cells());
   }
 
-  rt::FixedMemory memory;
-  UnknownCells unknown;
-  CellList dropped;
-  Components components;
-  CutGraph graph;
+  memory::FixedMemory memory;
+  min_cut::UnknownCells unknown;
+  min_cut::CellList dropped;
+  min_cut::Components components;
+  min_cut::CutGraph graph;
 };
 
 TEST(Contraction, KeepsTheEnergyOfEveryLabelling) {
@@ -144,19 +147,19 @@ TEST(Contraction, KeepsTheEnergyOfEveryLabelling) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
     Contracted contracted(problem);
-    std::vector<Label> labels = problem.coarse_labelling();
+    std::vector<frame::Label> labels = problem.coarse_labelling();
     const std::int64_t flow_before_pushes = contracted.graph.flow;
     for (const bool pushed : {false, true}) {
-      if (pushed) push_one_hop(contracted.graph);
+      if (pushed) min_cut::push_one_hop(contracted.graph);
       std::int64_t energy = contracted.graph.flow;
       for (std::size_t p = 0; p < contracted.graph.nodes.size(); ++p) {
-        const CutNode& node = contracted.graph.nodes[p];
-        const bool obstacle = labels[contracted.unknown.cells()[p]] == Label::kObstacle;
+        const min_cut::CutNode& node = contracted.graph.nodes[p];
+        const bool obstacle = labels[contracted.unknown.cells()[p]] == frame::Label::kObstacle;
         energy += obstacle ? std::max(0, -node.excess) : std::max(0, node.excess);
-        for_each_edge(node.edges, [&](int direction) {
+        min_cut::for_each_edge(node.edges, [&](int direction) {
           const auto d = static_cast<std::size_t>(direction);
-          const Label other = labels[contracted.unknown.cells()[node.neighbour[d]]];
-          if (obstacle && other == Label::kGround) energy += node.residual[d];
+          const frame::Label other = labels[contracted.unknown.cells()[node.neighbour[d]]];
+          if (obstacle && other == frame::Label::kGround) energy += node.residual[d];
         });
       }
       ASSERT_EQ(energy, problem.energy(labels));
@@ -196,8 +199,8 @@ TEST(Components, AreConnectedWholeAndNearestFirst) {
       std::vector<std::uint32_t> reached{contracted.components[c][0]};
       std::set<std::uint32_t> seen(reached.begin(), reached.end());
       for (std::size_t next = 0; next < reached.size(); ++next) {
-        const CutNode& node = nodes[reached[next]];
-        for_each_edge(node.edges, [&](int direction) {
+        const min_cut::CutNode& node = nodes[reached[next]];
+        min_cut::for_each_edge(node.edges, [&](int direction) {
           const std::uint32_t other = node.neighbour[static_cast<std::size_t>(direction)];
           EXPECT_EQ(component_of[other], c);
           if (seen.insert(other).second) reached.push_back(other);
@@ -214,7 +217,7 @@ TEST(Certify, ProvesWhateverHasNoWayToTheSinkOrNoneFromTheSource) {
   for (int i = 0; i < 100; ++i) {
     SCOPED_TRACE(i);
     Contracted contracted(any_problem(random));
-    push_one_hop(contracted.graph);
+    min_cut::push_one_hop(contracted.graph);
     const auto nodes = contracted.graph.nodes;
     // Ways of any length, by going one arc farther from each node until nothing changes.
     std::vector<bool> to_sink(nodes.size()), from_source(nodes.size());
@@ -225,7 +228,7 @@ TEST(Certify, ProvesWhateverHasNoWayToTheSinkOrNoneFromTheSource) {
     for (bool has_changed = true; has_changed;) {
       has_changed = false;
       for (std::size_t p = 0; p < nodes.size(); ++p) {
-        for_each_edge(nodes[p].edges, [&](int direction) {
+        min_cut::for_each_edge(nodes[p].edges, [&](int direction) {
           const auto d = static_cast<std::size_t>(direction);
           const std::uint32_t q = nodes[p].neighbour[d];
           if (nodes[p].residual[d] == 0) return;
@@ -237,14 +240,14 @@ TEST(Certify, ProvesWhateverHasNoWayToTheSinkOrNoneFromTheSource) {
     }
     std::vector<std::uint32_t> all(nodes.size()), queue(nodes.size());
     std::iota(all.begin(), all.end(), 0U);
-    const std::uint32_t answered = certify(contracted.graph, all, queue);
+    const std::uint32_t answered = min_cut::certify(contracted.graph, all, queue);
     std::uint32_t expected = 0;
     for (std::size_t p = 0; p < nodes.size(); ++p) {
-      const Side side = !to_sink[p]       ? Side::kObstacle
-                        : !from_source[p] ? Side::kGround
-                                          : Side::kFree;
+      const min_cut::Side side = !to_sink[p]       ? min_cut::Side::kObstacle
+                                 : !from_source[p] ? min_cut::Side::kGround
+                                                   : min_cut::Side::kFree;
       ASSERT_EQ(nodes[p].side, side) << p;
-      expected += side != Side::kFree ? 1 : 0;
+      expected += side != min_cut::Side::kFree ? 1 : 0;
     }
     ASSERT_EQ(answered, expected);
     proven += expected;
@@ -259,7 +262,7 @@ TEST(Persistency, FixesALoneCellAndTheChainItDrags) {
   TestProblem problem({1, 12});
   problem.for_each_cell([&](int, int column, std::uint32_t p) {
     if (column == 11) return;
-    problem.seeds[p] = Seed::kUnknown;
+    problem.seeds[p] = min_cut::Seed::kUnknown;
     problem.cost_ground[p] = column == 0 ? 5000 : 0;
     problem.cost_obstacle[p] = column == 0 ? 0 : 10;
     problem.set_weight(0, column, 4, 1000 - 20 * column);
@@ -268,7 +271,7 @@ TEST(Persistency, FixesALoneCellAndTheChainItDrags) {
   EXPECT_EQ(solution.report.unknown, 11U);
   EXPECT_EQ(solution.report.fixed_by_persistency, 11U);
   EXPECT_EQ(solution.report.components, 0U);
-  for (std::size_t p = 0; p < 11; ++p) EXPECT_EQ(solution.labels[p], Label::kObstacle);
+  for (std::size_t p = 0; p < 11; ++p) EXPECT_EQ(solution.labels[p], frame::Label::kObstacle);
 }
 
 TEST(TestProblem, HasSymmetricWeights) {
@@ -278,4 +281,4 @@ TEST(TestProblem, HasSymmetricWeights) {
 }
 
 }  // namespace
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

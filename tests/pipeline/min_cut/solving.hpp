@@ -6,24 +6,24 @@
 #include <vector>
 
 #include "pipeline/min_cut/grid_cut.hpp"
-#include "rt/fixed_memory.hpp"
-#include "tests/pipeline/min_cut/test_problem.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "test_problem.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 
-inline constexpr CutBudget kNoLimit{CutBudget::kUnlimited};
+inline constexpr min_cut::CutBudget kNoLimit{min_cut::CutBudget::kUnlimited};
 
 struct Solution {
-  CutReport report;
-  std::vector<Label> labels;
+  min_cut::CutReport report;
+  std::vector<frame::Label> labels;
   std::vector<std::uint32_t> coarse_cells;
 };
 
 /// Solves with a solver of its own.
-inline Solution solve(const TestProblem& problem, const GridCut::Config& config = {},
-                      const CutBudget& budget = kNoLimit) {
-  rt::FixedMemory memory;
-  GridCut cut(problem.shape, config, memory);
+inline Solution solve(const TestProblem& problem, const min_cut::GridCut::Config& config = {},
+                      const min_cut::CutBudget& budget = kNoLimit) {
+  memory::FixedMemory memory;
+  min_cut::GridCut cut(problem.shape, config, memory);
   Solution solution;
   solution.labels = problem.coarse_labelling();
   solution.report = cut.solve(problem.view(), problem.weights(), budget, solution.labels);
@@ -32,17 +32,17 @@ inline Solution solve(const TestProblem& problem, const GridCut::Config& config 
 }
 
 /// Hands out whatever a stopped cut has, were it nothing but what persistency fixed.
-inline GridCut::Config keep_all(GridCut::Config config = {}) {
+inline min_cut::GridCut::Config keep_all(min_cut::GridCut::Config config = {}) {
   config.least_finished = 0;
   return config;
 }
 
 /// Boykov-Kolmogorov gives up after its first look at the budget.
-inline GridCut::Config push_relabel_only() {
-  GridCut::Config config;
+inline min_cut::GridCut::Config push_relabel_only() {
+  min_cut::GridCut::Config config;
   config.bk_ops_per_node = 0;
   config.bk_ops_base = 1;
   return config;
 }
 
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/label.hpp"
+#include "firmware_io/frame/label.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
 
-namespace terracut::pipeline::test {
+namespace terracut::test {
 
 using Random = std::mt19937;
 /// Uniform in [low, high]; the same on every standard library.
@@ -19,15 +19,15 @@ int uniform(Random& random, int low, int high);
 
 /// A GridProblem that owns its planes, with a table of edge weights.
 struct TestProblem {
-  explicit TestProblem(ImageShape image_shape);
+  explicit TestProblem(frame::ImageShape image_shape);
 
-  ImageShape shape;
-  std::vector<Seed> seeds;  ///< Holes at first.
+  frame::ImageShape shape;
+  std::vector<min_cut::Seed> seeds;  ///< Holes at first.
   std::vector<std::int32_t> cost_ground, cost_obstacle;
   std::vector<float> ground_range_m;
-  std::vector<Label> coarse;
+  std::vector<frame::Label> coarse;
   /// weight[cell][d]; kept symmetric by set_weight().
-  std::vector<std::array<std::uint16_t, kDirections>> weight;
+  std::vector<std::array<std::uint16_t, min_cut::kDirections>> weight;
 
   [[nodiscard]] std::uint32_t cell(int row,
                                    int column) const;  ///< Column may lie one turn outside.
@@ -40,18 +40,18 @@ struct TestProblem {
     }
   }
   [[nodiscard]] std::uint32_t unknown() const;
-  [[nodiscard]] GridProblem view() const;
+  [[nodiscard]] min_cut::GridProblem view() const;
   /// E as GridProblem defines it, straight from the definition.
-  [[nodiscard]] std::int64_t energy(std::span<const Label> labels) const;
+  [[nodiscard]] std::int64_t energy(std::span<const frame::Label> labels) const;
   /// Hard seeds as labels, the coarse label where unknown.
-  [[nodiscard]] std::vector<Label> coarse_labelling() const;
+  [[nodiscard]] std::vector<frame::Label> coarse_labelling() const;
 
   struct Weights {
     const TestProblem* problem;
-    void operator()(std::uint32_t cell, const NeighbourCells&,
-                    std::span<std::uint16_t, kDirections> out) const noexcept {
+    void operator()(std::uint32_t cell, const min_cut::NeighbourCells&,
+                    std::span<std::uint16_t, min_cut::kDirections> out) const noexcept {
       const auto& weights = problem->weight[cell];
-      for (std::size_t d = 0; d < kDirections; ++d) out[d] = weights[d];
+      for (std::size_t d = 0; d < min_cut::kDirections; ++d) out[d] = weights[d];
     }
   };
   [[nodiscard]] Weights weights() const { return {this}; }
@@ -61,13 +61,13 @@ struct TestProblem {
 struct RandomRecipe {
   int holes = 10, ground_seeds = 15, obstacle_seeds = 15;  ///< The rest is unknown.
   int zero_edges = 15;
-  int max_weight = kCapacityScale;
-  int max_cost = 2 * kCapacityScale;
+  int max_weight = min_cut::kCapacityScale;
+  int max_cost = 2 * min_cut::kCapacityScale;
   int zero_costs = 20;
 };
-TestProblem random_problem(ImageShape shape, const RandomRecipe& recipe, Random& random);
+TestProblem random_problem(frame::ImageShape shape, const RandomRecipe& recipe, Random& random);
 
 /// A different shape and recipe for every draw: from a handful to some hundreds of cells.
 TestProblem any_problem(Random& random);
 
-}  // namespace terracut::pipeline::test
+}  // namespace terracut::test

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/support/reference/agreement.hpp"
+#include "agreement.hpp"
 
 #include <fmt/format.h>
 
@@ -9,12 +9,12 @@
 #include <cstddef>
 #include <cstdlib>
 
-#include "firmware_io/sinks/each_return.hpp"
+#include "firmware_io/frame/each_return.hpp"
 
 namespace terracut::reference {
 namespace {
 
-using firmware_io::Reject;
+using frame::Reject;
 
 std::string describe(const PlacedReturn& echo) {
   return fmt::format("row {} column {} at ({:.5f}, {:.5f}, {:.5f}) m, {:.5f} m, intensity {}",
@@ -91,9 +91,9 @@ std::size_t HandedFrames::returns() const {
   return sum;
 }
 
-void HandedFrames::add(const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) {
+void HandedFrames::add(const frame::FrameInfo& info, const frame::RangeImage& image) {
   std::vector<PlacedReturn>& frame = frames_.emplace_back(info.returns);
-  firmware_io::for_each_return(image, [&](const firmware_io::PlacedReturn& placed) {
+  frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
     PlacedReturn& echo = frame.at(placed.return_index);
     echo.row = placed.row;
     echo.column = placed.column;

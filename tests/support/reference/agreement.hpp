@@ -8,19 +8,19 @@
 #include <string>
 #include <vector>
 
-#include "calib/mount.hpp"
-#include "firmware_io/frame_info.hpp"
-#include "firmware_io/loss_counters.hpp"
-#include "pipeline/range_image.hpp"
-#include "tests/support/reference/reference_return.hpp"
+#include "calib/mount/mount.hpp"
+#include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "reference_return.hpp"
 
 namespace terracut::reference {
 
 /// What a reference calls the product's reason to refuse a packet; kNone for those reasons that lie
 /// in the stream and not in the packet.
-[[nodiscard]] Refusal as_refusal(std::optional<firmware_io::Reject> reason);
+[[nodiscard]] Refusal as_refusal(std::optional<frame::Reject> reason);
 
-/// A return and its place, in the vehicle frame (calib/mount.hpp).
+/// A return and its place, in the vehicle frame (calib/mount/mount.hpp).
 struct PlacedReturn {
   int row = 0, column = 0;
   double x_m = 0, y_m = 0, z_m = 0, ground_range_m = 0;
@@ -33,7 +33,7 @@ struct PlacedReturn {
 class ExpectedTurns {
  public:
   /// `elevations`: of each laser, in any unit.
-  ExpectedTurns(const std::vector<double>& elevations, const calib::Mount& mount, int columns)
+  ExpectedTurns(const std::vector<double>& elevations, const mount::Mount& mount, int columns)
       : rows_(rank_of_elevation(elevations)), mount_(mount), columns_(columns) {}
 
   /// The next packet, whose azimuths grow by `unwrap_deg` (Turns).
@@ -46,7 +46,7 @@ class ExpectedTurns {
 
  private:
   std::vector<int> rows_;
-  calib::Mount mount_;
+  mount::Mount mount_;
   int columns_;
   std::map<std::int64_t, std::vector<PlacedReturn>> turns_;
 };
@@ -56,7 +56,7 @@ class HandedFrames {
  public:
   /// The callable to hand frames over to.
   [[nodiscard]] auto keep() {
-    return [this](const firmware_io::FrameInfo& info, const pipeline::RangeImage& image) noexcept {
+    return [this](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
       add(info, image);
     };
   }
@@ -64,7 +64,7 @@ class HandedFrames {
   [[nodiscard]] std::size_t returns() const;
 
  private:
-  void add(const firmware_io::FrameInfo& info, const pipeline::RangeImage& image);
+  void add(const frame::FrameInfo& info, const frame::RangeImage& image);
 
   std::vector<std::vector<PlacedReturn>> frames_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/support/reference/hdl64e_reference.hpp"
+#include "hdl64e_reference.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -83,7 +83,7 @@ Packet Hdl64eReference::decode(std::span<const std::uint8_t> payload) const {
 }
 
 void Hdl64eReference::locate(Return& echo) const {
-  const calib::Hdl64eLaser& laser = calibration_.lasers[static_cast<std::size_t>(echo.laser)];
+  const hdl64e::Hdl64eLaser& laser = calibration_.lasers[static_cast<std::size_t>(echo.laser)];
   const bool ros_like = offsets_ == Hdl64eOffsets::kRosLike;
   const double rho = laser.rot_correction_rad, omega = laser.vert_correction_rad;
   const double h_off = laser.horiz_offset_m, v_off = laser.vert_offset_m;

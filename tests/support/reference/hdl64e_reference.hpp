@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/hdl64e_calibration.hpp"
-#include "tests/support/reference/reference_return.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "reference_return.hpp"
 
 namespace terracut::reference {
 
@@ -23,7 +23,7 @@ enum class Hdl64eOffsets : std::uint8_t { kManual, kRosLike };
 /// near correction ends at 25.04 m per axis.
 class Hdl64eReference {
  public:
-  explicit Hdl64eReference(const calib::Hdl64eCalibration& calibration,
+  explicit Hdl64eReference(const hdl64e::Hdl64eCalibration& calibration,
                            Hdl64eOffsets offsets = Hdl64eOffsets::kManual)
       : calibration_(calibration), offsets_(offsets) {}
 
@@ -34,7 +34,7 @@ class Hdl64eReference {
  private:
   void locate(Return& echo) const;
 
-  calib::Hdl64eCalibration calibration_;
+  hdl64e::Hdl64eCalibration calibration_;
   Hdl64eOffsets offsets_;
 };
 

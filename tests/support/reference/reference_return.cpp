@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/support/reference/reference_return.hpp"
+#include "reference_return.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/support/reference/ruby128_reference.hpp"
+#include "ruby128_reference.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -106,7 +106,7 @@ Packet Ruby128Reference::decode(std::span<const std::uint8_t> payload) {
 }
 
 void Ruby128Reference::locate(Return& echo) const {
-  const calib::Ruby128Channel& channel =
+  const ruby128::Ruby128Channel& channel =
       calibration_.channels[static_cast<std::size_t>(echo.laser)];
   const double v = channel.elevation_rad, h = channel.azimuth_offset_rad;
   const double head = echo.head_deg * kRadPerDeg;

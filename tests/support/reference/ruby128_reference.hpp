@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "calib/ruby128_calibration.hpp"
-#include "tests/support/reference/reference_return.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
+#include "reference_return.hpp"
 
 namespace terracut::reference {
 
@@ -21,7 +21,7 @@ namespace terracut::reference {
 /// but both returns of one firing have one step, that of the packet which brought the first.
 class Ruby128Reference {
  public:
-  explicit Ruby128Reference(const calib::Ruby128Calibration& calibration)
+  explicit Ruby128Reference(const ruby128::Ruby128Calibration& calibration)
       : calibration_(calibration) {}
 
   /// `column` of a return is its block. Packets in order; call forget() where some are missing.
@@ -33,7 +33,7 @@ class Ruby128Reference {
  private:
   void locate(Return& echo) const;
 
-  calib::Ruby128Calibration calibration_;
+  ruby128::Ruby128Calibration calibration_;
   int pending_cdeg_ = 0;                    ///< A firing whose second return is yet to come.
   std::optional<double> pending_step_deg_;  ///< Its step.
 };

@@ -12,9 +12,9 @@
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
-#include "tests/support/reference/hdl64e_reference.hpp"
-#include "tests/support/reference/ruby128_reference.hpp"
-#include "tests/support/reference/turning_head.hpp"
+#include "hdl64e_reference.hpp"
+#include "ruby128_reference.hpp"
+#include "turning_head.hpp"
 
 /// Both sensors under the same names, for tests and fuzzers that compare the product's decoder with
 /// the reference and are the same for either.
@@ -23,8 +23,8 @@ namespace terracut::reference {
 using PayloadBytes = std::vector<std::uint8_t>;
 
 struct Hdl64e {
-  using Decoder = firmware_io::Hdl64eDecoder;
-  using Calibration = calib::Hdl64eCalibration;
+  using Decoder = hdl64e::Hdl64eDecoder;
+  using Calibration = hdl64e::Hdl64eCalibration;
   using Reference = Hdl64eReference;
   static constexpr int kColumns = 6, kLasers = 64;
   static constexpr int kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
@@ -49,15 +49,15 @@ struct Hdl64e {
     set_hdl64e_clock(payload, time_ns);
   }
   static void forget(Reference&) {}
-  static std::optional<firmware_io::Reject> check(std::span<const std::uint8_t> payload,
-                                                  firmware_io::PacketHeads& heads) {
-    return firmware_io::check_hdl64e_packet(payload, heads);
+  static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
+                                            decode::PacketHeads& heads) {
+    return hdl64e::check_hdl64e_packet(payload, heads);
   }
 };
 
 struct Ruby128 {
-  using Decoder = firmware_io::Ruby128Decoder;
-  using Calibration = calib::Ruby128Calibration;
+  using Decoder = ruby128::Ruby128Decoder;
+  using Calibration = ruby128::Ruby128Calibration;
   using Reference = Ruby128Reference;
   static constexpr int kColumns = 3, kLasers = 128;
   static constexpr int kFirstBlock = 80, kBlockBytes = 388, kBlocks = 3;
@@ -82,9 +82,9 @@ struct Ruby128 {
     set_ruby128_clock(payload, time_ns, RubyClock::kMicroseconds);
   }
   static void forget(Reference& reference) { reference.forget(); }
-  static std::optional<firmware_io::Reject> check(std::span<const std::uint8_t> payload,
-                                                  firmware_io::PacketHeads& heads) {
-    return firmware_io::check_ruby128_packet(payload, heads);
+  static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
+                                            decode::PacketHeads& heads) {
+    return ruby128::check_ruby128_packet(payload, heads);
   }
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tests/support/reference/turning_head.hpp"
+#include "turning_head.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -147,14 +147,14 @@ void set_ruby128_clock(Bytes& payload, std::int64_t time_ns, RubyClock clock) {
   put(16, clock == RubyClock::kMicroseconds ? rest_ns / 1'000 : rest_ns, 4);
 }
 
-calib::Hdl64eCalibration random_hdl64e(std::mt19937& random) {
+hdl64e::Hdl64eCalibration random_hdl64e(std::mt19937& random) {
   const auto between = [&](double least, double most) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };
-  calib::Hdl64eCalibration calibration;
+  hdl64e::Hdl64eCalibration calibration;
   calibration.origin = "any HDL-64E";
   double elevation_deg = -24.9;
-  for (calib::Hdl64eLaser& laser : calibration.lasers) {
+  for (hdl64e::Hdl64eLaser& laser : calibration.lasers) {
     laser.vert_correction_rad = elevation_deg * kRadPerDeg;
     elevation_deg += between(0.2, 0.65);
     laser.rot_correction_rad = between(-10, 10) * kRadPerDeg;
@@ -169,11 +169,11 @@ calib::Hdl64eCalibration random_hdl64e(std::mt19937& random) {
   return calibration;
 }
 
-calib::Ruby128Calibration random_ruby128(std::mt19937& random) {
+ruby128::Ruby128Calibration random_ruby128(std::mt19937& random) {
   const auto between = [&](double least, double most) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };
-  calib::Ruby128Calibration calibration;
+  ruby128::Ruby128Calibration calibration;
   calibration.origin = "any RS-Ruby128";
   for (std::size_t i = 0; i < calibration.channels.size(); ++i) {
     const double even_deg = -25.0 + 40.0 * static_cast<double>(i) / 127.0;
@@ -184,7 +184,7 @@ calib::Ruby128Calibration random_ruby128(std::mt19937& random) {
   return calibration;
 }
 
-calib::Mount random_mount(std::mt19937& random) {
+mount::Mount random_mount(std::mt19937& random) {
   const auto between = [&](double least, double most) {
     return std::uniform_real_distribution<double>(least, most)(random);
   };

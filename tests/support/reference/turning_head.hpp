@@ -6,9 +6,9 @@
 #include <random>
 #include <vector>
 
-#include "calib/hdl64e_calibration.hpp"
-#include "calib/mount.hpp"
-#include "calib/ruby128_calibration.hpp"
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
 
 namespace terracut::reference {
 
@@ -51,8 +51,8 @@ void set_hdl64e_clock(std::vector<std::uint8_t>& payload, std::int64_t time_ns);
 void set_ruby128_clock(std::vector<std::uint8_t>& payload, std::int64_t time_ns, RubyClock clock);
 
 /// Any unit within the spans of real ones, and any mount.
-[[nodiscard]] calib::Hdl64eCalibration random_hdl64e(std::mt19937& random);
-[[nodiscard]] calib::Ruby128Calibration random_ruby128(std::mt19937& random);
-[[nodiscard]] calib::Mount random_mount(std::mt19937& random);
+[[nodiscard]] hdl64e::Hdl64eCalibration random_hdl64e(std::mt19937& random);
+[[nodiscard]] ruby128::Ruby128Calibration random_ruby128(std::mt19937& random);
+[[nodiscard]] mount::Mount random_mount(std::mt19937& random);
 
 }  // namespace terracut::reference

@@ -32,12 +32,12 @@ foreach(path
     ./usr/bin/terracut
     ./usr/lib/systemd/system/terracut.service
     ./etc/terracut/terracut.yaml
-    ./usr/share/doc/terracut/real_time.md
-    ./usr/share/doc/terracut/configuration.md
+    ./usr/share/doc/terracut/docs/guide/real_time.md
+    ./usr/share/doc/terracut/docs/reference/configuration.md
     ./usr/share/doc/terracut/examples/read_turns.py
     ./usr/share/doc/terracut/copyright
     ./usr/share/terracut/terracut_health.dbc
-    ./usr/include/terracut/pipeline/segmenter.hpp
+    ./usr/include/terracut/segmenter.hpp
     libterracut_pipeline.a
     terracut/terracut-config.cmake)
   string(FIND "${content}" "${path}\n" at)

@@ -18,8 +18,7 @@ DumpSignal::DumpSignal() {
   if (const int error = ::pthread_sigmask(SIG_BLOCK, &only_this, nullptr); error != 0) {
     throw std::system_error(error, std::generic_category(), "cannot block SIGUSR1");
   }
-  descriptor_ =
-      firmware_io::OwnedDescriptor(::signalfd(-1, &only_this, SFD_NONBLOCK | SFD_CLOEXEC));
+  descriptor_ = files::OwnedDescriptor(::signalfd(-1, &only_this, SFD_NONBLOCK | SFD_CLOEXEC));
   if (!descriptor_) {
     throw std::system_error(errno, std::generic_category(), "cannot listen for SIGUSR1");
   }

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include "firmware_io/live/owned_descriptor.hpp"
+#include "rt/files/owned_descriptor.hpp"
 
 namespace terracut::cli {
 
@@ -23,7 +23,7 @@ class DumpSignal {
   [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
 
  private:
-  firmware_io::OwnedDescriptor descriptor_;
+  files::OwnedDescriptor descriptor_;
 };
 
 }  // namespace terracut::cli

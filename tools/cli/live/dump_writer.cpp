@@ -9,40 +9,39 @@
 #include <utility>
 #include <variant>
 
-#include "firmware_io/hdl64e/hdl64e_transmitter.hpp"
-#include "firmware_io/ruby128/ruby128_transmitter.hpp"
-#include "rt/status_page.hpp"
+#include "pipeline/status/status_page.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/lab/encode/hdl64e_transmitter.hpp"
+#include "tools/lab/encode/ruby128_transmitter.hpp"
 
 namespace terracut::cli {
 
-using firmware_io::DumpReason;
+using recorder::DumpReason;
 
 namespace {
 
 /// Writes tables of the sensor that has such a calibration.
 template <class Calibration>
-using TransmitterOf =
-    std::conditional_t<std::is_same_v<Calibration, calib::Hdl64eCalibration>,
-                       firmware_io::Hdl64eTransmitter, firmware_io::Ruby128Transmitter>;
+using TransmitterOf = std::conditional_t<std::is_same_v<Calibration, hdl64e::Hdl64eCalibration>,
+                                         encode::Hdl64eTransmitter, encode::Ruby128Transmitter>;
 
 }  // namespace
 
-firmware_io::DumpFolderLimits dump_folder_of(const LiveOptions& options) {
+recorder::DumpFolderLimits dump_folder_of(const Options& options) {
   return {.folder = options.recorder.folder, .name = options.watch.name};
 }
 
-DumpWriter::DumpWriter(const LiveOptions& options, calib::SensorCalibration calibration,
-                       firmware_io::FlightRecorder& recorder,
+DumpWriter::DumpWriter(const Options& options, calib::SensorCalibration calibration,
+                       recorder::FlightRecorder& recorder,
                        std::span<const std::string_view> stage_names)
     : calibration_(std::move(calibration)),
       recorder_(recorder),
       stage_names_(stage_names),
       policy_({.folder = dump_folder_of(options)}),
-      answers_(rt::status_page_folder(), options.watch.name),
+      answers_(status::status_page_folder(), options.watch.name),
       thread_([this] { work(); }) {}
 
-void DumpWriter::want(DumpReason reason, std::vector<rt::FrameTiming> frames) {
+void DumpWriter::want(DumpReason reason, std::vector<status::FrameTiming> frames) {
   {
     const std::scoped_lock lock(mutex_);
     wanted_[static_cast<std::size_t>(reason)] = true;
@@ -76,12 +75,12 @@ void DumpWriter::work() {
   }
 }
 
-void DumpWriter::add_table(firmware_io::DumpReport& dump) const {
+void DumpWriter::add_table(recorder::DumpReport& dump) const {
   const Status written = std::visit(
       [&]<class Calibration>(const Calibration& unit) {
         using Transmitter = TransmitterOf<Calibration>;
         dump.calibration =
-            firmware_io::dump_calibration_path(dump.capture, Transmitter::kCalibrationSuffix);
+            recorder::dump_calibration_path(dump.capture, Transmitter::kCalibrationSuffix);
         return Transmitter::write_calibration(dump.calibration, unit);
       },
       calibration_);
@@ -90,12 +89,12 @@ void DumpWriter::add_table(firmware_io::DumpReport& dump) const {
   dump.calibration.clear();
 }
 
-void DumpWriter::dump(DumpReason reason, const std::vector<rt::FrameTiming>& frames) {
+void DumpWriter::dump(DumpReason reason, const std::vector<status::FrameTiming>& frames) {
   auto outcome = recorder_.dump(policy_, reason, {frames, stage_names_});
   if (outcome) {
     add_table(*outcome);
     say(fmt::format("dumped {} datagrams to {}", outcome->datagrams, outcome->capture.string()));
-  } else if (outcome.error().refusal != firmware_io::DumpRefusal::kTooSoon) {
+  } else if (outcome.error().refusal != recorder::DumpRefusal::kTooSoon) {
     warn("not dumped: " + outcome.error().message);
   }
   if (reason != DumpReason::kAsked) return;

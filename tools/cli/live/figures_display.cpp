@@ -6,8 +6,8 @@
 
 #include <utility>
 
-#include "firmware_io/live/ipv4_endpoint.hpp"
-#include "firmware_io/sinks/stream_address.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "pipeline/stream/stream_address.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -17,15 +17,15 @@ FiguresDisplay::FiguresDisplay(const WatchOptions& options) {
   if (options.metrics != "off") open_metrics(options);
 }
 
-void FiguresDisplay::show(const rt::MonitorSnapshot& figures) {
+void FiguresDisplay::show(const status::MonitorSnapshot& figures) {
   if (page_) page_->publish(figures);
   const std::scoped_lock lock(shown_mutex_);
   *shown_ = figures;
 }
 
 void FiguresDisplay::open_page(const WatchOptions& options) {
-  auto page = rt::StatusPagePublisher<rt::MonitorSnapshot>::create(options.name,
-                                                                   rt::MonitorSnapshot::kLayout);
+  auto page = status::StatusPagePublisher<status::MonitorSnapshot>::create(
+      options.name, status::MonitorSnapshot::kLayout);
   if (page) {
     page_.emplace(*std::move(page));
   } else {
@@ -34,20 +34,20 @@ void FiguresDisplay::open_page(const WatchOptions& options) {
 }
 
 void FiguresDisplay::open_metrics(const WatchOptions& options) {
-  const auto at = firmware_io::parse_serving_endpoint(options.metrics);
+  const auto at = stream::parse_serving_endpoint(options.metrics);
   if (!at) {
     warn("no /metrics: " + at.error().message);
     return;
   }
-  auto server = MetricsServer::start(firmware_io::ipv4_text(at->address), at->port,
-                                     [this](rt::MonitorSnapshot& figures) {
+  auto server = MetricsServer::start(net::ipv4_text(at->address), at->port,
+                                     [this](status::MonitorSnapshot& figures) {
                                        const std::scoped_lock lock(shown_mutex_);
                                        figures = *shown_;
                                        return true;
                                      });
   if (server) {
     metrics_.emplace(*std::move(server));
-    say(fmt::format("figures at http://{}:{}/metrics", firmware_io::ipv4_text(at->address),
+    say(fmt::format("figures at http://{}:{}/metrics", net::ipv4_text(at->address),
                     metrics_->port()));
   } else {
     warn("no /metrics: " + server.error().message);

@@ -6,10 +6,10 @@
 #include <mutex>
 #include <optional>
 
-#include "live_options.hpp"
-#include "rt/monitor_snapshot.hpp"
-#include "rt/status_page.hpp"
-#include "tools/cli/metrics_server.hpp"
+#include "pipeline/status/monitor_snapshot.hpp"
+#include "pipeline/status/status_page.hpp"
+#include "tools/cli/export/metrics_server.hpp"
+#include "tools/cli/options.hpp"
 
 namespace terracut::cli {
 
@@ -20,16 +20,16 @@ class FiguresDisplay {
   /// What cannot be opened is warned of, and the run goes on without it.
   explicit FiguresDisplay(const WatchOptions& options);
 
-  void show(const rt::MonitorSnapshot& figures);
+  void show(const status::MonitorSnapshot& figures);
 
  private:
   void open_page(const WatchOptions& options);
   void open_metrics(const WatchOptions& options);
 
-  std::optional<rt::StatusPagePublisher<rt::MonitorSnapshot>> page_;
+  std::optional<status::StatusPagePublisher<status::MonitorSnapshot>> page_;
   std::mutex
       shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
-  std::unique_ptr<rt::MonitorSnapshot> shown_ = std::make_unique<rt::MonitorSnapshot>();
+  std::unique_ptr<status::MonitorSnapshot> shown_ = std::make_unique<status::MonitorSnapshot>();
   std::optional<MetricsServer> metrics_;  ///< Last: it reads shown_ until it is gone.
 };
 

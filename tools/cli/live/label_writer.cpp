@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "firmware_io/sinks/label_sink.hpp"
+#include "pipeline/output/label_sink.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -30,7 +30,7 @@ bool LabelWriter::write(const Slots::Frame& frame) {
   if (!outcome_) return false;
   outcome_ = folder_.place(fmt::format("{:06}.label", frame.info.number))
                  .and_then([&](const std::filesystem::path& path) {
-                   return firmware_io::write_label_file(path, frame.items);
+                   return output::write_label_file(path, frame.items);
                  });
   if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
   return outcome_.has_value();

@@ -6,11 +6,11 @@
 #include <chrono>
 #include <filesystem>
 
-#include "background_thread.hpp"
-#include "firmware_io/sinks/frame_folder.hpp"
-#include "frame_slots.hpp"
-#include "pipeline/label.hpp"
+#include "firmware_io/frame/label.hpp"
+#include "pipeline/output/frame_folder.hpp"
+#include "pipeline/run/frame_slots.hpp"
 #include "rt/error.hpp"
+#include "rt/threads/background_thread.hpp"
 
 namespace terracut::cli {
 
@@ -18,7 +18,7 @@ namespace terracut::cli {
 /// takes, nothing waits for it. Turns that are not written are counted by FrameSlots.
 class LabelWriter {
  public:
-  using Slots = FrameSlots<pipeline::Label>;
+  using Slots = run::FrameSlots<frame::Label>;
 
   /// `slots` must outlive this.
   LabelWriter(const std::filesystem::path& folder, Slots& slots);
@@ -33,11 +33,11 @@ class LabelWriter {
   void work();
   [[nodiscard]] bool write(const Slots::Frame& frame);
 
-  firmware_io::FrameFolder folder_;
+  output::FrameFolder folder_;
   Slots& slots_;
   std::atomic<bool> finish_{false};
   Status outcome_;
-  BackgroundThread thread_;  ///< Last: it uses all of the above.
+  threads::BackgroundThread thread_;  ///< Last: it uses all of the above.
 };
 
 }  // namespace terracut::cli

@@ -15,28 +15,29 @@
 #include "dump_signal.hpp"
 #include "dump_writer.hpp"
 #include "figures_display.hpp"
-#include "first_seconds.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "label_writer.hpp"
-#include "live_options.hpp"
-#include "live_report.hpp"
+#include "listening.hpp"
 #include "live_service.hpp"
-#include "live_source.hpp"
-#include "live_threads.hpp"
 #include "live_watch.hpp"
-#include "rt/locked_memory.hpp"
-#include "rt/thread_cpu_clock.hpp"
-#include "stream_writer.hpp"
-#include "tools/cli/calibration_choice.hpp"
-#include "tools/cli/chrome_trace.hpp"
+#include "pipeline/run/live_threads.hpp"
+#include "pipeline/run/stream_writer.hpp"
+#include "pipeline/run/vehicle_motion.hpp"
+#include "rt/files/whole_file.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/memory/locked_memory.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/input_check.hpp"
-#include "tools/cli/live_summary.hpp"
-#include "tools/cli/motion_choice.hpp"
-#include "tools/cli/setup_choice.hpp"
+#include "tools/cli/export/chrome_trace.hpp"
+#include "tools/cli/figures/dashboard.hpp"
+#include "tools/cli/figures/figures_json.hpp"
+#include "tools/cli/input/input_check.hpp"
+#include "tools/cli/settings/decoder_choice.hpp"
+#include "tools/cli/settings/motion_choice.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "vehicle_bus.hpp"
-#include "vehicle_motion.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -47,29 +48,25 @@ using SteadyClock = std::chrono::steady_clock;
 constexpr double kMostPacketsPerSecond = 12'001;
 constexpr std::size_t kLongestPacketBytes = 1248;
 
-void say_refusals(const std::vector<rt::Grant>& grants) {
-  for (const rt::Grant& grant : grants) {
+void say_refusals(const std::vector<threads::Grant>& grants) {
+  for (const threads::Grant& grant : grants) {
     if (!grant.granted) warn(to_line(grant));
   }
 }
 
-Expected<LiveSource> open_source(const LiveOptions& options, rt::FixedMemory& memory) {
-  std::optional<std::uint32_t> sender;
-  if (!options.capture.from.empty()) {
-    const auto address = firmware_io::parse_ipv4_address(options.capture.from);
-    if (!address) return tl::unexpected(address.error());
-    sender = *address;
-  }
-  auto source = LiveSource::open(options.listen, std::nullopt, sender, memory);
+Expected<net::LiveSource> open_source(const Options& options, memory::FixedMemory& memory) {
+  const auto config = listen_config_of(options);
+  if (!config) return tl::unexpected(config.error());
+  auto source = net::LiveSource::open(*config, memory);
   if (!source) return source;
   for (const std::string& warning : source->warnings()) warn(warning);
   say("listening at " + source->name());
   return source;
 }
 
-std::string describe(const SensorOnAir& sensor) {
+std::string describe(const sensor::SensorOnAir& sensor) {
   return fmt::format("{} at {}, {:.1f} Hz, {} return", to_string(sensor.model),
-                     firmware_io::ipv4_text(sensor.address), sensor.spin_hz,
+                     net::ipv4_text(sensor.address), sensor.spin_hz,
                      sensor.dual_return ? "dual" : "single");
 }
 
@@ -80,16 +77,16 @@ class Waiting {
       : display_(display), service_(service) {
     figures_->version = {TERRACUT_VERSION};
     figures_->input = {input};
-    figures_->started_ns = rt::realtime_ns();
+    figures_->started_ns = measure::realtime_ns();
     show("waiting for a sensor");
-    service_.ready(*figures_, rt::monotonic_ns());
+    service_.ready(*figures_, measure::monotonic_ns());
   }
 
   void turn_round(const std::string& what) {
     show(what);
-    service_.turn_round(*figures_, rt::monotonic_ns());
+    service_.turn_round(*figures_, measure::monotonic_ns());
     // What is heard soon need not be said to be waited for; counts in it change all the time.
-    const std::int64_t now_ns = rt::monotonic_ns();
+    const std::int64_t now_ns = measure::monotonic_ns();
     if (now_ns < say_at_ns_ || what == said_) return;
     say(what + " (Ctrl-C ends it)");
     said_ = what;
@@ -101,41 +98,41 @@ class Waiting {
 
   void show(const std::string& what) {
     figures_->sensor = {what};
-    figures_->taken_ns = rt::realtime_ns();
+    figures_->taken_ns = measure::realtime_ns();
     display_.show(*figures_);
   }
 
   FiguresDisplay& display_;
   LiveService& service_;
-  std::unique_ptr<rt::MonitorSnapshot> figures_ = std::make_unique<rt::MonitorSnapshot>();
+  std::unique_ptr<status::MonitorSnapshot> figures_ = std::make_unique<status::MonitorSnapshot>();
   std::string said_;
-  std::int64_t say_at_ns_ = rt::monotonic_ns() + kSayFirst_ns;
+  std::int64_t say_at_ns_ = measure::monotonic_ns() + kSayFirst_ns;
 };
 
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {
-  std::optional<VehicleMotion> motion;
-  LiveChain chain;
-  std::optional<firmware_io::FlightRecorder> recorder;
-  LiveThreads threads;
+  std::optional<run::VehicleMotion> motion;
+  run::LivePipeline pipeline;
+  std::optional<recorder::FlightRecorder> recorder;
+  run::LiveThreads threads;
   LiveWatch watch;
 
-  LiveParts(const LiveOptions& options, const SensorOnAir& sensor,
-            const calib::RingProfile& profile, LiveSource& source, VehicleBus* bus,
-            LiveThreads::Events events, FiguresDisplay& display, rt::FixedMemory& memory)
+  LiveParts(const Options& options, const sensor::SensorOnAir& sensor,
+            const mount::RingProfile& profile, net::LiveSource& source, VehicleBus* bus,
+            run::LiveThreads::Events events, FiguresDisplay& display, memory::FixedMemory& memory)
       : motion(motion_of(options, bus, memory)),
-        chain(sensor.calibration, profile, sensor.columns, options.capture, options.method,
-              {motion ? &motion->motion() : nullptr, turn_instant_of(options.motion)}, memory),
+        pipeline(sensor.calibration, profile, decoder_config(options, sensor, motion),
+                 segmenter_config_of(options.method), memory),
         recorder(recorder_of(options, memory)),
-        threads(options, turn_ns_of(sensor), chain, source, std::move(events),
+        threads(threads_config(options, sensor), pipeline, source, std::move(events),
                 recorder ? &*recorder : nullptr, memory),
         watch(options, profile.mount, threads, motion ? &*motion : nullptr, display, memory) {}
 
   /// Starts every thread; answers what the system granted and refused them.
-  [[nodiscard]] std::vector<rt::Grant> start(const LiveOptions& options) {
-    std::vector<rt::Grant> grants;
+  [[nodiscard]] std::vector<threads::Grant> start(const Options& options) {
+    std::vector<threads::Grant> grants;
     if (motion) grants = motion->start(options.realtime.can_priority);
-    for (rt::Grant& grant : threads.start()) grants.push_back(std::move(grant));
+    for (threads::Grant& grant : threads.start()) grants.push_back(std::move(grant));
     return grants;
   }
   void stop() {
@@ -144,23 +141,42 @@ struct LiveParts {
   }
 
  private:
-  static std::optional<VehicleMotion> motion_of(const LiveOptions& options, VehicleBus* bus,
-                                                rt::FixedMemory& memory) {
+  static std::optional<run::VehicleMotion> motion_of(const Options& options, VehicleBus* bus,
+                                                     memory::FixedMemory& memory) {
     if (bus == nullptr) return std::nullopt;
-    return std::make_optional<VehicleMotion>(bus->signals, ego_motion_config_of(options.motion),
-                                             bus->source, memory);
+    return std::make_optional<run::VehicleMotion>(
+        bus->signals, ego_motion_config_of(options.motion), bus->source, memory);
   }
-  /// Where the sensor has not told how fast it turns, as long as any takes.
-  static std::int64_t turn_ns_of(const SensorOnAir& sensor) {
-    constexpr double kSlowest_hz = 5;
-    return static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz));
+  /// Packets of a sensor that is connected by one cable do not come late, so none is waited for
+  /// unless that is asked for.
+  static sensor::SensorDecoder::Config decoder_config(const Options& options,
+                                                      const sensor::SensorOnAir& sensor,
+                                                      std::optional<run::VehicleMotion>& motion) {
+    auto config = decoder_config_of(options.capture, sensor.columns);
+    config.reorder_packets = options.capture.reorder_packets.value_or(0);
+    if (motion) config.motion = &motion->motion();
+    config.deskew_at = options.motion.deskew_to;
+    return config;
   }
-  static std::optional<firmware_io::FlightRecorder> recorder_of(const LiveOptions& options,
-                                                                rt::FixedMemory& memory) {
+  static run::LiveThreads::Config threads_config(const Options& options,
+                                                 const sensor::SensorOnAir& sensor) {
+    constexpr double kSlowest_hz = 5;  // where the sensor has not said how fast it turns
+    const RealtimeOptions& realtime = options.realtime;
+    return {
+        .deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
+        .frame_period_ns = static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz)),
+        .keeps_labels = !options.output.labels.empty(),
+        .keeps_points = !options.stream.empty(),
+        .compares_tables = !options.capture.calibration.empty(),
+        .receive = run::thread_wish("tc-receive", realtime.receive_priority, realtime.receive_core),
+        .segment =
+            run::thread_wish("tc-segment", realtime.segment_priority, realtime.segment_core)};
+  }
+  static std::optional<recorder::FlightRecorder> recorder_of(const Options& options,
+                                                             memory::FixedMemory& memory) {
     if (options.recorder.seconds <= 0 || options.recorder.folder.empty()) return std::nullopt;
-    return std::make_optional<firmware_io::FlightRecorder>(
-        firmware_io::packet_ring_size(options.recorder.seconds, kMostPacketsPerSecond,
-                                      kLongestPacketBytes),
+    return std::make_optional<recorder::FlightRecorder>(
+        net::packet_ring_size(options.recorder.seconds, kMostPacketsPerSecond, kLongestPacketBytes),
         memory);
   }
 };
@@ -169,40 +185,40 @@ struct LiveParts {
 class Writers {
  public:
   /// The errors of TurnStreamServer::open().
-  [[nodiscard]] Status open(const LiveOptions& options, const SensorOnAir& sensor,
+  [[nodiscard]] Status open(const Options& options, const sensor::SensorOnAir& sensor,
                             LiveParts& parts) {
     if (parts.threads.points()) {
-      const auto address = firmware_io::parse_stream_address(options.stream);
+      const auto address = stream::parse_stream_address(options.stream);
       if (!address) return tl::unexpected(address.error());
-      auto server = firmware_io::TurnStreamServer::open(
-          {.address = *address,
-           .unix_mode = static_cast<::mode_t>(std::stoul(options.stream_mode, nullptr, 8)),
-           .max_points = parts.chain.decoder.return_capacity()},
-          stream_memory_);
+      auto server =
+          stream::TurnStreamServer::open({.address = *address,
+                                          .unix_mode = options.stream_mode,
+                                          .max_points = parts.pipeline.decoder.return_capacity()},
+                                         stream_memory_);
       if (!server) return tl::unexpected(server.error());
       if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
       say("labelled points at " + to_string(server->address()));
-      stream_.emplace(*std::move(server), firmware_io::streamed_sensor(sensor.model),
+      stream_.emplace(*std::move(server), stream::streamed_sensor(sensor.model),
                       static_cast<std::int64_t>(options.deadline_ms * 1e6), *parts.threads.points(),
                       parts.threads.points_ready());
     }
-    if (parts.threads.labels()) labels_.emplace(options.labels, *parts.threads.labels());
+    if (parts.threads.labels()) labels_.emplace(options.output.labels, *parts.threads.labels());
     if (parts.recorder) {
       dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames);
     } else {
-      refusals_.emplace(rt::status_page_folder(), options.watch.name);
+      refusals_.emplace(status::status_page_folder(), options.watch.name);
     }
     return {};
   }
 
   /// Null where nothing is streamed.
-  [[nodiscard]] const StreamWriter* stream() const { return stream_ ? &*stream_ : nullptr; }
+  [[nodiscard]] const run::StreamWriter* stream() const { return stream_ ? &*stream_ : nullptr; }
 
-  void want_dump(firmware_io::DumpReason reason, const LiveWatch& watch) {
+  void want_dump(recorder::DumpReason reason, const LiveWatch& watch) {
     if (dumps_) dumps_->want(reason, watch.newest());
-    if (!refusals_ || reason != firmware_io::DumpReason::kAsked) return;
-    const Status told = refusals_->publish(tl::unexpected(firmware_io::RefusedDump{
-        firmware_io::DumpRefusal::kNoRecorder,
+    if (!refusals_ || reason != recorder::DumpReason::kAsked) return;
+    const Status told = refusals_->publish(tl::unexpected(recorder::RefusedDump{
+        recorder::DumpRefusal::kNoRecorder,
         "this run keeps no packets; start it with --recorder-folder FOLDER (and "
         "--recorder-seconds above 0)"}));
     if (!told) warn(told.error().message);
@@ -220,14 +236,14 @@ class Writers {
   [[nodiscard]] bool wrote_all() const { return !labels_ || labels_->outcome().has_value(); }
 
  private:
-  rt::FixedMemory stream_memory_;  ///< Not locked: no thread with a deadline touches it.
-  std::optional<StreamWriter> stream_;
+  memory::FixedMemory stream_memory_;  ///< Not locked: no thread with a deadline touches it.
+  std::optional<run::StreamWriter> stream_;
   std::optional<LabelWriter> labels_;
   std::optional<DumpWriter> dumps_;
   std::optional<DumpAnswers> refusals_;  ///< Where there is nothing to dump.
 };
 
-void run_until_stopped(const LiveOptions& options, const SensorOnAir& sensor, LiveParts& parts,
+void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor, LiveParts& parts,
                        Writers& writers, DumpSignal& dump_wanted, LiveService& service) {
   LiveWatch& watch = parts.watch;
   const auto started = SteadyClock::now();
@@ -239,46 +255,48 @@ void run_until_stopped(const LiveOptions& options, const SensorOnAir& sensor, Li
   while (!stop_wanted() && !is_over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
     const LiveWatch::Round round = watch.turn_round();
-    service.turn_round(watch.figures(), rt::monotonic_ns());
+    service.turn_round(watch.figures(), measure::monotonic_ns());
     const std::string other = parts.threads.told_table().take_warning(sensor.calibration);
     if (!other.empty()) warn(other);
-    if (round.missed > 0) writers.want_dump(firmware_io::DumpReason::kMissedDeadline, watch);
-    if (dump_wanted.take()) writers.want_dump(firmware_io::DumpReason::kAsked, watch);
+    if (round.missed > 0) writers.want_dump(recorder::DumpReason::kMissedDeadline, watch);
+    if (dump_wanted.take()) writers.want_dump(recorder::DumpReason::kAsked, watch);
   }
+  if (options.capture.duration_s && !is_over()) watch.note_interruption();
 }
 
-ExitCode conclude(const LiveOptions& options, const LiveWatch& watch) {
-  const rt::MonitorSnapshot& figures = watch.figures();
-  fmt::print("{}", live_report(figures));
-  if (!options.json.empty()) {
-    const Status written = write_live_summary(options.json, figures);
+ExitCode conclude(const Options& options, const LiveWatch& watch) {
+  const status::MonitorSnapshot& figures = watch.figures();
+  fmt::print("{}", closing_lines(figures));
+  if (!options.output.json.empty()) {
+    const Status written = files::write_whole_file(options.output.json, live_summary(figures));
     if (!written) return refuse(written.error());
   }
   if (!options.trace.empty()) {
     const Status written = write_chrome_trace(options.trace, figures, watch.newest());
     if (!written) return refuse(written.error());
   }
+  if (figures.interrupted != 0) return kInterrupted;
   if (figures.frames == 0) return refuse(kNothingCameOut, why_no_frames(figures));
   return figures.all_misses() > 0 ? kDeadlinesMissed : kOk;
 }
 
 }  // namespace
 
-ExitCode run(const LiveOptions& options) {
+ExitCode run_live(const Options& options) {
   if (const Status ready = check_before_listening(options); !ready) return refuse(ready.error());
   DumpSignal dump_wanted;  // before any thread: they inherit that the signal is blocked
   catch_stop_signals();
-  if (options.realtime.lock_memory) say_refusals(rt::hold_memory({}));
+  if (options.realtime.lock_memory) say_refusals(memory::hold_memory({}));
 
-  rt::FixedMemory socket_memory;
+  memory::FixedMemory socket_memory;
   LiveService service = LiveService::from_environment();
   if (!options.recorder.folder.empty()) {
-    const auto usable = firmware_io::DumpFolder(dump_folder_of(options)).check();
+    const auto usable = recorder::DumpFolder(dump_folder_of(options)).check();
     if (!usable) return refuse(kOutputFailed, "dumps: " + usable.error().message);
   }
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
-  std::optional<firmware_io::MotionSignals> signals;
+  std::optional<vehicle::MotionSignals> signals;
   if (!options.can.empty()) {
     auto found = motion_signals_of(options.motion);
     if (!found) return refuse(found.error());
@@ -288,12 +306,12 @@ ExitCode run(const LiveOptions& options) {
   Waiting waiting(source->name(), display, service);
   const auto sensor = listen_for_sensor(*source, options,
                                         [&](const std::string& what) { waiting.turn_round(what); });
-  if (stop_wanted()) return kOk;
+  if (stop_wanted()) return options.capture.duration_s ? kInterrupted : kOk;
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));
   warn_of_unheeded(options.capture, sensor->model);
-  say(fmt::format("calibration: {}, fingerprint {:016x}", origin_of(sensor->calibration),
+  say(fmt::format("calibration: {}, fingerprint {:016x}", calib::origin_of(sensor->calibration),
                   calib::fingerprint(sensor->calibration)));
   const auto profile = ring_profile_of(sensor->calibration, options.mount);
   if (!profile) return refuse(profile.error());
@@ -307,9 +325,9 @@ ExitCode run(const LiveOptions& options) {
   }
   VehicleBus* const vehicle = bus ? &*bus : nullptr;
 
-  rt::FixedMemory plan, memory;
-  auto idle = LiveThreads::Events::make();
-  auto events = LiveThreads::Events::make();
+  memory::FixedMemory plan, memory;
+  auto idle = run::LiveThreads::Events::make();
+  auto events = run::LiveThreads::Events::make();
   if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
   LiveParts{options, *sensor, *profile, *source, vehicle, *std::move(idle), display, plan};
   const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});

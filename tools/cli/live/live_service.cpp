@@ -15,9 +15,9 @@ namespace {
 constexpr std::int64_t kLooksInWatchdogTime = 4;
 constexpr std::int64_t kStatusEvery_ns = 5'000'000'000;
 
-std::string status_of(const rt::MonitorSnapshot& figures) {
+std::string status_of(const status::MonitorSnapshot& figures) {
   std::string link = fmt::format("link {}", to_string(figures.link));
-  if (figures.link == rt::LinkState::kReceiving) {
+  if (figures.link == status::LinkState::kReceiving) {
     link = figures.head_stands ? "its head does not turn"
                                : fmt::format("{:.1f} frames/s", figures.frames_per_s);
   }
@@ -39,13 +39,13 @@ LiveService::LiveService(ServiceNotify notify) noexcept
       look_every_ns_(notify_.watchdog_ns() ? *notify_.watchdog_ns() / kLooksInWatchdogTime
                                            : kStatusEvery_ns) {}
 
-void LiveService::ready(const rt::MonitorSnapshot& figures, std::int64_t now_ns) {
+void LiveService::ready(const status::MonitorSnapshot& figures, std::int64_t now_ns) {
   if (!notify_.connected()) return;
   notify_.ready(status_of(figures));
   next_look_ns_ = now_ns + look_every_ns_;
 }
 
-void LiveService::turn_round(const rt::MonitorSnapshot& figures, std::int64_t now_ns) {
+void LiveService::turn_round(const status::MonitorSnapshot& figures, std::int64_t now_ns) {
   if (!notify_.connected() || now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + look_every_ns_;
   if (rule_.may_feed(figures)) notify_.feed_watchdog();

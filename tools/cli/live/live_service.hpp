@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include "rt/monitor_snapshot.hpp"
-#include "tools/cli/service_notify.hpp"
-#include "watchdog_rule.hpp"
+#include "pipeline/status/monitor_snapshot.hpp"
+#include "pipeline/status/watchdog_rule.hpp"
+#include "service_notify.hpp"
 
 namespace terracut::cli {
 
@@ -20,17 +20,17 @@ class LiveService {
   [[nodiscard]] static LiveService from_environment();
   explicit LiveService(ServiceNotify notify) noexcept;
 
-  /// Once, when it listens. `now_ns`: rt::monotonic_ns(), as below.
-  void ready(const rt::MonitorSnapshot& figures, std::int64_t now_ns);
+  /// Once, when it listens. `now_ns`: measure::monotonic_ns(), as below.
+  void ready(const status::MonitorSnapshot& figures, std::int64_t now_ns);
   /// As often as one likes: it looks at the figures four times within the watchdog's time, or
   /// every five seconds where there is none.
-  void turn_round(const rt::MonitorSnapshot& figures, std::int64_t now_ns);
+  void turn_round(const status::MonitorSnapshot& figures, std::int64_t now_ns);
   /// Once, before the threads end.
   void stopping() const noexcept { notify_.stopping(); }
 
  private:
   ServiceNotify notify_;
-  WatchdogRule rule_;
+  status::WatchdogRule rule_;
   std::int64_t look_every_ns_;
   std::int64_t next_look_ns_ = 0;
 };

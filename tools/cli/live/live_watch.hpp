@@ -9,18 +9,17 @@
 #include <vector>
 
 #include "figures_display.hpp"
-#include "health_reporter.hpp"
-#include "link_news.hpp"
-#include "live_options.hpp"
-#include "live_threads.hpp"
-#include "pipeline/segmenter.hpp"
-#include "rt/deadline_monitor.hpp"
-#include "rt/stolen_time.hpp"
-#include "standing_head.hpp"
-#include "stolen_time_share.hpp"
-#include "stream_writer.hpp"
-#include "tools/cli/mount_watch.hpp"
-#include "vehicle_motion.hpp"
+#include "pipeline/ground/segmenter.hpp"
+#include "pipeline/run/live_threads.hpp"
+#include "pipeline/run/stream_writer.hpp"
+#include "pipeline/run/vehicle_motion.hpp"
+#include "pipeline/status/deadline_monitor.hpp"
+#include "pipeline/status/health_reporter.hpp"
+#include "pipeline/status/input_status.hpp"
+#include "pipeline/status/stolen_time_share.hpp"
+#include "rt/measure/stolen_time.hpp"
+#include "tools/cli/figures/mount_watch.hpp"
+#include "tools/cli/options.hpp"
 
 namespace terracut::cli {
 
@@ -29,18 +28,18 @@ namespace terracut::cli {
 /// disk.
 class LiveWatch {
  public:
-  static constexpr std::array<std::string_view, pipeline::kStages> kStageNames{
-      to_string(pipeline::Stage::kElevationMap), to_string(pipeline::Stage::kAdjacentPoints),
-      to_string(pipeline::Stage::kSeeds), to_string(pipeline::Stage::kMinCut),
-      to_string(pipeline::Stage::kLabels)};
+  static constexpr std::array<std::string_view, stage::kStages> kStageNames{
+      to_string(stage::Stage::kElevationMap), to_string(stage::Stage::kAdjacentPoints),
+      to_string(stage::Stage::kSeeds), to_string(stage::Stage::kMinCut),
+      to_string(stage::Stage::kLabels)};
 
   /// All must outlive this. `motion` may be null.
-  LiveWatch(const LiveOptions& options, const calib::Mount& mount, LiveThreads& threads,
-            VehicleMotion* motion, FiguresDisplay& display, rt::FixedMemory& memory);
+  LiveWatch(const Options& options, const mount::Mount& mount, run::LiveThreads& threads,
+            run::VehicleMotion* motion, FiguresDisplay& display, memory::FixedMemory& memory);
 
   /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `stream`:
   /// whose losses are shown as well; may be null, and must outlive this.
-  void open(const std::string& sensor, const std::string& input, const StreamWriter* stream);
+  void open(const std::string& sensor, const std::string& input, const run::StreamWriter* stream);
 
   struct Round {
     int frames = 0;  ///< Judged.
@@ -48,34 +47,37 @@ class LiveWatch {
   };
   /// Takes what has come since the last round.
   Round turn_round();
+  /// It is ended before the time it was asked for is over.
+  void note_interruption() { monitor_.snapshot().interrupted = 1; }
   /// After everything that takes results has ended, or will not.
   void last_round();
 
-  [[nodiscard]] const rt::MonitorSnapshot& figures() const noexcept { return monitor_.snapshot(); }
+  [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {
+    return monitor_.snapshot();
+  }
   /// The times of the newest frames, oldest first.
-  [[nodiscard]] std::vector<rt::FrameTiming> newest() const;
+  [[nodiscard]] std::vector<status::FrameTiming> newest() const;
 
  private:
   static constexpr std::size_t kKeptFrames = 256;
 
   void open_health();
   void refresh();
-  void refresh_link(rt::MonitorSnapshot& figures);
-  void refresh_losses(rt::MonitorSnapshot& figures);
-  void refresh_threads(rt::MonitorSnapshot& figures);
+  void refresh_input(status::MonitorSnapshot& figures);
+  void refresh_losses(status::MonitorSnapshot& figures);
+  void refresh_threads(status::MonitorSnapshot& figures);
 
-  const LiveOptions& options_;
-  LiveThreads& threads_;
-  VehicleMotion* motion_;
-  const StreamWriter* stream_ = nullptr;
+  const Options& options_;
+  run::LiveThreads& threads_;
+  run::VehicleMotion* motion_;
+  const run::StreamWriter* stream_ = nullptr;
   FiguresDisplay& display_;
   std::unique_ptr<MountWatch> mount_;
-  StandingHead standing_head_;
-  LinkNews link_news_;
-  std::optional<StolenTimeShare<rt::StolenTime>> stolen_;
+  status::InputStatus input_;
+  std::optional<status::StolenTimeShare<measure::StolenTime>> stolen_;
   bool over_ = false;
-  rt::DeadlineMonitor monitor_;
-  std::optional<HealthReporter> health_;
+  status::DeadlineMonitor monitor_;
+  std::optional<status::HealthReporter> health_;
 };
 
 }  // namespace terracut::cli

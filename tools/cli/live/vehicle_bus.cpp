@@ -11,17 +11,17 @@
 
 namespace terracut::cli {
 
-Expected<VehicleBus> VehicleBus::open(const std::string& interface,
-                                      firmware_io::MotionSignals signals, rt::FixedMemory& memory) {
+Expected<VehicleBus> VehicleBus::open(const std::string& interface, vehicle::MotionSignals signals,
+                                      memory::FixedMemory& memory) {
   const auto ids = signals.ids();
-  auto source = firmware_io::SocketCanSource::open(
+  auto source = can::SocketCanSource::open(
       {.interface = interface, .ids = {ids.begin(), ids.end()}, .wait_for_interface = true},
       memory);
   if (!source) return tl::unexpected(source.error());
-  if (source->link() == firmware_io::LinkState::kGone) {
-    warn(firmware_io::no_such_can_interface(interface).message +
+  if (source->link() == net::LinkState::kGone) {
+    warn(can::no_such_can_interface(interface).message +
          "; it is waited for, and until then frames have no ego motion");
-  } else if (source->link() == firmware_io::LinkState::kDown) {
+  } else if (source->link() == net::LinkState::kDown) {
     warn(fmt::format("CAN interface '{}' is down; until it is up frames have no ego motion",
                      interface));
   }

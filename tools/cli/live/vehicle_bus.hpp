@@ -4,23 +4,23 @@
 
 #include <string>
 
-#include "firmware_io/can/motion_signals.hpp"
 #include "firmware_io/can/socketcan_source.hpp"
+#include "firmware_io/vehicle/motion_signals.hpp"
 #include "rt/error.hpp"
-#include "rt/fixed_memory.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::cli {
 
 /// The vehicle's CAN bus, heard for the signals of its motion.
 struct VehicleBus {
-  firmware_io::MotionSignals signals;
-  firmware_io::SocketCanSource source;
+  vehicle::MotionSignals signals;
+  can::SocketCanSource source;
 
   /// An interface that is not there is warned of and waited for. Otherwise the errors of
   /// SocketCanSource::open().
   [[nodiscard]] static Expected<VehicleBus> open(const std::string& interface,
-                                                 firmware_io::MotionSignals signals,
-                                                 rt::FixedMemory& memory);
+                                                 vehicle::MotionSignals signals,
+                                                 memory::FixedMemory& memory);
 };
 
 }  // namespace terracut::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <numbers>
+
+namespace terracut::beams {
+
+[[nodiscard]] constexpr double deg_to_rad(double deg) noexcept {
+  return deg * (std::numbers::pi / 180.0);
+}
+[[nodiscard]] constexpr double rad_to_deg(double rad) noexcept {
+  return rad * (180.0 / std::numbers::pi);
+}
+
+/// One turn in the unit of both sensors' wire azimuth, hundredths of a degree.
+inline constexpr int kTurn_cdeg = 36000;
+
+/// `cdeg` reduced to [0, 36000).
+[[nodiscard]] constexpr int wrap_cdeg(std::int64_t cdeg) noexcept {
+  const auto rest = static_cast<int>(cdeg % kTurn_cdeg);
+  return rest < 0 ? rest + kTurn_cdeg : rest;
+}
+
+/// The signed step from `from` to `to`, both in [0, 36000), the short way round: [-18000, 18000).
+[[nodiscard]] constexpr int step_cdeg(int from, int to) noexcept {
+  return wrap_cdeg(std::int64_t{to} - from + kTurn_cdeg / 2) - kTurn_cdeg / 2;
+}
+
+}  // namespace terracut::beams

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "rt/error.hpp"
+
+namespace terracut::hdl64e {
+
+inline constexpr int kHdl64eLasers = 64;
+
+/// The factory correction of one laser (HDL-64E S3 manual Rev K, p. 10; docs/reference/sensors.md).
+struct Hdl64eLaser {
+  double rot_correction_rad = 0;   ///< rho: taken off the azimuth; positive turns left.
+  double vert_correction_rad = 0;  ///< omega: elevation of the beam; positive is up.
+  double dist_correction_m = 0;    ///< Added to the raw distance, calibrated at 25.04 m ("far").
+  double dist_correction_x_m = 0;  ///< The same at 2.40 m, along x; used only when two_point.
+  double dist_correction_y_m = 0;  ///< The same at 1.93 m, along y; used only when two_point.
+  double vert_offset_m = 0;        ///< Height of the beam's start above the sensor's origin.
+  double horiz_offset_m = 0;       ///< Sideways offset of the beam's start.
+  double focal_distance_m = 0;     ///< Distance of strongest return, for the intensity formula.
+  double focal_slope = 0;
+  int min_intensity = 0;    ///< 0..255
+  int max_intensity = 255;  ///< 0..255, >= min_intensity
+  bool two_point = false;   ///< The X and Y corrections are present and meant to be used.
+
+  bool operator==(const Hdl64eLaser&) const = default;
+};
+
+/// The calibration of one HDL-64E unit: 64 lasers by their number on the wire (0..31 in blocks
+/// 0xEEFF, 32..63 in blocks 0xDDFF). Laser numbers are NOT in order of elevation.
+struct Hdl64eCalibration {
+  std::array<Hdl64eLaser, kHdl64eLasers> lasers{};
+  double distance_resolution_m = 0.002;  ///< Metres per count of the raw distance.
+  std::string origin;                    ///< For logs: "drive.calibration.xml", "packet stream".
+};
+
+/// Whether a file or stream that has these distance corrections means two-point correction: X or Y
+/// was measured (is not zero) and differs from far. Files say it in no reliable way of their own.
+[[nodiscard]] constexpr bool two_point_present(double far_m, double x_m, double y_m) noexcept {
+  return (x_m != 0 && x_m != far_m) || (y_m != 0 && y_m != far_m);
+}
+
+/// Checks that this is a plausible HDL-64E table: every value finite, angles, offsets and
+/// corrections inside the spans seen on real units (docs/reference/sensors.md), elevations distinct
+/// enough to form 64 rows. The error names the laser, the field, the value and the allowed span.
+[[nodiscard]] Status validate(const Hdl64eCalibration& calibration);
+
+/// A 64-bit fingerprint of all values (not of the origin), rounded to the packet stream's units, so
+/// that the same unit's table gives the same hash from a file and from the stream.
+[[nodiscard]] std::uint64_t fingerprint(const Hdl64eCalibration& calibration);
+
+/// Row of every laser in the range image: row 0 is the lowest elevation (nearest to the vehicle),
+/// row 63 the highest. Stable for equal elevations.
+[[nodiscard]] std::array<int, kHdl64eLasers> rows_by_elevation(
+    const Hdl64eCalibration& calibration);
+
+}  // namespace terracut::hdl64e

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+
+namespace terracut::hdl64e {
+
+/// Reads an HDL-64E calibration of any supported file kind, told apart by content and, where that
+/// says nothing, by extension: the maker's db.xml (hdl64e_xml.hpp) or ROS YAML (hdl64e_yaml.hpp).
+/// Anything else is kUnsupported with the kinds that would be read; RoboSense angle tables (csv)
+/// are refused by name. Start-up only.
+[[nodiscard]] Expected<Hdl64eCalibration> load_hdl64e_calibration(
+    const std::filesystem::path& path);
+
+}  // namespace terracut::hdl64e

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+
+namespace terracut::hdl64e {
+
+/// Reads the maker's calibration file, `db.xml` (Boost.Serialization XML, root
+/// boost_serialization/DB; degrees and centimetres). Start-up only: allocates.
+///
+/// Two-point correction counts as present where distCorrectionX_ or distCorrectionY_ is not zero
+/// and differs from distCorrection_; missing intensity limits are 0 and 255, missing offsets 0.
+/// Lasers with enabled_ 0 are absent, and fewer than 64 lasers are an error. The result is
+/// validated. Errors (kNotFound, kUnreadable, kMalformed, kUnsupported) name the file, the laser
+/// and the field; files above 4 MiB are refused.
+[[nodiscard]] Expected<Hdl64eCalibration> read_hdl64e_xml(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the file in errors and becomes the origin.
+[[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_xml(std::span<const char> text,
+                                                           const std::string& name);
+
+/// Writes a `db.xml` that this and other programs read, whole or not at all. Reading it back gives
+/// exactly the same lengths, and exactly the same angles where they are decimal fractions of a
+/// degree (others within one unit in the last place). Lasers without two_point get X and Y
+/// corrections equal to far. kMalformed when the calibration fails validate(), kWriteFailed when
+/// the file cannot be written.
+[[nodiscard]] Status write_hdl64e_xml(const std::filesystem::path& path,
+                                      const Hdl64eCalibration& calibration);
+
+}  // namespace terracut::hdl64e

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+
+namespace terracut::hdl64e {
+
+/// Reads the YAML calibration that the ROS velodyne drivers made common (`lasers:` list of maps in
+/// block or inline style; radians and metres). Start-up only: allocates.
+///
+/// Two-point correction counts as present where dist_correction_x or dist_correction_y is not zero
+/// and differs from dist_correction, unless two_pt_correction_available says false: converters left
+/// the key out of files that hold the values. Missing: min_intensity 0, max_intensity 255,
+/// distance_resolution 0.002 m, offsets and focal values 0. The result is validated.
+/// Errors (kNotFound, kUnreadable, kMalformed, kUnsupported) name the file, the laser or line and
+/// the field; files above 4 MiB, aliases and deep nesting are refused.
+[[nodiscard]] Expected<Hdl64eCalibration> read_hdl64e_yaml(const std::filesystem::path& path);
+
+/// The same from memory; `name` stands for the file in errors and becomes the origin.
+[[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_yaml(std::span<const char> text,
+                                                            const std::string& name);
+
+}  // namespace terracut::hdl64e

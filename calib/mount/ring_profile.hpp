@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <vector>
+
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/ruby128/ruby128_calibration.hpp"
+
+namespace terracut::mount {
+
+/// One row of the range image as the pipeline needs to know it: one laser, rows sorted upwards.
+struct Ring {
+  double elevation_rad = 0;    ///< Of the beam, in the sensor frame; rows ascend in it.
+  double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin (vertical offset).
+  /// Mean horizontal distance at which this beam meets the mount's ground plane; infinity where it
+  /// never does (elevation at or above the horizon) or only beyond the range limit.
+  double ground_distance_m = 0;
+};
+
+/// The paper's calibrated "average distance between the points of a laser and the origin": the ring
+/// grid's boundaries and the thresholds of Eq. 5 come from it. rings[0] is the lowest elevation.
+struct RingProfile {
+  std::vector<Ring> rings;
+  Mount mount;
+};
+
+/// A ring whose beam starts on the axis of rotation, over level ground; beams that reach the ground
+/// beyond `range_limit_m` count as never reaching it.
+[[nodiscard]] Ring ring(double elevation_rad, double origin_height_m, const Mount& mount,
+                        double range_limit_m = 120.0);
+
+/// The profile that follows from the geometry alone, for a level mount; beams that reach the ground
+/// beyond `range_limit_m` count as never reaching it.
+[[nodiscard]] RingProfile ring_profile(const hdl64e::Hdl64eCalibration& calibration,
+                                       const Mount& mount, double range_limit_m = 120.0);
+[[nodiscard]] RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration,
+                                       const Mount& mount, double range_limit_m = 120.0);
+
+}  // namespace terracut::mount

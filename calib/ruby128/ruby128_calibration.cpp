@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "calib/ruby128/ruby128_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <string_view>
+
+#include "calib/beams/angle.hpp"
+#include "calib/beams/elevation_rows.hpp"
+#include "calib/text/fnv1a.hpp"
+
+namespace terracut::ruby128 {
+namespace {
+
+using Channels = std::array<Ruby128Channel, kRuby128Lasers>;
+
+constexpr std::int64_t kNoAngle = std::numeric_limits<std::int64_t>::min();
+
+/// Allowed values, thousandths of a degree, both ends included: whole hundredths, so that rounding
+/// to DIFOP's unit never leaves them.
+struct Span {
+  std::int64_t low_mdeg, high_mdeg;
+  bool contains(std::int64_t mdeg) const noexcept { return mdeg >= low_mdeg && mdeg <= high_mdeg; }
+};
+constexpr Span kLowestSpan{-26'000, -24'000};  // -25 by the maker's table
+constexpr Span kHighestSpan{14'000, 16'000};   // 15
+constexpr Span kElevationSpan{kLowestSpan.low_mdeg, kHighestSpan.high_mdeg};
+constexpr Span kOffsetSpan{-10'000, 10'000};     // -5.95 .. 5.95
+constexpr std::int64_t kMinSpread_mdeg = 5'000;  // 11.9
+
+enum class Fault : std::uint8_t {
+  kRubyPlus,
+  kElevation,
+  kOffset,
+  kLowest,
+  kHighest,
+  kTwins,
+  kSpread,
+  kMonotonous,
+};
+
+/// What is wrong, with one or two channels, [0, 128), that show it.
+struct Finding {
+  Fault fault;
+  int channel = 0, other = 0;
+};
+
+const Ruby128Channel& at(const Channels& channels, int channel) noexcept {
+  return channels[static_cast<std::size_t>(channel)];
+}
+std::int64_t elevation_mdeg(const Channels& channels, int channel) noexcept {
+  return angle_mdeg(at(channels, channel).elevation_rad);
+}
+std::int64_t offset_mdeg(const Channels& channels, int channel) noexcept {
+  return angle_mdeg(at(channels, channel).azimuth_offset_rad);
+}
+
+std::array<int, kRuby128Lasers> rows_of(const Channels& channels) noexcept {
+  std::array<double, kRuby128Lasers> elevation_rad{};
+  std::transform(channels.begin(), channels.end(), elevation_rad.begin(),
+                 [](const Ruby128Channel& channel) { return channel.elevation_rad; });
+  return beams::rows_of_elevations(elevation_rad);
+}
+
+/// The first channels of an RS-Ruby Plus, which has the same packets and much the same spans, but
+/// other angles, firing times and lens offset.
+bool is_ruby_plus(const Channels& channels) noexcept {
+  struct Angles {
+    std::int64_t elevation_mdeg, offset_mdeg;
+  };
+  constexpr std::array<Angles, 6> kPlus{{{-11'780, 5'940},
+                                         {-10'370, 2'390},
+                                         {-9'270, -1'150},
+                                         {-8'380, -4'690},
+                                         {-16'070, 4'700},
+                                         {-25'100, 1'170}}};
+  constexpr std::int64_t kTolerance_mdeg = 500;  // units differ by hundredths of a degree
+  const auto near = [](std::int64_t a, std::int64_t b) {
+    return a >= b - kTolerance_mdeg && a <= b + kTolerance_mdeg;
+  };
+  for (std::size_t i = 0; i < kPlus.size(); ++i) {
+    const int channel = static_cast<int>(i);
+    if (!near(elevation_mdeg(channels, channel), kPlus[i].elevation_mdeg) ||
+        !near(offset_mdeg(channels, channel), kPlus[i].offset_mdeg)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+std::optional<Finding> check_rows(const Channels& channels) noexcept {
+  const auto rows = rows_of(channels);
+  const auto order = beams::order_of_rows(rows);
+  const int lowest = order.front(), highest = order.back();
+  if (!kLowestSpan.contains(elevation_mdeg(channels, lowest))) {
+    return Finding{Fault::kLowest, lowest, highest};
+  }
+  if (!kHighestSpan.contains(elevation_mdeg(channels, highest))) {
+    return Finding{Fault::kHighest, highest, lowest};
+  }
+  for (std::size_t row = 1; row < order.size(); ++row) {
+    const int below = order[row - 1], above = order[row];
+    if (angle_cdeg(at(channels, below).elevation_rad) ==
+        angle_cdeg(at(channels, above).elevation_rad)) {
+      return Finding{Fault::kTwins, std::min(below, above), std::max(below, above)};
+    }
+  }
+  if (std::is_sorted(rows.begin(), rows.end()) || std::is_sorted(rows.rbegin(), rows.rend())) {
+    return Finding{Fault::kMonotonous};
+  }
+  return std::nullopt;
+}
+
+std::optional<Finding> check_offsets(const Channels& channels) noexcept {
+  int least = 0, most = 0;
+  for (int channel = 1; channel < kRuby128Lasers; ++channel) {
+    if (offset_mdeg(channels, channel) < offset_mdeg(channels, least)) least = channel;
+    if (offset_mdeg(channels, channel) > offset_mdeg(channels, most)) most = channel;
+  }
+  if (offset_mdeg(channels, most) - offset_mdeg(channels, least) >= kMinSpread_mdeg) {
+    return std::nullopt;
+  }
+  return Finding{Fault::kSpread, least, most};
+}
+
+/// The first thing that speaks against the table.
+std::optional<Finding> first_finding(const Channels& channels) noexcept {
+  if (is_ruby_plus(channels)) return Finding{Fault::kRubyPlus};
+  for (int channel = 0; channel < kRuby128Lasers; ++channel) {
+    if (!kElevationSpan.contains(elevation_mdeg(channels, channel))) {
+      return Finding{Fault::kElevation, channel};
+    }
+    if (!kOffsetSpan.contains(offset_mdeg(channels, channel)))
+      return Finding{Fault::kOffset, channel};
+  }
+  if (const auto finding = check_rows(channels)) return finding;
+  return check_offsets(channels);
+}
+
+std::string outside(int channel, std::string_view what, double rad, Span span,
+                    std::string_view hint) {
+  return fmt::format("channel {} of 128: {} is {:.6g} deg, expected {:g} to {:g} deg{}",
+                     channel + 1, what, beams::rad_to_deg(rad),
+                     static_cast<double>(span.low_mdeg) / 1000.0,
+                     static_cast<double>(span.high_mdeg) / 1000.0, hint);
+}
+
+/// Why an angle may be outside its span, in words that lead to the mistake.
+std::string_view hint_for_elevation(double rad) {
+  if (std::abs(beams::rad_to_deg(rad)) > 40.0) {
+    return "; this looks like degrees where radians were expected";
+  }
+  return "";
+}
+std::string_view hint_for_offset(double rad) {
+  if (kElevationSpan.contains(angle_mdeg(rad))) return "; are the columns swapped?";
+  return hint_for_elevation(rad);
+}
+std::string_view hint_for_view(const Channels& channels, int one_end, int other_end) {
+  const std::int64_t view_mdeg =
+      std::abs(elevation_mdeg(channels, one_end) - elevation_mdeg(channels, other_end));
+  if (view_mdeg == 0) return "; this looks like an empty table";
+  if (view_mdeg < 2'000) return "; this looks like radians where degrees were expected";
+  return "";
+}
+
+std::string describe(const Finding& finding, const Channels& channels) {
+  const Ruby128Channel& channel = at(channels, finding.channel);
+  switch (finding.fault) {
+    case Fault::kRubyPlus:
+      return "this is the table of an RS-Ruby Plus, whose firing times and lens differ too; "
+             "expected "
+             "an RS-Ruby128";
+    case Fault::kElevation:
+      return outside(finding.channel, "elevation", channel.elevation_rad, kElevationSpan,
+                     hint_for_elevation(channel.elevation_rad));
+    case Fault::kOffset:
+      return outside(finding.channel, "azimuth offset", channel.azimuth_offset_rad, kOffsetSpan,
+                     hint_for_offset(channel.azimuth_offset_rad));
+    case Fault::kLowest:
+      return outside(finding.channel, "the lowest elevation of all", channel.elevation_rad,
+                     kLowestSpan, hint_for_view(channels, finding.channel, finding.other));
+    case Fault::kHighest:
+      return outside(finding.channel, "the highest elevation of all", channel.elevation_rad,
+                     kHighestSpan, hint_for_view(channels, finding.channel, finding.other));
+    case Fault::kTwins:
+      return fmt::format(
+          "channels {} and {} have the same elevation {:.3f} deg, expected 128 distinct ones (in "
+          "hundredths of a degree)",
+          finding.channel + 1, finding.other + 1, beams::rad_to_deg(channel.elevation_rad));
+    case Fault::kSpread:
+      return fmt::format(
+          "all azimuth offsets lie between {:.3f} deg (channel {}) and {:.3f} deg (channel {}), "
+          "expected some 12 deg from the least to the greatest",
+          beams::rad_to_deg(channel.azimuth_offset_rad), finding.channel + 1,
+          beams::rad_to_deg(at(channels, finding.other).azimuth_offset_rad), finding.other + 1);
+    case Fault::kMonotonous:
+      return fmt::format(
+          "elevations run in order from {:.3f} deg (channel 1) to {:.3f} deg (channel 128); this "
+          "looks like a sorted table, expected the order of channels on the wire, which is not "
+          "that of elevations",
+          beams::rad_to_deg(channels.front().elevation_rad),
+          beams::rad_to_deg(channels.back().elevation_rad));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::int64_t angle_mdeg(double rad) noexcept {
+  const double mdeg = beams::rad_to_deg(rad) * 1000.0;
+  return std::abs(mdeg) < 1e15 ? std::llround(mdeg) : kNoAngle;  // NaN ends here as well
+}
+
+std::int64_t angle_cdeg(double rad) noexcept {
+  const std::int64_t mdeg = angle_mdeg(rad);
+  return mdeg == kNoAngle ? kNoAngle : (mdeg + (mdeg < 0 ? -5 : 5)) / 10;
+}
+
+Status validate(const Ruby128Calibration& calibration) {
+  const auto finding = first_finding(calibration.channels);
+  if (!finding) return {};
+  return fail(
+      finding->fault == Fault::kRubyPlus ? ErrorCode::kUnsupported : ErrorCode::kMalformed,
+      fmt::format("RS-Ruby128 calibration{}{}: {}", calibration.origin.empty() ? "" : " from ",
+                  calibration.origin, describe(*finding, calibration.channels)));
+}
+
+bool is_plausible(const Channels& channels) noexcept {
+  return !first_finding(channels).has_value();
+}
+
+std::uint64_t fingerprint(const Ruby128Calibration& calibration) {
+  text::Fnv1a hash;
+  for (const Ruby128Channel& channel : calibration.channels) {
+    hash.add(angle_cdeg(channel.elevation_rad));
+    hash.add(angle_cdeg(channel.azimuth_offset_rad));
+  }
+  return hash.value();
+}
+
+std::array<int, kRuby128Lasers> rows_by_elevation(const Ruby128Calibration& calibration) {
+  return rows_of(calibration.channels);
+}
+
+}  // namespace terracut::ruby128

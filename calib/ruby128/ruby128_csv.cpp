@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "calib/ruby128/ruby128_csv.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <iterator>
+#include <string_view>
+
+#include "calib/beams/angle.hpp"
+#include "calib/text/bounded_file.hpp"
+#include "calib/text/number_text.hpp"
+#include "rt/files/whole_file.hpp"
+
+namespace terracut::ruby128 {
+namespace {
+
+constexpr std::string_view kExpected =
+    "an RS-Ruby128 angle.csv: 128 lines \"elevation,azimuth offset\" in degrees";
+constexpr std::string_view kSpace = " \t\r";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(kSpace);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
+}
+
+/// A line's beginning, safe to print.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 40;
+  std::string shown(text.substr(0, kMost));
+  std::replace_if(shown.begin(), shown.end(), [](char c) { return c < ' ' || c > '~'; }, '?');
+  return fmt::format("\"{}\"{}", shown, text.size() > kMost ? " ..." : "");
+}
+
+/// Cuts text into lines, without the blank ones at its end.
+class Lines {
+ public:
+  explicit Lines(std::string_view text) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    const std::size_t last = text.find_last_not_of(" \t\r\n");
+    rest_ = last == std::string_view::npos ? std::string_view() : text.substr(0, last + 1);
+    count_ = rest_.empty() ? 0 : text::line_of(rest_, rest_.size());
+  }
+  [[nodiscard]] int count() const { return count_; }
+
+  /// The next line, trimmed; empty behind the last one.
+  std::string_view next() {
+    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
+    const std::string_view line = rest_.substr(0, end);
+    rest_.remove_prefix(std::min(end + 1, rest_.size()));
+    return trimmed(line);
+  }
+
+ private:
+  std::string_view rest_;
+  int count_ = 0;
+};
+
+/// One line's numbers in degrees.
+struct Angles {
+  double elevation_deg = 0;
+  double azimuth_offset_deg = 0;
+  bool has_offset = false;
+};
+
+Expected<double> angle_from(std::string_view field, std::string_view what) {
+  const auto value = text::number_from(field);
+  if (!value) {
+    return fail(ErrorCode::kMalformed, fmt::format("{} {} is not a number", what, quoted(field)));
+  }
+  if (!std::isfinite(*value)) {
+    return fail(ErrorCode::kMalformed, fmt::format("{} {} is not finite", what, quoted(field)));
+  }
+  return *value;
+}
+
+/// The error has no file and line yet.
+Expected<Angles> angles_from(std::string_view line) {
+  if (line.empty()) {
+    return fail(ErrorCode::kMalformed, "blank line before the last channel");
+  }
+  if (line.find(';') != std::string_view::npos) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{} has a semicolon; expected a comma between the two angles and a "
+                            "point for decimals",
+                            quoted(line)));
+  }
+  const auto commas = std::count(line.begin(), line.end(), ',');
+  if (commas > 1) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{} has {} fields; expected two, and a point for decimals",
+                            quoted(line), commas + 1));
+  }
+  Angles angles;
+  const std::size_t comma = line.find(',');
+  const auto elevation_deg = angle_from(line.substr(0, comma), "elevation");
+  if (!elevation_deg) return tl::unexpected(elevation_deg.error());
+  angles.elevation_deg = *elevation_deg;
+  if (comma == std::string_view::npos) return angles;
+  const auto offset_deg = angle_from(line.substr(comma + 1), "azimuth offset");
+  if (!offset_deg) return tl::unexpected(offset_deg.error());
+  angles.azimuth_offset_deg = *offset_deg;
+  angles.has_offset = true;
+  return angles;
+}
+
+bool starts_like_a_header(std::string_view line) {
+  return !line.empty() && !text::number_from(line.substr(0, line.find_first_of(",;")));
+}
+
+/// Whose table a number of lines may be.
+std::string_view owner_of(int lines) {
+  switch (lines) {
+    case 16:
+      return "; this looks like the table of an RS-LiDAR-16";
+    case 32:
+      return "; this looks like the table of an RS-LiDAR-32 or another sensor of 32 channels";
+    case 80:
+      return "; this looks like the table of an RS-Ruby Lite (80 channels)";
+    default:
+      return "";
+  }
+}
+
+/// Thousandths of a degree as degrees: "-0.290".
+void put_angle(fmt::memory_buffer& text, double rad) {
+  const std::int64_t mdeg = angle_mdeg(rad);
+  fmt::format_to(std::back_inserter(text), "{}{}.{:03}", mdeg < 0 ? "-" : "", std::abs(mdeg) / 1000,
+                 std::abs(mdeg) % 1000);
+}
+
+}  // namespace
+
+Expected<Ruby128Calibration> parse_ruby128_csv(std::span<const char> text,
+                                               const std::string& name) {
+  Lines lines(std::string_view(text.data(), text.size()));
+  if (lines.count() == 0) {
+    return fail(ErrorCode::kMalformed, fmt::format("{}: is empty; expected {}", name, kExpected));
+  }
+  Ruby128Calibration calibration;
+  calibration.origin = name;
+  bool have_offsets = true;
+  for (int number = 1; number <= std::min(lines.count(), kRuby128Lasers); ++number) {
+    const std::string_view line = lines.next();
+    const auto angles = angles_from(line);
+    if (!angles) {
+      const bool header = number == 1 && starts_like_a_header(line);
+      return fail(angles.error().code,
+                  fmt::format("{}:{}: {}{}; expected {}", name, number, angles.error().message,
+                              header ? " (an angle.csv has no header line)" : "", kExpected));
+    }
+    if (number == 1) have_offsets = angles->has_offset;
+    if (angles->has_offset != have_offsets) {
+      return fail(ErrorCode::kMalformed,
+                  fmt::format("{}:{}: this line has {} azimuth offset, unlike the lines before it",
+                              name, number, angles->has_offset ? "an" : "no"));
+    }
+    calibration.channels[static_cast<std::size_t>(number - 1)] = {
+        beams::deg_to_rad(angles->elevation_deg), beams::deg_to_rad(angles->azimuth_offset_deg)};
+  }
+  if (lines.count() != kRuby128Lasers) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("{}: has {} line{}, expected {}, one a channel{}", name, lines.count(),
+                    lines.count() == 1 ? "" : "s", kRuby128Lasers, owner_of(lines.count())));
+  }
+  if (!have_offsets) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{}: has elevations only; beams of an RS-Ruby128 point up to 6 degrees "
+                            "to either side of the head, so without the second column (azimuth "
+                            "offset in degrees) every point would be at a wrong place",
+                            name));
+  }
+  if (const Status status = validate(calibration); !status) {
+    return fail(status.error().code,
+                fmt::format("{} (channel N is line N)", status.error().message));
+  }
+  return calibration;
+}
+
+Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path) {
+  const auto text = text::read_bounded_file(path, kExpected);
+  if (!text) return tl::unexpected(text.error());
+  return parse_ruby128_csv(*text, path.string());
+}
+
+std::string ruby128_csv_text(const Ruby128Calibration& calibration) {
+  fmt::memory_buffer text;
+  for (const Ruby128Channel& channel : calibration.channels) {
+    put_angle(text, channel.elevation_rad);
+    text.push_back(',');
+    put_angle(text, channel.azimuth_offset_rad);
+    text.push_back('\n');
+  }
+  return fmt::to_string(text);
+}
+
+Status write_ruby128_csv(const std::filesystem::path& path, const Ruby128Calibration& calibration) {
+  if (const Status status = validate(calibration); !status) return status;
+  return files::write_whole_file(path, ruby128_csv_text(calibration));
+}
+
+}  // namespace terracut::ruby128

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+#include <utility>
+
+#include "calib/mount/mount.hpp"
+#include "calib/sensor_calibration.hpp"
+#include "terracut/calibration.hpp"
+
+/// What stands behind the public Calibration and Mount; for the rooms above, not installed.
+namespace terracut {
+
+struct Calibration::Table {
+  calib::SensorCalibration unit;
+};
+
+[[nodiscard]] inline Calibration calibration_of(calib::SensorCalibration unit) {
+  return Calibration(
+      std::make_shared<const Calibration::Table>(Calibration::Table{std::move(unit)}));
+}
+
+[[nodiscard]] inline mount::Mount mount_of(const Mount& mount) noexcept {
+  return {.height_m = mount.height_m, .roll_rad = mount.roll_rad, .pitch_rad = mount.pitch_rad};
+}
+
+}  // namespace terracut

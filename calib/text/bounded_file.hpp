@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "rt/error.hpp"
+
+namespace terracut::text {
+
+/// No calibration or setup file is near this size; larger ones are something else.
+inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20;
+
+/// The file's bytes. kNotFound, kUnreadable, or kUnsupported above kMaxFileBytes; the message names
+/// the file and `what` it should have been ("an HDL-64E calibration").
+[[nodiscard]] Expected<std::string> read_bounded_file(const std::filesystem::path& path,
+                                                      std::string_view what);
+
+}  // namespace terracut::text

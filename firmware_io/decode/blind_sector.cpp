@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/decode/blind_sector.hpp"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "firmware_io/decode/packet_heads.hpp"
+
+namespace terracut::decode {
+namespace {
+
+/// Azimuths on the wire are rounded, and heads turn unevenly.
+constexpr std::int64_t kJitter_ticks = 5 * kTicksPerCdeg;
+/// Of a sensor whose packets begin with its view, gaps are alike but for the wire's rounding.
+constexpr std::int64_t kRounding_ticks = 3 * kTicksPerCdeg;
+
+}  // namespace
+
+BlindSector::Verdict BlindSector::judge(const HeadInterval& head, std::int64_t packets,
+                                        std::int64_t rejected, const Stride& stride) noexcept {
+  Gap gap{head, packets, rejected, stride, false};
+  const bool is_wide = head.ticks() >= least_ticks();
+  if (!sector_.is_none()) {
+    const Verdict verdict = beside_sector(gap);
+    if (is_wide && !is_between(head)) remember(gap);
+    return verdict;
+  }
+  const bool may_be_blind = is_wide && head.ticks() < sector_.turn_ticks - least_ticks();
+  if (!may_be_blind) return {head, false, packets};
+  if (gaps_known_ > 0 && !follows(head)) {
+    const bool is_narrower = head.ticks() < gaps_.back().head.ticks();
+    if (is_between(head) && is_narrower) return {head, false, packets};
+    refute();
+  }
+  gap.is_pending = true;
+  remember(gap);
+  if (sector_.is_none()) return {head, true, 0};
+  return beside_sector(gap);
+}
+
+BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
+  const HeadInterval blind = sector_.next(gap.head.from_ticks);
+  const HeadInterval common = intersection(gap.head, blind);
+  if (common.ticks() < least_ticks()) return {gap.head, false, gap.packets};
+
+  move_to(common);
+  if (gap.head.ticks() >= sector_.turn_ticks) {  // an outage of turns
+    const std::int64_t lost =
+        sector_.outside_ticks(gap.head) / gap.stride.mean_ticks - gap.rejected;
+    return {gap.head, false, std::clamp<std::int64_t>(lost, 0, gap.packets)};
+  }
+  const std::int64_t before_ticks = common.from_ticks - gap.head.from_ticks;
+  const std::int64_t after_ticks = gap.head.to_ticks - common.to_ticks;
+  note_end(before_ticks, gap.stride, earliest_ticks_);
+  note_end(after_ticks, gap.stride, latest_ticks_);
+  const std::int64_t before = packets_in(before_ticks, gap.stride);
+  const std::int64_t after = packets_in(after_ticks, gap.stride);
+  if (before + after == 0) return {};
+  const std::int64_t one_ticks = gap.stride.mean_ticks;
+  return {{common.from_ticks - before * one_ticks, common.to_ticks + after * one_ticks},
+          false,
+          std::clamp<std::int64_t>(before + after - gap.rejected, 0, gap.packets)};
+}
+
+/// The sector is known better now.
+void BlindSector::move_to(const HeadInterval& common) noexcept {
+  const HeadInterval blind = sector_.next(common.from_ticks);
+  const std::int64_t later_ticks = std::max<std::int64_t>(0, common.from_ticks - blind.from_ticks);
+  const std::int64_t earlier_ticks = std::max<std::int64_t>(0, blind.to_ticks - common.to_ticks);
+  earliest_ticks_ = later_ticks < least_ticks() ? earliest_ticks_ + later_ticks : 0;
+  latest_ticks_ = earlier_ticks < least_ticks() ? latest_ticks_ + earlier_ticks : 0;
+  sector_.once = common;
+}
+
+/// A gap ends so far off the sector: by less than a packet, if nothing is lost.
+void BlindSector::note_end(std::int64_t ticks, const Stride& stride,
+                           std::int64_t& widest_ticks) noexcept {
+  if (is_within_packet(ticks, stride)) widest_ticks = std::max(widest_ticks, ticks);
+}
+
+/// Packets that fit between the sector and a gap's end.
+std::int64_t BlindSector::packets_in(std::int64_t ticks, const Stride& stride) const noexcept {
+  if (is_within_packet(ticks, stride)) return 0;
+  const bool keeps_its_rhythm = std::max(earliest_ticks_, latest_ticks_) > kRounding_ticks;
+  if (!keeps_its_rhythm) return (ticks + stride.mean_ticks / 2) / stride.mean_ticks;
+  return ticks < stride.widest_ticks + kJitter_ticks ? 0
+                                                     : (ticks - kJitter_ticks) / stride.mean_ticks;
+}
+
+// --- Learning ---
+
+/// Where the newest gap was a turn ago.
+bool BlindSector::follows(const HeadInterval& gap) const noexcept {
+  const HeadInterval again = shifted(gaps_.back().head, sector_.turn_ticks);
+  return intersection(again, gap).ticks() >= least_ticks();
+}
+
+/// The head has not come again to where the newest gap was.
+bool BlindSector::is_between(const HeadInterval& gap) const noexcept {
+  return gaps_known_ > 0 &&
+         gap.to_ticks <= gaps_.back().head.from_ticks + sector_.turn_ticks + least_ticks();
+}
+
+void BlindSector::remember(const Gap& gap) noexcept {
+  std::rotate(gaps_.begin(), gaps_.begin() + 1, gaps_.end());
+  gaps_.back() = gap;
+  gaps_known_ = std::min(gaps_known_ + 1, kTurnsToLearn);
+  if (gaps_known_ == kTurnsToLearn) learn();
+}
+
+void BlindSector::learn() noexcept {
+  HeadInterval common = gaps_.back().head;
+  for (std::size_t i = 0; i < gaps_.size(); ++i) {
+    const auto turns = static_cast<std::int64_t>(gaps_.size() - 1 - i);
+    common = intersection(common, shifted(gaps_[i].head, turns * sector_.turn_ticks));
+  }
+  if (common.ticks() < sector_.once.ticks() + least_ticks()) return;  // known, or not alike
+  sector_.once = common;
+  earliest_ticks_ = latest_ticks_ = 0;
+  // The newest one is judged by who asks.
+  for (std::size_t i = 0; i + 1 < gaps_.size(); ++i) {
+    if (!std::exchange(gaps_[i].is_pending, false)) continue;
+    const Verdict verdict = beside_sector(gaps_[i]);
+    due_.packets += verdict.packets;
+    due_.ticks += sector_.outside_ticks(verdict.lost);
+  }
+  gaps_.back().is_pending = false;
+}
+
+void BlindSector::refute() noexcept {
+  const std::size_t first = gaps_.size() - static_cast<std::size_t>(gaps_known_);
+  for (std::size_t i = first; i < gaps_.size(); ++i) {
+    if (std::exchange(gaps_[i].is_pending, false)) count(gaps_[i]);
+  }
+  gaps_known_ = 0;
+}
+
+void BlindSector::count(const Gap& gap) noexcept {
+  due_.packets += gap.packets;
+  due_.ticks += gap.head.ticks();
+}
+
+// --- Packets ---
+
+void BlindSector::pass(const HeadInterval& swept) noexcept {
+  if (sector_.is_none()) {
+    if (gaps_known_ == 0) return;
+    const std::int64_t end_ticks = gaps_.back().head.to_ticks + sector_.turn_ticks;
+    if (swept.from_ticks > end_ticks + least_ticks()) refute();
+    return;
+  }
+  const HeadInterval blind = sector_.next(swept.from_ticks);
+  // None was expected to begin so late.
+  const std::int64_t before_ticks = blind.from_ticks - swept.from_ticks;
+  if (before_ticks <= earliest_ticks_ + kRounding_ticks) {
+    earliest_ticks_ = before_ticks - kRounding_ticks - 1;
+  }
+  if (swept.to_ticks <= blind.from_ticks + kJitter_ticks) return;
+  move_to({swept.to_ticks, blind.to_ticks});  // it begins later than was known
+  if (sector_.once.ticks() >= least_ticks()) return;
+  sector_.once = {};
+  gaps_known_ = 0;
+}
+
+bool BlindSector::is_inside(const PacketHeads& heads) const noexcept {
+  if (sector_.is_none()) return false;
+  const HeadInterval inside = heads.sector_inside(std::int64_t{heads.first_cdeg()} * kTicksPerCdeg);
+  const HeadInterval blind = sector_.next(inside.from_ticks);
+  const std::int64_t slack_ticks = heads.widest_ticks + kJitter_ticks;
+  return std::abs(inside.from_ticks - blind.from_ticks) <= slack_ticks &&
+         std::abs(inside.to_ticks - blind.to_ticks) <= slack_ticks;
+}
+
+BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks, const HeadInterval& inside,
+                                        const Stride& stride) noexcept {
+  const Verdict verdict = judge(inside, 0, 0, stride);
+  // It came when the head did: nothing was to be heard any more from where it begins. That is less
+  // than a packet before the sector, those that begin a packet before it come at once: the two are
+  // close together, so no more is taken for the wire's rounding than it rounds.
+  const HeadInterval blind = sector_.next(inside.from_ticks);
+  const std::int64_t before_ticks = blind.from_ticks - begin_ticks + kTicksPerCdeg / 2;
+  earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);
+  return verdict;
+}
+
+void BlindSector::fill(const HeadInterval& found) noexcept {
+  Gap& newest = gaps_.back();
+  if (gaps_known_ == 0 || !newest.is_pending) return;
+  if (intersection(newest.head, found).ticks() == 0) return;
+  newest.packets = std::max<std::int64_t>(0, newest.packets - 1);
+  // What came late lies, but for one packet, at the beginning of the gap.
+  if (found.from_ticks <= newest.head.from_ticks + kJitter_ticks) {
+    newest.head.from_ticks = std::max(newest.head.from_ticks, found.to_ticks);
+  }
+}
+
+BlindSector::Loss BlindSector::take_due() noexcept {
+  return std::exchange(due_, Loss{});
+}
+
+std::int64_t BlindSector::next_packet(std::int64_t head_ticks) const noexcept {
+  if (sector_.is_none()) return head_ticks;
+  const HeadInterval blind = sector_.next(head_ticks);
+  // No packet has begun so late in any turn before.
+  const bool is_last = head_ticks >= blind.from_ticks - earliest_ticks_ - kRounding_ticks;
+  return is_last ? blind.to_ticks : head_ticks;
+}
+
+}  // namespace terracut::decode

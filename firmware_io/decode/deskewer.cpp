@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/decode/deskewer.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <stdexcept>
+
+namespace terracut::decode {
+namespace {
+
+Deskewer::Config checked(const Deskewer::Config& config, std::span<const std::int32_t> beam_ticks) {
+  if (config.motion == nullptr || config.turn_ticks < 1 || config.shape.columns < 1 ||
+      beam_ticks.size() != static_cast<std::size_t>(config.shape.rows) || beam_ticks.empty()) {
+    throw std::invalid_argument("Deskewer needs a motion, an image shape and a beam for each row");
+  }
+  const auto wide = [&](std::int32_t ticks) { return std::abs(ticks) >= config.turn_ticks / 2; };
+  if (std::any_of(beam_ticks.begin(), beam_ticks.end(), wide)) {
+    throw std::invalid_argument("Deskewer: beams must point less than half a turn off the head");
+  }
+  return config;
+}
+
+/// Whole columns from a beam to its head, to the nearest: at most half a column's time off.
+std::int64_t shift_of(std::int32_t beam_ticks, const Deskewer::Config& config) {
+  return std::llround(-static_cast<double>(beam_ticks) * config.shape.columns /
+                      static_cast<double>(config.turn_ticks));
+}
+
+}  // namespace
+
+Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_ticks,
+                   memory::FixedMemory& memory)
+    : config_(checked(config, beam_ticks)), columns_(config.shape.columns) {
+  const auto [least, most] = std::minmax_element(beam_ticks.begin(), beam_ticks.end());
+  first_shift_ = shift_of(*most, config_);
+  last_shift_ = shift_of(*least, config_);
+  const auto head_columns = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
+  const std::size_t nodes = head_columns / kNodeColumns + 3;
+
+  // Two turns are open, and beams reach into the next.
+  instants_ns_ = memory.take<std::int64_t>("deskew", std::bit_ceil(3 * nodes));
+  node_ns_ = memory.take<std::int64_t>("deskew", nodes);
+  node_poses_ = memory.take<vehicle::PlanarPose>("deskew", nodes);
+  for (std::span<float>* plane : {&cosine_, &sine_, &x_m_, &y_m_}) {
+    *plane = memory.take<float>("deskew", head_columns);
+  }
+  by_row_ = memory.take<frame::PlanarMotions>("deskew", beam_ticks.size());
+  for (std::size_t row = 0; row < by_row_.size(); ++row) {
+    const auto from = static_cast<std::size_t>(shift_of(beam_ticks[row], config_) - first_shift_);
+    const auto count = static_cast<std::size_t>(columns_);
+    by_row_[row] = {cosine_.subspan(from, count), sine_.subspan(from, count),
+                    x_m_.subspan(from, count), y_m_.subspan(from, count)};
+  }
+}
+
+double Deskewer::nodes(std::int64_t head_ticks) const noexcept {
+  return static_cast<double>(head_ticks) * static_cast<double>(columns_) /
+         static_cast<double>(kNodeColumns * config_.turn_ticks);
+}
+
+void Deskewer::restart() noexcept {
+  if (noted_) begin_anew(0);
+  anew_node_ = kFromTheStart;
+}
+
+void Deskewer::begin_anew(std::int64_t head_ticks) noexcept {
+  noted_ = false;
+  anew_node_ = static_cast<std::int64_t>(std::ceil(nodes(head_ticks)));
+  config_.motion->forget();
+}
+
+void Deskewer::note(std::int64_t head_ticks, std::int64_t instant_ns) noexcept {
+  const Note note{nodes(head_ticks), instant_ns};
+  if (!noted_) {
+    noted_ = true;
+    first_node_ = next_node_ = static_cast<std::int64_t>(std::ceil(note.position));
+    before_ = newest_ = note;
+    return;
+  }
+  if (note.position <= newest_.position || note.instant_ns < newest_.instant_ns) return;
+  // Nodes that leave the ring before the way to the newest note is at its end need not be filled.
+  const auto last_node = static_cast<std::int64_t>(std::floor(newest_.position));
+  next_node_ = std::max(next_node_, last_node + 1 - static_cast<std::int64_t>(instants_ns_.size()));
+  fill(last_node);
+  before_ = newest_;
+  newest_ = note;
+}
+
+void Deskewer::fill(std::int64_t last_node) noexcept {
+  const double way = newest_.position - before_.position;
+  const auto time_ns = static_cast<double>(newest_.instant_ns - before_.instant_ns);
+  const double ns_per_node = way > 0 ? time_ns / way : 0;
+  for (; next_node_ <= last_node && static_cast<double>(next_node_) <= newest_.position;
+       ++next_node_) {
+    const double since = static_cast<double>(next_node_) - before_.position;
+    instants_ns_[static_cast<std::size_t>(next_node_) & (instants_ns_.size() - 1)] =
+        before_.instant_ns + static_cast<std::int64_t>(since * ns_per_node);
+  }
+  first_node_ = std::max(first_node_, next_node_ - static_cast<std::int64_t>(instants_ns_.size()));
+}
+
+std::int64_t Deskewer::instant_of(std::int64_t node) const noexcept {
+  if (node >= next_node_ || first_node_ == next_node_) return newest_.instant_ns;
+  return instants_ns_[static_cast<std::size_t>(std::max(node, first_node_)) &
+                      (instants_ns_.size() - 1)];
+}
+
+std::int64_t Deskewer::instant_at(std::int64_t head_ticks) const noexcept {
+  const double position = nodes(head_ticks);
+  const auto node = static_cast<std::int64_t>(std::floor(position));
+  const std::int64_t before_ns = instant_of(node), after_ns = instant_of(node + 1);
+  return before_ns + static_cast<std::int64_t>((position - static_cast<double>(node)) *
+                                               static_cast<double>(after_ns - before_ns));
+}
+
+std::int64_t Deskewer::reference_ns(std::int64_t turn) const noexcept {
+  const std::int64_t begin = turn * config_.turn_ticks;
+  switch (config_.at) {
+    case frame::TurnInstant::kStart:
+      return instant_at(begin);
+    case frame::TurnInstant::kMiddle:
+      return instant_at(begin + config_.turn_ticks / 2);
+    case frame::TurnInstant::kEnd:
+      break;
+  }
+  return instant_at(begin + config_.turn_ticks);
+}
+
+void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept {
+  for (std::size_t i = 0; i < cosine_.size(); ++i) {
+    // A column's beams leave, on the average, in its middle.
+    const std::int64_t column = first_column + static_cast<std::int64_t>(i);
+    const std::int64_t from = first_node * kNodeColumns;
+    const auto node = static_cast<std::size_t>((column - from) / kNodeColumns);
+    const double share =
+        (static_cast<double>((column - from) % kNodeColumns) + 0.5) / double{kNodeColumns};
+    const vehicle::PlanarPose& a = node_poses_[node];
+    const vehicle::PlanarPose& b = node_poses_[node + 1];
+    cosine_[i] = static_cast<float>(a.cosine + share * (b.cosine - a.cosine));
+    sine_[i] = static_cast<float>(a.sine + share * (b.sine - a.sine));
+    x_m_[i] = static_cast<float>(a.x_m + share * (b.x_m - a.x_m));
+    y_m_[i] = static_cast<float>(a.y_m + share * (b.y_m - a.y_m));
+  }
+}
+
+frame::DeskewInfo Deskewer::apply(std::int64_t turn, frame::RangeImage& image) noexcept {
+  vehicle::EgoMotion& motion = *config_.motion;
+  motion.take_new();
+  const std::int64_t first_column = turn * columns_ + first_shift_;
+  const std::int64_t first_node =
+      (first_column - ((first_column % kNodeColumns) + kNodeColumns) % kNodeColumns) / kNodeColumns;
+  const double end = nodes((turn + 1) * config_.turn_ticks);
+  fill(std::max(first_node + static_cast<std::int64_t>(node_ns_.size()),
+                static_cast<std::int64_t>(std::floor(end)) + 1));
+  for (std::size_t i = 0; i < node_ns_.size(); ++i) {
+    node_ns_[i] = instant_of(first_node + static_cast<std::int64_t>(i));
+  }
+  frame::DeskewInfo info{.state = frame::DeskewState::kNoEgoMotion,
+                         .at = config_.at,
+                         .reference_ns = reference_ns(turn),
+                         .newest_motion_ns = 0};
+  if (const auto newest_ns = motion.newest_ns()) {
+    info.newest_motion_ns = *newest_ns - instant_at((turn + 1) * config_.turn_ticks);
+  }
+  if (first_node < anew_node_) return info;
+  if (!motion.poses(node_ns_, info.reference_ns, node_poses_)) return info;
+  spread_poses(first_column, first_node);
+  image.move(by_row_);
+  info.state = frame::DeskewState::kDone;
+  return info;
+}
+
+}  // namespace terracut::decode

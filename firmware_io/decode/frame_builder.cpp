@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/decode/frame_builder.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+namespace terracut::decode {
+FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
+    : shape_(config.shape), turn_ticks_(config.turn_ticks) {
+  if (config.images < 3) {
+    throw std::invalid_argument("FrameBuilder needs 3 images or more: two open, one handed over");
+  }
+  if (config.shape.rows < 1 || config.shape.columns < 1 || config.turn_ticks < 1) {
+    throw std::invalid_argument("FrameBuilder needs at least one row, one column and one tick");
+  }
+  images_.reserve(static_cast<std::size_t>(config.images));
+  for (int i = 0; i < config.images; ++i) {
+    images_.emplace_back(config.shape, config.overflow_capacity, memory);
+  }
+  open_[0].image = &images_[0];
+  open_[1].image = &images_[1];
+  for (std::size_t i = 2; i < images_.size(); ++i) free_.push_back(&images_[i]);
+}
+
+frame::RangeImage& FrameBuilder::exchange(frame::RangeImage& handed_over) noexcept {
+  frame::RangeImage& longest_free = *free_[next_free_];
+  free_[next_free_] = &handed_over;
+  next_free_ = (next_free_ + 1) % free_.size();
+  return longest_free;
+}
+
+void FrameBuilder::open(std::size_t slot, std::int64_t turn, frame::RangeImage& image) noexcept {
+  OpenTurn& opened = open_[slot];
+  opened = OpenTurn{};
+  opened.image = &image;
+  image.clear();
+  add_missing(opened, turn, last_gap_, +1, spread_);
+}
+
+void FrameBuilder::start(std::int64_t oldest_turn, std::int64_t head_ticks) noexcept {
+  started_ = true;
+  oldest_ = over_before_ = oldest_turn;
+  rolls_ = 0;
+  start_ticks_ = frontier_ticks_ = head_ticks;
+  last_gap_ = {};
+  open(0, oldest_turn, *open_[0].image);
+  open(1, oldest_turn + 1, *open_[1].image);
+}
+
+void FrameBuilder::add_missing(OpenTurn& turn, std::int64_t number, const Missing& missing,
+                               int sign, const BeamSpread& spread) noexcept {
+  const HeadInterval of_head{number * turn_ticks_, (number + 1) * turn_ticks_};
+  const HeadInterval of_beams{of_head.from_ticks - spread.foremost_ticks,
+                              of_head.to_ticks - spread.hindmost_ticks};
+  if (missing.is_counted) {
+    turn.hole_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_head));
+  }
+  turn.missing_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_beams));
+}
+
+void FrameBuilder::lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
+                        bool is_counted) noexcept {
+  step_ticks_ = step_ticks;
+  spread_ = spread;
+  last_gap_ = {gap, is_counted};
+  add_missing(open_[0], oldest_, last_gap_, +1, spread);
+  add_missing(open_[1], oldest_ + 1, last_gap_, +1, spread);
+}
+
+void FrameBuilder::regain(HeadInterval found, const BeamSpread& spread) noexcept {
+  add_missing(open_[0], oldest_, {found}, -1, spread);
+  add_missing(open_[1], oldest_ + 1, {found}, -1, spread);
+}
+
+void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_turn,
+                               std::int64_t last_turn, std::int64_t frontier_ticks,
+                               std::int64_t step_ticks, const BeamSpread& spread) noexcept {
+  ++packets_;
+  frontier_ticks_ = frontier_ticks;
+  step_ticks_ = step_ticks;
+  spread_ = spread;
+  for (std::int64_t turn = std::max(first_turn, oldest_); turn <= std::min(last_turn, oldest_ + 1);
+       ++turn) {
+    OpenTurn& touched = open_[static_cast<std::size_t>(turn - oldest_)];
+    touched.first_packet_ns =
+        touched.touched ? std::min(touched.first_packet_ns, stamp_ns) : stamp_ns;
+    touched.last_packet_ns =
+        touched.touched ? std::max(touched.last_packet_ns, stamp_ns) : stamp_ns;
+    touched.touched = true;
+  }
+}
+
+bool FrameBuilder::seen_whole(const OpenTurn& turn) const noexcept {
+  // Wire azimuths are rounded, so firings lie up to a rounding apart from where they belong; three
+  // quarters of a step is no missing firing yet.
+  const std::int64_t slack_ticks = step_ticks_ * 3 / 4;
+  const std::int64_t first_ticks = oldest_ * turn_ticks_ - spread_.foremost_ticks;
+  const std::int64_t end_ticks = (oldest_ + 1) * turn_ticks_ - spread_.hindmost_ticks;
+  return blind_.outside_ticks({first_ticks, start_ticks_}) <= slack_ticks &&
+         blind_.outside_ticks({frontier_ticks_, end_ticks}) <= slack_ticks &&
+         turn.missing_ticks < slack_ticks;
+}
+
+void FrameBuilder::count_holes(std::int64_t hole_ticks) noexcept {
+  if (hole_ticks <= 0) return;
+  losses_.azimuth_hole_columns +=
+      static_cast<std::uint64_t>((hole_ticks + step_ticks_ / 2) / step_ticks_);
+}
+
+void FrameBuilder::pass_over(std::int64_t turn) noexcept {
+  const HeadInterval passed{oldest_ * turn_ticks_, turn * turn_ticks_};
+  if (last_gap_.is_counted) {
+    count_holes(blind_.outside_ticks(intersection(last_gap_.head, passed)));
+  }
+  oldest_ = turn;
+  open(0, turn, *open_[0].image);
+  open(1, turn + 1, *open_[1].image);
+}
+
+bool FrameBuilder::close_oldest() noexcept {
+  const OpenTurn closing = open_[0];
+  count_holes(closing.hole_ticks);
+  const bool has_returns = closing.image->returns() > 0;
+  if (has_returns) {
+    frame_.image = closing.image;
+    frame_.info = frame::FrameInfo{.number = frames_++,
+                             .first_packet_ns = closing.first_packet_ns,
+                             .last_packet_ns = closing.last_packet_ns,
+                             .packets = packets_,
+                             .returns = closing.image->returns(),
+                             .complete = seen_whole(closing),
+                             .blind = {},
+                             .losses = losses_,
+                             .deskew = {}};
+    losses_handed_over_ += losses_;
+    losses_ = {};
+    packets_ = 0;
+  }
+  return has_returns;
+}
+
+void FrameBuilder::roll_to(std::int64_t turn) noexcept {
+  over_before_ = std::max(oldest_, turn);
+  rolls_ = 2;
+}
+
+void FrameBuilder::flush() noexcept {
+  if (!started_) return;
+  roll_to(oldest_ + 2);
+  is_ending_ = true;
+}
+
+frame::Frame* FrameBuilder::next(frame::RangeImage* in_exchange) noexcept {
+  if (frame_.image != nullptr) {
+    open_next(in_exchange != nullptr ? *in_exchange : exchange(*frame_.image));
+    frame_.image = nullptr;
+  }
+  for (; oldest_ < over_before_ && rolls_ > 0; open_next(*open_[0].image)) {
+    --rolls_;
+    if (close_oldest()) return &frame_;
+  }
+  if (oldest_ < over_before_) pass_over(over_before_);
+  if (std::exchange(is_ending_, false)) started_ = false;
+  return nullptr;
+}
+
+void FrameBuilder::open_next(frame::RangeImage& image) noexcept {
+  open_[0] = open_[1];
+  ++oldest_;
+  open(1, oldest_ + 1, image);
+}
+
+frame::LossCounters FrameBuilder::total_losses() const noexcept {
+  frame::LossCounters total = losses_handed_over_;
+  total += losses_;
+  return total;
+}
+
+}  // namespace terracut::decode

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace terracut::decode {
+
+/// When packets left a sensor, on the host's clock, from the stamps of their arrival and the even
+/// stamps of the device. A packet may arrive late, by as much as the network and the machine were
+/// busy, but never early: the least delay seen is taken for that of all, and let go again slowly,
+/// faster than clocks drift apart or NTP slews them. One thread.
+///
+/// It begins anew where one of the clocks was set: at a packet more than 20 ms late, and where
+/// packets come earlier, by more than 2 ms in a short time, than any before. What it said before is
+/// then of another time, or was off by more than that: packets that were held up for longer than
+/// 20 ms look the same.
+class HostClock {
+ public:
+  struct Sent {
+    std::int64_t instant_ns = 0;
+    bool anew = false;  ///< Not to be compared with the instants before it.
+  };
+
+  /// `wrap_us`: the device clock counts [0, wrap_us).
+  explicit HostClock(std::int64_t wrap_us) noexcept : wrap_us_(wrap_us) {}
+
+  /// The next packet is the first one of a stream.
+  void forget() noexcept { known_ = false; }
+
+  /// For each packet in the order of the stream; not for one that was overtaken.
+  [[nodiscard]] Sent sent(std::int64_t device_us, std::int64_t arrived_ns) noexcept {
+    std::int64_t step_us = device_us - device_us_;
+    if (step_us < 0) step_us += wrap_us_;
+    device_us_ = device_us;
+    if (!known_) return {start_at(arrived_ns), false};
+    if (step_us > kLongestStep_us) return {start_at(arrived_ns), true};
+    const std::int64_t step_ns = step_us * 1000;
+    const std::int64_t late_ns = arrived_ns - sent_ns_ - step_ns;
+    earlier_ns_ = std::max<std::int64_t>(0, earlier_ns_ - step_ns / kForgetting) -
+                  std::min<std::int64_t>(0, late_ns);
+    if (late_ns > kLatest_ns || earlier_ns_ > kEarliest_ns) return {start_at(arrived_ns), true};
+    sent_ns_ += step_ns + std::min(late_ns, step_ns / kDrift);
+    return {sent_ns_, false};
+  }
+
+ private:
+  std::int64_t start_at(std::int64_t arrived_ns) noexcept {
+    known_ = true;
+    earlier_ns_ = 0;
+    return sent_ns_ = arrived_ns;
+  }
+
+  static constexpr std::int64_t kLatest_ns = 20'000'000;
+  static constexpr std::int64_t kEarliest_ns = 2'000'000;
+  static constexpr std::int64_t kLongestStep_us = 100'000'000;  // more: outages, backward steps
+  static constexpr std::int64_t kDrift = 1'000;  // 1000 ppm: NTP slews by 500, quartz drifts by 100
+  static constexpr std::int64_t kForgetting = 250;  // 4000 ppm, faster than any of that adds up
+
+  std::int64_t wrap_us_;
+  bool known_ = false;
+  std::int64_t device_us_ = 0, sent_ns_ = 0;
+  std::int64_t earlier_ns_ = 0;  ///< By how much packets came earlier than those before, of late.
+};
+
+}  // namespace terracut::decode

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/frame/range_image.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace terracut::frame {
+
+RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory)
+    : shape_(shape),
+      stride_(shape.stride()),
+      stamp_(memory.take<std::uint32_t>("range images", shape.cells())),
+      x_m_(memory.take<float>("range images", shape.cells())),
+      y_m_(memory.take<float>("range images", shape.cells())),
+      z_m_(memory.take<float>("range images", shape.cells())),
+      ground_range_m_(memory.take<float>("range images", shape.cells())),
+      intensity_(memory.take<std::uint8_t>("range images", shape.cells())),
+      return_index_(memory.take<std::uint32_t>("range images", shape.cells())),
+      overflow_(memory.take<OverflowReturn>("range images", overflow_capacity)) {
+  const auto plane = [](const auto& cells) {
+    return Plane{reinterpret_cast<const std::byte*>(cells.data()), sizeof(cells[0])};
+  };
+  planes_ = {plane(stamp_),          plane(x_m_),          plane(y_m_),       plane(z_m_),
+             plane(ground_range_m_), plane(return_index_), plane(intensity_), plane(stamp_)};
+}
+
+void RangeImage::clear() noexcept {
+  returns_ = 0;
+  overflow_used_ = 0;
+  if (++generation_ == 0) {  // stamps of 2^32 turns ago would look alive
+    std::fill(stamp_.begin(), stamp_.end(), 0U);
+    generation_ = 1;
+  }
+}
+
+void RangeImage::move(std::span<const PlanarMotions> by_row) noexcept {
+  const auto columns = static_cast<std::size_t>(shape_.columns);
+  const auto stride = static_cast<std::size_t>(stride_);
+  for (std::size_t row = 0; row < by_row.size(); ++row) {
+    // Left-overs of earlier turns are moved with the rest: to leave them out costs more.
+    float* const __restrict x_m = x_m_.subspan(row * stride, columns).data();
+    float* const __restrict y_m = y_m_.subspan(row * stride, columns).data();
+    float* const __restrict ground_range_m = ground_range_m_.subspan(row * stride, columns).data();
+    const PlanarMotions& motion = by_row[row];
+    for (std::size_t i = 0; i < columns; ++i) {
+      const float x = motion.cosine[i] * x_m[i] - motion.sine[i] * y_m[i] + motion.x_m[i];
+      const float y = motion.sine[i] * x_m[i] + motion.cosine[i] * y_m[i] + motion.y_m[i];
+      x_m[i] = x;
+      y_m[i] = y;
+      ground_range_m[i] = std::sqrt(x * x + y * y);
+    }
+  }
+  for (OverflowReturn& extra : overflow_.first(overflow_used_)) {
+    const PlanarMotions& motion = by_row[extra.cell / stride];
+    const std::size_t i = extra.cell % stride;
+    Return& echo = extra.echo;
+    const float x = motion.cosine[i] * echo.x_m - motion.sine[i] * echo.y_m + motion.x_m[i];
+    const float y = motion.sine[i] * echo.x_m + motion.cosine[i] * echo.y_m + motion.y_m[i];
+    echo.x_m = x;
+    echo.y_m = y;
+    echo.ground_range_m = std::sqrt(x * x + y * y);
+  }
+}
+
+bool RangeImage::owns(std::size_t cell, const Return& echo, CellOwner owner) const noexcept {
+  switch (owner) {
+    case CellOwner::kFirstArrived:
+      return false;
+    case CellOwner::kStrongest:
+      return echo.intensity > intensity_[cell];
+    case CellOwner::kNearest:
+      return echo.ground_range_m < ground_range_m_[cell];
+    case CellOwner::kFarthest:
+      return echo.ground_range_m > ground_range_m_[cell];
+  }
+  return false;
+}
+
+bool RangeImage::place_second(std::size_t cell, const Return& echo, CellOwner owner,
+                              std::uint32_t number) noexcept {
+  if (overflow_used_ == overflow_.size()) return false;
+  OverflowReturn& extra = overflow_[overflow_used_++];
+  extra.cell = static_cast<std::uint32_t>(cell);
+  if (owns(cell, echo, owner)) {
+    extra.echo = {x_m_[cell], y_m_[cell], z_m_[cell], ground_range_m_[cell], intensity_[cell]};
+    extra.return_index = return_index_[cell];
+    write(cell, echo, number);
+  } else {
+    extra.echo = echo;
+    extra.return_index = number;
+  }
+  return true;
+}
+
+}  // namespace terracut::frame

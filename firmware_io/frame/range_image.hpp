@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::frame {
+
+/// Size of a range image.
+struct ImageShape {
+  int rows = 64;       ///< Lasers; row 0 is the lowest elevation.
+  int columns = 2083;  ///< Per turn of 360 degrees; column 0 starts straight ahead, then clockwise.
+
+  /// Cells from one row to the next: columns rounded up to a multiple of 16, for SIMD loads.
+  [[nodiscard]] constexpr int stride() const noexcept { return (columns + 15) / 16 * 16; }
+  [[nodiscard]] constexpr std::size_t cells() const noexcept {
+    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride());
+  }
+  [[nodiscard]] constexpr std::size_t cell(int row, int column) const noexcept {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride()) +
+           static_cast<std::size_t>(column);
+  }
+  /// Degrees of azimuth a column covers.
+  [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
+};
+
+/// Columns next to each other, [begin, end); not across the seam.
+struct ColumnRange {
+  int begin, end;
+  [[nodiscard]] constexpr std::size_t size() const noexcept {
+    return static_cast<std::size_t>(end - begin);
+  }
+};
+
+/// One echo in the vehicle frame (calib/mount/mount.hpp).
+struct Return {
+  float x_m = 0, y_m = 0;
+  float z_m = 0;             ///< Height above the mount's ground plane.
+  float ground_range_m = 0;  ///< Horizontal distance from the frame's origin, sqrt(x^2 + y^2).
+  std::uint8_t intensity = 0;
+};
+
+/// Which of several returns in one cell owns it, that is stands for it in the segmentation. The
+/// others are labelled, too (return_labels.hpp).
+enum class CellOwner : std::uint8_t {
+  kFirstArrived,  ///< No preference.
+  kStrongest,     ///< The highest intensity.
+  kNearest,       ///< The smallest horizontal distance: the first surface a beam meets.
+  kFarthest,      ///< The last one.
+};
+
+/// A return that shares its cell with the one that owns it (dual return, two firings in a column).
+struct OverflowReturn {
+  Return echo;
+  std::uint32_t cell = 0;          ///< The taken cell, row * stride + column.
+  std::uint32_t return_index = 0;  ///< As in RangeImage::return_index().
+};
+
+/// Rigid motions in the ground plane, one for each column: x' = c x - s y + t_x and so on.
+struct PlanarMotions {
+  std::span<const float> cosine, sine, x_m, y_m;
+};
+
+/// One turn of returns as an image: structure of arrays, rows x columns, row-major with stride
+/// `shape().stride()`, cyclic in columns. Fixed memory; no operation here allocates.
+///
+/// A cell holds a return only where `stamp()[cell] == generation()`; all planes of other cells hold
+/// left-overs of earlier turns. Stamps make clearing unnecessary. The padding cells
+/// (column >= columns) never hold a return.
+///
+/// Thread contract: one writer until the frame is handed over, then readers only.
+class RangeImage {
+ public:
+  /// `overflow_capacity`: how many returns beyond one a cell a turn may have.
+  RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory);
+
+  /// Forgets all returns. Real-time safe, O(1) but for one turn in 2^32.
+  void clear() noexcept TERRACUT_NONBLOCKING;
+
+  /// Puts a return into its cell. Where that is taken, `owner` says which of the two keeps it (the
+  /// earlier one when they are equal); the other goes to the overflow list. Returns are numbered in
+  /// the order of these calls. False when the overflow list is full: the return is not kept and the
+  /// caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
+  bool place(int row, int column, const Return& echo,
+             CellOwner owner = CellOwner::kFirstArrived) noexcept {
+    if (!place_numbered(row, column, echo, owner, returns_)) return false;
+    ++returns_;
+    return true;
+  }
+
+  /// For returns that are placed in another order than they arrived in: the numbers of the next
+  /// `count`, which place_numbered() has room for wherever they fall; the first of them is
+  /// answered. Nothing where the overflow list might not hold them all. Real-time safe.
+  [[nodiscard]] std::optional<std::uint32_t> take_numbers(std::size_t count) noexcept {
+    if (overflow_.size() - overflow_used_ < count) return std::nullopt;
+    const std::uint32_t first = returns_;
+    returns_ += static_cast<std::uint32_t>(count);
+    return first;
+  }
+  /// place() of a return whose number was taken before.
+  bool place_numbered(int row, int column, const Return& echo, CellOwner owner,
+                      std::uint32_t number) noexcept {
+    const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
+                             static_cast<std::size_t>(column);
+    fetch_ahead(cell);
+    if (stamp_[cell] == generation_) [[unlikely]]
+      return place_second(cell, echo, owner, number);
+    stamp_[cell] = generation_;
+    write(cell, echo, number);
+    return true;
+  }
+
+  /// Moves all returns, each as its cell's row and column say; cells and heights stay. One of
+  /// `by_row` for each row. Real-time safe.
+  void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
+
+  /// Asks for a part of a row to be brought next to the core: parts too short for the processor to
+  /// foresee what comes next. Stamps, places and ranges.
+  void fetch(int row, ColumnRange columns) const noexcept {
+    constexpr std::size_t kCellsPerLine = 16;
+    const std::size_t end = shape_.cell(row, columns.end);
+    for (std::size_t cell = shape_.cell(row, columns.begin); cell < end; cell += kCellsPerLine) {
+      __builtin_prefetch(&stamp_[cell]);
+      __builtin_prefetch(&x_m_[cell]);
+      __builtin_prefetch(&y_m_[cell]);
+      __builtin_prefetch(&z_m_[cell]);
+      __builtin_prefetch(&ground_range_m_[cell]);
+    }
+  }
+
+  [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
+  [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
+  [[nodiscard]] bool has_return(std::size_t cell) const noexcept {
+    return stamp_[cell] == generation_;
+  }
+  /// Returns placed since clear(), those on the overflow list included.
+  [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
+  /// The most returns a turn may have: cells + overflow capacity.
+  [[nodiscard]] std::size_t return_capacity() const noexcept {
+    return shape_.cells() + overflow_.size();
+  }
+
+  [[nodiscard]] std::span<const std::uint32_t> stamp() const noexcept { return stamp_; }
+  [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
+  [[nodiscard]] std::span<const float> y_m() const noexcept { return y_m_; }
+  [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
+  [[nodiscard]] std::span<const float> ground_range_m() const noexcept { return ground_range_m_; }
+  [[nodiscard]] std::span<const std::uint8_t> intensity() const noexcept { return intensity_; }
+  /// Number of the cell's return in the turn, 0.. in order of arrival.
+  [[nodiscard]] std::span<const std::uint32_t> return_index() const noexcept {
+    return return_index_;
+  }
+  [[nodiscard]] std::span<const OverflowReturn> overflow() const noexcept {
+    return overflow_.first(overflow_used_);
+  }
+
+ private:
+  void write(std::size_t cell, const Return& echo, std::uint32_t return_index) noexcept {
+    x_m_[cell] = echo.x_m;
+    y_m_[cell] = echo.y_m;
+    z_m_[cell] = echo.z_m;
+    ground_range_m_[cell] = echo.ground_range_m;
+    intensity_[cell] = echo.intensity;
+    return_index_[cell] = return_index;
+  }
+  struct Plane {
+    const std::byte* begin;
+    std::size_t cell_bytes;
+  };
+
+  /// Asks for the cache lines that the next columns of this row will be written to, those of
+  /// another plane with every column. Three turns do not fit the caches next to a core, and a
+  /// column writes to more rows than the processor could foresee by itself.
+  void fetch_ahead(std::size_t cell) const noexcept {
+    constexpr std::size_t kCellsAhead = 16;
+    const Plane& plane = planes_[cell % planes_.size()];
+    __builtin_prefetch(plane.begin + (cell + kCellsAhead) * plane.cell_bytes, 1);
+  }
+  [[nodiscard]] bool owns(std::size_t cell, const Return& echo,
+                          CellOwner owner) const noexcept TERRACUT_NONBLOCKING;
+  bool place_second(std::size_t cell, const Return& echo, CellOwner owner,
+                    std::uint32_t number) noexcept TERRACUT_NONBLOCKING;
+
+  ImageShape shape_;
+  int stride_;
+  std::uint32_t generation_ = 1;
+  std::uint32_t returns_ = 0;
+  std::size_t overflow_used_ = 0;
+  std::span<std::uint32_t> stamp_;
+  std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
+  std::span<std::uint8_t> intensity_;
+  std::span<std::uint32_t> return_index_;
+  std::span<OverflowReturn> overflow_;
+  std::array<Plane, 8> planes_;  ///< Of place(); a power of two.
+};
+
+}  // namespace terracut::frame

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <netinet/in.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "rt/error.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::net {
+
+/// Address and port of one end of a UDP stream, host byte order.
+struct Ipv4Endpoint {
+  std::uint32_t address = 0;  ///< 0: any.
+  std::uint16_t port = 0;     ///< 0: one the system chooses.
+
+  friend bool operator==(const Ipv4Endpoint&, const Ipv4Endpoint&) = default;
+};
+
+/// "192.168.3.43" -> number. kInvalidArgument for anything else, names of hosts included.
+[[nodiscard]] Expected<std::uint32_t> parse_ipv4_address(std::string_view text);
+
+/// "192.168.3.43:2368", or ":2368" and "2368" for any address. kInvalidArgument, with what was
+/// expected, for anything else.
+[[nodiscard]] Expected<Ipv4Endpoint> parse_ipv4_endpoint(std::string_view text);
+
+[[nodiscard]] std::string ipv4_text(std::uint32_t address);
+[[nodiscard]] std::string to_string(const Ipv4Endpoint& endpoint);
+
+/// 224.0.0.0 .. 239.255.255.255.
+[[nodiscard]] constexpr bool is_multicast(std::uint32_t address) noexcept {
+  return address >> 28 == 0xE;
+}
+
+/// As the system's calls want it.
+[[nodiscard]] sockaddr_in socket_address(const Ipv4Endpoint& endpoint) noexcept
+    TERRACUT_NONBLOCKING;
+[[nodiscard]] Ipv4Endpoint endpoint_of(const sockaddr_in& address) noexcept TERRACUT_NONBLOCKING;
+
+}  // namespace terracut::net

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/net/drop_counter.hpp"
+#include "firmware_io/net/receive_counters.hpp"
+#include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+#include "rt/threads/wake_event.hpp"
+
+struct pcap;  // libpcap's handle, pcap_t
+
+namespace terracut::net {
+
+struct LivePcapConfig {
+  std::string interface{};
+  std::optional<std::uint16_t> port{};            ///< UDP destination port.
+  std::optional<std::uint32_t> source_address{};  ///< Only this sender; others count as foreign.
+  bool promiscuous = false;  ///< Also what is meant for other machines: a mirror port.
+
+  std::size_t buffer_bytes = 8U << 20;  ///< Of the kernel's ring.
+  std::size_t batch = 64;               ///< Datagrams a receive() returns at most, [1, 1024].
+  std::size_t slot_bytes = 1536;        ///< The longest payload taken, [1, 65536].
+};
+
+/// UDP datagrams listened to on an interface with libpcap, where a socket does not hear them: the
+/// sensor sends to another machine's address, a firewall is in the way, or another program holds
+/// the port. A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
+///
+/// All memory is taken in open(). When the interface goes away, receive() goes on returning empty
+/// and tries twice a second to open it again, which is the only time it allocates.
+class LivePcapSource {
+ public:
+  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface. kUnreadable: not
+  /// permitted, or the interface is down. kUnsupported: a link layer without IP.
+  [[nodiscard]] static Expected<LivePcapSource> open(LivePcapConfig config,
+                                                     memory::FixedMemory& memory);
+
+  [[nodiscard]] std::span<const decode::Datagram> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING;
+  void wake() const noexcept { wake_.wake(); }
+
+  /// From now on only this sender; others count as foreign. From the thread that receives.
+  void accept_only(std::uint32_t source_address) noexcept {
+    config_.source_address = source_address;
+  }
+
+  /// kernel_drops is as of the last refresh_drops(), which receive() calls after every full batch
+  /// and when nothing came for a while.
+  [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
+  void refresh_drops() noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] LinkState link() const noexcept { return link_; }
+
+ private:
+  struct Close {
+    void operator()(::pcap* handle) const noexcept;
+  };
+  using Handle = std::unique_ptr<::pcap, Close>;
+
+  LivePcapSource(LivePcapConfig config, threads::WakeEvent wake, files::OwnedDescriptor probe,
+                 memory::FixedMemory& memory);
+
+  [[nodiscard]] static Expected<Handle> activate(const LivePcapConfig& config);
+  void adopt(Handle handle) noexcept;
+
+  [[nodiscard]] std::size_t read_batch() noexcept;
+  void take(std::span<const std::uint8_t> frame,
+            std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;
+  void look_after(std::int64_t now_ns) noexcept;
+
+  LivePcapConfig config_;
+  threads::WakeEvent wake_;
+  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
+  Handle handle_;
+  int descriptor_ = -1;  ///< The handle's, to wait for.
+  int link_type_ = 0;
+  int interface_index_ = 0;
+  std::int64_t stamp_unit_ns_ = 1;
+
+  std::span<std::uint8_t> bytes_;
+  std::span<decode::Datagram> datagrams_;
+  std::size_t kept_ = 0;
+
+  ReceiveCounters counters_;
+  DropCounter drops_;
+  LinkState link_ = LinkState::kUnknown;
+  std::int64_t next_look_ns_ = 0;
+};
+
+}  // namespace terracut::net

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/net/live_pcap_source.hpp"
+#include "firmware_io/net/udp_source.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::net {
+
+/// Where packets come in.
+struct ListenConfig {
+  Ipv4Endpoint at{.port = 2368};
+  bool by_libpcap = false;                       ///< Instead of a socket.
+  std::string interface;                         ///< Empty: any; libpcap needs one.
+  std::optional<std::uint32_t> multicast_group;  ///< To join.
+  bool share_port = false;
+  std::optional<std::uint32_t> sender;  ///< The only one heard; others count as foreign.
+};
+
+/// Where live datagrams come from: a socket, or libpcap. A DatagramSource
+/// (firmware_io/net/receive_counters.hpp).
+class LiveSource {
+ public:
+  /// kInvalidArgument for libpcap without an interface. The errors of UdpSource::open() and
+  /// LivePcapSource::open().
+  [[nodiscard]] static Expected<LiveSource> open(const ListenConfig& config,
+                                                 memory::FixedMemory& memory);
+
+  [[nodiscard]] std::span<const decode::Datagram> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING {
+    if (udp_) return udp_->receive(timeout_ns);
+    // libpcap is not marked nonblocking; this call may wait, because the thread waits for packets.
+    return threads::trusted_call([&]() noexcept { return pcap_->receive(timeout_ns); });
+  }
+  void wake() const noexcept { udp_ ? udp_->wake() : pcap_->wake(); }
+  [[nodiscard]] const ReceiveCounters& counters() const noexcept TERRACUT_NONBLOCKING {
+    return udp_ ? udp_->counters() : pcap_->counters();
+  }
+  void refresh_drops() noexcept TERRACUT_NONBLOCKING {
+    if (udp_) return udp_->refresh_drops();
+    threads::trusted_call(
+        [&]() noexcept { pcap_->refresh_drops(); });  // asks the kernel for a count
+  }
+  [[nodiscard]] LinkState link() const noexcept TERRACUT_NONBLOCKING {
+    return udp_ ? udp_->link() : pcap_->link();
+  }
+  /// From now on only this sender; others count as foreign.
+  void accept_only(std::uint32_t source_address) noexcept {
+    udp_ ? udp_->accept_only(source_address) : pcap_->accept_only(source_address);
+  }
+
+  /// For people: "0.0.0.0:2368", "port 2368 on eth0 by libpcap".
+  [[nodiscard]] const std::string& name() const noexcept { return name_; }
+  /// What was asked for but could only be had in part.
+  [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
+
+ private:
+  LiveSource() = default;
+
+  [[nodiscard]] static Expected<LiveSource> open_socket(UdpSourceConfig config,
+                                                        memory::FixedMemory& memory);
+  [[nodiscard]] static Expected<LiveSource> open_pcap(LivePcapConfig config,
+                                                      memory::FixedMemory& memory);
+
+  std::optional<UdpSource> udp_;        ///< This,
+  std::optional<LivePcapSource> pcap_;  ///< or this.
+  std::string name_;
+  std::vector<std::string> warnings_;
+};
+static_assert(DatagramSource<LiveSource>);
+
+}  // namespace terracut::net

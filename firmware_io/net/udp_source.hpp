@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <ctime>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/net/drop_counter.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/net/network_interface.hpp"
+#include "firmware_io/net/receive_buffer.hpp"
+#include "firmware_io/net/receive_counters.hpp"
+#include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+#include "rt/threads/wake_event.hpp"
+
+namespace terracut::net {
+
+struct UdpSourceConfig {
+  /// Where the sensor sends to. Leave the address 0 unless one of the machine's own is wanted and
+  /// nothing else: a socket bound to an address hears no broadcasts, and an HDL-64E broadcasts
+  /// until told otherwise. Port 0 lets the system choose, see UdpSource::local().
+  Ipv4Endpoint bind{};
+  std::optional<std::uint32_t> multicast_group{};  ///< Joined on `interface`, else by the routes.
+  std::string interface{};                         ///< Only what comes in here; empty: anywhere.
+  std::optional<std::uint32_t> source_address{};   ///< Only this sender; others count as foreign.
+  /// Lets other sockets with the same option bind the port too. Of broadcasts and multicasts each
+  /// then gets a copy; of datagrams to one address only one socket gets any.
+  bool share_port = false;
+
+  std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
+  int busy_poll_us = 0;    ///< Look again and again for so long before sleeping, [0, 100000].
+  std::size_t batch = 64;  ///< Datagrams a receive() returns at most, [1, 1024].
+  std::size_t slot_bytes = 1536;  ///< The longest payload taken, [1, 65536]; all of one Ethernet
+                                  ///< frame by default.
+};
+
+/// UDP datagrams over IPv4 as they arrive, many for one system call, with the kernel's time stamps
+/// and its count of those it had to drop. A DatagramSource (receive_counters.hpp).
+///
+/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. When
+/// an interface goes down, or goes away and comes back under its name, receive() goes on returning
+/// empty, looks twice a second, takes the socket up again when it can, and counts.
+class UdpSource {
+ public:
+  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, or the address is
+  /// none of this machine's. kUnreadable: the port is taken or not allowed, or another refusal of
+  /// the system; the message says what mends it.
+  [[nodiscard]] static Expected<UdpSource> open(UdpSourceConfig config,
+                                                memory::FixedMemory& memory);
+
+  [[nodiscard]] std::span<const decode::Datagram> receive(std::int64_t timeout_ns) noexcept
+      TERRACUT_NONBLOCKING;
+  void wake() const noexcept { wake_.wake(); }
+
+  /// From now on only this sender; others count as foreign. From the thread that receives.
+  void accept_only(std::uint32_t source_address) noexcept {
+    config_.source_address = source_address;
+  }
+
+  /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks
+  /// the kernel; receive() does it by itself after every full batch and when nothing comes for a
+  /// while.
+  [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
+  void refresh_drops() noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] LinkState link() const noexcept { return link_; }
+
+  /// Where the socket is bound, with the port the system chose.
+  [[nodiscard]] const Ipv4Endpoint& local() const noexcept { return config_.bind; }
+  [[nodiscard]] const ReceiveBuffer& receive_buffer() const noexcept { return socket_.buffer; }
+  /// What was asked for but could only be had in part, one sentence each, for the log at start.
+  [[nodiscard]] std::span<const std::string> warnings() const noexcept { return warnings_; }
+
+ private:
+  struct Socket {
+    files::OwnedDescriptor descriptor;
+    ReceiveBuffer buffer;
+    int interface_index = 0;
+    bool bound_to_interface = false;  ///< Else each datagram is asked where it came in.
+    bool busy_polls = false;
+  };
+
+  /// The call of open_socket() that failed, and its errno.
+  enum class Step : std::uint8_t { kSocket, kInterface, kBind, kJoin };
+  struct Failure {
+    Step step;
+    int error_number;
+  };
+
+  /// Room for what the kernel says beside a datagram: its stamp, the count of drops, and where it
+  /// came in.
+  struct Control {
+    static constexpr std::size_t kBytes = CMSG_SPACE(sizeof(timespec)) +
+                                          CMSG_SPACE(sizeof(std::uint32_t)) +
+                                          CMSG_SPACE(sizeof(in_pktinfo));
+    alignas(cmsghdr) std::array<std::uint8_t, kBytes> bytes;
+  };
+
+  UdpSource(UdpSourceConfig config, threads::WakeEvent wake, files::OwnedDescriptor probe,
+            memory::FixedMemory& memory);
+
+  /// Without strings and memory, so that receive() may call it again.
+  [[nodiscard]] static tl::expected<Socket, Failure> open_socket(
+      const UdpSourceConfig& config, const InterfaceStatus& interface) noexcept;
+  [[nodiscard]] static Error explain(const UdpSourceConfig& config, const Failure& failure);
+  void note_shortfalls();
+
+  [[nodiscard]] std::size_t read_batch() noexcept;
+  [[nodiscard]] bool take(std::size_t slot, decode::Datagram& datagram) noexcept;
+  void prepare(std::size_t slots) noexcept;
+  void look_after(std::int64_t now_ns) noexcept;
+  void look_after_interface() noexcept;
+
+  UdpSourceConfig config_;
+  threads::WakeEvent wake_;
+  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
+  Socket socket_;
+  std::vector<std::string> warnings_;
+
+  std::span<std::uint8_t> bytes_;
+  std::span<::mmsghdr> messages_;
+  std::span<::iovec> vectors_;
+  std::span<::sockaddr_in> senders_;
+  std::span<Control> controls_;
+  std::span<decode::Datagram> datagrams_;
+
+  ReceiveCounters counters_;
+  DropCounter drops_;
+  LinkState link_ = LinkState::kUnknown;
+  std::int64_t next_look_ns_ = 0;
+};
+
+}  // namespace terracut::net

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/capture_survey.hpp"
+
+#include <pcap/pcap.h>
+
+#include <algorithm>
+#include <memory>
+#include <tuple>
+
+namespace terracut::sensor {
+namespace {
+
+/// Distinct payload sizes told apart in a stream; the rest is told under the size 0.
+constexpr std::size_t kMostSizes = 64;
+
+using StreamKey = std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t>;
+
+struct StreamUnderSurvey {
+  UdpStream stream;
+  std::map<SensorModel, std::uint64_t> votes;
+  std::map<SensorModel, std::string> hints;
+  // Some kilobytes each; only made where one is seen.
+  std::unique_ptr<Hdl64eSurvey> hdl64e;
+  std::unique_ptr<Ruby128Survey> ruby128;
+  std::unique_ptr<Ruby128DeviceReader> device;
+
+  void add(const decode::Datagram& datagram) {
+    const bool first = stream.packets == 0;
+    stream.first_stamp_ns =
+        first ? datagram.stamp_ns : std::min(stream.first_stamp_ns, datagram.stamp_ns);
+    stream.last_stamp_ns =
+        first ? datagram.stamp_ns : std::max(stream.last_stamp_ns, datagram.stamp_ns);
+    ++stream.packets;
+    stream.payload_bytes += datagram.payload.size();
+    const bool tell_size = stream.payload_sizes.size() < kMostSizes ||
+                           stream.payload_sizes.contains(datagram.payload.size());
+    ++stream.payload_sizes[tell_size ? datagram.payload.size() : 0];
+
+    const SensorModel model = recognise_sensor(datagram.payload);
+    if (++votes[model] == 1) hints[model] = describe_sensor_hints(datagram.payload);
+    if (model == SensorModel::kHdl64e) {
+      if (!hdl64e) hdl64e = std::make_unique<Hdl64eSurvey>();
+      hdl64e->add(datagram.payload);
+    } else if (model == SensorModel::kRuby128) {
+      if (!ruby128) ruby128 = std::make_unique<Ruby128Survey>();
+      ruby128->add(datagram.payload, datagram.stamp_ns);
+    } else if (model == SensorModel::kRoboSenseDeviceInfo) {
+      if (!device) device = std::make_unique<Ruby128DeviceReader>();
+      device->add(datagram.payload);
+    }
+  }
+
+  [[nodiscard]] UdpStream finished() {
+    // Unknown packets do not outvote a sensor that was recognised.
+    std::uint64_t most = 0;
+    for (const auto& [model, count] : votes) {
+      if (model == SensorModel::kUnknown || count <= most) continue;
+      most = count;
+      stream.sensor = model;
+    }
+    stream.sensor_hints = hints[stream.sensor];
+    if (hdl64e) stream.hdl64e = hdl64e->facts();
+    if (ruby128) stream.ruby128 = ruby128->facts();
+    if (device) stream.device = *device;
+    return std::move(stream);
+  }
+};
+
+}  // namespace
+
+double UdpStream::rate_hz() const noexcept {
+  const std::int64_t span_ns = last_stamp_ns - first_stamp_ns;
+  if (packets < 2 || span_ns <= 0) return 0;
+  return static_cast<double>(packets - 1) * 1e9 / static_cast<double>(span_ns);
+}
+
+CaptureSurvey survey_capture(capture::PcapSource& source,
+                             const std::function<bool()>& stop_wanted) {
+  CaptureSurvey survey;
+  survey.name = source.name();
+  survey.link_type = source.link_type();
+  const char* link_name = ::pcap_datalink_val_to_name(source.link_type());
+  survey.link_type_name = link_name == nullptr ? "unknown" : link_name;
+
+  std::map<StreamKey, StreamUnderSurvey> streams;
+  while (!stop_wanted || !stop_wanted()) {
+    const auto next = source.next();
+    if (!next) {
+      survey.broke_off = next.error();
+      break;
+    }
+    if (!*next) break;
+    const decode::Datagram& datagram = **next;
+    const StreamKey key{datagram.source_address, datagram.destination_address, datagram.source_port,
+                        datagram.destination_port};
+    if (streams.size() >= CaptureSurvey::kMostStreams && !streams.contains(key)) {
+      ++survey.packets_of_further_streams;
+      continue;
+    }
+    StreamUnderSurvey& entry = streams[key];
+    std::tie(entry.stream.source_address, entry.stream.destination_address,
+             entry.stream.source_port, entry.stream.destination_port) = key;
+    entry.add(datagram);
+  }
+  survey.counters = source.counters();
+  for (auto& [key, entry] : streams) survey.streams.push_back(entry.finished());
+  const auto by_size_then_key = [](const UdpStream& a, const UdpStream& b) {
+    const auto key = [](const UdpStream& stream) {
+      return std::tuple(~stream.packets, stream.source_address, stream.destination_address,
+                        stream.source_port, stream.destination_port);
+    };
+    return key(a) < key(b);
+  };
+  std::sort(survey.streams.begin(), survey.streams.end(), by_size_then_key);
+  return survey;
+}
+
+Expected<CaptureSurvey> survey_capture(const std::filesystem::path& path,
+                                       capture::PcapFilter filter) {
+  Expected<capture::PcapSource> source = capture::PcapSource::open(path, filter);
+  if (!source) return tl::unexpected(source.error());
+  return survey_capture(*source);
+}
+
+}  // namespace terracut::sensor

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/sensor/device_reader.hpp"
+#include "firmware_io/sensor/hdl64e_survey.hpp"
+#include "firmware_io/sensor/ruby128_survey.hpp"
+#include "firmware_io/sensor/sensor_model.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::sensor {
+
+/// The datagrams of one sender and receiver (addresses and ports) in a capture.
+struct UdpStream {
+  std::uint32_t source_address = 0;  ///< IPv4, host byte order.
+  std::uint32_t destination_address = 0;
+  std::uint16_t source_port = 0;
+  std::uint16_t destination_port = 0;
+  std::uint64_t packets = 0;
+  std::uint64_t payload_bytes = 0;
+  std::map<std::size_t, std::uint64_t> payload_sizes;  ///< Packets by payload size.
+  std::int64_t first_stamp_ns = 0;                     ///< Capture stamps: earliest and latest.
+  std::int64_t last_stamp_ns = 0;
+
+  SensorModel sensor = SensorModel::kUnknown;  ///< What most of its packets are.
+  std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet.
+  std::optional<Hdl64eFacts> hdl64e;    ///< Where any packet is an HDL-64E's.
+  std::optional<Ruby128Facts> ruby128;  ///< Where any is an RS-Ruby128's data packet.
+  std::optional<Ruby128DeviceReader> device;  ///< Where any is a DIFOP.
+
+  /// Packets a second by the capture stamps; 0 for one packet or none.
+  [[nodiscard]] double rate_hz() const noexcept;
+};
+
+/// Everything `terracut info` says of a capture.
+struct CaptureSurvey {
+  std::string name;
+  int link_type = 0;           ///< libpcap's DLT_ number.
+  std::string link_type_name;  ///< "EN10MB"
+  capture::PcapCounters counters;
+  std::vector<UdpStream> streams;                ///< Most packets first.
+  std::uint64_t packets_of_further_streams = 0;  ///< Beyond kMostStreams.
+  std::optional<Error> broke_off;                ///< Why reading ended before the file did, if so.
+
+  static constexpr std::size_t kMostStreams = 1024;
+};
+
+/// Reads the whole capture once. Errors as PcapSource::open(); a capture that breaks off is no
+/// error here, see CaptureSurvey::broke_off. For inspection: allocates, takes about a second a
+/// gigabyte.
+[[nodiscard]] Expected<CaptureSurvey> survey_capture(const std::filesystem::path& path,
+                                                     capture::PcapFilter filter = {});
+
+/// The same of a source that is open already, from where it stands, until `stop_wanted`, if any.
+[[nodiscard]] CaptureSurvey survey_capture(capture::PcapSource& source,
+                                           const std::function<bool()>& stop_wanted = {});
+
+}  // namespace terracut::sensor

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/device_reader.hpp"
+
+#include <cstring>
+
+namespace terracut::sensor {
+namespace {
+
+bool same_angles(const ruby128::ruby128_wire::Difop& a,
+                 const ruby128::ruby128_wire::Difop& b) noexcept {
+  return std::memcmp(&a.elevations, &b.elevations, sizeof(a.elevations)) == 0 &&
+         std::memcmp(&a.azimuth_offsets, &b.azimuth_offsets, sizeof(a.azimuth_offsets)) == 0;
+}
+
+}  // namespace
+
+bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) noexcept {
+  const std::optional<ruby128::ruby128_wire::Difop> difop = ruby128::read_difop(payload);
+  if (!difop) {
+    ++counters_.not_difop;
+    return false;
+  }
+  ++counters_.packets;
+  const bool new_angles = !newest_ || !same_angles(*newest_, *difop);
+  if (new_angles) newest_angles_ = ruby128::judge_angles(*difop);
+  if (newest_) {
+    if (new_angles) ++counters_.angle_changes;
+    if (newest_->serial != difop->serial) ++counters_.serial_changes;
+  }
+  newest_ = difop;
+  switch (newest_angles_) {
+    case ruby128::DifopAngles::kPlausible:
+      if (!calibrated_) calibrated_ = difop;
+      break;
+    case ruby128::DifopAngles::kUnset:
+      ++counters_.unset_angles;
+      break;
+    case ruby128::DifopAngles::kImplausible:
+      ++counters_.implausible_angles;
+      break;
+  }
+  return true;
+}
+
+std::optional<ruby128::Ruby128DeviceInfo> Ruby128DeviceReader::newest() const {
+  if (!newest_) return std::nullopt;
+  return ruby128::device_info_of(*newest_);
+}
+
+Expected<ruby128::Ruby128Calibration> Ruby128DeviceReader::calibration() const {
+  if (calibrated_) return ruby128::calibration_of(*calibrated_);
+  if (newest_) return ruby128::calibration_of(*newest_);
+  return fail(ErrorCode::kNoCalibration,
+              "no DIFOP packet has come; they come about once a second, by factory setting to UDP "
+              "port 7788");
+}
+
+std::optional<ruby128::Ruby128DeviceInfo> Ruby128DeviceReader::calibrated_unit() const {
+  if (!calibrated_) return std::nullopt;
+  return ruby128::device_info_of(*calibrated_);
+}
+
+}  // namespace terracut::sensor

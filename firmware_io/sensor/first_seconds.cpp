@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/first_seconds.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+/// Another sensor at the same port shows within this time, after the first.
+constexpr std::int64_t kAnotherShows_ns = 300'000'000;
+/// A sensor that turns sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
+constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
+
+Error several(const std::vector<HeardSenders::Sensor>& found) {
+  std::string all;
+  for (const auto& [address, model] : found) {
+    all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", to_string(model),
+                       net::ipv4_text(address));
+  }
+  return {ErrorCode::kInvalidArgument,
+          fmt::format("several sensors send here: {}; choose one with --from", all)};
+}
+
+}  // namespace
+
+bool FirstSeconds::wants_device_port() const {
+  return senders_.wants(SensorModel::kRuby128) && !config_.calibration.is_given() &&
+         config_.device_port != 0;
+}
+
+bool FirstSeconds::is_enough() const {
+  const auto sensors = senders_.turning();
+  if (sensors.empty() || senders_.known_for_ns() < kAnotherShows_ns) return false;
+  return sensors.size() > 1 || config_.calibration.is_given() ||
+         senders_.has_told(sensors.front()) || senders_.known_for_ns() >= kCalibrationComes_ns;
+}
+
+std::string FirstSeconds::waits_for() const {
+  if (const auto sensors = senders_.turning(); !sensors.empty()) {
+    return fmt::format("{} at {} is heard; waiting for its calibration",
+                       to_string(sensors.front().model), net::ipv4_text(sensors.front().address));
+  }
+  const std::string heard = heard_instead();
+  return fmt::format("waiting for {} at {}{}", wanted_name(), config_.place,
+                     heard.empty() ? "" : ": " + heard);
+}
+
+Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) const {
+  auto found = senders_.turning();
+  if (found.empty()) found = senders_.steady();
+  if (found.empty()) return tl::unexpected(nobody(patience_s));
+  if (found.size() > 1) return tl::unexpected(several(found));
+  const HeardSenders::Sensor& sensor = found.front();
+  const SensorProbe& probe = senders_.probe(sensor.address);
+  auto calibration = unit_calibration(config_.calibration, sensor.model,
+                                      [&] { return from_packets(sensor.model, sensor.address); });
+  if (!calibration) return tl::unexpected(calibration.error());
+  return SensorOnAir{.address = sensor.address,
+                     .model = sensor.model,
+                     .columns = config_.columns.value_or(probe.columns(sensor.model)),
+                     .spin_hz = probe.spin_hz(sensor.model),
+                     .dual_return = probe.dual_return(sensor.model),
+                     .calibration = *std::move(calibration)};
+}
+
+std::string FirstSeconds::wanted_name() const {
+  return config_.model ? std::string(to_string(*config_.model)) : "an HDL-64E or RS-Ruby128";
+}
+
+std::string FirstSeconds::heard_instead() const {
+  std::string heard = senders_.others();
+  if (heard.empty() && foreign_ > 0) {
+    heard = fmt::format("{} datagrams from other addresses than --from", foreign_);
+  }
+  return heard;
+}
+
+Error FirstSeconds::nobody(std::optional<double> patience_s) const {
+  const std::string heard = heard_instead();
+  const std::string patience = patience_s ? fmt::format(" within {:g} s", *patience_s) : "";
+  return {
+      ErrorCode::kUnsupported,
+      fmt::format("no data packets of {} came to {}{}: {}", wanted_name(), config_.place, patience,
+                  heard.empty() ? "nothing came at all; `terracut doctor` and tcpdump tell "
+                                  "whether anything reaches this machine"
+                                : heard)};
+}
+
+Expected<calib::SensorCalibration> FirstSeconds::from_packets(SensorModel model,
+                                                              std::uint32_t address) const {
+  if (model == SensorModel::kRuby128) {
+    auto told = senders_.ruby128_device(address).calibration();
+    if (told) return *std::move(told);
+    return fail(ErrorCode::kNoCalibration,
+                fmt::format("no angles of this RS-Ruby128: none were given, and what it says of "
+                            "itself to port {} does not hold them: {}. Give the unit's angle.csv "
+                            "with --calibration FILE, or consent to the model's table with "
+                            "--nominal-calibration",
+                            config_.device_port, told.error().message));
+  }
+  const hdl64e::StatusStreamReader& status = senders_.hdl64e_status(address);
+  if (!status.has_table()) {
+    return fail(ErrorCode::kNoCalibration,
+                fmt::format("none was given, and {} bytes of the table in the packets are "
+                            "missing; give the unit's db.xml or yaml with --calibration FILE",
+                            status.holes()));
+  }
+  auto table = hdl64e::parse_stream_table(status.table());
+  if (!table) return tl::unexpected(table.error());
+  return std::move(table->calibration);
+}
+
+}  // namespace terracut::sensor

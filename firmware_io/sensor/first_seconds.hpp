@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "calib/sensor_calibration.hpp"
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/sensor/heard_senders.hpp"
+#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/sensor/unit_calibration.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::sensor {
+
+/// Who sends, and what is needed to decode it.
+struct SensorOnAir {
+  std::uint32_t address = 0;  ///< IPv4, as in Datagram.
+  SensorModel model{};
+  int columns = 0;  ///< For the range image: firings a frame.
+  double spin_hz = 0;
+  bool dual_return = false;
+  calib::SensorCalibration calibration;
+};
+
+/// Finds out who sends in the first seconds of a live run, and with which calibration: the file's,
+/// or what the sensor itself says, an HDL-64E in its data packets, an RS-Ruby128 at its device
+/// port.
+///
+/// Time is that of the datagrams' stamps. Allocates; one thread.
+class FirstSeconds {
+ public:
+  struct Config {
+    std::optional<SensorModel> model;  ///< The only one wanted; none: each that can be decoded.
+    std::optional<int> columns;        ///< None: as the sensor's spin rate suggests.
+    CalibrationChoice calibration;
+    std::string place;              ///< For people: where packets come in, "0.0.0.0:2368".
+    std::uint16_t device_port = 0;  ///< Where an RS-Ruby128 was heard as well; 0: nowhere.
+  };
+  explicit FirstSeconds(Config config) : config_(std::move(config)), senders_(config_.model) {}
+
+  /// Of the data port or of the device port. `foreign`: datagrams that were left out so far because
+  /// they came from other senders than the one wanted.
+  void add(const decode::Datagram& datagram) { senders_.add(datagram); }
+  void note_foreign(std::uint64_t datagrams) noexcept { foreign_ = datagrams; }
+
+  /// It pays to listen at the device port.
+  [[nodiscard]] bool wants_device_port() const;
+  /// A sensor's head turns, nobody else sends, and its calibration is known or will not come:
+  /// within 0.3 s another sensor would have shown, within 6 s a calibration.
+  [[nodiscard]] bool is_enough() const;
+  /// For people: what is missing.
+  [[nodiscard]] std::string waits_for() const;
+
+  /// The sensor, turning or not. kUnsupported: nobody sends what can be decoded; the message says
+  /// what came instead, within `patience_s` where that is given. kInvalidArgument: several sensors
+  /// do. kNoCalibration: none was given nor sent. The errors of the calibration file.
+  [[nodiscard]] Expected<SensorOnAir> conclude(std::optional<double> patience_s = {}) const;
+
+ private:
+  [[nodiscard]] std::string wanted_name() const;
+  [[nodiscard]] std::string heard_instead() const;
+  [[nodiscard]] Error nobody(std::optional<double> patience_s) const;
+  [[nodiscard]] Expected<calib::SensorCalibration> from_packets(SensorModel model,
+                                                                std::uint32_t address) const;
+
+  Config config_;
+  HeardSenders senders_;
+  std::uint64_t foreign_ = 0;
+};
+
+}  // namespace terracut::sensor

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/sensor/stream_survey.hpp"
+
+namespace terracut::sensor {
+
+/// What the packets of one HDL-64E tell about it.
+struct Hdl64eFacts : StreamFacts {
+  hdl64e::StatusSnapshot status;
+  std::uint64_t status_rounds = 0;
+  std::size_t status_holes = 0;  ///< Bytes of the table that never came.
+  std::optional<hdl64e::StatusTableCollector::Table> table;  ///< For hdl64e::parse_stream_table().
+};
+
+/// Gathers Hdl64eFacts packet by packet. For inspection, not for the receive thread: allocates.
+class Hdl64eSurvey {
+ public:
+  /// A payload that is an HDL-64E's (recognise_sensor()).
+  void add(std::span<const std::uint8_t> payload);
+  [[nodiscard]] Hdl64eFacts facts() const;
+
+ private:
+  StreamSurvey stream_{hdl64e::kDeviceHour_us};
+  hdl64e::StatusStreamReader status_;
+};
+
+}  // namespace terracut::sensor

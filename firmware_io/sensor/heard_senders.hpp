@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/sensor/device_reader.hpp"
+#include "firmware_io/sensor/sensor_probe.hpp"
+
+namespace terracut::sensor {
+
+/// Who sends to the ports that are listened at, and on what evidence: a sensor is who sends a
+/// steady stream of data packets of a turning head, not who sent one packet. Time is that of the
+/// datagrams' stamps. Allocates; one thread.
+class HeardSenders {
+ public:
+  struct Sensor {
+    std::uint32_t address = 0;  ///< IPv4, as in Datagram.
+    SensorModel model{};
+  };
+
+  /// `wanted`: the only model that counts; none: every one that can be decoded.
+  explicit HeardSenders(std::optional<SensorModel> wanted) : wanted_(wanted) {}
+
+  void add(const decode::Datagram& datagram);
+
+  [[nodiscard]] bool wants(SensorModel model) const { return !wanted_ || *wanted_ == model; }
+  /// Those whose head is known to turn.
+  [[nodiscard]] std::vector<Sensor> turning() const;
+  /// Those that send data packets steadily, whether their head turns or not.
+  [[nodiscard]] std::vector<Sensor> steady() const;
+  /// Since the first of turning() was known, by the newest datagram: 0 without one. Another sensor
+  /// at the port would have shown within half a second.
+  [[nodiscard]] std::int64_t known_for_ns() const {
+    return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
+  }
+  /// The sensor has told its own calibration.
+  [[nodiscard]] bool has_told(const Sensor& sensor) const;
+
+  [[nodiscard]] const SensorProbe& probe(std::uint32_t address) const {
+    return senders_.at(address).probe;
+  }
+  [[nodiscard]] const hdl64e::StatusStreamReader& hdl64e_status(std::uint32_t address) const {
+    return senders_.at(address).hdl64e_status;
+  }
+  [[nodiscard]] const Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
+    return senders_.at(address).ruby128_device;
+  }
+  /// For people, what came instead of a turning sensor: "12 datagrams of no sensor known here from
+  /// 192.168.1.7; HDL-64E at 192.168.1.201, whose head does not turn". Empty: nothing did.
+  [[nodiscard]] std::string others() const;
+
+ private:
+  /// More senders than these are somebody's port scan.
+  static constexpr std::size_t kMostSenders = 64;
+  static constexpr std::uint64_t kSteady_packets = 50;
+
+  /// What came from one address.
+  struct Sender {
+    SensorProbe probe;
+    hdl64e::StatusStreamReader hdl64e_status;
+    Ruby128DeviceReader ruby128_device;
+  };
+
+  [[nodiscard]] std::string describe(const Sender& sender) const;
+
+  std::optional<SensorModel> wanted_;
+  std::map<std::uint32_t, Sender> senders_;
+  std::int64_t newest_ns_ = 0, first_known_ns_ = 0;
+};
+
+}  // namespace terracut::sensor

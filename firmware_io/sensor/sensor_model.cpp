@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/sensor_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::size_t kPositionBytes = 512;
+// The Ruby Lite has the Ruby128's header and blocks of 4 + 3 bytes a channel, but four of 80.
+constexpr std::size_t kFirstRubyBlockAt = offsetof(ruby128::ruby128_wire::Packet, blocks);
+constexpr std::size_t kRuby128BlockBytes = sizeof(ruby128::ruby128_wire::Block);
+constexpr std::size_t kRubyLiteBlockBytes = 4 + 3 * 80;
+constexpr std::array<std::uint8_t, 4> kOlderMsopStart{0x55, 0xAA, 0x05, 0x0A};
+constexpr std::array<std::uint8_t, 8> kDifopStart{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
+
+template <std::size_t kSize>
+bool starts_with(Bytes payload, const std::array<std::uint8_t, kSize>& start) noexcept {
+  return payload.size() >= kSize && std::equal(start.begin(), start.end(), payload.begin());
+}
+
+SensorModel product(std::uint8_t number) noexcept {
+  switch (number) {
+    case 0x21:
+      return SensorModel::kHdl32e;
+    case 0x22:
+      return SensorModel::kVlp16;
+    case 0x24:
+      return SensorModel::kVlp16HiRes;
+    case 0x28:
+      return SensorModel::kVlp32c;
+    case 0xA1:
+      return SensorModel::kVls128;
+    default:
+      return SensorModel::kOtherVelodyne;
+  }
+}
+
+SensorModel velodyne_model(const hdl64e::Hdl64ePacketView& packet) noexcept {
+  if (packet.is_hdl64e()) return SensorModel::kHdl64e;
+  int upper = 0;
+  int lower = 0;
+  for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
+    upper += packet.block_id(block) == hdl64e::kUpperBlockId ? 1 : 0;
+    lower += packet.block_id(block) == hdl64e::kLowerBlockId ? 1 : 0;
+  }
+  const std::uint8_t number = packet.status_value();
+  if (upper == hdl64e::kBlocksPerPacket) return product(number);
+  // The S1 sends about three upper blocks for each lower one and nothing else.
+  if (upper + lower == hdl64e::kBlocksPerPacket && lower > 0) return SensorModel::kHdl64eS1;
+  constexpr std::uint16_t kThirdVls128Block = 0xCCFF;
+  if (packet.block_id(1) == hdl64e::kLowerBlockId && packet.block_id(2) == kThirdVls128Block) {
+    return SensorModel::kVls128;
+  }
+  return SensorModel::kUnknown;
+}
+
+/// By the Ruby Plus manual byte 31 is 5 for the Ruby family, byte 32 the model.
+bool is_ruby_plus(Bytes payload) noexcept {
+  return payload[31] == 5 && payload[32] == 1;
+}
+
+SensorModel robosense_model(Bytes payload) noexcept {
+  if (starts_with(payload, kDifopStart)) return SensorModel::kRoboSenseDeviceInfo;
+  if (starts_with(payload, kOlderMsopStart)) return SensorModel::kOtherRoboSense;
+  if (!starts_with(payload, ruby128::kRubyMagic)) return SensorModel::kUnknown;
+  // Only the first byte of a block is its id; the second is the number of the return.
+  const auto block_at = [&](std::size_t at) { return payload[at] == ruby128::kRubyBlockId; };
+  if (!block_at(kFirstRubyBlockAt)) return SensorModel::kOtherRoboSense;
+  const bool by_128 = block_at(kFirstRubyBlockAt + kRuby128BlockBytes) &&
+                      block_at(kFirstRubyBlockAt + 2 * kRuby128BlockBytes);
+  const bool by_80 = block_at(kFirstRubyBlockAt + kRubyLiteBlockBytes) &&
+                     block_at(kFirstRubyBlockAt + 2 * kRubyLiteBlockBytes) &&
+                     block_at(kFirstRubyBlockAt + 3 * kRubyLiteBlockBytes);
+  if (by_128) return is_ruby_plus(payload) ? SensorModel::kRubyPlus : SensorModel::kRuby128;
+  return by_80 ? SensorModel::kRubyLite : SensorModel::kOtherRoboSense;
+}
+
+std::string_view velodyne_return_mode(std::uint8_t mode) noexcept {
+  switch (mode) {
+    case 0x37:
+      return "strongest return";
+    case 0x38:
+      return "last return";
+    case 0x39:
+      return "dual return";
+    case 0x3A:
+      return "dual return with confidence";
+    default:
+      return "return mode not known";
+  }
+}
+
+/// Ruby Plus manual: byte 31 is 5 for the Ruby family, byte 32 the model. Another decoder reads
+/// bytes 30 and 31, so all three are shown.
+std::string_view ruby_model(Bytes payload) noexcept {
+  if (payload[31] != 5) return "";
+  switch (payload[32]) {
+    case 1:
+      return "; by the Ruby Plus manual: Ruby Plus";
+    case 2:
+      return "; by the Ruby Plus manual: Ruby 80";
+    case 3:
+      return "; by the Ruby Plus manual: Ruby 80V";
+    case 4:
+      return "; by the Ruby Plus manual: Ruby 48V";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::string_view to_string(SensorModel model) noexcept {
+  switch (model) {
+    case SensorModel::kUnknown:
+      return "unknown";
+    case SensorModel::kHdl64e:
+      return "Velodyne HDL-64E (S2/S3)";
+    case SensorModel::kHdl64eS1:
+      return "Velodyne HDL-64E S1";
+    case SensorModel::kHdl32e:
+      return "Velodyne HDL-32E";
+    case SensorModel::kVlp16:
+      return "Velodyne VLP-16";
+    case SensorModel::kVlp16HiRes:
+      return "Velodyne VLP-16 Hi-Res";
+    case SensorModel::kVlp32c:
+      return "Velodyne VLP-32C";
+    case SensorModel::kVls128:
+      return "Velodyne VLS-128";
+    case SensorModel::kOtherVelodyne:
+      return "other Velodyne";
+    case SensorModel::kVelodynePosition:
+      return "Velodyne position packets";
+    case SensorModel::kRuby128:
+      return "RoboSense RS-Ruby128";
+    case SensorModel::kRubyPlus:
+      return "RoboSense Ruby Plus";
+    case SensorModel::kRubyLite:
+      return "RoboSense Ruby Lite (80)";
+    case SensorModel::kOtherRoboSense:
+      return "other RoboSense";
+    case SensorModel::kRoboSenseDeviceInfo:
+      return "RoboSense device info (DIFOP)";
+  }
+  return "unknown";
+}
+
+SensorModel recognise_sensor(Bytes payload) noexcept {
+  if (const auto packet = hdl64e::Hdl64ePacketView::of(payload)) return velodyne_model(*packet);
+  if (payload.size() == ruby128::kRubyPacketBytes) return robosense_model(payload);
+  if (payload.size() == kPositionBytes) {
+    // NMEA text at offset 206 where a GPS is connected, else zeros.
+    constexpr std::size_t kSentenceAt = 206;
+    const std::uint8_t first = payload[kSentenceAt];
+    if (first == '$' || first == 0) return SensorModel::kVelodynePosition;
+  }
+  return SensorModel::kUnknown;
+}
+
+std::string describe_sensor_hints(Bytes payload) {
+  switch (recognise_sensor(payload)) {
+    case SensorModel::kHdl32e:
+    case SensorModel::kVlp16:
+    case SensorModel::kVlp16HiRes:
+    case SensorModel::kVlp32c:
+    case SensorModel::kVls128:
+    case SensorModel::kOtherVelodyne:
+      return fmt::format("product number 0x{:02X}, {}", payload[1205],
+                         velodyne_return_mode(payload[1204]));
+    case SensorModel::kRuby128:
+    case SensorModel::kRubyPlus:
+    case SensorModel::kRubyLite:
+      return fmt::format("type bytes {:02X} {:02X} {:02X}{}{}", payload[30], payload[31],
+                         payload[32], ruby_model(payload),
+                         (payload[7] & 3) == 3 ? "; dual return" : "");
+    default:
+      return {};
+  }
+}
+
+}  // namespace terracut::sensor

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::sensor {
+
+/// What sent a UDP payload, as far as the payload itself tells (docs/reference/sensors.md).
+enum class SensorModel : std::uint8_t {
+  kUnknown,
+  kHdl64e,    ///< HDL-64E S2, S2.1 or S3: decoded.
+  kHdl64eS1,  ///< The first HDL-64E: other block order, no firing times.
+  kHdl32e,
+  kVlp16,  ///< Also sold as Puck LITE.
+  kVlp16HiRes,
+  kVlp32c,
+  kVls128,              ///< Alpha Prime.
+  kOtherVelodyne,       ///< Velodyne's data packet with a product number not known here.
+  kVelodynePosition,    ///< 512 bytes with NMEA text, of the models below the HDL-64E.
+  kRuby128,             ///< RS-Ruby128: decoded.
+  kRubyPlus,            ///< The same layout, other angles and firing times; told by type bytes.
+  kRubyLite,            ///< Ruby Lite / Ruby 80: four blocks of 80 channels.
+  kOtherRoboSense,      ///< RoboSense's data packet of another model.
+  kRoboSenseDeviceInfo  ///< DIFOP, sent about once a second.
+};
+
+/// The name people know it by, "Velodyne HDL-64E (S2/S3)".
+[[nodiscard]] std::string_view to_string(SensorModel model) noexcept;
+
+/// Judged by size, magic numbers and block structure, never by port; never reads outside `payload`.
+/// On Velodyne's 1206 bytes the product number is believed only when the block order is not that of
+/// an HDL-64E, whose last bytes are its status stream. Allocates nothing.
+[[nodiscard]] SensorModel recognise_sensor(std::span<const std::uint8_t> payload) noexcept
+    TERRACUT_NONBLOCKING;
+
+/// What else the payload says of the model, for people: product number and return mode of a
+/// Velodyne, type bytes of a RoboSense and what documents say they mean. Empty when nothing.
+[[nodiscard]] std::string describe_sensor_hints(std::span<const std::uint8_t> payload);
+
+}  // namespace terracut::sensor

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/sensor_probe.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "firmware_io/hdl64e/hdl64e_sensor.hpp"
+#include "firmware_io/ruby128/packet_check.hpp"
+#include "firmware_io/ruby128/ruby128_sensor.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+constexpr std::uint64_t kEnoughPackets = 50;
+/// A step between packets beyond this is a gap, across which the head's way is not known.
+constexpr std::int64_t kLongestStep_us = 5'000;
+/// Sensors keep their set spin rate to a percent or two.
+constexpr double kNominalTolerance = 0.03;
+
+/// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
+double firing_s(SensorModel model, bool fires_slowly) {
+  if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
+  return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
+}
+
+/// A step between two packets next to each other, of whichever cycle is nearer.
+bool is_slow_step(std::int64_t step_us) {
+  constexpr std::int64_t kBetween_ns =
+      (hdl64e::kFiringTimesSingle48.packet_ns() + hdl64e::kFiringTimesSingle57.packet_ns()) / 2;
+  constexpr std::int64_t kLongest_ns = hdl64e::kFiringTimesSingle57.packet_ns() * 9 / 8;
+  return step_us * 1000 > kBetween_ns && step_us * 1000 < kLongest_ns;
+}
+
+std::optional<double> nominal_spin_hz(double spin_hz) {
+  for (const double nominal_hz : {5.0, 10.0, 15.0, 20.0}) {
+    if (std::abs(spin_hz - nominal_hz) < kNominalTolerance * nominal_hz) return nominal_hz;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+void SensorProbe::Head::add(const decode::PacketHeads& heads) {
+  ++packets;
+  dual_packets += heads.dual_return ? 1 : 0;
+  if (last) {
+    const std::int64_t step_us = heads.device_stamp_us - last->device_stamp_us;
+    const int step_cdeg = beams::step_cdeg(last->first_cdeg(), heads.first_cdeg());
+    if (step_us > 0 && step_us < kLongestStep_us && step_cdeg > 0) {
+      turned_cdeg += step_cdeg;
+      time_us += step_us;
+      slow_steps += is_slow_step(step_us) ? 1 : 0;
+    }
+  }
+  last = heads;
+}
+
+void SensorProbe::add(std::span<const std::uint8_t> payload) {
+  const SensorModel model = recognise_sensor(payload);
+  ++votes_[model];
+  decode::PacketHeads heads;
+  if (model == SensorModel::kHdl64e) {
+    if (!hdl64e::check_hdl64e_packet(payload, heads)) heads_[model].add(heads);
+  } else if (model == SensorModel::kRuby128) {
+    const auto packet = ruby128::Ruby128PacketView::of(payload);
+    if (!packet || ruby128::check_ruby128_packet(payload, heads)) return;
+    const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp());
+    heads.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp(), encoding) / 1000;
+    heads_[model].add(heads);
+  }
+}
+
+std::uint64_t SensorProbe::packets_of(SensorModel model) const {
+  const auto found = votes_.find(model);
+  return found == votes_.end() ? 0 : found->second;
+}
+
+const SensorProbe::Head* SensorProbe::head_of(SensorModel model) const {
+  const auto found = heads_.find(model);
+  return found == heads_.end() ? nullptr : &found->second;
+}
+
+bool SensorProbe::knows(SensorModel model) const {
+  const Head* head = head_of(model);
+  return head != nullptr && head->packets >= kEnoughPackets && head->time_us > 0;
+}
+
+double SensorProbe::spin_hz(SensorModel model) const {
+  const Head* head = head_of(model);
+  if (head == nullptr || head->time_us == 0) return 0;
+  return static_cast<double>(head->turned_cdeg) / beams::kTurn_cdeg * 1e6 /
+         static_cast<double>(head->time_us);
+}
+
+bool SensorProbe::dual_return(SensorModel model) const {
+  const Head* head = head_of(model);
+  return head != nullptr && 2 * head->dual_packets > head->packets;
+}
+
+int SensorProbe::columns(SensorModel model) const {
+  const std::optional<double> hz = nominal_spin_hz(spin_hz(model));
+  if (!knows(model) || !hz) {
+    return model == SensorModel::kRuby128 ? ruby128::Ruby128Sensor::kDefaultColumns
+                                          : hdl64e::Hdl64eSensor::kDefaultColumns;
+  }
+  const Head& head = *head_of(model);
+  const bool fires_slowly = dual_return(model) || 2 * head.slow_steps > head.packets;
+  return static_cast<int>(std::lround(1 / (*hz * firing_s(model, fires_slowly))));
+}
+
+std::string SensorProbe::foreign_models() const {
+  std::string text;
+  for (const auto& [model, packets] : votes_) {
+    if (model == SensorModel::kHdl64e || model == SensorModel::kRuby128 ||
+        model == SensorModel::kUnknown || model == SensorModel::kRoboSenseDeviceInfo ||
+        model == SensorModel::kVelodynePosition) {
+      continue;
+    }
+    text +=
+        fmt::format("{}{} packets of a {}", text.empty() ? "" : ", ", packets, to_string(model));
+  }
+  return text;
+}
+
+}  // namespace terracut::sensor

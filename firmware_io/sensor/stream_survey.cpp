@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/stream_survey.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "calib/beams/angle.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+constexpr std::int64_t kJump_us = 10'000'000;
+/// Less than half a turn at the fastest spin (20 Hz), so that the short way round is the true one.
+constexpr std::int64_t kSurelyUnderHalfATurn_us = 20'000;
+constexpr std::int64_t kShortestPeriod_us = 50;
+constexpr std::int64_t kLongestPeriod_us = 1'000;
+/// Bounds the memory a senseless capture can take.
+constexpr std::size_t kMostDistinctSteps = 100'000;
+
+}  // namespace
+
+std::string_view to_string(ReturnMode mode) noexcept {
+  switch (mode) {
+    case ReturnMode::kUnknown:
+      return "unknown";
+    case ReturnMode::kSingle:
+      return "single";
+    case ReturnMode::kDual:
+      return "dual";
+  }
+  return "unknown";
+}
+
+void StreamSurvey::add(const decode::PacketHeads& heads, bool turning) {
+  ++facts_.packets;
+  if (turning) {
+    ++turning_packets_;
+    steps_ticks_ += heads.step_ticks;
+    dual_packets_ += heads.dual_return ? 1 : 0;
+  }
+  add_step(heads, turning);
+}
+
+std::int64_t StreamSurvey::clock_step_us(std::int64_t from_us, std::int64_t to_us) const {
+  std::int64_t step_us = (to_us - from_us) % clock_wrap_us_;
+  if (step_us >= clock_wrap_us_ / 2) step_us -= clock_wrap_us_;
+  if (step_us < -(clock_wrap_us_ / 2)) step_us += clock_wrap_us_;
+  return step_us;
+}
+
+void StreamSurvey::add_step(const decode::PacketHeads& heads, bool turning) {
+  bool goes_on = false;
+  if (newest_) {
+    const std::int64_t step_us = clock_step_us(newest_->device_stamp_us, heads.device_stamp_us);
+    if (step_us == 0) {
+      ++facts_.packets_repeated;
+      return;
+    }
+    if (step_us < 0 && step_us > -kJump_us) {
+      ++facts_.packets_reordered;
+      return;
+    }
+    if (std::abs(step_us) >= kJump_us) {
+      ++facts_.clock_jumps;
+      seen_.reset();
+      blind_.end();
+    } else {
+      goes_on = turning && seen_;
+      const bool is_told = goes_on && follow(heads, step_us);
+      const bool is_known = steps_us_.size() < kMostDistinctSteps || steps_us_.contains(step_us);
+      if (!is_told && is_known) ++steps_us_[step_us];
+      if (step_us < kSurelyUnderHalfATurn_us) {
+        short_time_us_ += step_us;
+        short_advance_cdeg_ += beams::step_cdeg(newest_->first_cdeg(), heads.first_cdeg());
+      } else {
+        long_time_us_ += step_us;
+      }
+    }
+  }
+  if (turning && !goes_on) begin_turning(heads);
+  if (!turning) ++not_turning_;
+  newest_ = heads;
+}
+
+void StreamSurvey::begin_turning(const decode::PacketHeads& heads) {
+  seen_ = {heads.device_stamp_us, heads.first_cdeg(), heads.behind_sector > 0};
+  frontier_ticks_ = std::int64_t{heads.first_cdeg()} * decode::kTicksPerCdeg + heads.sweep_ticks;
+  not_turning_ = 0;
+}
+
+bool StreamSurvey::follow(const decode::PacketHeads& heads, std::int64_t step_us) {
+  const double nominal_us = heads.nominal_period_ns * 1e-3;
+  const double step_periods = static_cast<double>(step_us) / nominal_us;
+  const double measured_us = step_periods > 2 ? period_us() : 0;
+  const double one_us = measured_us > 0 ? measured_us : nominal_us;
+  const std::int64_t since_us = clock_step_us(seen_->stamp_us, heads.device_stamp_us);
+  const auto expected_cdeg =
+      seen_->head_cdeg + std::llround(static_cast<double>(since_us) / one_us * heads.pace_ticks /
+                                      decode::kTicksPerCdeg);
+  const std::int64_t head_cdeg =
+      expected_cdeg + beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), heads.first_cdeg());
+
+  const std::int64_t begin_ticks = head_cdeg * decode::kTicksPerCdeg;
+  const decode::HeadInterval gap{frontier_ticks_, begin_ticks};
+  const decode::HeadInterval swept{begin_ticks, begin_ticks + heads.sweep_ticks};
+  const decode::BlindSector::Stride stride{heads.pace_ticks, heads.widest_ticks};
+  const bool is_wide = gap.ticks() >= blind_.least_ticks();
+  if (is_wide || seen_->has_sector) {
+    std::int64_t missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
+    if (seen_->has_sector) {  // its time is in the step; what is missing behind it is in the gap
+      missing = std::min(missing, (gap.ticks() + heads.pace_ticks / 2) / heads.pace_ticks);
+    }
+    lost_in_gaps_ += is_wide ? blind_.judge(gap, missing, not_turning_, stride).packets : missing;
+  }
+  if (heads.behind_sector > 0) {
+    lost_in_gaps_ += blind_.cross(begin_ticks, heads.sector_inside(begin_ticks), stride).packets;
+  } else {
+    blind_.pass(swept);
+  }
+  lost_in_gaps_ += blind_.take_due().packets;
+  const bool is_told = is_wide || seen_->has_sector;
+  seen_ = {heads.device_stamp_us, head_cdeg, heads.behind_sector > 0};
+  frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
+  not_turning_ = 0;
+  return is_told;
+}
+
+/// Mean of the steps near the median of those that can be one period.
+double StreamSurvey::period_us() const {
+  const auto first = steps_us_.lower_bound(kShortestPeriod_us);
+  const auto last = steps_us_.upper_bound(kLongestPeriod_us);
+  std::uint64_t total = 0;
+  for (auto step = first; step != last; ++step) total += step->second;
+  if (total == 0) return 0;
+  auto median = first;
+  for (std::uint64_t below = 0; (below += median->second) * 2 <= total;) ++median;
+  double sum_us = 0;
+  double count = 0;
+  for (auto step = first; step != last; ++step) {
+    if (std::abs(step->first - median->first) * 20 > median->first) continue;
+    sum_us += static_cast<double>(step->first) * static_cast<double>(step->second);
+    count += static_cast<double>(step->second);
+  }
+  return sum_us / count;
+}
+
+StreamFacts StreamSurvey::facts() const {
+  StreamFacts facts = facts_;
+  facts.packet_period_us = period_us();
+  if (facts.packet_period_us > 0) {
+    for (const auto& [step_us, count] : steps_us_) {
+      const auto periods = static_cast<std::uint64_t>(
+          std::llround(static_cast<double>(step_us) / facts.packet_period_us));
+      if (periods > 1) facts.packets_lost += (periods - 1) * count;
+    }
+  }
+  decode::BlindSector to_the_end = blind_;
+  to_the_end.end();
+  facts.packets_lost += static_cast<std::uint64_t>(lost_in_gaps_ + to_the_end.take_due().packets);
+  // A packet put back in order fills a gap that was counted when the later one overtook it.
+  facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
+  facts.blind = decode::blind_azimuths(blind_.sector());
+  if (turning_packets_ > 0) {
+    facts.return_mode =
+        dual_packets_ * 2 > turning_packets_ ? ReturnMode::kDual : ReturnMode::kSingle;
+    facts.step_deg =
+        static_cast<double>(steps_ticks_) / static_cast<double>(turning_packets_) * 1e-5;
+  }
+  if (short_time_us_ > 0) {
+    const double cdeg_per_us =
+        static_cast<double>(short_advance_cdeg_) / static_cast<double>(short_time_us_);
+    facts.spin_rpm = cdeg_per_us * 60e6 / beams::kTurn_cdeg;
+    facts.turns =
+        cdeg_per_us * static_cast<double>(short_time_us_ + long_time_us_) / beams::kTurn_cdeg;
+  }
+  return facts;
+}
+
+}  // namespace terracut::sensor

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/unit_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <utility>
+
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+#include "firmware_io/hdl64e/packet_check.hpp"
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/sensor/device_reader.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+using capture::PcapSource;
+
+// --- HDL-64E: the table in the status stream ---
+
+/// A table goes round in 4160 packets, and S2 units need two equal rounds; the rest is for losses.
+constexpr std::uint64_t kPacketsToSearch = 30'000;
+
+/// What the search for a table in the stream met on its way.
+struct StreamSearch {
+  std::optional<hdl64e::Hdl64eCalibration> found;
+  std::string table_error;  ///< Of a whole table that does not hold a plausible calibration.
+  std::string broke_off;    ///< Why the capture could not be read further.
+  std::uint64_t datagrams = 0;
+  std::uint64_t data_packets = 0;  ///< Of them, of an HDL-64E.
+  std::size_t holes = 0;
+  frame::LossCounters losses;
+};
+
+StreamSearch search_status_stream(PcapSource& source) {
+  StreamSearch search;
+  hdl64e::StatusStreamReader status;
+  decode::PacketHeads heads;
+  while (search.data_packets < kPacketsToSearch && !status.has_table()) {
+    const auto next = source.next();
+    if (!next) search.broke_off = next.error().message;
+    if (!next || !*next) break;
+    ++search.datagrams;
+    const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, heads);
+    if (reject && *reject != frame::Reject::kStationary) {  // a standing head still talks
+      ++search.losses.rejected[static_cast<std::size_t>(*reject)];
+      continue;
+    }
+    const auto packet = hdl64e::Hdl64ePacketView::of((*next)->payload);
+    if (!packet) continue;
+    ++search.data_packets;
+    status.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+  }
+  search.holes = status.holes();
+  if (!status.has_table()) return search;
+  auto table = hdl64e::parse_stream_table(status.table());
+  if (table) {
+    search.found = std::move(table->calibration);
+  } else {
+    search.table_error = table.error().message;
+  }
+  return search;
+}
+
+Error no_calibration(const PcapSource& source, const StreamSearch& search) {
+  const std::string missing =
+      !search.table_error.empty()
+          ? fmt::format("the table in them is not usable: {}", search.table_error)
+          : fmt::format(
+                "{} of the table's {} bytes are missing after {} packets (a whole table takes "
+                "4160 packets, 1.2 s)",
+                search.holes, hdl64e::kStreamTableBytes, search.data_packets);
+  return {
+      ErrorCode::kNoCalibration,
+      fmt::format("{}: no calibration: none was given, and the packets do not hold one: {}{}. Give "
+                  "the unit's db.xml or yaml with --calibration FILE",
+                  source.name(), missing, search.broke_off.empty() ? "" : "; " + search.broke_off)};
+}
+
+Expected<calib::SensorCalibration> told_by_hdl64e(PcapSource& source) {
+  StreamSearch search = search_status_stream(source);
+  if (!search.found) return tl::unexpected(no_calibration(source, search));
+  return *std::move(search.found);
+}
+
+// --- RS-Ruby128: the angles in DIFOP ---
+
+/// DIFOP comes about once a second, among 6000 or, in dual return, 12000 data packets.
+constexpr std::uint64_t kDatagramsToSearch = 60'000;
+
+Expected<ruby128::Ruby128Calibration> search_difop(PcapSource& source) {
+  Ruby128DeviceReader device;
+  for (std::uint64_t i = 0; i < kDatagramsToSearch && !device.has_calibration(); ++i) {
+    const auto next = source.next();
+    if (!next || !*next) break;
+    device.add((*next)->payload);
+  }
+  return device.calibration();
+}
+
+Expected<calib::SensorCalibration> told_by_ruby128(PcapSource& source) {
+  auto found = search_difop(source);
+  if (found) return *std::move(found);
+  return fail(
+      ErrorCode::kNoCalibration,
+      fmt::format("{}: no calibration: none was given, and the packets do not hold one: {}. "
+                  "Give the unit's angle.csv with --calibration FILE, or consent to the "
+                  "model's table, which is off by some hundredths of a degree, with "
+                  "--nominal-calibration",
+                  source.name(), found.error().message));
+}
+
+}  // namespace
+
+Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
+                                                    SensorModel model,
+                                                    const FromPackets& from_packets) {
+  const bool ruby128 = model == SensorModel::kRuby128;
+  if (choice.unit) return *choice.unit;
+  if (!choice.file.empty()) {
+    if (ruby128) return ruby128::read_ruby128_csv(choice.file);
+    return hdl64e::load_hdl64e_calibration(choice.file);
+  }
+  auto calibration = from_packets();
+  if (!calibration && ruby128 && choice.allows_nominal) return ruby128::nominal_ruby128();
+  return calibration;
+}
+
+Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
+                                                    SensorModel model, PcapSource& source) {
+  return unit_calibration(choice, model, [&] {
+    return model == SensorModel::kRuby128 ? told_by_ruby128(source) : told_by_hdl64e(source);
+  });
+}
+
+}  // namespace terracut::sensor

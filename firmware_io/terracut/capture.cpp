@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <utility>
+
+#include "calib/terracut/calibration_table.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/sensor/first_seconds.hpp"
+#include "terracut/decoder.hpp"
+
+namespace terracut {
+
+struct Capture::Engine {
+  capture::PcapSource source;
+  Sensor sensor;
+  Expected<Calibration> calibration;
+};
+
+Capture::Capture(std::unique_ptr<Engine> engine) noexcept : engine_(std::move(engine)) {}
+Capture::Capture(Capture&&) noexcept = default;
+Capture& Capture::operator=(Capture&&) noexcept = default;
+Capture::~Capture() = default;
+
+namespace {
+
+/// Who sends shows in the first packets; a second and more of any sensor.
+constexpr int kPacketsToSearch = 20'000;
+
+Expected<sensor::HeardSenders::Sensor> sender_in(capture::PcapSource& source) {
+  sensor::HeardSenders senders(std::nullopt);
+  for (int i = 0; i < kPacketsToSearch; ++i) {
+    const auto next = source.next();
+    if (!next || !*next) break;
+    senders.add(**next);
+  }
+  auto found = senders.turning();
+  if (found.empty()) found = senders.steady();
+  if (found.empty()) {
+    return fail(ErrorCode::kUnsupported,
+                source.name() + ": no sensor that can be decoded: " + senders.others());
+  }
+  if (found.size() > 1) {
+    return fail(ErrorCode::kInvalidArgument, source.name() + ": several sensors send");
+  }
+  return found.front();
+}
+
+}  // namespace
+
+Expected<Capture> Capture::open(const std::filesystem::path& file) {
+  auto all = capture::PcapSource::open(file);
+  if (!all) return tl::unexpected(all.error());
+  const auto sender = sender_in(*all);
+  if (!sender) return tl::unexpected(sender.error());
+  auto source = capture::PcapSource::open(file, {.port = {}, .source_address = sender->address});
+  if (!source) return tl::unexpected(source.error());
+  auto unit = sensor::unit_calibration({}, sender->model, *source);
+  if (Status status = source->rewind(); !status) return tl::unexpected(status.error());
+  const Sensor model =
+      sender->model == sensor::SensorModel::kRuby128 ? Sensor::kRuby128 : Sensor::kHdl64e;
+  return Capture(std::make_unique<Engine>(
+      Engine{*std::move(source), model, std::move(unit).map([](calib::SensorCalibration&& found) {
+               return calibration_of(std::move(found));
+             })}));
+}
+
+Sensor Capture::sensor() const noexcept {
+  return engine_->sensor;
+}
+
+const Expected<Calibration>& Capture::calibration() const noexcept {
+  return engine_->calibration;
+}
+
+Expected<std::optional<Packet>> Capture::next() {
+  auto datagram = engine_->source.next();
+  if (!datagram) return tl::unexpected(datagram.error());
+  if (!*datagram) return std::nullopt;
+  return Packet{.payload = (*datagram)->payload, .stamp_ns = (*datagram)->stamp_ns};
+}
+
+}  // namespace terracut

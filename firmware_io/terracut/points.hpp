@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <new>
+#include <span>
+#include <stdexcept>
+
+#include "firmware_io/frame/each_return.hpp"
+#include "firmware_io/frame/frame_info.hpp"
+#include "terracut/frame.hpp"
+
+/// From the frames within to those that users see; not installed.
+namespace terracut {
+
+/// Writes the image's returns to the beginning of `points`, in order of arrival. There must be
+/// room.
+inline void copy_points(const frame::RangeImage& image, std::span<Point> points) noexcept {
+  frame::for_each_return(image, [&](const frame::PlacedReturn& placed) noexcept {
+    points[placed.return_index] = {placed.echo.x_m, placed.echo.y_m, placed.echo.z_m,
+                                   static_cast<std::uint16_t>(placed.row), placed.echo.intensity};
+  });
+}
+
+/// `room`: for as many points as a frame may have. The frame's points lie in it.
+[[nodiscard]] inline Frame public_frame(const frame::Frame& frame, std::span<Point> room) noexcept {
+  copy_points(*frame.image, room);
+  return {.number = frame.info.number,
+          .first_packet_ns = frame.info.first_packet_ns,
+          .last_packet_ns = frame.info.last_packet_ns,
+          .complete = frame.info.complete,
+          .deskewed = frame.info.deskew.state == frame::DeskewState::kDone,
+          .packets_lost = frame.info.losses.network_gap_packets,
+          .points = room.first(frame.info.returns),
+          .labels = {}};
+}
+
+/// Runs `make`, which constructs what takes all memory at once, and turns what it throws into an
+/// error.
+template <class Make>
+[[nodiscard]] auto made(Make&& make) -> Expected<decltype(make())> {
+  try {
+    return make();
+  } catch (const std::invalid_argument& error) {
+    return fail(ErrorCode::kInvalidArgument, error.what());
+  } catch (const std::bad_alloc&) {
+    return fail(ErrorCode::kCapacityExceeded, "not enough memory");
+  }
+}
+
+}  // namespace terracut

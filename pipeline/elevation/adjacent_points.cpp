@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/elevation/adjacent_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <numbers>
+#include <span>
+
+#include "pipeline/stage/row_steps.hpp"
+#include "rt/vector_clones.hpp"
+
+namespace terracut::elevation {
+namespace {
+
+/// Eq. 5: the least horizontal distance of two beams' ground points on ground no steeper than K.
+/// delta is the angle of a beam from the downward normal, h the height the beams start from.
+double least_distance_m(double height_m, double lower_elevation_rad, double upper_elevation_rad,
+                        double max_slope_rad) {
+  const double tan_delta1 = std::tan(std::numbers::pi / 2 + lower_elevation_rad);
+  const double tan_delta2 = std::tan(std::numbers::pi / 2 + upper_elevation_rad);
+  return height_m * (tan_delta2 - tan_delta1) / (std::tan(max_slope_rad) * tan_delta2 + 1);
+}
+
+/// The planes of a row's returns, each at its first column.
+struct Row {
+  const float *x_m, *y_m, *z_m, *height_m;
+  std::uint8_t* steep;
+
+  [[nodiscard]] Row from(int column) const noexcept {
+    return {x_m + column, y_m + column, z_m + column, height_m + column, steep + column};
+  }
+};
+struct RowPair {
+  Row lower, upper;
+};
+
+// The loops below are the stage. They have no branches, so that the compiler turns them into
+// vector code; comparisons with the NaN heights of empty cells are false.
+
+/// Columns taken at once, with one byte for each in a vector.
+constexpr int kTogether = 32;
+
+/// Calls `mark` for the rows shifted against each other by each offset of the upper column from
+/// the lower one, with the columns of which the right one is in `columns`.
+template <class Mark>
+[[gnu::always_inline]] inline void for_each_offset(const RowPair& rows, frame::ColumnRange columns,
+                                                   int reach, Mark mark) noexcept {
+  for (int offset = -reach; offset <= reach; ++offset) {
+    const int begin = std::max(columns.begin, std::abs(offset));  // the left one is in the image
+    mark(RowPair{rows.lower.from(begin - std::max(offset, 0)),
+                 rows.upper.from(begin + std::min(offset, 0))},
+         columns.end - begin);
+  }
+}
+
+/// AdjacentRule::kSlope
+struct SlopeRule {
+  float min_rise_m, min_upper_height_m, min_lower_height_m, tan_max_slope_squared;
+
+  /// Marks the upper return of pairs whose step is too steep, and the lower one where it is high
+  /// enough.
+  [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
+    int first = 0;
+    for (; first + kTogether <= count; first += kTogether) mark_some(rows, first, kTogether);
+    mark_some(rows, first, count - first);
+  }
+
+ private:
+  /// At most kTogether.
+  [[gnu::always_inline]] void mark_some(const RowPair& rows, int first, int count) const noexcept {
+    constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
+    const Row lower = rows.lower.from(first), upper = rows.upper.from(first);
+    std::uint8_t is_steep[kTogether], is_high[kTogether];
+    for (int i = 0; i < count; ++i) {
+      const float dx = upper.x_m[i] - lower.x_m[i];
+      const float dy = upper.y_m[i] - lower.y_m[i];
+      const float rise = upper.z_m[i] - lower.z_m[i];
+      is_steep[i] = (rise >= min_rise_m) &
+                    ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
+                    (upper.height_m[i] >= min_upper_height_m) & (lower.height_m[i] >= kAnyHeight);
+      is_high[i] = lower.height_m[i] >= min_lower_height_m;
+    }
+    for (int i = 0; i < count; ++i) {
+      upper.steep[i] = static_cast<std::uint8_t>(upper.steep[i] | is_steep[i]);
+    }
+    for (int i = 0; i < count; ++i) {
+      lower.steep[i] = static_cast<std::uint8_t>(lower.steep[i] | (is_steep[i] & is_high[i]));
+    }
+  }
+};
+
+/// AdjacentRule::kRingSpacing
+struct SpacingRule {
+  float bound_m;
+
+  /// Marks the upper return of pairs nearer to each other than the bound.
+  [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
+    const Row lower = rows.lower, upper = rows.upper;
+    const float bound_squared = bound_m * bound_m;
+    for (int i = 0; i < count; ++i) {
+      const float dx = upper.x_m[i] - lower.x_m[i];
+      const float dy = upper.y_m[i] - lower.y_m[i];
+      const bool is_steep = (dx * dx + dy * dy < bound_squared) &
+                            (upper.height_m[i] == upper.height_m[i]) &
+                            (lower.height_m[i] == lower.height_m[i]);
+      upper.steep[i] = static_cast<std::uint8_t>(upper.steep[i] | std::uint8_t{is_steep});
+    }
+  }
+};
+
+TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, frame::ColumnRange columns, int reach,
+                                          const SlopeRule rule) noexcept {
+  for_each_offset(rows, columns, reach,
+                  [&](const RowPair& shifted, int count) { rule.mark(shifted, count); });
+}
+
+TERRACUT_VECTOR_CLONES void mark_by_spacing(const RowPair rows, frame::ColumnRange columns,
+                                            int reach, const SpacingRule rule) noexcept {
+  for_each_offset(rows, columns, reach,
+                  [&](const RowPair& shifted, int count) { rule.mark(shifted, count); });
+}
+
+TERRACUT_VECTOR_CLONES void make_obstacles(std::span<const std::uint8_t> steep,
+                                           frame::Label* label) noexcept {
+  for (std::size_t cell = 0; cell < steep.size(); ++cell) {
+    label[cell] = steep[cell] != 0 ? frame::Label::kObstacle : label[cell];
+  }
+}
+
+}  // namespace
+
+AdjacentPoints::AdjacentPoints(const Config& config, const mount::RingProfile& profile,
+                               frame::ImageShape shape, memory::FixedMemory& memory)
+    : config_(config),
+      shape_(shape),
+      tan_max_slope_squared_(
+          static_cast<float>(std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
+      ring_spacing_m_(memory.take<float>(
+          "adjacent points", static_cast<std::size_t>(config.last_row_step * shape.rows))),
+      upper_row_(memory.take<std::int32_t>("adjacent points", ring_spacing_m_.size())) {
+  const stage::RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
+  for (int step = 1; step <= config.last_row_step; ++step) {
+    for (int row = 0; row < shape.rows; ++row) {
+      const auto pair = static_cast<std::size_t>((step - 1) * shape.rows + row);
+      upper_row_[pair] = row_steps.up(row, step);
+      if (upper_row_[pair] == shape.rows) continue;
+      const mount::Ring& lower = profile.rings[static_cast<std::size_t>(row)];
+      const mount::Ring& upper = profile.rings[static_cast<std::size_t>(upper_row_[pair])];
+      if (!std::isfinite(upper.ground_distance_m)) continue;
+      const double bound_m =
+          least_distance_m(profile.mount.height_m + upper.origin_height_m, lower.elevation_rad,
+                           upper.elevation_rad, static_cast<double>(config.max_slope_rad));
+      ring_spacing_m_[pair] = static_cast<float>(std::fmax(bound_m, 0.0));
+    }
+  }
+}
+
+float AdjacentPoints::ring_spacing_m(int row, int row_step) const noexcept {
+  return ring_spacing_m_[static_cast<std::size_t>((row_step - 1) * shape_.rows + row)];
+}
+
+void AdjacentPoints::forget(frame::ColumnRange columns, stage::CellPlanes& planes) const noexcept {
+  for (int row = 0; row < shape_.rows; ++row) {
+    std::ranges::fill(planes.steep.subspan(shape_.cell(row, columns.begin), columns.size()),
+                      std::uint8_t{0});
+  }
+}
+
+void AdjacentPoints::mark(frame::ColumnRange columns, stage::CellPlanes& planes) const noexcept {
+  for (int row = 0; row < shape_.rows; ++row) {
+    const std::size_t first = shape_.cell(row, columns.begin);
+    make_obstacles(planes.steep.subspan(first, columns.size()), &planes.label[first]);
+  }
+}
+
+template <class Visit>
+void AdjacentPoints::for_each_row_pair(const frame::RangeImage& image, stage::CellPlanes& planes,
+                                       Visit visit) const noexcept {
+  const auto row_of = [&](int row) noexcept {
+    const std::size_t first = shape_.cell(row, 0);
+    return Row{&image.x_m()[first], &image.y_m()[first], &image.z_m()[first],
+               &planes.height_m[first], &planes.steep[first]};
+  };
+  for (int row = 0; row < shape_.rows; ++row) {
+    for (int step = config_.first_row_step; step <= config_.last_row_step; ++step) {
+      const int upper_row = upper_row_[static_cast<std::size_t>((step - 1) * shape_.rows + row)];
+      if (upper_row == shape_.rows) break;  // nor is there one so many steps up
+      visit(RowPair{row_of(row), row_of(upper_row)}, ring_spacing_m(row, step));
+    }
+  }
+}
+
+void AdjacentPoints::compare(const frame::RangeImage& image, frame::ColumnRange columns,
+                             stage::CellPlanes& planes) noexcept {
+  // Whole vectors: to compare columns to the left once more changes nothing.
+  const int whole = (columns.end - columns.begin + kTogether - 1) / kTogether * kTogether;
+  columns.begin = std::max(columns.end - whole, 0);
+  if (config_.rule == AdjacentRule::kSlope) {
+    const SlopeRule rule{config_.min_rise_m, config_.min_upper_height_m, config_.min_lower_height_m,
+                         tan_max_slope_squared_};
+    for_each_row_pair(image, planes, [&](const RowPair& rows, float) noexcept {
+      mark_by_slope(rows, columns, reach(), rule);
+    });
+  } else {
+    for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
+      mark_by_spacing(rows, columns, reach(), SpacingRule{bound_m});
+    });
+  }
+}
+
+void AdjacentPoints::compare_across_seam(const frame::RangeImage& image,
+                                         stage::CellPlanes& planes) noexcept {
+  const auto mark = [&](const RowPair& rows, auto rule) noexcept {
+    for (int offset = 1; offset <= reach(); ++offset) {
+      const int last = shape_.columns - offset;  // as many columns before the seam as after it
+      rule.mark({rows.lower.from(last), rows.upper}, offset);
+      rule.mark({rows.lower, rows.upper.from(last)}, offset);
+    }
+  };
+  const SlopeRule slope{config_.min_rise_m, config_.min_upper_height_m, config_.min_lower_height_m,
+                        tan_max_slope_squared_};
+  for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
+    if (config_.rule == AdjacentRule::kSlope) {
+      mark(rows, slope);
+    } else {
+      mark(rows, SpacingRule{bound_m});
+    }
+  });
+}
+
+}  // namespace terracut::elevation

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/elevation/ground_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace terracut::elevation {
+
+GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
+                             memory::FixedMemory& memory)
+    : config_(config),
+      reach_(std::min(config.borrow_sectors, (grid.sectors() - 1) / 2)),
+      walked_m_(memory.take<float>("ground surface", grid.cells())),
+      height_m_(memory.take<float>("ground surface", grid.cells())),
+      found_(memory.take<Origin>("ground surface", grid.cells())),
+      origin_(memory.take<Origin>("ground surface", grid.cells())),
+      has_regained_(
+          memory.take<std::uint8_t>("ground surface", static_cast<std::size_t>(grid.sectors()))),
+      is_open_(memory.take<std::uint8_t>("ground surface", has_regained_.size())),
+      wide_from_(
+          memory.take<std::int32_t>("ground surface", static_cast<std::size_t>(grid.bands()))) {
+  const float sector_rad = 2 * std::numbers::pi_v<float> / static_cast<float>(grid.sectors());
+  for (int band = 0; band < grid.bands(); ++band) {
+    const float sectors_wide = config.regain_width_m / (sector_rad * grid.center_m(band));
+    wide_from_[static_cast<std::size_t>(band)] =
+        static_cast<std::int32_t>(std::min(sectors_wide, static_cast<float>(grid.sectors())));
+  }
+}
+
+void GroundSurface::forget() noexcept {
+  std::fill(found_.begin(), found_.end(), kPredicted);
+  std::fill(origin_.begin(), origin_.end(), kPredicted);
+  std::fill(has_regained_.begin(), has_regained_.end(), std::uint8_t{0});
+  std::fill(is_open_.begin(), is_open_.end(), std::uint8_t{1});
+}
+
+void GroundSurface::walk(const RingGrid& grid, RingGrid::Sectors sectors,
+                         std::span<const LowestReturn> lowest) noexcept {
+  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
+    walk_outwards(grid, sector, lowest);
+  }
+}
+
+void GroundSurface::settle(const RingGrid& grid, RingGrid::Sectors sectors,
+                           std::span<const LowestReturn> lowest) noexcept {
+  const int first = std::max(sectors.begin - reach_, 0);
+  const int end = std::min(sectors.end + reach_, grid.sectors());
+  for (int sector = first; sector < end; ++sector) find_lenders(grid, sector);
+  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
+    borrow_from_neighbours(grid, sector, lowest);
+  }
+}
+
+void GroundSurface::settle_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
+                                std::span<std::uint8_t> is_current) noexcept {
+  for (int sector = 0; sector < grid.sectors(); ++sector) find_lenders(grid, sector);
+  for (int sector = 0; sector < grid.sectors(); ++sector) {
+    const auto i = static_cast<std::size_t>(sector);
+    if (is_open_[i] != 0 && borrow_from_neighbours(grid, sector, lowest)) is_current[i] = 0;
+  }
+}
+
+float GroundSurface::Walk::predict_m(float to_range_m, const Config& config) const noexcept {
+  return height_m + slope * std::min(to_range_m - range_m, config.slope_memory_m);
+}
+
+bool GroundSurface::Walk::reaches(float to_range_m, float to_height_m,
+                                  const Config& config) const noexcept {
+  const float run_m = to_range_m - range_m;
+  const float rise_m = to_height_m - predict_m(to_range_m, config);
+  const float accepted_m =
+      std::min(config.step_up_m + config.slope_tolerance * run_m, config.step_up_limit_m);
+  return rise_m < accepted_m && rise_m > -(accepted_m + config.extra_fall * run_m);
+}
+
+float GroundSurface::Walk::step(float to_range_m, float to_height_m,
+                                const Config& config) noexcept {
+  const float run_m = std::max(to_range_m - range_m, config.first_slope_run_m);
+  const float step_slope =
+      std::clamp((to_height_m - height_m) / run_m, -config.max_slope, config.max_slope);
+  slope = std::clamp((1.0F - config.slope_gain) * slope + config.slope_gain * step_slope,
+                     -config.max_slope, config.max_slope);
+  height_m = to_height_m;
+  range_m = to_range_m;
+  return step_slope;
+}
+
+void GroundSurface::walk_outwards(const RingGrid& grid, int sector,
+                                  std::span<const LowestReturn> lowest) noexcept {
+  Walk ground;
+  has_regained_[static_cast<std::size_t>(sector)] = 0;
+  int lost_band = walk_on(grid, sector, 0, kMeasured, ground, lowest);
+  for (;;) {
+    const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest);
+    if (detour.band < 0) return;
+    has_regained_[static_cast<std::size_t>(sector)] = 1;
+    const LowestReturn& start = lowest[grid.cell(sector, detour.band)];
+    ground = {start.height_m, start.range_m, detour.slope};
+    lost_band =
+        std::max(detour.band, walk_on(grid, sector, detour.band, kRegained, ground, lowest));
+  }
+}
+
+int GroundSurface::walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
+                           std::span<const LowestReturn> lowest) noexcept {
+  int last_band = -1;
+  for (; band < grid.bands(); ++band) {
+    const std::size_t cell = grid.cell(sector, band);
+    const float center_m = grid.center_m(band);
+    const LowestReturn& here = lowest[cell];
+    const bool is_ground =
+        here.height_m != kEmpty && ground.reaches(here.range_m, here.height_m, config_);
+    found_[cell] = is_ground ? origin : kPredicted;
+    if (is_ground) {
+      // The step's own slope carries the heights of both returns to the middles of their cells.
+      const Walk before = ground;
+      const float step_slope = ground.step(here.range_m, here.height_m, config_);
+      if (last_band >= 0 && grid.center_m(last_band) > before.range_m) {
+        walked_m_[grid.cell(sector, last_band)] =
+            before.height_m + step_slope * (grid.center_m(last_band) - before.range_m);
+      }
+      walked_m_[cell] = center_m < here.range_m
+                            ? here.height_m - step_slope * (here.range_m - center_m)
+                            : ground.predict_m(center_m, config_);
+      last_band = band;
+    } else {
+      walked_m_[cell] = ground.predict_m(center_m, config_);
+    }
+  }
+  return last_band;
+}
+
+GroundSurface::Detour GroundSurface::find_ground_again(
+    const RingGrid& grid, int sector, int lost_band, const Walk& ground,
+    std::span<const LowestReturn> lowest) const noexcept {
+  // No steeper than regain_slope from one place to the next.
+  const auto passable = [this](const LowestReturn& from, const LowestReturn& to) {
+    return std::fabs(to.height_m - from.height_m) <=
+           config_.regain_slope * (to.range_m - from.range_m);
+  };
+  const LowestReturn lost{ground.height_m, ground.range_m};
+  LowestReturn start, last;
+  int start_band = -1;     // of the places that lead on passably from one to the next
+  bool connected = false;  // ... and whether they do so from the lost ground
+  for (int band = lost_band + 1; band < grid.bands(); ++band) {
+    const LowestReturn& here = lowest[grid.cell(sector, band)];
+    if (here.height_m == kEmpty) continue;
+    if (start_band < 0 || !passable(last, here)) {
+      start = here;
+      start_band = band;
+      connected = passable(lost, here);
+    }
+    last = here;
+    const float length_m = here.range_m - start.range_m;
+    if (connected && length_m >= config_.regain_length_m) {
+      return {start_band, std::clamp((here.height_m - start.height_m) / length_m,
+                                     -config_.max_slope, config_.max_slope)};
+    }
+  }
+  return {};
+}
+
+void GroundSurface::find_lenders(const RingGrid& grid, int sector) noexcept {
+  const std::span<const Origin> found = of_sector(found_, grid, sector);
+  const std::span<Origin> origin = of_sector(origin_, grid, sector);
+  bool has_changed = false;
+  if (has_regained_[static_cast<std::size_t>(sector)] == 0) {
+    has_changed = !std::ranges::equal(found, origin);
+    std::ranges::copy(found, origin.begin());
+  } else {
+    for (int band = 0; band < grid.bands(); ++band) {
+      const auto i = static_cast<std::size_t>(band);
+      const bool is_narrow = found[i] == kRegained && !lies_on_wide_strip(grid, sector, band);
+      const Origin now = is_narrow ? kPredicted : found[i];
+      has_changed |= now != origin[i];
+      origin[i] = now;
+    }
+  }
+  if (!has_changed) return;
+  for (int i = sector - reach_; i <= sector + reach_; ++i) {
+    is_open_[static_cast<std::size_t>(grid.wrapped(i))] = 1;
+  }
+}
+
+bool GroundSurface::lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept {
+  // Along the band, around the circle; ground of any origin counts.
+  const int wide_from = wide_from_[static_cast<std::size_t>(band)];
+  const auto is_ground = [&](int s) {
+    return found_[grid.cell(grid.wrapped(s), band)] != kPredicted;
+  };
+  int first = sector, end = sector + 1;
+  while (end - first < wide_from && is_ground(end)) ++end;
+  while (end - first < wide_from && is_ground(first - 1)) --first;
+  return end - first >= wide_from;
+}
+
+bool GroundSurface::borrow_from_neighbours(const RingGrid& grid, int sector,
+                                           std::span<const LowestReturn> lowest) noexcept {
+  const int bands = grid.bands();
+  const std::size_t first = grid.cell(sector, 0);
+  const auto has_return = [&](int band) {
+    return band >= 0 && band < bands &&
+           lowest[first + static_cast<std::size_t>(band)].height_m != kEmpty;
+  };
+  bool has_changed = false;
+  for (int band = 0; band < bands; ++band) {
+    const std::size_t cell = first + static_cast<std::size_t>(band);
+    // Heights are asked for where returns are, and between bands only from one to the next.
+    const bool is_asked_for = has_return(band - 1) || has_return(band) || has_return(band + 1);
+    const float height_m = origin_[cell] == kPredicted && is_asked_for
+                               ? borrowed_m(grid, sector, band)
+                               : walked_m_[cell];
+    has_changed |= height_m != height_m_[cell];
+    height_m_[cell] = height_m;
+  }
+  is_open_[static_cast<std::size_t>(sector)] = 0;
+  return has_changed;
+}
+
+float GroundSurface::borrowed_m(const RingGrid& grid, int sector, int band) const noexcept {
+  const int sectors = grid.sectors();
+  float weights = config_.walked_weight;
+  float sum_m = weights * walked_m_[grid.cell(sector, band)];
+  for (int distance = 1; distance <= reach_; ++distance) {
+    const float weight = 1.0F / static_cast<float>(distance);
+    const int left = sector >= distance ? sector - distance : sector - distance + sectors;
+    const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;
+    for (const int neighbour : {left, right}) {
+      const std::size_t lender = grid.cell(neighbour, band);
+      if (origin_[lender] == kPredicted) continue;
+      sum_m += weight * walked_m_[lender];
+      weights += weight;
+    }
+  }
+  return sum_m / weights;
+}
+
+}  // namespace terracut::elevation

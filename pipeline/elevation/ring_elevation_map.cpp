@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/elevation/ring_elevation_map.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+
+#include "rt/vector_clones.hpp"
+
+namespace terracut::elevation {
+namespace {
+
+/// Applies `reference_m(ground of the sector, range)` to every return: its height above it, and the
+/// label it earns.
+template <class Reference>
+void label_by_height(const frame::RangeImage& image, const RingGrid& grid,
+                     frame::ColumnRange columns, float obstacle_height_m, stage::CellPlanes& planes,
+                     Reference reference_m) noexcept {
+  const frame::ImageShape& shape = image.shape();
+  const auto z_m = image.z_m(), ground_range_m = image.ground_range_m();
+  constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
+  for (int row = 0; row < shape.rows; ++row) {
+    if (row + 1 < shape.rows && columns.size() < kShort) image.fetch(row + 1, columns);
+    for (int column = columns.begin; column < columns.end;) {
+      const int sector = grid.sector_of(column);
+      const int end = std::min(grid.columns_of({sector, sector + 1}).end, columns.end);
+      const std::size_t ground = grid.cell(sector, 0);
+      for (; column < end; ++column) {
+        const std::size_t cell = shape.cell(row, column);
+        if (!image.has_return(cell)) {
+          planes.height_m[cell] = std::numeric_limits<float>::quiet_NaN();
+          planes.label[cell] = frame::Label::kNone;
+          continue;
+        }
+        const float height_m = z_m[cell] - reference_m(ground, ground_range_m[cell]);
+        planes.height_m[cell] = height_m;
+        planes.label[cell] =
+            height_m < obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
+      }
+    }
+  }
+}
+
+// Heights and ranges as whole numbers: the smaller the lower, among equally low ones the nearer.
+// What is lowest is as good as random, and the least of numbers is found without a branch.
+
+std::int64_t key_of(float height_m, float range_m) noexcept {
+  const auto bits = std::bit_cast<std::int32_t>(height_m);
+  const std::int32_t ordered = bits ^ ((bits >> 31) & 0x7FFF'FFFF);
+  return std::int64_t{ordered} << 32 | std::int64_t{std::bit_cast<std::int32_t>(range_m)};
+}
+
+GroundSurface::LowestReturn return_of(std::int64_t key) noexcept {
+  const auto ordered = static_cast<std::int32_t>(key >> 32);
+  return {std::bit_cast<float>(ordered ^ ((ordered >> 31) & 0x7FFF'FFFF)),
+          std::bit_cast<float>(static_cast<std::int32_t>(key))};
+}
+
+/// Keys of some cells; those without a return get that of an empty grid cell. Answers how many have
+/// one.
+TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
+                                               const float* __restrict range_m,
+                                               const std::uint32_t* __restrict stamp,
+                                               std::uint32_t generation,
+                                               std::span<std::int64_t> keys) noexcept {
+  const std::size_t count = keys.size();
+  std::int64_t* const __restrict out = keys.data();
+  std::uint32_t returns = 0;
+  for (std::size_t i = 0; i < count; ++i) returns += stamp[i] == generation;
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool has_return = stamp[i] == generation;
+    out[i] = key_of(has_return ? z_m[i] : GroundSurface::kEmpty, has_return ? range_m[i] : 0.0F);
+  }
+  return returns;
+}
+
+}  // namespace
+
+RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfile& profile,
+                                   frame::ImageShape shape, memory::FixedMemory& memory)
+    : config_(config),
+      grid_(config.grid, profile, shape, memory),
+      surface_(config.surface, grid_, memory),
+      lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())),
+      lowest_key_(memory.take<std::int64_t>("ring grid", grid_.cells())),
+      row_keys_(memory.take<std::int64_t>("ring grid", static_cast<std::size_t>(shape.columns))),
+      row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())) {}
+
+void RingElevationMap::forget() noexcept {
+  walked_ = 0;
+  seen_ = seen_overflow_ = 0;
+  was_overtaken_ = false;
+  std::fill(lowest_key_.begin(), lowest_key_.end(), key_of(GroundSurface::kEmpty, 0.0F));
+  surface_.forget();
+}
+
+void RingElevationMap::walk_to(int end, const frame::RangeImage& image) noexcept {
+  const RingGrid::Sectors sectors{walked_, end};
+  take_overflow(image);
+  if (walked_ == end) return;
+  take_columns(image, sectors);
+  for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
+    lowest_[i] = return_of(lowest_key_[i]);
+  }
+  if (config_.reference == GroundReference::kLocalSurface) surface_.walk(grid_, sectors, lowest_);
+  walked_ = end;
+}
+
+void RingElevationMap::take_columns(const frame::RangeImage& image,
+                                    RingGrid::Sectors sectors) noexcept {
+  const frame::ColumnRange columns = grid_.columns_of(sectors);
+  const std::span<std::int64_t> keys = row_keys_.first(columns.size());
+  const std::span<std::uint16_t> steps = row_steps_.first(columns.size());
+  for (int row = 0; row < image.shape().rows; ++row) {
+    const std::size_t first = image.shape().cell(row, columns.begin);
+    seen_ += find_keys(&image.z_m()[first], &image.ground_range_m()[first], &image.stamp()[first],
+                       image.generation(), keys);
+    grid_.find_steps(image.ground_range_m().subspan(first, steps.size()), steps);
+    std::size_t i = 0;
+    for (int sector = sectors.begin; sector < sectors.end; ++sector) {
+      const std::size_t ground = grid_.cell(sector, 0);
+      for (const std::size_t end = i + grid_.columns_of({sector, sector + 1}).size(); i < end;
+           ++i) {
+        std::int64_t& lowest =
+            lowest_key_[ground + static_cast<std::size_t>(grid_.band_of_step(steps[i]))];
+        lowest = std::min(lowest, keys[i]);
+      }
+    }
+  }
+}
+
+void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
+  const auto stride = static_cast<std::uint32_t>(image.shape().stride());
+  for (const frame::OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
+    const int sector = grid_.sector_of(static_cast<int>(extra.cell % stride));
+    was_overtaken_ |= sector < walked_;
+    std::int64_t& lowest =
+        lowest_key_[grid_.cell(sector, grid_.band_of(extra.echo.ground_range_m))];
+    lowest = std::min(lowest, key_of(extra.echo.z_m, extra.echo.ground_range_m));
+  }
+  seen_overflow_ = image.overflow().size();
+}
+
+void RingElevationMap::settle(RingGrid::Sectors sectors) noexcept {
+  if (config_.reference == GroundReference::kLocalSurface) surface_.settle(grid_, sectors, lowest_);
+}
+
+void RingElevationMap::settle_rest(std::span<std::uint8_t> is_current) noexcept {
+  if (config_.reference == GroundReference::kLocalSurface) {
+    surface_.settle_rest(grid_, lowest_, is_current);
+  }
+}
+
+void RingElevationMap::label(const frame::RangeImage& image, frame::ColumnRange columns,
+                             stage::CellPlanes& planes) const noexcept {
+  if (config_.reference == GroundReference::kCellMinimum) {
+    label_by_height(
+        image, grid_, columns, config_.obstacle_height_m, planes,
+        [&](std::size_t ground, float range_m) {
+          return lowest_[ground + static_cast<std::size_t>(grid_.band_of(range_m))].height_m;
+        });
+    return;
+  }
+  label_by_height(image, grid_, columns, config_.obstacle_height_m, planes,
+                  [&, surface_m = surface_.height_m()](std::size_t ground, float range_m) {
+                    const RingGrid::BandMix& mix = grid_.mix_of(range_m);
+                    const float inner_m = surface_m[ground + mix.inner];
+                    const float outer_m = surface_m[ground + mix.outer];
+                    return inner_m + mix.outer_share * (outer_m - inner_m);
+                  });
+}
+
+}  // namespace terracut::elevation

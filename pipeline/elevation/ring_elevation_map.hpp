@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/elevation/ground_surface.hpp"
+#include "pipeline/elevation/ring_grid.hpp"
+#include "pipeline/stage/cell_planes.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::elevation {
+
+/// What a return's height is measured from.
+enum class GroundReference : std::uint8_t {
+  kCellMinimum,   ///< The lowest return of its grid cell: the paper's flat-cell assumption.
+  kLocalSurface,  ///< The local ground surface (ground_surface.hpp).
+};
+
+/// Stage 1, coarse segmentation: the ring-based elevation map (paper, section III-B).
+class RingElevationMap {
+ public:
+  struct Config {
+    RingGrid::Config grid;
+    GroundReference reference = GroundReference::kLocalSurface;
+    GroundSurface::Config surface;    ///< Used with kLocalSurface.
+    float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
+  };
+
+  RingElevationMap(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
+                   memory::FixedMemory& memory);
+
+  // For a turn, also while it arrives (CoarseStages): forget(), then walk_to() sector after sector,
+  // settle() what is to be labelled already, settle_rest() when all have been walked, and label()
+  // whatever was settled.
+
+  /// A new turn. Real-time safe, as all of this.
+  void forget() noexcept TERRACUT_NONBLOCKING;
+  /// All columns of the sectors from walked() to `end` are there.
+  void walk_to(int end, const frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int walked() const noexcept { return walked_; }
+  /// False where a return came after its sector had been walked: what was found is of no use then.
+  /// Once all sectors have been walked.
+  [[nodiscard]] bool saw_all_of(const frame::RangeImage& image) const noexcept {
+    return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
+  }
+  void settle(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
+  /// As GroundSurface::settle_rest().
+  void settle_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
+  /// Sectors to either side that have to be walked for a sector to be settled for good.
+  [[nodiscard]] int reach() const noexcept {
+    return config_.reference == GroundReference::kLocalSurface ? surface_.reach() : 0;
+  }
+  /// Fills `height_m` and `label` of some columns.
+  void label(const frame::RangeImage& image, frame::ColumnRange columns,
+             stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
+
+  [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
+
+ private:
+  void take_overflow(const frame::RangeImage& image) noexcept;
+  void take_columns(const frame::RangeImage& image, RingGrid::Sectors sectors) noexcept;
+
+  Config config_;
+  RingGrid grid_;
+  GroundSurface surface_;
+  int walked_ = 0;                 // sectors
+  std::size_t seen_ = 0;           // returns that own a cell of these
+  std::size_t seen_overflow_ = 0;  // returns of the overflow list, wherever they are
+  bool was_overtaken_ = false;
+  std::span<GroundSurface::LowestReturn> lowest_;  // per grid cell
+  std::span<std::int64_t> lowest_key_;             // the same while it is being found
+  // Of one row, from the first column at hand: its returns' keys, and their ranges in the grid's
+  // steps.
+  std::span<std::int64_t> row_keys_;
+  std::span<std::uint16_t> row_steps_;
+};
+
+}  // namespace terracut::elevation

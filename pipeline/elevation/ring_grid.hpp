@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::elevation {
+
+/// The grid of the ring-based elevation map (paper, section III-B): rings of the ground in range,
+/// equal sectors in azimuth, so that every cell can expect the same number of ground returns
+/// however far away it is.
+///
+/// Band b covers a span of horizontal range. Boundaries lie midway between the mean ground
+/// distances of neighbouring lasers; bands narrower than `min_band_m` are merged, wider ones than
+/// `max_band_m` are cut, and beyond the last ring that reaches the ground bands of `max_band_m` go
+/// on to `range_limit_m`. Everything farther away belongs to the last band.
+class RingGrid {
+ public:
+  struct Config {
+    float min_band_m = 0.0F;
+    float max_band_m = 1e9F;       ///< Not cut by default, as in the paper.
+    float range_limit_m = 100.0F;  ///< (0, 250]
+    int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
+  };
+  static constexpr float kStepsPerMetre = 32.0F;  ///< Boundaries are met to within 3 cm.
+  static constexpr int kMaxBands = 250;           ///< More would not fit the 8-bit band numbers.
+
+  /// Where a range lies between the middles of two bands, for linear interpolation.
+  struct BandMix {
+    std::uint8_t inner = 0;
+    std::uint8_t outer = 0;
+    float outer_share = 0;  ///< [0, 1]
+  };
+
+  RingGrid(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
+           memory::FixedMemory& memory);
+
+  [[nodiscard]] int bands() const noexcept { return bands_; }
+  [[nodiscard]] int sectors() const noexcept { return sectors_; }
+  [[nodiscard]] std::size_t cells() const noexcept {
+    return static_cast<std::size_t>(bands_) * static_cast<std::size_t>(sectors_);
+  }
+  /// Grid cells are stored sector by sector, each from the vehicle outwards.
+  [[nodiscard]] std::size_t cell(int sector, int band) const noexcept {
+    return static_cast<std::size_t>(sector) * static_cast<std::size_t>(bands_) +
+           static_cast<std::size_t>(band);
+  }
+  /// Mean range of a band, metres.
+  [[nodiscard]] float center_m(int band) const noexcept {
+    return center_m_[static_cast<std::size_t>(band)];
+  }
+
+  /// Band of a horizontal range. Real-time safe; any float, NaN gives the last band.
+  [[nodiscard]] int band_of(float ground_range_m) const noexcept {
+    return band_of_step_[step_of(ground_range_m)];
+  }
+  /// As band_of(), with the neighbouring band the range leans to.
+  [[nodiscard]] const BandMix& mix_of(float ground_range_m) const noexcept {
+    return mix_of_step_[step_of(ground_range_m)];
+  }
+  /// Ranges in steps of 1 / kStepsPerMetre, for band_of_step(): many at once.
+  void find_steps(std::span<const float> ground_range_m,
+                  std::span<std::uint16_t> steps) const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int band_of_step(std::uint16_t step) const noexcept { return band_of_step_[step]; }
+  /// Sector of an image column.
+  [[nodiscard]] int sector_of(int column) const noexcept {
+    return sector_of_column_[static_cast<std::size_t>(column)];
+  }
+  /// Sectors next to each other, [begin, end); not across the seam.
+  struct Sectors {
+    int begin, end;
+  };
+  [[nodiscard]] Sectors all_sectors() const noexcept { return {0, sectors_}; }
+  /// A sector's number less than one turn beyond either end, brought back onto the circle.
+  [[nodiscard]] int wrapped(int sector) const noexcept {
+    return sector < 0 ? sector + sectors_ : sector >= sectors_ ? sector - sectors_ : sector;
+  }
+  /// Image columns of sectors.
+  [[nodiscard]] frame::ColumnRange columns_of(Sectors sectors) const noexcept {
+    return {first_column_[static_cast<std::size_t>(sectors.begin)],
+            first_column_[static_cast<std::size_t>(sectors.end)]};
+  }
+
+ private:
+  [[nodiscard]] std::size_t step_of(float ground_range_m) const noexcept {
+    const float step = ground_range_m * kStepsPerMetre;
+    return step < last_step_ ? static_cast<std::size_t>(step) : band_of_step_.size() - 1;
+  }
+
+  int bands_ = 0;
+  int sectors_ = 0;
+  float last_step_ = 0;
+  std::span<float> center_m_;
+  std::span<std::uint8_t> band_of_step_;
+  std::span<BandMix> mix_of_step_;
+  std::span<std::uint16_t> sector_of_column_;
+  std::span<std::uint16_t> first_column_;  // of each sector, and the end of the last
+};
+
+}  // namespace terracut::elevation

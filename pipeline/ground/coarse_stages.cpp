@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground/coarse_stages.hpp"
+
+#include <algorithm>
+
+namespace terracut::ground {
+namespace {
+
+/// Sectors labelled together while the turn arrives: few, so that they are in the caches next to
+/// the core from when they came to when they are labelled, and little is left at the end.
+constexpr int kBlock = 16;
+
+void done(stage::StageObserver* observer, stage::Stage stage) noexcept TERRACUT_NONBLOCKING {
+  if (observer != nullptr) observer->stage_done(stage);
+}
+
+}  // namespace
+
+CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
+                           frame::ImageShape shape, memory::FixedMemory& memory)
+    : last_stage_(config.last_stage),
+      shape_(shape),
+      map_(config.elevation_map, profile, shape, memory),
+      adjacent_(config.adjacent_points, profile, shape, memory),
+      is_current_(memory.take<std::uint8_t>("coarse stages",
+                                            static_cast<std::size_t>(map_.grid().sectors()))) {}
+
+void CoarseStages::begin(const frame::RangeImage& image) noexcept {
+  image_ = &image;
+  generation_ = image.generation();
+  labelled_ = 0;
+  std::ranges::fill(is_current_, std::uint8_t{0});
+  map_.forget();
+}
+
+void CoarseStages::advance(const frame::RangeImage& image, int settled_columns,
+                           stage::CellPlanes& planes, stage::StageObserver* observer,
+                           int most_blocks) noexcept {
+  if (image.returns() == 0) return;  // a stream begins behind a turn that it has nothing of
+  if (!has_begun(image)) begin(image);
+  const elevation::RingGrid& grid = map_.grid();
+  for (int block = 0; block < most_blocks && map_.walked() + kBlock <= grid.sectors() &&
+                      grid.columns_of({0, map_.walked() + kBlock}).end <= settled_columns;
+       ++block) {
+    if (observer != nullptr) observer->resumed();
+    map_.walk_to(map_.walked() + kBlock, image);
+    // The first sectors wait for the last ones: ground is lent across the seam.
+    const elevation::RingGrid::Sectors next{std::max(labelled_, map_.reach()),
+                                            map_.walked() - map_.reach()};
+    if (next.end - next.begin < kBlock) {
+      done(observer, stage::Stage::kElevationMap);
+      continue;
+    }
+    map_.settle(next);
+    label(next, image, planes, observer);
+  }
+}
+
+void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& planes,
+                          stage::StageObserver* observer) noexcept {
+  const int sectors = map_.grid().sectors();
+  if (observer != nullptr) observer->resumed();
+  if (!has_begun(image)) begin(image);
+  map_.walk_to(sectors, image);
+  if (!map_.saw_all_of(image)) {
+    begin(image);
+    map_.walk_to(sectors, image);
+  }
+  map_.settle_rest(is_current_);
+  const int labelled_ahead = labelled_;
+  if (labelled_ < sectors) label({labelled_, sectors}, image, planes, observer);
+  label_changed(labelled_ahead, image, planes);
+  if (uses_adjacent_points() && adjacent_.reach() > 0) {
+    adjacent_.compare_across_seam(image, planes);
+    adjacent_.mark({0, adjacent_.reach()}, planes);
+    adjacent_.mark({shape_.columns - adjacent_.reach(), shape_.columns}, planes);
+  }
+  done(observer, stage::Stage::kAdjacentPoints);
+  image_ = nullptr;
+}
+
+void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
+                         stage::CellPlanes& planes, stage::StageObserver* observer) noexcept {
+  const frame::ColumnRange columns = map_.grid().columns_of(sectors);
+  map_.label(image, columns, planes);
+  done(observer, stage::Stage::kElevationMap);
+  if (uses_adjacent_points()) {
+    adjacent_.forget(columns, planes);
+    adjacent_.compare(image, columns, planes);
+    adjacent_.mark({std::max(columns.begin - adjacent_.reach(), 0), columns.end}, planes);
+    done(observer, stage::Stage::kAdjacentPoints);
+  }
+  labelled_ = sectors.end;
+  for (int sector = sectors.begin; sector < sectors.end; ++sector) {
+    is_current_[static_cast<std::size_t>(sector)] = 1;
+  }
+}
+
+void CoarseStages::label_changed(int end, const frame::RangeImage& image,
+                                 stage::CellPlanes& planes) noexcept {
+  const auto has_changed = [&](int sector) {
+    return sector < end && is_current_[static_cast<std::size_t>(sector)] == 0;
+  };
+  for (int sector = 0; sector < end; ++sector) {
+    const int first = sector;
+    while (has_changed(sector)) ++sector;
+    if (sector > first) label_again({first, sector}, image, planes);
+  }
+}
+
+void CoarseStages::label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
+                               stage::CellPlanes& planes) noexcept {
+  // What columns next to changed ones are compared with has changed, too, and is forgotten.
+  const auto widened = [this](frame::ColumnRange columns) {
+    return frame::ColumnRange{std::max(columns.begin - adjacent_.reach(), 0),
+                              std::min(columns.end + adjacent_.reach(), shape_.columns)};
+  };
+  const frame::ColumnRange changed = map_.grid().columns_of(sectors);
+  if (!uses_adjacent_points()) {
+    map_.label(image, changed, planes);
+    return;
+  }
+  const frame::ColumnRange columns = widened(changed);
+  map_.label(image, columns, planes);
+  adjacent_.forget(columns, planes);
+  adjacent_.compare(image, {columns.begin, widened(columns).end}, planes);
+  adjacent_.mark(columns, planes);
+}
+
+}  // namespace terracut::ground

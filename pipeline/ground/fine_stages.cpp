@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground/fine_stages.hpp"
+
+#include "pipeline/random_field/boundary_term.hpp"
+
+namespace terracut::ground {
+namespace {
+
+bool has_expired(const min_cut::CutBudget& budget) noexcept {
+  return budget.expired != nullptr && budget.expired(budget.context);
+}
+
+}  // namespace
+
+FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
+                       frame::ImageShape shape, std::size_t return_capacity,
+                       memory::FixedMemory& memory)
+    : config_(config),
+      shape_(shape),
+      seeds_(config.seeds, profile, shape, memory),
+      region_(config.region, shape, memory),
+      min_cut_(shape, config.min_cut, memory),
+      return_labels_(config.returns, return_capacity, memory) {
+  if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
+}
+
+stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
+                                             stage::CellPlanes& planes,
+                                             const min_cut::CutBudget& budget,
+                                             stage::StageObserver* observer) noexcept {
+  stage::SegmentationReport report;
+  const auto done = [observer](stage::Stage stage) noexcept {
+    if (observer != nullptr) observer->stage_done(stage);
+  };
+  if (observer != nullptr) observer->resumed();
+
+  // What is not certain yet is labelled together, by the cheapest cut of the range image.
+  report.last_stage = config_.last_stage;
+  if (config_.last_stage >= stage::Stage::kMinCut && has_expired(budget)) {
+    report.last_stage = stage::Stage::kAdjacentPoints;
+  }
+  if (report.last_stage >= stage::Stage::kMinCut) {
+    seeds_.select(planes);
+    region_.evaluate(image, planes, seeds_.seeds());
+    done(stage::Stage::kSeeds);
+    report.cut = cut(image, planes, budget);
+    done(stage::Stage::kMinCut);
+    if (report.cut.discarded) report.last_stage = stage::Stage::kAdjacentPoints;
+  }
+
+  return_labels_.assign(image, planes);
+  if (road_surface_) road_surface_->mark(image, planes, return_labels_.mutable_labels());
+  done(stage::Stage::kLabels);
+
+  report.count(return_labels_.labels());
+  return report;
+}
+
+min_cut::CutReport FineStages::cut(const frame::RangeImage& image, stage::CellPlanes& planes,
+                                   const min_cut::CutBudget& budget) noexcept {
+  const min_cut::GridProblem problem{shape_, seeds_.seeds(), region_.cost_ground(),
+                                     region_.cost_obstacle(), image.ground_range_m()};
+  return min_cut_.solve(problem, random_field::BoundaryTerm(config_.boundary, negative_exp_, image),
+                        budget, planes.label);
+}
+
+}  // namespace terracut::ground

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <optional>
+#include <span>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/ground/profile.hpp"
+#include "pipeline/stage/cell_planes.hpp"
+#include "pipeline/stage/segmentation_report.hpp"
+#include "pipeline/stage/stage.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::ground {
+
+/// The fine stage of the method, the random field and its cut, and what makes labels of returns of
+/// it. Begins where CoarseStages ends, on the same thread or another one.
+///
+/// Memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
+class FineStages {
+ public:
+  /// `profile` must have shape.rows rings. `return_capacity`: of the images to come.
+  FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
+             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory);
+
+  /// Labels the returns of a turn. `planes`: what CoarseStages::finish() made of it; labels in them
+  /// become final. Where `budget` has expired before the random field, or too soon in its cut,
+  /// labels stay as they were.
+  [[nodiscard]] stage::SegmentationReport refine(
+      const frame::RangeImage& image, stage::CellPlanes& planes,
+      const min_cut::CutBudget& budget = {},
+      stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
+
+  /// As Segmenter::labels().
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
+    return return_labels_.labels();
+  }
+
+ private:
+  [[nodiscard]] min_cut::CutReport cut(const frame::RangeImage& image, stage::CellPlanes& planes,
+                                       const min_cut::CutBudget& budget) noexcept;
+
+  SegmenterConfig config_;
+  frame::ImageShape shape_;
+  stage::NegativeExp negative_exp_;
+  random_field::ConfidenceSeeds seeds_;
+  random_field::RegionTerm region_;
+  min_cut::GridCut min_cut_;
+  stage::ReturnLabels return_labels_;
+  std::optional<road::RoadSurface> road_surface_;  // where it is asked for
+};
+
+}  // namespace terracut::ground

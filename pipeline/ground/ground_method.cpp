@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground/ground_method.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace terracut::ground {
+namespace {
+
+constexpr std::array kMethods{
+    MethodName{"pfaff", "Fixed-grid extended elevation map (Pfaff et al. 2007)"},
+    MethodName{"bogoslavskyi", "Column angles of the range image (Bogoslavskyi, Stachniss 2017)"},
+    MethodName{"zhang", "Height labels by loopy belief propagation (Zhang et al. 2015)"},
+    MethodName{"ring_map", "Ring-based elevation map, as printed"},
+    MethodName{"ring_map_adjacent", "+ spatiotemporal adjacent points, as printed"},
+    MethodName{"paper", "+ random field: the whole method as printed"},
+    MethodName{"terracut", "The default profile"},
+    MethodName{"terracut_road", "The default profile, road surface told from other ground"},
+};
+
+MethodConfig paper_up_to(stage::Stage last) {
+  MethodConfig config(paper_profile());
+  config.segmenter.last_stage = last;
+  return config;
+}
+
+MethodConfig rival(MethodKind kind) {
+  MethodConfig config;
+  config.kind = kind;
+  return config;
+}
+
+}  // namespace
+
+std::span<const MethodName> method_names() noexcept {
+  return kMethods;
+}
+
+Expected<MethodConfig> method_named(std::string_view name) {
+  if (name == "pfaff") return rival(MethodKind::kPfaff);
+  if (name == "bogoslavskyi") return rival(MethodKind::kBogoslavskyi);
+  if (name == "zhang") return rival(MethodKind::kZhang);
+  if (name == "ring_map") return paper_up_to(stage::Stage::kElevationMap);
+  if (name == "ring_map_adjacent") return paper_up_to(stage::Stage::kAdjacentPoints);
+  if (name == "paper") return paper_up_to(stage::Stage::kMinCut);
+  if (name == "terracut") return MethodConfig(terracut_profile());
+  if (name == "terracut_road") {
+    MethodConfig config(terracut_profile());
+    config.segmenter.road.enabled = true;
+    return config;
+  }
+  std::array<std::string_view, kMethods.size()> names;
+  std::transform(kMethods.begin(), kMethods.end(), names.begin(),
+                 [](const MethodName& method) { return method.name; });
+  return fail(
+      ErrorCode::kInvalidArgument,
+      fmt::format("there is no method '{}'; expected one of {}", name, fmt::join(names, ", ")));
+}
+
+}  // namespace terracut::ground

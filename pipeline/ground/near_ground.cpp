@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground/near_ground.hpp"
+
+#include <algorithm>
+
+namespace terracut::ground {
+namespace {
+
+/// A sixth of a turn: at the nearest range the strip is 30 degrees wide to either side.
+constexpr int kSectorsATurn = 6;
+
+}  // namespace
+
+void take_near_ground(const frame::RangeImage& image,
+                      NearGround& ground) noexcept TERRACUT_NONBLOCKING {
+  const frame::ImageShape& shape = image.shape();
+  const int sector = shape.columns / kSectorsATurn;
+  const auto cells = 2 * static_cast<std::size_t>(sector) * static_cast<std::size_t>(shape.rows);
+  const int step = static_cast<int>((cells + NearGround::kMostCellsLookedAt - 1) /
+                                    NearGround::kMostCellsLookedAt);
+  const auto x_m = image.x_m(), y_m = image.y_m(), z_m = image.z_m();
+  ground.count = 0;
+  for (int row = 0; row < shape.rows; ++row) {
+    // Rows begin in turn at other columns, so that thinned rows do not look along the same rays.
+    for (int at = row % step; at < 2 * sector; at += step) {
+      const int from_ahead =
+          at < sector ? at - sector / 2 : shape.columns / 2 + at - sector * 3 / 2;
+      const int column = from_ahead < 0 ? from_ahead + shape.columns : from_ahead;
+      const std::size_t cell = shape.cell(row, column);
+      if (!image.has_return(cell) || !is_near_ground_place(x_m[cell], y_m[cell])) continue;
+      if (ground.count == NearGround::kMost) return;
+      ground.points[ground.count++] = {x_m[cell], y_m[cell], z_m[cell]};
+    }
+  }
+}
+
+}  // namespace terracut::ground

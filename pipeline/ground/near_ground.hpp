@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "firmware_io/frame/range_image.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::ground {
+
+/// Returns that the mount can be read off: of the strip before and behind the vehicle, the surface
+/// it stands on. A crowned road falls away on the other side, and there is more to see of it. What
+/// lies farther is no plane any more where a slope begins: by the ground to 25 m a sensor 3 m up
+/// seems 0.7 m higher on the simulated hill, by the ground to 15 m 0.1 m lower.
+struct NearGround {
+  static constexpr float kHalfWidth_m = 1.5F;
+  static constexpr float kNearest_m = 3.0F;  ///< Nearer ones may be the vehicle itself.
+  static constexpr float kFarthest_m = 15.0F;
+  static constexpr std::size_t kMost = 8192;
+  static constexpr std::size_t kMostCellsLookedAt = 4 * kMost;
+
+  std::size_t count = 0;
+  std::array<std::array<float, 3>, kMost> points;  ///< x, y, z in the vehicle frame, metres.
+
+  [[nodiscard]] std::span<const std::array<float, 3>> in_use() const noexcept {
+    return std::span(points).first(count);
+  }
+};
+
+/// Whether a return, in the vehicle frame, lies in that strip.
+[[nodiscard]] constexpr bool is_near_ground_place(float x_m, float y_m) noexcept {
+  const float range2_m2 = x_m * x_m + y_m * y_m;
+  return y_m <= NearGround::kHalfWidth_m && y_m >= -NearGround::kHalfWidth_m &&
+         range2_m2 >= NearGround::kNearest_m * NearGround::kNearest_m &&
+         range2_m2 <= NearGround::kFarthest_m * NearGround::kFarthest_m;
+}
+
+/// Fills `ground` with returns of the strip, evenly thinned out. Looks at kMostCellsLookedAt cells
+/// at most, those 30 degrees to either side of straight ahead and of straight behind. Real-time
+/// safe.
+void take_near_ground(const frame::RangeImage& image,
+                      NearGround& ground) noexcept TERRACUT_NONBLOCKING;
+
+}  // namespace terracut::ground

@@ -1,0 +1,333 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground/parameter_table.hpp"
+
+#include <algorithm>
+#include <array>
+#include <type_traits>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "rt/nearest_word.hpp"
+#include "rt/number_of.hpp"
+
+namespace terracut::ground {
+namespace {
+
+constexpr std::array<std::string_view, 2> kOffOn{"no", "yes"};
+constexpr std::array<std::string_view, 2> kReferences{"cell_minimum", "local_surface"};
+constexpr std::array<std::string_view, 2> kAdjacentRules{"ring_spacing", "slope"};
+constexpr std::array<std::string_view, 3> kCutRows{"auto", "all", "ground"};
+constexpr std::array<std::string_view, 2> kRegionRules{"histogram", "height_ramp"};
+constexpr std::array<std::string_view, 2> kBoundaryRules{"height_gradient", "nearness"};
+
+// The pair of functions that read and write one field of the configuration.
+#define TERRACUT_FIELD_OF(path)                                                 \
+  [](const MethodConfig& c) noexcept { return static_cast<double>(c.path); },   \
+      [](MethodConfig& c, double value) noexcept {                              \
+        c.path = static_cast<std::remove_reference_t<decltype(c.path)>>(value); \
+      }
+#define TERRACUT_FIELD(path) TERRACUT_FIELD_OF(segmenter.path)
+
+constexpr double kFar = 1e9;  // "no limit"
+
+// clang-format off: a table reads better with an entry on two lines than one word a line.
+constexpr std::array kParameters{
+    Parameter{"grid.columns_per_sector", "columns", "Image columns a sector of the ring grid covers", 1, 64, {},
+              TERRACUT_FIELD(elevation_map.grid.columns_per_sector)},
+    Parameter{"grid.min_band_m", "m", "Bands narrower than this are merged", 0, 10, {},
+              TERRACUT_FIELD(elevation_map.grid.min_band_m)},
+    Parameter{"grid.max_band_m", "m", "Bands wider than this are cut", 0.5, kFar, {},
+              TERRACUT_FIELD(elevation_map.grid.max_band_m)},
+    Parameter{"grid.range_limit_m", "m", "Everything farther belongs to the last band", 10, 250, {},
+              TERRACUT_FIELD(elevation_map.grid.range_limit_m)},
+
+    Parameter{"elevation_map.reference", "", "What heights are measured from", 0, 1, kReferences,
+              TERRACUT_FIELD(elevation_map.reference)},
+    Parameter{"elevation_map.obstacle_height_m", "m", "Obstacle from this height above the reference on", 0.01, 2, {},
+              TERRACUT_FIELD(elevation_map.obstacle_height_m)},
+
+    Parameter{"surface.step_up_m", "m", "Rise accepted as ground at no distance", 0, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.step_up_m)},
+    Parameter{"surface.slope_tolerance", "m/m", "Further rise or fall accepted per metre walked", 0, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.slope_tolerance)},
+    Parameter{"surface.step_up_limit_m", "m", "Largest rise ever accepted in one step", 0, 5, {},
+              TERRACUT_FIELD(elevation_map.surface.step_up_limit_m)},
+    Parameter{"surface.extra_fall", "m/m", "Further fall accepted per metre walked", 0, 2, {},
+              TERRACUT_FIELD(elevation_map.surface.extra_fall)},
+    Parameter{"surface.slope_gain", "", "Share of a new step in the running slope", 0.01, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.slope_gain)},
+    Parameter{"surface.max_slope", "m/m", "Largest running slope", 0, 1, {},
+              TERRACUT_FIELD(elevation_map.surface.max_slope)},
+    Parameter{"surface.slope_memory_m", "m", "How far the running slope is carried over missing ground", 0, 50, {},
+              TERRACUT_FIELD(elevation_map.surface.slope_memory_m)},
+    Parameter{"surface.first_slope_run_m", "m", "Shorter steps count as this long for the slope", 0.1, 10, {},
+              TERRACUT_FIELD(elevation_map.surface.first_slope_run_m)},
+    Parameter{"surface.regain_length_m", "m", "Lost ground is found again after so many metres of passable steps", 0.5, 1000, {},
+              TERRACUT_FIELD(elevation_map.surface.regain_length_m)},
+    Parameter{"surface.regain_slope", "m/m", "... that begin no steeper than this from the last ground ...", 0, 2, {},
+              TERRACUT_FIELD(elevation_map.surface.regain_slope)},
+    Parameter{"surface.regain_width_m", "m", "... on a strip at least so wide", 0, 100, {},
+              TERRACUT_FIELD(elevation_map.surface.regain_width_m)},
+    Parameter{"surface.borrow_sectors", "sectors", "How far to each side a cell without ground borrows", 0, 100, {},
+              TERRACUT_FIELD(elevation_map.surface.borrow_sectors)},
+    Parameter{"surface.walked_weight", "", "Weight of the walked prediction when borrowing", 0.01, 10, {},
+              TERRACUT_FIELD(elevation_map.surface.walked_weight)},
+
+    Parameter{"adjacent.rule", "", "How a step too steep for ground is told", 0, 1, kAdjacentRules,
+              TERRACUT_FIELD(adjacent_points.rule)},
+    Parameter{"adjacent.max_slope_rad", "rad", "K: the steepest ground", 0.05, 1.5, {},
+              TERRACUT_FIELD(adjacent_points.max_slope_rad)},
+    Parameter{"adjacent.first_row_step", "steps", "Nearest row compared", 1, 4, {},
+              TERRACUT_FIELD(adjacent_points.first_row_step)},
+    Parameter{"adjacent.last_row_step", "steps", "Farthest row compared, not below first_row_step", 1, 4, {},
+              TERRACUT_FIELD(adjacent_points.last_row_step)},
+    Parameter{"adjacent.row_step_deg", "deg", "Elevation a row step covers at least", 0, 5, {},
+              TERRACUT_FIELD(adjacent_points.row_step_deg)},
+    Parameter{"adjacent.column_reach", "columns", "Columns compared to each side", 0, 8, {},
+              TERRACUT_FIELD(adjacent_points.column_reach)},
+    Parameter{"adjacent.min_rise_m", "m", "slope: smaller rises are noise", 0, 1, {},
+              TERRACUT_FIELD(adjacent_points.min_rise_m)},
+    Parameter{"adjacent.min_upper_height_m", "m", "slope: least height of the upper return above the reference", -1, 1, {},
+              TERRACUT_FIELD(adjacent_points.min_upper_height_m)},
+    Parameter{"adjacent.min_lower_height_m", "m", "slope: above this the lower return is marked too", -1, kFar, {},
+              TERRACUT_FIELD(adjacent_points.min_lower_height_m)},
+
+    Parameter{"seeds.ground_share", "", "k: share of ground around a ground seed", 0, 1, {},
+              TERRACUT_FIELD(seeds.ground_share)},
+    Parameter{"seeds.window_rows", "steps", "Window reach up and down", 0, 8, {},
+              TERRACUT_FIELD(seeds.window_rows)},
+    Parameter{"seeds.row_step_deg", "deg", "Elevation a row step covers at least", 0, 5, {},
+              TERRACUT_FIELD(seeds.row_step_deg)},
+    Parameter{"seeds.window_columns", "columns", "Window reach to each side", 0, 16, {},
+              TERRACUT_FIELD(seeds.window_columns)},
+    Parameter{"seeds.max_ground_height_m", "m", "Ground seeds lie no higher above the reference", 0, kFar, {},
+              TERRACUT_FIELD(seeds.max_ground_height_m)},
+    Parameter{"seeds.min_obstacle_height_m", "m", "Obstacles from this height on are seeds without being steep", 0, kFar, {},
+              TERRACUT_FIELD(seeds.min_obstacle_height_m)},
+    Parameter{"seeds.trust_all_obstacles", "", "Every obstacle of the stages before is a seed", 0, 1, kOffOn,
+              TERRACUT_FIELD(seeds.trust_all_obstacles)},
+    Parameter{"seeds.rows", "", "Rows the MRF decides on: all, those whose beams meet the ground, or all of up to 64 (auto)", 0, 2, kCutRows,
+              TERRACUT_FIELD(seeds.rows)},
+
+    Parameter{"region.rule", "", "Where the costs of unknown returns come from", 0, 1, kRegionRules,
+              TERRACUT_FIELD(region.rule)},
+    Parameter{"region.lambda", "", "Weight of the region term against the boundary term", 1e-4, 1000, {},
+              TERRACUT_FIELD(region.lambda)},
+    Parameter{"region.bins_per_metre", "1/m", "histogram: k of Eq. 10", 0.1, 100, {},
+              TERRACUT_FIELD(region.bins_per_metre)},
+    Parameter{"region.empty_bin_count", "returns", "histogram: floor of every bin", 1e-6, 1000, {},
+              TERRACUT_FIELD(region.empty_bin_count)},
+    Parameter{"region.even_height_m", "m", "height_ramp: ground and obstacle cost the same here", -1, 2, {},
+              TERRACUT_FIELD(region.even_height_m)},
+    Parameter{"region.ramp_m", "m", "height_ramp: from there to full cost", 0.001, 5, {},
+              TERRACUT_FIELD(region.ramp_m)},
+
+    Parameter{"boundary.rule", "", "What ties neighbours to the same label", 0, 1, kBoundaryRules,
+              TERRACUT_FIELD(boundary.rule)},
+    Parameter{"boundary.sigma", "1/m", "height_gradient: sigma of Eq. 14", 0, 1000, {},
+              TERRACUT_FIELD(boundary.sigma)},
+    Parameter{"boundary.min_distance_m", "m", "height_gradient: floor of d in Eq. 14", 0.001, 1, {},
+              TERRACUT_FIELD(boundary.min_distance_m)},
+    Parameter{"boundary.scale_m", "m", "nearness: distance of weight 1/e at range 0", 0.001, 10, {},
+              TERRACUT_FIELD(boundary.scale_m)},
+    Parameter{"boundary.scale_per_metre", "m/m", "nearness: its growth with range", 0, 1, {},
+              TERRACUT_FIELD(boundary.scale_per_metre)},
+
+    Parameter{"min_cut.max_unknown", "cells", "Unknown cells solved at most; the farthest stay coarse", 0, 262144, {},
+              TERRACUT_FIELD(min_cut.max_unknown)},
+    Parameter{"min_cut.least_finished", "", "Share of them finished when time is up; with less all stay coarse", 0, 1, {},
+              TERRACUT_FIELD(min_cut.least_finished)},
+
+    Parameter{"returns.same_surface_range_m", "m", "A second return this near in range shares its cell's label", 0, 10, {},
+              TERRACUT_FIELD(returns.same_surface_range_m)},
+    Parameter{"returns.same_surface_height_m", "m", "... and this near in height", 0, 10, {},
+              TERRACUT_FIELD(returns.same_surface_height_m)},
+    Parameter{"returns.obstacle_height_m", "m", "Else it is an obstacle from this height on", 0.01, 2, {},
+              TERRACUT_FIELD(returns.obstacle_height_m)},
+
+    Parameter{"road.enabled", "", "Tell the road surface from other ground", 0, 1, kOffOn,
+              TERRACUT_FIELD(road.enabled)},
+    Parameter{"road.vehicle_width_m", "m", "No way leads where the vehicle does not fit between edges", 0.2, 10, {},
+              TERRACUT_FIELD(road.vehicle_width_m)},
+    Parameter{"road.vehicle_height_m", "m", "Obstacles higher above the ground bar no way", 0.1, kFar, {},
+              TERRACUT_FIELD(road.patches.clearance_height_m)},
+    Parameter{"road.track_m", "m", "The way begins so far ahead of and behind the sensor", 1, 100, {},
+              TERRACUT_FIELD(road.track_m)},
+    Parameter{"road.max_roughness_m", "m", "Rougher ground is no road: mean departure of a height from the middle of its neighbours'", 0.0001, 1, {},
+              TERRACUT_FIELD(road.terrain.max_roughness_m)},
+    Parameter{"road.roughness_window_m", "m", "... over so far to either side on the ring", 0.05, 10, {},
+              TERRACUT_FIELD(road.patches.roughness_window_m)},
+    Parameter{"road.edge_slope", "m/m", "Along a ring steeper than this against the terrain is an edge", 0.001, 10, {},
+              TERRACUT_FIELD(road.edges.slope)},
+    Parameter{"road.edge_bend", "m/m", "... if the slope to neither side of it is as near to its own", 0, 10, {},
+              TERRACUT_FIELD(road.edges.bend)},
+    Parameter{"road.edge_width_m", "m", "... over this length", 0.05, 5, {},
+              TERRACUT_FIELD(road.edges.width_m)},
+    Parameter{"road.edge_neighbours", "patches", "An edge with fewer others in the rings around it is noise", 0, 20, {},
+              TERRACUT_FIELD(road.edge_neighbours)},
+    Parameter{"road.max_step_m", "m", "From ring to ring always level up to this", 0, 1, {},
+              TERRACUT_FIELD(road.max_step_m)},
+    Parameter{"road.max_step_slope", "m/m", "... and up to this slope against the terrain", 0, 10, {},
+              TERRACUT_FIELD(road.max_step_slope)},
+    Parameter{"road.max_gap_m", "m", "Rings farther apart are not connected", 0.1, 100, {},
+              TERRACUT_FIELD(road.max_gap_m)},
+    Parameter{"road.patch_deg", "deg", "Azimuth of the pieces of rings that are judged together", 0.05, 5, {},
+              TERRACUT_FIELD(road.patches.width_deg)},
+    Parameter{"road.terrain_square_m", "m", "The terrain's slope is a plane over three by three such squares", 1, 60, {},
+              TERRACUT_FIELD(road.terrain.square_m)},
+
+    Parameter{"pfaff.cell_m", "m", "Side of a square of the fixed grid", 0.05, 10, {},
+              TERRACUT_FIELD_OF(pfaff.cell_m)},
+    Parameter{"pfaff.extent_m", "m", "Half the side of the map; farther returns belong to its edge", 10, 250, {},
+              TERRACUT_FIELD_OF(pfaff.extent_m)},
+    Parameter{"pfaff.sigma_m", "m", "Standard deviation of a height at range 0", 0.001, 1, {},
+              TERRACUT_FIELD_OF(pfaff.sigma_m)},
+    Parameter{"pfaff.sigma_per_metre", "m/m", "Its growth with range", 0, 0.1, {},
+              TERRACUT_FIELD_OF(pfaff.sigma_per_metre)},
+    Parameter{"pfaff.vertical_sigma_m", "m", "Heights of a square that vary more are not one level", 0.001, 5, {},
+              TERRACUT_FIELD_OF(pfaff.vertical_sigma_m)},
+    Parameter{"pfaff.vehicle_height_m", "m", "A gap larger than this can be driven through", 0.1, kFar, {},
+              TERRACUT_FIELD_OF(pfaff.vehicle_height_m)},
+    Parameter{"pfaff.obstacle_height_m", "m", "Obstacle from this height above the square's elevation on", 0.01, 5, {},
+              TERRACUT_FIELD_OF(pfaff.obstacle_height_m)},
+
+    Parameter{"bogoslavskyi.start_deg", "deg", "Ground starts at no steeper angle", 0.1, 90, {},
+              TERRACUT_FIELD_OF(bogoslavskyi.start_deg)},
+    Parameter{"bogoslavskyi.same_ground_deg", "deg", "Neighbours of the ground whose angle differs by less are ground", 0.1, 90, {},
+              TERRACUT_FIELD_OF(bogoslavskyi.same_ground_deg)},
+    Parameter{"bogoslavskyi.smoothing_window", "rows", "Window of the Savitzky-Golay filter, an odd number; an even one counts as the next odd one", 1, 15, {},
+              TERRACUT_FIELD_OF(bogoslavskyi.smoothing_window)},
+    Parameter{"bogoslavskyi.repair_rows", "rows", "A hole is bridged from no farther away", 0, 32, {},
+              TERRACUT_FIELD_OF(bogoslavskyi.repair_rows)},
+    Parameter{"bogoslavskyi.repair_range_m", "m", "... between ranges that differ by less", 0, 100, {},
+              TERRACUT_FIELD_OF(bogoslavskyi.repair_range_m)},
+    Parameter{"bogoslavskyi.margin_rows", "rows", "Ground grows by so many rows up and down at the end; not in the paper", 0, 16, {},
+              TERRACUT_FIELD_OF(bogoslavskyi.margin_rows)},
+
+    Parameter{"zhang.sectors", "", "Sectors of the polar map", 3, 2000, {},
+              TERRACUT_FIELD_OF(zhang.sectors)},
+    Parameter{"zhang.band_m", "m", "Width of its rings", 0.2, 20, {},
+              TERRACUT_FIELD_OF(zhang.band_m)},
+    Parameter{"zhang.range_limit_m", "m", "Farther returns belong to the last ring", 10, 250, {},
+              TERRACUT_FIELD_OF(zhang.range_limit_m)},
+    Parameter{"zhang.height_labels", "", "Heights of the ground to choose from", 2, 128, {},
+              TERRACUT_FIELD_OF(zhang.height_labels)},
+    Parameter{"zhang.height_step_m", "m", "How far apart they are", 0.01, 1, {},
+              TERRACUT_FIELD_OF(zhang.height_step_m)},
+    Parameter{"zhang.above_cost", "", "Cost of a cell all of whose returns are above the ground", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.above_cost)},
+    Parameter{"zhang.below_cost", "", "... all of whose returns are below it", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.below_cost)},
+    Parameter{"zhang.beside_cost", "", "... all of whose returns are one step off it", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.beside_cost)},
+    Parameter{"zhang.full_returns", "returns", "Cells with fewer have less say", 1, 1000, {},
+              TERRACUT_FIELD_OF(zhang.full_returns)},
+    Parameter{"zhang.hidden_cost", "", "Cost of ground above a beam that passed the cell", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.hidden_cost)},
+    Parameter{"zhang.step_cost_per_m", "1/m", "Cost of neighbours whose heights differ more than a slope", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.step_cost_per_m)},
+    Parameter{"zhang.step_cost_limit", "", "... at most", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.step_cost_limit)},
+    Parameter{"zhang.max_slope", "m/m", "What a slope may be", 0, 2, {},
+              TERRACUT_FIELD_OF(zhang.max_slope)},
+    Parameter{"zhang.iterations", "", "Of the belief propagation", 0, 1000, {},
+              TERRACUT_FIELD_OF(zhang.iterations)},
+    Parameter{"zhang.obstacle_height_m", "m", "Obstacle from this height above the ground on", 0.01, 5, {},
+              TERRACUT_FIELD_OF(zhang.obstacle_height_m)},
+};
+// clang-format on
+#undef TERRACUT_FIELD
+#undef TERRACUT_FIELD_OF
+
+constexpr std::size_t kRivalsBegin = [] {
+  std::size_t first = 0;
+  while (!kParameters[first].key.starts_with("pfaff.")) ++first;
+  return first;
+}();
+
+std::string number_text(double value) {
+  // Fields are float: the shortest text that reads back as the same float.
+  return fmt::format("{}", static_cast<float>(value));
+}
+
+Expected<double> parse_value(const Parameter& parameter, std::string_view value) {
+  if (!parameter.choices.empty()) {
+    const auto choice = std::find(parameter.choices.begin(), parameter.choices.end(), value);
+    if (choice != parameter.choices.end())
+      return static_cast<double>(choice - parameter.choices.begin());
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: expected one of {}, found '{}'", parameter.key,
+                            fmt::join(parameter.choices, ", "), value));
+  }
+  const auto number = rt::number_of<double>(value);
+  if (number && *number >= parameter.least && *number <= parameter.most) return *number;
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{}: expected a number from {} to {}{}{}, found '{}'", parameter.key,
+                          number_text(parameter.least), number_text(parameter.most),
+                          parameter.unit.empty() ? "" : " ", parameter.unit, value));
+}
+
+/// What was meant by a key that is none: the nearest, and those of the same stage.
+std::string unknown(std::string_view key) {
+  const std::string_view stage = key.substr(0, key.find('.') + 1);
+  std::vector<std::string_view> all, alike;
+  for (const Parameter& p : kParameters) {
+    all.push_back(p.key);
+    if (!stage.empty() && p.key.starts_with(stage)) alike.push_back(p.key);
+  }
+  const std::string_view meant = rt::nearest_word(key, all);
+  return fmt::format("no parameter is called '{}'{}; {}", key,
+                     meant.empty() ? "" : fmt::format(" (did you mean {}?)", meant),
+                     alike.empty() ? "docs/reference/parameters.md lists them all"
+                                   : fmt::format("there are {}", fmt::join(alike, ", ")));
+}
+
+}  // namespace
+
+std::span<const Parameter> parameters() noexcept {
+  return std::span(kParameters).first(kRivalsBegin);
+}
+
+std::span<const Parameter> rival_parameters() noexcept {
+  return std::span(kParameters).subspan(kRivalsBegin);
+}
+
+MethodKind kind_that_heeds(std::string_view key) noexcept {
+  if (key.starts_with("pfaff.")) return MethodKind::kPfaff;
+  if (key.starts_with("bogoslavskyi.")) return MethodKind::kBogoslavskyi;
+  if (key.starts_with("zhang.")) return MethodKind::kZhang;
+  return MethodKind::kSegmenter;
+}
+
+Status set_parameter(MethodConfig& config, std::string_view key, std::string_view value) {
+  const auto parameter = std::find_if(kParameters.begin(), kParameters.end(),
+                                      [&](const Parameter& p) { return p.key == key; });
+  if (parameter == kParameters.end()) {
+    return fail(ErrorCode::kInvalidArgument, unknown(key));
+  }
+  const Expected<double> number = parse_value(*parameter, value);
+  if (!number) return tl::unexpected<Error>(number.error());
+  parameter->set(config, *number);
+  return {};
+}
+
+Status apply_setting(MethodConfig& config, std::string_view setting) {
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string_view::npos) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("expected KEY=VALUE, found '{}'", setting));
+  }
+  return set_parameter(config, setting.substr(0, equals), setting.substr(equals + 1));
+}
+
+std::string value_text(const Parameter& parameter, const MethodConfig& config) {
+  const double value = parameter.get(config);
+  return parameter.choices.empty()
+             ? number_text(value)
+             : std::string(parameter.choices[static_cast<std::size_t>(value)]);
+}
+
+}  // namespace terracut::ground

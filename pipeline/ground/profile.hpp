@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <string_view>
+
+#include "pipeline/elevation/adjacent_points.hpp"
+#include "pipeline/elevation/ring_elevation_map.hpp"
+#include "pipeline/min_cut/cut_budget.hpp"
+#include "pipeline/min_cut/grid_cut.hpp"
+#include "pipeline/random_field/boundary_term.hpp"
+#include "pipeline/random_field/confidence_seeds.hpp"
+#include "pipeline/random_field/region_term.hpp"
+#include "pipeline/road/road_surface.hpp"
+#include "pipeline/stage/return_labels.hpp"
+#include "pipeline/stage/stage.hpp"
+
+namespace terracut::ground {
+
+/// Every parameter of the method, by stage. The defaults are the `terracut` profile.
+struct SegmenterConfig {
+  /// kElevationMap, kAdjacentPoints or kMinCut: the rows of the paper's Table III.
+  stage::Stage last_stage = stage::Stage::kMinCut;
+  elevation::RingElevationMap::Config elevation_map = terracut_elevation_map();
+  elevation::AdjacentPoints::Config adjacent_points;
+  random_field::ConfidenceSeeds::Config seeds;
+  random_field::RegionTerm::Config region;
+  random_field::BoundaryTerm::Config boundary;
+  min_cut::GridCut::Config min_cut;
+  stage::ReturnLabels::Config returns;
+  road::RoadSurface::Config road;
+
+  [[nodiscard]] static elevation::RingElevationMap::Config terracut_elevation_map() noexcept;
+};
+
+/// The default: whatever was measured better, on the paper's skeleton (docs/reference/method.md).
+[[nodiscard]] SegmenterConfig terracut_profile() noexcept;
+
+/// The method as printed; what the paper leaves open is set as docs/reference/method.md says.
+[[nodiscard]] SegmenterConfig paper_profile() noexcept;
+
+}  // namespace terracut::ground

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/output/label_sink.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "firmware_io/scan/label_file.hpp"
+
+namespace terracut::output {
+
+Status write_label_file(const std::filesystem::path& path, std::span<const frame::Label> labels) {
+  std::vector<std::uint32_t> ids(labels.size());
+  std::transform(labels.begin(), labels.end(), ids.begin(), semantic_kitti_class);
+  return scan::write_label_ids(path, ids);
+}
+
+}  // namespace terracut::output

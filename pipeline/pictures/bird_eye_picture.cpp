@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/pictures/bird_eye_picture.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "firmware_io/frame/each_return.hpp"
+
+namespace terracut::pictures {
+namespace {
+
+constexpr Colour kRingColour{120, 135, 155};
+constexpr Colour kMarkColour{240, 244, 248};
+constexpr int kOversampling = 2;  // Picture::halved() brings it back
+
+/// Where metres of the vehicle frame lie in the oversampled picture: x up, y to the left.
+struct Canvas {
+  Picture picture;
+  double pixels_per_m;
+
+  [[nodiscard]] double column(double y_m) const noexcept {
+    return picture.width() / 2.0 - y_m * pixels_per_m;
+  }
+  [[nodiscard]] double line(double x_m) const noexcept {
+    return picture.height() / 2.0 - x_m * pixels_per_m;
+  }
+};
+
+/// Dots of 3 x 3 oversampled pixels; where several returns fall together the highest is seen.
+void draw_returns(Canvas& canvas, const ColouredFrame& frame) {
+  const int width = canvas.picture.width(), height = canvas.picture.height();
+  std::vector<float> top_m(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
+                           std::numeric_limits<float>::lowest());
+  frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
+    const double column = canvas.column(static_cast<double>(placed.echo.y_m));
+    const double line = canvas.line(static_cast<double>(placed.echo.x_m));
+    if (!(column >= 0 && column < width && line >= 0 && line < height)) return;
+    const Colour colour = frame.colours[placed.return_index];
+    const float level =
+        frame.level.empty() ? 0.0F : static_cast<float>(frame.level[placed.return_index]);
+    constexpr float kLevel_m = 1e5F;  // more than any height
+    const float rank = level * kLevel_m + placed.echo.z_m;
+    const int x = static_cast<int>(column), y = static_cast<int>(line);
+    for (int py = std::max(y - 1, 0); py <= std::min(y + 1, height - 1); ++py) {
+      for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px) {
+        float& top = top_m[static_cast<std::size_t>(py) * static_cast<std::size_t>(width) +
+                           static_cast<std::size_t>(px)];
+        if (rank < top) continue;
+        top = rank;
+        canvas.picture.set(px, py, colour);
+      }
+    }
+  });
+}
+
+void draw_range_rings(Canvas& canvas, const BirdEyeView& view) {
+  for (double radius_m = view.ring_spacing_m; radius_m < view.side_m * 0.71;
+       radius_m += view.ring_spacing_m) {
+    canvas.picture.circle(canvas.column(0), canvas.line(0), radius_m * canvas.pixels_per_m, 2.0,
+                          kRingColour, 0.28);
+  }
+}
+
+/// An arrow head of a car's length: tip in front, notched tail.
+void draw_vehicle(Canvas& canvas) {
+  constexpr double kFront_m = 2.4, kTail_m = -1.8, kNotch_m = -0.9, kHalfWidth_m = 1.3;
+  for (double x_m = kTail_m; x_m <= kFront_m; x_m += 0.5 / canvas.pixels_per_m) {
+    const double outer_m = kHalfWidth_m * (kFront_m - x_m) / (kFront_m - kTail_m);
+    const double inner_m =
+        x_m < kNotch_m ? kHalfWidth_m * 0.8 * (kNotch_m - x_m) / (kNotch_m - kTail_m) : 0.0;
+    for (double y_m = inner_m; y_m <= outer_m; y_m += 0.5 / canvas.pixels_per_m) {
+      for (const double side : {-1.0, 1.0}) {
+        canvas.picture.set(static_cast<int>(canvas.column(side * y_m)),
+                           static_cast<int>(canvas.line(x_m)), kMarkColour);
+      }
+    }
+  }
+}
+
+void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
+  const int length = static_cast<int>(view.ring_spacing_m * canvas.pixels_per_m);
+  const int margin = canvas.picture.width() / 40;
+  const int line = canvas.picture.height() - margin;
+  constexpr int kThick = 2 * kOversampling, kTick = 8 * kOversampling;
+  canvas.picture.rectangle(margin, line - kThick, length, kThick, kMarkColour);
+  canvas.picture.rectangle(margin, line - kTick, kThick, kTick, kMarkColour);
+  canvas.picture.rectangle(margin + length - kThick, line - kTick, kThick, kTick, kMarkColour);
+}
+
+}  // namespace
+
+Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
+  std::vector<Colour> colours(frame.labels.size());
+  frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
+    colours[placed.return_index] = colour_of_return(frame, placed.return_index, placed.echo);
+  });
+  // Mistakes lie on top of everything: they are what such a picture is looked at for.
+  std::vector<std::uint8_t> mistaken;
+  for (const Mistake mistake : frame.mistakes) mistaken.push_back(mistake != Mistake::kNone);
+  return bird_eye_picture(ColouredFrame{frame.image, colours, mistaken}, view);
+}
+
+Picture bird_eye_picture(const ColouredFrame& frame, const BirdEyeView& view) {
+  const double pixels_per_m = kOversampling * std::clamp(view.pixels_per_m, 2.0, 40.0);
+  const int side =
+      static_cast<int>(std::lround(std::clamp(view.side_m, 10.0, 400.0) * pixels_per_m));
+  Canvas canvas{Picture(side, side, kPictureBackground), pixels_per_m};
+  draw_returns(canvas, frame);
+  draw_range_rings(canvas, view);
+  draw_vehicle(canvas);
+  draw_scale_bar(canvas, view);
+  return canvas.picture.halved();
+}
+
+}  // namespace terracut::pictures

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/pictures/png_picture.hpp"
+
+namespace terracut::pictures {
+
+/// How a return's label compares with the truth, for pictures that show mistakes.
+enum class Mistake : std::uint8_t {
+  kNone,
+  kMissedObstacle,  ///< Truth says obstacle, the label ground.
+  kFalseObstacle,   ///< Truth says ground, the label obstacle.
+};
+
+/// A labelled frame as the pictures need it. Both spans go by return index.
+struct LabelledFrame {
+  const frame::RangeImage& image;
+  std::span<const frame::Label> labels;  ///< One a return.
+  std::span<const Mistake> mistakes;     ///< One a return, or empty where no truth is known.
+};
+
+inline constexpr Colour kPictureBackground{14, 17, 23};
+inline constexpr Colour kMissedObstacleColour{255, 30, 30};
+inline constexpr Colour kFalseObstacleColour{255, 221, 0};
+
+/// Ground is sand, brighter where more light came back. Obstacles go by height, coral at the ground
+/// over violet to blue above 4 m; beside mistakes they are all slate, so that the mistakes stand
+/// out.
+[[nodiscard]] Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
+                                      const frame::Return& echo) noexcept;
+
+}  // namespace terracut::pictures

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/pictures/range_image_picture.hpp"
+
+#include <algorithm>
+
+#include "firmware_io/frame/each_return.hpp"
+
+namespace terracut::pictures {
+namespace {
+
+/// Keeps far returns readable while depth edges between near and far objects show.
+Colour dimmed(Colour colour, double range_m) noexcept {
+  constexpr double kFar_m = 80, kMostDimming = 0.55;
+  return mix(colour, kPictureBackground, kMostDimming * std::min(range_m / kFar_m, 1.0));
+}
+
+/// A lone empty column between two returns is a gap of the sampling, not of the scene.
+void close_lone_gaps(Picture& picture) noexcept {
+  for (int y = 0; y < picture.height(); ++y) {
+    for (int x = 1; x + 1 < picture.width(); ++x) {
+      const bool lone = picture.at(x, y) == kPictureBackground &&
+                        picture.at(x - 1, y) != kPictureBackground &&
+                        picture.at(x + 1, y) != kPictureBackground;
+      if (lone) picture.set(x, y, picture.at(x - 1, y));
+    }
+  }
+}
+
+}  // namespace
+
+Picture range_image_picture(const LabelledFrame& frame) {
+  const frame::ImageShape& shape = frame.image.shape();
+  Picture picture(shape.columns, shape.rows * kPixelsPerRow, kPictureBackground);
+  frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
+    // Column 0 is straight ahead and columns go clockwise, so half a turn further is the middle.
+    const int x = (placed.column + shape.columns / 2) % shape.columns;
+    const int y = (shape.rows - 1 - placed.row) * kPixelsPerRow;
+    Colour colour = colour_of_return(frame, placed.return_index, placed.echo);
+    const bool mistaken =
+        !frame.mistakes.empty() && frame.mistakes[placed.return_index] != Mistake::kNone;
+    if (!mistaken) colour = dimmed(colour, static_cast<double>(placed.echo.ground_range_m));
+    picture.rectangle(x, y, 1, kPixelsPerRow, colour);
+  });
+  close_lone_gaps(picture);
+  return picture;
+}
+
+}  // namespace terracut::pictures

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/random_field/confidence_seeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "pipeline/stage/row_steps.hpp"
+#include "rt/vector_clones.hpp"
+
+namespace terracut::random_field {
+
+namespace {
+
+/// One more than the highest row whose beam meets the ground.
+int rows_that_see_ground(const mount::RingProfile& profile) {
+  int rows = 0;
+  for (std::size_t row = 0; row < profile.rings.size(); ++row) {
+    if (std::isfinite(profile.rings[row].ground_distance_m)) rows = static_cast<int>(row) + 1;
+  }
+  return rows;
+}
+
+int rows_to_cut(CutRows rows, const mount::RingProfile& profile, const frame::ImageShape& shape) {
+  constexpr int kMostRowsToCutAll = 64;
+  const bool all =
+      rows == CutRows::kAll || (rows == CutRows::kAuto && shape.rows <= kMostRowsToCutAll);
+  return all ? shape.rows : rows_that_see_ground(profile);
+}
+
+/// The seed that keeps the label of the stages before.
+min_cut::Seed kept(frame::Label label) noexcept {
+  switch (label) {
+    case frame::Label::kNone:
+      return min_cut::Seed::kNone;
+    case frame::Label::kGround:
+    case frame::Label::kOtherGround:
+      return min_cut::Seed::kGround;
+    case frame::Label::kObstacle:
+      return min_cut::Seed::kObstacle;
+  }
+  return min_cut::Seed::kNone;
+}
+
+// A row of labels enters the counts of its columns, or leaves them.
+TERRACUT_VECTOR_CLONES void count(const frame::Label* labels, std::size_t columns,
+                                  std::uint8_t* ground, std::uint8_t* returns) noexcept {
+  for (std::size_t i = 0; i < columns; ++i) {
+    ground[i] = static_cast<std::uint8_t>(ground[i] + (labels[i] == frame::Label::kGround));
+  }
+  for (std::size_t i = 0; i < columns; ++i) {
+    returns[i] = static_cast<std::uint8_t>(returns[i] + (labels[i] != frame::Label::kNone));
+  }
+}
+TERRACUT_VECTOR_CLONES void uncount(const frame::Label* labels, std::size_t columns,
+                                    std::uint8_t* ground, std::uint8_t* returns) noexcept {
+  for (std::size_t i = 0; i < columns; ++i) {
+    ground[i] = static_cast<std::uint8_t>(ground[i] - (labels[i] == frame::Label::kGround));
+  }
+  for (std::size_t i = 0; i < columns; ++i) {
+    returns[i] = static_cast<std::uint8_t>(returns[i] - (labels[i] != frame::Label::kNone));
+  }
+}
+
+/// sums[i] = counts[i] + .. + counts[i + width - 1]
+TERRACUT_VECTOR_CLONES void sum_windows(const std::uint8_t* counts, int width,
+                                        std::span<std::uint16_t> sums) noexcept {
+  const std::size_t columns = sums.size();
+  std::uint16_t* const out = sums.data();
+  for (std::size_t i = 0; i < columns; ++i) out[i] = counts[i];
+  for (int offset = 1; offset < width; ++offset) {
+    const std::uint8_t* shifted = counts + offset;
+    for (std::size_t i = 0; i < columns; ++i) {
+      out[i] = static_cast<std::uint16_t>(out[i] + shifted[i]);
+    }
+  }
+}
+
+/// Where so much of a window is ground, and the return so low, that a ground label is trusted.
+TERRACUT_VECTOR_CLONES void find_trusted_ground(const std::uint16_t* __restrict ground_in_window,
+                                                const std::uint16_t* __restrict returns_in_window,
+                                                const float* __restrict height_m, float share,
+                                                float max_height_m,
+                                                std::span<std::uint8_t> trusted) noexcept {
+  const std::size_t columns = trusted.size();
+  std::uint8_t* const __restrict out = trusted.data();
+  for (std::size_t i = 0; i < columns; ++i) {
+    out[i] = (static_cast<float>(ground_in_window[i]) >
+              share * static_cast<float>(returns_in_window[i])) &
+             (height_m[i] < max_height_m);
+  }
+}
+
+/// Where a return is steep or high enough for an obstacle label to be trusted.
+TERRACUT_VECTOR_CLONES void find_trusted_obstacles(const std::uint8_t* __restrict steep,
+                                                   const float* __restrict height_m,
+                                                   float min_height_m,
+                                                   std::span<std::uint8_t> trusted) noexcept {
+  const std::size_t columns = trusted.size();
+  std::uint8_t* const __restrict out = trusted.data();
+  for (std::size_t i = 0; i < columns; ++i) {
+    out[i] = (steep[i] != 0) | (height_m[i] > min_height_m);
+  }
+}
+
+/// The label itself where it is trusted, else unknown. No branches: they would be mispredicted
+/// wherever ground and obstacles alternate.
+TERRACUT_VECTOR_CLONES void choose(const frame::Label* __restrict label,
+                                   const std::uint8_t* __restrict trusted_ground,
+                                   const std::uint8_t* __restrict trusted_obstacle,
+                                   std::span<min_cut::Seed> seeds) noexcept {
+  static_assert(
+      static_cast<int>(min_cut::Seed::kNone) == static_cast<int>(frame::Label::kNone) &&
+      static_cast<int>(min_cut::Seed::kGround) == static_cast<int>(frame::Label::kGround) &&
+      static_cast<int>(min_cut::Seed::kObstacle) == static_cast<int>(frame::Label::kObstacle));
+  const std::size_t columns = seeds.size();
+  min_cut::Seed* const __restrict out = seeds.data();
+  for (std::size_t i = 0; i < columns; ++i) {
+    const bool trusted = ((label[i] == frame::Label::kGround) & (trusted_ground[i] != 0)) |
+                         ((label[i] == frame::Label::kObstacle) & (trusted_obstacle[i] != 0));
+    const min_cut::Seed otherwise =
+        label[i] == frame::Label::kNone ? min_cut::Seed::kNone : min_cut::Seed::kUnknown;
+    out[i] = trusted ? static_cast<min_cut::Seed>(label[i]) : otherwise;
+  }
+}
+
+}  // namespace
+
+ConfidenceSeeds::ConfidenceSeeds(const Config& config, const mount::RingProfile& profile,
+                                 frame::ImageShape shape, memory::FixedMemory& memory)
+    : config_(config),
+      shape_(shape),
+      cut_rows_(rows_to_cut(config.rows, profile, shape)),
+      window_begin_(memory.take<std::int32_t>("seeds", static_cast<std::size_t>(shape.rows))),
+      window_end_(memory.take<std::int32_t>("seeds", window_begin_.size())),
+      seeds_(memory.take<min_cut::Seed>("seeds", shape.cells())),
+      ground_in_column_(memory.take<std::uint8_t>(
+          "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
+      returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
+      ground_in_window_(
+          memory.take<std::uint16_t>("seeds", static_cast<std::size_t>(shape.columns))),
+      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())),
+      trusted_ground_(memory.take<std::uint8_t>("seeds", ground_in_window_.size())),
+      trusted_obstacle_(memory.take<std::uint8_t>("seeds", ground_in_window_.size())) {
+  const stage::RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
+  for (int row = 0; row < shape.rows; ++row) {
+    const auto i = static_cast<std::size_t>(row);
+    window_begin_[i] = std::max(0, row_steps.down(row, config.window_rows));
+    window_end_[i] = std::min(shape.rows, row_steps.up(row, config.window_rows) + 1);
+  }
+}
+
+void ConfidenceSeeds::select(const stage::CellPlanes& planes) noexcept {
+  const std::size_t cut_cells =
+      static_cast<std::size_t>(cut_rows_) * static_cast<std::size_t>(shape_.stride());
+  std::transform(planes.label.begin() + static_cast<std::ptrdiff_t>(cut_cells), planes.label.end(),
+                 seeds_.begin() + static_cast<std::ptrdiff_t>(cut_cells),
+                 [](frame::Label label) noexcept { return kept(label); });
+  start_counting();
+  for (int row = 0; row < cut_rows_; ++row) {
+    count_in_columns(planes, row);
+    count_in_windows();
+    select_in_row(planes, row);
+  }
+}
+
+void ConfidenceSeeds::select_in_row(const stage::CellPlanes& planes, int row) noexcept {
+  const std::size_t first =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());
+  const float min_obstacle_height_m = config_.trust_all_obstacles
+                                          ? -std::numeric_limits<float>::infinity()
+                                          : config_.min_obstacle_height_m;
+  find_trusted_ground(ground_in_window_.data(), returns_in_window_.data(), &planes.height_m[first],
+                      config_.ground_share, config_.max_ground_height_m, trusted_ground_);
+  find_trusted_obstacles(&planes.steep[first], &planes.height_m[first], min_obstacle_height_m,
+                         trusted_obstacle_);
+  choose(&planes.label[first], trusted_ground_.data(), trusted_obstacle_.data(),
+         seeds_.subspan(first, trusted_ground_.size()));
+}
+
+void ConfidenceSeeds::start_counting() noexcept {
+  std::fill(ground_in_column_.begin(), ground_in_column_.end(), std::uint8_t{0});
+  std::fill(returns_in_column_.begin(), returns_in_column_.end(), std::uint8_t{0});
+  counted_begin_ = counted_end_ = 0;
+}
+
+void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row) noexcept {
+  const auto labels_of = [&](int r) {
+    return &planes.label[static_cast<std::size_t>(r) * static_cast<std::size_t>(shape_.stride())];
+  };
+  const auto reach = static_cast<std::size_t>(config_.window_columns);
+  const auto columns = static_cast<std::size_t>(shape_.columns);
+  std::uint8_t* ground = &ground_in_column_[reach];
+  std::uint8_t* returns = &returns_in_column_[reach];
+  // Windows move upwards only, so every row enters once and leaves once.
+  for (; counted_end_ < window_end_[static_cast<std::size_t>(row)]; ++counted_end_) {
+    count(labels_of(counted_end_), columns, ground, returns);
+  }
+  for (; counted_begin_ < window_begin_[static_cast<std::size_t>(row)]; ++counted_begin_) {
+    uncount(labels_of(counted_begin_), columns, ground, returns);
+  }
+  for (std::span<std::uint8_t> counts : {ground_in_column_, returns_in_column_}) {
+    for (std::size_t i = 0; i < reach; ++i) {
+      counts[i] = counts[columns + i];
+      counts[reach + columns + i] = counts[reach + i];
+    }
+  }
+}
+
+void ConfidenceSeeds::count_in_windows() noexcept {
+  const int width = 2 * config_.window_columns + 1;
+  sum_windows(ground_in_column_.data(), width, ground_in_window_);
+  sum_windows(returns_in_column_.data(), width, returns_in_window_);
+}
+
+}  // namespace terracut::random_field

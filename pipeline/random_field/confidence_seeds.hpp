@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/min_cut/grid_problem.hpp"
+#include "pipeline/stage/cell_planes.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::random_field {
+
+/// Which rows of the range image the MRF decides on.
+enum class CutRows : std::uint8_t {
+  kAuto,  ///< kAll for images of up to 64 rows, kGround for denser ones: they have the time.
+  kAll,   ///< Every row.
+  /// Rows whose beam meets the mount's ground plane within the profile's range limit (the paper's
+  /// 70 of the RS-Ruby128's 128). Above them the stages before have the last word.
+  kGround,
+};
+
+/// Stage 3a: which returns initialise the MRF as "object" and "background", and which stay unknown
+/// (paper, section III-D). Obstacles of the stages before are trusted where they are high or steep;
+/// ground is trusted where the share of ground in a window around it exceeds k.
+class ConfidenceSeeds {
+ public:
+  struct Config {
+    float ground_share = 0.8F;         ///< k: share of ground among the window's returns, [0, 1].
+    int window_rows = 2;               ///< Window reach up and down, row steps; [0, 8].
+    float row_step_deg = 0.25F;        ///< A row step covers at least this (RowSteps), [0, 5].
+    int window_columns = 3;            ///< Window reach to each side, columns; [0, 16].
+    float max_ground_height_m = 1e9F;  ///< Ground seeds lie no higher above the reference.
+    float min_obstacle_height_m =
+        0.30F;  ///< Obstacles this high are seeds; lower ones only if steep.
+    bool trust_all_obstacles =
+        false;  ///< Every obstacle of the stages before is a seed, as printed.
+    CutRows rows = CutRows::kAuto;
+  };
+
+  /// `profile` must have shape.rows rings.
+  ConfidenceSeeds(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
+                  memory::FixedMemory& memory);
+
+  /// Seeds of every cell from `planes`. Real-time safe.
+  void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
+
+  [[nodiscard]] std::span<const min_cut::Seed> seeds() const noexcept { return seeds_; }
+  /// Rows 0 .. cut_rows() - 1 may hold unknown returns.
+  [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
+
+ private:
+  void start_counting() noexcept;
+  void count_in_columns(const stage::CellPlanes& planes, int row) noexcept;
+  void count_in_windows() noexcept;
+  void select_in_row(const stage::CellPlanes& planes, int row) noexcept;
+
+  Config config_;
+  frame::ImageShape shape_;
+  int cut_rows_;
+  std::span<std::int32_t> window_begin_, window_end_;  // rows of the window, by row: [begin, end)
+  int counted_begin_ = 0, counted_end_ = 0;            // rows in the sums below
+  std::span<min_cut::Seed> seeds_;
+  // Of one row: sums over the window's rows, the seam's columns repeated at both ends ...
+  std::span<std::uint8_t> ground_in_column_;
+  std::span<std::uint8_t> returns_in_column_;
+  // ... and over the whole window.
+  std::span<std::uint16_t> ground_in_window_;
+  std::span<std::uint16_t> returns_in_window_;
+  std::span<std::uint8_t> trusted_ground_, trusted_obstacle_;  // of the row being judged
+};
+
+}  // namespace terracut::random_field

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <tl/expected.hpp>
+
+#include "pipeline/recorder/dump_folder.hpp"
+#include "pipeline/recorder/dump_record.hpp"
+
+namespace terracut::recorder {
+
+/// At most `burst` dumps at once, and one more for every `interval_s` that passes.
+struct DumpRate {
+  double interval_s = 60;  ///< (0, 1e6]
+  int burst = 1;           ///< [1, 1000]
+};
+
+struct DumpLimits {
+  DumpFolderLimits folder;
+  /// A recorder that misses every deadline must not keep the disk busy.
+  DumpRate missed_deadline{.interval_s = 60, .burst = 1};
+  DumpRate asked{.interval_s = 10, .burst = 3};
+};
+
+/// What became of all wishes for a dump.
+struct DumpCounters {
+  std::array<std::uint64_t, kDumpReasons> wanted{};  ///< By DumpReason.
+  std::uint64_t written = 0;
+  std::array<std::uint64_t, kDumpRefusals> refused{};  ///< By DumpRefusal.
+  std::uint64_t deleted = 0;                           ///< Old dumps, to make room for new ones.
+};
+
+/// Whether a dump may be written, and what became of it: rate limits, the folder's quota, the floor
+/// of free space. Each refusal is counted under its name: wanted = written + refused.
+///
+/// One thread, the one that dumps.
+class DumpPolicy {
+ public:
+  /// std::invalid_argument for a limit out of its range.
+  explicit DumpPolicy(const DumpLimits& limits);
+
+  /// First, before anything is copied: kTooSoon by the rate limit of `reason`. Consumes one of the
+  /// dumps it grants, whatever becomes of it: an attempt costs as much as a dump.
+  /// `monotonic_ns`: a clock nobody sets.
+  [[nodiscard]] tl::expected<void, RefusedDump> admit(DumpReason reason, std::int64_t monotonic_ns);
+
+  /// Then, with its size known: as DumpFolder::make_room().
+  [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(
+      std::uint64_t bytes, DumpReason reason, std::int64_t realtime_ns);
+
+  /// Counts a refusal that the recorder found itself, and hands it back.
+  [[nodiscard]] tl::unexpected<RefusedDump> refuse(RefusedDump refused);
+  void note_written() noexcept { ++counters_.written; }
+
+  [[nodiscard]] const DumpCounters& counters() const noexcept { return counters_; }
+
+ private:
+  /// The dumps granted by a rate, counted down and refilled.
+  struct Allowance {
+    DumpRate rate;
+    double left = 0;
+    std::int64_t filled_ns = 0;
+    bool started = false;
+  };
+
+  std::array<Allowance, kDumpReasons> allowances_;
+  DumpFolder folder_;
+  DumpCounters counters_;
+};
+
+}  // namespace terracut::recorder

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+#include <tl/expected.hpp>
+
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/net/packet_ring.hpp"
+#include "pipeline/recorder/dump_policy.hpp"
+#include "pipeline/recorder/dump_record.hpp"
+#include "pipeline/status/frame_timing.hpp"
+#include "rt/error.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::recorder {
+
+/// The times of the last frames, to lie beside a dump.
+struct DumpFrames {
+  std::span<const status::FrameTiming> times;
+  std::span<const std::string_view> stages;  ///< Names for FrameTiming::stage_cpu_ns.
+};
+
+/// Keeps the last seconds of datagrams in fixed memory and writes them to disk when something went
+/// wrong: a pcap that `terracut replay` reads, so that the frame can be looked at again, and the
+/// times of its frames as JSON beside it (`X.pcap` and `X.frames.json`).
+///
+/// Two threads: one adds, another one dumps. A dump first copies the ring to memory of its own (so
+/// twice the ring's size is taken at start), then writes from there: a stalled disk loses nothing.
+class FlightRecorder {
+ public:
+  /// Takes all memory. std::invalid_argument for a size of 0.
+  FlightRecorder(const net::PacketRingSize& size, memory::FixedMemory& memory)
+      : ring_(size, memory), window_(size, memory) {}
+
+  /// Receive thread: wait-free, allocates nothing, touches no file.
+  void add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
+
+  /// Writes both files, whole or not at all; neither is ever seen without its contents, and the
+  /// capture never without its times. Never from a real-time thread: it blocks on the disk.
+  /// kNothingCameOut when no datagram was held; else the errors of PcapWriter.
+  [[nodiscard]] Expected<DumpReport> dump(const std::filesystem::path& capture, DumpReason reason,
+                                          const DumpFrames& frames);
+
+  /// The same, where and if `policy` allows it; the outcome is counted there.
+  [[nodiscard]] tl::expected<DumpReport, RefusedDump> dump(DumpPolicy& policy, DumpReason reason,
+                                                           const DumpFrames& frames);
+
+  [[nodiscard]] const net::PacketRing& ring() const noexcept { return ring_; }
+
+ private:
+  [[nodiscard]] DumpReport copy();
+  [[nodiscard]] std::uint64_t capture_bytes() const noexcept;
+  [[nodiscard]] Status write(DumpReport& report, std::string_view times) const;
+
+  net::PacketRing ring_;
+  net::PacketWindow window_;
+};
+
+}  // namespace terracut::recorder

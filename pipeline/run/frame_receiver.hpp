@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include "firmware_io/net/datagram_account.hpp"
+#include "firmware_io/sensor/told_table.hpp"
+#include "pipeline/recorder/flight_recorder.hpp"
+#include "pipeline/run/frame_exchange.hpp"
+#include "pipeline/run/frame_timings.hpp"
+#include "pipeline/run/live_pipeline.hpp"
+#include "pipeline/run/packet_gate.hpp"
+#include "pipeline/run/stage_clock.hpp"
+#include "rt/queues/latest_value.hpp"
+#include "rt/threads/nonblocking.hpp"
+#include "rt/threads/wake_event.hpp"
+
+namespace terracut::run {
+
+/// What came in, as of the newest look of the receiving thread.
+struct Intake {
+  net::DatagramAccount account;  ///< Since it began.
+  net::LinkState link = net::LinkState::kUnknown;
+  std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
+  frame::BlindAzimuths blind;
+};
+
+/// The receiving half of a live run: datagrams in, turns handed over, and most of their coarse
+/// stages done by then. One thread with a deadline, which turn_round() is the work of.
+///
+/// What one packet may cost does not depend on what is in it (docs/design.md, "Work per packet"):
+/// its decoding; one block of the coarse stages; and where it ends turns, handing them over, of
+/// which one at most needs its last sectors labelled. A turn of which less than three quarters were
+/// labelled ahead, be it that motion is taken out of it, that packets are missing, or that its
+/// stream broke off, is left to the segmenting thread.
+///
+/// `Source`: a DatagramSource with refresh_drops(). `Clock`: as measure::SystemClock. `Wait`: as
+/// measure::RunQueueWait.
+template <class Source, class Clock, class Wait>
+class FrameReceiver {
+ public:
+  struct Config {
+    std::int64_t deadline_ns = 0;  ///< From a turn's last packet to its labels.
+    std::int64_t turn_ns = 0;      ///< Of one turn of the head.
+  };
+  /// Where things go; all must outlive this. `recorder` and `told_table` may be null.
+  struct Outlets {
+    FrameExchange* turns;
+    const threads::WakeEvent* turn_ready;
+    FrameTimings* skipped;
+    queues::LatestValue<Intake>* intake;
+    recorder::FlightRecorder* recorder;
+    sensor::ToldTable* told_table = nullptr;
+  };
+
+  /// What waits in `source` is too old for a label and no loss of the run: it is thrown away.
+  FrameReceiver(const Config& config, LivePipeline& pipeline, Source& source,
+                const Outlets& outlets, Clock clock, Wait wait) noexcept
+      : pipeline_(pipeline),
+        source_(source),
+        to_(outlets),
+        clock_(clock),
+        wait_(std::move(wait)),
+        coarse_clock_(clock),
+        gate_(config.deadline_ns, config.turn_ns),
+        spent_ns_(clock.thread_cpu_ns()),
+        waited_before_fetch_ns_(wait_.read_ns()),
+        waited_before_last_fetch_ns_(waited_before_fetch_ns_) {
+    for (int batch = 0; batch < kMostBatches && !source_.receive(0).empty(); ++batch) {
+    }
+    source_.refresh_drops();
+    before_ = source_.counters();
+  }
+
+  struct Round {
+    int turns = 0;  ///< Handed over.
+    /// It pays to let the next packets gather before they are fetched, because none is expected
+    /// that ends a turn.
+    bool may_gather = false;
+  };
+  /// Waits for datagrams, at most so long, and takes them in.
+  Round turn_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
+    waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
+    waited_before_fetch_ns_ = wait_.read_ns();
+    const std::span<const decode::Datagram> datagrams = source_.receive(timeout_ns);
+    const bool is_worthwhile = datagrams.size() >= kWorthwhileBatch;
+    const std::int64_t now_ns = clock_.realtime_ns();
+    gate_.begin_batch(is_worthwhile);
+    turns_ = 0;
+    for (std::size_t i = 0; i < datagrams.size(); ++i) take(datagrams[i], now_ns);
+    publish();
+    return {turns_, !is_worthwhile && !is_ending_};
+  }
+  /// The run is over: counts what the kernel dropped last.
+  void finish() noexcept TERRACUT_NONBLOCKING {
+    source_.refresh_drops();
+    publish();
+  }
+
+ private:
+  /// Waking up for every packet costs more than decoding it. After a small batch the next one is
+  /// left to gather in the kernel's buffer, which stamps packets and holds a thousand times as
+  /// many; but not where the packet may come that ends the turn.
+  static constexpr std::size_t kWorthwhileBatch = 32;
+  /// More than any buffer holds: who sends without end holds up nothing.
+  static constexpr int kMostBatches = 10'000;
+  /// At least eight times what a packet brings, so that the coarse stages catch up.
+  static constexpr int kBlocksAPacket = 1;
+  static constexpr float kEnoughAhead = 0.75F;
+
+  void take(const decode::Datagram& datagram, std::int64_t now_ns) noexcept {
+    newest_packet_ns_ = datagram.stamp_ns;
+    if (to_.recorder != nullptr) to_.recorder->add(datagram);
+    if (to_.told_table != nullptr) to_.told_table->add(datagram);
+    if (!gate_.lets_in(datagram.stamp_ns, now_ns)) {
+      // The decoder is told, or would take what is left out here for lost on the network.
+      if (!std::exchange(lets_go_, true)) {
+        pipeline_.decoder.end_stream();
+        hand_over_frames();
+      }
+      ++let_go_;
+      return;
+    }
+    lets_go_ = false;
+    pipeline_.decoder.push(datagram);
+    hand_over_frames();
+    if (pipeline_.decoder.rejected() == frame::Reject::kDeviceInfo) ++device_info_;
+    const frame::ArrivingTurn arriving = pipeline_.decoder.arriving();
+    is_ending_ = arriving.is_ending;
+    if (arriving.image == nullptr) return;
+    pipeline_.coarse.advance(*arriving.image, arriving.settled_columns,
+                             pipeline_.planes_of(*arriving.image), &coarse_clock_, kBlocksAPacket);
+  }
+
+  void hand_over_frames() noexcept {
+    frame::RangeImage* in_exchange = nullptr;
+    while (const frame::Frame* frame = pipeline_.decoder.next(in_exchange)) {
+      in_exchange = hand_over(frame->info, *frame->image);
+    }
+  }
+
+  frame::RangeImage* hand_over(const frame::FrameInfo& info,
+                               frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
+    FrameExchange::Turn turn{&image, info, {}, false};
+    if (pipeline_.coarse.share_ahead(image) >= kEnoughAhead) {
+      pipeline_.coarse.finish(image, pipeline_.planes_of(image), &coarse_clock_);
+      turn.has_coarse_stages = true;
+    }
+    turn.timing = timing_of(info);
+    turn.timing.stages_ahead = turn.has_coarse_stages ? kCoarseStages : std::uint8_t{0};
+    if (!lets_go_) gate_.note_turn(info.last_packet_ns, turn.timing.handed_over_ns);
+    frame::RangeImage* next =
+        to_.turns->hand_over(turn, [this](const FrameExchange::Turn& skipped) noexcept {
+          status::FrameTiming timing = skipped.timing;
+          timing.rung = status::Rung::kSkipped;
+          timing.labels_ns = clock_.realtime_ns();
+          to_.skipped->pass_on(timing);
+        });
+    to_.turn_ready->wake();
+    ++turns_;
+    return next;
+  }
+
+  [[nodiscard]] status::FrameTiming timing_of(const frame::FrameInfo& info) noexcept
+      TERRACUT_NONBLOCKING {
+    status::FrameTiming timing;
+    const StageTimes coarse_times = coarse_clock_.take();
+    const std::int64_t now_ns = clock_.thread_cpu_ns();
+    timing.number = info.number;
+    timing.returns = info.returns;
+    timing.first_packet_ns = info.first_packet_ns;
+    timing.last_packet_ns = info.last_packet_ns;
+    timing.closing_packet_ns = newest_packet_ns_;
+    timing.motion = motion_of(info.deskew.state);
+    timing.newest_motion_ns = info.deskew.newest_motion_ns;
+    std::copy(coarse_times.stage_ns.begin(), coarse_times.stage_ns.end(),
+              timing.stage_cpu_ns.begin());
+    timing.segment_cpu_ns = coarse_times.sum_ns();
+    timing.decode_cpu_ns = now_ns - spent_ns_ - timing.segment_cpu_ns;
+    // The turn's last packet came with this fetch or the one before.
+    timing.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
+    timing.handed_over_ns = clock_.realtime_ns();
+    spent_ns_ = now_ns;
+    return timing;
+  }
+
+  void publish() noexcept {
+    Intake& intake = to_.intake->draft();
+    intake.account = {.source = source_.counters(),
+                      .let_go = let_go_,
+                      .device_info = device_info_,
+                      .losses = pipeline_.decoder.losses(),
+                      .in_doubt = pipeline_.decoder.packets_kept(),
+                      .decoded = pipeline_.decoder.packets_decoded()};
+    intake.account.source -= before_;
+    intake.account.losses.kernel_drops = intake.account.source.kernel_drops;
+    intake.link = source_.link();
+    intake.newest_packet_ns = newest_packet_ns_;
+    intake.blind = pipeline_.decoder.blind();
+    (void)to_.intake->publish();
+  }
+
+  static constexpr auto kCoarseStages = static_cast<std::uint8_t>(stage::Stage::kSeeds);
+
+  [[nodiscard]] static status::FrameMotion motion_of(frame::DeskewState state) noexcept {
+    switch (state) {
+      case frame::DeskewState::kDone:
+        return status::FrameMotion::kTakenOut;
+      case frame::DeskewState::kNoEgoMotion:
+        return status::FrameMotion::kNoEgoMotion;
+      case frame::DeskewState::kOff:
+        break;
+    }
+    return status::FrameMotion::kNotAsked;
+  }
+
+  LivePipeline& pipeline_;
+  Source& source_;
+  Outlets to_;
+  Clock clock_;
+  Wait wait_;
+  StageClockOf<Clock> coarse_clock_;
+  PacketGate gate_;
+
+  net::ReceiveCounters before_;
+  std::uint64_t let_go_ = 0, device_info_ = 0;
+  std::int64_t newest_packet_ns_ = 0;
+  bool lets_go_ = false;
+  int turns_ = 0;           ///< Handed over in this round.
+  bool is_ending_ = false;  ///< The turn that is arriving.
+
+  std::int64_t spent_ns_;  ///< Processor time, up to the last hand-over.
+  std::int64_t waited_before_fetch_ns_, waited_before_last_fetch_ns_;
+};
+
+}  // namespace terracut::run

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "calib/mount/ring_profile.hpp"
+#include "calib/sensor_calibration.hpp"
+#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "pipeline/ground/coarse_stages.hpp"
+#include "pipeline/ground/fine_stages.hpp"
+#include "pipeline/run/frame_exchange.hpp"
+
+namespace terracut::run {
+
+/// What two threads need to make labels of packets. The receiving thread decodes and does the
+/// coarse stages, most of them before the frame has ended; their result travels with the frame's
+/// image. Where a frame ended before its coarse stages were far enough, the segmenting thread does
+/// them.
+struct LivePipeline {
+  sensor::SensorDecoder decoder;  ///< Receiving thread, as coarse.
+  ground::CoarseStages coarse;
+  ground::CoarseStages late_coarse;  ///< Segmenting thread, as fine.
+  ground::FineStages fine;
+
+  LivePipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
+               const sensor::SensorDecoder::Config& decoder_config,
+               const ground::SegmenterConfig& config, memory::FixedMemory& memory)
+      : decoder(calibration, profile.mount, live(decoder_config), memory),
+        coarse(config, profile, decoder.shape(), memory),
+        late_coarse(config, profile, decoder.shape(), memory),
+        fine(config, profile, decoder.shape(), decoder.return_capacity(), memory) {
+    planes_.reserve(decoder.images().size());
+    for (std::size_t i = 0; i < decoder.images().size(); ++i) {
+      planes_.emplace_back(decoder.shape(), memory);
+    }
+  }
+
+  /// The planes that belong to one of the decoder's images. The thread that holds the image holds
+  /// its planes, too.
+  [[nodiscard]] stage::CellPlanes& planes_of(const frame::RangeImage& image) noexcept
+      TERRACUT_NONBLOCKING {
+    return planes_[static_cast<std::size_t>(&image - first_image_)];
+  }
+
+ private:
+  [[nodiscard]] static sensor::SensorDecoder::Config live(sensor::SensorDecoder::Config config) {
+    config.images = FrameExchange::kImages;
+    return config;
+  }
+
+  const frame::RangeImage* first_image_ = decoder.images().data();
+  std::vector<stage::CellPlanes> planes_;
+};
+
+}  // namespace terracut::run

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/run/live_threads.hpp"
+
+#include <chrono>
+#include <future>
+#include <utility>
+
+#include "rt/measure/page_faults.hpp"
+
+namespace terracut::run {
+namespace {
+
+constexpr std::int64_t kLongestWait_ns = 100'000'000;
+constexpr std::chrono::microseconds kGathering{1000};
+
+/// Waits on purpose.
+void gather() noexcept {
+  threads::trusted_call([]() noexcept { std::this_thread::sleep_for(kGathering); });
+}
+
+}  // namespace
+
+LiveThreads::LiveThreads(const Config& config, LivePipeline& pipeline, net::LiveSource& source,
+                         Events events, recorder::FlightRecorder* recorder,
+                         memory::FixedMemory& memory)
+    : config_(config),
+      pipeline_(pipeline),
+      source_(source),
+      events_(std::move(events)),
+      recorder_(recorder),
+      told_table_(memory),
+      exchange_(pipeline.decoder.images()),
+      segmented_(memory),
+      skipped_(memory),
+      near_ground_(memory) {
+  const std::size_t capacity = pipeline.decoder.return_capacity();
+  if (config.keeps_labels) labels_.emplace("label slots", kLabelSlots, capacity, memory);
+  if (config.keeps_points) points_.emplace("point slots", kPointSlots, capacity, memory);
+}
+
+Expected<LiveThreads::Events> LiveThreads::Events::make() {
+  auto turn_ready = threads::WakeEvent::make();
+  if (!turn_ready) return tl::unexpected(turn_ready.error());
+  auto points_ready = threads::WakeEvent::make();
+  if (!points_ready) return tl::unexpected(points_ready.error());
+  return Events{*std::move(turn_ready), *std::move(points_ready)};
+}
+
+std::vector<threads::Grant> LiveThreads::start() {
+  using Grants = std::vector<threads::Grant>;
+  std::promise<Grants> receive_granted, segment_granted;
+  segment_thread_ = std::jthread([&] {
+    segment_granted.set_value(segment_state_.set_up(config_.segment));
+    segment();
+  });
+  receive_thread_ = std::jthread([&] {
+    receive_granted.set_value(receive_state_.set_up(config_.receive));
+    receive();
+  });
+  Grants grants = receive_granted.get_future().get();
+  for (threads::Grant& grant : segment_granted.get_future().get())
+    grants.push_back(std::move(grant));
+  return grants;
+}
+
+void LiveThreads::stop() {
+  stop_ = true;
+  source_.wake();
+  if (receive_thread_.joinable()) receive_thread_.join();
+  events_.turn_ready.wake();
+  if (segment_thread_.joinable()) segment_thread_.join();
+}
+
+void LiveThreads::receive() noexcept {
+  Receiver receiver({.deadline_ns = config_.deadline_ns, .turn_ns = config_.frame_period_ns},
+                    pipeline_, source_,
+                    {.turns = &exchange_,
+                     .turn_ready = &events_.turn_ready,
+                     .skipped = &skipped_,
+                     .intake = &intake_,
+                     .recorder = recorder_,
+                     .told_table = config_.compares_tables ? &told_table_ : nullptr},
+                    {}, measure::RunQueueWait::of_this_thread());
+  receive_turns(receiver);
+}
+
+void LiveThreads::receive_turns(Receiver& receiver) noexcept {
+  const measure::PageFaults at_start = measure::PageFaults::of_this_thread();
+  while (!stop_.load(std::memory_order_relaxed)) {
+    const Receiver::Round round = receiver.turn_round(kLongestWait_ns);
+    if (round.turns > 0) receive_state_.note_faults(at_start);
+    if (round.may_gather) gather();
+  }
+  receiver.finish();
+}
+
+void LiveThreads::segment() noexcept {
+  Segmenter segmenter(config_.deadline_ns, pipeline_, exchange_,
+                      {.timings = &segmented_,
+                       .labels = labels(),
+                       .points = points(),
+                       .points_ready = &events_.points_ready,
+                       .near_ground = &near_ground_},
+                      {}, measure::RunQueueWait::of_this_thread());
+  segment_turns(segmenter);
+}
+
+void LiveThreads::segment_turns(Segmenter& segmenter) noexcept {
+  const measure::PageFaults at_start = measure::PageFaults::of_this_thread();
+  while (!stop_.load(std::memory_order_relaxed)) {
+    (void)events_.turn_ready.wait(-1, kLongestWait_ns);
+    if (segmenter.turn_round()) segment_state_.note_faults(at_start);
+  }
+}
+
+const Intake& LiveThreads::intake() noexcept {
+  (void)intake_.take_if_new();
+  return intake_.newest_taken();
+}
+
+}  // namespace terracut::run

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+#include <thread>
+#include <vector>
+
+#include "firmware_io/net/live_source.hpp"
+#include "firmware_io/sensor/told_table.hpp"
+#include "pipeline/recorder/flight_recorder.hpp"
+#include "pipeline/run/frame_exchange.hpp"
+#include "pipeline/run/frame_receiver.hpp"
+#include "pipeline/run/frame_segmenter.hpp"
+#include "pipeline/run/frame_slots.hpp"
+#include "pipeline/run/frame_timings.hpp"
+#include "pipeline/run/latest_near_ground.hpp"
+#include "pipeline/run/live_pipeline.hpp"
+#include "pipeline/run/live_thread_state.hpp"
+#include "pipeline/stream/labelled_turn_wire.hpp"
+#include "rt/measure/run_queue_wait.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/queues/latest_value.hpp"
+#include "rt/threads/grant.hpp"
+#include "rt/threads/nonblocking.hpp"
+#include "rt/threads/thread_setup.hpp"
+#include "rt/threads/wake_event.hpp"
+
+namespace terracut::run {
+
+/// The two threads of a live run that have a deadline, and the queues through which a third
+/// one hears of them. They allocate nothing, lock nothing and write nothing:
+///
+///   FrameReceiver  datagrams -> recorder,  --FrameExchange-->  FrameSegmenter  turns -> labels
+///      |          decoder, coarse stages                         |                      |
+///      '-- timings of skipped turns --.      .---- timings ------'                      |
+///      FrameSlots
+///                                     v      v                                          v
+///                              whoever calls take_timing()            label files, stream of
+///                              points
+class LiveThreads {
+ public:
+  struct Events {
+    threads::WakeEvent turn_ready;    ///< A turn was handed over.
+    threads::WakeEvent points_ready;  ///< A turn's labelled points were passed on.
+    /// kCapacityExceeded when the process has no descriptor left.
+    [[nodiscard]] static Expected<Events> make();
+  };
+
+  struct Config {
+    std::int64_t deadline_ns = 50'000'000;       ///< From a frame's last packet to its labels.
+    std::int64_t frame_period_ns = 100'000'000;  ///< Of one revolution of the head.
+    bool keeps_labels = false;                   ///< labels()
+    bool keeps_points = false;                   ///< points()
+    bool compares_tables = false;                ///< told_table()
+    threads::ThreadWish receive, segment;
+  };
+
+  /// Takes all memory from `memory`. `recorder` may be null.
+  /// Everything must outlive this.
+  LiveThreads(const Config& config, LivePipeline& pipeline, net::LiveSource& source, Events events,
+              recorder::FlightRecorder* recorder, memory::FixedMemory& memory);
+
+  /// Starts both; answers what the system granted and refused them.
+  [[nodiscard]] std::vector<threads::Grant> start();
+  void stop();
+
+  /// The next judged-to-be frame's times, in no strict order between skipped ones and others.
+  [[nodiscard]] bool take_timing(status::FrameTiming& timing) noexcept {
+    return segmented_.take(timing) || skipped_.take(timing);
+  }
+  /// The labels of every turn, by return index; null without Config::keeps_labels.
+  [[nodiscard]] FrameSlots<frame::Label>* labels() noexcept {
+    return labels_ ? &*labels_ : nullptr;
+  }
+  /// The labelled points of every turn; null without Config::keeps_points.
+  [[nodiscard]] FrameSlots<stream::LabelledPoint>* points() noexcept {
+    return points_ ? &*points_ : nullptr;
+  }
+  /// Woken after every turn that points() was given.
+  [[nodiscard]] const threads::WakeEvent& points_ready() const noexcept {
+    return events_.points_ready;
+  }
+
+  /// The near ground of a turn now and then (LatestNearGround::kFramesApart), where there is a
+  /// newer one than was taken last; else null. From one thread; valid until its next call.
+  [[nodiscard]] const ground::NearGround* near_ground() noexcept { return near_ground_.newest(); }
+
+  /// What the packets tell of the unit's table, with Config::compares_tables.
+  [[nodiscard]] sensor::ToldTable& told_table() noexcept { return told_table_; }
+
+  /// From one thread.
+  [[nodiscard]] const Intake& intake() noexcept;
+  /// Frames that nobody judged because the one who takes timings was too slow.
+  [[nodiscard]] std::uint64_t timings_dropped() const noexcept {
+    return segmented_.dropped() + skipped_.dropped();
+  }
+  [[nodiscard]] const LiveThreadState& receive_state() const noexcept { return receive_state_; }
+  [[nodiscard]] const LiveThreadState& segment_state() const noexcept { return segment_state_; }
+
+ private:
+  static constexpr std::size_t kLabelSlots = 8;
+  static constexpr std::size_t kPointSlots = 2;  // the stream wants the newest, not all
+
+  using Receiver = FrameReceiver<net::LiveSource, measure::SystemClock, measure::RunQueueWait>;
+  using Segmenter = FrameSegmenter<measure::SystemClock, measure::RunQueueWait>;
+
+  void receive() noexcept;
+  void receive_turns(Receiver& receiver) noexcept TERRACUT_NONBLOCKING;
+  void segment() noexcept;
+  void segment_turns(Segmenter& segmenter) noexcept TERRACUT_NONBLOCKING;
+
+  Config config_;
+  LivePipeline& pipeline_;
+  net::LiveSource& source_;
+  Events events_;
+  recorder::FlightRecorder* recorder_;
+  sensor::ToldTable told_table_;
+
+  FrameExchange exchange_;
+  FrameTimings segmented_, skipped_;
+
+  LatestNearGround near_ground_;
+
+  std::optional<FrameSlots<frame::Label>> labels_;
+  std::optional<FrameSlots<stream::LabelledPoint>> points_;
+
+  std::atomic<bool> stop_{false};
+  queues::LatestValue<Intake> intake_;
+  LiveThreadState receive_state_, segment_state_;
+  std::jthread receive_thread_, segment_thread_;
+};
+
+}  // namespace terracut::run

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/run/packet_pipeline.hpp"
+
+#include <utility>
+
+#include "rt/measure/thread_cpu_clock.hpp"
+
+namespace terracut::run {
+
+PacketPipeline::Frames PacketPipeline::push(const decode::Datagram& datagram) noexcept {
+  if (timing_ == Timing::kPackets || std::exchange(begins_, false)) resume();
+  decoder_.push(datagram);
+  return Frames(*this);
+}
+
+PacketPipeline::Frames PacketPipeline::end_stream() noexcept {
+  if (timing_ == Timing::kPackets) resume();
+  begins_ = true;
+  decoder_.end_stream();
+  return Frames(*this);
+}
+
+void PacketPipeline::resume() noexcept {
+  resumed_ns_ = measure::thread_cpu_ns();
+}
+
+void PacketPipeline::pause() noexcept {
+  decode_ns_ += measure::thread_cpu_ns() - resumed_ns_;
+}
+
+TimedFrame* PacketPipeline::next() noexcept {
+  if (frame_.image != nullptr) {
+    frame_.image = nullptr;
+    resume();
+  }
+  const frame::Frame* frame = decoder_.next();
+  if (frame != nullptr || timing_ == Timing::kPackets) pause();
+  if (frame == nullptr) {
+    const frame::ArrivingTurn arriving = decoder_.arriving();
+    if (arriving.image != nullptr) {
+      method_.advance(*arriving.image, arriving.settled_columns, &clock_);
+    }
+    return nullptr;
+  }
+  static_cast<frame::Frame&>(frame_) = *frame;
+  frame_.times = {
+      .decode_ns = std::exchange(decode_ns_, 0), .ahead_ns = 0, .stages = clock_.take()};
+  frame_.times.ahead_ns = frame_.times.stages.sum_ns();
+  if (timing_ == Timing::kFrames) frame_.times.decode_ns -= frame_.times.ahead_ns;
+  return &frame_;
+}
+
+stage::SegmentationReport PacketPipeline::label(TimedFrame& frame) noexcept {
+  const stage::SegmentationReport report = method_.segment(*frame.image, &clock_);
+  frame.times.stages += clock_.take();
+  return report;
+}
+
+}  // namespace terracut::run

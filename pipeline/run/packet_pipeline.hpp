@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <optional>
+#include <span>
+
+#include "calib/mount/ring_profile.hpp"
+#include "calib/sensor_calibration.hpp"
+#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "pipeline/ground/ground_method.hpp"
+#include "pipeline/run/stage_clock.hpp"
+#include "rt/memory/fixed_memory.hpp"
+
+namespace terracut::run {
+
+/// Processor time of one frame, nanoseconds of the thread that worked on it.
+struct FrameTimes {
+  std::int64_t decode_ns = 0;  ///< Of the packets since the frame before.
+  std::int64_t ahead_ns = 0;   ///< Of the stages, what was done while the frame was still arriving.
+  StageTimes stages;           ///< Complete when the frame has been labelled.
+};
+
+/// A frame and what it has cost so far.
+struct TimedFrame : frame::Frame {
+  FrameTimes times;
+};
+
+/// The way from packets to labels on one thread: packets are pushed in, frames come out, and
+/// whoever takes a frame may have it labelled.
+///
+///   for (run::TimedFrame& frame : pipeline.push(datagram)) {
+///     const auto report = pipeline.label(frame);
+///     write(frame.info, *frame.image, pipeline.labels());
+///   }
+///
+/// Coarse stages are done ahead, while a frame arrives. One thread. The constructor takes all
+/// memory (throws std::invalid_argument on a bad setting); nothing else allocates, locks or throws.
+class PacketPipeline {
+ public:
+  /// What the time of decoding is made of.
+  enum class Timing : std::uint8_t {
+    kPackets,  ///< Of each packet's own; the caller may do what it likes between two packets.
+    kFrames,   ///< All of a stream from one frame to the next, two readings of the clock a frame.
+  };
+
+  PacketPipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
+                 const sensor::SensorDecoder::Config& decoder, const ground::MethodConfig& method,
+                 memory::FixedMemory& memory, Timing timing = Timing::kPackets)
+      : decoder_(calibration, profile.mount, decoder, memory),
+        method_(method, profile, decoder_.shape(), decoder_.return_capacity(), memory),
+        timing_(timing) {}
+
+  /// The frames that a datagram completed, one after the other; a frame is valid until the next one
+  /// is asked for. They must be gone through to the end before anything else is asked of the
+  /// pipeline.
+  class Frames;
+  Frames push(const decode::Datagram& datagram) noexcept;
+  /// The frames that are left when the stream ends or its source will jump (a replay loop).
+  Frames end_stream() noexcept;
+  /// The same one by one, for who does not use the range: null at its end.
+  [[nodiscard]] TimedFrame* next() noexcept;
+  /// Why the datagram pushed last was rejected, if it was.
+  [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {
+    return decoder_.rejected();
+  }
+
+  /// Labels the frame handed out last; labels() has one a return, by return index, until the next
+  /// call. Frames that are not labelled cost no more than what was done ahead.
+  stage::SegmentationReport label(TimedFrame& frame) noexcept;
+  [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_.labels(); }
+
+  [[nodiscard]] const sensor::SensorDecoder& decoder() const noexcept { return decoder_; }
+  [[nodiscard]] const ground::GroundMethod& method() const noexcept { return method_; }
+
+ private:
+  void resume() noexcept;
+  void pause() noexcept;
+
+  sensor::SensorDecoder decoder_;
+  ground::GroundMethod method_;
+  Timing timing_;
+  StageClock clock_;
+  std::int64_t decode_ns_ = 0;  ///< Since the frame before.
+  std::int64_t resumed_ns_ = 0;
+  bool begins_ = true;  ///< The next packet is a stream's first.
+  TimedFrame frame_;
+};
+
+class PacketPipeline::Frames {
+ public:
+  class Iterator {
+   public:
+    using value_type = TimedFrame;
+    using difference_type = std::ptrdiff_t;
+
+    TimedFrame& operator*() const noexcept { return *frame_; }
+    TimedFrame* operator->() const noexcept { return frame_; }
+    Iterator& operator++() noexcept {
+      frame_ = pipeline_->next();
+      return *this;
+    }
+    void operator++(int) noexcept { ++*this; }
+    [[nodiscard]] bool operator==(std::default_sentinel_t) const noexcept {
+      return frame_ == nullptr;
+    }
+
+   private:
+    friend class Frames;
+    explicit Iterator(PacketPipeline& pipeline) noexcept
+        : pipeline_(&pipeline), frame_(pipeline.next()) {}
+
+    PacketPipeline* pipeline_;
+    TimedFrame* frame_;
+  };
+
+  /// Once.
+  [[nodiscard]] Iterator begin() const noexcept { return Iterator(*pipeline_); }
+  [[nodiscard]] std::default_sentinel_t end() const noexcept { return {}; }
+
+ private:
+  friend class PacketPipeline;
+  explicit Frames(PacketPipeline& pipeline) noexcept : pipeline_(&pipeline) {}
+  PacketPipeline* pipeline_;
+};
+
+}  // namespace terracut::run

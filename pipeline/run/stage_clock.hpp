@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include "pipeline/stage/stage.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::run {
+
+/// Processor time of one frame by stage, nanoseconds of the segmenting thread.
+struct StageTimes {
+  std::array<std::int64_t, stage::kStages> stage_ns{};
+  std::int64_t segment_wall_ns = 0;  ///< While at work on the frame, by the wall clock.
+
+  StageTimes& operator+=(const StageTimes& more) noexcept {
+    for (std::size_t i = 0; i < stage_ns.size(); ++i) stage_ns[i] += more.stage_ns[i];
+    segment_wall_ns += more.segment_wall_ns;
+    return *this;
+  }
+  [[nodiscard]] std::int64_t sum_ns() const noexcept TERRACUT_NONBLOCKING {
+    std::int64_t sum = 0;
+    for (const std::int64_t one_ns : stage_ns) sum += one_ns;
+    return sum;
+  }
+};
+
+/// Times the stages of the pipeline, which has no clock of its own: those of a frame, however often
+/// it was left and gone on with, until its times are taken.
+/// `Clock`: as measure::SystemClock.
+template <class Clock>
+class StageClockOf final : public stage::StageObserver {
+ public:
+  explicit StageClockOf(Clock clock = {}) noexcept : clock_(clock) {}
+
+  void resumed() noexcept TERRACUT_NONBLOCKING override { last_ = now(); }
+  void stage_done(stage::Stage stage) noexcept TERRACUT_NONBLOCKING override {
+    const measure::ClockPair now = this->now();
+    const measure::ClockPair spent = now.since(last_);
+    times_.stage_ns[static_cast<std::size_t>(stage)] += spent.cpu_ns;
+    times_.segment_wall_ns += spent.wall_ns;
+    last_ = now;
+  }
+  /// Of the frame so far.
+  [[nodiscard]] const StageTimes& times() const noexcept { return times_; }
+  /// Its times; the next frame begins.
+  StageTimes take() noexcept TERRACUT_NONBLOCKING { return std::exchange(times_, StageTimes{}); }
+
+ private:
+  [[nodiscard]] measure::ClockPair now() const noexcept TERRACUT_NONBLOCKING {
+    return {clock_.thread_cpu_ns(), clock_.monotonic_ns()};
+  }
+
+  Clock clock_;
+  StageTimes times_;
+  measure::ClockPair last_;
+};
+
+using StageClock = StageClockOf<measure::SystemClock>;
+
+}  // namespace terracut::run

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "stream_writer.hpp"
+
+#include <utility>
+
+namespace terracut::run {
+
+StreamWriter::StreamWriter(stream::TurnStreamServer server, stream::StreamedSensor sensor,
+                           std::int64_t deadline_ns, Slots& slots, const threads::WakeEvent& ready)
+    : server_(std::move(server)),
+      sensor_(sensor),
+      deadline_ns_(deadline_ns),
+      slots_(slots),
+      ready_(ready),
+      thread_([this] { work(); }) {}
+
+bool StreamWriter::finish(std::chrono::milliseconds patience) {
+  finish_ = true;
+  ready_.wake();
+  return thread_.ends_within(patience);
+}
+
+void StreamWriter::work() {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  while (!finish_) {
+    (void)ready_.wait(server_.descriptor(), kSecond_ns);
+    for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(serve(frame));
+    server_.turn_round();
+    const stream::TurnStreamFigures& figures = server_.figures();
+    losses_.publish({.missed = figures.missed,
+                     .cut_short = figures.cut_short,
+                     .too_large = figures.turns_too_large,
+                     .refused = figures.refused,
+                     .stalled = figures.stalled});
+  }
+}
+
+bool StreamWriter::serve(const Slots::Frame& frame) {
+  return server_.serve({.number = frame.info.number,
+                        .first_packet_ns = frame.info.first_packet_ns,
+                        .last_packet_ns = frame.info.last_packet_ns,
+                        .labels_ns = frame.timing.labels_ns,
+                        .sensor = sensor_,
+                        .rung = frame.timing.rung,
+                        .complete = frame.info.complete,
+                        .late = frame.timing.labels_ns - frame.info.last_packet_ns > deadline_ns_,
+                        .motion = frame.timing.motion,
+                        .points = frame.items});
+}
+
+}  // namespace terracut::run

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/stage/segmentation_report.hpp"
+
+#include "rt/vector_clones.hpp"
+
+namespace terracut::stage {
+namespace {
+
+/// As std::count(), whose wide result keeps it from being vector code.
+TERRACUT_VECTOR_CLONES std::uint32_t count_of(const frame::Label* labels, std::size_t size,
+                                              frame::Label wanted) noexcept {
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < size; ++i) count += labels[i] == wanted ? 1U : 0U;
+  return count;
+}
+
+}  // namespace
+
+void SegmentationReport::count(std::span<const frame::Label> labels) noexcept {
+  returns = static_cast<std::uint32_t>(labels.size());
+  other_ground = count_of(labels.data(), labels.size(), frame::Label::kOtherGround);
+  ground = count_of(labels.data(), labels.size(), frame::Label::kGround) + other_ground;
+  obstacles = returns - ground;
+}
+
+}  // namespace terracut::stage

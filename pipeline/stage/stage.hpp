@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::stage {
+
+/// The stages of the segmentation in their order. The first three are the rows of the paper's
+/// Table III: each can be the last one that runs.
+enum class Stage : std::uint8_t {
+  kElevationMap,    ///< Ring-based elevation map.
+  kAdjacentPoints,  ///< + spatiotemporal adjacent points.
+  kSeeds,           ///< + confidence seeds of the MRF.
+  kMinCut,          ///< + energy, min-cut: the whole method.
+  kLabels,  ///< Labels of cells brought back to the returns, and the road surface told apart.
+  kCount,
+};
+inline constexpr int kStages = static_cast<int>(Stage::kCount);
+
+/// lower_snake_case name, as in reports.
+[[nodiscard]] constexpr std::string_view to_string(Stage stage) noexcept {
+  switch (stage) {
+    case Stage::kElevationMap:
+      return "elevation_map";
+    case Stage::kAdjacentPoints:
+      return "adjacent_points";
+    case Stage::kSeeds:
+      return "seeds";
+    case Stage::kMinCut:
+      return "min_cut";
+    case Stage::kLabels:
+      return "labels";
+    case Stage::kCount:
+      break;
+  }
+  return "unknown";
+}
+
+/// Told when a stage is over. The pipeline has no clock of its own; whoever wants times brings one.
+class StageObserver {
+ public:
+  virtual ~StageObserver() = default;
+  /// Called on the segmenting thread when it begins to work on a turn, or goes on with it.
+  virtual void resumed() noexcept TERRACUT_NONBLOCKING {}
+  /// Called on the segmenting thread right after `stage`, or a part of it. Both must be real-time
+  /// safe.
+  virtual void stage_done(Stage stage) noexcept TERRACUT_NONBLOCKING = 0;
+};
+
+}  // namespace terracut::stage

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/monitor_snapshot.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::status {
+
+/// Judges every frame against its deadline, names the cause of a miss, and keeps the figures.
+///
+/// A frame's latency runs from the kernel's stamp of its last packet to its labels. The frame
+/// missed its deadline if the latency is longer, or if it was skipped. The latency is shared out
+/// in this order, each share at most what is left:
+///
+///   late_input         last packet -> closing packet: the sensor or the network was late
+///   stolen_time        steal_ns
+///   waiting_for_core   run_queue_wait_ns beyond steal_ns: the kernel counts a wait during which
+///                      the hypervisor was away in both
+///   own_work           the rest, explained or not: nothing is excused that was not measured
+///
+/// The largest share is the cause; of equal ones the lowest of this list, the one nearer to us.
+///
+/// Fixed memory, taken in the constructor. One thread at a time; nothing here allocates, locks,
+/// makes a system call or looks at a clock.
+class DeadlineMonitor {
+ public:
+  struct Config {
+    std::int64_t deadline_ns = 50'000'000;            ///< > 0
+    std::span<const std::string_view> stage_names{};  ///< At most FrameTiming::kMaxStages.
+    std::size_t kept_frames = 128;                    ///< For traces, >= 2.
+  };
+
+  DeadlineMonitor(const Config& config, memory::FixedMemory& memory);
+
+  /// Sets frame.missed and frame.cause, counts the frame and keeps it.
+  void judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+
+  /// Lets the rate of frames be 0 where the newest one is more than a second old. `now_ns`: time of
+  /// day.
+  void look_at_rate(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING;
+
+  /// Copies the newest frames judged, oldest first; answers how many. At most into.size() and
+  /// kept_frames.
+  std::size_t copy_newest(std::span<FrameTiming> into) const noexcept TERRACUT_NONBLOCKING;
+
+  /// The figures. judge() keeps everything that comes from frames, deadline_ns and the names of
+  /// the stages; the other fields (version, sensor, input, link, losses, threads, times, and what
+  /// is known of the CAN bus) are the caller's to fill in.
+  [[nodiscard]] MonitorSnapshot& snapshot() noexcept { return *snapshot_; }
+  [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
+
+ private:
+  void judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_motion(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void keep(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] double frames_per_s() const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] const FrameTiming& kept_before(std::size_t age) const noexcept TERRACUT_NONBLOCKING;
+
+  MonitorSnapshot* snapshot_;
+  std::span<FrameTiming> kept_;  ///< Ring.
+  std::size_t next_ = 0;         ///< Where in kept_ the next frame goes.
+  std::size_t count_ = 0;        ///< Frames in kept_.
+};
+
+}  // namespace terracut::status

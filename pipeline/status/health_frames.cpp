@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/status/health_frames.hpp"
+
+#include <algorithm>
+
+namespace terracut::status {
+namespace {
+
+constexpr std::int64_t kLatencyStep_ns = 10'000;
+constexpr std::int64_t kMostLatency = 0xFFFE;
+constexpr std::uint64_t kNoLatency = 0xFFFF;
+constexpr std::uint64_t kNoCause = 7;
+constexpr std::uint64_t kMostReturns = (1U << 18) - 1;
+
+/// A run of bits of a frame, lowest first, as "start|count@1+" in a DBC file.
+struct Bits {
+  unsigned start, count;
+};
+
+/// Puts the lowest bits of `value` where all are 0 yet.
+void put(can::CanFrame& frame, Bits bits, std::uint64_t value) noexcept {
+  for (unsigned i = 0; i < bits.count; ++i) {
+    const unsigned at = bits.start + i;
+    const unsigned bit = static_cast<unsigned>(value >> i & 1) << at % 8;
+    frame.data[at / 8] = static_cast<std::uint8_t>(frame.data[at / 8] | bit);
+  }
+}
+
+can::CanFrame empty_frame(can::CanId id) noexcept {
+  can::CanFrame frame;
+  frame.id = id;
+  frame.length = can::CanFrame::kMostClassicBytes;
+  return frame;
+}
+
+std::uint64_t latency_of(const HealthReport& report) noexcept {
+  if (report.latency_ns < 0 || report.rung == Rung::kSkipped) return kNoLatency;
+  return static_cast<std::uint64_t>(std::min(report.latency_ns / kLatencyStep_ns, kMostLatency));
+}
+
+}  // namespace
+
+HealthReport health_report_of(const MonitorSnapshot& figures) noexcept {
+  const FrameTiming& newest = figures.newest;
+  HealthReport report;
+  report.frame_number = newest.number;
+  report.returns = newest.returns;
+  report.rung = newest.rung;
+  report.missed = newest.missed;
+  report.cause = newest.cause;
+  report.ego_motion = newest.motion == FrameMotion::kTakenOut;
+  const bool known = newest.last_packet_ns > 0 && newest.labels_ns >= newest.last_packet_ns;
+  if (known) report.latency_ns = newest.labels_ns - newest.last_packet_ns;
+  report.link = figures.link;
+  report.misses = figures.all_misses();
+  report.skipped = figures.rungs[static_cast<std::size_t>(Rung::kSkipped)];
+  for (const NamedCount& loss : figures.losses_in_use()) report.losses += loss.count;
+  return report;
+}
+
+std::array<can::CanFrame, 2> health_frames(const HealthReport& report, can::CanId first) noexcept {
+  std::array frames{empty_frame(first), empty_frame({first.number + 1, first.extended})};
+  can::CanFrame& frame = frames[0];
+  put(frame, {0, 16}, report.frame_number);
+  put(frame, {16, 3}, static_cast<std::uint64_t>(report.rung));
+  put(frame, {19, 1}, report.missed ? 1 : 0);
+  put(frame, {20, 3}, report.missed ? static_cast<std::uint64_t>(report.cause) : kNoCause);
+  put(frame, {23, 1}, report.ego_motion ? 1 : 0);
+  put(frame, {24, 16}, latency_of(report));
+  put(frame, {40, 18}, std::min<std::uint64_t>(report.returns, kMostReturns));
+  put(frame, {58, 2}, static_cast<std::uint64_t>(report.link));
+  can::CanFrame& totals = frames[1];
+  put(totals, {0, 16}, report.misses);
+  put(totals, {16, 16}, report.skipped);
+  put(totals, {32, 24}, report.losses);
+  put(totals, {56, 8}, report.alive);
+  return frames;
+}
+
+}  // namespace terracut::status

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "firmware_io/can/can_sender.hpp"
+#include "pipeline/status/bus_figures.hpp"
+#include "pipeline/status/monitor_snapshot.hpp"
+
+namespace terracut::status {
+
+/// Says on a CAN bus how a live run is (pipeline/status/terracut_health.dbc): a report for the
+/// newest frame whenever frames were judged, and four a second where none come, so that a counter
+/// that stands still means that nobody is there. Never waits. One thread, without a deadline.
+class HealthReporter {
+ public:
+  /// `bus`: its name, for show().
+  HealthReporter(std::string bus, can::CanSender sender);
+
+  /// As often as one likes. `now_ns`: measure::monotonic_ns().
+  void turn_round(const MonitorSnapshot& figures, std::int64_t now_ns) noexcept;
+
+  void show(HealthFigures& figures) const noexcept;
+
+ private:
+  static constexpr std::int64_t kLongestSilence_ns = 250'000'000;
+
+  std::string bus_;
+  can::CanSender sender_;
+  std::uint32_t alive_ = 0;
+  std::uint64_t reported_frames_ = 0;
+  std::int64_t next_report_ns_ = 0;
+};
+
+}  // namespace terracut::status

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/net/datagram_account.hpp"
+#include "firmware_io/net/receive_counters.hpp"
+#include "pipeline/status/link_news.hpp"
+#include "pipeline/status/monitor_snapshot.hpp"
+#include "pipeline/status/standing_head.hpp"
+
+namespace terracut::status {
+
+/// What comes in, as of one look at it.
+struct InputState {
+  const net::DatagramAccount& account;  ///< Since the start.
+  net::LinkState link = net::LinkState::kUnknown;
+  std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
+  frame::BlindAzimuths blind;
+};
+
+/// Keeps what the figures of a live run tell of its input: where each datagram went, whether the
+/// sensor is heard, whether its head turns, where it is blind. One thread, without a deadline.
+class InputStatus {
+ public:
+  /// Shows `input` in `figures`, as of figures.taken_ns. Returns what there is to say to people
+  /// because it has changed (LinkNews); mostly nothing.
+  [[nodiscard]] std::string show(const InputState& input, MonitorSnapshot& figures);
+
+ private:
+  StandingHead standing_head_;
+  LinkNews news_;
+};
+
+}  // namespace terracut::status

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <type_traits>
+
+#include "pipeline/status/bus_figures.hpp"
+#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/mount_figures.hpp"
+#include "pipeline/status/named_count.hpp"
+#include "rt/measure/log_linear_histogram.hpp"
+#include "rt/memory/fixed_text.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::status {
+
+/// What is known of the sensor's link.
+enum class LinkState : std::uint8_t {
+  kWaiting,        ///< No packet has come since the start.
+  kReceiving,      ///< Packets are coming.
+  kSilent,         ///< Packets came, but none lately.
+  kInterfaceGone,  ///< The network interface was removed or is down.
+  kCount,
+};
+
+/// Stable lower_snake_case name, as in reports; "unknown" for anything else.
+[[nodiscard]] constexpr std::string_view to_string(LinkState state) noexcept {
+  constexpr std::array<std::string_view, static_cast<std::size_t>(LinkState::kCount)> kNames{
+      "waiting", "receiving", "silent", "interface_gone"};
+  return state < LinkState::kCount ? kNames[static_cast<std::size_t>(state)] : "unknown";
+}
+
+/// A real-time thread as the system runs it.
+struct ThreadStatus {
+  memory::FixedText<16> name;
+  memory::FixedText<32> scheduling;                  ///< What was granted: "FIFO 80, core 2".
+  std::uint64_t minor_faults = 0, major_faults = 0;  ///< Page faults since it was started up.
+};
+
+/// Everything a watcher can know of a running process, in one piece without pointers: it is copied
+/// whole into the status page, and everything that shows figures (terracut top, /metrics, the
+/// summary at exit) reads this alone. It carries the names of what it counts, so that it can be
+/// read by another build. About 460 KiB, nearly all of it histogram buckets.
+///
+/// A plain value. A reader must expect any bytes in it where it came from another process; the
+/// accessors below and to_string are safe then.
+struct MonitorSnapshot {
+  /// To be raised with every change of what lies where.
+  static constexpr std::uint32_t kLayout = 4;
+  static constexpr std::size_t kMaxLosses = 40;
+  static constexpr std::size_t kMaxOutcomes = 24;
+  static constexpr std::size_t kMaxThreads = 4;
+
+  memory::FixedText<24> version;  ///< Of the program.
+  memory::FixedText<96> sensor;   ///< Model, spin rate, return mode.
+  memory::FixedText<64> input;    ///< Where packets come from: "0.0.0.0:2368".
+  std::int64_t started_ns = 0;    ///< CLOCK_REALTIME, as all times of day here.
+  std::int64_t taken_ns = 0;      ///< When this snapshot was taken.
+  std::int64_t deadline_ns = 0;
+  std::uint8_t interrupted = 0;  ///< 1: ended before the time that was asked for was over.
+
+  LinkState link = LinkState::kWaiting;
+  std::uint64_t silences = 0;       ///< Times no packet came for a second or longer.
+  std::int64_t silent_ns = 0;       ///< All of these together.
+  std::uint8_t head_stands = 0;     ///< 1: packets come, but say that the head does not turn.
+  std::uint64_t packets = 0;        ///< Datagrams taken in, of those received.
+  std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest one.
+  /// Head azimuths between which the sensor sends nothing, [0, 36000), perhaps across 0; the same
+  /// where no such sector is known.
+  std::int32_t blind_from_cdeg = 0, blind_to_cdeg = 0;
+
+  std::uint64_t frames = 0;    ///< Judged, whatever their rung.
+  std::uint64_t returns = 0;   ///< In these frames.
+  std::uint64_t unjudged = 0;  ///< Of these frames, those whose stamps give no latency.
+  double frames_per_s = 0;  ///< Of the last few seconds, by the packets' stamps; 0: they stopped.
+  std::array<std::uint64_t, kRungs> rungs{};
+  std::array<std::uint64_t, kMissCauses> misses{};  ///< By cause.
+  std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
+  std::uint64_t longest_run_of_misses = 0;
+  FrameTiming newest;
+
+  MountFigures mount;
+  MotionFigures motion;
+  HealthFigures health;
+
+  std::uint64_t received = 0;  ///< Datagrams the kernel handed over: `in_doubt` and all `outcomes`.
+  std::uint64_t in_doubt = 0;  ///< Whose place in the stream is not known yet.
+  std::uint32_t outcome_count = 0;  ///< How many of `outcomes` are in use.
+  std::array<NamedCount, kMaxOutcomes> outcomes{};
+
+  std::uint32_t loss_count = 0;  ///< How many of `losses` are in use.
+  std::array<NamedCount, kMaxLosses> losses{};
+  std::uint32_t thread_count = 0;
+  std::array<ThreadStatus, kMaxThreads> threads{};
+
+  measure::LogLinearHistogram latency;      ///< Wall time from the last packet to the labels.
+  measure::LogLinearHistogram wall;         ///< Wall time from the hand-over to the labels.
+  measure::LogLinearHistogram total_cpu;    ///< Processor time, decoding and segmenting together.
+  measure::LogLinearHistogram decode_cpu;   ///< Processor time.
+  measure::LogLinearHistogram segment_cpu;  ///< Processor time.
+  std::uint32_t stage_count = 0;
+  std::array<memory::FixedText<24>, FrameTiming::kMaxStages> stage_names{};
+  std::array<measure::LogLinearHistogram, FrameTiming::kMaxStages> stage_cpu{};
+
+  [[nodiscard]] std::size_t stages() const noexcept TERRACUT_NONBLOCKING {
+    return std::min<std::size_t>(stage_count, stage_names.size());
+  }
+  [[nodiscard]] std::span<const NamedCount> losses_in_use() const noexcept {
+    return std::span(losses).first(std::min<std::size_t>(loss_count, losses.size()));
+  }
+  /// What became of the datagrams, each of which is in one of these.
+  [[nodiscard]] std::span<const NamedCount> outcomes_in_use() const noexcept {
+    return std::span(outcomes).first(std::min<std::size_t>(outcome_count, outcomes.size()));
+  }
+  [[nodiscard]] std::span<const ThreadStatus> threads_in_use() const noexcept {
+    return std::span(threads).first(std::min<std::size_t>(thread_count, threads.size()));
+  }
+  [[nodiscard]] std::uint64_t all_misses() const noexcept {
+    std::uint64_t sum = 0;
+    for (const std::uint64_t count : misses) sum += count;
+    return sum;
+  }
+};
+static_assert(std::is_trivially_copyable_v<MonitorSnapshot>);
+
+}  // namespace terracut::status

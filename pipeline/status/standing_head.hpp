@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware_io/net/datagram_account.hpp"
+
+namespace terracut::status {
+
+/// Whether the sensor's head stands: packets come, all of which the decoder refuses because they
+/// say so, and no turn will come out of them. No thread contract of its own.
+class StandingHead {
+ public:
+  [[nodiscard]] bool is_standing(const net::DatagramAccount& account) noexcept {
+    constexpr auto kStationary = static_cast<std::size_t>(frame::Reject::kStationary);
+    const std::uint64_t refused = account.losses.rejected[kStationary];
+    if (account.decoded != decoded_) refused_before_ = refused;
+    decoded_ = account.decoded;
+    return refused - refused_before_ >= kEnough;
+  }
+
+ private:
+  static constexpr std::uint64_t kEnough = 500;  // a tenth to a quarter of a second
+  std::uint64_t decoded_ = 0, refused_before_ = 0;
+};
+
+}  // namespace terracut::status

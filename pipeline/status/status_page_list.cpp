@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/status/status_page_list.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <sys/types.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <optional>
+#include <string_view>
+#include <system_error>
+
+#include "rt/files/trusted_file.hpp"
+
+namespace terracut::status {
+namespace {
+
+constexpr std::string_view kSuffix = ".terracut";  // as StatusPageFile names its files
+
+/// The header without its mapping; none if `file` does not begin with one.
+std::optional<std::int32_t> publisher_of(int file) {
+  std::byte header[sizeof(StatusPageHeader)];
+  std::uint64_t magic = 0;
+  if (::pread(file, header, sizeof header, 0) != static_cast<::ssize_t>(sizeof header)) return {};
+  std::memcpy(&magic, header + offsetof(StatusPageHeader, magic), sizeof magic);
+  if (magic != StatusPageHeader::kMagic) return {};
+  std::int32_t pid = 0;
+  std::memcpy(&pid, header + offsetof(StatusPageHeader, pid), sizeof pid);
+  return pid;
+}
+
+bool is_locked(int file) {
+  struct flock lock{};
+  lock.l_type = F_RDLCK;
+  lock.l_whence = SEEK_SET;
+  return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+}
+
+}  // namespace
+
+std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::vector<StatusPageEntry> entries;
+  std::error_code unreadable;
+  for (fs::directory_iterator it(folder, unreadable), end; it != end; it.increment(unreadable)) {
+    std::string name = it->path().filename().string();
+    // One that begins with a dot is being made.
+    if (name.starts_with('.') || !name.ends_with(kSuffix)) continue;
+    const int file = ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+    if (file < 0) continue;
+    struct stat status{};
+    const bool trusted = ::fstat(file, &status) == 0 && files::check_trusted(status, it->path());
+    if (const auto pid = trusted ? publisher_of(file) : std::nullopt) {
+      name.resize(name.size() - kSuffix.size());
+      entries.push_back({std::move(name), *pid, status.st_uid, is_locked(file)});
+    }
+    ::close(file);
+  }
+  std::sort(entries.begin(), entries.end(),
+            [](const auto& a, const auto& b) { return a.name < b.name; });
+  return entries;
+}
+
+}  // namespace terracut::status

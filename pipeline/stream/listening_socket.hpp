@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <sys/types.h>
+
+#include "pipeline/stream/stream_address.hpp"
+#include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
+
+namespace terracut::stream {
+
+/// A stream socket that listens, non-blocking. The file of a Unix socket goes with it.
+class ListeningSocket {
+ public:
+  /// A Unix socket's file that nobody listens on any more, left behind by kill -9, is replaced;
+  /// anything else in its place is left alone. kNotFound: no such address on this machine, or no
+  /// such folder. kUnreadable: address or path taken, or another refusal of the system.
+  /// `unix_mode`: rights of a Unix socket's file, whatever the umask; who may write to it may
+  /// connect.
+  [[nodiscard]] static Expected<ListeningSocket> open(const StreamAddress& address,
+                                                      ::mode_t unix_mode = kOwnerAndGroup);
+  static constexpr ::mode_t kOwnerAndGroup = 0660;
+
+  ListeningSocket(ListeningSocket&& other) noexcept;
+  ListeningSocket& operator=(ListeningSocket&& other) noexcept;
+  ~ListeningSocket() { close(); }
+
+  [[nodiscard]] int descriptor() const noexcept { return socket_.get(); }
+  /// With the port the system chose, where it was asked to.
+  [[nodiscard]] const StreamAddress& address() const noexcept { return address_; }
+
+ private:
+  ListeningSocket(files::OwnedDescriptor socket, StreamAddress address) noexcept
+      : socket_(std::move(socket)), address_(std::move(address)) {}
+  void close() noexcept;
+
+  files::OwnedDescriptor socket_;
+  StreamAddress address_;
+  ::dev_t device_ = 0;  ///< Of the Unix socket's file, which may have been replaced since.
+  ::ino_t inode_ = 0;
+};
+
+}  // namespace terracut::stream

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "terracut/packet_pipeline.hpp"
+
+#include <utility>
+#include <vector>
+
+#include "calib/terracut/calibration_table.hpp"
+#include "firmware_io/terracut/points.hpp"
+#include "pipeline/run/packet_pipeline.hpp"
+#include "pipeline/terracut/profile.hpp"
+
+namespace terracut {
+
+struct PacketPipeline::Engine {
+  Engine(const Calibration& calibration, const Config& config,
+         const sensor::SensorDecoder::Config& decoder)
+      : pipeline(calibration.table().unit,
+                 calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
+                 config_of(config.profile), memory),
+        room(pipeline.decoder().return_capacity()) {}
+
+  memory::FixedMemory memory;
+  run::PacketPipeline pipeline;
+  std::vector<Point> room;
+  Frame frame;
+};
+
+PacketPipeline::PacketPipeline(std::unique_ptr<Engine> engine) noexcept
+    : engine_(std::move(engine)) {}
+PacketPipeline::PacketPipeline(PacketPipeline&&) noexcept = default;
+PacketPipeline& PacketPipeline::operator=(PacketPipeline&&) noexcept = default;
+PacketPipeline::~PacketPipeline() = default;
+
+Expected<PacketPipeline> PacketPipeline::make(const Calibration& calibration,
+                                              const Config& config) {
+  sensor::SensorDecoder::Config decoder;
+  decoder.reorder_packets = config.reorder_packets;
+  return made(
+      [&] { return PacketPipeline(std::make_unique<Engine>(calibration, config, decoder)); });
+}
+
+void PacketPipeline::push(const Packet& packet) noexcept {
+  engine_->pipeline.push({.payload = packet.payload, .stamp_ns = packet.stamp_ns});
+}
+
+void PacketPipeline::end_stream() noexcept {
+  engine_->pipeline.end_stream();
+}
+
+const Frame* PacketPipeline::next() noexcept {
+  run::TimedFrame* frame = engine_->pipeline.next();
+  if (frame == nullptr) return nullptr;
+  (void)engine_->pipeline.label(*frame);
+  engine_->frame = public_frame(*frame, engine_->room);
+  engine_->frame.labels = engine_->pipeline.labels();
+  return &engine_->frame;
+}
+
+}  // namespace terracut

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+
+#include "terracut/calibration.hpp"
+#include "terracut/decoder.hpp"
+#include "terracut/error.hpp"
+#include "terracut/frame.hpp"
+#include "terracut/segmenter.hpp"
+
+namespace terracut {
+
+/// Packets in, labelled frames out, on the caller's thread. Fixed memory: push() and next()
+/// allocate nothing, lock nothing and throw nothing; how long next() takes has no bound but the
+/// frame's own (LiveRun keeps deadlines). One thread.
+///
+///   pipeline.push(packet);
+///   while (const Frame* frame = pipeline.next()) use(frame->points, frame->labels);
+class PacketPipeline {
+ public:
+  struct Config {
+    Mount mount;
+    Profile profile = Profile::kTerracut;
+    int reorder_packets = 2;  ///< As Decoder::Config::reorder_packets.
+  };
+
+  /// kInvalidArgument on a setting out of range, kCapacityExceeded without memory.
+  [[nodiscard]] static Expected<PacketPipeline> make(const Calibration& calibration,
+                                                     const Config& config);
+  PacketPipeline(PacketPipeline&&) noexcept;
+  PacketPipeline& operator=(PacketPipeline&&) noexcept;
+  ~PacketPipeline();
+
+  /// As Decoder's.
+  void push(const Packet& packet) noexcept;
+  void end_stream() noexcept;
+  /// The next frame, labelled, or null. Call it until then; valid until the next call.
+  [[nodiscard]] const Frame* next() noexcept;
+
+ private:
+  struct Engine;
+  explicit PacketPipeline(std::unique_ptr<Engine> engine) noexcept;
+  std::unique_ptr<Engine> engine_;
+};
+
+}  // namespace terracut

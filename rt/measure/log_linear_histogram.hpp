@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::measure {
+
+/// Counts durations in buckets whose width grows with the value (HdrHistogram's layout), so that
+/// any percentile is known to two significant digits from fixed memory (about 34 KiB, no
+/// allocation).
+///
+/// Values are nanoseconds in [0, kMax_ns]; those outside are counted at the nearer end, but max()
+/// stays exact. Values below 256 ns have a bucket each; above, a bucket is at most 1/128 of its
+/// value wide. One writer; readers only after the writer has finished or from the same thread.
+class LogLinearHistogram {
+ public:
+  static constexpr std::int64_t kMax_ns = (std::int64_t{1} << 40) - 1;  ///< About 18 minutes.
+
+  /// Real-time safe, a few instructions.
+  void record(std::int64_t value_ns) noexcept TERRACUT_NONBLOCKING;
+
+  /// The smallest bucket limit that at least `percent` of all values do not exceed, and never more
+  /// than max_ns(): exact to 1/128 upwards. percent in [0, 100]; 0 when nothing was recorded.
+  [[nodiscard]] std::int64_t percentile_ns(double percent) const noexcept;
+
+  [[nodiscard]] std::uint64_t count() const noexcept { return count_; }
+  [[nodiscard]] std::int64_t min_ns() const noexcept { return count_ == 0 ? 0 : min_ns_; }
+  [[nodiscard]] std::int64_t max_ns() const noexcept { return max_ns_; }
+  [[nodiscard]] double mean_ns() const noexcept;
+  [[nodiscard]] double sum_ns() const noexcept { return sum_ns_; }
+
+  /// How many values are surely not above `limit_ns`: those of its bucket count only if the whole
+  /// bucket is not above it, so that at most 1/128 of the limit below it is missed and nothing
+  /// slower is ever counted. For cumulative histograms.
+  [[nodiscard]] std::uint64_t count_not_above(std::int64_t limit_ns) const noexcept;
+
+  /// Adds all of `other`, as if its values had been recorded here.
+  LogLinearHistogram& operator+=(const LogLinearHistogram& other) noexcept;
+
+ private:
+  static constexpr int kLinearBits = 8;  // 2^8 buckets of width 1, then 2^7 for every doubling
+  static constexpr std::size_t kHalf = std::size_t{1} << (kLinearBits - 1);
+  static constexpr std::size_t kBuckets = 2 * kHalf + (40 - kLinearBits) * kHalf;
+
+  [[nodiscard]] static std::size_t bucket_of(std::uint64_t value) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] static std::int64_t highest_in(std::size_t bucket) noexcept;
+
+  std::array<std::uint64_t, kBuckets> buckets_{};
+  std::uint64_t count_ = 0;
+  std::int64_t min_ns_ = INT64_MAX;
+  std::int64_t max_ns_ = 0;
+  double sum_ns_ = 0;
+};
+
+}  // namespace terracut::measure

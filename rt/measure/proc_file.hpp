@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "rt/error.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::measure {
+
+/// A file of /proc that is kept open and read again and again, from its beginning, without opening
+/// or allocating anything. Movable.
+class ProcFile {
+ public:
+  /// kNotFound or kUnreadable, with the system's reason.
+  [[nodiscard]] static Expected<ProcFile> open(const char* path);
+
+  ProcFile(ProcFile&& other) noexcept;
+  ProcFile& operator=(ProcFile&& other) noexcept;
+  ~ProcFile();
+
+  /// As much of the file as `buffer` holds; empty when it cannot be read any more. One system call
+  /// that waits for no disk: the kernel writes the text while it is asked.
+  [[nodiscard]] std::string_view read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING;
+
+ private:
+  explicit ProcFile(int file) : file_(file) {}
+  int file_ = -1;
+};
+
+/// The n-th number, from 0, of a line of numbers between blanks; -1 when there is no such number or
+/// it does not fit.
+[[nodiscard]] std::int64_t nth_number(std::string_view line, int n) noexcept TERRACUT_NONBLOCKING;
+
+}  // namespace terracut::measure

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "rt/measure/run_queue_wait.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace terracut::measure {
+namespace {
+
+using Text = std::array<char, 96>;  // three numbers of at most 20 digits: "ran waited turns"
+
+}  // namespace
+
+RunQueueWait RunQueueWait::of_this_thread() {
+  RunQueueWait wait;
+  // "thread-self" is resolved now: the file stays that of this thread.
+  auto file = ProcFile::open("/proc/thread-self/schedstat");
+  if (!file) return wait;
+  Text text{};
+  // A kernel without these counts shows the file with nothing but zeros; a thread that runs has
+  // been given a core at least once (the third number).
+  if (nth_number(file->read(text), 2) > 0) wait.file_ = std::move(*file);
+  return wait;
+}
+
+std::int64_t RunQueueWait::read_ns() const noexcept TERRACUT_NONBLOCKING {
+  if (!file_) return 0;
+  Text text;
+  return std::max<std::int64_t>(nth_number(file_->read(text), 1), 0);
+}
+
+}  // namespace terracut::measure

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "rt/error.hpp"
+#include "rt/measure/proc_file.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::measure {
+
+/// Time that the host of a virtual machine gave to others while this machine had work: summed over
+/// all cores since boot, in steps of a hundredth of a second. Always 0 on a machine of its own.
+/// The kernel writes the whole of /proc/stat for each reading, which takes it up to a millisecond
+/// on large machines: read it once a second or after a missed deadline, not with every frame.
+/// Movable; one thread at a time.
+class StolenTime {
+ public:
+  /// kNotFound or kUnreadable where there is no /proc/stat.
+  [[nodiscard]] static Expected<StolenTime> open();
+
+  /// Nanoseconds; none when the system stops telling. No allocation, waits for no disk.
+  [[nodiscard]] std::optional<std::int64_t> read_ns() const noexcept TERRACUT_NONBLOCKING;
+
+  /// The same from the text of /proc/stat. `ticks_per_s` is sysconf(_SC_CLK_TCK).
+  [[nodiscard]] static std::optional<std::int64_t> parse_ns(
+      std::string_view text, std::int64_t ticks_per_s) noexcept TERRACUT_NONBLOCKING;
+
+ private:
+  StolenTime(ProcFile file, std::int64_t ticks_per_s);
+  ProcFile file_;
+  std::int64_t ticks_per_s_;
+};
+
+}  // namespace terracut::measure

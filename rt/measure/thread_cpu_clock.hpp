@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <ctime>
+
+#include <cstdint>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::measure {
+
+/// Both clocks never step. Real-time safe, no system call that can block, thread-safe.
+
+/// Processor time the calling thread has used, nanoseconds (CLOCK_THREAD_CPUTIME_ID): what a
+/// computation costs, whatever else the machine does meanwhile. Only differences within one thread
+/// mean something.
+[[nodiscard]] inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING;
+
+/// Nanoseconds since an arbitrary start (CLOCK_MONOTONIC): what a deadline is measured with.
+[[nodiscard]] inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING;
+
+/// Nanoseconds since 1970 (CLOCK_REALTIME): comparable with the kernel's stamps of packets, but set
+/// by whoever keeps the time.
+[[nodiscard]] inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING;
+
+namespace detail {
+[[nodiscard]] inline std::int64_t read_clock_ns(clockid_t clock) noexcept TERRACUT_NONBLOCKING {
+  timespec now{};
+  // Reads a page shared with the kernel, or asks it; cannot fail for these clocks on Linux.
+  threads::trusted_call([&]() noexcept { ::clock_gettime(clock, &now); });
+  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
+}
+}  // namespace detail
+
+inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING {
+  return detail::read_clock_ns(CLOCK_THREAD_CPUTIME_ID);
+}
+inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING {
+  return detail::read_clock_ns(CLOCK_MONOTONIC);
+}
+inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING {
+  return detail::read_clock_ns(CLOCK_REALTIME);
+}
+
+/// The clocks, for what takes them as a parameter so that its tests can hold them.
+struct SystemClock {
+  [[nodiscard]] std::int64_t realtime_ns() const noexcept TERRACUT_NONBLOCKING {
+    return measure::realtime_ns();
+  }
+  [[nodiscard]] std::int64_t monotonic_ns() const noexcept TERRACUT_NONBLOCKING {
+    return measure::monotonic_ns();
+  }
+  [[nodiscard]] std::int64_t thread_cpu_ns() const noexcept TERRACUT_NONBLOCKING {
+    return measure::thread_cpu_ns();
+  }
+};
+
+/// Two of the clocks read together.
+struct ClockPair {
+  std::int64_t cpu_ns = 0;
+  std::int64_t wall_ns = 0;
+
+  [[nodiscard]] static ClockPair now() noexcept TERRACUT_NONBLOCKING {
+    return {thread_cpu_ns(), monotonic_ns()};
+  }
+  [[nodiscard]] ClockPair since(const ClockPair& earlier) const noexcept TERRACUT_NONBLOCKING {
+    return {cpu_ns - earlier.cpu_ns, wall_ns - earlier.wall_ns};
+  }
+};
+
+}  // namespace terracut::measure

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "rt/memory/locked_memory.hpp"
+
+#include <malloc.h>
+#include <pthread.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstdint>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+
+namespace terracut::memory {
+namespace {
+
+std::string in_kib(std::size_t bytes) {
+  return std::to_string(bytes >> 10) + " KiB";
+}
+
+std::size_t page_size() {
+  return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// The heap keeps what was freed, and serves large blocks itself, instead of giving them back to
+/// the system and faulting them in again.
+threads::Grant keep_heap(std::size_t bytes) {
+  threads::Grant grant{.asked = "a heap that never shrinks, " + in_kib(bytes) + " of it present"};
+#ifdef __GLIBC__
+  grant.granted = ::mallopt(M_TRIM_THRESHOLD, -1) == 1 && ::mallopt(M_MMAP_MAX, 0) == 1;
+#endif
+  if (!grant.granted) {
+    grant.error_number = ENOTSUP;
+    grant.in_force = "freed memory may go back to the system";
+    grant.mend = "needs the GNU C library";
+    return grant;
+  }
+  void* block = std::malloc(bytes);
+  if (block == nullptr) {
+    grant.granted = false;
+    grant.error_number = ENOMEM;
+    grant.in_force = "freed memory is kept, but none was made present";
+    grant.mend = "free memory on this machine, or raise the limit of the container";
+    return grant;
+  }
+  auto* bytes_of_it = static_cast<volatile char*>(block);
+  for (std::size_t at = 0; at < bytes; at += page_size()) bytes_of_it[at] = 1;
+  std::free(block);
+  grant.in_force = "freed memory is kept";
+  return grant;
+}
+
+threads::Grant set_thread_stack(std::size_t bytes) {
+  threads::Grant grant{.asked = "stacks of " + in_kib(bytes) + " for threads"};
+  ::pthread_attr_t attributes;
+  ::pthread_attr_init(&attributes);
+  grant.error_number = ::pthread_attr_setstacksize(&attributes, bytes);
+  if (grant.error_number == 0) grant.error_number = ::pthread_setattr_default_np(&attributes);
+  ::pthread_attr_destroy(&attributes);
+  grant.granted = grant.error_number == 0;
+  grant.in_force = grant.granted ? "holds for threads created from now on" : "the default stays";
+  if (!grant.granted) grant.mend = "ask for at least 16 KiB and whole pages";
+  return grant;
+}
+
+/// Whether `bytes` more could be taken now that all future memory is to be locked. A mapping
+/// without access counts against the limit but costs no memory.
+int try_later(std::size_t bytes) {
+  if (bytes == 0) return 0;
+  void* trial = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (trial == MAP_FAILED) return errno;
+  ::munmap(trial, bytes);
+  return 0;
+}
+
+threads::Grant lock_all(std::size_t later) {
+  threads::Grant grant{.asked = "locking of all memory, now and later"};
+  // The soft limit is a habit of the shell; up to the hard one everybody may go. A refusal shows
+  // in what follows.
+  if (rlimit limit{}; ::getrlimit(RLIMIT_MEMLOCK, &limit) == 0) {
+    limit.rlim_cur = limit.rlim_max;
+    (void)::setrlimit(RLIMIT_MEMLOCK, &limit);
+  }
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) != 0) {
+    grant.error_number = errno;
+    grant.in_force = "pages can be swapped out and faulted in again, each a delay";
+    grant.mend = threads::mend_memory_lock();
+    return grant;
+  }
+  grant.error_number = try_later(later);
+  if (grant.error_number != 0) {
+    // Locks again what is there, and no longer what comes.
+    (void)::mlockall(MCL_CURRENT);
+    grant.in_force = "only the memory there is now is locked, for the limit has no room for " +
+                     in_kib(later) + " more";
+    grant.mend = threads::mend_memory_lock();
+    return grant;
+  }
+  grant.granted = true;
+  grant.in_force = in_kib(locked_bytes()) + " locked so far";
+  return grant;
+}
+
+threads::Grant make_stack_present(std::size_t bytes) {
+  threads::Grant grant{.asked = in_kib(bytes) + " of stack present"};
+  const std::size_t touched = prefault_stack(bytes);
+  grant.granted = touched >= bytes;
+  grant.in_force = in_kib(touched) + " are present";
+  if (!grant.granted) {
+    grant.error_number = ENOMEM;
+    grant.mend = "give the thread a larger stack ('ulimit -s' for the first thread)";
+  }
+  return grant;
+}
+
+/// Bytes of the calling thread's stack below `here`; 0 if unknown.
+std::size_t stack_left_below(const volatile char* here) {
+  ::pthread_attr_t attributes;
+  if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return 0;
+  void* lowest = nullptr;
+  std::size_t size = 0;
+  ::pthread_attr_getstack(&attributes, &lowest, &size);
+  ::pthread_attr_destroy(&attributes);
+  const auto bottom = reinterpret_cast<std::uintptr_t>(lowest);
+  const auto top = reinterpret_cast<std::uintptr_t>(here);
+  return top > bottom ? top - bottom : 0;
+}
+
+/// In a function of its own, whose frame ends with the call. The size is not known while compiling,
+/// or the compiler would leave out what is not touched.
+[[gnu::noinline]] void touch_stack(std::size_t bytes) {
+  auto* lowest = static_cast<volatile char*>(__builtin_alloca(bytes));
+  const std::size_t page = page_size();
+  // Downwards, as the kernel expects a stack to grow.
+  for (std::size_t left = bytes; left > 0; left -= std::min(left, page)) lowest[left - 1] = 1;
+  lowest[0] = 1;
+}
+
+}  // namespace
+
+std::size_t prefault_stack(std::size_t bytes) {
+  constexpr std::size_t kSpare = std::size_t{64} << 10;  // guard pages, and a signal handler
+  const volatile char here = 0;
+  const std::size_t left = stack_left_below(&here);
+  const std::size_t touched = std::min(bytes, left > kSpare ? left - kSpare : 0);
+  if (touched > 0) touch_stack(touched);
+  return touched;
+}
+
+std::size_t locked_bytes() {
+  std::ifstream status("/proc/self/status");
+  for (std::string word; status >> word;) {
+    if (word != "VmLck:") continue;
+    std::size_t kib = 0;
+    status >> kib;
+    return kib << 10;
+  }
+  return 0;
+}
+
+std::vector<threads::Grant> hold_memory(const MemoryWish& wish) {
+  std::vector<threads::Grant> grants;
+  if (wish.heap > 0) grants.push_back(keep_heap(wish.heap));
+  if (wish.thread_stack > 0) grants.push_back(set_thread_stack(wish.thread_stack));
+  if (wish.lock) grants.push_back(lock_all(wish.later));
+  if (wish.stack > 0) grants.push_back(make_stack_present(wish.stack));
+  return grants;
+}
+
+}  // namespace terracut::memory

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::queues {
+
+/// Hands the newest of three slots from one thread to one other. The writer never waits, the
+/// reader never waits, and the reader gets the newest whole value, never a torn or an older one.
+/// The slots themselves lie elsewhere (LatestValue, or a pool of three frames).
+///
+///      writer_slot()                                  reader_slot()
+///     +-------------+        +-------------+        +-------------+
+///     |  being      |        |  between:   |        |  being      |
+///     |  written    |        |  newest, or |        |  read       |
+///     +-------------+        |  taken back |        +-------------+
+///            |               +-------------+               |
+///            '---- publish() ----^     ^---- take_if_new() ----'
+///                 swaps these two       swaps these two, if the one between is new
+///
+/// Why it is right. The three numbers 0, 1, 2 are always divided between writer, reader and the
+/// one atomic byte between them; both sides change it by an exchange only, so a number is never in
+/// two places. The exchange of publish() releases what was written into the slot, the exchange of
+/// take_if_new() acquires it; and the other way round the exchange of take_if_new() releases the
+/// slot that was read, and the exchange of publish() acquires it before it is overwritten. Hence
+/// both are acq_rel. The look at the flag beforehand is relaxed: the exchange behind it does the
+/// ordering, and only the reader takes the flag away, so what was seen set stays set.
+///
+/// Thread contract: writer_slot() and publish() from one thread, reader_slot() and take_if_new()
+/// from one thread (the same or another). Wait-free where the processor has an atomic exchange
+/// (x86-64, ARMv8.1), lock-free elsewhere.
+class LatestSlot {
+ public:
+  static constexpr std::size_t kSlots = 3;
+
+  LatestSlot() = default;
+  LatestSlot(const LatestSlot&) = delete;
+  LatestSlot& operator=(const LatestSlot&) = delete;
+
+  /// Writer: the slot to fill, in [0, kSlots). It holds some older value: fill it whole.
+  [[nodiscard]] std::size_t writer_slot() const noexcept TERRACUT_NONBLOCKING { return writers_; }
+
+  /// Writer: makes writer_slot() the newest, and gets another to fill. True when the one before it
+  /// was never taken: the reader missed it.
+  bool publish() noexcept TERRACUT_NONBLOCKING {
+    const std::uint8_t before =
+        between_.exchange(static_cast<std::uint8_t>(writers_ | kNew), std::memory_order_acq_rel);
+    writers_ = before & kNumber;
+    return (before & kNew) != 0;
+  }
+
+  /// Reader: takes the newest slot if something was published since the last call; then
+  /// reader_slot() is that one, and stays it until the next call that returns true.
+  [[nodiscard]] bool take_if_new() noexcept TERRACUT_NONBLOCKING {
+    if ((between_.load(std::memory_order_relaxed) & kNew) == 0) return false;
+    const std::uint8_t before = between_.exchange(readers_, std::memory_order_acq_rel);
+    readers_ = before & kNumber;
+    return true;
+  }
+
+  /// Reader: the slot taken last, in [0, kSlots); before the first, one with its initial value.
+  [[nodiscard]] std::size_t reader_slot() const noexcept TERRACUT_NONBLOCKING { return readers_; }
+
+ private:
+  static constexpr std::uint8_t kNumber = 3;
+  static constexpr std::uint8_t kNew = 4;  // published, not taken yet
+
+  alignas(memory::FixedMemory::kAlignment) std::atomic<std::uint8_t> between_{1};
+  alignas(memory::FixedMemory::kAlignment) std::uint8_t writers_ = 0;
+  alignas(memory::FixedMemory::kAlignment) std::uint8_t readers_ = 2;
+};
+
+/// LatestSlot with its three values inside. T is default-constructible; if it is copied with
+/// publish(value), copying must not allocate. Thread contract as there.
+template <class T>
+class LatestValue {
+ public:
+  /// Writer: the value to fill in place, for publish(). Holds some older value: fill it whole.
+  [[nodiscard]] T& draft() noexcept TERRACUT_NONBLOCKING {
+    return values_[slots_.writer_slot()].value;
+  }
+
+  /// Writer: publishes the draft. True when the value before it was never taken.
+  bool publish() noexcept TERRACUT_NONBLOCKING { return slots_.publish(); }
+
+  /// Writer: publishes a copy.
+  bool publish(const T& value) noexcept TERRACUT_NONBLOCKING {
+    draft() = value;
+    return publish();
+  }
+
+  /// Reader: the newest value if there is one it has not had yet, else nullptr. It stays as it is,
+  /// at its place, until the next call that returns a value.
+  [[nodiscard]] const T* take_if_new() noexcept TERRACUT_NONBLOCKING {
+    return slots_.take_if_new() ? &newest_taken() : nullptr;
+  }
+
+  /// Reader: what take_if_new() gave last; before that a default-constructed T.
+  [[nodiscard]] const T& newest_taken() const noexcept TERRACUT_NONBLOCKING {
+    return values_[slots_.reader_slot()].value;
+  }
+
+ private:
+  struct alignas(
+      memory::FixedMemory::kAlignment) Slot {  // values next to each other share no cache line
+    T value{};
+  };
+  std::array<Slot, LatestSlot::kSlots> values_{};
+  LatestSlot slots_;
+};
+
+}  // namespace terracut::queues

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace terracut {
+
+/// What went wrong, as far as a program needs to tell cases apart. The message tells a person the
+/// rest.
+enum class ErrorCode {
+  kNotFound,          ///< A file, folder or stream that was named does not exist.
+  kUnreadable,        ///< It exists, but the system refused to read it.
+  kMalformed,         ///< It was read, but it is not what it claims to be.
+  kUnsupported,       ///< It is well formed, but of a kind terracut does not handle (another model,
+                      ///< say).
+  kInvalidArgument,   ///< A setting or option outside its documented range.
+  kCapacityExceeded,  ///< It needs more than the memory planned at start, or than the system has.
+  kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.
+  kNoCalibration,     ///< Neither a calibration file nor a calibration in the packets was found.
+  kNothingCameOut,    ///< The input was read to its end, but none of it passed the checks.
+};
+
+[[nodiscard]] std::string_view to_string(ErrorCode code) noexcept;
+
+/// An error of start-up or file work (never of the per-packet path, which counts instead).
+struct Error {
+  ErrorCode code;
+  std::string message;  ///< What was expected, what was found, where, and what to do about it.
+};
+
+template <class T>
+using Expected = tl::expected<T, Error>;
+using Status = Expected<void>;
+
+/// Shorthand for `return fail(ErrorCode::kMalformed, "...")`.
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string message) {
+  return tl::unexpected<Error>(Error{code, std::move(message)});
+}
+
+}  // namespace terracut

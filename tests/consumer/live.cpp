@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// A live sensor's frames, labelled, until so many have come: live PORT FRAMES
+#include <cstdlib>
+#include <iostream>
+#include <terracut/live_run.hpp>
+
+int main(int argc, char** argv) {
+  if (argc != 3) return 2;
+  terracut::LiveRun::Config config;
+  config.address = "127.0.0.1";
+  config.port = static_cast<std::uint16_t>(std::atoi(argv[1]));
+  config.calibration = terracut::Calibration::nominal(terracut::Sensor::kHdl64e);
+  config.deadline_ms = 50;
+  config.patience_s = 60;
+  const int wanted = std::atoi(argv[2]);
+  int frames = 0;
+  const auto stop_wanted = [&] { return frames >= wanted; };
+
+  auto run = terracut::LiveRun::open(config, stop_wanted);
+  if (!run) return std::cerr << run.error().message << '\n', 1;
+  run->run(stop_wanted, [&](const terracut::Frame& frame) {
+    ++frames;
+    std::cout << "frame " << frame.number << ": " << frame.labels.size() << " labels\n";
+  });
+  const auto figures = run->figures();
+  std::cerr << run->refusals() << figures.deadlines_missed << " deadlines missed\n";
+}

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/decode/frame_builder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "tests/support/hand_out.hpp"
+
+namespace terracut::decode {
+namespace {
+
+constexpr std::int64_t kTurn = 3600;
+constexpr BeamSpread kSpread{-100, 110};
+constexpr std::int64_t kStep = 10;
+
+FrameBuilder::Config small(int images = 3) {
+  return {{.rows = 4, .columns = 20}, 2, images, kTurn};
+}
+
+struct Handed {
+  frame::FrameInfo info;
+  const frame::RangeImage* image;
+};
+
+template <class OnFrame>
+void roll_to(FrameBuilder& builder, std::int64_t turn, OnFrame&& on_frame) {
+  builder.roll_to(turn);
+  test::hand_out(builder, on_frame);
+}
+template <class OnFrame>
+void roll(FrameBuilder& builder, OnFrame&& on_frame) {
+  roll_to(builder, builder.oldest() + 1, on_frame);
+}
+template <class OnFrame>
+void flush(FrameBuilder& builder, OnFrame&& on_frame) {
+  builder.flush();
+  test::hand_out(builder, on_frame);
+}
+
+class FrameBuilderTest : public testing::Test {
+ protected:
+  auto keep() {
+    return [this](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+      handed.push_back({info, &image});
+    };
+  }
+  memory::FixedMemory memory;
+  FrameBuilder builder{small(), memory};
+  std::vector<Handed> handed;
+};
+
+TEST_F(FrameBuilderTest, RefusesFewerThanThreeImages) {
+  EXPECT_THROW(FrameBuilder(small(2), memory), std::invalid_argument);
+}
+
+TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenTurns) {
+  builder.start(7, 7 * kTurn);
+  EXPECT_TRUE(builder.is_open(7));
+  EXPECT_TRUE(builder.is_open(8));
+  EXPECT_FALSE(builder.is_open(6));
+  EXPECT_FALSE(builder.is_open(9));
+  builder.place(7, 1, 2, {});
+  builder.place(8, 1, 2, {});
+  builder.place(8, 1, 3, {});
+  builder.place(7, 3, 19, {});
+  roll(builder, keep());
+  ASSERT_EQ(handed.size(), 1U);
+  EXPECT_EQ(handed[0].info.returns, 2U);
+  roll(builder, keep());
+  ASSERT_EQ(handed.size(), 2U);
+  EXPECT_EQ(handed[1].info.returns, 2U);
+  EXPECT_EQ(handed[1].info.number, 1U);
+}
+
+TEST_F(FrameBuilderTest, ATurnWithoutReturnsIsNoFrame) {
+  builder.start(0, 0);
+  roll(builder, keep());
+  builder.place(1, 0, 0, {});
+  flush(builder, keep());
+  ASSERT_EQ(handed.size(), 1U);
+  EXPECT_EQ(handed[0].info.number, 0U);
+  EXPECT_FALSE(builder.started());
+}
+
+TEST_F(FrameBuilderTest, LeavesAnImageAloneUntilTheNextHandOver) {
+  builder.start(0, 0);
+  for (std::int64_t turn = 0; turn < 20; ++turn) {
+    builder.place(turn, 0, 0, {});
+    roll(builder, keep());
+    // What comes until then: empty turns, an end, a new start.
+    if (turn % 3 == 1) {
+      flush(builder, keep());
+      builder.start(turn + 1, 0);
+    }
+    builder.place(turn + 1, 1, 1, {});
+    ASSERT_EQ(handed.back().image->returns(), handed.back().info.returns);
+  }
+}
+
+TEST_F(FrameBuilderTest, LeavesAnImageAloneAsLongAsItHasOthers) {
+  for (int images = 3; images <= 6; ++images) {
+    FrameBuilder many(small(images), memory);
+    handed.clear();
+    many.start(0, 0);
+    for (std::int64_t turn = 0; turn < 20; ++turn) {
+      many.place(turn, 0, 0, {});
+      many.place(turn + 1, 0, 0, {});
+      roll(many, keep());
+      // All that were handed over and may be looked at still, the newest last.
+      const std::size_t kept = std::min(handed.size(), static_cast<std::size_t>(images - 2));
+      for (std::size_t back = 1; back <= kept; ++back) {
+        const Handed& frame = handed[handed.size() - back];
+        ASSERT_EQ(frame.image->returns(), frame.info.returns) << images << ", " << back;
+        for (std::size_t other = 1; other < back; ++other) {
+          ASSERT_NE(frame.image, handed[handed.size() - other].image) << images;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(FrameBuilderTest, CountsReturnsThatOverflowTheOverflowList) {
+  builder.start(0, 0);
+  for (int n = 0; n < 10; ++n) builder.place(0, 0, 0, {});
+  flush(builder, keep());
+  ASSERT_EQ(handed.size(), 1U);
+  EXPECT_EQ(handed[0].info.returns, 3U);
+  EXPECT_EQ(handed[0].info.losses.overflow_full_returns, 7U);
+  EXPECT_EQ(builder.total_losses().overflow_full_returns, 7U);
+}
+
+TEST_F(FrameBuilderTest, ATurnSeenFromSeamToSeamIsComplete) {
+  builder.start(-1, -200);
+  builder.place(0, 0, 0, {});
+  builder.note_packet(5, -1, 0, kTurn + 100, kStep, kSpread);
+  roll(builder, keep());
+  roll(builder, keep());
+  ASSERT_EQ(handed.size(), 1U);
+  EXPECT_TRUE(handed[0].info.complete);
+  EXPECT_EQ(handed[0].info.losses.azimuth_hole_columns, 0U);
+}
+
+TEST_F(FrameBuilderTest, ATurnWhoseStartOrEndWasNotSeenIsIncomplete) {
+  builder.start(-1, -50);  // the foremost beam was 60 past the seam already
+  builder.place(0, 0, 0, {});
+  builder.note_packet(5, -1, 0, kTurn + 100, kStep, kSpread);
+  flush(builder, keep());
+  builder.start(-1, -200);
+  builder.place(0, 0, 0, {});
+  builder.note_packet(5, -1, 0, kTurn + 80, kStep, kSpread);
+  flush(builder, keep());
+  ASSERT_EQ(handed.size(), 2U);
+  EXPECT_FALSE(handed[0].info.complete);
+  EXPECT_FALSE(handed[1].info.complete);
+}
+
+TEST_F(FrameBuilderTest, GoesOnWithTheImageItIsGivenInExchange) {
+  // A reader that keeps whatever is handed over and gives back what it had before.
+  frame::RangeImage* at_the_reader = &builder.images()[2];
+  const auto exchange = [&](const frame::FrameInfo& info,
+                            frame::RangeImage& image) noexcept -> frame::RangeImage* {
+    handed.push_back({info, &image});
+    return std::exchange(at_the_reader, &image);
+  };
+  builder.start(0, 0);
+  for (std::int64_t turn = 0; turn < 6; ++turn) {
+    for (int i = 0; i <= turn; ++i) builder.place(turn, 0, i, {});
+    roll(builder, exchange);
+    EXPECT_EQ(handed.back().info.returns, turn + 1);
+    builder.place(turn + 1, 3, 19, {});
+    builder.place(turn + 2, 3, 19, {});
+    EXPECT_EQ(at_the_reader->returns(), handed.back().info.returns);  // nobody writes to it
+    ASSERT_EQ(handed.back().image, at_the_reader);
+    flush(builder, exchange);
+    builder.start(turn + 1, 0);
+  }
+}
+
+TEST_F(FrameBuilderTest, AHoleMakesATurnIncompleteUntilItIsFilled) {
+  for (const bool filled : {false, true}) {
+    builder.start(-1, -200);
+    builder.place(0, 0, 0, {});
+    builder.lose({1000, 1060}, kSpread, kStep);
+    if (filled) builder.regain({1000, 1060}, kSpread);
+    builder.note_packet(5, -1, 0, kTurn + 100, kStep, kSpread);
+    flush(builder, keep());
+    EXPECT_EQ(handed.back().info.complete, filled);
+    EXPECT_EQ(handed.back().info.losses.azimuth_hole_columns, filled ? 0U : 6U);
+  }
+}
+
+TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothTurns) {
+  builder.start(-1, -200);
+  builder.place(0, 0, 0, {});
+  builder.note_packet(5, -1, 0, 0, kStep, kSpread);
+  roll(builder, keep());  // turn -1, without returns
+  builder.place(1, 0, 0, {});
+  builder.lose({kTurn - 30, kTurn + 30}, kSpread, kStep);
+  builder.note_packet(6, 0, 1, kTurn + 100, kStep, kSpread);
+  roll(builder, keep());
+  builder.note_packet(7, 1, 1, 2 * kTurn + 100, kStep, kSpread);
+  roll(builder, keep());
+  ASSERT_EQ(handed.size(), 2U);
+  EXPECT_FALSE(handed[0].info.complete);
+  EXPECT_FALSE(handed[1].info.complete);
+  EXPECT_EQ(handed[0].info.losses.azimuth_hole_columns, 3U);
+  EXPECT_EQ(handed[1].info.losses.azimuth_hole_columns, 3U);
+}
+
+TEST_F(FrameBuilderTest, AHoleOverWholeTurnsIsCountedInFull) {
+  builder.start(0, 0);
+  builder.place(0, 0, 0, {});
+  builder.lose({kTurn / 2, 3 * kTurn + kTurn / 2}, kSpread, kStep);
+  for (int n = 0; n < 3; ++n) roll(builder, keep());
+  builder.place(3, 0, 0, {});
+  flush(builder, keep());
+  EXPECT_EQ(builder.total_losses().azimuth_hole_columns,
+            static_cast<std::uint64_t>(3 * kTurn / kStep));
+}
+
+TEST_F(FrameBuilderTest, KeepsThePacketStampsOfEachTurn) {
+  builder.start(0, 0);
+  builder.place(0, 0, 0, {});
+  builder.place(1, 0, 0, {});
+  builder.note_packet(10, 0, 0, 100, kStep, kSpread);
+  builder.note_packet(20, 0, 1, 200, kStep, kSpread);
+  builder.note_packet(15, 0, 1, 200, kStep, kSpread);  // out of order
+  builder.note_packet(30, 1, 1, 300, kStep, kSpread);
+  flush(builder, keep());
+  ASSERT_EQ(handed.size(), 2U);
+  EXPECT_EQ(handed[0].info.first_packet_ns, 10);
+  EXPECT_EQ(handed[0].info.last_packet_ns, 20);
+  EXPECT_EQ(handed[1].info.first_packet_ns, 15);
+  EXPECT_EQ(handed[1].info.last_packet_ns, 30);
+  EXPECT_EQ(handed[0].info.packets + handed[1].info.packets, 4U);
+}
+
+}  // namespace
+}  // namespace terracut::decode

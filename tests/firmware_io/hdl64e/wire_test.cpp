@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/hdl64e/wire.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace terracut::hdl64e {
+namespace {
+
+TEST(Hdl64ePacket, IsViewedOnlyAtItsExactSize) {
+  const std::vector<std::uint8_t> bytes(1248);
+  for (const std::size_t size : {0U, 1U, 512U, 1205U, 1207U, 1248U}) {
+    EXPECT_FALSE(Hdl64ePacketView::of(std::span(bytes).first(size)));
+  }
+  EXPECT_TRUE(Hdl64ePacketView::of(std::span(bytes).first(1206)));
+}
+
+TEST(Hdl64ePacket, HasItsFieldsAtTheirOffsetsInLittleEndian) {
+  std::vector<std::uint8_t> bytes(1207);
+  const auto put = [&](std::size_t at, std::initializer_list<int> values) {
+    for (const int value : values) bytes[1 + at++] = static_cast<std::uint8_t>(value);
+  };
+  put(1100, {0xFF, 0xDD, 0x9F, 0x8C});              // block 11: lower, 359.99 deg
+  put(1100 + 4 + 3 * 31, {0x10, 0x27, 0xC8});       // laser 31: 20.000 m, 200
+  put(1200, {0xFF, 0xA3, 0x93, 0xD6, 0x57, 0xA1});  // 3 599 999 999 us, 'W', 0xA1
+  // One byte off any alignment.
+  const auto view = Hdl64ePacketView::of(std::span<const std::uint8_t>(bytes).subspan(1));
+  ASSERT_TRUE(view);
+  EXPECT_EQ(view->block_id(11), kLowerBlockId);
+  EXPECT_EQ(view->azimuth_cdeg(11), 35999);
+  EXPECT_EQ(view->distance(11, 31), 10000);
+  EXPECT_EQ(view->intensity(11, 31), 200);
+  EXPECT_EQ(view->returns(11)[93], 0x10);
+  EXPECT_EQ(view->stamp_us(), 3'599'999'999U);
+  EXPECT_EQ(view->status_type(), 'W');
+  EXPECT_EQ(view->status_value(), 0xA1);
+}
+
+TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
+  Hdl64ePacketBuffer packet;
+  for (int block = 0; block < kBlocksPerPacket; ++block) {
+    packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(35'000 + block));
+    for (int laser = 0; laser < kLasersPerBlock; ++laser) {
+      packet.set_return(block, laser, static_cast<std::uint16_t>(block * 2048 + laser),
+                        static_cast<std::uint8_t>(laser));
+    }
+  }
+  packet.set_stamp_us(0xD693A3FE);
+  packet.set_status('T', 41);
+  const auto view = Hdl64ePacketView::of(packet.payload());
+  ASSERT_TRUE(view);
+  EXPECT_TRUE(view->is_hdl64e());
+  EXPECT_FALSE(view->repeats_azimuth());
+  for (int block = 0; block < kBlocksPerPacket; ++block) {
+    EXPECT_EQ(view->block_id(block), block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
+    EXPECT_EQ(view->azimuth_cdeg(block), 35'000 + block);
+    for (int laser = 0; laser < kLasersPerBlock; ++laser) {
+      EXPECT_EQ(view->distance(block, laser), block * 2048 + laser);
+      EXPECT_EQ(view->intensity(block, laser), laser);
+    }
+  }
+  EXPECT_EQ(view->stamp_us(), 0xD693A3FEU);
+  EXPECT_EQ(view->status_type(), 'T');
+  EXPECT_EQ(view->status_value(), 41);
+  packet.set_block_id(1, kUpperBlockId);
+  EXPECT_FALSE(Hdl64ePacketView::of(packet.payload())->is_hdl64e());
+}
+
+TEST(Hdl64ePacket, FiringTimesFollowTheMakersTables) {
+  EXPECT_EQ(kFiringTimesSingle48.laser_ns(0), 0);
+  EXPECT_EQ(kFiringTimesSingle48.laser_ns(3), 3'660);
+  EXPECT_EQ(kFiringTimesSingle48.laser_ns(31), 45'660);
+  EXPECT_EQ(kFiringTimesDual.laser_ns(31), 54'100);
+  EXPECT_EQ(kFiringTimesSingle48.after_stamp_ns(5, 0), -48'000);
+  EXPECT_EQ(kFiringTimesDual.after_stamp_ns(0, 0), -172'800);
+}
+
+TEST(Hdl64ePacket, DeviceStepsGoTheShortWayRoundTheHour) {
+  EXPECT_EQ(device_step_us(3'599'999'900, 188), 288);
+  EXPECT_EQ(device_step_us(188, 3'599'999'900), -288);
+  EXPECT_EQ(device_step_us(0, 1'799'999'999), 1'799'999'999);
+  EXPECT_EQ(device_step_us(0, 1'800'000'000), -1'800'000'000);
+  EXPECT_EQ(device_step_us(0xFFFFFFFF, 0xFFFFFFFF), 0);
+  for (const std::uint32_t absurd : {3'600'000'001U, 0xFFFFFFFFU}) {
+    EXPECT_LE(std::abs(device_step_us(0, absurd)), 1'800'000'000);
+    EXPECT_LE(std::abs(device_step_us(absurd, 0)), 1'800'000'000);
+  }
+}
+
+}  // namespace
+}  // namespace terracut::hdl64e

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/net/device_stamp_shift.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::test {
+namespace {
+
+using hdl64e::Hdl64ePacketBuffer;
+using hdl64e::Hdl64ePacketView;
+using net::DeviceStampShift;
+using ruby128::RubyTimestamp;
+
+std::vector<std::uint8_t> hdl64e_packet(std::uint32_t stamp_us) {
+  Hdl64ePacketBuffer packet;
+  for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
+    packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(100 + 17 * (block / 2)));
+  }
+  packet.set_stamp_us(stamp_us);
+  packet.set_status(12, 34);
+  return {packet.payload().begin(), packet.payload().end()};
+}
+
+std::uint32_t shifted_us(std::uint32_t stamp_us, std::int64_t shift_ns) {
+  auto packet = hdl64e_packet(stamp_us);
+  EXPECT_TRUE(DeviceStampShift()(packet, shift_ns));
+  return Hdl64ePacketView::of(packet)->stamp_us();
+}
+
+TEST(DeviceStampShift, MovesTheClockOfAnHdl64e) {
+  EXPECT_EQ(shifted_us(5'000'000, 2'000'000'000), 7'000'000U);
+  EXPECT_EQ(shifted_us(5'000'000, -2'000'000'000), 3'000'000U);
+  EXPECT_EQ(shifted_us(10, 1'499), 11U);
+  EXPECT_EQ(shifted_us(10, 1'500), 12U);
+  EXPECT_EQ(shifted_us(10, -1'500), 8U);
+}
+
+TEST(DeviceStampShift, WrapsAtTheHour) {
+  EXPECT_EQ(shifted_us(hdl64e::kDeviceHour_us - 1, 1'000), 0U);
+  EXPECT_EQ(shifted_us(0, -1'000), hdl64e::kDeviceHour_us - 1);
+  EXPECT_EQ(shifted_us(42, std::int64_t{25} * 3600 * 1'000'000'000), 42U);
+}
+
+TEST(DeviceStampShift, ChangesNothingElse) {
+  auto shifted = hdl64e_packet(5'000'000);
+  ASSERT_TRUE(DeviceStampShift()(shifted, 1'000'000));
+  EXPECT_EQ(shifted, hdl64e_packet(5'001'000));
+}
+
+std::vector<std::uint8_t> ruby_packet(std::int64_t stamp_ns, RubyTimestamp encoding) {
+  std::vector<std::uint8_t> packet(ruby128::kRubyPacketBytes);
+  std::copy(ruby128::kRubyMagic.begin(), ruby128::kRubyMagic.end(), packet.begin());
+  const auto stamp = ruby128::write_ruby_timestamp(stamp_ns, encoding);
+  std::copy(stamp.begin(), stamp.end(), packet.begin() + 10);
+  for (const std::size_t block : {80U, 468U, 856U}) packet[block] = ruby128::kRubyBlockId;
+  return packet;
+}
+
+TEST(DeviceStampShift, MovesTheClockOfARuby128InEachEncoding) {
+  constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000, kPeriod_ns = 166'000;
+  for (const auto encoding : {RubyTimestamp::kCalendar, RubyTimestamp::kUtcMicroseconds,
+                              RubyTimestamp::kUtcNanoseconds}) {
+    DeviceStampShift shift;
+    for (std::int64_t i = 0; i < 10; ++i) {
+      const std::int64_t stamp_ns = kStart_ns + i * kPeriod_ns;
+      const std::int64_t shift_ns = i < 5 ? 0 : -2'000'000'000;
+      auto packet = ruby_packet(stamp_ns, encoding);
+      ASSERT_TRUE(shift(packet, shift_ns));
+      EXPECT_EQ(packet, ruby_packet(stamp_ns + shift_ns, encoding))
+          << to_string(encoding) << ", packet " << i;
+    }
+  }
+}
+
+TEST(DeviceStampShift, LeavesWhatIsNoDataPacketAlone) {
+  auto truncated = hdl64e_packet(5'000'000);
+  truncated.resize(603);
+  std::vector<std::uint8_t> position(512, 7), empty;
+  for (auto* payload : {&truncated, &position, &empty}) {
+    const auto before = *payload;
+    EXPECT_FALSE(DeviceStampShift()(*payload, 1'000'000));
+    EXPECT_EQ(*payload, before);
+  }
+}
+
+}  // namespace
+}  // namespace terracut::test

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/device_reader.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "calib/beams/angle.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "tests/support/allocation_counter.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+using ruby128::ruby128_wire::Difop;
+using testing::HasSubstr;
+
+Difop difop_of_unit(std::uint8_t serial, double elevations_up_deg = 0) {
+  ruby128::Ruby128Calibration calibration = ruby128::nominal_ruby128();
+  for (ruby128::Ruby128Channel& channel : calibration.channels) {
+    channel.elevation_rad += beams::deg_to_rad(elevations_up_deg);
+  }
+  Difop difop = ruby128::blank_difop();
+  difop.serial = {0, 0, 0, 0, 0, serial};
+  ruby128::set_calibration(difop, calibration);
+  return difop;
+}
+
+double lowest_deg(const Ruby128DeviceReader& reader) {
+  return beams::rad_to_deg(reader.calibration()->channels[35].elevation_rad);
+}
+
+TEST(Ruby128DeviceReader, KnowsNothingBeforeTheFirstPacket) {
+  const Ruby128DeviceReader reader;
+  EXPECT_FALSE(reader.has_calibration());
+  EXPECT_FALSE(reader.newest().has_value());
+  EXPECT_FALSE(reader.calibrated_unit().has_value());
+  EXPECT_EQ(reader.calibration().error().code, ErrorCode::kNoCalibration);
+  EXPECT_THAT(reader.calibration().error().message, HasSubstr("no DIFOP packet has come"));
+}
+
+TEST(Ruby128DeviceReader, TakesTheCalibrationOfTheFirstPacket) {
+  Ruby128DeviceReader reader;
+  const Difop difop = difop_of_unit(7);
+  EXPECT_TRUE(reader.add(ruby128::payload_of(difop)));
+  EXPECT_TRUE(reader.has_calibration());
+  EXPECT_EQ(fingerprint(*reader.calibration()), fingerprint(ruby128::nominal_ruby128()));
+  EXPECT_EQ(reader.calibrated_unit()->serial[5], 7);
+  EXPECT_EQ(reader.counters().packets, 1U);
+}
+
+TEST(Ruby128DeviceReader, LeavesOtherPayloadsAloneAndCountsThem) {
+  Ruby128DeviceReader reader;
+  EXPECT_FALSE(reader.add({}));
+  EXPECT_FALSE(reader.add(ruby128::Ruby128PacketBuffer().payload()));
+  const std::vector<std::uint8_t> longer(1249, 0xA5);
+  EXPECT_FALSE(reader.add(longer));
+  EXPECT_EQ(reader.counters().not_difop, 3U);
+  EXPECT_EQ(reader.counters().packets, 0U);
+  EXPECT_FALSE(reader.newest().has_value());
+}
+
+TEST(Ruby128DeviceReader, KeepsTheNewestFactsAndTheFirstCalibration) {
+  Ruby128DeviceReader reader;
+  Difop difop = difop_of_unit(7);
+  difop.rpm_actual = decode::Be16::of(598);
+  reader.add(ruby128::payload_of(difop));
+  difop = difop_of_unit(7, 0.5);
+  difop.rpm_actual = decode::Be16::of(601);
+  reader.add(ruby128::payload_of(difop));
+  EXPECT_EQ(reader.newest()->rpm_actual, 601);
+  EXPECT_EQ(reader.calibrated_unit()->rpm_actual, 598);
+  EXPECT_NEAR(lowest_deg(reader), -25.0, 1e-9);
+  EXPECT_EQ(reader.counters().angle_changes, 1U);
+  EXPECT_EQ(reader.counters().serial_changes, 0U);
+}
+
+TEST(Ruby128DeviceReader, CountsEveryChangeOfSerialNumberAndAngles) {
+  Ruby128DeviceReader reader;
+  const Difop a = difop_of_unit(1), b = difop_of_unit(2, 0.1);
+  for (const Difop* difop : {&a, &a, &b, &a, &b, &b}) reader.add(ruby128::payload_of(*difop));
+  EXPECT_EQ(reader.counters().packets, 6U);
+  EXPECT_EQ(reader.counters().serial_changes, 3U);
+  EXPECT_EQ(reader.counters().angle_changes, 3U);
+  EXPECT_EQ(reader.newest()->serial[5], 2);
+  EXPECT_EQ(reader.calibrated_unit()->serial[5], 1);
+}
+
+TEST(Ruby128DeviceReader, SeesAChangeOfAzimuthOffsetsAlone) {
+  Ruby128DeviceReader reader;
+  Difop difop = difop_of_unit(1);
+  reader.add(ruby128::payload_of(difop));
+  difop.azimuth_offsets[127].magnitude_cdeg = decode::Be16::of(594);
+  reader.add(ruby128::payload_of(difop));
+  EXPECT_EQ(reader.counters().angle_changes, 1U);
+}
+
+TEST(Ruby128DeviceReader, WaitsForAnglesAndSaysWhyThereAreNone) {
+  Ruby128DeviceReader reader;
+  const Difop unset = ruby128::blank_difop();
+  reader.add(ruby128::payload_of(unset));
+  reader.add(ruby128::payload_of(unset));
+  EXPECT_FALSE(reader.has_calibration());
+  EXPECT_THAT(reader.calibration().error().message, HasSubstr("hold no angles"));
+
+  Difop implausible = difop_of_unit(1);
+  implausible.elevations[0] = implausible.elevations[1];
+  reader.add(ruby128::payload_of(implausible));
+  EXPECT_FALSE(reader.has_calibration());
+  EXPECT_THAT(reader.calibration().error().message, HasSubstr("channels 1 and 2"));
+
+  const Difop good = difop_of_unit(1);
+  reader.add(ruby128::payload_of(good));
+  reader.add(ruby128::payload_of(unset));
+  EXPECT_TRUE(reader.has_calibration());
+  EXPECT_NEAR(lowest_deg(reader), -25.0, 1e-9);
+  EXPECT_EQ(reader.counters().unset_angles, 3U);
+  EXPECT_EQ(reader.counters().implausible_angles, 1U);
+}
+
+TEST(Ruby128DeviceReader, ForgetsEverythingOnReset) {
+  Ruby128DeviceReader reader;
+  const Difop difop = difop_of_unit(1);
+  reader.add(ruby128::payload_of(difop));
+  reader.reset();
+  EXPECT_FALSE(reader.has_calibration());
+  EXPECT_FALSE(reader.newest().has_value());
+  EXPECT_EQ(reader.counters().packets, 0U);
+}
+
+TEST(Ruby128DeviceReader, AddsPacketsWithoutAllocating) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
+  Ruby128DeviceReader reader;
+  Difop implausible = difop_of_unit(3);
+  implausible.elevations[0].sign = 9;
+  const Difop packets[] = {ruby128::blank_difop(), implausible, difop_of_unit(1),
+                           difop_of_unit(2, 0.2)};
+  const std::uint64_t before = test::allocations_of_this_thread();
+  for (const Difop& difop : packets) reader.add(ruby128::payload_of(difop));
+  reader.add({});
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+  EXPECT_TRUE(reader.has_calibration());
+}
+
+}  // namespace
+}  // namespace terracut::sensor

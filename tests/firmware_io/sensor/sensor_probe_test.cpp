@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/sensor_probe.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/firmware_io/hdl64e/random_drive.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+int columns_of(double spin_hz, std::int64_t column_ns, std::size_t every = 1) {
+  const auto packets =
+      test::random_packets({.step_deg = 360 * spin_hz * static_cast<double>(column_ns) * 1e-9,
+                            .column_ns = column_ns,
+                            .share_of_returns = 0});
+  SensorProbe probe;
+  for (std::size_t n = 0; n < packets.size(); n += every) probe.add(packets[n].bytes);
+  EXPECT_NEAR(probe.spin_hz(SensorModel::kHdl64e), spin_hz, 0.02);
+  return probe.columns(SensorModel::kHdl64e);
+}
+
+TEST(SensorProbe, GivesAnHdl64eAsManyColumnsAsItFiresATurn) {
+  EXPECT_EQ(columns_of(10, 48'000), 2083);
+  EXPECT_EQ(columns_of(20, 48'000), 1042);
+}
+
+TEST(SensorProbe, KnowsTheSlowerCycleOfSomeS3) {
+  EXPECT_EQ(columns_of(10, 57'600), 1736);
+  EXPECT_EQ(columns_of(5, 57'600), 3472);
+}
+
+TEST(SensorProbe, IsNotDeceivedByLostPackets) {
+  EXPECT_EQ(columns_of(10, 48'000, 2), 2083);
+}
+
+}  // namespace
+}  // namespace terracut::sensor

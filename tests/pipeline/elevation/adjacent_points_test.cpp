@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/elevation/adjacent_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "pipeline/ground/coarse_stages.hpp"
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::elevation {
+namespace {
+
+const frame::ImageShape kShape{64, 360};
+
+AdjacentPoints::Config paper_rule() {
+  AdjacentPoints::Config config;
+  config.rule = AdjacentRule::kRingSpacing;
+  config.max_slope_rad = 0.25F;
+  config.first_row_step = config.last_row_step = 2;
+  config.column_reach = 3;
+  return config;
+}
+
+/// Heights and labels of the stage before, then the stage itself.
+struct Refined {
+  Refined(const AdjacentPoints::Config& config, const test::BeamCast& cast)
+      : profile(test::even_profile()), image(kShape, 16, memory), planes(kShape, memory) {
+    ground::SegmenterConfig stages;
+    stages.elevation_map = {};
+    stages.adjacent_points = config;
+    test::cast_turn(profile, cast, image);
+    ground::CoarseStages(stages, profile, kShape, memory).finish(image, planes);
+  }
+  [[nodiscard]] int steep_cells() const {
+    int count = 0;
+    for (const auto s : planes.steep) count += s;
+    return count;
+  }
+  memory::FixedMemory memory;
+  mount::RingProfile profile;
+  frame::RangeImage image;
+  stage::CellPlanes planes;
+};
+
+TEST(AdjacentPoints, BoundIsEquationFive) {
+  // h = 2 m, of which the upper laser sits 0.2 m above the sensor's origin; beams 60 and 65 degrees
+  // from the downward normal, K = 0.25 rad: 2 (tan 65 - tan 60) / (tan 0.25 tan 65 + 1) = 2
+  // (2.144507 - 1.732051) / (0.255342 * 2.144507 + 1)
+  mount::RingProfile profile;
+  profile.mount.height_m = 1.8;
+  for (const double elevation_deg : {-30.0, -27.0, -25.0}) {
+    mount::Ring ring;
+    ring.elevation_rad = elevation_deg * std::numbers::pi / 180;
+    ring.ground_distance_m = 2.0 / std::tan(-ring.elevation_rad);
+    ring.origin_height_m = elevation_deg > -26 ? 0.2 : 0;
+    profile.rings.push_back(ring);
+  }
+  memory::FixedMemory memory;
+  const AdjacentPoints stage(paper_rule(), profile, {3, 360}, memory);
+  EXPECT_NEAR(stage.ring_spacing_m(0, 2), 0.533030, 1e-5);
+}
+
+TEST(AdjacentPoints, PairsWhoseUpperBeamMissesTheGroundHaveNoBound) {
+  memory::FixedMemory memory;
+  const AdjacentPoints stage(paper_rule(), test::even_profile(), kShape, memory);
+  EXPECT_GT(stage.ring_spacing_m(10, 2), 0.0F);
+  EXPECT_EQ(stage.ring_spacing_m(61, 2), 0.0F);
+}
+
+TEST(AdjacentPoints, FlatGroundHasNoSteepStepByEitherRule) {
+  EXPECT_EQ(Refined({}, test::flat_ground()).steep_cells(), 0);
+  EXPECT_EQ(Refined(paper_rule(), test::flat_ground()).steep_cells(), 0);
+}
+
+TEST(AdjacentPoints, AWallIsSteepByEitherRule) {
+  for (const auto& config : {AdjacentPoints::Config{}, paper_rule()}) {
+    const Refined wall(config, test::ground_with_wall(10, 3, 1.5));
+    int wall_cells = 0, found = 0;
+    for (std::size_t cell = 0; cell < wall.planes.steep.size(); ++cell) {
+      if (!wall.image.has_return(cell) || wall.image.z_m()[cell] < 0.5F) continue;
+      ++wall_cells;
+      found += wall.planes.steep[cell];
+      EXPECT_TRUE(wall.planes.steep[cell] == 0 ||
+                  wall.planes.label[cell] == frame::Label::kObstacle);
+    }
+    EXPECT_GT(wall_cells, 100);
+    EXPECT_EQ(found, wall_cells);
+  }
+}
+
+TEST(AdjacentPoints, SeesAWallThatLiesAcrossTheSeamOfColumns) {
+  const Refined wall({}, test::ground_with_wall(10, 2, 1.0));       // straight ahead is the seam
+  const auto row = static_cast<std::size_t>(kShape.stride()) * 40;  // 7.5 deg down: on the wall
+  ASSERT_NEAR(wall.image.x_m()[row], 10.0F, 0.01F);
+  EXPECT_EQ(wall.planes.steep[row], 1);
+  EXPECT_EQ(wall.planes.steep[row + 359], 1);
+}
+
+TEST(AdjacentPoints, EmptyCellsAreNeverSteep) {
+  const Refined sky({}, [](double, double) { return -1.0; });
+  EXPECT_EQ(sky.steep_cells(), 0);
+}
+
+}  // namespace
+}  // namespace terracut::elevation

@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/elevation/ground_surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::elevation {
+namespace {
+
+struct SurfaceOverGrid : testing::Test {
+  SurfaceOverGrid()
+      : grid(config(), test::even_profile(), {64, 2083}, memory), surface({}, grid, memory) {
+    lowest.resize(grid.cells());
+    fill([](float) { return 0.0F; });
+  }
+  static RingGrid::Config config() {
+    RingGrid::Config c;
+    c.min_band_m = 0.4F;
+    c.max_band_m = 2.0F;
+    return c;
+  }
+  /// Sets the lowest return of every cell from its range.
+  template <class F>
+  void fill(F height_of_range) {
+    for (int s = 0; s < grid.sectors(); ++s)
+      for (int b = 0; b < grid.bands(); ++b)
+        lowest[grid.cell(s, b)] = {height_of_range(grid.center_m(b)), grid.center_m(b)};
+  }
+  void estimate() {
+    surface.forget();
+    surface.walk(grid, grid.all_sectors(), lowest);
+    surface.settle(grid, grid.all_sectors(), lowest);
+  }
+  float at(int sector, float range_m) {
+    return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
+  }
+  memory::FixedMemory memory;
+  RingGrid grid;
+  GroundSurface surface;
+  std::vector<GroundSurface::LowestReturn> lowest;
+};
+
+TEST_F(SurfaceOverGrid, FollowsAFifteenPercentSlopeThatBeginsNearOrFar) {
+  for (const float foot_m : {6.0F, 30.0F}) {
+    const auto hill = [foot_m](float range_m) { return 0.15F * std::max(0.0F, range_m - foot_m); };
+    fill(hill);
+    estimate();
+    for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
+      EXPECT_NEAR(at(3, range_m), hill(grid.center_m(grid.band_of(range_m))), 0.05F) << range_m;
+    }
+  }
+}
+
+TEST_F(SurfaceOverGrid, PutsTheLowestReturnWhereItIsNotIntoTheMiddleOfItsCell) {
+  // A bank of 40 %: its lowest return is at the near end of each cell.
+  const auto bank = [](float range_m) { return 0.4F * std::max(0.0F, range_m - 10.0F); };
+  for (int s = 0; s < grid.sectors(); ++s) {
+    float near_m = 0;
+    for (int b = 0; b < grid.bands(); ++b) {
+      lowest[grid.cell(s, b)] = {bank(near_m), near_m};
+      near_m = 2 * grid.center_m(b) - near_m;  // where the next band begins
+    }
+  }
+  estimate();
+  for (float range_m : {6.0F, 15.0F, 25.0F, 40.0F}) {
+    EXPECT_NEAR(at(3, range_m), bank(grid.center_m(grid.band_of(range_m))), 0.1F) << range_m;
+  }
+}
+
+TEST_F(SurfaceOverGrid, FollowsASensorPitchedByFiveDegrees) {
+  for (const float slope : {0.087F, -0.087F}) {
+    fill([slope](float range_m) { return slope * range_m; });
+    estimate();
+    for (float range_m : {6.0F, 15.0F, 40.0F, 80.0F}) {
+      EXPECT_NEAR(at(3, range_m), slope * grid.center_m(grid.band_of(range_m)), 0.05F) << range_m;
+    }
+  }
+}
+
+TEST_F(SurfaceOverGrid, DoesNotClimbOntoAWall) {
+  fill([](float range_m) { return range_m < 12 ? 0.0F : 1.5F; });
+  estimate();
+  EXPECT_NEAR(at(0, 13.0F), 0.0F, 0.01F);
+  EXPECT_NEAR(at(0, 30.0F), 0.0F, 0.01F);
+}
+
+TEST_F(SurfaceOverGrid, FindsTheGroundAgainBehindAHiddenStretch) {
+  fill([](float range_m) { return range_m > 10 && range_m < 16 ? GroundSurface::kEmpty : 0.05F; });
+  estimate();
+  EXPECT_NEAR(at(0, 20.0F), 0.05F, 0.001F);
+  EXPECT_NEAR(at(0, 13.0F), 0.05F, 0.06F);
+}
+
+TEST_F(SurfaceOverGrid, FindsABankBehindADitchThatHidesItsFoot) {
+  const auto bank = [](float range_m) { return 1.5F + 0.3F * (range_m - 16.0F); };
+  fill([&](float range_m) {
+    return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : bank(range_m);
+  });
+  estimate();
+  EXPECT_NEAR(at(5, 25.0F), bank(grid.center_m(grid.band_of(25.0F))), 0.1F);
+}
+
+TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
+  fill([](float range_m) { return range_m > 12 && range_m < 20 ? 1.5F : 0.0F; });
+  estimate();
+  EXPECT_NEAR(at(5, 16.0F), 0.0F, 0.01F);
+}
+
+TEST_F(SurfaceOverGrid, DoesNotTakeARowOfRoofsForGroundThoughNothingShowsBehindIt) {
+  fill([](float) { return 0.0F; });
+  for (int band = grid.band_of(12.0F); band < grid.bands(); ++band) {
+    for (const int sector : {7, 8, 9})
+      lowest[grid.cell(sector, band)].height_m = 1.5F;  // 1.1 m wide at 12 m
+  }
+  estimate();
+  EXPECT_NEAR(at(8, 16.0F), 0.0F, 0.1F);
+}
+
+TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
+  fill([](float) { return 0.0F; });
+  const int band = grid.band_of(15.0F);
+  lowest[grid.cell(7, band)].height_m = -4.0F;
+  estimate();
+  EXPECT_NEAR(at(7, 15.0F), 0.0F, 0.01F);
+}
+
+TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam) {
+  // Ground that rises slowly with range, hidden behind a wall in the sectors around the seam.
+  fill([](float range_m) { return 0.03F * range_m; });
+  for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
+    lowest[grid.cell(0, band)].height_m = 9.0F;
+    lowest[grid.cell(grid.sectors() - 1, band)].height_m = 9.0F;
+  }
+  estimate();
+  const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
+  EXPECT_NEAR(at(0, 40.0F), true_m, 0.25F);
+  EXPECT_NEAR(at(grid.sectors() - 1, 40.0F), true_m, 0.25F);
+}
+
+TEST_F(SurfaceOverGrid, BorrowsAcrossTheSeamFromOneSideAlone) {
+  // Hidden sectors from the seam on, more of them than ground is lent over.
+  constexpr int kHidden = 30;
+  const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
+  for (const bool is_right : {false, true}) {
+    fill([](float range_m) { return 0.03F * range_m; });
+    for (int n = 0; n < kHidden; ++n) {
+      const int sector = is_right ? n : grid.sectors() - 1 - n;
+      for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
+        lowest[grid.cell(sector, band)].height_m = 9.0F;
+      }
+    }
+    estimate();
+    EXPECT_NEAR(at(is_right ? 0 : grid.sectors() - 1, 40.0F), true_m, 0.25F);
+  }
+}
+
+TEST_F(SurfaceOverGrid, LendsGroundThatTheLastSectorsTellToAllThatWereSettledBefore) {
+  // Behind a ditch there is ground on a strip across the seam only; its part to the right of it is
+  // too narrow to be ground by itself.
+  fill([](float range_m) {
+    return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : 9;
+  });
+  constexpr int kRight = 3, kLeft = 8, kFirst = 14, kSettled = 60, kWalked = 80;
+  for (int n = -kLeft; n < kRight; ++n) {
+    for (int band = grid.band_of(16.5F); band < grid.bands(); ++band) {
+      lowest[grid.cell(grid.wrapped(n), band)].height_m = 0.8F;
+    }
+  }
+  estimate();
+  const std::vector<float> expected(surface.height_m().begin(), surface.height_m().end());
+  EXPECT_GT(at(1, 20.0F), 0.7F);
+
+  surface.forget();
+  surface.walk(grid, {0, kWalked}, lowest);
+  surface.settle(grid, {kFirst, kSettled}, lowest);
+  surface.walk(grid, {kWalked, grid.sectors()}, lowest);
+  std::vector<std::uint8_t> is_current(static_cast<std::size_t>(grid.sectors()), 1);
+  surface.settle_rest(grid, lowest, is_current);
+  EXPECT_TRUE(std::ranges::equal(surface.height_m(), expected));
+  // Ground is lent over 14 sectors, so to those from 14 to 16 by the strip's.
+  for (int sector = kFirst; sector < kSettled; ++sector) {
+    EXPECT_EQ(is_current[static_cast<std::size_t>(sector)], sector >= kFirst + kRight) << sector;
+  }
+}
+
+TEST_F(SurfaceOverGrid, FollowsGroundThatFallsAwayFasterThanItMayRise) {
+  // Over 3 m: too short for ground to be found again behind where it was lost.
+  for (const float slope : {-0.45F, 0.45F}) {
+    const auto edge = [slope](float range_m) { return slope * std::max(0.0F, range_m - 10.0F); };
+    fill([&](float range_m) { return range_m < 13 ? edge(range_m) : GroundSurface::kEmpty; });
+    estimate();
+    const float middle_m = grid.center_m(grid.band_of(12.0F));
+    EXPECT_EQ(std::fabs(at(5, 12.0F) - edge(middle_m)) < 0.1F, slope < 0) << at(5, 12.0F);
+  }
+}
+
+}  // namespace
+}  // namespace terracut::elevation

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/ground/segmenter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <random>
+#include <vector>
+
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::ground {
+namespace {
+
+const frame::ImageShape kShape{64, 1000};
+
+struct SegmenterOnSyntheticTurns : testing::Test {
+  SegmenterOnSyntheticTurns() : image(kShape, 1000, memory) {}
+  std::span<const frame::Label> segment(const test::BeamCast& cast,
+                                        const SegmenterConfig& config = {}) {
+    test::cast_turn(profile, cast, image);
+    return resegment(config);
+  }
+  /// What the stages before the cut say, under the defaults otherwise.
+  std::vector<frame::Label> coarse_labels(const test::BeamCast& cast) {
+    SegmenterConfig coarse;
+    coarse.last_stage = stage::Stage::kAdjacentPoints;
+    const auto labels = segment(cast, coarse);
+    return {labels.begin(), labels.end()};
+  }
+  std::span<const frame::Label> resegment(const SegmenterConfig& config = {}) {
+    segmenter =
+        std::make_unique<Segmenter>(config, profile, kShape, image.return_capacity(), memory);
+    report = segmenter->segment(image);
+    return segmenter->labels();
+  }
+  /// Share of the returns above `from_m` and below `to_m` that carry `label`.
+  double share(frame::Label label, float from_m, float to_m) {
+    int all = 0, hits = 0;
+    for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
+      if (!image.has_return(cell) || image.z_m()[cell] < from_m || image.z_m()[cell] >= to_m)
+        continue;
+      ++all;
+      hits += segmenter->labels()[image.return_index()[cell]] == label;
+    }
+    return all == 0 ? -1.0 : static_cast<double>(hits) / all;
+  }
+  memory::FixedMemory memory;
+  mount::RingProfile profile = test::even_profile();
+  frame::RangeImage image;
+  std::unique_ptr<Segmenter> segmenter;
+  stage::SegmentationReport report;
+};
+
+TEST_F(SegmenterOnSyntheticTurns, FlatGroundIsAllGroundInBothProfiles) {
+  for (const auto& config : {terracut_profile(), paper_profile()}) {
+    const auto labels = segment(test::flat_ground(), config);
+    EXPECT_GT(labels.size(), 50'000U);
+    EXPECT_TRUE(std::all_of(labels.begin(), labels.end(),
+                            [](frame::Label l) { return l == frame::Label::kGround; }));
+    EXPECT_EQ(report.ground, labels.size());
+  }
+}
+
+TEST_F(SegmenterOnSyntheticTurns, AWallStandsOutOfTheGroundInBothProfiles) {
+  for (const auto& config : {terracut_profile(), paper_profile()}) {
+    segment(test::ground_with_wall(12, 4, 2.0), config);
+    EXPECT_EQ(share(frame::Label::kObstacle, 0.3F, 3.0F), 1.0);
+    EXPECT_GT(share(frame::Label::kGround, -0.5F, 0.02F), 0.99);
+  }
+}
+
+TEST_F(SegmenterOnSyntheticTurns, TheLowEdgeOfAnObstacleIsPulledToItByTheCut) {
+  // The wall's returns between 5 and 12 cm are no higher than road bumps; their neighbours decide.
+  segment(test::ground_with_wall(9, 4, 1.5, 0.05));
+  EXPECT_GT(share(frame::Label::kObstacle, 0.05F, 0.12F), 0.95);
+}
+
+TEST_F(SegmenterOnSyntheticTurns, EveryReturnIsLabelledThoseOfTakenCellsIncluded) {
+  test::cast_turn(profile, test::ground_with_wall(12, 4, 2.0), image);
+  for (int column = 0; column < 500; ++column) {
+    // Second echoes: half of them on the ground, half high above it.
+    const float x = 10 + 0.01F * static_cast<float>(column);
+    ASSERT_TRUE(image.place(20, column, {0, -x, column % 2 == 0 ? 0.0F : 1.0F, x, 0}));
+  }
+  const auto labels = resegment();
+  ASSERT_EQ(labels.size(), image.returns());
+  EXPECT_EQ(report.returns, image.returns());
+  EXPECT_EQ(std::count(labels.begin(), labels.end(), frame::Label::kNone), 0);
+  for (const frame::OverflowReturn& extra : image.overflow()) {
+    const frame::Label expected =
+        extra.echo.z_m > 0.5F ? frame::Label::kObstacle : frame::Label::kGround;
+    EXPECT_EQ(labels[extra.return_index], expected);
+  }
+}
+
+TEST_F(SegmenterOnSyntheticTurns, EveryStageCanBeTheLast) {
+  SegmenterConfig config;
+  for (const stage::Stage last :
+       {stage::Stage::kElevationMap, stage::Stage::kAdjacentPoints, stage::Stage::kMinCut}) {
+    config.last_stage = last;
+    segment(test::ground_with_wall(12, 4, 2.0), config);
+    EXPECT_EQ(share(frame::Label::kObstacle, 0.3F, 3.0F), 1.0) << stage::to_string(last);
+    EXPECT_EQ(report.cut.unknown > 0, last == stage::Stage::kMinCut);
+  }
+}
+
+TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStagesBefore) {
+  const std::vector<frame::Label> expected = coarse_labels(test::ground_with_wall(9, 4, 1.5, 0.05));
+  segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
+                                          image.return_capacity(), memory);
+  min_cut::CutBudget expired;
+  expired.expired = [](void*) noexcept { return true; };
+  report = segmenter->segment(image, expired);
+  EXPECT_EQ(report.last_stage, stage::Stage::kAdjacentPoints);
+  EXPECT_EQ(report.cut.unknown, 0U);
+  const auto labels = segmenter->labels();
+  EXPECT_TRUE(std::equal(labels.begin(), labels.end(), expected.begin(), expected.end()));
+  EXPECT_EQ(segmenter->segment(image).last_stage, stage::Stage::kMinCut);
+}
+
+TEST_F(SegmenterOnSyntheticTurns, ACutStoppedTooSoonLeavesTheLabelsOfTheStagesBefore) {
+  const std::vector<frame::Label> expected = coarse_labels(test::ground_with_wall(9, 4, 1.5, 0.05));
+  segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
+                                          image.return_capacity(), memory);
+  int looks = 0;
+  min_cut::CutBudget from_the_second_look;  // the first one comes before the seeds
+  from_the_second_look.context = &looks;
+  from_the_second_look.expired = [](void* so_far) noexcept {
+    return ++*static_cast<int*>(so_far) > 1;
+  };
+  report = segmenter->segment(image, from_the_second_look);
+  EXPECT_TRUE(report.cut.discarded);
+  EXPECT_GT(report.cut.coarse_by_budget, 0U);
+  EXPECT_EQ(report.last_stage, stage::Stage::kAdjacentPoints);
+  const auto labels = segmenter->labels();
+  EXPECT_TRUE(std::equal(labels.begin(), labels.end(), expected.begin(), expected.end()));
+}
+
+TEST_F(SegmenterOnSyntheticTurns, AnEmptyTurnHasNoLabels) {
+  EXPECT_TRUE(segment([](double, double) { return -1.0; }).empty());
+  EXPECT_TRUE(segment([](double, double) { return -1.0; }, paper_profile()).empty());
+}
+
+TEST_F(SegmenterOnSyntheticTurns, NoiseOfAnyKindGetsALabelForEveryReturn) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> range_m(0.5, 119);
+  for (const auto& config : {terracut_profile(), paper_profile()}) {
+    const auto labels = segment([&](double, double) { return range_m(random); }, config);
+    EXPECT_EQ(labels.size(), kShape.rows * static_cast<std::size_t>(kShape.columns));
+    EXPECT_EQ(std::count(labels.begin(), labels.end(), frame::Label::kNone), 0);
+  }
+}
+
+TEST_F(SegmenterOnSyntheticTurns, TheSameTurnGivesTheSameLabelsWhateverCameBefore) {
+  const auto wall = test::ground_with_wall(12, 4, 2.0);
+  const auto first_view = segment(wall);
+  const std::vector<frame::Label> first(first_view.begin(), first_view.end());
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> range_m(0.5, 119);
+  test::cast_turn(profile, [&](double, double) { return range_m(random); }, image);
+  (void)segmenter->segment(image);
+  test::cast_turn(profile, wall, image);
+  (void)segmenter->segment(image);
+  EXPECT_TRUE(std::equal(first.begin(), first.end(), segmenter->labels().begin(),
+                         segmenter->labels().end()));
+}
+
+TEST_F(SegmenterOnSyntheticTurns, TurningTheWorldTurnsTheLabels) {
+  // By whole sectors, so that the ring grid sees the same cells in other places.
+  const auto cast = test::ground_with_wall(12, 4, 2.0);
+  const double turn_rad = 2 * std::numbers::pi * 100 / kShape.columns;
+  segment(cast);
+  std::vector<frame::Label> labels(kShape.cells(), frame::Label::kNone);
+  std::copy(segmenter->planes().label.begin(), segmenter->planes().label.end(), labels.begin());
+  segment([&](double azimuth, double elevation) { return cast(azimuth - turn_rad, elevation); });
+  int different = 0;
+  for (int row = 0; row < kShape.rows; ++row) {
+    for (int column = 0; column < kShape.columns; ++column) {
+      const auto first = static_cast<std::size_t>(row * kShape.stride());
+      const auto turned = static_cast<std::size_t>((column + 100) % kShape.columns);
+      different += labels[first + static_cast<std::size_t>(column)] !=
+                   segmenter->planes().label[first + turned];
+    }
+  }
+  EXPECT_LE(different, 5) << "rounding may move a return at the very edge of the wall";
+}
+
+TEST_F(SegmenterOnSyntheticTurns, NothingIsAllocatedPerFrame) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
+  segment(test::ground_with_wall(12, 4, 2.0));
+  const std::uint64_t before = test::allocations_of_this_thread();
+  for (int frame = 0; frame < 3; ++frame) (void)segmenter->segment(image);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+}
+
+TEST_F(SegmenterOnSyntheticTurns, ReportsStagesToTheObserverInTheirOrder) {
+  struct Recorder : stage::StageObserver {
+    void stage_done(stage::Stage stage) noexcept override {
+      if (std::ranges::find(seen, stage) == seen.end()) seen.push_back(stage);
+    }
+    std::vector<stage::Stage> seen;  // the coarse ones are done in parts
+  } recorder;
+  segment(test::flat_ground());
+  (void)segmenter->segment(image, {}, &recorder);
+  EXPECT_EQ(recorder.seen,
+            (std::vector<stage::Stage>{stage::Stage::kElevationMap, stage::Stage::kAdjacentPoints,
+                                       stage::Stage::kSeeds, stage::Stage::kMinCut,
+                                       stage::Stage::kLabels}));
+}
+
+}  // namespace
+}  // namespace terracut::ground

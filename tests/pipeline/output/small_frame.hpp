@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/pictures/frame_colours.hpp"
+#include "rt/memory/fixed_memory.hpp"
+
+#include "tests/support/scratch_folder.hpp"
+
+namespace terracut::output {
+
+/// An image of 4 rows x 32 columns that a test fills return by return.
+struct SmallFrame {
+  memory::FixedMemory memory;
+  frame::RangeImage image{{.rows = 4, .columns = 32}, 8, memory};
+  std::vector<frame::Label> labels;
+  std::vector<pictures::Mistake> mistakes;
+
+  void add(int row, int column, float x_m, float y_m, float z_m, frame::Label label,
+           std::uint8_t intensity = 100) {
+    ASSERT_TRUE(image.place(row, column, {x_m, y_m, z_m, std::hypot(x_m, y_m), intensity}));
+    labels.push_back(label);
+  }
+  [[nodiscard]] pictures::LabelledFrame frame() const { return {image, labels, mistakes}; }
+};
+
+/// A file in a folder of this test's own, removed with everything in it at the end.
+class OutputFolder : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = test::make_scratch_folder(); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  [[nodiscard]] static std::string content_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  std::filesystem::path folder_;
+};
+
+}  // namespace terracut::output

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <gmock/gmock.h>
+#include <png.h>
+
+#include "pipeline/pictures/bird_eye_picture.hpp"
+#include "pipeline/pictures/range_image_picture.hpp"
+#include "tests/pipeline/output/small_frame.hpp"
+
+namespace terracut::pictures {
+namespace {
+
+using frame::Label;
+
+/// The colour in the middle of what is drawn for a point of the vehicle frame.
+Colour colour_at(const Picture& picture, const BirdEyeView& view, double x_m, double y_m) {
+  return picture.at(static_cast<int>(picture.width() / 2.0 - y_m * view.pixels_per_m),
+                    static_cast<int>(picture.height() / 2.0 - x_m * view.pixels_per_m));
+}
+
+class Pictures : public output::OutputFolder {};
+
+TEST_F(Pictures, SurviveThePngFile) {
+  Picture picture(7, 3, {1, 2, 3});
+  picture.set(6, 2, {200, 100, 50});
+  ASSERT_TRUE(picture.write_png(folder_ / "a.png").has_value());
+
+  png_image header{};
+  header.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(png_image_begin_read_from_file(&header, (folder_ / "a.png").c_str()), 0);
+  header.format = PNG_FORMAT_RGB;
+  ASSERT_EQ(header.width, 7U);
+  ASSERT_EQ(header.height, 3U);
+  std::vector<Colour> pixels(21);
+  ASSERT_NE(png_image_finish_read(&header, nullptr, pixels.data(), 0, nullptr), 0);
+  EXPECT_EQ(pixels.front(), (Colour{1, 2, 3}));
+  EXPECT_EQ(pixels.back(), (Colour{200, 100, 50}));
+
+  const auto bytes = picture.png();
+  ASSERT_TRUE(bytes.has_value());
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()),
+            content_of(folder_ / "a.png"));
+}
+
+TEST_F(Pictures, DrawingOutsideThePictureLeavesNoTrace) {
+  Picture picture(4, 4, {});
+  picture.set(-1, 0, {9, 9, 9});
+  picture.set(0, 4, {9, 9, 9});
+  picture.rectangle(-10, -10, 5, 5, {9, 9, 9});
+  picture.circle(100, 100, 10, 2, {9, 9, 9}, 1.0);
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 4; ++x) EXPECT_EQ(picture.at(x, y), Colour{});
+  }
+}
+
+TEST_F(Pictures, RangeImageShowsTheSkyUpAndStraightAheadInTheMiddle) {
+  output::SmallFrame small;
+  small.add(3, 0, 10, 0, 2.0F, Label::kObstacle);  // highest laser, straight ahead
+  small.add(0, 8, 0, -5, 0.0F, Label::kGround);    // lowest laser, a quarter turn to the right
+  const Picture picture = range_image_picture(small.frame());
+  ASSERT_EQ(picture.width(), 32);
+  ASSERT_EQ(picture.height(), 4 * kPixelsPerRow);
+  EXPECT_NE(picture.at(16, 0), kPictureBackground);
+  EXPECT_NE(picture.at(24, 4 * kPixelsPerRow - 1), kPictureBackground);
+  EXPECT_EQ(picture.at(16, 4 * kPixelsPerRow - 1), kPictureBackground);
+  EXPECT_EQ(picture.at(0, 0), kPictureBackground);
+}
+
+TEST_F(Pictures, RangeImageClosesOnlyGapsOfOneColumn) {
+  output::SmallFrame small;
+  for (const int column : {20, 22, 25}) small.add(0, column, 10, 0, 0, Label::kGround);
+  const Picture picture = range_image_picture(small.frame());
+  const int bottom = picture.height() - 1;
+  EXPECT_EQ(picture.at((21 + 16) % 32, bottom), picture.at((20 + 16) % 32, bottom));
+  EXPECT_EQ(picture.at((23 + 16) % 32, bottom), kPictureBackground);
+  EXPECT_EQ(picture.at((24 + 16) % 32, bottom), kPictureBackground);
+}
+
+TEST_F(Pictures, BirdsEyeViewPutsForwardUpAndLeftLeft) {
+  output::SmallFrame small;
+  small.add(0, 0, 25, 15, 0, Label::kGround, 255);
+  const BirdEyeView view{.side_m = 100, .pixels_per_m = 4};
+  const Picture picture = bird_eye_picture(small.frame(), view);
+  ASSERT_EQ(picture.width(), 400);
+  const Colour background = colour_at(picture, view, 25, -15);
+  EXPECT_NE(colour_at(picture, view, 25, 15), background);
+  EXPECT_EQ(colour_at(picture, view, -25, 15), background);
+  EXPECT_EQ(colour_at(picture, view, -25, -15), background);
+}
+
+TEST_F(Pictures, BirdsEyeViewShowsTheHighestOfReturnsThatFallTogether) {
+  const BirdEyeView view{.side_m = 40, .pixels_per_m = 10};
+  output::SmallFrame high_first, high_last;
+  high_first.add(1, 0, 7, 7, 1.5F, Label::kObstacle);
+  high_first.add(0, 0, 7, 7, 0.0F, Label::kGround);
+  high_last.add(0, 0, 7, 7, 0.0F, Label::kGround);
+  high_last.add(1, 0, 7, 7, 1.5F, Label::kObstacle);
+  EXPECT_EQ(colour_at(bird_eye_picture(high_first.frame(), view), view, 7, 7),
+            colour_at(bird_eye_picture(high_last.frame(), view), view, 7, 7));
+}
+
+TEST_F(Pictures, BirdsEyeViewShowsHigherLevelsOverHigherReturns) {
+  output::SmallFrame small;
+  small.add(1, 0, 7, 7, 1.5F, Label::kObstacle);
+  small.add(0, 0, 7, 7, 0.0F, Label::kGround);
+  const BirdEyeView view{.side_m = 40, .pixels_per_m = 10};
+  const std::vector<Colour> colours{{250, 0, 0}, {0, 250, 0}};
+  const auto shown = [&](const std::vector<std::uint8_t>& level) {
+    return colour_at(bird_eye_picture(ColouredFrame{small.image, colours, level}, view), view, 7,
+                     7);
+  };
+  EXPECT_GT(shown({}).red, shown({}).green);
+  EXPECT_GT(shown({0, 1}).green, shown({0, 1}).red);
+  EXPECT_GT(shown({3, 2}).red, shown({3, 2}).green);
+}
+
+TEST_F(Pictures, MistakesHaveTheirOwnColours) {
+  output::SmallFrame small;
+  small.add(0, 0, 10, 0, 0, Label::kGround);
+  small.add(0, 8, 10, 0, 0, Label::kObstacle);
+  small.add(0, 16, 10, 0, 0, Label::kGround);
+  small.mistakes = {Mistake::kMissedObstacle, Mistake::kFalseObstacle, Mistake::kNone};
+  const Picture picture = range_image_picture(small.frame());
+  const int bottom = picture.height() - 1;
+  EXPECT_EQ(picture.at(16, bottom), kMissedObstacleColour);
+  EXPECT_EQ(picture.at(24, bottom), kFalseObstacleColour);
+  EXPECT_NE(picture.at(0, bottom), kMissedObstacleColour);
+}
+
+TEST_F(Pictures, ReturnsOfAnyCoordinateAreSafeToDraw) {
+  output::SmallFrame small;
+  const float far = 1e30F;
+  small.add(0, 0, far, -far, far, Label::kObstacle, 255);
+  small.add(0, 1, -50.0F, 50.0F, -far, Label::kGround, 0);
+  const Picture picture = bird_eye_picture(small.frame());
+  EXPECT_EQ(picture.width(), 1000);
+  EXPECT_EQ(picture.height(), 1000);
+}
+
+}  // namespace
+}  // namespace terracut::pictures

@@ -1,0 +1,475 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Both halves of a live run on one thread: packets come from a made source, and the clock, the
+// processor time and the waiting are the test's.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "pipeline/ground/segmenter.hpp"
+#include "pipeline/run/frame_receiver.hpp"
+#include "pipeline/run/frame_segmenter.hpp"
+#include "pipeline/status/loss_causes.hpp"
+#include "tests/firmware_io/hdl64e/random_drive.hpp"
+
+namespace terracut::run {
+namespace {
+
+using decode::Datagram;
+using frame::Reject;
+using test::Packet;
+
+constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kStart_ns = 1'700'000'000'000 * kMs;
+constexpr std::int64_t kTurn_ns = 100 * kMs;
+
+/// Every time a test's machine has. Each look at the time of day takes a nanosecond, and each look
+/// at the processor time `work_ns` of work.
+struct HeldTime {
+  std::int64_t now_ns = kStart_ns;
+  std::int64_t cpu_ns = 0, work_ns = 0;
+  std::int64_t waited_ns = 0;
+
+  void work(std::int64_t time_ns) {
+    now_ns += time_ns;
+    cpu_ns += time_ns;
+  }
+};
+struct HeldClock {
+  HeldTime* time;
+  [[nodiscard]] std::int64_t realtime_ns() const noexcept { return ++time->now_ns; }
+  [[nodiscard]] std::int64_t monotonic_ns() const noexcept { return time->now_ns; }
+  [[nodiscard]] std::int64_t thread_cpu_ns() const noexcept {
+    time->work(time->work_ns);
+    return time->cpu_ns;
+  }
+};
+struct HeldWait {
+  HeldTime* time;
+  [[nodiscard]] std::int64_t read_ns() const noexcept { return time->waited_ns; }
+};
+
+/// Gives the packets that have come by now, and lets time pass for those that were decoded.
+class MadeSource {
+ public:
+  MadeSource(HeldTime& time, const sensor::SensorDecoder& decoder)
+      : time_(time), decoder_(decoder) {}
+
+  void add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
+    waiting_.push_back({.payload = payload, .stamp_ns = stamp_ns});
+  }
+  [[nodiscard]] bool has_more() const { return next_ < waiting_.size(); }
+  /// Of these kinds, as a real source would have counted them.
+  void leave_out(std::uint64_t foreign, std::uint64_t truncated) {
+    counters_.foreign += foreign;
+    counters_.truncated += truncated;
+    counters_.received += foreign + truncated;
+  }
+
+  std::span<const Datagram> receive(std::int64_t timeout_ns) noexcept {
+    const std::uint64_t decoded = decoder_.packets_decoded();
+    time_.work(static_cast<std::int64_t>(decoded - std::exchange(decoded_, decoded)) * cost_ns);
+    if (timeout_ns == 0 || !has_more()) return {};
+    time_.now_ns = std::max(time_.now_ns, waiting_[next_].stamp_ns);
+    const std::size_t first = next_;
+    while (has_more() && next_ - first < 64 && waiting_[next_].stamp_ns <= time_.now_ns) ++next_;
+    counters_.received += next_ - first;
+    counters_.delivered += next_ - first;
+    return std::span(waiting_).subspan(first, next_ - first);
+  }
+  void wake() const noexcept {}
+  void refresh_drops() noexcept { counters_.kernel_drops = drops_in_kernel; }
+  [[nodiscard]] const net::ReceiveCounters& counters() const noexcept { return counters_; }
+  [[nodiscard]] net::LinkState link() const noexcept { return net::LinkState::kUnknown; }
+
+  std::int64_t cost_ns = 0;  ///< Of decoding a packet.
+  std::uint64_t drops_in_kernel = 0;
+
+ private:
+  HeldTime& time_;
+  std::vector<Datagram> waiting_;
+  const sensor::SensorDecoder& decoder_;
+  std::uint64_t decoded_ = 0;
+  std::size_t next_ = 0;
+  net::ReceiveCounters counters_;
+};
+
+class LiveTurns : public testing::Test {
+ protected:
+  using Receiver = FrameReceiver<MadeSource, HeldClock, HeldWait>;
+  using Segmenter = FrameSegmenter<HeldClock, HeldWait>;
+  static constexpr std::int64_t kDeadline_ns = 50 * kMs;
+
+  LiveTurns() {
+    begin_receiving();
+    segmenter_.emplace(
+        kDeadline_ns, chain_, turns_,
+        Segmenter::Outlets{
+            .timings = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
+        HeldClock{&time_}, HeldWait{&time_});
+  }
+
+  void begin_receiving() {
+    receiver_.emplace(Receiver::Config{.deadline_ns = kDeadline_ns, .turn_ns = kTurn_ns}, chain_,
+                      source_,
+                      Receiver::Outlets{.turns = &turns_,
+                                        .turn_ready = &*turn_ready_,
+                                        .skipped = &skipped_,
+                                        .intake = &intake_,
+                                        .recorder = nullptr},
+                      HeldClock{&time_}, HeldWait{&time_});
+  }
+
+  /// A head that turns `turns` times, beginning at 0 degrees now.
+  std::vector<Packet> drive(int turns, double share_of_returns = 0.05) {
+    return test::random_packets({.first_cdeg = 0,
+                                 .last_cdeg = 36'000 * turns,
+                                 .first_stamp_ns = kStart_ns,
+                                 .share_of_returns = share_of_returns});
+  }
+  /// The source reads packets where they lie, so they are kept.
+  void send(std::vector<Packet> packets) {
+    sent_.push_back(std::move(packets));
+    for (const Packet& packet : sent_.back()) source_.add(packet.bytes, packet.stamp_ns);
+  }
+  /// Receives all that was sent, and segments each turn as soon as it is there.
+  void run() {
+    while (source_.has_more()) {
+      (void)receiver_->turn_round(100 * kMs);
+      expect_balance();
+      (void)segmenter_->turn_round();
+      take_timings();
+    }
+    (void)receiver_->turn_round(0);
+  }
+  void take_timings() {
+    for (status::FrameTiming timing; skipped_.take(timing) || segmented_.take(timing);) {
+      timings_.push_back(timing);
+    }
+  }
+  const Intake& intake() {
+    (void)intake_.take_if_new();
+    return intake_.newest_taken();
+  }
+  void expect_balance() {
+    const net::DatagramAccount& account = intake().account;
+    EXPECT_TRUE(account.balances());
+    std::uint64_t sum = account.in_doubt;
+    for (const status::NamedCount& outcome : status::outcomes_of(account)) sum += outcome.count;
+    EXPECT_EQ(sum, account.source.received);
+  }
+  [[nodiscard]] std::uint64_t rejected(Reject reason) {
+    return intake().account.losses.rejected[static_cast<std::size_t>(reason)];
+  }
+  /// From a turn's last packet to where it was handed over.
+  static std::int64_t lag_ns(const status::FrameTiming& timing) {
+    return timing.handed_over_ns - timing.last_packet_ns;
+  }
+
+  HeldTime time_;
+  memory::FixedMemory memory_;
+  calib::SensorCalibration calibration_ = hdl64e::nominal_hdl64e();
+  mount::RingProfile profile_ = calib::ring_profile(calibration_, mount::Mount{});
+  static sensor::SensorDecoder::Config decoder_config() {
+    sensor::SensorDecoder::Config config;
+    config.columns = 2083;
+    config.reorder_packets = 0;
+    return config;
+  }
+  LivePipeline chain_{calibration_, profile_, decoder_config(), {}, memory_};
+  std::vector<std::vector<Packet>> sent_;
+  MadeSource source_{time_, chain_.decoder};
+  FrameExchange turns_{chain_.decoder.images()};
+  Expected<threads::WakeEvent> turn_ready_ = threads::WakeEvent::make();
+  FrameTimings skipped_{memory_}, segmented_{memory_};
+  queues::LatestValue<Intake> intake_;
+  FrameSlots<frame::Label> labels_{"labels", 4, chain_.decoder.return_capacity(), memory_};
+  std::optional<Receiver> receiver_;
+  std::optional<Segmenter> segmenter_;
+  std::vector<status::FrameTiming> timings_;
+};
+
+TEST_F(LiveTurns, EachDatagramIsInExactlyOnePlaceWithOrWithoutFrames) {
+  const std::vector<std::uint8_t> too_short(100);
+  const auto packets = drive(3);
+  for (int i = 0; i < 10; ++i) source_.add(too_short, kStart_ns);
+  source_.leave_out(7, 2);
+  (void)receiver_->turn_round(100 * kMs);
+  EXPECT_EQ(rejected(Reject::kWrongSize), 10U) << "shown although no frame came";
+  EXPECT_EQ(intake().account.source.received, 19U);
+  expect_balance();
+  send(packets);
+  source_.add(packets.back().bytes, packets.back().stamp_ns);
+  run();
+  EXPECT_EQ(rejected(Reject::kRepeated), 1U);
+  EXPECT_EQ(intake().account.decoded, packets.size());
+  EXPECT_EQ(intake().account.source.received, packets.size() + 20);
+  expect_balance();
+}
+
+TEST_F(LiveTurns, AHeadThatStandsShowsInTheCountsAlthoughNoFrameComes) {
+  std::vector<Packet> standing = drive(1);
+  for (Packet& packet : standing) {
+    for (std::size_t block = 0; block < 12; ++block) packet.set_u16(100 * block + 2, 1234);
+  }
+  send(standing);
+  run();
+  EXPECT_TRUE(timings_.empty());
+  EXPECT_GT(rejected(Reject::kStationary), standing.size() * 9 / 10);
+  expect_balance();
+}
+
+TEST_F(LiveTurns, ALimitedFieldOfViewIsNamedAndCostsNoDeadline) {
+  auto packets = drive(20);
+  std::erase_if(packets, [](const Packet& packet) {
+    const int head_cdeg = packet.bytes[2] + 256 * packet.bytes[3];
+    return head_cdeg < 9'000 || head_cdeg >= 27'000;
+  });
+  send(packets);
+  run();
+  EXPECT_NEAR(intake().blind.from_cdeg, 27'000, 105) << "a packet";
+  EXPECT_NEAR(intake().blind.to_cdeg, 9'000, 105);
+  EXPECT_EQ(intake().account.losses.network_gap_packets, 0U);
+  EXPECT_GE(timings_.size(), 19U);
+  for (const status::FrameTiming& timing : timings_) {
+    // The sector is known after three turns, after five more how packets come to lie beside it.
+    if (timing.number < 9) continue;
+    EXPECT_NE(timing.rung, status::Rung::kSkipped) << timing.number;
+  }
+}
+
+TEST_F(LiveTurns, CountsWhatTheKernelDroppedLastAtTheEnd) {
+  source_.drops_in_kernel = 23'162;
+  (void)receiver_->turn_round(0);
+  EXPECT_EQ(intake().account.losses.kernel_drops, 0U);
+  receiver_->finish();
+  EXPECT_EQ(intake().account.losses.kernel_drops, 23'162U);
+  EXPECT_EQ(intake().account.source.kernel_drops, 23'162U);
+}
+
+TEST_F(LiveTurns, WhatCameBeforeTheRunIsNotInItsAccount) {
+  source_.leave_out(7, 2);
+  source_.drops_in_kernel = 5;
+  begin_receiving();
+  source_.leave_out(1, 0);
+  (void)receiver_->turn_round(100 * kMs);
+  EXPECT_EQ(intake().account.source.received, 1U);
+  EXPECT_EQ(intake().account.source.foreign, 1U);
+  EXPECT_EQ(intake().account.source.kernel_drops, 0U);
+  expect_balance();
+}
+
+TEST_F(LiveTurns, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
+  const auto packets = drive(60);
+  send(packets);
+  const std::int64_t period_ns = 6 * 48'000;
+  source_.cost_ns = period_ns * 13 / 10;
+  run();
+  std::int64_t longest_lag_ns = 0;
+  for (const status::FrameTiming& timing : timings_) {
+    longest_lag_ns = std::max(longest_lag_ns, lag_ns(timing));
+  }
+  EXPECT_LE(longest_lag_ns, kDeadline_ns + kTurn_ns + 64 * source_.cost_ns) << "and a batch";
+  EXPECT_GT(intake().account.let_go, packets.size() / 10);
+  EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
+  const auto in_time = std::ranges::count_if(timings_, [](const status::FrameTiming& timing) {
+    return timing.rung != status::Rung::kSkipped &&
+           timing.labels_ns - timing.last_packet_ns <= kDeadline_ns;
+  });
+  EXPECT_GE(in_time, 10) << "and labels are still made, all through it";
+  for (const status::FrameTiming& timing : timings_) {
+    if (timing.rung == status::Rung::kSkipped) continue;
+    EXPECT_LE(timing.labels_ns - timing.last_packet_ns, kDeadline_ns) << timing.number;
+  }
+}
+
+TEST_F(LiveTurns, LetsNothingGoThatMayStillBeLabelledInTimeAfterAStandstill) {
+  send(drive(10));
+  source_.cost_ns = 10'000;
+  while (timings_.size() < 3) {
+    (void)receiver_->turn_round(100 * kMs);
+    (void)segmenter_->turn_round();
+    take_timings();
+  }
+  time_.now_ns += 140 * kMs;  // less than a turn and the deadline
+  run();
+  EXPECT_EQ(intake().account.let_go, 0U);
+}
+
+TEST_F(LiveTurns, IsBackWithTheNextWholeTurnAfterAStandstillOfASecond) {
+  const auto packets = drive(20);
+  send(packets);
+  source_.cost_ns = 10'000;
+  while (timings_.size() < 3) {
+    (void)receiver_->turn_round(100 * kMs);
+    (void)segmenter_->turn_round();
+    take_timings();
+  }
+  const std::size_t before = timings_.size();
+  const std::int64_t back_ns = time_.now_ns += 1000 * kMs;
+  run();
+  EXPECT_NEAR(static_cast<double>(intake().account.let_go), 850.0 / 1000 * 3472, 30)
+      << "what was older than a turn and the deadline";
+  EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
+  for (std::size_t i = before; i < timings_.size(); ++i) {
+    if (timings_[i].first_packet_ns < back_ns) continue;
+    EXPECT_NE(timings_[i].rung, status::Rung::kSkipped) << timings_[i].number;
+  }
+  expect_balance();
+}
+
+TEST_F(LiveTurns, TurnsThatBreakOffCostNoCoarsePassEach) {
+  // As many packets as it takes to begin another stream, then the next one, elsewhere and at
+  // another time.
+  constexpr std::size_t kStreams = 60, kPackets = decode::StreamTracker::kNewStream_packets;
+  const std::vector<Packet> ordered = drive(1);
+  std::vector<Packet> packets;
+  for (std::size_t stream = 0; stream < kStreams; ++stream) {
+    const std::size_t first = 20 + stream * 97 % 200;
+    for (std::size_t i = 0; i < kPackets; ++i) {
+      packets.push_back(ordered[first + i]);
+      packets.back().stamp_ns = kStart_ns + static_cast<std::int64_t>(packets.size()) * 288'000;
+      packets.back().set_device_stamp_us(
+          static_cast<std::uint32_t>((stream * 7'919'000 + i * 288) % 3'600'000'000));
+    }
+  }
+  send(packets);
+  int turns = 0, with_coarse_stages = 0;
+  while (source_.has_more()) {
+    turns += receiver_->turn_round(100 * kMs).turns;
+    if (const FrameExchange::Turn* turn = turns_.take_if_new()) {
+      with_coarse_stages += turn->has_coarse_stages ? 1 : 0;
+    }
+  }
+  EXPECT_GE(turns, static_cast<int>(kStreams) - 1) << "the stream breaks off again and again";
+  EXPECT_EQ(with_coarse_stages, 0);
+}
+
+TEST_F(LiveTurns, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
+  // The stream breaks off in the midst of a turn and goes on elsewhere.
+  const auto packets = test::random_packets(
+      {.first_cdeg = 0, .last_cdeg = 54'000, .first_stamp_ns = kStart_ns, .share_of_returns = 0.2});
+  auto later = test::random_packets({.first_cdeg = 3'000,
+                                     .last_cdeg = 54'000,
+                                     .first_stamp_ns = packets.back().stamp_ns,
+                                     .share_of_returns = 0.2});
+  for (std::size_t i = 0; i < later.size(); ++i) {
+    later[i].set_device_stamp_us(static_cast<std::uint32_t>(i * 288));
+  }
+  send(packets);
+  send(later);
+  ground::Segmenter at_once(ground::terracut_profile(), profile_, chain_.decoder.shape(),
+                            chain_.decoder.return_capacity(), memory_);
+  int ahead = 0, late = 0;
+  while (source_.has_more()) {
+    if (receiver_->turn_round(100 * kMs).turns == 0) continue;
+    // What the segmenting half is about to label, labelled here first.
+    ASSERT_TRUE(segmenter_->turn_round());
+    FrameSlots<frame::Label>::Frame frame;
+    ASSERT_TRUE(labels_.take(frame));
+    (frame.timing.stages_ahead > 0 ? ahead : late) += 1;
+    const auto image =
+        std::ranges::find_if(chain_.decoder.images(), [&](const frame::RangeImage& candidate) {
+          return candidate.returns() == frame.info.returns;
+        });
+    ASSERT_NE(image, chain_.decoder.images().end());
+    (void)at_once.segment(*image);
+    EXPECT_TRUE(std::ranges::equal(frame.items, at_once.labels())) << frame.info.number;
+    labels_.give_back(true);
+  }
+  EXPECT_GT(ahead, 0);
+  EXPECT_GE(late, 1);
+}
+
+TEST_F(LiveTurns, AFrameIsJudgedByWhenItsLabelsWereHandedOn) {
+  send(drive(2));
+  run();
+  ASSERT_FALSE(timings_.empty());
+  FrameSlots<frame::Label>::Frame frame;
+  ASSERT_TRUE(labels_.take(frame));
+  EXPECT_EQ(frame.info.number, timings_.front().number);
+  EXPECT_GT(timings_.front().labels_ns, frame.timing.labels_ns);
+}
+
+TEST_F(LiveTurns, ATurnThatIsTakenLateEndsOnALowerRung) {
+  struct Case {
+    std::int64_t left_ns;
+    status::Rung rung;
+  };
+  send(drive(5));
+  for (const Case& late : {Case{30 * kMs, status::Rung::kFull},
+                           {2 * kMs, status::Rung::kCoarse},
+                           {-kMs, status::Rung::kSkipped}}) {
+    while (receiver_->turn_round(100 * kMs).turns == 0) {
+    }
+    take_timings();
+    time_.now_ns += kDeadline_ns - late.left_ns;
+    ASSERT_TRUE(segmenter_->turn_round());
+    timings_.clear();
+    for (status::FrameTiming timing; segmented_.take(timing);) timings_.push_back(timing);
+    ASSERT_EQ(timings_.size(), 1U);
+    EXPECT_EQ(timings_[0].rung, late.rung) << late.left_ns / kMs << " ms left";
+  }
+}
+
+TEST_F(LiveTurns, LabelsOfAFrameThatWasTriedAndCameLateAreHandedToNobody) {
+  send(drive(12));
+  std::vector<std::uint32_t> handed_on, labelled;
+  int tried_and_late = 0;
+  while (source_.has_more()) {
+    (void)receiver_->turn_round(100 * kMs);
+    time_.work_ns = 26 * kMs;  // labels made and handed on take longer than the deadline
+    (void)segmenter_->turn_round();
+    time_.work_ns = 0;
+    for (FrameSlots<frame::Label>::Frame frame; labels_.take(frame); labels_.give_back(true)) {
+      handed_on.push_back(frame.info.number);
+    }
+    for (status::FrameTiming timing; segmented_.take(timing);) {
+      if (timing.rung != status::Rung::kSkipped) labelled.push_back(timing.number);
+      const bool was_tried = timing.segment_cpu_ns > kDeadline_ns;
+      if (timing.rung == status::Rung::kSkipped && was_tried) ++tried_and_late;
+    }
+  }
+  EXPECT_EQ(handed_on, labelled);
+  EXPECT_GT(tried_and_late, 0);
+  EXPECT_EQ(labelled.size(), 3U) << "until the cost was known";
+}
+
+TEST_F(LiveTurns, WaitingForACoreIsCountedSinceTheFetchBefore) {
+  send(drive(6));
+  while (source_.has_more()) {
+    time_.waited_ns += 1000;
+    (void)receiver_->turn_round(100 * kMs);
+    take_timings();  // of turns that nobody segments
+  }
+  ASSERT_GT(timings_.size(), 3U);
+  for (const status::FrameTiming& timing : timings_) EXPECT_EQ(timing.run_queue_wait_ns, 1000);
+}
+
+TEST_F(LiveTurns, TimesOfAFrameAreItsOwnAndNoOthers) {
+  send(drive(22));
+  source_.cost_ns = 10'000;
+  while (source_.has_more()) {
+    time_.waited_ns += 1000;  // before every fetch
+    (void)receiver_->turn_round(100 * kMs);
+    time_.waited_ns += 50;
+    (void)segmenter_->turn_round();
+    take_timings();
+  }
+  ASSERT_GT(timings_.size(), 20U);
+  for (const std::size_t i : {std::size_t{2}, std::size_t{20}}) {
+    const status::FrameTiming& timing = timings_[i];
+    EXPECT_NEAR(static_cast<double>(timing.decode_cpu_ns), 347 * 10'000, 20'000) << i;
+    EXPECT_GE(timing.run_queue_wait_ns, 1000) << i;
+    EXPECT_LE(timing.run_queue_wait_ns, 1'000'000) << i;
+    EXPECT_GE(timing.closing_packet_ns, timing.last_packet_ns) << i;
+    EXPECT_LT(timing.closing_packet_ns, timing.last_packet_ns + 2 * kMs) << i;
+  }
+}
+
+}  // namespace
+}  // namespace terracut::run

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/run/packet_pipeline.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <vector>
+
+#include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "tests/firmware_io/hdl64e/random_drive.hpp"
+
+namespace terracut::run {
+namespace {
+
+constexpr int kFrames = 4;
+
+class PacketPipelineTest : public testing::Test {
+ protected:
+  using Timing = PacketPipeline::Timing;
+
+  std::unique_ptr<PacketPipeline> pipeline(Timing timing = Timing::kPackets) {
+    return std::make_unique<PacketPipeline>(unit_, profile_, sensor::SensorDecoder::Config{},
+                                            ground::MethodConfig{}, memory_, timing);
+  }
+
+  memory::FixedMemory memory_;
+  calib::SensorCalibration unit_ = hdl64e::nominal_hdl64e();
+  mount::RingProfile profile_ = calib::ring_profile(unit_, mount::Mount{});
+  std::vector<test::Packet> packets_ = test::random_packets(
+      {.first_cdeg = 0, .last_cdeg = 36'000 * kFrames, .share_of_returns = 0.2});
+};
+
+TEST_F(PacketPipelineTest, HandsOutEveryFrameOnceInOrderWithAllItsReturns) {
+  const auto way = pipeline();
+  std::vector<std::uint32_t> numbers;
+  std::uint64_t returns = 0;
+  const auto take = [&](const TimedFrame& frame) {
+    numbers.push_back(frame.info.number);
+    EXPECT_EQ(frame.image->returns(), frame.info.returns);
+    returns += frame.info.returns;
+  };
+  for (const test::Packet& packet : packets_) {
+    for (const TimedFrame& frame : way->push(packet.datagram())) take(frame);
+    EXPECT_FALSE(way->rejected());
+  }
+  for (const TimedFrame& frame : way->end_stream()) take(frame);
+  ASSERT_GE(numbers.size(), static_cast<std::size_t>(kFrames));
+  for (std::uint32_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], i);
+  test::Recorder decoder_alone;
+  decoder_alone.decode_all(packets_);
+  decoder_alone.flush();
+  EXPECT_EQ(returns, decoder_alone.returns());
+}
+
+TEST_F(PacketPipelineTest, LabelsAreThoseOfASegmenterThatSawTheWholeFrameAtOnce) {
+  const auto way = pipeline();
+  memory::FixedMemory memory;
+  ground::GroundMethod at_once({}, profile_, way->decoder().shape(),
+                               way->decoder().return_capacity(), memory);
+  int compared = 0;
+  const auto compare = [&](TimedFrame& frame) {
+    (void)at_once.segment(*frame.image);
+    (void)way->label(frame);
+    EXPECT_TRUE(std::ranges::equal(way->labels(), at_once.labels())) << frame.info.number;
+    ++compared;
+  };
+  for (const test::Packet& packet : packets_) {
+    for (TimedFrame& frame : way->push(packet.datagram())) compare(frame);
+  }
+  for (TimedFrame& frame : way->end_stream()) compare(frame);
+  EXPECT_GE(compared, kFrames);
+}
+
+TEST_F(PacketPipelineTest, SaysWhyADatagramWasRejected) {
+  const auto way = pipeline();
+  const std::vector<std::uint8_t> too_short(100);
+  for (const TimedFrame& frame : way->push({.payload = too_short})) FAIL() << frame.info.number;
+  EXPECT_EQ(way->rejected(), frame::Reject::kWrongSize);
+}
+
+TEST_F(PacketPipelineTest, TimesOfAFrameAreItsOwn) {
+  for (const Timing timing : {Timing::kPackets, Timing::kFrames}) {
+    const auto way = pipeline(timing);
+    for (const test::Packet& packet : packets_) {
+      for (TimedFrame& frame : way->push(packet.datagram())) {
+        EXPECT_GT(frame.times.decode_ns, 0);
+        EXPECT_EQ(frame.times.ahead_ns, frame.times.stages.sum_ns()) << "before it is labelled";
+        (void)way->label(frame);
+        EXPECT_GT(frame.times.stages.sum_ns(), frame.times.ahead_ns);
+      }
+    }
+  }
+}
+
+TEST_F(PacketPipelineTest, TimesHoldNothingThatIsDoneBetweenTwoStreams) {
+  for (const Timing timing : {Timing::kPackets, Timing::kFrames}) {
+    const auto way = pipeline(timing);
+    std::int64_t told_ns = 0, spent_ns = 0;
+    const auto take = [&](const TimedFrame& frame) {
+      told_ns += frame.times.decode_ns + frame.times.ahead_ns;
+    };
+    for (int stream = 0; stream < 3; ++stream) {
+      test::Recorder something_else;
+      something_else.decode_all(packets_);
+      const std::int64_t begin_ns = measure::thread_cpu_ns();
+      for (const test::Packet& packet : packets_) {
+        for (const TimedFrame& frame : way->push(packet.datagram())) take(frame);
+      }
+      for (const TimedFrame& frame : way->end_stream()) take(frame);
+      spent_ns += measure::thread_cpu_ns() - begin_ns;
+    }
+    EXPECT_LE(told_ns, spent_ns);
+  }
+}
+
+}  // namespace
+}  // namespace terracut::run

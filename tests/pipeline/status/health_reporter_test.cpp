@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/status/health_reporter.hpp"
+
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "firmware_io/can/socketcan_source.hpp"
+#include "pipeline/status/health_frames.hpp"
+#include "tests/firmware_io/can/frames.hpp"
+#include "tests/firmware_io/can/socket_pair.hpp"
+#include "watched_run.hpp"
+
+namespace terracut::status {
+namespace {
+
+using can::CanFrame;
+using can::CanId;
+
+constexpr std::int64_t kMs = WatchedRun::kMs;
+
+class HealthReporterTest : public testing::Test {
+ protected:
+  void SetUp() override {
+    auto source = can::SocketCanSource::adopt(std::move(bus_.there), {.ids = {kHealthId}}, memory_);
+    ASSERT_TRUE(source);
+    vehicle_.emplace(*std::move(source));
+  }
+  /// What the vehicle hears now.
+  std::vector<CanFrame> heard() {
+    const auto frames = vehicle_->receive(0);
+    std::vector<CanFrame> copies(frames.begin(), frames.end());
+    for (CanFrame& frame : copies) frame.stamp_ns = 0;
+    return copies;
+  }
+  static std::uint32_t alive(const CanFrame& totals) { return totals.data[7]; }
+
+  test::SocketPair bus_;
+  memory::FixedMemory memory_;
+  std::optional<can::SocketCanSource> vehicle_;
+  WatchedRun run_;
+  HealthReporter reporter_{"can1", can::CanSender::adopt(std::move(bus_.here))};
+};
+
+TEST_F(HealthReporterTest, ReportsEveryNewFrameOnce) {
+  run_.figures().newest.motion = FrameMotion::kTakenOut;
+  reporter_.turn_round(run_.figures(), 0);
+  HealthReport report = health_report_of(run_.figures());
+  EXPECT_TRUE(report.ego_motion);
+  const auto expected = health_frames(report);
+  EXPECT_EQ(heard(), std::vector(expected.begin(), expected.end()));
+
+  reporter_.turn_round(run_.figures(), 50 * kMs);
+  EXPECT_TRUE(heard().empty()) << "no frame since";
+  ++run_.figures().frames;
+  ++run_.figures().newest.number;
+  reporter_.turn_round(run_.figures(), 100 * kMs);
+  const auto next = heard();
+  ASSERT_EQ(next.size(), 2U);
+  EXPECT_EQ(next[0].data[0], run_.figures().newest.number);
+  EXPECT_EQ(alive(next[1]), 1U);
+}
+
+TEST_F(HealthReporterTest, GoesOnReportingWhereNoFramesCome) {
+  run_.figures().link = LinkState::kSilent;
+  std::uint32_t reports = 0;
+  for (std::int64_t now_ms = 0; now_ms < 10'000; now_ms += 50) {
+    reporter_.turn_round(run_.figures(), now_ms * kMs);
+    for (const CanFrame& frame : heard()) {
+      if (frame.id != kHealthId) {
+        EXPECT_EQ(alive(frame), reports++ % 256);
+      }
+    }
+  }
+  EXPECT_EQ(reports, 40U) << "four a second";
+}
+
+TEST_F(HealthReporterTest, LeavesOutAndCountsWhatABusyBusDoesNotTake) {
+  for (int i = 0; i < 10'000; ++i) {
+    ++run_.figures().frames;
+    reporter_.turn_round(run_.figures(), 0);
+  }
+  HealthFigures figures;
+  reporter_.show(figures);
+  EXPECT_EQ(figures.bus.view(), "can1");
+  EXPECT_GT(figures.sent, 0U);
+  EXPECT_GT(figures.queue_full, 0U);
+  EXPECT_EQ(figures.sent + figures.queue_full, 20'000U);
+  EXPECT_EQ(figures.link_down + figures.failed, 0U);
+}
+
+TEST(HealthReporter, CountsWhatItCouldNotSayWhileItsInterfaceIsNotThere) {
+  auto sender = can::CanSender::open("nosuchcan0", true);
+  ASSERT_TRUE(sender) << sender.error().message;
+  EXPECT_FALSE(sender->has_interface());
+  HealthReporter reporter("nosuchcan0", *std::move(sender));
+  WatchedRun run;
+  reporter.turn_round(run.figures(), 0);
+  HealthFigures figures;
+  reporter.show(figures);
+  EXPECT_EQ(figures.link_down, 2U);
+  EXPECT_EQ(figures.sent, 0U);
+  EXPECT_EQ(can::CanSender::open("nosuchcan0").error().code, ErrorCode::kNotFound);
+}
+
+}  // namespace
+}  // namespace terracut::status

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/stream/labelled_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include "firmware_io/frame/each_return.hpp"
+#include "pipeline/output/label_sink.hpp"
+#include "tests/pipeline/output/small_frame.hpp"
+#include "tests/support/allocation_counter.hpp"
+#include "tests/support/synthetic_turn.hpp"
+
+namespace terracut::stream {
+namespace {
+
+using frame::Label;
+
+/// As a real-time thread calls it: Clang 20 and later refuse what could block.
+bool pack_in_real_time(const frame::RangeImage& image, std::span<const Label> labels,
+                       std::span<LabelledPoint> points) noexcept TERRACUT_NONBLOCKING {
+  return pack_labelled_points(image, labels, points);
+}
+
+TEST(LabelledPoints, AreInOrderOfArrivalWithTheOverflowList) {
+  output::SmallFrame small;
+  small.add(3, 9, 1.0F, 2.0F, 3.0F, Label::kObstacle, 200);
+  small.add(0, 31, 4.0F, 5.0F, 0.5F, Label::kGround, 17);
+  small.add(3, 9, 6.0F, 7.0F, 8.0F, Label::kObstacle, 1);  // the cell is taken: overflow list
+  std::vector<LabelledPoint> points(4);
+  ASSERT_TRUE(pack_labelled_points(small.image, small.labels, points));
+  EXPECT_EQ(points[0], (LabelledPoint{1.0F, 2.0F, 3.0F, 200, 99, 3}));
+  EXPECT_EQ(points[1], (LabelledPoint{4.0F, 5.0F, 0.5F, 17, 40, 0}));
+  EXPECT_EQ(points[2], (LabelledPoint{6.0F, 7.0F, 8.0F, 1, 99, 3}));
+  EXPECT_EQ(points[3], LabelledPoint{}) << "nothing is written beyond the returns";
+}
+
+TEST(LabelledPoints, OfAWholeTurnAreThoseOfTheImageOneByOne) {
+  memory::FixedMemory memory;
+  frame::RangeImage image({.rows = 64, .columns = 2083}, 64, memory);
+  test::cast_turn(test::even_profile(), test::ground_with_wall(10, 5, 2), image);
+  std::vector<Label> labels(image.returns());
+  for (std::size_t n = 0; n < labels.size(); ++n) {
+    labels[n] = n % 3 == 0 ? Label::kObstacle : Label::kGround;
+  }
+  std::vector<LabelledPoint> points(image.return_capacity());
+  ASSERT_TRUE(pack_labelled_points(image, labels, points));
+  std::size_t wrong = 0;
+  frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+    const LabelledPoint expected{
+        placed.echo.x_m,
+        placed.echo.y_m,
+        placed.echo.z_m,
+        placed.echo.intensity,
+        static_cast<std::uint8_t>(output::semantic_kitti_class(labels[placed.return_index])),
+        static_cast<std::uint16_t>(placed.row)};
+    if (points[placed.return_index] != expected) ++wrong;
+  });
+  EXPECT_GT(image.returns(), 100'000U);
+  EXPECT_EQ(wrong, 0U);
+}
+
+TEST(LabelledPoints, OfATurnWithoutReturnsAreNone) {
+  output::SmallFrame small;
+  EXPECT_TRUE(pack_labelled_points(small.image, {}, {}));
+}
+
+TEST(LabelledPoints, AreNotWrittenWhereRoomOrLabelsDoNotFit) {
+  output::SmallFrame small;
+  small.add(0, 0, 1, 0, 0, Label::kGround);
+  small.add(1, 0, 1, 0, 0, Label::kGround);
+  std::vector<LabelledPoint> points(2);
+  EXPECT_FALSE(pack_labelled_points(small.image, small.labels, std::span(points).first(1)));
+  small.labels.push_back(Label::kGround);
+  EXPECT_FALSE(pack_labelled_points(small.image, small.labels, points));
+  EXPECT_EQ(points[0], LabelledPoint{});
+}
+
+TEST(LabelledPoints, ArePackedWithoutAllocation) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
+  output::SmallFrame small;
+  small.add(0, 0, 1, 0, 0, Label::kGround);
+  std::vector<LabelledPoint> points(2);
+  const std::uint64_t before = test::allocations_of_this_thread();
+  const bool packed = pack_in_real_time(small.image, small.labels, points);
+  EXPECT_EQ(test::allocations_of_this_thread(), before);
+  EXPECT_TRUE(packed);
+}
+
+}  // namespace
+}  // namespace terracut::stream

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/socket.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <ostream>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/stream/turn_stream_reader.hpp"
+#include "pipeline/stream/turn_stream_server.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace terracut::stream {
+
+inline constexpr std::int64_t kTestPatience_ns = 200'000'000'000;
+
+/// Points of which each tells its turn and its place in it.
+inline std::vector<LabelledPoint> points_of_turn(std::uint32_t number, std::size_t count) {
+  std::vector<LabelledPoint> points(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    points[n] = {static_cast<float>(n),
+                 static_cast<float>(number),
+                 -0.5F,
+                 static_cast<std::uint8_t>(n * 7 + number),
+                 static_cast<std::uint8_t>(n % 3 == 0 ? 40 : 99),
+                 static_cast<std::uint16_t>(n % 64)};
+  }
+  return points;
+}
+
+inline LabelledTurn turn_of(std::uint32_t number, const std::vector<LabelledPoint>& points) {
+  return {.number = number,
+          .first_packet_ns = 1'000'000'000LL * number,
+          .last_packet_ns = 1'000'000'000LL * number + 99'000'000,
+          .labels_ns = 1'000'000'000LL * number + 105'000'000,
+          .sensor = StreamedSensor::kHdl64e,
+          .complete = true,
+          .points = points};
+}
+
+/// Until `done()` says so, in vain after kTestPatience_ns.
+template <class Step, class Done>
+[[nodiscard]] bool step_until(const Step& step, const Done& done) {
+  const std::int64_t end_ns = measure::monotonic_ns() + kTestPatience_ns;
+  while (!done()) {
+    if (measure::monotonic_ns() > end_ns) return false;
+    step();
+  }
+  return true;
+}
+
+enum class Transport { kTcp, kUnix };
+inline std::ostream& operator<<(std::ostream& out, Transport transport) {
+  return out << (transport == Transport::kTcp ? "TCP" : "Unix socket");
+}
+
+/// A server on the loopback address or on a Unix socket in a folder of this test's own.
+class StreamTest : public testing::TestWithParam<Transport> {
+ protected:
+  void SetUp() override { folder_ = test::make_scratch_folder(); }
+  void TearDown() override {
+    server_.reset();
+    std::filesystem::remove_all(folder_);
+  }
+
+  [[nodiscard]] StreamAddress any_address() const {
+    if (GetParam() == Transport::kTcp) return {};
+    return {.unix_path = (folder_ / "turns").string()};
+  }
+  void open(TurnStreamConfig config) {
+    config.address = any_address();
+    auto server = TurnStreamServer::open(config, memory_);
+    ASSERT_TRUE(server.has_value()) << server.error().message;
+    server_.emplace(*std::move(server));
+  }
+  [[nodiscard]] TurnStreamServer& server() { return *server_; }
+  [[nodiscard]] const TurnStreamFigures& figures() const { return server_->figures(); }
+
+  /// A connected socket, -1 if refused. `receive_buffer_bytes`: 0 leaves the system's choice.
+  [[nodiscard]] files::OwnedDescriptor dial(int receive_buffer_bytes = 0) const {
+    const StreamAddress& address = server_->address();
+    files::OwnedDescriptor socket(
+        ::socket(address.is_unix() ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    if (receive_buffer_bytes > 0) {
+      ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVBUF, &receive_buffer_bytes,
+                   sizeof receive_buffer_bytes);
+    }
+    const SocketAddress to = socket_address(address);
+    if (::connect(socket.get(), to.get(), to.size) != 0) socket.close();
+    return socket;
+  }
+  /// A connected socket that the server has let in.
+  [[nodiscard]] files::OwnedDescriptor join(int receive_buffer_bytes = 0) {
+    const std::uint64_t before = figures().connected;
+    files::OwnedDescriptor socket = dial(receive_buffer_bytes);
+    EXPECT_TRUE(step_until([&] { step(); }, [&] { return figures().connected > before; }));
+    return socket;
+  }
+  [[nodiscard]] TurnStreamReader reader(int receive_buffer_bytes = 0) {
+    return TurnStreamReader(join(receive_buffer_bytes));
+  }
+
+  /// As a sink's thread lives: waits for something to do, for a short time, and does it.
+  void step() {
+    ::pollfd polled{server_->descriptor(), POLLIN, 0};
+    ::poll(&polled, 1, 5);
+    server_->turn_round();
+  }
+
+  std::filesystem::path folder_;
+  memory::FixedMemory memory_;
+  std::optional<TurnStreamServer> server_;
+};
+
+inline std::string transport_name(const testing::TestParamInfo<Transport>& info) {
+  return info.param == Transport::kTcp ? "Tcp" : "Unix";
+}
+
+}  // namespace terracut::stream

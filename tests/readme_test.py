@@ -1,0 +1,238 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""What README and the guide tell a reader to type works: every `terracut` command, ./tools/report, ./tools/compare and
+every Python block is run.
+
+readme_test.py REPOSITORY PROGRAM DRIVE WORK_FOLDER
+
+DRIVE is a capture of an HDL-64E with its table and truth beside it. Everything runs in a network of its own (unshare), so
+that ports are free and nothing leaves the machine; simulated drives are cut short. A command that cannot be run here is
+passed over, and the reason is printed. Other scripts (./tools/...) and cmake are what CI and the test of the installation run.
+"""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+DRIVE_S = "0.3"
+SETUP = "front.setup.yaml"  # as a configuration of the guide names it
+BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
+# Pattern of a command -> why it is not run.
+NOT_HERE = {
+    r"--can can\d": "needs a CAN interface",
+    r"/etc/terracut/": "needs the installed package",
+    r"\brear\b|\bfront$": "needs two sensors",
+    r"\bCOMMAND\b|--config FILE": "is a pattern, not a command",
+}
+SCRIPTS = ("./tools/report", "./tools/compare")  # in the distribution's Python
+PATIENCE_S = 120
+
+
+class Failed(Exception):
+    """What a document promises did not happen."""
+
+
+def blocks_of(page: Path):
+    """(language, text) of every fenced block."""
+    return BLOCK.findall(page.read_text())
+
+
+def commands_of(text: str):
+    """Every `terracut ...` and script of a block, without its comment, as a list of words."""
+    for line in text.splitlines():
+        if line.startswith(tuple(f"{name} " for name in ("terracut", *SCRIPTS))):
+            yield shlex.split(line, comments=True)
+
+
+class Sensor:
+    """A drive sent to a live run over and over."""
+
+    def __init__(self, program: Path, folder: Path, port: str):
+        self.process = subprocess.Popen(
+            [program, "send", "drive.pcap", "--to", f"127.0.0.1:{port}", "--loop"],
+            cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+
+    def stop(self):
+        self.process.terminate()
+        self.process.wait(PATIENCE_S)
+
+
+class Page:
+    """One document, whose commands run one after another in a folder of its own."""
+
+    def __init__(self, repository: Path, program: Path, folder: Path):
+        self.repository, self.program, self.folder = repository, program, folder
+        self.drive = self.live = self.sensor = None
+        self.passed, self.left_out = 0, []
+        self.environment = os.environ | {
+            "PYTHONPATH": str(repository / "tools/examples"), "PYTHONUNBUFFERED": "1",
+            "TERRACUT": str(program), "TERRACUT_STATUS_FOLDER": tempfile.mkdtemp(dir="/dev/shm")}  # where no other live run is seen
+
+    def prepare(self, drive: Path):
+        self.drive = drive
+        self.take_drive()
+        if not (self.folder.parent / SETUP).exists():
+            self.check(["calibrate", "drive.pcap", "-o", f"../{SETUP}"])
+        shutil.copy(self.folder.parent / SETUP, self.folder)
+        scans = self.repository.parent / "shared/data/semantickitti/sequences"
+        if scans.exists():
+            (self.folder / "ROOT").symlink_to(scans.parent)
+            (self.folder / "sequences").symlink_to(scans)
+
+    def take_drive(self):
+        for path in self.drive.parent.glob(f"{self.drive.stem}.*"):
+            place = self.folder / ("drive" + path.name.removeprefix(self.drive.stem))
+            if path.is_dir():
+                shutil.copytree(path, place, dirs_exist_ok=True)
+            else:
+                shutil.copy(path, place)
+
+    def run(self, page: Path):
+        try:
+            for language, text in blocks_of(page):
+                name = re.match(r"# (\S+\.yaml)\n", text)
+                if name:
+                    (self.folder / name[1]).write_text(text)
+                elif language == "python":
+                    self.run_python(text)
+                else:
+                    for name, *words in commands_of(text):
+                        if name in SCRIPTS:
+                            self.run_script(name, words)
+                        else:
+                            self.run_command(words)
+        finally:
+            self.end_live()
+            shutil.rmtree(self.environment["TERRACUT_STATUS_FOLDER"])
+
+    def run_command(self, words: list[str]):
+        said = shlex.join(words)
+        for pattern, reason in NOT_HERE.items():
+            if re.search(pattern, said):
+                self.left_out.append(f"terracut {said}: {reason}")
+                return
+        if {"ROOT", "sequences/00"} & set(words) and not (self.folder / "ROOT").exists():
+            self.left_out.append(f"terracut {said}: needs SemanticKITTI's scans")
+            return
+        if words[0] == "live":
+            self.begin_live(words)
+        elif words[-1] == "live":  # by a file: of sensors whose addresses are not this machine's
+            self.check([*words[:-1], "config"])
+        elif words[0] == "top":
+            self.check([*words, "--once"])
+        else:
+            self.check(self.shortened(words))
+            if words[0] == "simulate" and "drive.pcap" in words:
+                self.take_drive()  # what was made is too short to hold the unit's table, which takes 1.2 s
+        self.passed += 1
+
+    def run_script(self, name: str, words: list[str]):
+        packages = subprocess.run(["/usr/bin/python3", "-c", "import jinja2, matplotlib, scipy"], capture_output=True, check=False)
+        if packages.returncode != 0:
+            self.left_out.append(f"{name} {shlex.join(words)}: needs the packages of ./tools/setup --report")
+            return
+        self.check(words, self.repository / name)
+        self.passed += 1
+
+    def shortened(self, words: list[str]) -> list[str]:
+        if words[0] != "simulate":
+            return words
+        if "--duration" in words:
+            at = words.index("--duration") + 1
+            return [*words[:at], DRIVE_S, *words[at + 1:]]
+        return [*words, "--duration", DRIVE_S]
+
+    def check(self, words: list[str], program: Path | None = None):
+        done = subprocess.run([program or self.program, *words], cwd=self.folder, env=self.environment, timeout=PATIENCE_S,
+                              capture_output=True, text=True, check=False)
+        ready = (0, 7) if words[-1] == "doctor" else (0,)  # 7: this machine is not a vehicle's
+        if done.returncode not in ready:
+            name = program.name if program else "terracut"
+            raise Failed(f"{name} {shlex.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+
+    def begin_live(self, words: list[str]):
+        self.end_live()
+        log = self.folder / "live.log"
+        with log.open("w") as output:
+            self.live = subprocess.Popen([self.program, *words], cwd=self.folder, env=self.environment,
+                                         stdout=output, stderr=output)
+        self.wait_for(log, "listening at")
+        self.sensor = Sensor(self.program, self.folder, "2368")
+        self.wait_for(log, "labelled points at" if "--stream" in words else "calibration:")
+
+    def wait_for(self, log: Path, text: str):
+        until = time.monotonic() + PATIENCE_S
+        while text not in log.read_text():
+            if self.live.poll() is not None or time.monotonic() > until:
+                raise Failed(f"terracut live did not say '{text}':\n{log.read_text()}")
+            time.sleep(0.05)
+
+    def end_live(self):
+        if self.live is None:
+            return
+        self.sensor.stop()
+        self.live.terminate()
+        code = self.live.wait(PATIENCE_S)
+        self.live = None
+        if code not in (0, 6):  # 6: deadlines were missed, on a busy machine
+            raise Failed(f"terracut live: exit code {code}\n{(self.folder / 'live.log').read_text()}")
+
+    def run_python(self, text: str):
+        process = subprocess.Popen([sys.executable, "-c", text], cwd=self.folder, env=self.environment, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+        said = process.stdout.readline()
+        process.terminate()  # one that reads a stream goes on for as long as that
+        said += process.communicate(timeout=PATIENCE_S)[0]
+        if not said or "Traceback" in said:
+            raise Failed(f"a Python block said:\n{said}")
+        self.passed += 1
+
+
+def main() -> int:
+    repository, program, drive, work = (Path(argument).resolve() for argument in sys.argv[1:5])
+    shutil.rmtree(work, ignore_errors=True)
+    work.mkdir(parents=True)
+    failures = 0
+    for document in (repository / "README.md", *sorted((repository / "docs/guide").glob("*.md"))):
+        page = Page(repository, program, work / document.stem)
+        page.folder.mkdir()
+        try:
+            page.prepare(drive)
+            page.run(document)
+        except (Failed, subprocess.TimeoutExpired) as failure:
+            failures += 1
+            print(f"FAILED {document.name}: {failure}")
+        print(f"{document.name}: {page.passed} ran")
+        for line in page.left_out:
+            print(f"  not run: {line}")
+    return 1 if failures else 0
+
+
+def in_own_network() -> bool:
+    """Goes on in a network with nothing but a loopback interface; False where the system does not allow that."""
+    if os.environ.get("TERRACUT_OWN_NETWORK"):
+        return True
+    begin = ["unshare", "--user", "--map-root-user", "--net"]
+    up = "ip link set lo up && exec "
+    try:
+        allowed = subprocess.run([*begin, "sh", "-c", up + "true"], capture_output=True, check=False).returncode == 0
+    except FileNotFoundError:
+        return False
+    if allowed:
+        os.environ["TERRACUT_OWN_NETWORK"] = "1"
+        os.execvp(begin[0], [*begin, "sh", "-c", up + shlex.join([sys.executable, *sys.argv])])
+    return False
+
+
+if __name__ == "__main__":
+    if not in_own_network():
+        print("skipped: no network of its own is to be had here (unshare, iproute2)")
+        sys.exit(0)
+    sys.exit(main())

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <optional>
+#include <type_traits>
+
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/frame/range_image.hpp"
+
+namespace terracut::test {
+
+/// Hands every frame that is ready to `on_frame`(const FrameInfo&, RangeImage&). Where that returns
+/// a RangeImage*, the decoder goes on with that one.
+template <class Decoder, class OnFrame>
+void hand_out(Decoder& decoder, OnFrame&& on_frame) {
+  frame::RangeImage* in_exchange = nullptr;
+  while (frame::Frame* frame = decoder.next(in_exchange)) {
+    if constexpr (std::is_pointer_v<decltype(on_frame(frame->info, *frame->image))>) {
+      in_exchange = on_frame(frame->info, *frame->image);
+    } else {
+      on_frame(frame->info, *frame->image);
+    }
+  }
+}
+
+/// Decodes one datagram; why it was rejected, if it was.
+template <class Decoder, class OnFrame>
+std::optional<frame::Reject> decode(Decoder& decoder, const decode::Datagram& datagram,
+                                    OnFrame&& on_frame) {
+  decoder.push(datagram);
+  hand_out(decoder, on_frame);
+  return decoder.rejected();
+}
+
+template <class Decoder, class OnFrame>
+void end_stream(Decoder& decoder, OnFrame&& on_frame) {
+  decoder.end_stream();
+  hand_out(decoder, on_frame);
+}
+
+}  // namespace terracut::test

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// What commands do with a configuration file. How it is read: settings/configuration_test.cpp
+#include "cli_fixture.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::HasSubstr;
+
+using Configuration = Cli;
+
+TEST_F(Configuration, FilesThatAreNotThereAreRefused) {
+  for (const std::string key : {"sensor:\n  calibration", "mount:\n  setup", "motion:\n  dbc"}) {
+    write("terracut.yaml", key + ": nothere.xml\n");
+    const Outcome outcome = run("--config terracut.yaml config");
+    EXPECT_EQ(outcome.exit_code, 3) << key;
+    EXPECT_EQ(outcome.out, "");
+    EXPECT_THAT(outcome.err, HasSubstr("nothere.xml"));
+  }
+  const Outcome absent = run("--config absent.yaml config");
+  EXPECT_EQ(absent.exit_code, 3);
+  EXPECT_THAT(absent.err, HasSubstr("absent.yaml"));
+}
+
+TEST_F(Configuration, CommandsStartFromItAndTheCommandLineWins) {
+  write("a.yaml",
+        "sensor: {model: ruby128}\nmethod: {profile: paper}\n"
+        "simulate: {duration_s: 0.1, seed: 5}\n");
+  expect_done("--config a.yaml plan --json file.json");
+  expect_done("plan --sensor ruby128 --profile paper --json options.json");
+  expect_done("--config a.yaml plan --sensor hdl64e --json both.json");
+  expect_done("plan --profile paper --json hdl64e.json");
+  EXPECT_EQ(content_of(folder_ / "file.json"), content_of(folder_ / "options.json"));
+  EXPECT_EQ(content_of(folder_ / "both.json"), content_of(folder_ / "hdl64e.json"));
+  EXPECT_NE(content_of(folder_ / "file.json"), content_of(folder_ / "both.json"));
+
+  expect_done("--config a.yaml simulate --sensor hdl64e -o file.pcap");
+  expect_done("simulate --duration 0.1 --seed 5 -o options.pcap");
+  EXPECT_EQ(content_of(folder_ / "file.pcap"), content_of(folder_ / "options.pcap"));
+}
+
+TEST_F(Configuration, SettingsOfTheCommandLineComeAfterTheFiles) {
+  write("a.yaml",
+        "output: {json: a.json}\n"
+        "method:\n  min_cut: {max_unknown: 0}\n  elevation_map: {obstacle_height_m: 1.5}\n");
+  const std::string replay = "replay " + quoted(kDrive) + " --duration 0.3";
+  expect_done("--config a.yaml " + replay);
+  const auto of_file = json("a.json");
+  EXPECT_GT(of_file["frames"][0]["min_cut"]["unknown"], 0);
+  EXPECT_EQ(of_file["frames"][0]["min_cut"]["coarse"], of_file["frames"][0]["min_cut"]["unknown"]);
+  expect_done("--config a.yaml " + replay + " --set min_cut.max_unknown=16384 --json b.json");
+  EXPECT_LT(json("b.json")["frames"][0]["min_cut"]["coarse"],
+            json("b.json")["frames"][0]["min_cut"]["unknown"]);
+  EXPECT_EQ(json("b.json")["frames"][0]["min_cut"]["unknown"],
+            of_file["frames"][0]["min_cut"]["unknown"])
+      << "the other setting still holds";
+}
+
+TEST_F(Configuration, ASetupOfTheCommandLineIsNotMovedByTheFile) {
+  write("a.yaml", "mount: {height_m: 3}\n");
+  expect_done("calibrate " + quoted(kDrive) + " --keep-mount --mount-height 1.73 -o setup.yaml");
+  const std::string labels = "replay " + quoted(kDrive) + " --duration 0.3 --setup setup.yaml ";
+  expect_done(labels + "--labels plain");
+  expect_done("--config a.yaml " + labels + "--labels filed");
+  expect_done(labels + "--mount-height 3 --labels moved");
+  EXPECT_EQ(content_of(folder_ / "plain/000001.label"), content_of(folder_ / "filed/000001.label"));
+  EXPECT_NE(content_of(folder_ / "plain/000001.label"), content_of(folder_ / "moved/000001.label"));
+}
+
+}  // namespace
+}  // namespace terracut::cli

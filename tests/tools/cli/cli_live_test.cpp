@@ -1,0 +1,379 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// `terracut live` hears sensors that play captures. How fast is not tested: a machine may be busy.
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <utility>
+#include <vector>
+
+#include "firmware_io/capture/pcap_writer.hpp"
+#include "firmware_io/net/live_pcap_source.hpp"
+#include "firmware_io/net/udp_source.hpp"
+#include "pipeline/stream/turn_stream_reader.hpp"
+#include "tests/tools/cli/live/live_run.hpp"
+#include "tools/cli/exit_codes.hpp"
+#include "tools/lab/drive/vehicle_log.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::AnyOf;
+using testing::Eq;
+using testing::HasSubstr;
+
+class CliLive : public Cli {
+ protected:
+  void SetUp() override {
+    Cli::SetUp();
+    if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "there is no /dev/shm";
+  }
+  /// A live run with these options on a port of its own.
+  [[nodiscard]] LiveRun live(const std::string& options) const { return {folder_, options}; }
+  /// One that has the calibration of the sensors below.
+  [[nodiscard]] LiveRun live_with_table(const std::string& options) const {
+    return live("--calibration " + quoted(kDriveCalibration) + " " + options);
+  }
+  /// A sensor at each of these addresses that sends to this run.
+  [[nodiscard]] static Sensors sensors_at(std::vector<std::uint32_t> addresses, LiveRun& run) {
+    return {addresses, {{Sensors::kAnyPort, run.port()}}, kDrive};
+  }
+  [[nodiscard]] static Sensors sensor(LiveRun& run) {
+    return sensors_at({Sensors::kLocalhost}, run);
+  }
+  /// What `terracut dump` says of this run once that has heard its sensor.
+  [[nodiscard]] Outcome dump_of(LiveRun& live_run) {
+    EXPECT_TRUE(labels(live_run, 1));
+    return run("dump " + LiveRun::name() + " --wait 60");
+  }
+  /// A Ruby128's capture with what it says of itself, which comes once a second, before every 100th
+  /// packet: a run waits seconds for it, in which a busy machine hears little of the stream.
+  void tell_angles_often(const std::string& from, const std::string& to) const {
+    auto capture = capture::PcapSource::open(folder_ / from);
+    auto often = capture::PcapWriter::create(folder_ / to);
+    ASSERT_TRUE(capture && often);
+    std::vector<std::uint8_t> told;
+    std::uint16_t device_port = 0;
+    for (std::size_t n = 0;; ++n) {
+      const auto next = capture->next();
+      ASSERT_TRUE(next) << next.error().message;
+      if (!*next) break;
+      decode::Datagram datagram = **next;
+      if (n == 0) {
+        told.assign(datagram.payload.begin(), datagram.payload.end());
+        device_port = datagram.destination_port;
+      }
+      ASSERT_TRUE(often->write(datagram));
+      datagram.payload = told;
+      datagram.destination_port = device_port;
+      if (n % 100 == 0) {
+        ASSERT_TRUE(often->write(datagram));
+      }
+    }
+    ASSERT_EQ(device_port, 7788) << "the capture begins with what the sensor says of itself";
+    ASSERT_TRUE(often->finish());
+  }
+  /// Waits until so many turns have labels.
+  [[nodiscard]] static bool labels(LiveRun& run, std::uint64_t turns) {
+    return run.shows([=](const auto& figures) { return LiveRun::labelled(figures) >= turns; });
+  }
+  /// A run that was interrupted: how many deadlines it met is the machine's affair.
+  static void expect_good_end(const Outcome& outcome) {
+    EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
+  }
+};
+
+TEST_F(CliLive, LabelsWhatIsSentToIt) {
+  LiveRun run = live_with_table("--labels labels --json live.json --trace trace.json");
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(labels(run, 6));
+  const Outcome heard = run.interrupted();
+  expect_good_end(heard);
+  EXPECT_THAT(heard.err, HasSubstr("HDL-64E"));
+  const auto summary = json("live.json");
+  const auto frames = summary.at("frames").at("count").get<std::size_t>();
+  const auto skipped = summary.at("frames").at("rungs").at("skipped").get<std::size_t>();
+  EXPECT_GE(frames - skipped, 6U);
+  const auto unwritten = summary.at("losses").at("unwritten_label_frames").get<std::size_t>();
+  EXPECT_EQ(files_in(folder_ / "labels", ".label") + unwritten, frames - skipped);
+  for (const auto& entry : fs::directory_iterator(folder_ / "labels")) {
+    EXPECT_GT(entry.file_size(), 0U);
+  }
+  EXPECT_TRUE(json("trace.json").contains("traceEvents"));
+}
+
+TEST_F(CliLive, EndsByItselfAfterTheTimeItIsGiven) {
+  LiveRun run = live_with_table("--duration 0.5 --json live.json");
+  const Sensors sender = sensor(run);
+  const Outcome outcome = run.end();
+  EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed), Eq(kNothingCameOut)))
+      << outcome.err;
+  const auto summary = json("live.json");
+  EXPECT_GE(
+      summary.at("taken_ns").get<std::int64_t>() - summary.at("started_ns").get<std::int64_t>(),
+      500'000'000);
+}
+
+TEST_F(CliLive, SaysThatItWasInterruptedBeforeItsTimeWasOver) {
+  LiveRun run = live_with_table("--duration 100000 --json live.json");
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(labels(run, 1));
+  const Outcome outcome = run.interrupted();
+  EXPECT_EQ(outcome.exit_code, kInterrupted) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("ended     interrupted"));
+  EXPECT_TRUE(json("live.json").at("interrupted").get<bool>());
+}
+
+TEST_F(CliLive, SaysWhatItHeardInsteadOfASensor) {
+  const Outcome outcome = live_with_table("--patience 0.5").end();
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("no data packets"));
+}
+
+TEST_F(CliLive, WaitsForItsSensorWhichOthersCanSee) {
+  LiveRun run = live_with_table("--json live.json");
+  EXPECT_TRUE(run.shows([](const auto& figures) {
+    return figures.link == status::LinkState::kWaiting &&
+           figures.sensor.view().find("waiting for") != std::string_view::npos;
+  }));
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(labels(run, 1));
+  expect_good_end(run.interrupted());
+  const auto datagrams = json("live.json").at("datagrams");
+  std::uint64_t sum = 0;
+  for (const auto& count : datagrams.at("outcomes")) sum += count.template get<std::uint64_t>();
+  EXPECT_EQ(sum, datagrams.at("received").get<std::uint64_t>());
+}
+
+TEST_F(CliLive, EndsInOrderWhileItWaits) {
+  LiveRun run = live_with_table("");
+  (void)run.port();
+  EXPECT_EQ(run.interrupted().exit_code, kOk);
+}
+
+TEST_F(CliLive, NamesAPortThatIsTaken) {
+  memory::FixedMemory memory;
+  const auto taken = net::UdpSource::open({}, memory);
+  ASSERT_TRUE(taken);
+  const Outcome outcome = live("--listen 0.0.0.0:" + std::to_string(taken->local().port)).end();
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("port"));
+}
+
+TEST_F(CliLive, NamesTheSensorsWhenSeveralSendToThePort) {
+  LiveRun run = live_with_table("");
+  const Sensors senders = sensors_at({Sensors::kLocalhost, Sensors::kLocalhost + 1}, run);
+  const Outcome outcome = run.end();
+  EXPECT_EQ(outcome.exit_code, kUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("127.0.0.1"));
+  EXPECT_THAT(outcome.err, HasSubstr("127.0.0.2"));
+  EXPECT_THAT(outcome.err, HasSubstr("--from"));
+}
+
+TEST_F(CliLive, LabelsOneOfSeveralSensorsAndCountsTheOthersPackets) {
+  LiveRun run = live_with_table("--from 127.0.0.2 --json live.json");
+  const Sensors senders = sensors_at({Sensors::kLocalhost, Sensors::kLocalhost + 1}, run);
+  EXPECT_TRUE(run.shows([](const auto& figures) {
+    return LiveRun::labelled(figures) > 0 && LiveRun::loss(figures, "foreign_datagrams") > 100;
+  }));
+  const Outcome outcome = run.interrupted();
+  expect_good_end(outcome);
+  EXPECT_THAT(outcome.err, HasSubstr("at 127.0.0.2"));
+  EXPECT_EQ(json("live.json").at("losses").at("rejected_repeated").get<int>(), 0);
+}
+
+TEST_F(CliLive, LeavesOutASensorThatIsSwitchedOnLater) {
+  LiveRun run = live_with_table("--json live.json");
+  const Sensors first = sensor(run);
+  EXPECT_TRUE(labels(run, 1));
+  const Sensors later = sensors_at({Sensors::kLocalhost + 1}, run);
+  EXPECT_TRUE(run.shows(
+      [](const auto& figures) { return LiveRun::loss(figures, "foreign_datagrams") > 0; }));
+  expect_good_end(run.interrupted());
+  EXPECT_EQ(json("live.json").at("losses").at("rejected_repeated").get<int>(), 0);
+}
+
+TEST_F(CliLive, TakesTheAnglesOfARuby128FromItsOtherPort) {
+  expect_done("simulate --sensor ruby128 --scene flat --duration 0.5 -o ruby.pcap");
+  tell_angles_often("ruby.pcap", "often.pcap");
+  // Held by this test, so that nobody else gets it, and shared with the run.
+  memory::FixedMemory memory;
+  const auto device = net::UdpSource::open({.share_port = true}, memory);
+  ASSERT_TRUE(device) << device.error().message;
+  const std::uint16_t device_port = device->local().port;
+  LiveRun run =
+      live("--sensor ruby128 --device-port " + std::to_string(device_port) + " --json live.json");
+  const Sensors sender({Sensors::kLocalhost}, {{6699, run.port()}, {7788, device_port}},
+                       folder_ / "often.pcap");
+  EXPECT_TRUE(labels(run, 3));
+  const Outcome heard = run.interrupted();
+  expect_good_end(heard);
+  EXPECT_THAT(heard.err, HasSubstr("RS-Ruby128 at 127.0.0.1"));
+}
+
+TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
+  memory::FixedMemory memory;
+  if (const auto allowed = net::LivePcapSource::open({.interface = "lo"}, memory); !allowed) {
+    GTEST_SKIP() << allowed.error().message;
+  }
+  const auto taken = net::UdpSource::open({}, memory);
+  ASSERT_TRUE(taken) << taken.error().message;
+  const std::uint16_t port = taken->local().port;
+  LiveRun run =
+      live_with_table("--via libpcap --interface lo --listen 127.0.0.1:" + std::to_string(port));
+  EXPECT_TRUE(run.says("listening at"));
+  const Sensors sender({Sensors::kLocalhost}, {{Sensors::kAnyPort, port}}, kDrive);
+  EXPECT_TRUE(labels(run, 3));
+  expect_good_end(run.interrupted());
+}
+
+TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
+  const fs::path socket = folder_ / "turns";
+  LiveRun run = live_with_table("--labels labels --json live.json --stream " + quoted(socket));
+  const Sensors sender = sensor(run);
+  ASSERT_TRUE(run.says("labelled points at "));
+  const auto address = stream::parse_stream_address(socket.string());
+  ASSERT_TRUE(address) << address.error().message;
+  auto reader = stream::TurnStreamReader::connect(*address);
+  ASSERT_TRUE(reader) << reader.error().message;
+  constexpr std::int64_t kHour_ns = 3'600'000'000'000;
+  std::vector<stream::ReceivedTurn> turns(3);
+  for (stream::ReceivedTurn& turn : turns) {
+    const auto read = reader->next(turn, kHour_ns);
+    EXPECT_TRUE(read) << read.error().message;
+  }
+  expect_good_end(run.interrupted());
+  // The points are the label files' returns, in their order.
+  std::uint64_t missing = 0;
+  for (const stream::ReceivedTurn& turn : turns) {
+    EXPECT_EQ(turn.header.sensor, 1);
+    const fs::path file = folder_ / "labels" / fmt::format("{:06}.label", turn.header.number);
+    if (!fs::exists(file)) {
+      ++missing;
+      continue;
+    }
+    const auto ids = ids_of(file);
+    ASSERT_EQ(turn.points.size(), ids.size()) << turn.header.number;
+    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(turn.points[i].label, ids[i]);
+  }
+  EXPECT_LE(missing, json("live.json").at("losses").at("unwritten_label_frames"));
+  EXPECT_LT(missing, turns.size());
+}
+
+TEST_F(CliLive, SaysWhereItsFiguresAre) {
+  LiveRun run = live_with_table("--metrics 127.0.0.1:0");
+  const Sensors sender = sensor(run);
+  const std::string at = run.said_after("figures at http://");
+  const auto served =
+      stream::TurnStreamReader::connect(*stream::parse_stream_address(at.substr(0, at.find('/'))));
+  EXPECT_TRUE(served) << served.error().message;
+  EXPECT_THAT(at, testing::EndsWith("/metrics"));
+  const std::string port = at.substr(at.find(':') + 1, at.find('/') - at.find(':') - 1);
+  LiveRun other = live_with_table("--metrics 127.0.0.1:" + port);
+  EXPECT_TRUE(other.says("no /metrics: cannot serve /metrics on 127.0.0.1:" + port))
+      << "though it has not heard its sensor";
+  (void)other.interrupted();
+  (void)run.interrupted();
+}
+
+TEST_F(CliLive, WritesDumpsThatCanBeReplayedAsIsPrinted) {
+  LiveRun recorded = live_with_table("--recorder-folder dumps");
+  const Sensors sender = sensor(recorded);
+  const Outcome dumped = dump_of(recorded);
+  (void)recorded.interrupted();
+  ASSERT_EQ(dumped.exit_code, 0) << dumped.err;
+  const std::string way = "replay it: terracut ";
+  const auto begin = dumped.err.find(way);
+  ASSERT_NE(begin, std::string::npos) << dumped.err;
+  const auto first = begin + way.size();
+  const std::string command = dumped.err.substr(first, dumped.err.find('\n', first) - first);
+  expect_done(command + " --json replayed.json");
+  EXPECT_GE(json("replayed.json")["summary"]["frames"], 1);
+}
+
+TEST_F(CliLive, AnswersAtOnceThatItKeepsNoPackets) {
+  LiveRun unrecorded = live_with_table("");
+  const Sensors sender = sensor(unrecorded);
+  const Outcome dumped = dump_of(unrecorded);
+  (void)unrecorded.interrupted();
+  EXPECT_EQ(dumped.exit_code, kOutputFailed);
+  EXPECT_THAT(dumped.err, HasSubstr("no_recorder"));
+  EXPECT_THAT(dumped.err, HasSubstr("--recorder-folder"));
+}
+
+TEST_F(CliLive, RefusesAFolderForDumpsThatIsAFileBeforeItWaitsForASensor) {
+  write("dumps", "a file");
+  const Outcome refused = live("--recorder-folder dumps").end();
+  EXPECT_EQ(refused.exit_code, kOutputFailed);
+  EXPECT_THAT(refused.err, HasSubstr("dumps"));
+  EXPECT_THAT(refused.err, testing::Not(HasSubstr("listening")));
+}
+
+TEST_F(CliLive, WarnsOfATableThatIsNotTheOneInThePackets) {
+  std::string table = content_of(kDriveCalibration);
+  const std::string key = "<vertOffsetCorrection_>";
+  const auto value = table.find(key);
+  ASSERT_NE(value, std::string::npos);
+  const auto digits = value + key.size();
+  table.replace(digits, table.find('<', digits) - digits, "23.4");
+  write("other.xml", table);
+  LiveRun other = live("--calibration other.xml");
+  const Sensors sender = sensor(other);
+  EXPECT_THAT(other.said_after("the packets carry "), HasSubstr("another calibration"));
+  expect_good_end(other.interrupted());
+}
+
+TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {
+  write("car.dbc", drive::vehicle_dbc());
+  LiveRun run =
+      live_with_table("--json live.json --can nosuchcan0 --dbc car.dbc --health-can nosuchcan1");
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(labels(run, 3));
+  const Outcome outcome = run.interrupted();
+  expect_good_end(outcome);
+  EXPECT_THAT(outcome.err, HasSubstr("no such interface 'nosuchcan0'"));
+  EXPECT_THAT(outcome.err, HasSubstr("no such interface 'nosuchcan1'"));
+  EXPECT_THAT(outcome.out, HasSubstr("motion    interface_gone on nosuchcan0"));
+  const auto summary = json("live.json");
+  EXPECT_EQ(summary.at("motion").at("no_ego_motion_frames"), summary.at("frames").at("count"));
+  EXPECT_EQ(summary.at("motion").at("taken_out_frames"), 0);
+  EXPECT_GT(summary.at("health").at("link_down").get<int>(), 0);
+}
+
+TEST_F(CliLive, RefusesAVehicleWhoseFramesItCannotRead) {
+  const auto refusal = [&](const std::string& options) { return live(options).end(); };
+  EXPECT_THAT(refusal("--can can0").err, HasSubstr("no DBC file is given"));
+  EXPECT_THAT(refusal("--dbc car.dbc").err, HasSubstr("--dbc needs --can"));
+  EXPECT_THAT(refusal("--can can0 --dbc none.dbc").err, HasSubstr("none.dbc"));
+  write("other.dbc", "BO_ 291 OTHER: 8 ECU\n SG_ OTHER : 0|8@1+ (1,0) [0|0] \"\" ECU\n");
+  const Outcome signal = refusal("--can can0 --dbc other.dbc");
+  EXPECT_EQ(signal.exit_code, kUsage);
+  EXPECT_THAT(signal.err, HasSubstr("SPEED"));
+  write("terracut.yaml", "motion:\n  can: can0\n");
+  const Outcome of_file = refusal("--config terracut.yaml --dbc none.dbc");
+  EXPECT_THAT(of_file.err, HasSubstr("none.dbc")) << "the file names the interface";
+}
+
+TEST_F(CliLive, RefusesAnInterfaceOfAnotherKind) {
+  write("car.dbc", drive::vehicle_dbc());
+  LiveRun run = live_with_table("--can lo --dbc car.dbc");
+  const Sensors sender = sensor(run);
+  const Outcome outcome = run.end();
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, AnyOf(HasSubstr("no CAN sockets"), HasSubstr("no CAN interface")));
+}
+
+TEST_F(CliLive, SaysWhichOptionLibpcapNeeds) {
+  const Outcome outcome = live("--via libpcap").end();
+  EXPECT_EQ(outcome.exit_code, kUsage);
+  EXPECT_THAT(outcome.err, HasSubstr("--interface"));
+}
+
+TEST_F(CliLive, SaysHowLongItWaitedForASensor) {
+  const Outcome outcome = live("--patience 0.2").end();
+  EXPECT_EQ(outcome.exit_code, kInputRefused);
+  EXPECT_THAT(outcome.err, HasSubstr("within 0.2 s"));
+}
+
+}  // namespace
+}  // namespace terracut::cli

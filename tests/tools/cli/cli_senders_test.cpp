@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Captures that more than one machine sent into.
+#include <functional>
+
+#include "cli_fixture.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/pcap_writer.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using decode::Datagram;
+using testing::AllOf;
+using testing::HasSubstr;
+
+constexpr int kUsage = 2;
+constexpr std::uint32_t kOther = 0x0A'00'00'07;  // 10.0.0.7
+
+class CliSenders : public Cli {
+ protected:
+  /// The drive, and beside each of its datagrams those of another sender, if `is_sent(number)`.
+  void write_capture(const std::string& name,
+                     const std::function<bool(std::size_t)>& is_sent) const {
+    auto drive = capture::PcapSource::open(kDrive);
+    auto capture = capture::PcapWriter::create(folder_ / name);
+    ASSERT_TRUE(drive && capture);
+    std::size_t number = 0;
+    while (const auto next = *drive->next()) {
+      Datagram datagram = *next;
+      ASSERT_TRUE(capture->write(datagram));
+      datagram.source_address = kOther;
+      if (is_sent(number++)) {
+        ASSERT_TRUE(capture->write(datagram));
+      }
+    }
+    ASSERT_TRUE(capture->finish());
+  }
+  [[nodiscard]] static std::string with_calibration(const std::string& arguments) {
+    return arguments + " --duration 0.35 --calibration " + quoted(kDriveCalibration);
+  }
+  void expect_labels_of_the_drive(const std::string& folder) const {
+    expect_done(with_calibration("replay " + quoted(kDrive) + " --labels alone"));
+    for (const char* name : {"000000.label", "000001.label", "000002.label"}) {
+      EXPECT_EQ(content_of(folder_ / folder / name), content_of(folder_ / "alone" / name)) << name;
+    }
+  }
+};
+
+TEST_F(CliSenders, OfTwoSensorsAreRefusedByNameUntilOneIsChosen) {
+  write_capture("two.pcap", [](std::size_t) { return true; });
+  for (const std::string command :
+       {"replay two.pcap", "bench two.pcap", "calibrate two.pcap -o setup.yaml"}) {
+    const Outcome outcome = run(with_calibration(command));
+    EXPECT_EQ(outcome.exit_code, kUsage) << outcome.err;
+    EXPECT_THAT(outcome.err, AllOf(HasSubstr("several sensors"), HasSubstr("at 10.0.0.7, "),
+                                   HasSubstr("choose one with --from")));
+  }
+  expect_done(with_calibration("replay two.pcap --from 10.0.0.7 --labels chosen"));
+  expect_labels_of_the_drive("chosen");
+}
+
+TEST_F(CliSenders, OfStrayPacketsAreLeftOutAndCounted) {
+  write_capture("stray.pcap", [](std::size_t number) { return number == 100; });
+  const Outcome outcome = run(with_calibration("replay stray.pcap --labels labels"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning: 1 datagrams came from other addresses"));
+  expect_labels_of_the_drive("labels");
+}
+
+}  // namespace
+}  // namespace terracut::cli

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "tools/cli/export/chrome_trace.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "tests/pipeline/status/watched_run.hpp"
+#include "tests/support/scratch_folder.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kReceive = 1, kSegment = 2;
+
+std::vector<Json> events_of(const Json& trace, const std::string& phase, int track) {
+  std::vector<Json> events;
+  for (const Json& event : trace["traceEvents"]) {
+    if (event["ph"] == phase && event["tid"] == track) events.push_back(event);
+  }
+  return events;
+}
+
+Json event_named(const std::vector<Json>& events, const std::string& name) {
+  for (const Json& event : events) {
+    if (event["name"] == name) return event;
+  }
+  return {};
+}
+
+double end_of(const Json& slice) {
+  return slice["ts"].get<double>() + slice["dur"].get<double>();
+}
+
+TEST(ChromeTrace, NamesItsTracks) {
+  status::WatchedRun run;
+  const Json trace = chrome_trace(run.figures(), run.frames());
+  std::map<int, std::string> names;
+  for (const Json& event : trace["traceEvents"]) {
+    if (event["name"] == "thread_name") names[event["tid"]] = event["args"]["name"];
+  }
+  EXPECT_EQ(names, (std::map<int, std::string>{{kReceive, "receive"}, {kSegment, "segment"}}));
+  EXPECT_EQ(trace["otherData"]["origin_ns"], status::WatchedRun::kStart_ns);
+}
+
+TEST(ChromeTrace, ShowsAFrameOnEveryTrackWhereItWas) {
+  status::WatchedRun run;
+  const Json trace = chrome_trace(run.figures(), run.frames());
+  const Json turn = event_named(events_of(trace, "X", kReceive), "turn 7");
+  EXPECT_DOUBLE_EQ(end_of(turn), 806'000.0);
+  EXPECT_EQ(turn["args"]["returns"], 100'000);
+  const Json frame = event_named(events_of(trace, "X", kSegment), "frame 7");
+  EXPECT_DOUBLE_EQ(frame["ts"], 806'000.0);
+  EXPECT_DOUBLE_EQ(frame["dur"], 10'000.0);
+  EXPECT_EQ(frame["args"]["rung"], "full");
+  EXPECT_DOUBLE_EQ(frame["args"]["latency_ms"], 11.0);
+  EXPECT_EQ(frame["args"]["cut_operations"], 1000);
+}
+
+TEST(ChromeTrace, PutsStagesOneAfterAnotherInsideTheirFrame) {
+  status::WatchedRun run;
+  const auto frames = run.frames();
+  const Json trace = chrome_trace(run.figures(), std::span(frames).subspan(7, 1));
+  const auto slices = events_of(trace, "X", kSegment);
+  ASSERT_EQ(slices.size(), 4U);
+  const Json& frame = slices[0];
+  double at = frame["ts"];
+  const std::vector<std::string> names{"elevation_map", "adjacent_points", "min_cut"};
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    EXPECT_EQ(slices[i + 1]["name"], names[i]);
+    EXPECT_DOUBLE_EQ(slices[i + 1]["ts"], at);
+    at = end_of(slices[i + 1]);
+  }
+  EXPECT_LE(at, end_of(frame));
+}
+
+TEST(ChromeTrace, LeavesOutStagesThatWereOverBeforeTheFrameBegan) {
+  status::WatchedRun run;
+  auto frames = run.frames();
+  frames[7].stages_ahead = 2;
+  const Json trace = chrome_trace(run.figures(), std::span(frames).subspan(7, 1));
+  const auto slices = events_of(trace, "X", kSegment);
+  ASSERT_EQ(slices.size(), 2U);
+  EXPECT_EQ(slices[1]["name"], "min_cut");
+  EXPECT_DOUBLE_EQ(slices[1]["ts"], slices[0]["ts"]);
+}
+
+TEST(ChromeTrace, NeverLetsTheSlicesOfATrackOverlap) {
+  status::WatchedRun run;
+  const Json trace = chrome_trace(run.figures(), run.frames());
+  const auto turns = events_of(trace, "X", kReceive);
+  ASSERT_EQ(turns.size(), status::WatchedRun::kFrames);
+  for (std::size_t i = 1; i < turns.size(); ++i) {
+    EXPECT_GE(turns[i]["ts"].get<double>(), end_of(turns[i - 1]));
+  }
+}
+
+TEST(ChromeTrace, MarksEveryMissedDeadlineWithItsCause) {
+  status::WatchedRun run;
+  const Json trace = chrome_trace(run.figures(), run.frames());
+  const auto misses = events_of(trace, "i", kSegment);
+  ASSERT_EQ(misses.size(), 2U);
+  EXPECT_EQ(misses[0]["name"], "missed: waiting_for_core");
+  EXPECT_EQ(misses[0]["args"]["frame"], 40);
+  EXPECT_DOUBLE_EQ(misses[0]["ts"], 4'155'000.0);  // 50 ms after its last packet
+  EXPECT_EQ(misses[1]["args"]["rung"], "skipped");
+  EXPECT_DOUBLE_EQ(misses[1]["ts"], 4'206'000.0);  // given up before its deadline
+  EXPECT_TRUE(event_named(events_of(trace, "X", kSegment), "frame 41").is_null());
+}
+
+TEST(ChromeTrace, LeavesOutWhatIsNotKnown) {
+  status::WatchedRun run;
+  const std::vector<status::FrameTiming> nothing_known(1);
+  const Json trace = chrome_trace(run.figures(), nothing_known);
+  for (const Json& event : trace["traceEvents"]) EXPECT_EQ(event["ph"], "M");
+  EXPECT_TRUE(chrome_trace(run.figures(), {})["traceEvents"].is_array());
+}
+
+TEST(ChromeTrace, IsWrittenAsAFileThatParses) {
+  status::WatchedRun run;
+  const auto folder = test::make_scratch_folder();
+  ASSERT_TRUE(write_chrome_trace(folder / "trace.json", run.figures(), run.frames()));
+  std::ifstream file(folder / "trace.json");
+  EXPECT_EQ(nlohmann::json::parse(file)["displayTimeUnit"], "ms");
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace
+}  // namespace terracut::cli

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <arpa/inet.h>
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include "tests/pipeline/status/watched_run.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tools/cli/export/http_host.hpp"
+#include "tools/cli/export/metrics_server.hpp"
+#include "tools/cli/export/metrics_text.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::AllOf;
+using testing::HasSubstr;
+
+/// Every sample of an exposition: name with labels -> value.
+std::map<std::string, double> samples_of(const std::string& text) {
+  std::map<std::string, double> samples;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.empty() || line.front() == '#') continue;
+    const std::size_t space = line.rfind(' ');
+    samples[line.substr(0, space)] = std::strtod(line.c_str() + space + 1, nullptr);
+  }
+  return samples;
+}
+
+TEST(MetricsText, HoldsEveryCount) {
+  status::WatchedRun run;
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples["terracut_frames_total{rung=\"full\"}"], 98);
+  EXPECT_EQ(samples["terracut_frames_total{rung=\"skipped\"}"], 1);
+  EXPECT_EQ(samples["terracut_deadline_misses_total{cause=\"waiting_for_core\"}"], 1);
+  EXPECT_EQ(samples["terracut_losses_total{cause=\"network_gap_packets\"}"], 12);
+  EXPECT_EQ(samples["terracut_page_faults_total{thread=\"segment\",kind=\"minor\"}"], 5);
+  EXPECT_EQ(samples["terracut_packets_total"], 34'800);
+  EXPECT_EQ(samples["terracut_link_state{state=\"receiving\"}"], 1);
+  EXPECT_EQ(samples["terracut_link_state{state=\"silent\"}"], 0);
+  EXPECT_DOUBLE_EQ(samples["terracut_deadline_seconds"], 0.05);
+  EXPECT_DOUBLE_EQ(samples["terracut_start_time_seconds"], 1.7e9);
+}
+
+TEST(MetricsText, TellsWhereEachDatagramWent) {
+  status::WatchedRun run;
+  auto samples = samples_of(metrics_text(run.figures()));
+  double sum = 0;
+  for (const auto& [name, value] : samples) {
+    if (name.starts_with("terracut_datagrams_total{")) sum += value;
+  }
+  EXPECT_EQ(samples["terracut_datagrams_received_total"], 34'802);
+  EXPECT_EQ(sum, 34'802);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"decoded\"}"], 34'782);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"foreign\"}"], 2);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"let_go\"}"], 5);
+  EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"rejected_wrong_size\"}"], 13);
+}
+
+TEST(MetricsText, TellsOfSilencesAndOfAHeadThatStands) {
+  status::WatchedRun run;
+  run.figures().silences = 3;
+  run.figures().silent_ns = 4'500'000'000;
+  run.figures().head_stands = true;
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples["terracut_silences_total"], 3);
+  EXPECT_DOUBLE_EQ(samples["terracut_silent_seconds_total"], 4.5);
+  EXPECT_EQ(samples["terracut_head_stands"], 1);
+}
+
+TEST(MetricsText, TellsHowWideTheBlindSectorIsAndWhereWhileItIsKnown) {
+  status::WatchedRun run;
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples.at("terracut_blind_degrees"), 0);
+  EXPECT_FALSE(samples.contains("terracut_blind_azimuth_degrees{edge=\"from\"}"));
+  run.narrow_view();
+  samples = samples_of(metrics_text(run.figures()));
+  EXPECT_DOUBLE_EQ(samples.at("terracut_blind_degrees"), 179.78) << "across 0";
+  EXPECT_DOUBLE_EQ(samples.at("terracut_blind_azimuth_degrees{edge=\"from\"}"), 270.12);
+  EXPECT_DOUBLE_EQ(samples.at("terracut_blind_azimuth_degrees{edge=\"to\"}"), 89.9);
+}
+
+TEST(MetricsText, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedFor) {
+  status::WatchedRun run;
+  EXPECT_EQ(samples_of(metrics_text(run.figures())).count("terracut_motion_samples_total"), 0U);
+  run.hear_vehicle();
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples["terracut_motion_state{bus=\"can0\",state=\"known\"}"], 1);
+  EXPECT_EQ(samples["terracut_motion_state{bus=\"can0\",state=\"lost\"}"], 0);
+  EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"taken_out\"}"], 98);
+  EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"no_ego_motion\"}"], 2);
+  EXPECT_EQ(samples["terracut_motion_samples_total"], 1034);
+  EXPECT_DOUBLE_EQ(samples["terracut_motion_sample_after_turn_seconds"], -0.004);
+  EXPECT_EQ(samples["terracut_motion_faults_total{cause=\"kernel_drops\"}"], 7);
+  EXPECT_EQ(samples["terracut_health_frames_total{bus=\"can1\",outcome=\"sent\"}"], 190);
+  EXPECT_EQ(samples["terracut_health_frames_total{bus=\"can1\",outcome=\"queue_full\"}"], 10);
+}
+
+TEST(MetricsText, HasHistogramsWhoseBucketsAddUp) {
+  status::WatchedRun run;
+  auto samples = samples_of(metrics_text(run.figures()));
+  EXPECT_EQ(samples["terracut_latency_seconds_bucket{le=\"0.01\"}"], 0);
+  EXPECT_EQ(samples["terracut_latency_seconds_bucket{le=\"0.015\"}"], 98);
+  EXPECT_EQ(samples["terracut_latency_seconds_bucket{le=\"0.075\"}"], 98);
+  EXPECT_EQ(samples["terracut_latency_seconds_bucket{le=\"0.1\"}"], 99);
+  EXPECT_EQ(samples["terracut_latency_seconds_bucket{le=\"+Inf\"}"], 99);
+  EXPECT_EQ(samples["terracut_latency_seconds_count"], 99);
+  EXPECT_NEAR(samples["terracut_latency_seconds_sum"], 98 * 0.011 + 0.081, 1e-9);
+  EXPECT_EQ(samples["terracut_stage_cpu_seconds_count{stage=\"min_cut\"}"], 98);
+  EXPECT_EQ(samples["terracut_stage_cpu_seconds_bucket{stage=\"min_cut\",le=\"0.003\"}"], 0);
+  EXPECT_EQ(samples["terracut_stage_cpu_seconds_bucket{stage=\"min_cut\",le=\"0.0075\"}"], 98);
+}
+
+TEST(MetricsText, EscapesWhatWouldEndALabel) {
+  status::WatchedRun run;
+  run.figures().input = "a\"b\\c\nd";
+  EXPECT_THAT(metrics_text(run.figures()), HasSubstr("input=\"a\\\"b\\\\c\\nd\""));
+}
+
+/// Whatever in `text` looks like the name of a metric.
+std::set<std::string> metrics_named(const std::string& text) {
+  const std::regex name("terracut_[a-z_]+");
+  return {std::sregex_token_iterator(text.begin(), text.end(), name), {}};
+}
+
+TEST(MetricsText, IsWhatTheGuideSays) {
+  status::WatchedRun run;
+  run.hear_vehicle();
+  run.narrow_view();
+  run.figures().mount.contradicted = 1;
+  std::set<std::string> emitted;
+  std::istringstream lines(metrics_text(run.figures()));
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with("# TYPE ")) emitted.merge(metrics_named(line));
+  }
+  std::ifstream guide(test::source_folder() / "docs/guide/monitoring.md");
+  EXPECT_EQ(metrics_named(std::string(std::istreambuf_iterator<char>(guide), {})), emitted);
+}
+
+TEST(MetricsText, PassesPromtoolsCheck) {
+  if (std::system("command -v promtool >/dev/null 2>&1") != 0) {
+    GTEST_SKIP() << "promtool is not installed (Debian package prometheus)";
+  }
+  status::WatchedRun run;
+  const auto folder = test::make_scratch_folder();
+  const auto check = [&](const std::string& text) {
+    std::ofstream(folder / "metrics.txt") << text;
+    const std::string command = "promtool check metrics <'" + (folder / "metrics.txt").string() +
+                                "' >'" + (folder / "said.txt").string() + "' 2>&1";
+    const int status = std::system(command.c_str());
+    std::ifstream said(folder / "said.txt");
+    return status == 0 ? "" : std::string(std::istreambuf_iterator<char>(said), {}) + "refused";
+  };
+  EXPECT_EQ(check(metrics_text(run.figures())), "");
+  run.hear_vehicle();
+  EXPECT_EQ(check(metrics_text(run.figures())), "");
+  EXPECT_EQ(check(metrics_text(*std::make_unique<status::MonitorSnapshot>())), "");
+  EXPECT_NE(check("terracut_frames_total{rung=full} 1\n"), "") << "promtool checks nothing";
+  std::filesystem::remove_all(folder);
+}
+
+/// A connection to the server under test.
+class Client {
+ public:
+  explicit Client(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(port);
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    connected_ =
+        ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
+  }
+  ~Client() { ::close(socket_); }
+  Client(const Client&) = delete;
+  Client& operator=(const Client&) = delete;
+
+  [[nodiscard]] bool connected() const { return connected_; }
+  void send(const std::string& bytes) const {
+    EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(bytes.size()));
+  }
+  /// Everything until the server hangs up.
+  [[nodiscard]] std::string answer() const {
+    std::string text;
+    char part[4096];
+    for (ssize_t got = 0; (got = ::recv(socket_, part, sizeof(part), 0)) > 0;) {
+      text.append(part, static_cast<std::size_t>(got));
+    }
+    return text;
+  }
+
+ private:
+  int socket_;
+  bool connected_ = false;
+};
+
+std::string get(std::uint16_t port, const std::string& path,
+                const std::string& host = "localhost") {
+  const Client client(port);
+  client.send("GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
+  return client.answer();
+}
+
+class MetricsServerOf : public testing::Test {
+ protected:
+  [[nodiscard]] Expected<MetricsServer> start(std::uint16_t port = 0) {
+    return MetricsServer::start("127.0.0.1", port, [this](status::MonitorSnapshot& into) {
+      into = run_.figures();
+      return has_figures_;
+    });
+  }
+  status::WatchedRun run_;
+  bool has_figures_ = true;
+};
+
+TEST_F(MetricsServerOf, AnswersWithTheFigures) {
+  const auto server = start();
+  ASSERT_TRUE(server) << server.error().message;
+  for (int scrape = 0; scrape < 3; ++scrape) {
+    const std::string answer = get(server->port(), "/metrics");
+    EXPECT_THAT(answer, AllOf(HasSubstr("HTTP/1.1 200"), HasSubstr("text/plain; version=0.0.4")));
+    EXPECT_THAT(answer, HasSubstr(metrics_text(run_.figures())));
+  }
+}
+
+TEST_F(MetricsServerOf, SaysWhatThereIsAndWhatIsNot) {
+  has_figures_ = false;
+  const auto server = start();
+  ASSERT_TRUE(server);
+  EXPECT_THAT(get(server->port(), "/"), HasSubstr("/metrics"));
+  EXPECT_THAT(get(server->port(), "/nothing"), HasSubstr("HTTP/1.1 404"));
+  EXPECT_THAT(get(server->port(), "/metrics"), HasSubstr("HTTP/1.1 503"));
+}
+
+TEST_F(MetricsServerOf, TellsNothingToAWebPageWhoseNameWasMadeToLeadHere) {
+  const auto server = start();
+  ASSERT_TRUE(server);
+  for (const char* path : {"/metrics", "/"}) {
+    const std::string refused = get(server->port(), path, "rebound.example:9464");
+    EXPECT_THAT(refused, HasSubstr("403")) << path;
+    EXPECT_THAT(refused, testing::Not(HasSubstr("terracut_"))) << path;
+    EXPECT_THAT(get(server->port(), path, "127.0.0.1:9464"), HasSubstr("200 OK")) << path;
+  }
+}
+
+TEST(HttpHost, IsThisMachineByAddressAsLocalhostOrByItsOwnName) {
+  for (const char* host :
+       {"127.0.0.1", "127.0.0.1:9464", "192.168.3.5:9464", "[::1]", "[fe80::1]:80", "localhost",
+        "LOCALHOST:9464", "vehicle7", "Vehicle7:9464", ""}) {
+    EXPECT_TRUE(names_this_machine(host, "vehicle7")) << host;
+  }
+  for (const char* host : {"rebound.example", "rebound.example:9464", "127.0.0.1.rebound.example",
+                           "localhost.rebound.example", "vehicle7.rebound.example", "vehicle",
+                           ":80", "[rebound]", "127.0.0.1:80.rebound.example"}) {
+    EXPECT_FALSE(names_this_machine(host, "vehicle7")) << host;
+  }
+  EXPECT_FALSE(names_this_machine("vehicle7", ""));
+}
+
+TEST_F(MetricsServerOf, RefusesAPortInUse) {
+  const auto first = start();
+  ASSERT_TRUE(first);
+  const auto second = start(first->port());
+  ASSERT_FALSE(second);
+  EXPECT_EQ(second.error().code, ErrorCode::kInvalidArgument);
+  EXPECT_THAT(second.error().message,
+              AllOf(HasSubstr("127.0.0.1:" + std::to_string(first->port())), HasSubstr("in use")));
+}
+
+TEST_F(MetricsServerOf, RefusesAnAddressThatIsNotOfThisMachine) {
+  const auto server =
+      MetricsServer::start("192.0.2.1", 0, [](status::MonitorSnapshot&) { return false; });
+  ASSERT_FALSE(server);
+  EXPECT_THAT(server.error().message, HasSubstr("192.0.2.1"));
+}
+
+TEST_F(MetricsServerOf, ServesOthersAfterAClientThatSendsNonsenseOrNothing) {
+  const auto server = start();
+  ASSERT_TRUE(server);
+  {
+    const Client silent(server->port());
+    const Client nonsense(server->port());
+    ASSERT_TRUE(silent.connected() && nonsense.connected());
+    nonsense.send("\x01\x02 nonsense\r\n\r\n");
+    EXPECT_THAT(get(server->port(), "/metrics"), HasSubstr("HTTP/1.1 200"));
+  }
+  const Client gone(server->port());
+  gone.send("GET /metr");
+  EXPECT_THAT(get(server->port(), "/metrics"), HasSubstr("HTTP/1.1 200"));
+}
+
+TEST_F(MetricsServerOf, StopsThoughAClientKeepsItsConnection) {
+  auto server = start();
+  ASSERT_TRUE(server);
+  const std::uint16_t port = server->port();
+  const Client dawdling(port);
+  dawdling.send("GET /metrics HTTP/1.1\r\n");
+  {
+    const MetricsServer stopped = std::move(*server);
+  }
+  EXPECT_FALSE(Client(port).connected());
+}
+
+}  // namespace
+}  // namespace terracut::cli

@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Drives of both sensors, in every return mode, written and decoded again.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/ruby128/difop_angles.hpp"
+#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/sensor/device_reader.hpp"
+#include "random_columns.hpp"
+#include "tests/support/hand_out.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tools/lab/drive/drive_writer.hpp"
+
+namespace terracut::drive {
+namespace {
+
+namespace fs = std::filesystem;
+using test::RandomColumns;
+
+struct Hdl64e {
+  using Transmitter = encode::Hdl64eTransmitter;
+  using Decoder = hdl64e::Hdl64eDecoder;
+  static constexpr std::uint16_t kPort = hdl64e::kHdl64eDataPort;
+};
+struct Ruby128 {
+  using Transmitter = encode::Ruby128Transmitter;
+  using Decoder = ruby128::Ruby128Decoder;
+  static constexpr std::uint16_t kPort = ruby128::kRubyDataPort;
+};
+
+/// Intensities of a frame's returns in order of arrival.
+std::vector<std::uint8_t> arrivals(const frame::RangeImage& image) {
+  std::vector<std::uint8_t> intensities(image.returns());
+  for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
+    if (image.has_return(cell)) intensities[image.return_index()[cell]] = image.intensity()[cell];
+  }
+  for (const auto& extra : image.overflow()) {
+    intensities[extra.return_index] = extra.echo.intensity;
+  }
+  return intensities;
+}
+
+template <class Sensor>
+class DriveRoundTrip : public testing::Test {
+ protected:
+  using Written = typename Sensor::Transmitter;
+  using Column = typename Written::Column;
+
+  void SetUp() override { folder = terracut::test::make_scratch_folder(); }
+  void TearDown() override { fs::remove_all(folder); }
+
+  [[nodiscard]] fs::path pcap() const { return folder / "drive.pcap"; }
+
+  DriveSummary write(const std::vector<Column>& columns, const typename Written::Config& config) {
+    auto writer = DriveWriter<Written>::create(pcap(), Written::nominal(), config);
+    EXPECT_TRUE(writer) << writer.error().message;
+    for (const Column& column : columns) {
+      const Status added =
+          writer->add_column(column.stamp_ns, column.unwrapped_azimuth_cdeg, column.by_laser);
+      EXPECT_TRUE(added) << added.error().message;
+    }
+    const auto summary = writer->finish();
+    EXPECT_TRUE(summary) << summary.error().message;
+    return *summary;
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> truth(std::size_t frame) const {
+    char name[32];
+    std::snprintf(name, sizeof name, "%06zu.label", frame);
+    std::ifstream file(folder / "drive.truth" / name, std::ios::binary);
+    EXPECT_TRUE(file) << name;
+    std::vector<std::uint32_t> labels;
+    hdl64e::wire::U32 label{};
+    while (file.read(reinterpret_cast<char*>(label.bytes.data()), 4)) {
+      labels.push_back(label.value());
+    }
+    return labels;
+  }
+
+  /// Reads the drive as anybody would and holds each frame against its truth file.
+  void expect_truth_fits(const DriveSummary& written, ReturnMode returns, double spin_hz) {
+    const auto calibration = Written::read_calibration(calibration_path_of<Written>(pcap()));
+    ASSERT_TRUE(calibration) << calibration.error().message;
+    typename Sensor::Decoder::Config config;
+    config.columns = static_cast<int>(
+        std::lround(1e9 / (spin_hz * static_cast<double>(Written::firing_ns(returns)))));
+    memory::FixedMemory memory;
+    typename Sensor::Decoder decoder(*calibration, {}, config, memory);
+    std::uint64_t frames = 0, arrived = 0;
+    std::int64_t last_number = -1;
+    std::uint64_t out_of_place = 0, out_of_order = 0;
+    const auto on_frame = [&](const frame::FrameInfo&, const frame::RangeImage& image) noexcept {
+      const auto seen = arrivals(image);
+      const auto labels = truth(frames++);
+      arrived += seen.size();
+      EXPECT_EQ(labels.size(), seen.size()) << "frame " << frames - 1;
+      last_number = -1;  // turns overlap around the seam; order holds inside of each
+      for (std::size_t i = 0; i < std::min(labels.size(), seen.size()); ++i) {
+        out_of_place += (labels[i] & 0xFFU) != seen[i] ? 1 : 0;
+        out_of_order += static_cast<std::int64_t>(labels[i] >> 8) <= last_number ? 1 : 0;
+        last_number = labels[i] >> 8;
+      }
+    };
+    auto source = capture::PcapSource::open(pcap(), {.port = Sensor::kPort});
+    ASSERT_TRUE(source) << source.error().message;
+    while (true) {
+      const auto datagram = source->next();
+      ASSERT_TRUE(datagram) << datagram.error().message;
+      if (!*datagram) break;
+      ASSERT_EQ(test::decode(decoder, **datagram, on_frame), std::nullopt);
+    }
+    EXPECT_EQ(decoder.dual_return(), returns == ReturnMode::kDual);
+    EXPECT_EQ(decoder.packets_decoded(), written.packets);
+    test::end_stream(decoder, on_frame);
+    EXPECT_EQ(decoder.losses().network_gap_packets, 0U);
+    EXPECT_EQ(decoder.losses().clock_jumps, 0U);
+    EXPECT_EQ(decoder.losses().overflow_full_returns, 0U);
+    EXPECT_EQ(frames, written.frames);
+    EXPECT_EQ(arrived, written.returns);
+    EXPECT_EQ(out_of_place, 0U);
+    EXPECT_EQ(out_of_order, 0U);
+  }
+
+  fs::path folder;
+};
+
+using Sensors = testing::Types<Hdl64e, Ruby128>;
+TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
+
+TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEverySpin) {
+  using Transmitter = typename TypeParam::Transmitter;
+  for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
+    for (const double spin_hz : {5.0, 10.0, 20.0}) {
+      SCOPED_TRACE(std::to_string(returns_per_firing(returns)) + " returns at " +
+                   std::to_string(spin_hz) + " Hz");
+      const auto columns = test::random_columns<Transmitter>(
+          {.returns = returns, .spin_hz = spin_hz, .share_of_returns = 0.3});
+      const auto written = this->write(columns, {.returns = returns});
+      EXPECT_EQ(written.frames, 4U);
+      EXPECT_EQ(written.columns, columns.size());
+      EXPECT_EQ(written.packets * Transmitter::kColumnsPerPacket, columns.size());
+      this->expect_truth_fits(written, returns, spin_hz);
+    }
+  }
+}
+
+TYPED_TEST(DriveRoundTrip, SeamsFallOnAnyPlaceOfAGroup) {
+  using Transmitter = typename TypeParam::Transmitter;
+  for (std::uint32_t seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    const auto columns = test::random_columns<Transmitter>({.returns = ReturnMode::kDual,
+                                                            .spin_hz = 9.7 + 0.13 * seed,
+                                                            .first_cdeg = 34'900 + 7.0 * seed,
+                                                            .last_cdeg = 37'100,
+                                                            .share_of_returns = 0.9,
+                                                            .seed = seed});
+    const auto written = this->write(columns, {.returns = ReturnMode::kDual});
+    this->expect_truth_fits(written, ReturnMode::kDual, 10);
+  }
+}
+
+TYPED_TEST(DriveRoundTrip, FillsUpTheLastPacketsWhereverTheDriveEnds) {
+  using Transmitter = typename TypeParam::Transmitter;
+  for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
+    const auto all = test::random_columns<Transmitter>({.returns = returns, .last_cdeg = 36'000});
+    for (std::size_t missing = 1; missing <= 5; ++missing) {
+      SCOPED_TRACE(missing);
+      auto columns = all;
+      columns.resize(columns.size() - missing);
+      const auto written = this->write(columns, {.returns = returns});
+      EXPECT_LE(written.columns, all.size());
+      EXPECT_EQ(written.packets * Transmitter::kColumnsPerPacket, written.columns);
+      this->expect_truth_fits(written, returns, 10);
+    }
+  }
+}
+
+TYPED_TEST(DriveRoundTrip, ASecondReturnMustBelongToTheFirst) {
+  using Transmitter = typename TypeParam::Transmitter;
+  const typename Transmitter::Column nothing;
+  for (const auto& [late_ns, turned_cdeg] : {std::pair{1'000, 0}, std::pair{0, 20}}) {
+    auto writer = DriveWriter<Transmitter>::create(this->pcap(), Transmitter::nominal(),
+                                                   {.returns = ReturnMode::kDual});
+    ASSERT_TRUE(writer);
+    ASSERT_TRUE(writer->add_column(1'000'000'000, 100, nothing.by_laser));
+    const Status added =
+        writer->add_column(1'000'000'000 + late_ns, 100 + turned_cdeg, nothing.by_laser);
+    ASSERT_FALSE(added);
+    EXPECT_EQ(added.error().code, ErrorCode::kInvalidArgument);
+    EXPECT_NE(added.error().message.find("second return"), std::string::npos);
+    EXPECT_NE(added.error().message.find("firing 0"), std::string::npos);
+  }
+}
+
+TYPED_TEST(DriveRoundTrip, AnUnfinishedDriveLeavesNothingBehind) {
+  using Transmitter = typename TypeParam::Transmitter;
+  {
+    auto writer = DriveWriter<Transmitter>::create(this->pcap(), Transmitter::nominal());
+    ASSERT_TRUE(writer);
+    for (const auto& c : test::random_columns<Transmitter>({.last_cdeg = 38'000})) {
+      ASSERT_TRUE(writer->add_column(c.stamp_ns, c.unwrapped_azimuth_cdeg, c.by_laser));
+    }
+  }
+  EXPECT_TRUE(fs::is_empty(this->folder));
+}
+
+using Ruby128Drive = DriveRoundTrip<Ruby128>;
+
+TEST_F(Ruby128Drive, SendsADevicePacketFirstAndThenOnceASecond) {
+  const auto columns = test::random_columns<encode::Ruby128Transmitter>(
+      {.first_cdeg = 0, .last_cdeg = 36'000.0 * 21, .share_of_returns = 0});
+  encode::Ruby128Transmitter::Config config;
+  config.unit = {.rpm = 601, .serial = {1, 2, 3, 4, 5, 6}};
+  write(columns, config);
+  auto source = capture::PcapSource::open(pcap());
+  ASSERT_TRUE(source);
+  std::vector<std::int64_t> heard_ns;
+  std::uint64_t others = 0;
+  while (true) {
+    const auto datagram = source->next();
+    ASSERT_TRUE(datagram);
+    if (!*datagram) break;
+    const auto difop = ruby128::read_difop((*datagram)->payload);
+    if (!difop) {
+      EXPECT_FALSE(heard_ns.empty()) << "data before the device packet";
+      ++others;
+      continue;
+    }
+    EXPECT_EQ((*datagram)->destination_port, ruby128::kRubyDevicePort);
+    heard_ns.push_back(ruby128::read_ruby_timestamp(difop->stamp, config.timestamp));
+    const auto calibration = ruby128::calibration_of(*difop);
+    ASSERT_TRUE(calibration) << calibration.error().message;
+    EXPECT_EQ(fingerprint(*calibration), fingerprint(ruby128::nominal_ruby128()));
+    const ruby128::Ruby128DeviceInfo info = ruby128::device_info_of(*difop);
+    EXPECT_EQ(info.rpm_set, 601);
+    EXPECT_EQ(info.rpm_actual, 601);
+    EXPECT_EQ(info.serial, config.unit.serial);
+    EXPECT_EQ(info.data_port, ruby128::kRubyDataPort);
+    EXPECT_EQ(info.device_port, ruby128::kRubyDevicePort);
+    EXPECT_EQ(info.return_mode_raw, 1);
+  }
+  ASSERT_EQ(heard_ns.size(), 3U);
+  EXPECT_EQ(heard_ns[0], columns.front().stamp_ns);
+  for (int second : {1, 2}) {
+    const auto late_ns = heard_ns[static_cast<std::size_t>(second)] - heard_ns[0] -
+                         std::int64_t{second} * 1'000'000'000;
+    EXPECT_GE(late_ns, 0);
+    EXPECT_LT(late_ns, 170'000);
+  }
+  EXPECT_EQ(others, columns.size() / 3);
+}
+
+TEST_F(Ruby128Drive, AnyEncodingOfTheStampsIsUnderstoodFromTheFirstPacketOn) {
+  for (const ruby128::RubyTimestamp timestamp :
+       {ruby128::RubyTimestamp::kCalendar, ruby128::RubyTimestamp::kUtcMicroseconds,
+        ruby128::RubyTimestamp::kUtcNanoseconds}) {
+    for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
+      SCOPED_TRACE(to_string(timestamp));
+      const auto columns = test::random_columns<encode::Ruby128Transmitter>(
+          {.returns = returns, .last_cdeg = 37'100});
+      const auto written = write(columns, {.returns = returns, .timestamp = timestamp});
+      expect_truth_fits(written, returns, 10);
+    }
+  }
+}
+
+TEST_F(Ruby128Drive, RefusesFiringsThatTheDecoderWouldNotJoin) {
+  const frame::Ruby128Column nothing;
+  const auto second_firing_after = [&](std::int64_t ns, std::int64_t cdeg) {
+    auto writer = Ruby128DriveWriter::create(pcap(), ruby128::nominal_ruby128(),
+                                             {.returns = ReturnMode::kDual});
+    EXPECT_TRUE(writer->add_column(0, 0, nothing.by_laser));
+    EXPECT_TRUE(writer->add_column(0, 0, nothing.by_laser));
+    return writer->add_column(ns, cdeg, nothing.by_laser);
+  };
+  EXPECT_TRUE(second_firing_after(55'550, 20));
+  EXPECT_FALSE(second_firing_after(100'000, 20));
+  EXPECT_FALSE(second_firing_after(55'550, 3));
+  EXPECT_FALSE(second_firing_after(55'550, 101));
+}
+
+}  // namespace
+}  // namespace terracut::drive

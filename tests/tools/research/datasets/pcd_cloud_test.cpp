@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "tools/research/datasets/pcd_cloud.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <string>
+
+#include "tests/firmware_io/scan/scratch_folder.hpp"
+
+namespace terracut::datasets {
+namespace {
+
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+/// A header of two points with x (float), n (int16) and a histogram of two values between them.
+std::string header(const std::string& data) {
+  return "# a comment\nVERSION .7\nFIELDS x h n\nSIZE 4 1 2\nTYPE F U I\nCOUNT 1 2 1\n"
+         "WIDTH 2\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 2\nDATA " +
+         data + "\n";
+}
+
+std::string error_of(const std::string& content) {
+  const auto cloud = PcdCloud::parse(content, "a.pcd");
+  if (cloud) return "";
+  EXPECT_THAT(cloud.error().message, HasSubstr("a.pcd: "));
+  return cloud.error().message;
+}
+
+TEST(PcdCloud, GivesTheFieldsOfTextByName) {
+  const auto cloud = PcdCloud::parse(header("ascii") + "1.5 7 8 -3\r\nnan 9 9 4", "a.pcd");
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_EQ(cloud->points(), 2U);
+  EXPECT_THAT(*cloud->field("n"), ElementsAre(-3, 4));
+  EXPECT_EQ(cloud->field("x")->front(), 1.5);
+  EXPECT_TRUE(std::isnan(cloud->field("x")->back()));
+}
+
+TEST(PcdCloud, GivesTheFieldsOfBinaryDataByName) {
+  const std::string one("\x00\x00\xC0\x3F\x07\x08\xFD\xFF", 8),
+      two("\x00\x00\x00\xC0\x09\x09\x04\x00", 8);
+  const auto cloud = PcdCloud::parse(header("binary") + one + two, "a.pcd");
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_THAT(*cloud->field("x"), ElementsAre(1.5, -2));
+  EXPECT_THAT(*cloud->field("n"), ElementsAre(-3, 4));
+}
+
+/// Compressed data: their sizes, then what LZF made of all x, all h, all n.
+std::string packed(std::uint32_t unpacked_bytes, const std::string& data) {
+  std::string sizes(8, '\0');
+  const auto packed_bytes = static_cast<std::uint32_t>(data.size());
+  std::memcpy(sizes.data(), &packed_bytes, 4);
+  std::memcpy(sizes.data() + 4, &unpacked_bytes, 4);
+  return header("binary_compressed") + sizes + data;
+}
+
+TEST(PcdCloud, GivesTheFieldsOfCompressedDataByName) {
+  // Four bytes as they are, then the same once more; h is four times 7, then n.
+  const std::string data(
+      "\x03\x00\x00\xC0\x3F"
+      "\x40\x03"
+      "\x00\x07"
+      "\x20\x00"
+      "\x03\xFD\xFF\x04\x00",
+      16);
+  const auto cloud = PcdCloud::parse(packed(16, data), "a.pcd");
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_THAT(*cloud->field("x"), ElementsAre(1.5, 1.5));
+  EXPECT_THAT(*cloud->field("n"), ElementsAre(-3, 4));
+}
+
+TEST(PcdCloud, UnpacksRunsOfMoreThanEightBytes) {
+  // 1200 times the same byte: one as it is, then runs of 264, 264, 264, 264 and 143.
+  std::string data("\x00\x05", 2);
+  for (int i = 0; i < 4; ++i) data += std::string("\xE0\xFF\x00", 3);
+  data += std::string("\xE0\x86\x00", 3);
+  std::string sizes(8, '\0');
+  sizes[0] = static_cast<char>(data.size());
+  sizes[4] = static_cast<char>(1200 & 255);
+  sizes[5] = static_cast<char>(1200 >> 8);
+  const auto cloud = PcdCloud::parse(
+      "FIELDS n\nSIZE 1\nTYPE U\nPOINTS 1200\nDATA binary_compressed\n" + sizes + data, "a.pcd");
+  ASSERT_TRUE(cloud) << cloud.error().message;
+  EXPECT_THAT(*cloud->field("n"), Each(5));
+}
+
+TEST(PcdCloud, SaysWhereCompressedDataAreBroken) {
+  EXPECT_THAT(error_of(header("binary_compressed") + "1234"), HasSubstr("have no sizes"));
+  EXPECT_THAT(error_of(packed(16, "1234").substr(0, packed(16, "").size() + 2)),
+              HasSubstr("truncated: 2 bytes of data, expected 4"));
+  EXPECT_THAT(error_of(packed(17, "1234")), HasSubstr("17 bytes unpacked, expected 16"));
+  for (const std::string& broken :
+       {std::string("\x03\x00", 2), std::string("\x40\x03", 2), std::string("\x00\x07\x40", 3),
+        std::string("\x00\x07\xE0", 3), std::string("\x00\x07", 2),
+        std::string("\x00\x07\xE0\xFF\x00", 5)}) {
+    EXPECT_THAT(error_of(packed(16, broken)), HasSubstr("compressed data are broken"));
+  }
+}
+
+TEST(PcdCloud, HasNoFieldThatIsNotThereOrHasSeveralValues) {
+  const auto cloud = PcdCloud::parse(header("ascii") + "1 1 1 1\n2 2 2 2\n", "a.pcd");
+  ASSERT_TRUE(cloud);
+  EXPECT_FALSE(cloud->field("h"));
+  EXPECT_FALSE(cloud->field("label"));
+  EXPECT_THAT(cloud->fields(), ElementsAre("x", "n"));
+}
+
+TEST(PcdCloud, SaysWhereDataAreBroken) {
+  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n"), HasSubstr("truncated: 8 bytes"));
+  EXPECT_THAT(error_of(header("ascii") + "1.2345678 1 1 1"),
+              HasSubstr("1 lines of data, expected 2"));
+  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 22222\n"), HasSubstr("line 13: 2 values"));
+  EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n2 2 2 w\n"), HasSubstr("line 13: n is 'w'"));
+  EXPECT_THAT(error_of(header("binary") + "1234567"), HasSubstr("truncated: 7 bytes"));
+}
+
+TEST(PcdCloud, SaysWhatIsWrongWithAHeader) {
+  EXPECT_THAT(error_of("\x89PNG\r\n"), HasSubstr("no PCD file"));
+  EXPECT_THAT(error_of(""), HasSubstr("no PCD file"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 4 4\n"), HasSubstr("SIZE has 2 entries for 1 fields"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 3\n"), HasSubstr("SIZE of field x is '3'"));
+  EXPECT_THAT(error_of("FIELDS x\nTYPE Q\n"), HasSubstr("TYPE of field x is 'Q'"));
+  EXPECT_THAT(error_of("FIELDS x\nCOUNT 0\n"), HasSubstr("COUNT of field x is '0'"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nDATA ascii\n1\n"), HasSubstr("no line POINTS"));
+  EXPECT_THAT(error_of("FIELDS x\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("lacks SIZE or TYPE"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 2\nTYPE F\nPOINTS 1\nDATA ascii\n1\n"),
+              HasSubstr("a float of 2 bytes"));
+  EXPECT_THAT(error_of("FIELDS x\x1b[2J\n"), HasSubstr("named 'x?[2J'"));
+  std::string many = "FIELDS";
+  for (int i = 0; i < 65; ++i) many += " x";
+  EXPECT_THAT(error_of(many + "\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("65 FIELDS"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 0\nDATA ascii\n"), HasSubstr("no points"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 99999999999\nDATA binary\n"),
+              HasSubstr("expected at most"));
+  EXPECT_THAT(error_of(header("binary_packed")), HasSubstr("expected ascii, binary or binary_c"));
+}
+
+TEST(PcdCloud, SaysThatAFileIsNotThere) {
+  const auto cloud = PcdCloud::read("nowhere/a.pcd");
+  ASSERT_FALSE(cloud);
+  EXPECT_EQ(cloud.error().code, ErrorCode::kNotFound);
+  const scan::ScratchFolder folder;
+  EXPECT_TRUE(PcdCloud::read(folder.write("a.pcd", header("ascii") + "1 1 1 1\n2 2 2 2\n")));
+}
+
+}  // namespace
+}  // namespace terracut::datasets

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// A vehicle that drives and turns while its sensor's head does: from the simulated world through
+// packets and the decoder, with the vehicle's motion beside them, to places and labels.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calib/beams/angle.hpp"
+#include "calib/mount/mount.hpp"
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/frame/each_return.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "firmware_io/vehicle/ego_motion.hpp"
+#include "pipeline/ground/profile.hpp"
+#include "pipeline/ground/segmenter.hpp"
+#include "tests/support/hand_out.hpp"
+#include "tests/support/scratch_folder.hpp"
+#include "tools/lab/drive/drive_writer.hpp"
+#include "tools/lab/drive/truth_turns.hpp"
+#include "tools/lab/quality/quality.hpp"
+#include "tools/lab/simulator/drive.hpp"
+
+namespace terracut::whole_way {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Point = std::array<double, 3>;
+
+/// T^-1 p
+Point back(const mount::RigidTransform& T, const Point& p) {
+  const std::array<double, 3> d{p[0] - T[3], p[1] - T[7], p[2] - T[11]};
+  Point q{};
+  for (std::size_t i = 0; i < 3; ++i) q[i] = T[i] * d[0] + T[4 + i] * d[1] + T[8 + i] * d[2];
+  return q;
+}
+
+/// Distances, for their 95th percentile and greatest.
+struct Distances {
+  std::vector<double> all_m;
+  [[nodiscard]] double p95_m() {
+    const auto at = all_m.begin() + static_cast<std::ptrdiff_t>(all_m.size() * 95 / 100);
+    std::nth_element(all_m.begin(), at, all_m.end());
+    return *at;
+  }
+  [[nodiscard]] double most_m() const { return *std::max_element(all_m.begin(), all_m.end()); }
+};
+
+void print(const std::string& drive, Distances& as_seen, Distances& deskewed) {
+  std::cout << fmt::format("{}: p95 {:.3f} m as seen, {:.4f} m deskewed, at most {:.3f} m\n", drive,
+                           as_seen.p95_m(), deskewed.p95_m(), deskewed.most_m());
+}
+
+template <class Transmitter>
+simulator::SimulationConfig<Transmitter> fast_bend(const std::string& scene, int turns) {
+  simulator::SimulationConfig<Transmitter> config;
+  config.scene = scene;
+  config.duration_s = 0.1 * turns;
+  config.speed_mps = 20;
+  config.yaw_rate_radps = 0.5;
+  config.threads = 2;
+  return config;
+}
+
+class DeskewedDrive : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = terracut::test::make_scratch_folder(); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  [[nodiscard]] fs::path pcap() const { return folder_ / "drive.pcap"; }
+
+  template <class Transmitter>
+  void write(const simulator::SimulationConfig<Transmitter>& config) {
+    in_world_.clear();
+    const auto poses = simulator::simulated_poses(config);
+    ASSERT_TRUE(poses) << poses.error().message;
+    const mount::RigidTransform T_vehicle_lidar = mount::T_vehicle_lidar(config.mount);
+    auto writer =
+        drive::DriveWriter<Transmitter>::create(pcap(), config.calibration, config.sensor);
+    ASSERT_TRUE(writer) << writer.error().message;
+    // Returns are sorted into turns as their truth is; here each is told by its number.
+    drive::TruthTurns<Transmitter> turns(Transmitter::offsets(config.calibration, config.sensor),
+                                         config.sensor.returns);
+    const auto group_size =
+        static_cast<std::size_t>(Transmitter::limits(config.sensor.returns).firings_per_group *
+                                 drive::returns_per_firing(config.sensor.returns));
+    std::vector<typename Transmitter::Column> group;
+    std::vector<std::uint32_t> numbers;
+    std::vector<Point> in_world;
+    const auto take = [&] {
+      std::vector<Point>& turn = in_world_.emplace_back();
+      for (const std::uint32_t number : numbers) turn.push_back(in_world[number]);
+    };
+    const auto done = simulator::simulate_drive(
+        config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+          const mount::RigidTransform T_world_vehicle = (*poses)(column.wire.stamp_ns);
+          group.push_back(column.wire);
+          for (std::size_t i = 0; i < column.exact.size(); ++i) {
+            if (column.wire.by_laser[i].raw == 0) continue;
+            const beams::Point& exact = column.exact[i];
+            const Point p = mount::apply(T_vehicle_lidar, exact.x_m, exact.y_m, exact.z_m);
+            group.back().by_laser[i].truth = static_cast<std::uint32_t>(in_world.size());
+            in_world.push_back(mount::apply(T_world_vehicle, p[0], p[1], p[2]));
+          }
+          if (group.size() == group_size) {
+            turns.add(group);
+            group.clear();
+            while (turns.take_finished(numbers)) take();
+          }
+          return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
+                                    column.wire.by_laser);
+        });
+    while (turns.take_any(numbers)) take();
+    ASSERT_TRUE(done) << done.error().message;
+    ASSERT_TRUE(writer->finish());
+  }
+
+  /// Decodes with or without the vehicle's motion beside the packets.
+  template <class Transmitter, class OnFrame>
+  void decode(const simulator::SimulationConfig<Transmitter>& config,
+              std::optional<frame::TurnInstant> at, OnFrame&& on_frame) {
+    memory::FixedMemory memory;
+    vehicle::EgoMotion motion({}, memory);
+    const auto samples = simulator::simulated_motion(config);
+    ASSERT_TRUE(samples) << samples.error().message;
+    sensor::SensorDecoder::Config settings;
+    if (at) {
+      settings.motion = &motion;
+      settings.deskew_at = *at;
+    }
+    sensor::SensorDecoder decoder(config.calibration, config.mount, settings, memory);
+    auto source = capture::PcapSource::open(pcap());
+    ASSERT_TRUE(source);
+    auto next_sample = samples->begin();
+    for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
+      for (; next_sample != samples->end() && next_sample->stamp_ns <= (*datagram)->stamp_ns;
+           ++next_sample) {
+        motion.add(*next_sample);
+      }
+      test::decode(decoder, **datagram, on_frame);
+    }
+    test::end_stream(decoder, on_frame);
+  }
+
+  template <class Transmitter>
+  quality::Quality label(const simulator::SimulationConfig<Transmitter>& config,
+                         std::optional<frame::TurnInstant> at) {
+    quality::Quality quality;
+    memory::FixedMemory memory;
+    const auto profile = ring_profile(config.calibration, config.mount);
+    std::unique_ptr<ground::Segmenter> segmenter;
+    decode(config, at, [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+      EXPECT_EQ(info.deskew.state, at ? frame::DeskewState::kDone : frame::DeskewState::kOff);
+      if (!segmenter) {
+        segmenter = std::make_unique<ground::Segmenter>(
+            ground::terracut_profile(), profile, image.shape(), image.return_capacity(), memory);
+      }
+      std::vector<std::uint32_t> truth;
+      const fs::path file =
+          drive::truth_folder_of(pcap()) / fmt::format("{:06}.label", info.number);
+      EXPECT_TRUE(scan::read_label_file(file, image.returns(), truth));
+      (void)segmenter->segment(image);
+      quality += (quality::measure(segmenter->labels(), truth));
+    });
+    return quality;
+  }
+
+  /// How far decoded returns lie from where they would have been seen at the turns' instants, if
+  /// the vehicle had stood there.
+  template <class Transmitter>
+  Distances distances(const simulator::SimulationConfig<Transmitter>& config,
+                      std::optional<frame::TurnInstant> at, frame::TurnInstant wanted) {
+    Distances distances;
+    const auto poses = simulator::simulated_poses(config);
+    const auto turn_ns = static_cast<std::int64_t>(1e9 / config.spin_hz);
+    decode(config, at, [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+      EXPECT_EQ(info.deskew.state, at ? frame::DeskewState::kDone : frame::DeskewState::kOff);
+      // A drive starts a little before the head passes straight ahead; turn 0 begins there.
+      const double share = wanted == frame::TurnInstant::kStart ? 0
+                           : wanted == frame::TurnInstant::kEnd ? 1
+                                                                : 0.5;
+      const std::int64_t reference_ns =
+          seam_ns(config) + std::llround((info.number + share) * static_cast<double>(turn_ns));
+      if (at) {
+        EXPECT_NEAR(static_cast<double>(info.deskew.reference_ns - reference_ns), 0, 30'000);
+      }
+      const mount::RigidTransform T_world_vehicle = (*poses)(reference_ns);
+      frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+        const Point truth = back(T_world_vehicle, in_world_[info.number][placed.return_index]);
+        distances.all_m.push_back(std::hypot(placed.echo.x_m - truth[0], placed.echo.y_m - truth[1],
+                                             placed.echo.z_m - truth[2]));
+      });
+    });
+    return distances;
+  }
+  /// When the head first passes straight ahead.
+  template <class Transmitter>
+  static std::int64_t seam_ns(const simulator::SimulationConfig<Transmitter>& config) {
+    std::int64_t seam_ns = 0;
+    const auto sink = [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+      seam_ns = column.wire.stamp_ns - std::llround(column.time_s * 1e9);
+      return fail(ErrorCode::kNothingCameOut, "enough");
+    };
+    EXPECT_FALSE(simulator::simulate_drive(config, sink));
+    return seam_ns;
+  }
+
+  fs::path folder_;
+  std::vector<std::vector<Point>> in_world_;  ///< Of each turn's returns, in order of arrival.
+};
+
+TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
+  for (const frame::TurnInstant at :
+       {frame::TurnInstant::kStart, frame::TurnInstant::kMiddle, frame::TurnInstant::kEnd}) {
+    const auto config = fast_bend<encode::Hdl64eTransmitter>("flat", 2);
+    write(config);
+    Distances as_seen = distances(config, std::nullopt, at);
+    Distances deskewed = distances(config, at, at);
+    print("HDL-64E, flat", as_seen, deskewed);
+    EXPECT_GT(as_seen.p95_m(), 1.0);
+    EXPECT_LT(deskewed.p95_m(), 0.005);
+    EXPECT_LT(deskewed.most_m(), 0.02);
+  }
+  for (const drive::ReturnMode returns : {drive::ReturnMode::kSingle, drive::ReturnMode::kDual}) {
+    auto config = fast_bend<encode::Ruby128Transmitter>("flat", 2);
+    config.sensor.returns = returns;
+    write(config);
+    Distances as_seen = distances(config, std::nullopt, frame::TurnInstant::kEnd);
+    Distances deskewed = distances(config, frame::TurnInstant::kEnd, frame::TurnInstant::kEnd);
+    print("RS-Ruby128, flat", as_seen, deskewed);
+    EXPECT_LT(deskewed.p95_m(), 0.005);
+    EXPECT_LT(deskewed.most_m(), 0.02);
+  }
+}
+
+TEST_F(DeskewedDrive, OnUnevenRoadsWhatIsLeftIsTheRollAndPitchThatSpeedAndTurnRateDoNotTell) {
+  for (const auto& [scene, allowed_m] : {std::pair{"street", 0.03}, std::pair{"highway", 0.06},
+                                         std::pair{"rural", 0.1}, std::pair{"hill", 0.3}}) {
+    const auto config = fast_bend<encode::Hdl64eTransmitter>(scene, 2);
+    write(config);
+    Distances as_seen = distances(config, std::nullopt, frame::TurnInstant::kEnd);
+    Distances deskewed = distances(config, frame::TurnInstant::kEnd, frame::TurnInstant::kEnd);
+    print(fmt::format("HDL-64E, {}", scene), as_seen, deskewed);
+    EXPECT_LT(deskewed.p95_m(), allowed_m);
+    EXPECT_GT(as_seen.p95_m(), 10 * deskewed.p95_m());
+  }
+}
+
+TEST_F(DeskewedDrive, LabelsAreAsGoodAsThoseOfTheSameScenesStandingStill) {
+  const auto print_quality = [](std::string_view scene, std::string_view how,
+                                const quality::Quality& quality) {
+    std::cout << fmt::format("{}, {}: IoU_g {:.2f}, Recall_o {:.2f}\n", scene, how,
+                             100 * quality.iou_ground(), 100 * quality.recall_key_obstacles());
+  };
+  quality::Quality standing, as_seen, deskewed;
+  const auto add = [&](quality::Quality& sum, std::string_view scene, std::string_view how,
+                       const quality::Quality& quality) {
+    print_quality(scene, how, quality);
+    sum += quality;
+  };
+  for (const char* scene : {"street", "highway", "rural", "flat", "hill"}) {
+    auto config = fast_bend<encode::Hdl64eTransmitter>(scene, 2);
+    config.motion_within_turn = false;
+    write(config);
+    add(standing, scene, "standing", label(config, std::nullopt));
+    config.motion_within_turn = true;
+    write(config);
+    add(as_seen, scene, "as seen", label(config, std::nullopt));
+    add(deskewed, scene, "deskewed", label(config, frame::TurnInstant::kEnd));
+  }
+  print_quality("all", "standing", standing);
+  print_quality("all", "as seen", as_seen);
+  print_quality("all", "deskewed", deskewed);
+  EXPECT_GT(deskewed.iou_ground(), standing.iou_ground() - 0.005);
+  EXPECT_GT(deskewed.recall_key_obstacles(), standing.recall_key_obstacles() - 0.005);
+}
+
+TEST_F(DeskewedDrive, WithoutSamplesTheTurnsSayNoEgoMotionAndAreAsSeen) {
+  const auto config = fast_bend<encode::Hdl64eTransmitter>("flat", 1);
+  write(config);
+  memory::FixedMemory memory;
+  vehicle::EgoMotion motion({}, memory);
+  sensor::SensorDecoder::Config settings;
+  settings.motion = &motion;
+  sensor::SensorDecoder deskewing(config.calibration, config.mount, settings, memory);
+  sensor::SensorDecoder plain(config.calibration, config.mount, {}, memory);
+  std::vector<float> places, plain_places;
+  const auto into = [](std::vector<float>& x_m, frame::DeskewState expected) {
+    return [&x_m, expected](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+      EXPECT_EQ(info.deskew.state, expected);
+      frame::for_each_return(
+          image, [&](const frame::PlacedReturn& placed) { x_m.push_back(placed.echo.x_m); });
+    };
+  };
+  auto source = capture::PcapSource::open(pcap());
+  ASSERT_TRUE(source);
+  const auto on_frame = into(places, frame::DeskewState::kNoEgoMotion);
+  const auto on_plain_frame = into(plain_places, frame::DeskewState::kOff);
+  for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
+    test::decode(deskewing, **datagram, on_frame);
+    test::decode(plain, **datagram, on_plain_frame);
+  }
+  test::end_stream(deskewing, on_frame);
+  test::end_stream(plain, on_plain_frame);
+  EXPECT_GT(places.size(), 50'000U);
+  EXPECT_EQ(places, plain_places);
+}
+
+}  // namespace
+}  // namespace terracut::whole_way

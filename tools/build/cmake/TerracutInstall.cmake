@@ -1,0 +1,33 @@
+# cmake --install: the libraries with their public headers as <terracut/x.hpp>, the program, and what
+# find_package(terracut) reads. What is heavier is in an export of its own, so that segmentation alone asks for no
+# libpcap and no libpng.
+include(CMakePackageConfigHelpers)
+set(terracut_package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/terracut)
+
+# terracut_install(EXPORT targets...): as terracut-<export>-targets.cmake.
+function(terracut_install export)
+  install(TARGETS ${ARGN} EXPORT terracut_${export}
+    ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR}
+    FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+  install(EXPORT terracut_${export} FILE terracut-${export}-targets.cmake NAMESPACE terracut::
+    DESTINATION ${terracut_package_dir})
+endfunction()
+terracut_install(segmentation terracut_rt terracut_calib terracut_frame terracut_ground)
+terracut_install(drivers terracut_firmware_io)
+terracut_install(live terracut_pipeline)
+
+install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(FILES ${PROJECT_SOURCE_DIR}/pipeline/status/terracut_health.dbc
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
+
+configure_package_config_file(
+  ${PROJECT_SOURCE_DIR}/tools/build/cmake/terracut-config.cmake.in
+  ${PROJECT_BINARY_DIR}/terracut-config.cmake
+  INSTALL_DESTINATION ${terracut_package_dir})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/terracut-config-version.cmake
+  COMPATIBILITY SameMinorVersion)
+install(FILES
+  ${PROJECT_BINARY_DIR}/terracut-config.cmake
+  ${PROJECT_BINARY_DIR}/terracut-config-version.cmake
+  ${PROJECT_SOURCE_DIR}/tools/build/cmake/TerracutPcap.cmake
+  DESTINATION ${terracut_package_dir})

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "pipeline/run/packet_pipeline.hpp"
+#include "pipeline/status/figure_lines.hpp"
+#include "pipeline/status/times_table.hpp"
+#include "rt/files/whole_file.hpp"
+#include "rt/measure/milliseconds.hpp"
+#include "rt/threads/thread_setup.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/figures/figures_json.hpp"
+#include "tools/cli/figures/report.hpp"
+#include "tools/cli/input/open_capture.hpp"
+#include "tools/cli/input/packet_store.hpp"
+#include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/decoder_choice.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+#include "tools/cli/settings/words.hpp"
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using measure::milliseconds;
+
+/// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when
+/// the system does not allow it.
+int stay_on_core(int core) {
+  const std::vector<int> allowed = threads::allowed_cores();
+  if (core < 0 && !allowed.empty()) core = allowed.back();
+  if (core < 0) return -1;
+  const auto grants = threads::set_up_this_thread({.name = "terracut", .core = core});
+  return grants && threads::all_granted(*grants) ? core : -1;
+}
+
+std::string processor_name() {
+  std::ifstream file("/proc/cpuinfo");
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("model name")) return line.substr(line.find(':') + 2);
+  }
+  return "unknown";
+}
+
+Expected<PacketStore> load(OpenCapture& capture, const CaptureOptions& options) {
+  PacketStore packets;
+  CaptureWindow window(options);
+  while (true) {
+    if (const Status status = go_on(); !status) return tl::unexpected(status.error());
+    const auto next = capture.source.next();
+    if (!next) {
+      warn(next.error().message);
+      return packets;
+    }
+    if (!*next) return packets;
+    const CaptureWindow::Place place = window.place((*next)->stamp_ns);
+    if (place == CaptureWindow::Place::kAfter) return packets;
+    if (place == CaptureWindow::Place::kInside) packets.add(**next);
+  }
+}
+
+struct BenchResult {
+  TimeSummary times;                             ///< Of whole frames.
+  measure::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
+  std::uint64_t frames = 0, returns = 0, unlabelled = 0;
+  std::vector<FrameRecord> each;  ///< In order, pass after pass.
+};
+
+/// One pass over the packets: decoding and labelling, timed frame by frame.
+void run_frames(run::PacketPipeline& pipeline, const PacketStore& packets, BenchResult* result) {
+  const auto take = [&](run::TimedFrame& frame) {
+    const stage::SegmentationReport segmented = pipeline.label(frame);
+    if (result == nullptr || !frame.info.complete) return;
+    const FrameRecord record = record_of(frame, segmented);
+    result->times.add(record);
+    result->each.push_back(record);
+    ++result->frames;
+    result->returns += record.returns_in;
+    result->unlabelled += record.returns_in - record.returns_labelled;
+  };
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    for (run::TimedFrame& frame : pipeline.push(packets.at(i))) take(frame);
+  }
+  for (run::TimedFrame& frame : pipeline.end_stream()) take(frame);
+}
+
+/// One pass of decoding alone: nanoseconds a column of 64 lasers.
+double run_decoding(sensor::SensorDecoder& decoder, const PacketStore& packets) {
+  const std::uint64_t columns_before = decoder.columns_decoded();
+  const std::int64_t start_ns = measure::thread_cpu_ns();
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    decoder.push(packets.at(i));
+    while (decoder.next() != nullptr) {
+    }
+  }
+  const std::int64_t spent_ns = measure::thread_cpu_ns() - start_ns;
+  const std::uint64_t columns = decoder.columns_decoded() - columns_before;
+  decoder.end_stream();
+  while (decoder.next() != nullptr) {
+  }
+  return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
+}
+
+/// [{"decode", "segment", "after_turn"}, ..]: what the summary is made of.
+nlohmann::ordered_json frames_json(const std::vector<FrameRecord>& frames) {
+  auto list = nlohmann::ordered_json::array();
+  for (const FrameRecord& frame : frames) {
+    list.push_back({{"decode", milliseconds(frame.decode_ns)},
+                    {"segment", milliseconds(frame.times.sum_ns())},
+                    {"after_turn", milliseconds(after_turn_ns(frame))}});
+  }
+  return list;
+}
+
+/// They refer to `result`.
+std::vector<status::Figure> figures_of(const Options& options, const BenchResult& result,
+                                       int core) {
+  const double returns_per_frame =
+      static_cast<double>(result.returns) / static_cast<double>(result.frames);
+  const auto column_ns = [&](double percent) {
+    return static_cast<std::uint64_t>(result.decode_column_ns.percentile_ns(percent));
+  };
+  // clang-format off: a table reads better with an entry on two lines than one word a line.
+  std::vector<status::Figure> figures{
+    {"terracut", TERRACUT_VERSION},
+    {"command", "bench"},
+    {"input", options.capture.file.string()},
+    {"processor", processor_name(), {}, {"processor"}},
+    {{}, core < 0 ? "not pinned" : fmt::format("core {}", core), {}, {"processor"}},
+    {"frames", result.frames, {}, {"frames"}},
+    {{}, static_cast<std::uint64_t>(options.bench_repeat), {}, {"frames", " ({} passes)"}},
+    {"returns_per_frame", status::Number{returns_per_frame, 0, 1e9}, {},
+     {"frames", "{:.0f} returns each"}},
+    {"returns_unlabelled", result.unlabelled},
+    {{}, column_ns(50), {}, {"decode", "{} ns a packet column, p50 of the passes"}},
+    {"p50", column_ns(50), {}, {}, "decode_ns_per_column"},
+    {"p99", column_ns(99), {}, {}, "decode_ns_per_column"},
+    {"max", column_ns(100), {}, {}, "decode_ns_per_column"}};
+  // clang-format on
+  if (options.method.method.empty()) {
+    figures.push_back({"profile", std::string(word_of(kProfileWords, options.method.profile))});
+    figures.push_back({"stages", std::string(word_of(kStageWords, options.method.last_stage))});
+  } else {
+    figures.push_back({"method", options.method.method});
+  }
+  std::ranges::copy(result.times.figures(), std::back_inserter(figures));
+  return figures;
+}
+
+ExitCode conclude(const Options& options, const BenchResult& result, int core) {
+  const auto figures = figures_of(options, result, core);
+  fmt::print("{}{}", figure_lines(figures, {}), times_table(figures, {}));
+  if (options.output.json.empty()) return kOk;
+
+  nlohmann::ordered_json json;
+  add_figures(figures, json);
+  json["core"] = core;
+  json["frames_ms"] = frames_json(result.each);
+  const Status written = files::write_whole_file(options.output.json, json_text(json));
+  return written ? kOk : refuse(written.error());
+}
+
+}  // namespace
+
+ExitCode run_bench(const Options& options) {
+  catch_stop_signals();
+  auto capture = open_capture(options.capture);
+  if (!capture) return refuse(capture.error());
+  const auto profile = ring_profile_of(capture->calibration, options.mount);
+  if (!profile) return refuse(profile.error());
+  const auto packets = load(*capture, options.capture);
+  if (!packets) return refuse_work(packets.error());
+
+  warn_of_other_senders(*capture, options.capture);
+  memory::FixedMemory memory;
+  const auto decoder_config = decoder_config_of(options.capture, capture->sensor.columns);
+  run::PacketPipeline pipeline(capture->calibration, *profile, decoder_config,
+                               method_config_of(options.method), memory,
+                               run::PacketPipeline::Timing::kFrames);
+  sensor::SensorDecoder decoder(capture->calibration, profile->mount, decoder_config, memory);
+  const int core = stay_on_core(options.bench_core);
+  if (core < 0) warn("could not stay on one core; times include moves between cores");
+
+  run_frames(pipeline, *packets, nullptr);  // warms caches and branch predictors; not counted
+  const frame::LossCounters first_pass_losses = pipeline.decoder().losses();
+  BenchResult result;
+  Progress progress("measuring", "passes", options.bench_repeat);
+  for (int pass = 0; pass < options.bench_repeat; ++pass) {
+    if (const Status status = go_on(); !status) return refuse_work(status.error());
+    run_frames(pipeline, *packets, &result);
+    result.decode_column_ns.record(static_cast<std::int64_t>(run_decoding(decoder, *packets)));
+    progress.update(pass + 1);
+  }
+  if (result.frames == 0) {
+    return refuse(nothing_came_out(capture->source, packets->size(), first_pass_losses));
+  }
+  return conclude(options, result, core);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/input/input_check.hpp"
+#include "tools/cli/settings/configuration_text.hpp"
+
+namespace terracut::cli {
+
+/// The configuration in force, checked when it was read and that its files are there, or what a
+/// file could say.
+ExitCode run_config(const Options& options) {
+  if (options.print_table) {
+    fmt::print("{}", configuration_table());
+  } else if (options.print_default) {
+    const Options defaults;
+    fmt::print("{}", configuration_yaml(defaults));
+  } else {
+    const Status inputs = check_inputs(options);
+    if (!inputs) return refuse(inputs.error());
+    fmt::print("{}", configuration_yaml(options));
+  }
+  return kOk;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <string>
+
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/stop_signal.hpp"
+#include "tools/lab/drive/vehicle_log.hpp"
+#include "tools/lab/encode/scan_drive.hpp"
+
+namespace terracut::cli {
+namespace {
+
+/// Of the 18 scans of the tuning set with their motion put back no sequence is off by more than
+/// 2 cm, and with it left in, those of slow drives by 6 and of fast ones by 10: from here on kerbs
+/// drown.
+constexpr double kTooFarOff_m = 0.08;
+
+scan::PutMotionBack motion_of(const Options& options) {
+  if (options.encode.keep_compensation) return scan::PutMotionBack::kNever;
+  return options.encode.undo_compensation ? scan::PutMotionBack::kAlways
+                                          : scan::PutMotionBack::kWhereKnown;
+}
+
+std::string motion_line(const std::string& why_as_recorded) {
+  return "motion    " + (why_as_recorded.empty()
+                             ? "put back, by poses.txt and times.txt beside the scans"
+                             : "as recorded: " + why_as_recorded);
+}
+
+/// What mends heights that are too far off.
+std::string cure_of_heights(const Options& options, const encode::ScanDriveReport& report) {
+  if (options.encode.keep_compensation) {
+    return "the scans are compensated for the sensor's motion; leave --keep-compensation away";
+  }
+  if (!report.why_as_recorded.empty()) {
+    return fmt::format(
+        "scans are usually compensated for the sensor's motion, which can be put "
+        "back by the sequence's poses.txt, times.txt and calib.txt beside velodyne/ "
+        "({})",
+        report.why_as_recorded);
+  }
+  if (!report.fitted) return "--calibration may be of another unit; without it one is fitted";
+  return "are poses.txt, times.txt and calib.txt those of this sequence? If the scans are not "
+         "compensated for the sensor's motion, give --keep-compensation";
+}
+
+void print(const Options& options, const encode::ScanDriveReport& report) {
+  const encode::EncodeSummary& encoded = report.encoded;
+  fmt::print("wrote     {}\n          {}\n          {}/\n", options.written.string(),
+             drive::calibration_path_of<encode::Hdl64eTransmitter>(options.written).string(),
+             drive::truth_folder_of(options.written).string());
+  if (options.can_log) {
+    fmt::print("          {}\n          {}\n", drive::can_log_path_of(options.written).string(),
+               drive::can_dbc_path_of(options.written).string());
+  }
+  fmt::print("table     {}, fingerprint {:016x}\n",
+             report.fitted ? "fitted to the scans" : report.calibration.origin,
+             fingerprint(report.calibration));
+  fmt::print(
+      "{}\nframes    {}\nreturns   {} of {} points ({:.2f} %)\n",
+      motion_line(report.why_as_recorded), report.drive.frames, encoded.encoded, encoded.points,
+      encoded.points == 0
+          ? 0.0
+          : 100.0 * static_cast<double>(encoded.encoded) / static_cast<double>(encoded.points));
+  for (std::size_t i = 0; i < encode::kNotEncodedReasons; ++i) {
+    if (encoded.not_encoded[i] == 0) continue;
+    fmt::print("          {} left out: {}\n", encoded.not_encoded[i],
+               to_string(static_cast<encode::NotEncoded>(i)));
+  }
+  fmt::print("range     off by {:.1f} mm at most\n", 1000 * encoded.max_range_error_m);
+  fmt::print("height    off by {:.1f} cm (rms), {:.1f} cm (p95)\n", 100 * encoded.height.rms_m,
+             100 * encoded.height.p95_m);
+  if (encoded.height.p95_m > kTooFarOff_m) {
+    warn(fmt::format("heights are off by {:.1f} cm (p95), which bends the ground: {}",
+                     100 * encoded.height.p95_m, cure_of_heights(options, report)));
+  }
+}
+
+void print(const Options& options, const encode::ResampleReport& report, const std::string& table) {
+  const encode::ResampleSummary& rays = report.rays;
+  const auto share = [&](std::uint64_t count) {
+    return rays.rays == 0 ? 0.0
+                          : 100.0 * static_cast<double>(count) / static_cast<double>(rays.rays);
+  };
+  fmt::print("synthetic RS-Ruby128, resampled from an HDL-64E's recording, not recorded\n");
+  fmt::print("wrote     {}\n          {}\n          {}/\n", options.written.string(),
+             drive::calibration_path_of<encode::Ruby128Transmitter>(options.written).string(),
+             drive::truth_folder_of(options.written).string());
+  fmt::print("table     {}\n{}\nframes    {}\nrays      {}\n", table,
+             motion_line(report.why_as_recorded), report.drive.frames, rays.rays);
+  fmt::print("returns   {} ({:.2f} %)\n", rays.returns, share(rays.returns));
+  fmt::print("          {} ({:.2f} %) left out: above or below what was recorded\n", rays.outside,
+             share(rays.outside));
+  fmt::print("          {} ({:.2f} %) left out: nothing recorded near by\n", rays.nothing_near,
+             share(rays.nothing_near));
+  fmt::print("          {} left out: beyond the wire's span\n", rays.out_of_span);
+}
+
+ExitCode resample(const Options& options) {
+  encode::ResampleOptions drive;
+  drive.motion = motion_of(options);
+  if (!options.capture.calibration.empty()) {
+    auto calibration = ruby128::read_ruby128_csv(options.capture.calibration);
+    if (!calibration) return refuse(calibration.error());
+    drive.calibration = *std::move(calibration);
+  }
+  Progress progress("resampling", "scans", 0);
+  drive.on_scan = [&](std::size_t done, std::size_t) {
+    progress.update(static_cast<double>(done));
+    return go_on();
+  };
+  const auto report = encode::resample_scan_folder(options.scans, options.written, drive);
+  if (!report) return refuse_work(report.error());
+  print(options, *report, drive.calibration.origin);
+  return kOk;
+}
+
+}  // namespace
+
+ExitCode run_encode(const Options& options) {
+  catch_stop_signals();
+  if (options.capture.sensor == sensor::SensorModel::kRuby128) {
+    if (options.can_log) {
+      return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled turns begin ahead");
+    }
+    return resample(options);
+  }
+  encode::ScanDriveOptions drive;
+  drive.motion = motion_of(options);
+  drive.can_log = options.can_log;
+  if (!options.capture.calibration.empty()) {
+    auto calibration = hdl64e::load_hdl64e_calibration(options.capture.calibration);
+    if (!calibration) return refuse(calibration.error());
+    drive.calibration = *std::move(calibration);
+  }
+  Progress progress("encoding", "scans", 0);
+  drive.on_scan = [&](std::size_t done, std::size_t) {
+    progress.update(static_cast<double>(done));
+    return go_on();
+  };
+  const auto report = encode::encode_scan_folder(options.scans, options.written, drive);
+  if (!report) return refuse_work(report.error());
+  print(options, *report);
+  return kOk;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "pipeline/ground/parameter_table.hpp"
+#include "rt/files/whole_file.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/json_text.hpp"
+#include "tools/cli/program_identity.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+#include "tools/cli/settings/words.hpp"
+#include "tools/cli/stop_signal.hpp"
+#include "tools/research/datasets/built_in_tables.hpp"
+#include "tools/research/eval/evaluation.hpp"
+#include "tools/research/eval/evaluation_json.hpp"
+#include "tools/research/eval/journal.hpp"
+#include "tools/research/eval/simulated_evaluation.hpp"
+#include "tools/research/report/report.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using eval::EvaluationConfig;
+using eval::FrameRange;
+
+/// "7", "0-99", "0-99:10"; empty for all.
+Expected<FrameRange> frame_range_of(const std::string& text) {
+  FrameRange range;
+  if (text.empty()) return range;
+  const auto refuse = [&] {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("--frames: expected FIRST, FIRST-LAST or FIRST-LAST:STEP, like 0-99:10, "
+                    "found '{}'",
+                    text));
+  };
+  const char* at = text.data();
+  const char* const end = text.data() + text.size();
+  const auto number = [&](std::size_t& value) {
+    const auto [next, error] = std::from_chars(at, end, value);
+    if (error != std::errc{}) return false;
+    at = next;
+    return true;
+  };
+  if (!number(range.first)) return refuse();
+  range.last = range.first;
+  if (at != end && *at == '-') {
+    ++at;
+    if (!number(range.last) || range.last < range.first) return refuse();
+  }
+  if (at != end && *at == ':') {
+    ++at;
+    if (!number(range.step) || range.step == 0) return refuse();
+  }
+  if (at != end) return refuse();
+  return range;
+}
+
+bool is_simulated(const Options& options) {
+  return options.eval.dataset == "simulated";
+}
+
+/// That no option was given which this kind of dataset would not heed.
+Status check_fit(const Options& options) {
+  const auto refuse = [&](std::string_view what) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("`eval {}` does not know {}", options.eval.dataset, what));
+  };
+  if (options.eval.dataset == "own" && options.eval.classes.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                "`eval own` needs --classes FILE, which says how your clouds lie on disk");
+  }
+  if (is_simulated(options)) {
+    if (!options.eval.sequences.empty())
+      return refuse("--sequences: it takes scenes, like street,hill");
+    if (options.eval.through_packets == false)
+      return refuse("--through image: a drive is made of packets");
+    if (options.eval.jobs > 0)
+      return refuse("--jobs: drives are evaluated on one core, one by one");
+    return {};
+  }
+  for (const char* const option : {"--sensor", "--returns", "--duration", "--seed"}) {
+    if (std::ranges::find(options.given, option) != options.given.end()) {
+      return refuse(fmt::format("{}, only `eval simulated` does", option));
+    }
+  }
+  return {};
+}
+
+/// One name for one folder, wherever it is named from; what has none keeps the one it was given.
+std::filesystem::path canonical_path(const std::filesystem::path& path) {
+  std::error_code error;
+  // Absolute first: of what does not exist, it leaves the relative name as it is.
+  const auto absolute = std::filesystem::absolute(path, error);
+  auto canonical = std::filesystem::weakly_canonical(absolute, error);
+  return error ? path : std::move(canonical);
+}
+
+/// Those of --method, or the profile.
+std::vector<std::string> methods_of(const Options& options) {
+  if (!options.eval.methods.empty()) return options.eval.methods;
+  return {std::string(word_of(kProfileWords, options.method.profile))};
+}
+
+/// Of any dataset; of simulated drives `root` is their scenes.
+Expected<EvaluationConfig> config_of(const Options& options, const datasets::ClassTable& classes) {
+  EvaluationConfig config;
+  if (classes.layout()) config.layout = *classes.layout();
+  config.root = is_simulated(options) ? options.eval.root : canonical_path(options.eval.root);
+  config.sequences = options.eval.sequences;
+  config.through_packets = options.eval.through_packets == true || is_simulated(options);
+  config.jobs = options.eval.jobs;
+  if (!options.eval.predictions.empty()) {
+    config.predictions = canonical_path(options.eval.predictions);
+  }
+  const auto frames = frame_range_of(options.eval.frames);
+  if (!frames) return tl::unexpected(frames.error());
+  config.frames = *frames;
+  const auto mount = mount_of(options.mount);
+  if (!mount) return tl::unexpected(mount.error());
+  config.mount = *mount;
+  for (const std::string& name : methods_of(options)) {
+    auto method = eval::method_named(name);
+    if (!method) return tl::unexpected(method.error());
+    for (const std::string& setting : options.method.settings) {
+      if (const Status set = ground::apply_setting(method->config, setting); !set) {
+        return tl::unexpected(set.error());
+      }
+    }
+    config.methods.push_back(*std::move(method));
+  }
+  for (const std::string& text : options.eval.variants) {
+    auto variant = eval::method_variant(text, options.method.settings);
+    if (!variant) return tl::unexpected(variant.error());
+    if (std::ranges::find(config.methods, variant->name, &eval::MethodChoice::name) !=
+        config.methods.end()) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("variant '{}': another one has its name", text));
+    }
+    config.methods.push_back(*std::move(variant));
+  }
+  return config;
+}
+
+/// The drives that `eval simulated` was asked for.
+eval::SimulatedDrives drives_of(const Options& options) {
+  eval::SimulatedDrives drives;
+  const std::string scenes = options.eval.root.string();
+  for (std::size_t begin = 0; begin <= scenes.size();) {
+    const std::size_t end = std::min(scenes.find(',', begin), scenes.size());
+    drives.scenes.push_back(scenes.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  if (options.capture.sensor) drives.sensor = word_of(kSensorWords, options.capture.sensor);
+  drives.dual_return = options.simulate.returns == drive::ReturnMode::kDual;
+  drives.duration_s = options.simulate.duration_s;
+  drives.seed = options.simulate.seed;
+  return drives;
+}
+
+Expected<datasets::ClassTable> classes_of(const Options& all) {
+  const EvalOptions& options = all.eval;
+  if (options.dataset == "own") {
+    auto own = datasets::ClassTable::read(options.classes);
+    if (!own || own->layout()) return own;
+    return fail(ErrorCode::kMalformed, options.classes.string() +
+                                           ": `eval own` needs a class table with a `layout:`, as "
+                                           "in tools/research/datasets/semantickitti_classes.yaml");
+  }
+  auto built_in = datasets::built_in_table(is_simulated(all) ? "semantickitti" : options.dataset);
+  if (!built_in || options.classes.empty()) return built_in;
+  auto own = datasets::ClassTable::read(options.classes);
+  if (own) own->take_layout(*built_in);
+  return own;
+}
+
+/// Everything the counts of a frame depend on: a journal of other settings is not gone on with.
+std::string settings_line(const Options& options, const EvaluationConfig& config) {
+  std::string line =
+      fmt::format("{} build={} dataset={} layout={} root={} through_packets={} mount={},{},{}",
+                  TERRACUT_VERSION, program_identity(), options.eval.dataset,
+                  datasets::to_string(config.layout), config.root.string(), config.through_packets,
+                  config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
+  if (!config.predictions.empty()) line += " predictions=" + config.predictions.string();
+  if (is_simulated(options)) {
+    const auto drives = drives_of(options);
+    line += fmt::format(" sensor={} dual_return={} duration_s={} seed={}", drives.sensor,
+                        drives.dual_return, drives.duration_s, drives.seed);
+  }
+  for (const eval::MethodChoice& method : config.methods) {
+    line += fmt::format(" {}={}{{", method.name, method.base);
+    for (const auto part : {ground::parameters(), ground::rival_parameters()}) {
+      for (const ground::Parameter& parameter : part) {
+        line += fmt::format("{}={} ", parameter.key, ground::value_text(parameter, method.config));
+      }
+    }
+    line.back() = '}';
+  }
+  return line;
+}
+
+std::filesystem::path journal_path(const Options& options) {
+  return options.output.json.string() + ".journal";
+}
+
+void say_outcome(const eval::EvaluationOutcome& outcome, const nlohmann::ordered_json& json) {
+  constexpr std::size_t kShown = 20;
+  for (std::size_t i = 0; i < outcome.faults.size() && i < kShown; ++i) {
+    warn("not evaluated: " + outcome.faults[i].what);
+  }
+  if (outcome.faults.size() > kShown) {
+    warn(fmt::format("and {} more, see `faults` in the report", outcome.faults.size() - kShown));
+  }
+  for (const auto& warning : json.at("warnings")) {
+    warn(warning.at("where").get<std::string>() + ": " + warning.at("what").get<std::string>());
+  }
+}
+
+Status write_report(const std::filesystem::path& folder, const report::ReportInput& input) {
+  std::optional<Progress> progress;
+  const Status written = report::write_report(folder, input, [&](std::size_t done, std::size_t of) {
+    if (!progress) progress.emplace("drawing frames", "frames", static_cast<double>(of));
+    progress->update(static_cast<double>(done));
+  });
+  progress.reset();
+  if (written) fmt::print("report    ./tools/report {} draws the page\n", folder.string());
+  return written;
+}
+
+Expected<eval::EvaluationOutcome> evaluate_scans(const EvaluationConfig& config,
+                                                 std::optional<eval::Journal>& journal) {
+  std::optional<Progress> progress;
+  return eval::evaluate(
+      config, journal ? &*journal : nullptr,
+      [&](std::size_t done, std::size_t of) {
+        if (!progress) progress.emplace("evaluating", "frames", static_cast<double>(of));
+        progress->update(static_cast<double>(done));
+      },
+      stop_wanted);
+}
+
+Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
+                                                  const EvaluationConfig& config,
+                                                  std::optional<eval::Journal>& journal) {
+  std::optional<Progress> simulating, evaluating;
+  const eval::SimulatedProgress progress{[&](double done_s, double of_s) {
+                                           evaluating.reset();
+                                           if (!simulating)
+                                             simulating.emplace("simulating", "seconds", of_s);
+                                           simulating->update(done_s);
+                                         },
+                                         [&](std::size_t done, std::size_t of) {
+                                           simulating.reset();
+                                           if (!evaluating)
+                                             evaluating.emplace("evaluating", "frames",
+                                                                static_cast<double>(of));
+                                           evaluating->update(static_cast<double>(done));
+                                         }};
+  return eval::evaluate_simulated({drives_of(options), config.frames, config.methods, config.mount,
+                                   config.predictions, config.changed_frames},
+                                  journal ? &*journal : nullptr, progress, stop_wanted);
+}
+
+/// What a report's reader has to know of this dataset besides.
+void add_facts_of_dataset(const Options& options, const datasets::ClassTable& classes,
+                          nlohmann::ordered_json& json) {
+  if (!classes.note().empty()) {
+    json["warnings"].push_back({{"where", options.eval.dataset}, {"what", classes.note()}});
+  }
+  if (!is_simulated(options)) return;
+  const auto drives = drives_of(options);
+  json["simulated"] = {{"sensor", drives.sensor},
+                       {"returns", drives.dual_return ? "dual" : "single"},
+                       {"duration_s", drives.duration_s},
+                       {"seed", drives.seed}};
+}
+
+}  // namespace
+
+ExitCode run_eval(const Options& options) {
+  if (const Status fits = check_fit(options); !fits) return refuse(fits.error());
+  const auto classes = classes_of(options);
+  if (!classes) return refuse(classes.error());
+  auto config = config_of(options, *classes);
+  if (!config) return refuse(config.error());
+  std::optional<report::ChangedFrames> changed;
+  if (!options.eval.changes.empty()) {
+    config->changed_frames = &changed.emplace(config->methods, *classes);
+  }
+  std::optional<eval::Journal> journal;
+  // Frames that a journal has are not labelled again, and their labels are not in it.
+  if (!options.output.json.empty() && options.eval.changes.empty()) {
+    auto opened = eval::Journal::open(journal_path(options), settings_line(options, *config));
+    if (!opened) return refuse(opened.error());
+    journal.emplace(*std::move(opened));
+  }
+
+  catch_stop_signals();
+  const auto outcome = is_simulated(options) ? evaluate_drives(options, *config, journal)
+                                             : evaluate_scans(*config, journal);
+  if (!outcome) return refuse(outcome.error());
+
+  auto json = eval::evaluation_json(
+      {options.eval.dataset, config->root.string(), config->methods, config->through_packets},
+      *classes, *outcome);
+  add_facts_of_dataset(options, *classes, json);
+  say_outcome(*outcome, json);
+  fmt::print("{}", eval::evaluation_text(json));
+  if (outcome->interrupted) {
+    warn(journal ? "interrupted; the same command goes on from here" : "interrupted");
+  }
+  if (!options.output.json.empty()) {
+    const Status written = files::write_whole_file(options.output.json, json_text(json));
+    if (!written) return refuse(written.error());
+  }
+  if (outcome->results.empty() && outcome->interrupted) {
+    return refuse(kInterrupted, "interrupted before the first frame was evaluated");
+  }
+  if (outcome->results.empty()) {
+    return refuse(kNothingCameOut,
+                  "no frame was evaluated; see the warnings, --sequences, --frames");
+  }
+  if (!options.eval.report.empty() && !outcome->interrupted) {
+    const Status written =
+        write_report(options.eval.report, {json, *config, *classes, !is_simulated(options)});
+    if (!written) return refuse(written.error());
+  }
+  if (changed && !outcome->interrupted) {
+    const Status written = changed->write(options.eval.changes);
+    if (!written) return refuse(written.error());
+  }
+  if (outcome->interrupted) return kInterrupted;
+  return outcome->faults.empty() ? kOk : kInputRefused;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,269 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "firmware_io/sensor/capture_survey.hpp"
+#include "pipeline/status/figures.hpp"
+#include "rt/files/whole_file.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/figures/figures_json.hpp"
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using sensor::CaptureSurvey;
+using sensor::Hdl64eFacts;
+using sensor::Ruby128DeviceReader;
+using sensor::Ruby128Facts;
+using sensor::StreamFacts;
+using sensor::UdpStream;
+using Json = nlohmann::ordered_json;
+
+std::string endpoint(std::uint32_t address, std::uint16_t port) {
+  return fmt::format("{}.{}.{}.{}:{}", address >> 24, address >> 16 & 0xFFU, address >> 8 & 0xFFU,
+                     address & 0xFFU, port);
+}
+
+std::string sizes(const UdpStream& stream) {
+  std::string text;
+  for (const auto& [bytes, count] : stream.payload_sizes) {
+    if (text.size() > 40) return text + ", ...";
+    text += fmt::format("{}{}{}", text.empty() ? "" : ", ", bytes,
+                        stream.payload_sizes.size() > 1 ? fmt::format(" ({}x)", count) : "");
+  }
+  return text;
+}
+
+double duration_s(const UdpStream& stream) {
+  return static_cast<double>(stream.last_stamp_ns - stream.first_stamp_ns) * 1e-9;
+}
+
+std::string utc(std::int64_t stamp_ns) {
+  return fmt::format("{:%Y-%m-%d %H:%M:%S} UTC",
+                     fmt::gmtime(static_cast<std::time_t>(stamp_ns / 1'000'000'000)));
+}
+
+/// The table in the packets: "complete, fingerprint ...", or what is missing.
+std::string calibration_in(const Hdl64eFacts& facts) {
+  if (!facts.table) {
+    return fmt::format("incomplete, {} of {} bytes missing", facts.status_holes,
+                       hdl64e::kStreamTableBytes);
+  }
+  const auto table = hdl64e::parse_stream_table(*facts.table);
+  if (!table) return "unusable: " + table.error().message;
+  return fmt::format("complete, fingerprint {:016x}", fingerprint(table->calibration));
+}
+
+std::string text_of(const StreamFacts& facts) {
+  std::string text = fmt::format(
+      "  head         {:.1f} rpm, {:.1f} turns, {:.4f} deg a column\n"
+      "  mode         {} return, a packet every {:.1f} us\n"
+      "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock "
+      "jumps\n",
+      facts.spin_rpm, facts.turns, facts.step_deg, to_string(facts.return_mode),
+      facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
+      facts.clock_jumps);
+  if (!facts.blind.is_none()) {
+    text +=
+        fmt::format("  blind        from {:.1f} to {:.1f} deg of the head; its time is no loss\n",
+                    facts.blind.from_cdeg * 0.01, facts.blind.to_cdeg * 0.01);
+  }
+  if (facts.azimuths_out_of_range > 0) {
+    text += fmt::format("  broken       {} packets with an azimuth of 360 degrees or more\n",
+                        facts.azimuths_out_of_range);
+  }
+  return text;
+}
+
+std::string text_of(const Hdl64eFacts& facts) {
+  std::string text = text_of(static_cast<const StreamFacts&>(facts));
+  text += fmt::format("  calibration  {}\n", calibration_in(facts));
+  if (facts.status.temperature_deg_c) {
+    text += fmt::format("  temperature  {} deg C\n", int{*facts.status.temperature_deg_c});
+  }
+  if (facts.status.firmware) {
+    text += fmt::format("  firmware     {:#04x}\n", unsigned{*facts.status.firmware});
+  }
+  if (facts.status.warning_bits && *facts.status.warning_bits != 0) {
+    text += fmt::format("  warnings     bits {:#04x} (1 lens dirty, 2 hot, 4 cold)\n",
+                        unsigned{*facts.status.warning_bits});
+  }
+  return text;
+}
+
+std::string text_of(const Ruby128Facts& facts) {
+  return text_of(static_cast<const StreamFacts&>(facts)) +
+         fmt::format(
+             "  clock        {} ({}), {:.1f} s {} the capture; protocol version {}\n"
+             "  temperature  {:.1f} deg C\n",
+             to_string(facts.timestamp), facts.timestamp_proven ? "proven" : "most likely",
+             std::abs(facts.ahead_of_capture_s),
+             facts.ahead_of_capture_s < 0 ? "behind" : "ahead of", facts.protocol_version,
+             facts.temperature_deg_c);
+}
+
+/// The angles in DIFOP: "complete, fingerprint ...", or why they are of no use.
+std::string calibration_in(const Ruby128DeviceReader& device) {
+  const auto calibration = device.calibration();
+  if (!calibration) return calibration.error().message;
+  return fmt::format("complete, fingerprint {:016x}", fingerprint(*calibration));
+}
+
+std::string text_of(const Ruby128DeviceReader& device) {
+  const auto info = device.newest();
+  if (!info) return {};
+  return fmt::format(
+      "  serial       {}\n  set to       {} rpm, turns at {}; return mode {} ({})\n"
+      "  network      {} to {}, data port {}, device port {}, MAC {}\n"
+      "  time         by {}, status {}\n  calibration  {}\n"
+      "  changes      {} of the serial number, {} of the angles\n",
+      ruby128::hex_text(info->serial), info->rpm_set, info->rpm_actual, info->return_mode_raw,
+      info->return_mode_raw == 3 ? "dual" : "single", ruby128::address_text(info->device_address),
+      ruby128::address_text(info->destination_address), info->data_port, info->device_port,
+      ruby128::hex_text(info->mac, ":"), ruby128::sync_mode_name(info->sync_mode_raw),
+      info->sync_status_raw, calibration_in(device), device.counters().serial_changes,
+      device.counters().angle_changes);
+}
+
+std::string text_of(const CaptureSurvey& survey) {
+  std::string text = fmt::format("{}: {} frames of {}\n", survey.name, survey.counters.frames,
+                                 survey.link_type_name);
+  for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
+    if (survey.counters.refused[i] == 0) continue;
+    text += fmt::format("  {} hold no UDP datagram: {}\n", survey.counters.refused[i],
+                        to_string(static_cast<capture::FrameReject>(i)));
+  }
+  text += fmt::format("\n{:<22} {:<22} {:>9} {:>10} {:>8}  {:<18} {}\n", "source", "destination",
+                      "packets", "packets/s", "seconds", "payload bytes", "sensor");
+  for (const UdpStream& stream : survey.streams) {
+    text +=
+        fmt::format("{:<22} {:<22} {:>9} {:>10.1f} {:>8.1f}  {:<18} {}{}\n",
+                    endpoint(stream.source_address, stream.source_port),
+                    endpoint(stream.destination_address, stream.destination_port), stream.packets,
+                    stream.rate_hz(), duration_s(stream), sizes(stream), to_string(stream.sensor),
+                    stream.sensor_hints.empty() ? "" : " (" + stream.sensor_hints + ")");
+  }
+  if (survey.packets_of_further_streams > 0) {
+    text += fmt::format("{} packets of further streams\n", survey.packets_of_further_streams);
+  }
+  for (const UdpStream& stream : survey.streams) {
+    const auto describe = [&](std::string_view what, const std::string& facts) {
+      text += fmt::format("\n{} at {}, from {}\n{}", what,
+                          endpoint(stream.source_address, stream.source_port),
+                          utc(stream.first_stamp_ns), facts);
+    };
+    if (stream.hdl64e) describe("HDL-64E", text_of(*stream.hdl64e));
+    if (stream.ruby128) describe("RS-Ruby128", text_of(*stream.ruby128));
+    if (stream.device) describe("RS-Ruby128 device information", text_of(*stream.device));
+  }
+  return text;
+}
+
+Json json_of(const StreamFacts& facts) {
+  Json json{{"packets", facts.packets},
+            {"return_mode", to_string(facts.return_mode)},
+            {"packet_period_us", facts.packet_period_us},
+            {"spin_rpm", facts.spin_rpm},
+            {"step_deg", facts.step_deg},
+            {"turns", facts.turns},
+            {"packets_lost", facts.packets_lost},
+            {"packets_repeated", facts.packets_repeated},
+            {"packets_reordered", facts.packets_reordered},
+            {"clock_jumps", facts.clock_jumps},
+            {"azimuths_out_of_range", facts.azimuths_out_of_range}};
+  add_figures(status::figures_of(facts.blind), json);
+  return json;
+}
+
+Json json_of(const Ruby128Facts& facts) {
+  Json json = json_of(static_cast<const StreamFacts&>(facts));
+  json["protocol_version"] = facts.protocol_version;
+  json["timestamp"] = to_string(facts.timestamp);
+  json["timestamp_proven"] = facts.timestamp_proven;
+  json["ahead_of_capture_s"] = facts.ahead_of_capture_s;
+  json["temperature_deg_c"] = facts.temperature_deg_c;
+  return json;
+}
+
+Json json_of(const Ruby128DeviceReader& device) {
+  const auto info = device.newest();
+  if (!info) return {};
+  return {{"packets", device.counters().packets},
+          {"serial", ruby128::hex_text(info->serial)},
+          {"rpm_set", info->rpm_set},
+          {"rpm_actual", info->rpm_actual},
+          {"return_mode", info->return_mode_raw},
+          {"data_port", info->data_port},
+          {"device_port", info->device_port},
+          {"sync_mode", ruby128::sync_mode_name(info->sync_mode_raw)},
+          {"sync_status", info->sync_status_raw},
+          {"calibration", calibration_in(device)},
+          {"serial_changes", device.counters().serial_changes},
+          {"angle_changes", device.counters().angle_changes}};
+}
+
+Json json_of(const Hdl64eFacts& facts) {
+  Json json = json_of(static_cast<const StreamFacts&>(facts));
+  json["calibration"] = calibration_in(facts);
+  if (facts.status.temperature_deg_c) json["temperature_deg_c"] = *facts.status.temperature_deg_c;
+  if (facts.status.firmware) json["firmware"] = *facts.status.firmware;
+  if (facts.status.warning_bits) json["warning_bits"] = *facts.status.warning_bits;
+  return json;
+}
+
+Json json_of(const CaptureSurvey& survey) {
+  Json json{{"terracut", TERRACUT_VERSION},
+            {"command", "info"},
+            {"input", survey.name},
+            {"link_type", survey.link_type_name},
+            {"frames", survey.counters.frames}};
+  for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
+    json["refused"][std::string(to_string(static_cast<capture::FrameReject>(i)))] =
+        survey.counters.refused[i];
+  }
+  Json& streams = json["streams"] = Json::array();
+  for (const UdpStream& stream : survey.streams) {
+    Json& entry = streams.emplace_back(
+        Json{{"source", endpoint(stream.source_address, stream.source_port)},
+             {"destination", endpoint(stream.destination_address, stream.destination_port)},
+             {"packets", stream.packets},
+             {"payload_bytes", stream.payload_bytes},
+             {"packets_per_s", stream.rate_hz()},
+             {"first_stamp_ns", stream.first_stamp_ns},
+             {"last_stamp_ns", stream.last_stamp_ns},
+             {"sensor", to_string(stream.sensor)},
+             {"hints", stream.sensor_hints}});
+    if (stream.hdl64e) entry["hdl64e"] = json_of(*stream.hdl64e);
+    if (stream.ruby128) entry["ruby128"] = json_of(*stream.ruby128);
+    if (stream.device) entry["ruby128_device"] = json_of(*stream.device);
+  }
+  if (survey.broke_off) json["broke_off"] = survey.broke_off->message;
+  return json;
+}
+
+}  // namespace
+
+ExitCode run_info(const Options& options) {
+  catch_stop_signals();
+  auto source = capture::PcapSource::open(options.capture.file);
+  if (!source) return refuse(source.error());
+  const CaptureSurvey survey = sensor::survey_capture(*source, stop_wanted);
+  if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
+  fmt::print("{}", text_of(survey));
+  if (survey.broke_off) warn(survey.broke_off->message);
+  if (options.output.json.empty()) return kOk;
+  const Status written =
+      files::write_whole_file(options.output.json, json_of(survey).dump(1) + "\n");
+  return written ? kOk : refuse(written.error());
+}
+
+}  // namespace terracut::cli

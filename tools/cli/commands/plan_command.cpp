@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+
+#include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "pipeline/run/packet_pipeline.hpp"
+#include "rt/files/whole_file.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+
+namespace terracut::cli {
+
+/// Builds the very objects a replay builds, so the figures are those of a replay, not an estimate.
+ExitCode run_plan(const Options& options) {
+  memory::FixedMemory memory;
+  const calib::SensorCalibration calibration =
+      options.capture.sensor == sensor::SensorModel::kRuby128
+          ? calib::SensorCalibration(ruby128::nominal_ruby128())
+          : calib::SensorCalibration(hdl64e::nominal_hdl64e());
+  const auto profile = ring_profile_of(calibration, {});
+  if (!profile) return refuse(profile.error());
+  const run::PacketPipeline pipeline(calibration, *profile, {}, method_config_of(options.method),
+                                     memory);
+
+  nlohmann::ordered_json json;
+  fmt::print("{:<24}{:>14}\n", "part", "bytes");
+  for (const memory::FixedMemory::Part& part : memory.parts()) {
+    fmt::print("{:<24}{:>14}\n", part.name, part.bytes);
+    json["parts"][part.name] = part.bytes;
+  }
+  fmt::print("{:<24}{:>14}  ({:.1f} MiB)\n", "total", memory.total_bytes(),
+             static_cast<double>(memory.total_bytes()) / 1048576.0);
+  json["total_bytes"] = memory.total_bytes();
+  if (options.output.json.empty()) return kOk;
+  const Status written = files::write_whole_file(options.output.json, json.dump(1) + "\n");
+  return written ? kOk : refuse(written.error());
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "calib/beams/angle.hpp"
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+#include "tools/cli/stop_signal.hpp"
+#include "tools/cli/temporary_folder.hpp"
+#include "tools/lab/drive/drive_writer.hpp"
+#include "tools/lab/drive/vehicle_log.hpp"
+#include "tools/lab/simulator/drive.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using encode::Hdl64eTransmitter;
+using encode::Ruby128Transmitter;
+
+Expected<Hdl64eTransmitter::Calibration> calibration_of(const Options& options, Hdl64eTransmitter) {
+  if (options.capture.calibration.empty()) return Hdl64eTransmitter::nominal();
+  return hdl64e::load_hdl64e_calibration(options.capture.calibration);
+}
+Expected<Ruby128Transmitter::Calibration> calibration_of(const Options& options,
+                                                         Ruby128Transmitter) {
+  if (options.capture.calibration.empty()) return Ruby128Transmitter::nominal();
+  return ruby128::read_ruby128_csv(options.capture.calibration);
+}
+
+Hdl64eTransmitter::Config sensor_config(const Options& options, Hdl64eTransmitter) {
+  return {.returns = options.simulate.returns};
+}
+Ruby128Transmitter::Config sensor_config(const Options& options, Ruby128Transmitter) {
+  Ruby128Transmitter::Config config;
+  config.returns = options.simulate.returns;
+  config.timestamp = options.simulate.timestamp;
+  config.unit.rpm = static_cast<std::uint16_t>(std::lround(60 * options.simulate.spin_hz));
+  config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // nobody takes it for a real unit's
+  return config;
+}
+
+template <class Transmitter>
+Expected<simulator::SimulationConfig<Transmitter>> simulation_config(const Options& options) {
+  simulator::SimulationConfig<Transmitter> config;
+  config.scene = options.simulate.scene;
+  config.seed = options.simulate.seed;
+  config.duration_s = options.simulate.duration_s;
+  config.spin_hz = options.simulate.spin_hz;
+  config.speed_mps = options.simulate.speed_mps;
+  config.yaw_rate_radps = beams::deg_to_rad(options.simulate.yaw_rate_dps);
+  config.effects.range_noise_m = options.simulate.noise_m;
+  config.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
+  config.sensor = sensor_config(options, Transmitter{});
+  const auto mount = mount_of(options.mount);
+  if (!mount) return tl::unexpected(mount.error());
+  config.mount = *mount;
+  auto calibration = calibration_of(options, Transmitter{});
+  if (!calibration) return tl::unexpected(calibration.error());
+  config.calibration = *std::move(calibration);
+  return config;
+}
+
+template <class Transmitter>
+ExitCode simulate(const Options& options, const std::filesystem::path& output) {
+  const auto config = simulation_config<Transmitter>(options);
+  if (!config) return refuse(config.error());
+  auto writer =
+      drive::DriveWriter<Transmitter>::create(output, config->calibration, config->sensor);
+  if (!writer) return refuse(writer.error());
+
+  Progress progress("simulating", "seconds", options.simulate.duration_s);
+  const auto simulated = simulator::simulate_drive(
+      *config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+        if (Status status = go_on(); !status) return status;
+        progress.update(column.time_s);
+        return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
+                                  column.wire.by_laser);
+      });
+  if (!simulated) return refuse_work(simulated.error());
+  const auto written = writer->finish();
+  if (!written) return refuse(written.error());
+  if (options.can_log) {
+    const auto samples = simulator::simulated_motion(*config);
+    if (!samples) return refuse(samples.error());
+    const Status logged = drive::write_vehicle_log(output, *samples);
+    if (!logged) return refuse(logged.error());
+  }
+
+  fmt::print("scene     {}, seed {}\n", options.simulate.scene, options.simulate.seed);
+  if (!options.written.empty()) {
+    fmt::print("wrote     {}\n          {}\n          {}/\n", output.string(),
+               drive::calibration_path_of<Transmitter>(output).string(),
+               drive::truth_folder_of(output).string());
+    if (options.can_log) {
+      fmt::print("          {}\n          {}\n", drive::can_log_path_of(output).string(),
+                 drive::can_dbc_path_of(output).string());
+    }
+  }
+  fmt::print("frames    {}\nreturns   {}\npackets   {}\n", written->frames, written->returns,
+             written->packets);
+  std::fflush(stdout);
+  return kOk;
+}
+
+ExitCode simulate_to(const Options& options, const std::filesystem::path& output) {
+  return options.capture.sensor == sensor::SensorModel::kRuby128
+             ? simulate<Ruby128Transmitter>(options, output)
+             : simulate<Hdl64eTransmitter>(options, output);
+}
+
+}  // namespace
+
+ExitCode run_simulate(const Options& options) {
+  catch_stop_signals();
+  if (options.send.to.empty()) {
+    if (options.written.empty()) {
+      return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");
+    }
+    return simulate_to(options, options.written);
+  }
+  // Rays take longer to trace than a turn lasts: the drive is computed first, then sent on time.
+  std::optional<TemporaryFolder> scratch;
+  Options sending = options;
+  sending.capture.file = options.written;
+  if (sending.capture.file.empty()) {
+    scratch.emplace();
+    if (scratch->path().empty()) return refuse(kOutputFailed, "no temporary folder can be made");
+    sending.capture.file = scratch->path() / "drive.pcap";
+  }
+  const ExitCode simulated = simulate_to(options, sending.capture.file);
+  return simulated == kOk ? run_send(sending) : simulated;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <fmt/format.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "pipeline/status/figures.hpp"
+#include "pipeline/status/status_page.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/export/live_process.hpp"
+#include "tools/cli/figures/dashboard.hpp"
+#include "tools/cli/figures/figures_json.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using Reader = status::StatusPageReader<status::MonitorSnapshot>;
+
+status::LineStyle style_of_stdout() {
+  status::LineStyle style{.columns = 80};
+  style.colours = ::isatty(STDOUT_FILENO) == 1;
+  winsize size{};
+  if (::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    style.columns = size.ws_col;
+  }
+  return style;
+}
+
+/// Overwrites what stands there instead of clearing first, which would flicker. Lines lose what was
+/// longer before, and the screen what stood below.
+std::string redrawn(const std::string& text) {
+  std::string result = "\x1b[H";
+  for (const char c : text) {
+    if (c == '\n') result += "\x1b[K";
+    result += c;
+  }
+  return result + "\x1b[J";
+}
+
+/// The page's figures, for whoever calculates with them.
+ExitCode refuse_figures(const Reader& page, const std::string& name) {
+  return refuse(kInputRefused,
+                fmt::format("the status page '{}' (process {}) holds figures that cannot be: it is "
+                            "damaged, or something else writes to it",
+                            name, page.publisher_pid()));
+}
+
+ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
+  const auto figures = page.read();
+  if (!figures) {
+    return refuse(kInputRefused, fmt::format("process {} has not published any figures yet",
+                                             page.publisher_pid()));
+  }
+  if (!status::are_possible(*figures)) return refuse_figures(page, name);
+  fmt::print("{}", as_json ? live_summary(*figures)
+                           : dashboard(*figures, measure::realtime_ns(), style_of_stdout()));
+  if (!page.publisher_lives()) {
+    return refuse(kInputRefused, fmt::format("process {} of '{}' is gone; these were its last "
+                                             "figures",
+                                             page.publisher_pid(), name));
+  }
+  return kOk;
+}
+
+ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
+  const bool terminal = ::isatty(STDOUT_FILENO) == 1;
+  if (terminal) fmt::print("\x1b[2J");
+  for (;;) {
+    const bool lives = page.publisher_lives();  // asked first: the last figures are shown too
+    if (const auto figures = page.read()) {
+      if (!status::are_possible(*figures)) return refuse_figures(page, name);
+      const std::string text = dashboard(*figures, measure::realtime_ns(), style_of_stdout());
+      fmt::print("{}", terminal ? redrawn(text) : text + "\n");
+      if (std::fflush(stdout) != 0) return refuse(kOutputFailed, "cannot write to stdout");
+    }
+    if (!lives) {
+      say(fmt::format("process {} of '{}' has ended", page.publisher_pid(), name));
+      return kOk;
+    }
+    std::this_thread::sleep_for(std::chrono::duration<double>(interval_s));
+  }
+}
+
+}  // namespace
+
+/// Reads the status page of a running process, and nothing else of it.
+ExitCode run_top(const Options& options) {
+  std::string name = options.watched;
+  if (name.empty()) {
+    auto only_one = find_live_process(status::status_page_folder(), name);
+    if (!only_one) return refuse(only_one.error());
+    name = std::move(only_one->name);
+  }
+  const auto page = Reader::open(name, status::MonitorSnapshot::kLayout);
+  if (!page) return refuse(page.error());
+  if (options.once || options.print_json) return print_once(*page, name, options.print_json);
+  return watch(*page, name, options.interval_s);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <span>
+
+#include "pipeline/status/monitor_snapshot.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::cli {
+
+/// The way of frames through the threads as Chrome's trace event format, which Perfetto's UI and
+/// chrome://tracing open: a track each for receive, segment and publish, a slice a turn and a
+/// frame, an instant event where a deadline was missed. Times are microseconds since the earliest
+/// stamp; its time of day is otherData.origin_ns.
+///
+/// Stages are measured in processor time, so their slices stand one after another from the start of
+/// their frame at the width of that time; what is left of the frame's slice behind them is time off
+/// the core. A turn's slice begins at its first packet, but not before the turn before it was
+/// handed over, because two turns are open at once around the seam.
+///
+/// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
+[[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,
+                                                  std::span<const status::FrameTiming> frames);
+
+/// The same as a file, whole or not at all.
+[[nodiscard]] Status write_chrome_trace(const std::filesystem::path& path,
+                                        const status::MonitorSnapshot& figures,
+                                        std::span<const status::FrameTiming> frames);
+
+}  // namespace terracut::cli

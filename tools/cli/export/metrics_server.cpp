@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "metrics_server.hpp"
+
+#include <fmt/format.h>
+#include <httplib.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "http_host.hpp"
+#include "metrics_text.hpp"
+
+namespace terracut::cli {
+namespace {
+
+constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
+
+/// Answers on the thread that accepts, so that there is never more than one connection open.
+class OneAtATime final : public httplib::TaskQueue {
+  using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));  // void, later bool
+
+ public:
+  Taken enqueue(std::function<void()> request) override {
+    request();
+    return Taken(true);
+  }
+  void shutdown() override {}
+};
+
+}  // namespace
+
+/// Shared with the server's thread, which may outlive the MetricsServer while a client dawdles.
+struct MetricsServer::State {
+  httplib::Server server;
+  std::uint16_t port = 0;
+
+  std::mutex mutex;
+  Source source;  ///< Empty once stopped. Guarded by mutex, as are figures and done.
+  status::MonitorSnapshot figures;
+  bool done = false;  ///< The thread has left the server.
+  std::condition_variable done_changed;
+
+  void answer(httplib::Response& response) {
+    const std::lock_guard lock(mutex);
+    if (source && source(figures)) {
+      response.set_content(metrics_text(figures), kMetricsType);
+    } else {
+      response.status = 503;
+      response.set_content("no figures yet\n", "text/plain");
+    }
+  }
+  void serve() {
+    server.listen_after_bind();
+    const std::lock_guard lock(mutex);
+    done = true;
+    done_changed.notify_all();
+  }
+};
+
+Expected<MetricsServer> MetricsServer::start(const std::string& address, std::uint16_t port,
+                                             Source source) {
+  auto state = std::make_shared<State>();
+  state->source = std::move(source);
+  httplib::Server& server = state->server;
+  server.new_task_queue = [] { return new OneAtATime; };  // the server deletes it
+  // The library's default would let a second process listen on the same port unnoticed.
+  server.set_socket_options([](int socket) {
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
+  });
+  server.set_keep_alive_max_count(1);
+  server.set_keep_alive_timeout(1);  // also how long a client may take to begin its request
+  server.set_read_timeout(1);
+  server.set_write_timeout(1);
+  server.set_payload_max_length(4096);
+  server.set_pre_routing_handler(
+      [name = own_host_name()](const httplib::Request& request, httplib::Response& response) {
+        using Handling = httplib::Server::HandlerResponse;
+        if (names_this_machine(request.get_header_value("Host"), name)) return Handling::Unhandled;
+        response.status = 403;
+        response.set_content("ask by this machine's address, as localhost or as '" + name + "'\n",
+                             "text/plain");
+        return Handling::Handled;
+      });
+  server.Get("/metrics", [raw = state.get()](const httplib::Request&, httplib::Response& response) {
+    raw->answer(response);
+  });
+  server.Get("/", [](const httplib::Request&, httplib::Response& response) {
+    response.set_content("terracut's figures for Prometheus are at /metrics\n", "text/plain");
+  });
+
+  errno = 0;
+  const int bound = port == 0                            ? server.bind_to_any_port(address)
+                    : server.bind_to_port(address, port) ? int{port}
+                                                         : -1;
+  if (bound <= 0) {
+    const int reason = errno;
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("cannot serve /metrics on {}:{}: {}; choose another address or port", address,
+                    port, reason == 0 ? "not an address of this machine" : std::strerror(reason)));
+  }
+  state->port = static_cast<std::uint16_t>(bound);
+  std::thread([state] { state->serve(); }).detach();
+  // Stopping a server that is not yet running would have no effect.
+  while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  return MetricsServer(std::move(state));
+}
+
+MetricsServer::MetricsServer(std::shared_ptr<State> state) : state_(std::move(state)) {}
+MetricsServer::MetricsServer(MetricsServer&&) noexcept = default;
+
+MetricsServer& MetricsServer::operator=(MetricsServer&& other) noexcept {
+  if (this != &other) {
+    stop();
+    state_ = std::move(other.state_);
+  }
+  return *this;
+}
+
+MetricsServer::~MetricsServer() {
+  stop();
+}
+
+std::uint16_t MetricsServer::port() const noexcept {
+  return state_->port;
+}
+
+void MetricsServer::stop() noexcept {
+  if (!state_) return;
+  std::unique_lock lock(state_->mutex);
+  state_->source = nullptr;
+  lock.unlock();
+  state_->server.stop();
+  lock.lock();
+  state_->done_changed.wait_for(lock, std::chrono::seconds(2), [this] { return state_->done; });
+  lock.unlock();
+  state_.reset();
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "mount_watch.hpp"
+
+#include "calib/beams/angle.hpp"
+#include "pipeline/status/figures.hpp"
+#include "tools/cli/console.hpp"
+
+namespace terracut::cli {
+
+MountWatch::MountWatch(const mount::Mount& mount) : check_(mount) {
+  figures_.height_m = mount.height_m;
+  figures_.roll_deg = beams::rad_to_deg(mount.roll_rad);
+  figures_.pitch_deg = beams::rad_to_deg(mount.pitch_rad);
+}
+
+void MountWatch::add_turn(const ground::NearGround& ground) {
+  check_.add_turn(ground.in_use());
+  figures_.turns = check_.turns();
+  const auto seen = check_.contradiction();
+  figures_.contradicted = seen ? 1 : 0;
+  if (!seen) return;
+  figures_.seen_height_m = seen->height_m;
+  figures_.seen_roll_deg = beams::rad_to_deg(seen->roll_rad);
+  figures_.seen_pitch_deg = beams::rad_to_deg(seen->pitch_rad);
+  if (!said_) warn(status::contradiction_text(figures_));
+  said_ = true;
+}
+
+void MountWatch::add_turn(const frame::RangeImage& image) {
+  ground::take_near_ground(image, ground_);
+  add_turn(ground_);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+#include "calib/mount/mount_check.hpp"
+#include "pipeline/ground/near_ground.hpp"
+#include "pipeline/status/mount_figures.hpp"
+
+namespace terracut::cli {
+
+/// Says once that the near ground of a run contradicts the mount it was given, and keeps what there
+/// is to show of it. One thread without a deadline: a turn that is looked at takes milliseconds.
+class MountWatch {
+ public:
+  explicit MountWatch(const mount::Mount& mount);
+
+  void add_turn(const ground::NearGround& ground);
+  void add_turn(const frame::RangeImage& image);
+
+  [[nodiscard]] const status::MountFigures& figures() const noexcept { return figures_; }
+
+ private:
+  mount::MountCheck check_;
+  status::MountFigures figures_;
+  ground::NearGround ground_;
+  bool said_ = false;
+};
+
+}  // namespace terracut::cli

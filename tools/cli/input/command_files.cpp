@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "command_files.hpp"
+
+#include <system_error>
+#include <variant>
+
+#include "rt/files/file_place.hpp"
+#include "tools/cli/settings/setting.hpp"
+#include "tools/lab/drive/drive_files.hpp"
+#include "tools/lab/drive/transmitter.hpp"
+#include "tools/lab/drive/vehicle_log.hpp"
+
+namespace terracut::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Kind = RunFiles::Kind;
+
+/// A sequence folder is read in parts, so that results may lie in it; a plain one is read whole.
+void add_scans(RunFiles& files, const fs::path& scans) {
+  constexpr const char* kPoints = "velodyne";
+  std::error_code none;
+  const bool is_sequence = fs::is_directory(scans / kPoints, none);
+  files.read("SCANS_DIR", is_sequence ? scans / kPoints : scans, "the folder of scans");
+  // Of a sequence's points alone the rest of it is not read, and is to be kept all the same.
+  const fs::path place = files::FilePlace(scans).path();
+  if (!is_sequence && place.filename() != kPoints) return;
+  const fs::path sequence = is_sequence ? scans : place.parent_path();
+  files.read("SCANS_DIR", sequence / "labels", "the truth of the scans");
+  for (const char* const name : {"poses.txt", "times.txt", "calib.txt"}) {
+    files.read("SCANS_DIR", sequence / name, "a part of the sequence");
+  }
+}
+
+template <class Transmitter>
+void add_drive_of(RunFiles& files, const Options& options) {
+  const fs::path& capture = options.written;
+  files.write("--output", capture);
+  files.write("the table of --output", drive::calibration_path_of<Transmitter>(capture));
+  files.write("the truth of --output", drive::truth_folder_of(capture), Kind::kReplacedFolder);
+  if (!options.can_log) return;
+  files.write("--can-log", drive::can_log_path_of(capture));
+  files.write("--can-log", drive::can_dbc_path_of(capture));
+}
+
+void add_drive(RunFiles& files, const Options& options) {
+  if (options.written.empty()) return;
+  if (options.capture.sensor == sensor::SensorModel::kRuby128) {
+    add_drive_of<encode::Ruby128Transmitter>(files, options);
+  } else {
+    add_drive_of<encode::Hdl64eTransmitter>(files, options);
+  }
+}
+
+void add_evaluation(RunFiles& files, const Options& options) {
+  if (options.eval.dataset == "semantickitti") {
+    files.read("ROOT", options.eval.root / "sequences", "the dataset");
+  } else if (options.eval.dataset != "simulated") {
+    files.read("ROOT", options.eval.root, "the dataset");
+  }
+  if (!options.output.json.empty() && options.eval.changes.empty()) {
+    files.write("the journal of --json", options.output.json.string() + ".journal");
+  }
+}
+
+}  // namespace
+
+RunFiles files_of(Command command, const Options& options) {
+  RunFiles files;
+  Options copy = options;
+  for (const Setting& setting : settings()) {
+    if (!setting.commands.contains(command)) continue;
+    const SettingField field = setting.field(copy);
+    const auto* const path = std::get_if<fs::path*>(&field);
+    if (path == nullptr) continue;
+    const std::string name(setting.name());
+    if (!setting.reads.empty()) files.read(name, **path, std::string(setting.reads));
+    if (setting.writes) files.write(name, **path, *setting.writes, std::string(setting.ending));
+  }
+  if (command == Command::kSegment || command == Command::kEncode) {
+    add_scans(files, options.scans);
+  }
+  if (command == Command::kSimulate || command == Command::kEncode) add_drive(files, options);
+  if (command == Command::kEval) add_evaluation(files, options);
+  return files;
+}
+
+RunFiles files_of(const Arguments& arguments) {
+  RunFiles files = files_of(*arguments.command, arguments.options);
+  files.read("--config", arguments.configuration, "the configuration");
+  return files;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "run_files.hpp"
+#include "tools/cli/arguments/arguments.hpp"
+
+namespace terracut::cli {
+
+/// What a command reads and writes: the paths that the table of settings marks so, and what lies
+/// beside or below some of them.
+[[nodiscard]] RunFiles files_of(Command command, const Options& options);
+
+/// The same with the configuration file.
+[[nodiscard]] RunFiles files_of(const Arguments& arguments);
+
+}  // namespace terracut::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "firmware_io/ruby128/ruby128_decoder.hpp"
+
+namespace terracut::cli {
+
+/// What is known at the end of a run of an RS-Ruby128's clock against the clock of the capture.
+class DeviceClock {
+ public:
+  /// `offset_s` is added to the device's stamps (--clock-offset).
+  explicit DeviceClock(double offset_s) : offset_ns_(static_cast<std::int64_t>(offset_s * 1e9)) {}
+
+  /// After each decoded packet.
+  void note(const ruby128::Ruby128Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
+    encoding_ = decoder.sensor().timestamp().encoding();
+    proven_ = decoder.sensor().timestamp().settled();
+    ahead_ns_ = decoder.device_stamp_us() * 1000 + offset_ns_ - host_stamp_ns;
+    noted_ = true;
+  }
+
+  [[nodiscard]] bool noted() const noexcept { return noted_; }
+  /// "UTC seconds and microseconds (proven), 0.3 ms behind the capture".
+  [[nodiscard]] std::string text() const;
+  /// What to do about a clock that is 37 s off, as sensors under PTP may be; else empty.
+  [[nodiscard]] std::string warning() const;
+
+ private:
+  std::int64_t offset_ns_;
+  bool noted_ = false, proven_ = false;
+  ruby128::RubyTimestamp encoding_{};
+  std::int64_t ahead_ns_ = 0;  ///< Device minus host.
+};
+
+}  // namespace terracut::cli

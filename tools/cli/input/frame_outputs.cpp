@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "frame_outputs.hpp"
+
+#include <algorithm>
+
+#include "pipeline/output/label_sink.hpp"
+#include "pipeline/output/pcd_writer.hpp"
+#include "pipeline/pictures/bird_eye_picture.hpp"
+#include "pipeline/pictures/range_image_picture.hpp"
+#include "tools/lab/quality/quality.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using frame::Label;
+using pictures::Mistake;
+using quality::TruthClass;
+
+Mistake mistake_of(Label label, std::uint32_t truth) noexcept {
+  switch (quality::truth_class(truth)) {
+    case TruthClass::kIgnored:
+      return Mistake::kNone;
+    case TruthClass::kGround:
+      return label == Label::kObstacle ? Mistake::kFalseObstacle : Mistake::kNone;
+    case TruthClass::kOrdinaryObstacle:
+    case TruthClass::kKeyObstacle:
+      break;
+  }
+  return is_ground(label) ? Mistake::kMissedObstacle : Mistake::kNone;
+}
+
+}  // namespace
+
+Status FrameOutputs::write_labels(const std::string& name, std::span<const Label> labels) {
+  if (options_.labels.empty()) return {};
+  return labels_.place(name + ".label").and_then([&](const std::filesystem::path& path) {
+    return output::write_label_file(path, labels);
+  });
+}
+
+Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImage& image,
+                                 std::span<const Label> labels,
+                                 std::span<const std::uint32_t> truth) {
+  if (!options_.pcd.empty()) {
+    const Status written =
+        pcd_.place(name + ".pcd").and_then([&](const std::filesystem::path& path) {
+          return output::write_pcd(path, image, labels);
+        });
+    if (!written) return written;
+  }
+  if (options_.png.empty()) return {};
+  const pictures::LabelledFrame plain{image, labels, {}};
+  const Status from_above = draw(name + ".birdseye.png", bird_eye_picture(plain));
+  if (!from_above) return from_above;
+  const Status panorama = draw(name + ".range.png", range_image_picture(plain));
+  if (!panorama || truth.size() != labels.size()) return panorama;
+
+  mistakes_.resize(labels.size());
+  std::transform(labels.begin(), labels.end(), truth.begin(), mistakes_.begin(), mistake_of);
+  return draw(name + ".mistakes.png",
+              bird_eye_picture(pictures::LabelledFrame{image, labels, mistakes_}));
+}
+
+Status FrameOutputs::draw(const std::string& name, const pictures::Picture& picture) {
+  return png_.place(name).and_then(
+      [&](const std::filesystem::path& path) { return picture.write_png(path); });
+}
+
+}  // namespace terracut::cli

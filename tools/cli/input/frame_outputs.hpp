@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/output/frame_folder.hpp"
+#include "pipeline/pictures/frame_colours.hpp"
+#include "pipeline/pictures/png_picture.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// Writes what OutputOptions asks for, frame by frame. `name` is a file name without extension.
+class FrameOutputs {
+ public:
+  explicit FrameOutputs(const OutputOptions& options)
+      : options_(options),
+        labels_(options.labels, ".label"),
+        pcd_(options.pcd, ".pcd"),
+        png_(options.png, ".png") {}
+
+  /// NAME.label, in the order of `labels`.
+  [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
+
+  /// NAME.pcd, and NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
+  /// `labels` and `truth` (SemanticKITTI ids, or empty) go by return index.
+  [[nodiscard]] Status write_frame(const std::string& name, const frame::RangeImage& image,
+                                   std::span<const frame::Label> labels,
+                                   std::span<const std::uint32_t> truth);
+
+ private:
+  [[nodiscard]] Status draw(const std::string& name, const pictures::Picture& picture);
+
+  OutputOptions options_;
+  output::FrameFolder labels_, pcd_, png_;
+  std::vector<pictures::Mistake> mistakes_;
+};
+
+}  // namespace terracut::cli

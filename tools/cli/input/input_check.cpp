@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "input_check.hpp"
+
+#include <string>
+
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+#include "firmware_io/vehicle/dbc_file.hpp"
+#include "pipeline/stream/listening_socket.hpp"
+#include "pipeline/stream/stream_address.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+template <class Calibration>
+Status status_of(const Expected<Calibration>& read) {
+  return read ? Status{} : tl::unexpected(read.error());
+}
+
+Status check_calibration(const CaptureOptions& capture) {
+  const std::filesystem::path& file = capture.calibration;
+  if (file.empty()) return {};
+  const auto hdl64e = [&] { return status_of(hdl64e::load_hdl64e_calibration(file)); };
+  const auto ruby128 = [&] { return status_of(ruby128::read_ruby128_csv(file)); };
+  if (capture.sensor == sensor::SensorModel::kHdl64e) return hdl64e();
+  if (capture.sensor == sensor::SensorModel::kRuby128 || file.extension() == ".csv")
+    return ruby128();
+  const Status of_hdl64e = hdl64e();
+  return of_hdl64e || ruby128() ? Status{} : of_hdl64e;
+}
+
+}  // namespace
+
+Status check_inputs(const Options& options) {
+  if (Status calibration = check_calibration(options.capture); !calibration) return calibration;
+  if (Status mount = status_of(mount_of(options.mount)); !mount) return mount;
+  if (options.motion.dbc.empty()) return {};
+  return status_of(vehicle::read_dbc(options.motion.dbc));
+}
+
+Status check_before_listening(const Options& options) {
+  if (Status inputs = check_inputs(options); !inputs || options.stream.empty()) return inputs;
+  const auto address = stream::parse_stream_address(options.stream);
+  if (!address) return tl::unexpected(address.error());
+  return status_of(stream::ListeningSocket::open(*address));
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "open_capture.hpp"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+
+#include <limits>
+#include <utility>
+
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/sensor/unit_calibration.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using capture::PcapSource;
+
+capture::PcapFilter filter_of(const CaptureOptions& options) {
+  capture::PcapFilter filter;
+  filter.port = options.port;
+  in_addr address{};
+  if (!options.from.empty() && ::inet_pton(AF_INET, options.from.c_str(), &address) == 1) {
+    filter.source_address = ntohl(address.s_addr);
+  }
+  return filter;
+}
+
+std::int64_t nanoseconds(double seconds) {
+  return static_cast<std::int64_t>(seconds * 1e9);
+}
+
+std::string describe(const SensorChoice& sensor) {
+  std::string text(to_string(sensor.model));
+  if (sensor.spin_hz > 0) text += fmt::format(", {:.1f} Hz", sensor.spin_hz);
+  return text + fmt::format(", {} return, {} columns", sensor.dual_return ? "dual" : "single",
+                            sensor.columns);
+}
+
+std::string describe(const calib::SensorCalibration& calibration) {
+  std::string text = fmt::format("{}, fingerprint {:016x}", calib::origin_of(calibration),
+                                 calib::fingerprint(calibration));
+  const auto* ruby128 = std::get_if<ruby128::Ruby128Calibration>(&calibration);
+  if (ruby128 != nullptr && ruby128->nominal)
+    text += "; WARNING: not this unit's, heights may be off";
+  return text;
+}
+
+}  // namespace
+
+Expected<OpenCapture> open_capture(const CaptureOptions& options) {
+  auto source = PcapSource::open(options.file, filter_of(options));
+  if (!source) return tl::unexpected(source.error());
+  const auto sensor = choose_sensor(options, *source);
+  if (!sensor) return tl::unexpected(sensor.error());
+  warn_of_unheeded(options, sensor->model);
+  // From here on this unit alone: packets of another would end up in the same turns.
+  capture::PcapFilter its_own = filter_of(options);
+  its_own.source_address = sensor->address;
+  auto unit = PcapSource::open(options.file, its_own);
+  if (!unit) return tl::unexpected(unit.error());
+  auto calibration = sensor::unit_calibration(
+      {{}, options.calibration, options.nominal_calibration}, sensor->model, *unit);
+  if (!calibration) return tl::unexpected(calibration.error());
+  if (Status status = unit->rewind(); !status) return tl::unexpected(status.error());
+  std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);
+  say("sensor: " + sensor_line);
+  say("calibration: " + calibration_line);
+  return OpenCapture{*std::move(unit), *sensor, *std::move(calibration), std::move(sensor_line),
+                     std::move(calibration_line)};
+}
+
+void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& options) {
+  const std::uint64_t others = capture.source.counters().other_source;
+  if (others == 0 || !options.from.empty()) return;
+  warn(
+      fmt::format("{} datagrams came from other addresses than {}, the sensor's, and were left "
+                  "out; `terracut info` lists who sends, --from chooses",
+                  others, net::ipv4_text(capture.sensor.address)));
+}
+
+CaptureWindow::CaptureWindow(const CaptureOptions& options)
+    : start_ns_(nanoseconds(options.start_s)),
+      end_ns_(options.duration_s ? start_ns_ + nanoseconds(*options.duration_s)
+                                 : std::numeric_limits<std::int64_t>::max()) {}
+
+CaptureWindow::Place CaptureWindow::place(std::int64_t stamp_ns) noexcept {
+  if (!first_ns_) first_ns_ = stamp_ns;
+  const std::int64_t since_ns = stamp_ns - *first_ns_;
+  if (since_ns < start_ns_) return Place::kBefore;
+  return since_ns < end_ns_ ? Place::kInside : Place::kAfter;
+}
+
+Error nothing_came_out(const PcapSource& source, std::uint64_t offered,
+                       const frame::LossCounters& losses) {
+  return {ErrorCode::kNothingCameOut,
+          fmt::format("{}: no frame came out: {}", source.name(),
+                      why_nothing_came(source.counters(), offered, losses))};
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "run_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "pipeline/output/frame_folder.hpp"
+#include "rt/files/file_place.hpp"
+#include "rt/files/part_file.hpp"
+
+namespace terracut::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using files::FilePlace;
+using Kind = RunFiles::Kind;
+using Output = RunFiles::Output;
+using Input = RunFiles::Input;
+
+std::string name_of(const Output& output) {
+  return output.option + " " + output.path.string();
+}
+
+tl::unexpected<Error> refuse(std::string message) {
+  return fail(ErrorCode::kInvalidArgument, std::move(message));
+}
+
+/// What stands at the path already must be what the option names.
+Status check_kind(const Output& output) {
+  if (output.path == "-") {
+    return refuse(name_of(output) +
+                  ": a file is expected; standard output has the report for people");
+  }
+  std::error_code error;
+  const fs::file_type standing = fs::status(output.path, error).type();
+  if (standing == fs::file_type::not_found || standing == fs::file_type::none) return {};
+  const bool file = output.kind == Kind::kFile;
+  if (standing == (file ? fs::file_type::regular : fs::file_type::directory)) return {};
+  return fail(ErrorCode::kWriteFailed,
+              fmt::format("{} is to be a {}, but something else has that name; name another",
+                          name_of(output), file ? "file" : "folder"));
+}
+
+Status check_against(const Output& output, const Input& input) {
+  const FilePlace out(output.path), in(input.path);
+  const std::string read =
+      fmt::format("{} that the run reads ({} {})", input.what, input.option, input.path.string());
+  if (out.is_same_as(in)) {
+    return refuse(fmt::format("{} is {}; name another", name_of(output), read));
+  }
+  if (out.lies_in(in)) {
+    return refuse(fmt::format("{} lies in {}; name a place outside it", name_of(output), read));
+  }
+  if (output.kind == Kind::kReplacedFolder && in.lies_in(out)) {
+    return refuse(fmt::format("{} would be replaced, and in it lies {}; name another",
+                              name_of(output), read));
+  }
+  return {};
+}
+
+bool hold_different_files(const Output& a, const Output& b) {
+  const auto is_folder = [](Kind kind) {
+    return kind != Kind::kFile && kind != Kind::kReplacedFolder;
+  };
+  return is_folder(a.kind) && is_folder(b.kind) && (a.ending.empty() || a.ending != b.ending);
+}
+
+Status check_against(const Output& a, const Output& b) {
+  if (FilePlace(a.path).is_same_as(FilePlace(b.path)) && !hold_different_files(a, b)) {
+    return refuse(fmt::format("{} and {} are the same; name two", name_of(a), name_of(b)));
+  }
+  const auto is_among_frames = [](const Output& file, const Output& frames) {
+    return file.kind == Kind::kFile && frames.kind == Kind::kFrames &&
+           file.path.extension() == frames.ending &&
+           FilePlace(file.path).lies_in(FilePlace(frames.path));
+  };
+  if (is_among_frames(a, b) || is_among_frames(b, a)) {
+    return refuse(fmt::format("{} and {}: the file would be one of the frames'; name another",
+                              name_of(a), name_of(b)));
+  }
+  return {};
+}
+
+Expected<files::OutputClaim> claim(const Output& output) {
+  using Use = files::OutputClaim::Use;
+  const bool from_beside = output.kind == Kind::kFile || output.kind == Kind::kReplacedFolder;
+  auto claimed = from_beside ? files::OutputClaim::of_file(output.path)
+                             : files::OutputClaim::of_folder(
+                                   output.path,
+                                   output.kind == Kind::kSharedFolder ? Use::kShared : Use::kAlone);
+  if (!claimed) {
+    return fail(claimed.error().code, output.option + ": " + claimed.error().message);
+  }
+  return claimed;
+}
+
+/// What killed runs left half written in the output's place.
+void tidy_up(const Output& output) {
+  const fs::path place = FilePlace(output.path).path();
+  if (output.kind == Kind::kFile || output.kind == Kind::kReplacedFolder) {
+    files::remove_abandoned_parts(
+        place.parent_path(),
+        [name = place.filename().string()](std::string_view of) { return of == name; });
+  } else if (output.kind == Kind::kFrames) {
+    files::remove_abandoned_parts(place,
+                                  [&](std::string_view of) { return of.ends_with(output.ending); });
+  }
+}
+
+Status check_origin(const Output& output) {
+  if (output.kind != Kind::kFrames) return {};
+  const Status own = output::FrameFolder(output.path, output.ending).check();
+  return own ? own : fail(own.error().code, output.option + " " + own.error().message);
+}
+
+}  // namespace
+
+void RunFiles::read(std::string option, const fs::path& path, std::string what) {
+  if (!path.empty()) inputs.push_back({std::move(option), path, std::move(what)});
+}
+
+void RunFiles::write(std::string option, const fs::path& path, Kind kind, std::string ending) {
+  if (!path.empty()) outputs.push_back({std::move(option), path, kind, std::move(ending)});
+}
+
+Status check_apart(const RunFiles& files) {
+  for (auto output = files.outputs.begin(); output != files.outputs.end(); ++output) {
+    for (const Input& input : files.inputs) {
+      if (Status apart = check_against(*output, input); !apart) return apart;
+    }
+    for (auto other = files.outputs.begin(); other != output; ++other) {
+      if (Status apart = check_against(*other, *output); !apart) return apart;
+    }
+    if (Status kind = check_kind(*output); !kind) return kind;
+  }
+  return {};
+}
+
+Expected<std::vector<files::OutputClaim>> claim_outputs(const RunFiles& files) {
+  if (const Status apart = check_apart(files); !apart) return tl::unexpected(apart.error());
+  std::vector<files::OutputClaim> claims;
+  std::vector<FilePlace> held;  // several kinds of files may go to one folder
+  for (const Output& output : files.outputs) {
+    const FilePlace place(output.path);
+    if (std::ranges::none_of(held, [&](const FilePlace& at) { return at.is_same_as(place); })) {
+      auto claimed = claim(output);
+      if (!claimed) return tl::unexpected(claimed.error());
+      claims.push_back(*std::move(claimed));
+      held.emplace_back(output.path);
+    }
+    if (const Status own = check_origin(output); !own) return tl::unexpected(own.error());
+    tidy_up(output);
+  }
+  return claims;
+}
+
+}  // namespace terracut::cli

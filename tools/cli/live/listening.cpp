@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "listening.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+using Seconds = std::chrono::duration<double>;
+
+/// Who else listens at the device port shall go on doing so.
+std::optional<net::LiveSource> open_device_port(const Options& options,
+                                                memory::FixedMemory& memory) {
+  auto listen = listen_config_of(options);
+  if (!listen) return std::nullopt;
+  listen->at.port = options.listen.device_port;
+  listen->share_port = true;
+  listen->sender.reset();
+  auto opened = net::LiveSource::open(*listen, memory);
+  if (opened) return *std::move(opened);
+  if (options.capture.sensor == sensor::SensorModel::kRuby128) {
+    warn("the sensor's device information is not heard: " + opened.error().message);
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Expected<net::ListenConfig> listen_config_of(const Options& options) {
+  const ListenOptions& listen = options.listen;
+  net::ListenConfig config{.by_libpcap = listen.via == ListenVia::kLibpcap,
+                           .interface = listen.interface,
+                           .multicast_group = {},
+                           .share_port = listen.share_port,
+                           .sender = {}};
+  const auto at = net::parse_ipv4_endpoint(listen.address);
+  if (!at) return tl::unexpected(at.error());
+  config.at = *at;
+  if (!listen.multicast.empty()) {
+    const auto group = net::parse_ipv4_address(listen.multicast);
+    if (!group) return tl::unexpected(group.error());
+    config.multicast_group = *group;
+  }
+  if (!options.capture.from.empty()) {
+    const auto sender = net::parse_ipv4_address(options.capture.from);
+    if (!sender) return tl::unexpected(sender.error());
+    config.sender = *sender;
+  }
+  return config;
+}
+
+Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const Options& options,
+                                                const OnWaiting& on_waiting) {
+  sensor::FirstSeconds first(
+      {.model = options.capture.sensor,
+       .columns = options.capture.columns,
+       .calibration = {{}, options.capture.calibration, options.capture.nominal_calibration},
+       .place = source.name(),
+       .device_port = options.listen.device_port});
+  memory::FixedMemory device_memory;
+  std::optional<net::LiveSource> device;
+  if (first.wants_device_port()) device = open_device_port(options, device_memory);
+  const auto hear = [&](net::LiveSource& from, std::int64_t timeout_ns) {
+    for (const decode::Datagram& datagram : from.receive(timeout_ns)) first.add(datagram);
+  };
+
+  const auto begun = SteadyClock::now();
+  const auto is_over = [&] {
+    return options.patience_s && SteadyClock::now() - begun >= Seconds(*options.patience_s);
+  };
+  while (!first.is_enough() && !is_over() && !stop_wanted()) {
+    constexpr std::int64_t kAWhile_ns = 50'000'000;
+    hear(source, kAWhile_ns);
+    if (device) hear(*device, 0);
+    first.note_foreign(source.counters().foreign);
+    on_waiting(first.waits_for());
+  }
+  return first.conclude(options.patience_s);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "firmware_io/net/live_source.hpp"
+#include "firmware_io/sensor/first_seconds.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// What the options ask for; the errors of parse_ipv4_endpoint() and parse_ipv4_address().
+[[nodiscard]] Expected<net::ListenConfig> listen_config_of(const Options& options);
+
+/// Listens until a sensor is known and its calibration, too: as long as it takes, at most
+/// `options.patience_s` where there is such, or until stop_wanted(). `on_waiting` is told many
+/// times a second what is waited for. The errors of FirstSeconds::conclude().
+using OnWaiting = std::function<void(const std::string& what)>;
+[[nodiscard]] Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source,
+                                                              const Options& options,
+                                                              const OnWaiting& on_waiting);
+
+}  // namespace terracut::cli

@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "pipeline/ground/ground_method.hpp"
+#include "setting.hpp"
+#include "tools/research/datasets/built_in_tables.hpp"
+#include "words.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using C = Command;
+using F = SettingField;
+using Kind = RunFiles::Kind;
+using O = Options;
+
+constexpr double kLongest_s = 1e9;
+constexpr double kMostLoops = std::numeric_limits<int>::max();
+constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to here
+
+constexpr CommandSet kCaptures = C::kReplay | C::kCalibrate | C::kBench;
+constexpr CommandSet kPackets = kCaptures | C::kLive;
+constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval;
+constexpr CommandSet kMethods = kPackets | C::kSegment | C::kPlan;
+constexpr CommandSet kDriven = C::kReplay | C::kLive;
+constexpr CommandSet kFrames = C::kReplay | C::kSegment;
+constexpr CommandSet kDrives = C::kSimulate | C::kEval;
+constexpr CommandSet kSending = C::kSend | C::kSimulate;
+constexpr CommandSet kResults = C::kInfo | C::kPlan | C::kBench;
+
+template <class Value, class Words>
+ChoiceField choice(Value& value, const Words& words) {
+  ChoiceField field{.words = {}, .chosen = word_of(words, value), .choose = [&](std::size_t i) {
+                      value = words[i].value;
+                    }};
+  for (const auto& word : words) field.words.push_back(word.name);
+  return field;
+}
+
+ChoiceField name_choice(std::string& value, const std::vector<std::string_view>& names) {
+  return {.words = names, .chosen = value, .choose = [&value, names](std::size_t i) {
+            value = names[i];
+          }};
+}
+
+ChoiceField method_choice(std::string& method) {
+  std::vector<std::string_view> names;
+  for (const auto& known : ground::method_names()) names.push_back(known.name);
+  return name_choice(method, names);
+}
+
+ChoiceField dataset_choice(std::string& dataset) {
+  std::vector<std::string_view> names;
+  for (const auto& table : datasets::built_in_tables()) names.push_back(table.dataset);
+  names.insert(names.end(), {"own", "simulated"});
+  return name_choice(dataset, names);
+}
+
+// clang-format off: a table reads better with an entry on two lines than one word a line.
+constexpr std::array kSettings{
+    // What a run is about
+    Setting{.option = "FILE", .commands = kCaptures | C::kInfo | C::kSend, .required_by = kCaptures | C::kInfo | C::kSend, .help = "Capture, pcap or pcapng",
+            .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
+    Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of .bin scans, or a SemanticKITTI sequence folder",
+            .field = [](O& o) -> F { return &o.scans; }},
+    Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate",
+            .field = [](O& o) -> F { return dataset_choice(o.eval.dataset); }},
+    Setting{.option = "ROOT", .commands = C::kEval, .required_by = C::kEval, .help = "Folder of the dataset, laid out as its class table says (see\ndocs/reference/evaluation.md); simulated: scenes, like street,hill",
+            .field = [](O& o) -> F { return &o.eval.root; }},
+    Setting{.option = "NAME", .commands = C::kDump | C::kTop, .help = "Name of the process (default: the only one that runs)",
+            .form = TextForm::kName, .field = [](O& o) -> F { return &o.watched; }},
+    Setting{.option = "-o,--output", .commands = C::kSimulate | C::kEncode, .required_by = C::kEncode, .help = "Capture to write; its table and truth go beside it",
+            .field = [](O& o) -> F { return &o.written; }},
+    Setting{.option = "-o,--output", .commands = C::kCalibrate, .required_by = C::kCalibrate, .help = "Setup file to write, for --setup",
+            .writes = Kind::kFile, .field = [](O& o) -> F { return &o.written; }},
+
+    Setting{.key = "sensor.model", .option = "--sensor", .commands = kPackets | C::kSimulate | C::kEncode | C::kPlan | C::kEval, .help = "Sensor model; auto: the one found, or hdl64e where there is none to find",
+            .field = [](O& o) -> F { return choice(o.capture.sensor, kSensorWords); }},
+    Setting{.key = "sensor.calibration", .option = "--calibration", .commands = kPackets | C::kSegment | C::kSimulate | C::kEncode, .help = "The unit's table: db.xml or yaml of an HDL-64E, angle.csv of a Ruby128 (default: the one in the packets; of scans: fitted to them; simulate: a nominal one)",
+            .reads = "the calibration", .field = [](O& o) -> F { return &o.capture.calibration; }},
+    Setting{.key = "sensor.nominal_calibration", .option = "--nominal-calibration", .commands = kPackets, .help = "Ruby128: take the model's table where there is none of the unit; heights may be off",
+            .bare = "yes", .field = [](O& o) -> F { return &o.capture.nominal_calibration; }},
+    Setting{.key = "sensor.columns", .option = "--columns", .commands = kPackets, .unit = "columns", .help = "Columns of the range image (default: firings a turn at the spin rate found)",
+            .least = 16, .most = 36000, .field = [](O& o) -> F { return &o.capture.columns; }},
+    Setting{.key = "sensor.cell_owner", .option = "--cell-owner", .commands = kPackets, .help = "Dual return: which return stands for its cell; all of them are labelled",
+            .field = [](O& o) -> F { return choice(o.capture.cell_owner, kCellOwnerWords); }},
+    Setting{.key = "sensor.timestamp", .option = "--timestamp", .commands = kPackets, .help = "Ruby128: how its stamps are encoded; auto: found out from the packets",
+            .field = [](O& o) -> F { return choice(o.capture.timestamp, kAnyTimestampWords); }},
+    Setting{.key = "sensor.clock_offset_s", .option = "--clock-offset", .commands = kPackets, .unit = "s", .help = "To add to the device's clock where it is reported",
+            .least = -kLongest_s, .most = kLongest_s, .field = [](O& o) -> F { return &o.capture.clock_offset_s; }},
+    Setting{.key = "sensor.geometry", .option = "--geometry", .commands = kPackets, .help = "Meaning of the table: the maker's manual, or as ROS drivers take it",
+            .field = [](O& o) -> F { return choice(o.capture.geometry, kGeometryWords); }},
+
+    Setting{.key = "input.port", .option = "--port", .commands = kCaptures | C::kSend, .help = "Only UDP datagrams to this port (default: any)",
+            .least = 0, .most = 65535, .field = [](O& o) -> F { return &o.capture.port; }},
+    Setting{.key = "input.from", .option = "--from", .commands = kPackets | C::kSend, .help = "Only datagrams of this IPv4 address (default: any)",
+            .form = TextForm::kAddress, .field = [](O& o) -> F { return &o.capture.from; }},
+    Setting{.key = "input.start_s", .option = "--start", .commands = kCaptures, .unit = "s", .help = "Skip so much of the capture's beginning",
+            .least = 0, .most = kLongest_s, .field = [](O& o) -> F { return &o.capture.start_s; }},
+    Setting{.key = "input.duration_s", .option = "--duration", .commands = kPackets, .unit = "s", .help = "Stop after so much (default: at the end; live: when interrupted)",
+            .least = 1e-6, .most = kLongest_s, .field = [](O& o) -> F { return &o.capture.duration_s; }},
+    Setting{.key = "input.reorder_packets", .option = "--reorder-packets", .commands = kPackets, .unit = "packets", .help = "How many packets late one may come and still find its turn, which waits for it (default: captures 2, live 0)",
+            .least = 0, .most = 16, .field = [](O& o) -> F { return &o.capture.reorder_packets; }},
+    Setting{.key = "input.listen", .option = "--listen", .commands = C::kLive | C::kDoctor, .help = "Where the sensor sends to; address 0.0.0.0, or a port alone, hears broadcasts too",
+            .form = TextForm::kEndpoint, .field = [](O& o) -> F { return &o.listen.address; }},
+    Setting{.key = "input.via", .option = "--via", .commands = C::kLive, .help = "libpcap hears what a socket does not: a mirror port, a port another program holds; it needs --interface and CAP_NET_RAW",
+            .field = [](O& o) -> F { return choice(o.listen.via, kViaWords); }},
+    Setting{.key = "input.interface", .option = "--interface", .commands = C::kLive | C::kDoctor, .help = "Only what comes in by this interface (default: any)",
+            .form = TextForm::kName, .field = [](O& o) -> F { return &o.listen.interface; }},
+    Setting{.key = "input.multicast", .option = "--multicast", .commands = C::kLive, .help = "Group to join (default: none)",
+            .form = TextForm::kAddress, .field = [](O& o) -> F { return &o.listen.multicast; }},
+    Setting{.key = "input.share_port", .option = "--share-port", .commands = C::kLive, .help = "Let other programs that ask for the same hear the port too",
+            .bare = "yes", .field = [](O& o) -> F { return &o.listen.share_port; }},
+    Setting{.key = "input.device_port", .option = "--device-port", .commands = C::kLive, .help = "Ruby128: port of its device information, heard at the start for its angles; 0: do not",
+            .least = 0, .most = 65535, .field = [](O& o) -> F { return &o.listen.device_port; }},
+    Setting{.key = "input.patience_s", .option = "--patience", .commands = C::kLive, .unit = "s", .help = "How long to wait for the sensor at the start (default: as long as it takes)",
+            .least = 0.1, .most = kLongest_s, .field = [](O& o) -> F { return &o.patience_s; }},
+
+    Setting{.key = "mount.setup", .option = "--setup", .commands = kMounted, .help = "Mount and ring distances found by `terracut calibrate`",
+            .reads = "the setup", .field = [](O& o) -> F { return &o.mount.setup; }},
+    Setting{.key = "mount.height_m", .option = "--mount-height", .commands = kMounted, .unit = "m", .help = "From the ground to the sensor's origin (default: the setup's, else 1.73)",
+            .least = 0.2, .most = 6, .field = [](O& o) -> F { return &o.mount.height_m; }},
+    Setting{.key = "mount.roll_deg", .option = "--mount-roll", .commands = kMounted, .unit = "deg", .help = "Left side up (default: the setup's, else 0)",
+            .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.roll_deg; }},
+    Setting{.key = "mount.pitch_deg", .option = "--mount-pitch", .commands = kMounted, .unit = "deg", .help = "Looking down in front (default: the setup's, else 0)",
+            .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.pitch_deg; }},
+
+    Setting{.key = "method.profile", .option = "--profile", .commands = kMethods | C::kEval, .help = "paper: the method as printed; terracut: what measured better",
+            .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.profile, kProfileWords); }},
+    Setting{.key = "method.stages", .option = "--stages", .commands = kMethods, .help = "How far to refine: elevation map, + adjacent points, + random field (mrf)",
+            .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.last_stage, kStageWords); }},
+    Setting{.option = "--set", .commands = kMethods | C::kEval, .help = "Any parameter of the method (`terracut parameters` lists them); repeatable",
+            .form = TextForm::kParameter, .field = [](O& o) -> F { return &o.method.settings; }},
+    Setting{.option = "--method", .commands = C::kReplay | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
+            .field = [](O& o) -> F { return method_choice(o.method.method); }},
+    Setting{.option = "--keep-mount", .commands = C::kCalibrate, .help = "Take the mount as given; only measure the rings' ground distances",
+            .bare = "yes", .field = [](O& o) -> F { return &o.keep_mount; }},
+
+    Setting{.key = "motion.can", .option = "--can", .commands = C::kLive, .help = "CAN interface of the vehicle, whose motion is taken out of every turn (default: none)",
+            .form = TextForm::kName, .field = [](O& o) -> F { return &o.can; }},
+    Setting{.option = "--can", .commands = C::kReplay, .help = "Recording of the vehicle's CAN bus (candump log or capture) on the clock of the packets' stamps: its motion is taken out of every turn",
+            .reads = "the CAN recording", .field = [](O& o) -> F { return &o.can_recording; }},
+    Setting{.key = "motion.dbc", .option = "--dbc", .commands = kDriven, .help = "DBC file that says what the vehicle's CAN frames mean",
+            .needs = "--can", .reads = "the DBC file", .field = [](O& o) -> F { return &o.motion.dbc; }},
+    Setting{.key = "motion.speed", .commands = kDriven, .help = "Speed: its signal in the DBC file, SIGNAL or MESSAGE.SIGNAL; several, with commas between: their mean",
+            .field = [](O& o) -> F { return &o.motion.speed.signals; }},
+    Setting{.key = "motion.speed_unit", .commands = kDriven, .help = "Unit of these signals; file: as the DBC file says",
+            .field = [](O& o) -> F { return choice(o.motion.speed.unit, kSpeedUnitWords); }},
+    Setting{.key = "motion.speed_scale", .commands = kDriven, .help = "Factor on top; -1 turns the sign round",
+            .least = -1000, .most = 1000, .field = [](O& o) -> F { return &o.motion.speed.scale; }},
+    Setting{.key = "motion.speed_sign", .commands = kDriven, .help = "Signal by which it is negative, when not 0 (default: none)",
+            .field = [](O& o) -> F { return &o.motion.speed.sign; }},
+    Setting{.key = "motion.speed_valid", .commands = kDriven, .help = "Signal that says whether it is valid (default: none, it always is)",
+            .field = [](O& o) -> F { return &o.motion.speed.valid; }},
+    Setting{.key = "motion.speed_valid_value", .commands = kDriven, .help = "What that signal has to be",
+            .least = -1e9, .most = 1e9, .field = [](O& o) -> F { return &o.motion.speed.valid_value; }},
+    Setting{.key = "motion.yaw_rate", .commands = kDriven, .help = "Yaw rate, to the left positive: its signal in the DBC file, SIGNAL or MESSAGE.SIGNAL; several, with commas between: their mean",
+            .field = [](O& o) -> F { return &o.motion.yaw_rate.signals; }},
+    Setting{.key = "motion.yaw_rate_unit", .commands = kDriven, .help = "Unit of these signals; file: as the DBC file says",
+            .field = [](O& o) -> F { return choice(o.motion.yaw_rate.unit, kYawRateUnitWords); }},
+    Setting{.key = "motion.yaw_rate_scale", .commands = kDriven, .help = "Factor on top; -1 turns the sign round",
+            .least = -1000, .most = 1000, .field = [](O& o) -> F { return &o.motion.yaw_rate.scale; }},
+    Setting{.key = "motion.yaw_rate_sign", .commands = kDriven, .help = "Signal by which it is negative, when not 0 (default: none)",
+            .field = [](O& o) -> F { return &o.motion.yaw_rate.sign; }},
+    Setting{.key = "motion.yaw_rate_valid", .commands = kDriven, .help = "Signal that says whether it is valid (default: none, it always is)",
+            .field = [](O& o) -> F { return &o.motion.yaw_rate.valid; }},
+    Setting{.key = "motion.yaw_rate_valid_value", .commands = kDriven, .help = "What that signal has to be",
+            .least = -1e9, .most = 1e9, .field = [](O& o) -> F { return &o.motion.yaw_rate.valid_value; }},
+    Setting{.key = "motion.max_age_ms", .commands = kDriven, .unit = "ms", .help = "Signals older than this are not used",
+            .least = 1, .most = 1000, .field = [](O& o) -> F { return &o.motion.max_age_ms; }},
+    Setting{.key = "motion.timeout_ms", .commands = kDriven, .unit = "ms", .help = "Without speed and yaw rate for so long, the motion is lost",
+            .least = 1, .most = 60000, .field = [](O& o) -> F { return &o.motion.timeout_ms; }},
+    Setting{.key = "motion.sensor_ahead_m", .commands = kDriven, .unit = "m", .help = "The sensor's place before the middle of the rear axle",
+            .least = -20, .most = 20, .field = [](O& o) -> F { return &o.motion.sensor_ahead_m; }},
+    Setting{.key = "motion.sensor_left_m", .commands = kDriven, .unit = "m", .help = "... and to the left of it",
+            .least = -10, .most = 10, .field = [](O& o) -> F { return &o.motion.sensor_left_m; }},
+    Setting{.key = "motion.deskew_to", .option = "--deskew-to", .commands = kDriven, .help = "Instant of the turn at which all its returns are to lie where they were",
+            .needs = "--can", .field = [](O& o) -> F { return choice(o.motion.deskew_to, kInstantWords); }},
+
+    Setting{.key = "output.labels", .option = "--labels", .commands = kFrames | C::kLive, .help = "Folder for NNNNNN.label, SemanticKITTI predictions",
+            .writes = Kind::kFrames, .ending = ".label", .field = [](O& o) -> F { return &o.output.labels; }},
+    Setting{.key = "output.pcd", .option = "--pcd", .commands = kFrames, .help = "Folder for NNNNNN.pcd: x y z intensity ring label",
+            .writes = Kind::kFrames, .ending = ".pcd", .field = [](O& o) -> F { return &o.output.pcd; }},
+    Setting{.key = "output.png", .option = "--png", .commands = kFrames, .help = "Folder for pictures: from above and as the sensor sees it",
+            .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
+    Setting{.key = "output.json", .option = "--json", .commands = kFrames | C::kLive, .help = "File for the report: returns, losses and times",
+            .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
+    Setting{.option = "--json", .commands = kResults, .help = "The same as a file for programs",
+            .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
+    Setting{.option = "--json", .commands = kSending, .help = "File for the summary: sent, lateness, what each fault did",
+            .needs = "--udp", .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
+    Setting{.option = "--json", .commands = C::kEval, .help = "File for the results; FILE.journal beside it lets an interrupted run go on",
+            .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
+    Setting{.key = "output.truth", .option = "--truth", .commands = C::kReplay, .help = "Folder of NNNNNN.label: print IoU_g and Recall_o, draw mistakes",
+            .reads = "the truth", .field = [](O& o) -> F { return &o.output.truth; }},
+    Setting{.key = "output.stream", .option = "--stream", .commands = C::kLive, .help = "Where other programs get every turn's labelled points (docs/reference/labelled_stream.md); a port alone: this machine's programs (default: nowhere)",
+            .form = TextForm::kStream, .field = [](O& o) -> F { return &o.stream; }},
+    Setting{.key = "output.stream_mode", .option = "--stream-mode", .commands = C::kLive, .help = "Rights of that socket's path: 600 its owner may read, 660 its group too, 666 all",
+            .field = [](O& o) -> F { return choice(o.stream_mode, kStreamModeWords); }},
+    Setting{.key = "output.trace", .option = "--trace", .commands = C::kLive, .help = "File for the last frames as a trace, for ui.perfetto.dev",
+            .writes = Kind::kFile, .field = [](O& o) -> F { return &o.trace; }},
+
+    Setting{.key = "deadline.limit_ms", .option = "--deadline", .commands = C::kLive, .unit = "ms", .help = "From a turn's last packet to its labels",
+            .least = 1, .most = 10000, .field = [](O& o) -> F { return &o.deadline_ms; }},
+
+    Setting{.key = "realtime.receive_priority", .option = "--receive-priority", .commands = C::kLive, .help = "SCHED_FIFO priority of the thread that receives; 0: none",
+            .least = 0, .most = 99, .field = [](O& o) -> F { return &o.realtime.receive_priority; }},
+    Setting{.key = "realtime.segment_priority", .option = "--segment-priority", .commands = C::kLive, .help = "SCHED_FIFO priority of the thread that segments; 0: none",
+            .least = 0, .most = 99, .field = [](O& o) -> F { return &o.realtime.segment_priority; }},
+    Setting{.key = "realtime.receive_core", .option = "--receive-core", .commands = C::kLive | C::kDoctor, .help = "The only core that the receiving thread runs on (default: any)",
+            .least = 0, .most = 4095, .field = [](O& o) -> F { return &o.realtime.receive_core; }},
+    Setting{.key = "realtime.segment_core", .option = "--segment-core", .commands = C::kLive | C::kDoctor, .help = "The only core that the segmenting thread runs on (default: any)",
+            .least = 0, .most = 4095, .field = [](O& o) -> F { return &o.realtime.segment_core; }},
+    Setting{.key = "realtime.can_priority", .option = "--can-priority", .commands = C::kLive, .help = "SCHED_FIFO priority of the thread that hears the vehicle's CAN bus; 0: none",
+            .least = 0, .most = 99, .field = [](O& o) -> F { return &o.realtime.can_priority; }},
+    Setting{.key = "realtime.lock_memory", .option = "--no-lock-memory", .commands = C::kLive, .help = "Keep all memory of the process present",
+            .bare = "no", .field = [](O& o) -> F { return &o.realtime.lock_memory; }},
+
+    Setting{.key = "recorder.seconds", .option = "--recorder-seconds", .commands = C::kLive, .unit = "s", .help = "Packets kept for a dump; 0: none",
+            .least = 0, .most = 600, .field = [](O& o) -> F { return &o.recorder.seconds; }},
+    Setting{.key = "recorder.folder", .option = "--recorder-folder", .commands = C::kLive, .help = "Folder for the last seconds of packets, written when a deadline is missed or `terracut dump` asks (default: none is written)",
+            .writes = Kind::kSharedFolder, .field = [](O& o) -> F { return &o.recorder.folder; }},
+
+    Setting{.key = "metrics.address", .option = "--metrics", .commands = C::kLive, .help = "Where Prometheus reads /metrics; a port alone: this machine's programs; off: nowhere",
+            .form = TextForm::kServingOrOff, .field = [](O& o) -> F { return &o.watch.metrics; }},
+    Setting{.key = "metrics.name", .option = "--name", .commands = C::kLive, .help = "Name under which `terracut top` and `dump` find the process",
+            .form = TextForm::kName, .field = [](O& o) -> F { return &o.watch.name; }},
+    Setting{.key = "metrics.health_can", .option = "--health-can", .commands = C::kLive, .help = "CAN interface on which terracut says how it is, terracut_health.dbc (default: none)",
+            .form = TextForm::kName, .field = [](O& o) -> F { return &o.watch.health_can; }},
+
+    Setting{.key = "replay.rate", .option = "--rate", .commands = C::kReplay, .help = "Pace by the capture's stamps: 1 as recorded, 0 flat out",
+            .least = 0, .most = 1000, .field = [](O& o) -> F { return &o.replay.rate; }},
+    Setting{.key = "replay.loop", .option = "--loop", .commands = C::kReplay, .unit = "passes", .help = "Passes over the capture; no number or 0: until interrupted",
+            .least = 0, .most = kMostLoops, .bare = "0", .field = [](O& o) -> F { return &o.replay.loops; }},
+
+    Setting{.key = "simulate.scene", .option = "--scene", .commands = C::kSimulate, .help = "What is driven through",
+            .field = [](O& o) -> F { return choice(o.simulate.scene, kSceneWords); }},
+    Setting{.key = "simulate.seed", .option = "--seed", .commands = kDrives, .help = "The same seed gives the same drive",
+            .least = 0, .most = kMostSeed, .field = [](O& o) -> F { return &o.simulate.seed; }},
+    Setting{.key = "simulate.duration_s", .option = "--duration", .commands = kDrives, .unit = "s", .help = "How long to drive",
+            .least = 0.1, .most = 3600, .field = [](O& o) -> F { return &o.simulate.duration_s; }},
+    Setting{.key = "simulate.spin_hz", .option = "--spin-hz", .commands = C::kSimulate, .unit = "Hz", .help = "Turns a second: 5, 10 and 20 are the sensors' own",
+            .least = 5, .most = 20, .field = [](O& o) -> F { return &o.simulate.spin_hz; }},
+    Setting{.key = "simulate.returns", .option = "--returns", .commands = kDrives, .help = "single: the strongest; dual: the strongest and the last",
+            .field = [](O& o) -> F { return choice(o.simulate.returns, kReturnsWords); }},
+    Setting{.key = "simulate.timestamp", .option = "--timestamp", .commands = C::kSimulate, .help = "Ruby128: how its stamps are encoded",
+            .field = [](O& o) -> F { return choice(o.simulate.timestamp, kTimestampWords); }},
+    Setting{.key = "simulate.noise_m", .option = "--noise", .commands = C::kSimulate, .unit = "m", .help = "Standard deviation of the range noise",
+            .least = 0, .most = 1, .field = [](O& o) -> F { return &o.simulate.noise_m; }},
+    Setting{.option = "--speed", .commands = C::kSimulate, .unit = "m/s", .help = "Of the vehicle (default: what is usual there)",
+            .least = 0, .most = 60, .field = [](O& o) -> F { return &o.simulate.speed_mps; }},
+    Setting{.option = "--yaw-rate", .commands = C::kSimulate, .unit = "deg/s", .help = "To the left positive: drive on an arc instead of along the road",
+            .least = -57, .most = 57, .field = [](O& o) -> F { return &o.simulate.yaw_rate_dps; }},
+    Setting{.option = "--undo-compensation", .commands = C::kEncode, .help = "Put the sensor's motion back into the points, by poses.txt and times.txt; refuse where they are not there (default: where they are)",
+            .bare = "yes", .excludes = "--keep-compensation", .field = [](O& o) -> F { return &o.encode.undo_compensation; }},
+    Setting{.option = "--keep-compensation", .commands = C::kEncode, .help = "Take the points as they are recorded, poses or not",
+            .bare = "yes", .field = [](O& o) -> F { return &o.encode.keep_compensation; }},
+    Setting{.option = "--can-log", .commands = C::kSimulate, .help = "Write the vehicle's speed and yaw rate beside the capture: NAME.can.log, NAME.can.dbc",
+            .bare = "yes", .needs = "--output", .field = [](O& o) -> F { return &o.can_log; }},
+    Setting{.option = "--can-log", .commands = C::kEncode, .help = "HDL-64E: write that motion beside the capture, NAME.can.log and NAME.can.dbc; the sensor then looks backwards, for recorded turns begin behind",
+            .bare = "yes", .excludes = "--keep-compensation", .field = [](O& o) -> F { return &o.can_log; }},
+
+    // Where a drive is sent to
+    Setting{.option = "--udp", .commands = C::kSimulate, .help = "ADDRESS[:PORT]: be the sensor, and send the drive in real time once it is computed",
+            .field = [](O& o) -> F { return &o.send.to; }},
+    Setting{.option = "--to", .commands = C::kSend, .required_by = C::kSend, .help = "ADDRESS:PORT to send to; a multicast group and broadcast will do.\nADDRESS alone: every datagram to the port it was captured on",
+            .field = [](O& o) -> F { return &o.send.to; }},
+    Setting{.option = "--rate", .commands = C::kSend, .help = "Pace by the capture's stamps: 1 as recorded, 0 flat out",
+            .least = 0, .most = 1000, .field = [](O& o) -> F { return &o.send.play.rate; }},
+    Setting{.option = "--loop", .commands = kSending, .unit = "passes", .help = "Passes over the packets; no number or 0: until interrupted",
+            .least = 0, .most = kMostLoops, .bare = "0", .needs = "--udp", .field = [](O& o) -> F { return &o.send.play.loops; }},
+    Setting{.option = "--interface", .commands = kSending, .help = "Send by this interface (default: by the routes)",
+            .form = TextForm::kName, .needs = "--udp", .field = [](O& o) -> F { return &o.send.interface; }},
+    Setting{.option = "--faults", .commands = kSending, .help = "What goes wrong on the way, by seconds since the first packet:\nloss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms\nforeign@7s:50 clock@8s:+2.0s truncate@9s:5",
+            .needs = "--udp", .field = [](O& o) -> F { return &o.send.faults; }},
+    Setting{.option = "--foreign-from", .commands = kSending, .help = "Address of this machine that foreign packets come from",
+            .form = TextForm::kAddress, .needs = "--udp", .field = [](O& o) -> F { return &o.send.foreign_from; }},
+
+    Setting{.key = "bench.repeat", .option = "--repeat", .commands = C::kBench, .unit = "passes", .help = "Passes over the capture",
+            .least = 1, .most = 100000, .field = [](O& o) -> F { return &o.bench_repeat; }},
+    Setting{.key = "bench.core", .option = "--core", .commands = C::kBench, .help = "Processor core to stay on; -1: the last one allowed",
+            .least = -1, .most = 4095, .field = [](O& o) -> F { return &o.bench_core; }},
+
+    // Labelled datasets
+    Setting{.option = "--sequences", .commands = C::kEval, .help = "Only these, like 00,03 (default: all with labels)",
+            .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.sequences; }},
+    Setting{.option = "--frames", .commands = C::kEval, .help = "Only these of every sequence: FIRST, FIRST-LAST or FIRST-LAST:STEP, from 0",
+            .field = [](O& o) -> F { return &o.eval.frames; }},
+    Setting{.option = "--method", .commands = C::kEval, .help = "Methods to compare, like terracut,paper,ring_map (default: the profile)",
+            .form = TextForm::kList, .field = [](O& o) -> F { return &o.eval.methods; }},
+    Setting{.option = "--variant", .commands = C::kEval, .help = "NAME=METHOD,KEY=VALUE,...: one more, a method with other parameters; repeatable",
+            .field = [](O& o) -> F { return &o.eval.variants; }},
+    Setting{.option = "--through", .commands = C::kEval, .help = "image: scans straight into the range image; packets: encoded and decoded first (default: image)",
+            .field = [](O& o) -> F { return choice(o.eval.through_packets, kThroughWords); }},
+    Setting{.option = "--jobs", .commands = C::kEval, .help = "Threads, each on a core of its own; 0: one a core",
+            .least = 0, .most = 1024, .field = [](O& o) -> F { return &o.eval.jobs; }},
+    Setting{.option = "--classes", .commands = C::kEval, .help = "YAML file: what classes count as, and how files lie on disk (own: needed)",
+            .reads = "the table of classes", .field = [](O& o) -> F { return &o.eval.classes; }},
+    Setting{.option = "--predictions", .commands = C::kEval, .help = "Folder for METHOD/sequences/NN/predictions/NNNNNN.label",
+            .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.predictions; }},
+    Setting{.option = "--report", .commands = C::kEval, .help = "Folder for what ./tools/report draws its page from: evaluation.json, pictures",
+            .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.report; }},
+    Setting{.option = "--changes", .commands = C::kEval, .help = "Folder for pictures: of every method but the first the frame it labels most\ndifferently from the first, METHOD.png, and what they show, changes.json;\nevery frame is labelled, so there is no journal",
+            .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.changes; }},
+
+    // A run to look at, and what is printed
+    Setting{.option = "--wait", .commands = C::kDump, .unit = "s", .help = "For its answer",
+            .least = 0, .most = 3600, .field = [](O& o) -> F { return &o.wait_s; }},
+    Setting{.option = "--once", .commands = C::kTop, .help = "Print once and exit",
+            .bare = "yes", .field = [](O& o) -> F { return &o.once; }},
+    Setting{.option = "--interval", .commands = C::kTop, .unit = "s", .help = "Between two looks",
+            .least = 0.1, .most = 3600, .field = [](O& o) -> F { return &o.interval_s; }},
+    Setting{.option = "--print-json", .commands = C::kTop | C::kDoctor, .help = "Print the figures or findings once, for programs",
+            .bare = "yes", .field = [](O& o) -> F { return &o.print_json; }},
+    Setting{.option = "--print-default", .commands = C::kConfig, .help = "Print a file with every key, its range and default (else: the one in force)",
+            .bare = "yes", .field = [](O& o) -> F { return &o.print_default; }},
+    Setting{.option = "--print-table", .commands = C::kConfig, .help = "Print the table of docs/reference/configuration.md",
+            .bare = "yes", .field = [](O& o) -> F { return &o.print_table; }},
+};
+// clang-format on
+
+}  // namespace
+
+std::span<const Setting> settings() noexcept {
+  return kSettings;
+}
+
+const Setting* find_setting(std::string_view key) noexcept {
+  const auto found = std::ranges::find(kSettings, key, &Setting::key);
+  return key.empty() || found == kSettings.end() ? nullptr : &*found;
+}
+
+const Setting* find_option(Command command, std::string_view option) noexcept {
+  const auto found = std::ranges::find_if(kSettings, [&](const Setting& setting) {
+    const bool is_its =
+        setting.name() == option || setting.option.substr(0, setting.option.find(',')) == option;
+    return is_its && setting.commands.contains(command);
+  });
+  return option.empty() || found == kSettings.end() ? nullptr : &*found;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "setup_choice.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "calib/beams/angle.hpp"
+#include "calib/mount/sensor_setup_file.hpp"
+#include "pipeline/ground/parameter_table.hpp"
+
+namespace terracut::cli {
+namespace {
+
+bool moved_by_options(const MountOptions& options) {
+  return options.height_m || options.roll_deg || options.pitch_deg;
+}
+
+Expected<mount::SensorSetup> setup_of(const MountOptions& options) {
+  mount::SensorSetup setup;
+  if (!options.setup.empty()) {
+    Expected<mount::SensorSetup> read = mount::read_sensor_setup(options.setup);
+    if (!read) return read;
+    setup = *std::move(read);
+  }
+  if (options.height_m) setup.mount.height_m = *options.height_m;
+  if (options.roll_deg) setup.mount.roll_rad = beams::deg_to_rad(*options.roll_deg);
+  if (options.pitch_deg) setup.mount.pitch_rad = beams::deg_to_rad(*options.pitch_deg);
+  if (moved_by_options(options)) setup.ring_ground_distance_m.clear();
+  return setup;
+}
+
+}  // namespace
+
+Expected<mount::Mount> mount_of(const MountOptions& options) {
+  return setup_of(options).map([](const mount::SensorSetup& setup) { return setup.mount; });
+}
+
+Expected<mount::RingProfile> ring_profile_of(const calib::SensorCalibration& calibration,
+                                             const MountOptions& options) {
+  const Expected<mount::SensorSetup> setup = setup_of(options);
+  if (!setup) return tl::unexpected(setup.error());
+  mount::RingProfile profile = calib::ring_profile(calibration, setup->mount);
+  if (Status applied = mount::apply_setup(*setup, profile); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return profile;
+}
+
+Status check_heeded(std::span<const std::string> settings,
+                    std::span<const ground::MethodKind> kinds) {
+  for (const std::string& setting : settings) {
+    const std::string key = setting.substr(0, setting.find('='));
+    const ground::MethodKind kind = ground::kind_that_heeds(key);
+    if (std::ranges::find(kinds, kind) != kinds.end()) continue;
+    const std::string whose = kind == ground::MethodKind::kSegmenter
+                                  ? "our own method"
+                                  : "the method " + key.substr(0, key.find('.'));
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("'{}' would change nothing: it is a parameter of {}, which does not "
+                            "run here",
+                            setting, whose));
+  }
+  return {};
+}
+
+ground::MethodConfig method_config_of(const MethodOptions& options) {
+  ground::MethodConfig config =
+      options.profile == Profile::kPaper ? ground::paper_profile() : ground::terracut_profile();
+  config.segmenter.last_stage = options.last_stage;
+  if (!options.method.empty()) config = ground::method_named(options.method).value();
+  for (const std::string& setting : options.settings) (void)ground::apply_setting(config, setting);
+  return config;
+}
+
+ground::SegmenterConfig segmenter_config_of(const MethodOptions& options) {
+  return method_config_of(options).segmenter;
+}
+
+}  // namespace terracut::cli

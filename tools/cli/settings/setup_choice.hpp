@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "calib/mount/ring_profile.hpp"
+#include "calib/sensor_calibration.hpp"
+#include "pipeline/ground/ground_method.hpp"
+#include "pipeline/ground/profile.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// Where the sensor stands: --setup, then --mount-... on top, else a level mount at 1.73 m.
+[[nodiscard]] Expected<mount::Mount> mount_of(const MountOptions& options);
+
+/// The ring profile of a unit so mounted. The measured ring distances of a setup count only as long
+/// as no --mount-... option moves the sensor away from where they were measured.
+[[nodiscard]] Expected<mount::RingProfile> ring_profile_of(
+    const calib::SensorCalibration& calibration, const MountOptions& options);
+
+/// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
+/// silently without effect. kInvalidArgument, naming it and whose it is.
+[[nodiscard]] Status check_heeded(std::span<const std::string> settings,
+                                  std::span<const ground::MethodKind> kinds);
+
+/// The method for --method, or --profile and --stages, and --set; names and settings must have been
+/// checked.
+[[nodiscard]] ground::MethodConfig method_config_of(const MethodOptions& options);
+
+/// The same for commands without --method.
+[[nodiscard]] ground::SegmenterConfig segmenter_config_of(const MethodOptions& options);
+
+}  // namespace terracut::cli

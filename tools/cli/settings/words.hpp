@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "tools/cli/options.hpp"
+
+/// What people type for the values of settings that are one of several.
+namespace terracut::cli {
+
+template <class Value>
+struct Word {
+  std::string_view name;
+  Value value;
+};
+
+inline constexpr std::array kSensorWords{
+    Word<std::optional<sensor::SensorModel>>{"auto", std::nullopt},
+    Word<std::optional<sensor::SensorModel>>{"hdl64e", sensor::SensorModel::kHdl64e},
+    Word<std::optional<sensor::SensorModel>>{"ruby128", sensor::SensorModel::kRuby128}};
+inline constexpr std::array kCellOwnerWords{
+    Word{"strongest", frame::CellOwner::kStrongest}, Word{"last", frame::CellOwner::kFarthest},
+    Word{"first", frame::CellOwner::kNearest}, Word{"both", frame::CellOwner::kFirstArrived}};
+inline constexpr std::array kTimestampWords{Word{"calendar", ruby128::RubyTimestamp::kCalendar},
+                                            Word{"us", ruby128::RubyTimestamp::kUtcMicroseconds},
+                                            Word{"ns", ruby128::RubyTimestamp::kUtcNanoseconds}};
+inline constexpr std::array kAnyTimestampWords{
+    Word<std::optional<ruby128::RubyTimestamp>>{"auto", std::nullopt},
+    Word<std::optional<ruby128::RubyTimestamp>>{"calendar", ruby128::RubyTimestamp::kCalendar},
+    Word<std::optional<ruby128::RubyTimestamp>>{"us", ruby128::RubyTimestamp::kUtcMicroseconds},
+    Word<std::optional<ruby128::RubyTimestamp>>{"ns", ruby128::RubyTimestamp::kUtcNanoseconds}};
+inline constexpr std::array kGeometryWords{Word{"manual", hdl64e::GeometryModel::kManual},
+                                           Word{"ros", hdl64e::GeometryModel::kRosLike}};
+inline constexpr std::array kProfileWords{Word{"paper", Profile::kPaper},
+                                          Word{"terracut", Profile::kTerracut}};
+inline constexpr std::array kStageWords{Word{"elevation", stage::Stage::kElevationMap},
+                                        Word{"adjacent", stage::Stage::kAdjacentPoints},
+                                        Word{"mrf", stage::Stage::kMinCut}};
+inline constexpr std::array kViaWords{Word{"socket", ListenVia::kSocket},
+                                      Word{"libpcap", ListenVia::kLibpcap}};
+inline constexpr std::array kInstantWords{Word{"start", frame::TurnInstant::kStart},
+                                          Word{"middle", frame::TurnInstant::kMiddle},
+                                          Word{"end", frame::TurnInstant::kEnd}};
+inline constexpr std::array kReturnsWords{Word{"single", drive::ReturnMode::kSingle},
+                                          Word{"dual", drive::ReturnMode::kDual}};
+inline constexpr std::array kStreamModeWords{
+    Word{"600", ::mode_t{0600}}, Word{"660", ::mode_t{0660}}, Word{"666", ::mode_t{0666}}};
+inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
+                                          Word<std::optional<bool>>{"packets", true}};
+
+// Words that stay words below, too.
+using TextWord = Word<std::string_view>;
+inline constexpr std::array kSceneWords{TextWord{"street", "street"},
+                                        TextWord{"highway", "highway"}, TextWord{"rural", "rural"},
+                                        TextWord{"flat", "flat"}, TextWord{"hill", "hill"}};
+inline constexpr std::array kSpeedUnitWords{TextWord{"file", ""}, TextWord{"m/s", "m/s"},
+                                            TextWord{"km/h", "km/h"}, TextWord{"mph", "mph"}};
+inline constexpr std::array kYawRateUnitWords{TextWord{"file", ""}, TextWord{"rad/s", "rad/s"},
+                                              TextWord{"deg/s", "deg/s"}};
+
+/// The word for a value; empty: there is none.
+template <class Words, class Value>
+[[nodiscard]] constexpr std::string_view word_of(const Words& words, const Value& value) {
+  const auto found = std::ranges::find_if(words, [&](const auto& w) { return w.value == value; });
+  return found == words.end() ? std::string_view() : found->name;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+
+#include "rt/error.hpp"
+
+namespace terracut::drive {
+
+/// The names a drive's parts have beside "<folder>/<name>.pcap".
+[[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
+template <class Transmitter>
+[[nodiscard]] std::filesystem::path calibration_path_of(const std::filesystem::path& pcap_path) {
+  std::filesystem::path name = pcap_path.stem();
+  name += Transmitter::kCalibrationSuffix;
+  return pcap_path.parent_path() / name;
+}
+
+/// The truth and the table of a drive under way: in a folder beside their places, on the same file
+/// system, until put_in_place(); without it nothing is left. One thread.
+class DriveFiles {
+ public:
+  /// kInvalidArgument when a truth folder that stands in the way holds anything but NNNNNN.label
+  /// files: only one that is surely a drive's may be replaced. kWriteFailed.
+  [[nodiscard]] static Expected<DriveFiles> create(const std::filesystem::path& pcap_path);
+
+  DriveFiles(DriveFiles&&) noexcept;
+  DriveFiles& operator=(DriveFiles&&) noexcept;
+  ~DriveFiles();
+
+  /// Where the table is to be written.
+  [[nodiscard]] std::filesystem::path staged_calibration() const;
+  /// NNNNNN.label of the truth: little-endian. kWriteFailed.
+  [[nodiscard]] Status write_truth(std::uint64_t frame, std::span<const std::uint32_t> labels);
+
+  /// Once more what create() checks, for the folder may have changed since.
+  [[nodiscard]] Status check_replaceable() const;
+  [[nodiscard]] Status put_in_place(const std::filesystem::path& calibration_path);
+
+ private:
+  class Staging;
+  DriveFiles(std::filesystem::path truth, std::unique_ptr<Staging> staging) noexcept;
+
+  std::filesystem::path truth_;
+  std::unique_ptr<Staging> staging_;
+};
+
+}  // namespace terracut::drive

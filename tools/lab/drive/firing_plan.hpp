@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+#include "return_mode.hpp"
+#include "transmitter.hpp"
+
+namespace terracut::drive {
+
+/// One firing of all lasers.
+struct Firing {
+  std::int64_t index = 0;
+  std::int64_t azimuth_cdeg = 0;  ///< Of the head as the wire has it, unwrapped.
+  std::int32_t step_ticks = 0;    ///< The step by which a decoder computes its beams.
+  double time_s = 0;              ///< 0 when the head passes straight ahead for the first time.
+};
+
+/// When and where the head fires during a drive of whole turns, with the run-up and run-out that
+/// let every laser see them whole. Whole packets.
+template <class Transmitter>
+class FiringPlan {
+ public:
+  FiringPlan(const typename Transmitter::Calibration& calibration, ReturnMode returns,
+             double spin_hz, std::int64_t turns);
+
+  [[nodiscard]] std::int64_t turns() const noexcept { return turns_; }
+  [[nodiscard]] std::int64_t firings() const noexcept { return firings_; }
+  [[nodiscard]] Firing firing(std::int64_t index) const noexcept;
+  /// From the first firing to this one.
+  [[nodiscard]] std::int64_t after_ns(std::int64_t index) const noexcept {
+    return index * Transmitter::firing_ns(returns_);
+  }
+  /// Turns that are not wanted lie before the first seam or after the last one.
+  [[nodiscard]] bool wants(std::int64_t turn) const noexcept { return turn >= 0 && turn < turns_; }
+
+ private:
+  [[nodiscard]] std::int64_t azimuth_cdeg(std::int64_t index) const noexcept;
+
+  ReturnMode returns_;
+  std::int64_t turns_;
+  std::int64_t group_;  ///< Firings that fill whole packets.
+  double start_cdeg_;   ///< < 0
+  double cdeg_per_s_;
+  double firing_s_;
+  std::int64_t firings_;
+};
+
+}  // namespace terracut::drive

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "hdl64e_packet_sender.hpp"
+
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "hdl64e_packet_encoder.hpp"
+
+namespace terracut::encode {
+namespace {
+
+/// Factory addresses of the sensor and its broadcast (HDL-64E S3 manual).
+constexpr std::uint32_t kSensorAddress = 0xC0A8032B;     // 192.168.3.43
+constexpr std::uint32_t kBroadcastAddress = 0xC0A803FF;  // 192.168.3.255
+
+}  // namespace
+
+Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
+    const hdl64e::Hdl64eCalibration& calibration, drive::ReturnMode returns) {
+  hdl64e::UnitInfo unit;
+  if (returns == drive::ReturnMode::kDual) {
+    unit.return_setting = static_cast<std::uint8_t>(hdl64e::ReturnSetting::kBoth);
+  }
+  const auto table = hdl64e::make_stream_table(calibration, unit);
+  if (!table) return tl::unexpected(table.error());
+  return Hdl64ePacketSender(StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
+}
+
+Status Hdl64ePacketSender::send(
+    std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns, int,
+    capture::PcapWriter& capture) {
+  const std::int64_t end_ns = packet_end_ns(columns);
+  encode_hdl64e_packet(columns, end_ns, status_.next(end_ns), packet_);
+  return capture.write({.payload = packet_.payload(),
+                        .stamp_ns = end_ns,
+                        .source_address = kSensorAddress,
+                        .destination_address = kBroadcastAddress,
+                        .source_port = hdl64e::kHdl64eSourcePort,
+                        .destination_port = hdl64e::kHdl64eDataPort});
+}
+
+}  // namespace terracut::encode

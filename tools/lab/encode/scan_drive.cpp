@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "scan_drive.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <span>
+#include <utility>
+
+#include "tools/lab/drive/vehicle_log.hpp"
+#include "turn_motion_log.hpp"
+
+namespace terracut::encode {
+namespace {
+
+/// Half a turn about the sensor's axis.
+void turn_round(std::span<scan::ScanPoint> points) {
+  for (scan::ScanPoint& point : points) {
+    point.x_m = -point.x_m;
+    point.y_m = -point.y_m;
+  }
+}
+scan::SensorTwist turned_round(scan::SensorTwist twist) {
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    twist.velocity_m_s[axis] = -twist.velocity_m_s[axis];
+    twist.turning_rad_s[axis] = -twist.turning_rad_s[axis];
+  }
+  return twist;
+}
+
+}  // namespace
+
+Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
+                                             const std::filesystem::path& pcap_path,
+                                             const ScanDriveOptions& options) {
+  auto reader = scan::ScanReader::open(folder, options.motion);
+  if (!reader) return tl::unexpected(std::move(reader.error()));
+  ScanDriveReport report;
+  report.why_as_recorded = reader->why_as_recorded();
+  if (options.can_log && !report.why_as_recorded.empty()) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: a CAN log is of the motion that is put back into the scans, and "
+                            "none is: {}",
+                            folder.string(), report.why_as_recorded));
+  }
+  if (options.calibration) {
+    report.calibration = *options.calibration;
+    reader->use_rings(scan::ring_table(report.calibration));
+  } else {
+    auto fitted = reader->fit_rings();
+    if (!fitted) return tl::unexpected(std::move(fitted.error()));
+    report.fitted = *fitted;
+    report.calibration = scan::hdl64e_calibration(fitted->table);
+    report.calibration.origin = "fitted from " + folder.string();
+  }
+
+  auto writer = drive::Hdl64eDriveWriter::create(pcap_path, report.calibration);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+  TurnMotionLog log(options.first_stamp_ns);
+  ScanEncoder encoder(report.calibration, options.first_stamp_ns, [&](const EncodedFiring& firing) {
+    log.note_firing(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg);
+    return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
+                              firing.column.by_laser);
+  });
+  scan::KittiScan scan;
+  scan::RingRecovery rings;
+  for (std::size_t i = 0; i < reader->size(); ++i) {
+    if (const Status status = reader->read(i, scan, rings); !status) {
+      return tl::unexpected(status.error());
+    }
+    if (options.can_log) {
+      const auto twist = reader->twist(i);
+      if (!twist) return tl::unexpected(twist.error());
+      turn_round(scan.points);
+      log.add_turn(turned_round(**twist));
+    }
+    const Status status = encoder.add_turn(scan.points, rings.ring_of_point, scan.labels);
+    if (!status) return tl::unexpected(status.error());
+    if (!options.on_scan) continue;
+    if (const Status go_on = options.on_scan(i + 1, reader->size()); !go_on) {
+      return tl::unexpected(go_on.error());
+    }
+  }
+  auto encoded = encoder.finish();
+  if (!encoded) return tl::unexpected(std::move(encoded.error()));
+  report.encoded = std::move(*encoded);
+  const auto drive = writer->finish();
+  if (!drive) return tl::unexpected(drive.error());
+  report.drive = *drive;
+  if (options.can_log) {
+    const Status logged = drive::write_vehicle_log(pcap_path, log.samples());
+    if (!logged) return tl::unexpected(logged.error());
+  }
+  return report;
+}
+
+Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folder,
+                                              const std::filesystem::path& pcap_path,
+                                              const ResampleOptions& options) {
+  auto reader = scan::ScanReader::open(folder, options.motion);
+  if (!reader) return tl::unexpected(std::move(reader.error()));
+  if (auto fitted = reader->fit_rings(); !fitted) {
+    return tl::unexpected(std::move(fitted.error()));
+  }
+  Ruby128Transmitter::Config config;
+  config.unit.rpm = static_cast<std::uint16_t>(60 * ScanResampler::kSpin_hz);
+  config.unit.serial = {'R', 'E', 'S', 'A', 'M', 'P'};
+  auto writer = drive::Ruby128DriveWriter::create(pcap_path, options.calibration, config);
+  if (!writer) return tl::unexpected(std::move(writer.error()));
+
+  ScanResampler resampler(options.calibration);
+  const auto rays = resampler.run(
+      static_cast<std::int64_t>(reader->size()), options.first_stamp_ns,
+      [&](std::int64_t turn, ScanResampler::Turn& into) -> Status {
+        const auto index = static_cast<std::size_t>(turn);
+        Status status = reader->read(index, into.scan, into.rings);
+        if (!status || !options.on_scan) return status;
+        return options.on_scan(index + 1, reader->size());
+      },
+      [&](const frame::Ruby128Column& column) {
+        return writer->add_column(column.stamp_ns, column.unwrapped_azimuth_cdeg, column.by_laser);
+      });
+  if (!rays) return tl::unexpected(rays.error());
+  const auto drive = writer->finish();
+  if (!drive) return tl::unexpected(drive.error());
+  return ResampleReport{*drive, *rays, reader->why_as_recorded()};
+}
+
+}  // namespace terracut::encode

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "calib/ruby128/ruby128_geometry.hpp"
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/ring_recovery.hpp"
+#include "rt/error.hpp"
+#include "scan_surface.hpp"
+#include "tools/lab/drive/firing_plan.hpp"
+#include "tools/lab/drive/transmitter.hpp"
+
+namespace terracut::encode {
+
+/// What became of the rays of a resampled drive; the counts add up to `rays`.
+struct ResampleSummary {
+  std::uint64_t rays = 0;
+  std::uint64_t returns = 0;
+  std::uint64_t outside = 0;       ///< Above or below all rings of the recording.
+  std::uint64_t nothing_near = 0;  ///< No recorded return near by: sky, lost, or in a gap.
+  std::uint64_t out_of_span = 0;   ///< Nearer or farther than the wire can say.
+
+  bool operator==(const ResampleSummary&) const = default;
+};
+
+/// Sees recorded scans of another sensor through the rays of an RS-Ruby128 that stands in its
+/// place: one scan is one turn at 10 Hz, consecutive scans are consecutive turns. Single return.
+///
+/// What comes out is synthetic: ranges are interpolated between recorded returns
+/// (scan_surface.hpp), labels and intensities are those of the nearest one, and finer detail than
+/// the recording has is not there. Allocates; one thread; deterministic.
+class ScanResampler {
+ public:
+  static constexpr double kSpin_hz = 10;
+
+  struct Turn {
+    scan::KittiScan scan;
+    scan::RingRecovery rings;
+  };
+  /// Reads a turn's scan; called once for each turn, in order.
+  using Source = std::function<Status(std::int64_t turn, Turn& into)>;
+  /// Takes the columns in firing order, whole packets in all.
+  using Sink = std::function<Status(const frame::Ruby128Column&)>;
+
+  explicit ScanResampler(const ruby128::Ruby128Calibration& calibration);
+
+  /// Resamples `turns` scans (at least 1). Errors: those of `source` and `sink`.
+  [[nodiscard]] Expected<ResampleSummary> run(std::int64_t turns, std::int64_t first_stamp_ns,
+                                              const Source& source, const Sink& sink);
+
+ private:
+  /// A turn as the rays see it.
+  struct View {
+    Turn turn;
+    ScanSurface surface;
+  };
+
+  [[nodiscard]] Status read(std::int64_t turn, const Source& source);
+  void fire(const drive::Firing& firing, const drive::FiringPlan<Ruby128Transmitter>& plan,
+            frame::Ruby128Column& column);
+  [[nodiscard]] frame::LabelledReturn measure(int channel, double head_rad, const View& view);
+
+  ruby128::Ruby128Calibration calibration_;
+  ruby128::Ruby128Geometry geometry_;
+  ruby128::Ruby128BeamOffsets offsets_;
+  std::array<View, 2> views_;  ///< Of two successive turns, by parity.
+  std::int64_t turns_read_ = 0;
+  ResampleSummary summary_;
+};
+
+}  // namespace terracut::encode

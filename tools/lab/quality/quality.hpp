@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/label.hpp"
+
+namespace terracut::quality {
+
+/// What a SemanticKITTI class id means for the measures (peers.md conventions;
+/// docs/reference/method.md).
+enum class TruthClass : std::uint8_t {
+  kIgnored,  ///< Unlabelled or outlier (0, 1): counts nowhere.
+  kGround,   ///< 40 road, 44 parking, 48 sidewalk, 49 other ground, 60 lane marking, 72 terrain.
+  kOrdinaryObstacle,  ///< Everything else.
+  kKeyObstacle,       ///< Motor vehicles, bicycles, persons, moving or not.
+};
+
+/// `semantic_kitti_id`: a label file's entry; the instance in the upper 16 bits is ignored.
+[[nodiscard]] TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept;
+
+/// Counts of returns by truth and label, and the paper's measures of them. Add frames, then read.
+struct Quality {
+  std::uint64_t ground_as_ground = 0;
+  std::uint64_t ground_as_obstacle = 0;
+  std::uint64_t obstacle_as_ground = 0;
+  std::uint64_t obstacle_as_obstacle = 0;
+  std::uint64_t key_as_ground = 0;    ///< Part of obstacle_as_ground.
+  std::uint64_t key_as_obstacle = 0;  ///< Part of obstacle_as_obstacle.
+
+  void add(frame::Label label, std::uint32_t semantic_kitti_id) noexcept;
+  Quality& operator+=(const Quality& other) noexcept;
+
+  [[nodiscard]] double iou_ground()
+      const noexcept;  ///< IoU_g, Eq. 16; [0, 1]; 1 when nothing to find.
+  [[nodiscard]] double recall_key_obstacles()
+      const noexcept;  ///< Recall_o, Eq. 17; [0, 1]; 1 without any.
+  [[nodiscard]] double precision_ground() const noexcept;
+  [[nodiscard]] double recall_ground() const noexcept;
+};
+
+/// Quality of one frame: labels[i] against truth[i], over the shorter of the two.
+[[nodiscard]] Quality measure(std::span<const frame::Label> labels,
+                              std::span<const std::uint32_t> truth) noexcept;
+
+}  // namespace terracut::quality

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "fault_script.hpp"
+#include "firmware_io/decode/datagram.hpp"
+
+namespace terracut::send {
+
+/// What one fault of a script has done so far, to the packet.
+struct FaultOutcome {
+  /// Packets next to each other in the stream that was fed in, counted from 0.
+  struct Run {
+    std::uint64_t first = 0, count = 0;
+    friend bool operator==(const Run&, const Run&) = default;
+  };
+
+  Fault fault;
+  /// Lost, repeated, held back, cut, restamped or inserted; of a reordered packet, how many went
+  /// before it that came after it.
+  std::uint64_t packets = 0;
+  std::vector<Run> runs{};  ///< Which packets; for foreign ones, the packet they came before.
+
+  /// It came to its time and, where it was given a number of packets, did all of them.
+  [[nodiscard]] bool complete() const noexcept;
+};
+
+/// Plays a fault script on a stream of datagrams on its way from a generator to a sender. The same
+/// stream and script always give the same result. For tests and simulation: allocates. One thread.
+class FaultInjector {
+ public:
+  enum class Origin : std::uint8_t { kSensor, kForeign };
+
+  /// Gets what is to be sent, in order; the stamp is the time to send it at, never less than that
+  /// of the datagram before it unless the stream's own stamps go back. The payload is valid only
+  /// during the call.
+  using Sink = std::function<void(const decode::Datagram&, Origin)>;
+  /// Adds `shift_ns` to the device's stamp in a packet; false where it knows none. Where the script
+  /// has a clock fault, it sees every packet that is not taken away, before the jump with 0.
+  using ShiftStamp = std::function<bool(std::span<std::uint8_t> packet, std::int64_t shift_ns)>;
+
+  static constexpr std::size_t kForeignBytes = 512;  ///< Of no sensor's data packet.
+
+  FaultInjector(FaultScript script, Sink sink, ShiftStamp shift_stamp);
+
+  void feed(const decode::Datagram& datagram);
+  /// The stream is over: sends what is still held back.
+  void finish();
+
+  /// One for each fault, in the script's order.
+  [[nodiscard]] std::span<const FaultOutcome> outcomes() const noexcept { return outcomes_; }
+  /// Packets whose stamp a clock fault could not shift.
+  [[nodiscard]] std::uint64_t unshifted() const noexcept { return unshifted_; }
+  [[nodiscard]] std::uint64_t fed() const noexcept { return fed_; }
+
+ private:
+  /// A datagram that waits for its turn, with its bytes.
+  struct Held {
+    decode::Datagram datagram;
+    std::vector<std::uint8_t> bytes;
+    Origin origin = Origin::kSensor;
+    std::uint64_t index = 0;
+    std::size_t fault = 0;  ///< Of a moved packet: which outcome moves it.
+  };
+
+  [[nodiscard]] std::int64_t time_of(const decode::Datagram& datagram) const noexcept;
+  void release_bursts(std::int64_t time_ns);
+  void insert_foreign(const decode::Datagram& before);
+  [[nodiscard]] bool take_away(std::int64_t time_ns);
+  void edit(decode::Datagram& datagram);
+  void shift_clock(std::int64_t time_ns, std::int64_t shift_ns);
+  [[nodiscard]] bool move_back(const decode::Datagram& datagram);
+  [[nodiscard]] bool is_duplicated(std::int64_t time_ns);
+  void pass(const decode::Datagram& datagram, Origin origin, std::uint64_t index);
+  void release_moved(const decode::Datagram& after);
+  void let_go(Held& held, std::int64_t stamp_ns);
+
+  std::vector<FaultOutcome> outcomes_;
+  Sink sink_;
+  ShiftStamp shift_stamp_;
+  std::optional<std::int64_t> first_ns_;
+  bool has_clock_fault_ = false;
+  std::uint64_t fed_ = 0, unshifted_ = 0;
+  std::uint64_t index_ = 0;  ///< Of the packet being fed.
+  std::vector<std::uint8_t> edited_;
+  std::vector<Held> moved_;
+  std::vector<Held> bursts_;  ///< In order of release, which is the datagram's stamp.
+};
+
+}  // namespace terracut::send

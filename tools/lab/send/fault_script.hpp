@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rt/error.hpp"
+
+namespace terracut::send {
+
+/// What can go wrong between a sensor and its receiver. "From T on" means: from the first packet
+/// whose stamp is T or more after the stream's first one. N counts packets that are still there: a
+/// packet that an earlier fault took away is not one of them.
+enum class FaultKind : std::uint8_t {
+  kLoss,       ///< N packets from T on are never sent.
+  kReorder,    ///< One packet, the first from T on, is sent after the N that follow it.
+  kDuplicate,  ///< N packets from T on are sent twice in a row.
+  kPause,      ///< Packets of a span of time from T on are never sent: a sensor that falls silent.
+  kBurst,      ///< Packets of a span of time from T on are held back and sent at once at its end.
+  kForeign,    ///< N packets of another device come before the first packet from T on.
+  kTruncate,   ///< N packets from T on are sent with only the first half of their bytes.
+  kClock,      ///< The device's clock goes wrong by so much at T, and stays so.
+};
+
+/// Stable lower-case name, as written in scripts: "loss".
+[[nodiscard]] std::string_view to_string(FaultKind kind) noexcept;
+
+struct Fault {
+  FaultKind kind = FaultKind::kLoss;
+  std::int64_t at_ns = 0;     ///< T, since the stream's first packet.
+  std::uint64_t packets = 0;  ///< N; unused by pause, burst and clock.
+  std::int64_t span_ns = 0;   ///< How long a pause or burst lasts; how far a clock jumps, signed.
+
+  friend bool operator==(const Fault&, const Fault&) = default;
+};
+
+/// As parse_fault_script() reads it: "loss@2.5s:20packets", "clock@8s:-2s".
+[[nodiscard]] std::string to_string(const Fault& fault);
+
+using FaultScript = std::vector<Fault>;
+
+/// Reads faults separated by commas, semicolons or blanks, in any order:
+///
+///   loss@2.5s:20packets reorder@4s:3 duplicate@4.5s:2 pause@5s:0.4s burst@6s:50ms
+///   foreign@7s:50 truncate@9s:5 clock@8s:+2.0s
+///
+/// Times take s or ms, [0, 1e6] s; counts may carry "packets", [1, 1e9]; a clock needs its sign.
+/// kInvalidArgument names the fault and what was expected. No text, no faults.
+[[nodiscard]] Expected<FaultScript> parse_fault_script(std::string_view text);
+
+}  // namespace terracut::send

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace terracut::send {
+
+/// The stamps of a capture that is played over and over, as if it went on: passes are as far apart
+/// as its packets are on average. PacketPacer would send a second pass with the old stamps at once.
+class PassStamps {
+ public:
+  /// The stamp, in ns, that a packet has in this pass.
+  std::int64_t place(std::int64_t stamp_ns) noexcept {
+    if (packets_++ == 0) first_ns_ = last_ns_ = stamp_ns;
+    last_ns_ = std::max(last_ns_, stamp_ns);
+    return stamp_ns + shift_ns_;
+  }
+  void next_pass() noexcept {
+    const std::int64_t length_ns = last_ns_ - first_ns_;
+    shift_ns_ += length_ns + (packets_ > 1 ? length_ns / (packets_ - 1) : 0);
+    packets_ = 0;
+  }
+  /// Of this pass, so far.
+  [[nodiscard]] std::int64_t packets() const noexcept { return packets_; }
+
+ private:
+  std::int64_t packets_ = 0, first_ns_ = 0, last_ns_ = 0, shift_ns_ = 0;
+};
+
+}  // namespace terracut::send

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "tools/lab/scenes/scene.hpp"
+#include "tools/lab/world/hit.hpp"
+
+namespace terracut::simulator {
+
+/// The objects of a scene around one time and place, sorted by the direction in which they are
+/// seen, so that a line of sight looks at few of them.
+class ObjectIndex {
+ public:
+  /// `scene` must outlive this.
+  explicit ObjectIndex(const scenes::Scene& scene);
+
+  /// Places everything as it is at `time_s`, seen from `viewpoint`. Afterwards lines may start up
+  /// to `window_s` later and as far from the viewpoint as `reach_m`.
+  void update(double time_s, double window_s, const Eigen::Vector3d& viewpoint, double reach_m);
+
+  /// First surface in the way of `line`, `after_s` after the time of update(), nearer than
+  /// `limit_m`. `ray_key` decides which leaf or wire is hit. Any number of threads between updates.
+  [[nodiscard]] std::optional<world::Hit> cast(const world::SightLine& line, double after_s,
+                                               std::uint64_t ray_key,
+                                               double limit_m) const noexcept;
+
+ private:
+  static constexpr int kSectors = 180;
+
+  struct Placed {
+    Eigen::Isometry3d T_world_object;
+    Eigen::Isometry3d T_object_world;
+    Eigen::Vector3d velocity_mps = Eigen::Vector3d::Zero();
+    world::BoundingSphere sphere;  ///< In the world's frame.
+  };
+  struct Candidate {
+    std::uint32_t object = 0;
+    double nearest_m = 0;  ///< No part of it is nearer to a line's start than this.
+  };
+
+  void place(std::size_t object, double time_s, double window_s);
+  void sort_in(std::size_t object, const Eigen::Vector3d& viewpoint, double reach_m);
+
+  const scenes::Scene* scene_;
+  std::vector<world::BoundingSphere> spheres_;  ///< In the objects' frames.
+  std::vector<Placed> placed_;
+  std::vector<std::vector<Candidate>> sectors_;
+};
+
+}  // namespace terracut::simulator

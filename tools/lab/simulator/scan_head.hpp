@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "drive.hpp"
+#include "echo.hpp"
+#include "object_index.hpp"
+#include "tools/lab/drive/firing_plan.hpp"
+#include "tools/lab/drive/transmitter.hpp"
+#include "tools/lab/world/terrain.hpp"
+
+namespace terracut::simulator {
+
+/// The world as one beam finds it.
+struct Moment {
+  const ObjectIndex* objects = nullptr;
+  double after_s = 0;  ///< Time since the objects' update().
+  Eigen::Isometry3d T_world_lidar = Eigen::Isometry3d::Identity();
+};
+
+/// The sensor: casts the beams of a firing and writes down what they measure, in the units of the
+/// wire and through the inverse of the unit's calibration.
+///
+/// Immutable; any thread may cast.
+template <class Transmitter>
+class ScanHead {
+ public:
+  using Column = SimulatedColumn<Transmitter>;
+
+  /// All three must outlive this.
+  ScanHead(const SimulationConfig<Transmitter>& config, const world::Terrain& terrain,
+           const drive::FiringPlan<Transmitter>& plan);
+
+  /// `moments` by turn of the beam, even and odd: they differ when the world stands still during
+  /// each turn. Fills in everything of `columns`, one for each return of a firing.
+  void cast(const drive::Firing& firing, const std::array<Moment, 2>& moments,
+            std::span<Column> columns) const;
+
+ private:
+  /// One laser when it fires.
+  struct Beam {
+    int laser = 0;
+    double azimuth_rad = 0;
+    std::uint64_t ray_key = 0;
+    Eigen::Vector3d origin, direction;  ///< In the sensor's frame.
+  };
+  /// What a beam found in one direction.
+  struct Sighting {
+    world::Hit hit;
+    Echo echo;
+    double cos_incidence = 0;
+  };
+  struct Measured {
+    frame::LabelledReturn wire;
+    beams::Point exact;
+  };
+
+  [[nodiscard]] std::optional<world::Hit> look(const world::SightLine& line, const Moment& moment,
+                                               std::uint64_t ray_key) const;
+  [[nodiscard]] std::optional<Sighting> echo_of(const world::SightLine& line,
+                                                const std::optional<world::Hit>& hit,
+                                                std::uint64_t ray_key, double share) const;
+  /// Where the echo ends up on the wire. The sensor takes all light to come along the beam's axis.
+  [[nodiscard]] std::optional<Measured> measure(const Beam& beam, const Moment& moment,
+                                                const Sighting& sighting) const;
+  /// As measured, but for the bend of the beam: only the depth counts.
+  [[nodiscard]] std::optional<Measured> measure_along(const Beam& beam, const Sighting& sighting,
+                                                      const Eigen::Vector3d& normal) const;
+  void cast_single(const Beam& beam, const Moment& moment, Column& column) const;
+  void cast_dual(const Beam& beam, const Moment& moment, std::span<Column> columns) const;
+  static void put(const Measured& measured, int laser, Column& column);
+
+  const SimulationConfig<Transmitter>* config_;
+  const world::Terrain* terrain_;
+  const drive::FiringPlan<Transmitter>* plan_;
+  typename Transmitter::Geometry geometry_;
+  typename Transmitter::Offsets offsets_;
+};
+
+}  // namespace terracut::simulator

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <span>
+#include <vector>
+
+namespace terracut::world {
+
+/// Height of a road along its way, as road builders draw it: the grade (rise per metre) is given at
+/// knots and linear between them, so heights are smooth parabolas; constant grade beyond the ends.
+class GradeProfile {
+ public:
+  struct Knot {
+    double s_m = 0;
+    double grade = 0;
+  };
+
+  /// Level everywhere.
+  GradeProfile() = default;
+  /// Knots in ascending order of s_m; none means level. The height is 0 at s = 0.
+  explicit GradeProfile(std::span<const Knot> knots);
+
+  [[nodiscard]] double height_m(double s_m) const noexcept;
+  [[nodiscard]] double grade(double s_m) const noexcept;
+  /// The steepest grade, up or down.
+  [[nodiscard]] double steepest() const noexcept;
+  /// The greatest change of grade in a metre.
+  [[nodiscard]] double sharpest_bend_per_m() const noexcept;
+
+ private:
+  [[nodiscard]] double height_above_first_m(double s_m) const noexcept;
+
+  struct Point {
+    double s_m, grade, height_m;
+  };
+  std::vector<Point> points_;
+  double height_at_zero_m_ = 0;
+};
+
+}  // namespace terracut::world

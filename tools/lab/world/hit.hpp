@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <Eigen/Core>
+
+#include "materials.hpp"
+
+namespace terracut::world {
+
+/// A straight line of sight; direction has length 1.
+struct SightLine {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  Eigen::Vector3d direction = Eigen::Vector3d::UnitX();
+
+  [[nodiscard]] Eigen::Vector3d at(double way_m) const noexcept {
+    return origin + way_m * direction;
+  }
+};
+
+/// Where a line of sight ends.
+struct Hit {
+  double way_m = 0;  ///< From the line's origin.
+  Eigen::Vector3d normal =
+      Eigen::Vector3d::UnitZ();  ///< Of the surface, length 1, towards the line.
+  Truth truth = Truth::kRoad;
+  Material material = Material::kAsphalt;
+};
+
+}  // namespace terracut::world

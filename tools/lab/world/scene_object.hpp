@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "road.hpp"
+#include "shapes.hpp"
+#include "terrain.hpp"
+
+namespace terracut::world {
+
+/// How an object meets the ground.
+enum class Stance : std::uint8_t {
+  kUpright,   ///< z straight up, origin on the ground: people, trees, poles, buildings.
+  kOnWheels,  ///< Follows the slope of the ground below its base.
+};
+
+/// A body in the world: shapes that move together along the road.
+struct SceneObject {
+  std::vector<Shape> shapes;
+  Stance stance = Stance::kUpright;
+  double half_base_m = 1.0;  ///< Half the wheel base and track; for kOnWheels only.
+  double half_track_m = 0.5;
+  RoadPoint place;         ///< At time 0, or where it waits for moves_from_s.
+  std::uint64_t key = 0;   ///< Its own random numbers (which leaf is hit).
+  double heading_rad = 0;  ///< From the road's direction at its place to the left.
+  double along_mps = 0;    ///< Speed along the road and to its left, while it moves.
+  double across_mps = 0;
+  double moves_from_s = -std::numeric_limits<double>::infinity();  ///< Stands before and after.
+  double moves_until_s = std::numeric_limits<double>::infinity();
+
+  [[nodiscard]] bool moves() const noexcept { return along_mps != 0 || across_mps != 0; }
+};
+
+/// A sphere around all shapes, in the object's frame.
+struct BoundingSphere {
+  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  double radius_m = 0;
+};
+
+[[nodiscard]] BoundingSphere bounding_sphere(const SceneObject& object);
+
+/// T_world_object at a time since the start of the drive.
+[[nodiscard]] Eigen::Isometry3d pose_at(const SceneObject& object, const Terrain& terrain,
+                                        double time_s);
+
+}  // namespace terracut::world

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "cloud_layout.hpp"
+#include "rt/error.hpp"
+#include "sequence.hpp"
+
+namespace terracut::datasets {
+
+/// Labelled clouds on disk, where their layout says.
+class Dataset {
+ public:
+  /// kUnsupported where the rings of a sensor without 64 of them are to follow from the order.
+  [[nodiscard]] static Expected<Dataset> at(const CloudLayout& layout, std::filesystem::path root);
+
+  /// Names of the sequences that have labels, sorted. kNotFound, saying what was expected: none.
+  [[nodiscard]] Expected<std::vector<std::string>> sequences() const;
+  [[nodiscard]] std::filesystem::path folder(const std::string& sequence) const {
+    return root_ / layout_.sequences.path(sequence);
+  }
+  [[nodiscard]] Expected<Sequence> open(const std::string& sequence) const {
+    return Sequence::open(layout_, folder(sequence));
+  }
+
+ private:
+  Dataset(CloudLayout layout, std::filesystem::path root)
+      : layout_(std::move(layout)), root_(std::move(root)) {}
+
+  CloudLayout layout_;
+  std::filesystem::path root_;
+};
+
+}  // namespace terracut::datasets

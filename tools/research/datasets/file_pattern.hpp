@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace terracut::datasets {
+
+/// Files or folders of one folder whose names differ in one part: "velodyne/*.bin".
+class FilePattern {
+ public:
+  FilePattern() = default;
+  /// Nothing unless `text` is a relative path with exactly one `*`, in its last part.
+  [[nodiscard]] static std::optional<FilePattern> parse(std::string_view text);
+
+  /// As it was parsed.
+  [[nodiscard]] std::string text() const { return path("*").string(); }
+  /// With `name` for the `*`.
+  [[nodiscard]] std::filesystem::path path(const std::string& name) const {
+    return folder_ / (before_ + name + after_);
+  }
+  /// What stands for the `*` in every entry of `root` that fits, sorted; none where there is no
+  /// such folder.
+  [[nodiscard]] std::vector<std::string> names_in(const std::filesystem::path& root) const;
+
+ private:
+  std::filesystem::path folder_;
+  std::string before_, after_;
+};
+
+}  // namespace terracut::datasets

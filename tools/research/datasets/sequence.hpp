@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "cloud_file.hpp"
+#include "cloud_layout.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/scan/ring_table.hpp"
+#include "laser_order.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::datasets {
+
+/// Frames of one unit, in order of their names.
+class Sequence {
+ public:
+  /// Lists the frames in `folder` and learns the rings of the unit. Errors name file or folder:
+  /// kNotFound, those of reading where no frame can be read, kMalformed also where the points of a
+  /// laser do not lie on its cone around the origin, as in a map's frame.
+  [[nodiscard]] static Expected<Sequence> open(const CloudLayout& layout,
+                                               std::filesystem::path folder);
+
+  [[nodiscard]] std::size_t size() const { return frames_.size(); }
+  /// "000042": names a frame's results and predictions.
+  [[nodiscard]] const std::string& frame(std::size_t index) const { return frames_[index]; }
+  /// The file with its points, for messages.
+  [[nodiscard]] std::filesystem::path file(std::size_t index) const {
+    return folder_ / layout_.points.path(frames_[index]);
+  }
+  /// From any thread. Errors name the file.
+  [[nodiscard]] Status read(std::size_t index, LabelledScan& scan) const;
+  /// kMalformed, naming them, when there are labels of frames that are not there.
+  [[nodiscard]] Status check_whole() const;
+  /// Of the unit, as far as its frames tell.
+  [[nodiscard]] const scan::RingTable& rings() const { return table_; }
+  /// Of an image that holds a frame.
+  [[nodiscard]] frame::ImageShape shape() const { return {layout_.rings, layout_.columns}; }
+
+ private:
+  [[nodiscard]] Status fit_rings();
+  [[nodiscard]] Status fit_lasers();
+  [[nodiscard]] Status read(std::size_t index, const scan::RingTable* table,
+                            LabelledScan& scan) const;
+
+  CloudLayout layout_;
+  std::filesystem::path folder_;
+  std::vector<std::string> frames_;
+  RingOfLaser ring_of_laser_;  ///< Where the points have the numbers of their lasers.
+  scan::RingTable table_;
+};
+
+}  // namespace terracut::datasets

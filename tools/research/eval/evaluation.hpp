@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "calib/mount/mount.hpp"
+#include "frame_result.hpp"
+#include "journal.hpp"
+#include "method_choice.hpp"
+#include "rt/error.hpp"
+#include "tools/research/datasets/dataset.hpp"
+#include "tools/research/report/changed_frames.hpp"
+
+namespace terracut::eval {
+
+/// Which frames of a sequence, by their place in it: first, first + step, ... up to last.
+struct FrameRange {
+  std::size_t first = 0;
+  std::size_t last = SIZE_MAX;
+  std::size_t step = 1;  ///< >= 1
+};
+
+struct EvaluationConfig {
+  datasets::CloudLayout layout;
+  std::filesystem::path root;          ///< Of the dataset.
+  std::vector<std::string> sequences;  ///< Empty: all that have labels.
+  FrameRange frames;
+  std::vector<MethodChoice> methods;
+  mount::Mount mount;
+  bool through_packets = false;
+  int jobs = 0;                       ///< Threads, each on a core of its own; 0: one a core.
+  std::filesystem::path predictions;  ///< Folder; empty: none are written.
+  /// Is shown every frame that all methods label; may be null.
+  report::ChangedFrames* changed_frames = nullptr;
+};
+
+/// Something that was not evaluated.
+struct Fault {
+  std::string where;  ///< File or folder.
+  std::string what;
+};
+
+struct EvaluationOutcome {
+  FrameResults results;       ///< Faulty frames are not among them.
+  std::vector<Fault> faults;  ///< In order of sequence and frame.
+  bool interrupted = false;
+};
+
+/// Labels every frame of a dataset with every method and counts what came of it.
+/// A file that cannot be read is a fault, and the rest goes on. Frames that `journal` has are not
+/// done again; those that were faulty are not in it. Predictions are at
+/// `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
+///
+/// `on_progress(done, of)`, from any thread, one at a time; `stop_wanted()` is asked between
+/// frames. Results depend neither on the number of jobs nor on interruptions; times do.
+///
+/// kNotFound: no sequence there. kUnsupported: see Dataset::at(), or packets of another sensor than
+/// an HDL-64E. kWriteFailed: predictions or journal.
+[[nodiscard]] Expected<EvaluationOutcome> evaluate(
+    const EvaluationConfig& config, Journal* journal,
+    const std::function<void(std::size_t, std::size_t)>& on_progress,
+    const std::function<bool()>& stop_wanted);
+
+}  // namespace terracut::eval

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "evaluation.hpp"
+#include "rt/error.hpp"
+#include "tools/research/datasets/class_table.hpp"
+
+namespace terracut::eval {
+
+/// What an evaluation was of, for its report.
+struct EvaluationFacts {
+  std::string dataset;  ///< "semantickitti", "koblenz", "own", "simulated"
+  std::string root;
+  std::vector<MethodChoice> methods;
+  bool through_packets = false;
+};
+
+/// The whole evaluation for programs. Shares are numbers in [0, 1], or null where there is nothing
+/// to share out (no key obstacle: no recall_o); times are milliseconds of processor time.
+///
+///   terracut, dataset, root, through_packets, classes[]
+///   methods{name}
+///     about, parameters{key}
+///     mean_over_sequences, pooled   {all, road, all_vegetation_ignored}, each {iou_g, recall_o,
+///                                   precision, recall, f1}
+///     by_range{"<20m"}              the measures under `all`; by_range_road{} under `road`
+///     by_class[]                    id, name, points, as_ground, share_as_ground,
+///                                   as_other_ground, share_as_other_ground: of it no road surface
+///     sequences{name}               frames, points, the measures, and over frames
+///                                   frame_iou_g, frame_iou_road, frame_recall_o {min, mean, max}
+///     frames[]                      sequence, frame, points, iou_g, recall_o, iou_road, ms{}
+///     ms{stage}                     {mean, p50, p99, max}
+///     lost                          points no_ring, not_placed, non_finite; frames realigned
+///   oracles{everything_ground, perfect_ground}   mean_over_sequences of each, and sequences{name}
+///   faults[]    {where, what}
+///   warnings[]  classes the table does not know, by the file they were first met in
+///
+/// `terracut eval` adds to it: simulated{sensor, returns, duration_s, seed}, the class table's note
+/// as a warning.
+[[nodiscard]] nlohmann::ordered_json evaluation_json(const EvaluationFacts& facts,
+                                                     const datasets::ClassTable& classes,
+                                                     const EvaluationOutcome& outcome);
+
+/// A table of the methods' means, for people.
+[[nodiscard]] std::string evaluation_text(const nlohmann::ordered_json& evaluation);
+
+}  // namespace terracut::eval

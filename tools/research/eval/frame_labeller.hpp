@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <variant>
+#include <vector>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/scan/ring_recovery.hpp"
+#include "frame_result.hpp"
+#include "method_bench.hpp"
+#include "scan_way.hpp"
+#include "tools/research/datasets/sequence.hpp"
+
+namespace terracut::eval {
+
+/// Labels scans of one unit with several methods, and counts what came of it. Every scan stands for
+/// itself: what came before makes no difference. One thread.
+class FrameLabeller {
+ public:
+  /// `methods` must outlive this. Takes all memory.
+  FrameLabeller(std::span<const MethodChoice> methods, const datasets::Sequence& sequence,
+                const mount::RingProfile& profile, bool through_packets);
+
+  /// The scan that label() is about from now on; both arguments stay as they are meanwhile. The
+  /// errors of PacketWay::place().
+  [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
+
+  /// By methods[index]. Its labels are those of points() until the next call.
+  [[nodiscard]] FrameResult label(std::size_t index);
+
+  /// One label a point of the file: kNone for what is no place, kObstacle, the safe side, for what
+  /// was lost on the way.
+  [[nodiscard]] std::span<const frame::Label> points() const noexcept { return labels_; }
+
+  /// The scan as the methods see it, and what methods[index] found there, by return index of its
+  /// image: all methods' until the next scan.
+  [[nodiscard]] const PlacedScan& placed() const noexcept { return placed_; }
+  [[nodiscard]] std::span<const frame::Label> returns(std::size_t index) const {
+    return bench_->labels(index);
+  }
+
+ private:
+  [[nodiscard]] const frame::ImageShape& shape() const;
+  [[nodiscard]] std::size_t return_capacity() const;
+  void count(FrameResult& result) const;
+
+  memory::FixedMemory memory_;
+  std::variant<std::unique_ptr<DirectWay>, std::unique_ptr<PacketWay>> way_;
+  std::unique_ptr<MethodBench> bench_;  ///< Never null.
+
+  const scan::KittiScan* scan_ = nullptr;
+  const scan::RingRecovery* rings_ = nullptr;
+  PlacedScan placed_;
+  std::vector<frame::Label> labels_;
+};
+
+}  // namespace terracut::eval

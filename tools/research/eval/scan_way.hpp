@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "calib/mount/mount.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/scan_to_image.hpp"
+#include "rt/error.hpp"
+#include "rt/memory/fixed_memory.hpp"
+
+namespace terracut::eval {
+
+/// A scan as a range image, and which of its points the image's returns are.
+struct PlacedScan {
+  const frame::RangeImage* image = nullptr;
+  std::span<const std::uint32_t> point_of_return;  ///< By return index.
+  std::int64_t decode_ns = 0;                      ///< Processor time; 0 without packets.
+};
+
+/// Straight from the file into the image.
+class DirectWay {
+ public:
+  DirectWay(const frame::ImageShape& shape, const mount::Mount& mount, memory::FixedMemory& memory);
+
+  [[nodiscard]] const frame::ImageShape& shape() const noexcept { return image_.shape(); }
+  [[nodiscard]] std::size_t return_capacity() const noexcept { return image_.return_capacity(); }
+  /// Valid until the next call. Never fails; the other way may.
+  [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
+                                           std::span<const std::int16_t> ring_of_point);
+
+ private:
+  frame::RangeImage image_;
+  scan::ScanToImage scan_to_image_;
+};
+
+/// As the sensor would have sent it: encoded as one turn's packets, which the decoder takes.
+class PacketWay {
+ public:
+  PacketWay(const hdl64e::Hdl64eCalibration& calibration, const mount::Mount& mount,
+            memory::FixedMemory& memory);
+
+  [[nodiscard]] const frame::ImageShape& shape() const noexcept { return decoder_.shape(); }
+  [[nodiscard]] std::size_t return_capacity() const noexcept { return decoder_.return_capacity(); }
+  /// Valid until the next call. kMalformed when the decoder does not make one turn of what was
+  /// encoded of it.
+  [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
+                                           std::span<const std::int16_t> ring_of_point);
+
+ private:
+  [[nodiscard]] Status encode(std::span<const scan::ScanPoint> points,
+                              std::span<const std::int16_t> ring_of_point);
+
+  hdl64e::Hdl64eCalibration calibration_;
+  hdl64e::Hdl64eDecoder decoder_;
+  std::vector<std::vector<std::uint8_t>> packets_;
+  std::vector<std::uint32_t> point_of_return_;
+};
+
+}  // namespace terracut::eval

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "simulated_evaluation.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/frame/each_return.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "method_bench.hpp"
+#include "pinned_thread.hpp"
+#include "result_keeper.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/threads/thread_setup.hpp"
+#include "tools/cli/temporary_folder.hpp"
+#include "tools/lab/drive/drive_writer.hpp"
+#include "tools/lab/scenes/scene_names.hpp"
+#include "tools/lab/simulator/drive.hpp"
+
+namespace terracut::eval {
+namespace {
+
+namespace fs = std::filesystem;
+using drive::ReturnMode;
+using encode::Hdl64eTransmitter;
+using encode::Ruby128Transmitter;
+using frame::FrameInfo;
+
+constexpr double kSpin_hz = 10;
+
+std::size_t turns_of(const SimulatedDrives& drives) {
+  return static_cast<std::size_t>(std::max(1L, std::lround(drives.duration_s * kSpin_hz)));
+}
+
+bool is_wanted(const FrameRange& frames, std::size_t frame) {
+  return frame >= frames.first && frame <= frames.last && (frame - frames.first) % frames.step == 0;
+}
+
+std::string name_of(std::size_t frame) {
+  return fmt::format("{:06}", frame);
+}
+
+/// Before anything is simulated, which takes its time.
+Status check_scenes(const std::vector<std::string>& scenes) {
+  const auto known = scenes::scene_names();
+  for (auto scene = scenes.begin(); scene != scenes.end(); ++scene) {
+    if (std::ranges::find(known, *scene) == known.end()) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("there is no scene '{}'; expected one or more of: {}", *scene,
+                              fmt::join(known, ",")));
+    }
+    if (std::find(scenes.begin(), scene, *scene) != scene) {
+      return fail(ErrorCode::kInvalidArgument,
+                  fmt::format("scene '{}' stands there a second time", *scene));
+    }
+  }
+  return {};
+}
+
+/// One drive on disk, from packets to counts. Used by one thread.
+class DriveEvaluation {
+ public:
+  DriveEvaluation(const SimulatedConfig& config, std::string scene, fs::path truth,
+                  const calib::SensorCalibration& calibration, int columns, ResultKeeper& keeper,
+                  std::function<void()> on_frame_done)
+      : config_(config),
+        scene_(std::move(scene)),
+        truth_folder_(std::move(truth)),
+        decoder_(calibration, config.mount, decoder_config(columns), memory_),
+        bench_(config.methods, calib::ring_profile(calibration, config.mount), decoder_.shape(),
+               decoder_.return_capacity(), memory_),
+        keeper_(keeper),
+        on_frame_done_(std::move(on_frame_done)) {}
+
+  Status run(const fs::path& capture, const std::function<bool()>& stop_wanted) {
+    auto source = capture::PcapSource::open(capture);
+    if (!source) return tl::unexpected(source.error());
+    while (!stop_wanted() && !keeper_.failure()) {
+      const auto next = source->next();
+      if (!next) return tl::unexpected(next.error());
+      resumed_ns_ = measure::thread_cpu_ns();
+      if (*next) {
+        decoder_.push(**next);
+      } else {
+        decoder_.end_stream();
+      }
+      take_frames();
+      if (!*next) return {};
+    }
+    return {};
+  }
+
+  [[nodiscard]] std::vector<Fault> take_faults() { return std::move(faults_); }
+
+ private:
+  [[nodiscard]] static sensor::SensorDecoder::Config decoder_config(int columns) {
+    sensor::SensorDecoder::Config config;
+    config.columns = columns;
+    return config;
+  }
+
+  void take_frames() {
+    const frame::Frame* frame = decoder_.next();
+    for (; frame != nullptr; frame = decoder_.next()) {
+      decode_ns_ += measure::thread_cpu_ns() - resumed_ns_;
+      take(frame->info, *frame->image);
+      decode_ns_ = 0;
+      resumed_ns_ = measure::thread_cpu_ns();
+    }
+    decode_ns_ += measure::thread_cpu_ns() - resumed_ns_;
+  }
+
+  void take(const FrameInfo& info, const frame::RangeImage& image) {
+    if (!is_wanted(config_.frames, info.number)) return;
+    const std::string frame = name_of(info.number);
+    const auto left = keeper_.methods_left(scene_, frame);
+    if (!left.empty()) label(frame, image, left);
+    on_frame_done_();
+  }
+
+  void label(const std::string& frame, const frame::RangeImage& image,
+             const std::vector<std::size_t>& methods) {
+    const fs::path file = truth_folder_ / (frame + ".label");
+    if (const Status read = scan::read_label_file(file, image.returns(), truth_); !read) {
+      faults_.push_back({scene_ + "/" + frame, read.error().message});
+      return;
+    }
+    for (const std::size_t i : methods) {
+      FrameResult result;
+      result.times = bench_.segment(i, image);
+      result.times.decode_ns = decode_ns_;
+      result.points = truth_.size();
+      count(image, bench_.labels(i), result.counts);
+      if (!keeper_.keep({scene_, frame, config_.methods[i].name}, bench_.labels(i),
+                        std::move(result))) {
+        return;
+      }
+    }
+    if (config_.changed_frames != nullptr && methods.size() == config_.methods.size()) {
+      show_changes(frame, image);
+    }
+  }
+
+  void show_changes(const std::string& frame, const frame::RangeImage& image) {
+    std::vector<std::uint16_t> classes;
+    for (const std::uint32_t label : truth_) {
+      classes.push_back(scan::semantic_class(label));
+    }
+    config_.changed_frames->look(
+        {scene_, frame, image, classes, [&](std::size_t i) { return bench_.labels(i); }});
+  }
+
+  void count(const frame::RangeImage& image, std::span<const frame::Label> labels,
+             FrameCounts& counts) const {
+    frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+      counts.add(scan::semantic_class(truth_[placed.return_index]),
+                 range_band(placed.echo.ground_range_m), labels[placed.return_index]);
+    });
+  }
+
+  const SimulatedConfig& config_;
+  std::string scene_;
+  fs::path truth_folder_;
+  memory::FixedMemory memory_;
+  sensor::SensorDecoder decoder_;
+  MethodBench bench_;
+  ResultKeeper& keeper_;
+  std::function<void()> on_frame_done_;
+
+  std::vector<std::uint32_t> truth_;  ///< Of the frame in work, by return index.
+  std::vector<Fault> faults_;
+  std::int64_t decode_ns_ = 0;   ///< For the frame under way.
+  std::int64_t resumed_ns_ = 0;  ///< Since when the decoder is at work.
+};
+
+/// All drives of one kind of sensor, one after the other.
+template <class Transmitter>
+class Run {
+ public:
+  Run(const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,
+      const std::function<bool()>& stop_wanted)
+      : config_(config),
+        progress_(progress),
+        stop_wanted_(stop_wanted),
+        keeper_(config.methods, config.predictions, journal) {
+    for (std::size_t i = 0; i < turns_of(config.drives); ++i) {
+      if (!is_wanted(config.frames, i)) continue;
+      ++frames_per_drive_;
+      for (const std::string& scene : config.drives.scenes) keeper_.expect(scene, name_of(i));
+    }
+  }
+
+  Expected<EvaluationOutcome> run() {
+    for (const std::string& scene : config_.drives.scenes) {
+      if (stop_wanted_()) break;
+      if (is_done(scene)) {
+        done_ += frames_per_drive_;
+        progress_.evaluated(done_, frames());
+      } else if (const Status status = evaluate_scene(scene); !status) {
+        return tl::unexpected(status.error());
+      }
+      ++scenes_begun_;
+    }
+    if (const auto failure = keeper_.failure()) return tl::unexpected(*failure);
+    outcome_.interrupted = done_ < frames() && stop_wanted_();
+    outcome_.results = keeper_.take_results();
+    return std::move(outcome_);
+  }
+
+ private:
+  [[nodiscard]] std::size_t frames() const {
+    return frames_per_drive_ * config_.drives.scenes.size();
+  }
+
+  [[nodiscard]] bool is_done(const std::string& scene) const {
+    for (std::size_t i = 0; i < turns_of(config_.drives); ++i) {
+      if (is_wanted(config_.frames, i) && !keeper_.methods_left(scene, name_of(i)).empty()) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  Status evaluate_scene(const std::string& scene) {
+    const cli::TemporaryFolder scratch;
+    if (scratch.path().empty()) {
+      return fail(ErrorCode::kWriteFailed, "no temporary folder can be made for the drive");
+    }
+    const fs::path capture = scratch.path() / "drive.pcap";
+    const auto calibration = Transmitter::nominal();
+    const auto simulated = simulate(scene, capture, calibration);
+    if (!simulated) return tl::unexpected(simulated.error());
+    if (!*simulated) return {};
+
+    const std::int64_t firing_ns = Transmitter::firing_ns(returns());
+    const auto columns =
+        static_cast<int>(std::lround(1e9 / (kSpin_hz * static_cast<double>(firing_ns))));
+    DriveEvaluation drive(config_, scene, drive::truth_folder_of(capture), calibration, columns,
+                          keeper_, [this] { progress_.evaluated(++done_, frames()); });
+    Status status;
+    // A thread of its own, for the core is given up again before the next drive's rays.
+    std::thread([&] {
+      pin_this_thread("tc-eval-0", threads::allowed_cores(), 0);
+      status = drive.run(capture, stop_wanted_);
+    }).join();
+    for (Fault& fault : drive.take_faults()) outcome_.faults.push_back(std::move(fault));
+    return status;
+  }
+
+  [[nodiscard]] ReturnMode returns() const {
+    return config_.drives.dual_return ? ReturnMode::kDual : ReturnMode::kSingle;
+  }
+
+  /// False when it was interrupted.
+  Expected<bool> simulate(const std::string& scene, const fs::path& capture,
+                          const typename Transmitter::Calibration& calibration) {
+    simulator::SimulationConfig<Transmitter> config;
+    config.scene = scene;
+    config.seed = config_.drives.seed;
+    config.duration_s = config_.drives.duration_s;
+    config.spin_hz = kSpin_hz;
+    config.mount = config_.mount;
+    config.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
+    config.calibration = calibration;
+    config.sensor.returns = returns();
+    auto writer = drive::DriveWriter<Transmitter>::create(capture, calibration, config.sensor);
+    if (!writer) return tl::unexpected(writer.error());
+    bool stopped = false;
+    const double before_s = config.duration_s * static_cast<double>(scenes_begun_);
+    const double of_s = config.duration_s * static_cast<double>(config_.drives.scenes.size());
+    const auto simulated = simulator::simulate_drive(
+        config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+          stopped = stop_wanted_();
+          if (stopped) return fail(ErrorCode::kNothingCameOut, "interrupted");
+          progress_.simulated_s(before_s + std::clamp(column.time_s, 0.0, config.duration_s), of_s);
+          return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
+                                    column.wire.by_laser);
+        });
+    if (stopped) return false;
+    if (!simulated) return tl::unexpected(simulated.error());
+    const auto written = writer->finish();
+    if (!written) return tl::unexpected(written.error());
+    return true;
+  }
+
+  const SimulatedConfig& config_;
+  const SimulatedProgress& progress_;
+  const std::function<bool()>& stop_wanted_;
+  ResultKeeper keeper_;
+  std::size_t frames_per_drive_ = 0;
+  std::size_t scenes_begun_ = 0;
+  std::size_t done_ = 0;
+  EvaluationOutcome outcome_;
+};
+
+}  // namespace
+
+Expected<EvaluationOutcome> evaluate_simulated(const SimulatedConfig& config, Journal* journal,
+                                               const SimulatedProgress& progress,
+                                               const std::function<bool()>& stop_wanted) {
+  if (const Status checked = check_scenes(config.drives.scenes); !checked) {
+    return tl::unexpected(checked.error());
+  }
+  if (config.drives.sensor == "ruby128") {
+    return Run<Ruby128Transmitter>(config, journal, progress, stop_wanted).run();
+  }
+  return Run<Hdl64eTransmitter>(config, journal, progress, stop_wanted).run();
+}
+
+}  // namespace terracut::eval

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "calib/mount/mount.hpp"
+#include "evaluation.hpp"
+#include "journal.hpp"
+#include "method_choice.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::eval {
+
+/// Drives to simulate, one a scene, with the sensor's nominal calibration, at 10 Hz.
+struct SimulatedDrives {
+  std::vector<std::string> scenes;  ///< scenes::scene_names(), each once; each is a sequence.
+  std::string sensor = "hdl64e";    ///< "hdl64e", "ruby128"
+  bool dual_return = false;
+  double duration_s = 3;  ///< (0, 3600]
+  std::uint64_t seed = 1;
+};
+
+struct SimulatedConfig {
+  SimulatedDrives drives;
+  FrameRange frames;
+  std::vector<MethodChoice> methods;
+  mount::Mount mount;
+  std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: a label a return.
+  report::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
+};
+
+/// Both from the calling thread or another, one at a time.
+struct SimulatedProgress {
+  std::function<void(double, double)> simulated_s;          ///< Seconds done, of.
+  std::function<void(std::size_t, std::size_t)> evaluated;  ///< Frames done, of.
+};
+
+/// Simulates each drive, sends it through packets and the decoder, labels every frame with every
+/// method and counts against what the simulator knows (SemanticKITTI ids; in dual return both
+/// returns count). Otherwise as evaluate(): frames that `journal` has are not labelled again, and a
+/// drive of which it has all is not simulated. Range bands are those of the vehicle frame. Frames
+/// are labelled one after the other on one pinned core, rays cast on all.
+///
+/// kInvalidArgument: of the simulator. kWriteFailed: predictions, journal, or the drive under way,
+/// which lies in the temporary folder (about 10 MB a second of the HDL-64E, 16 of the RS-Ruby128,
+/// up to twice that in dual return).
+[[nodiscard]] Expected<EvaluationOutcome> evaluate_simulated(
+    const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,
+    const std::function<bool()>& stop_wanted);
+
+}  // namespace terracut::eval

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "rt/error.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tools/research/datasets/class_table.hpp"
+#include "tools/research/datasets/dataset.hpp"
+#include "tools/research/eval/scan_way.hpp"
+
+namespace terracut::report {
+
+/// Reads single frames of a dataset that was evaluated once more: for pictures, and to count over
+/// cells what the evaluation does not keep. Straight into the range image, with the rings that the
+/// evaluation used.
+class FrameReader {
+ public:
+  /// `dataset` and `classes` must outlive this.
+  FrameReader(const datasets::Dataset& dataset, const mount::Mount& mount,
+              const datasets::ClassTable& classes)
+      : dataset_(dataset), mount_(mount), classes_(classes) {}
+
+  /// `frame`: its name, "000009". After an error there is no frame. kNotFound: no such sequence
+  /// or frame; else as Sequence::read().
+  [[nodiscard]] Status read(const std::string& sequence, const std::string& frame);
+
+  /// Of the last frame that was read; valid until the next.
+  [[nodiscard]] const frame::RangeImage& image() const noexcept { return *placed_.image; }
+  /// What its points are with all physical ground as ground, by return index of image().
+  [[nodiscard]] std::span<const datasets::Role> truth() const noexcept { return truth_; }
+  /// 1 for what is ground with the road alone as ground, by return index.
+  [[nodiscard]] std::span<const std::uint8_t> is_road() const noexcept { return is_road_; }
+  [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
+    return placed_.point_of_return;
+  }
+  [[nodiscard]] const scan::KittiScan& scan() const noexcept { return labelled_.scan; }
+  [[nodiscard]] const scan::RingRecovery& rings() const noexcept { return labelled_.rings; }
+  [[nodiscard]] const std::string& sequence() const noexcept { return sequence_; }
+  [[nodiscard]] const datasets::Sequence& scans() const noexcept { return *open_; }
+  [[nodiscard]] const mount::RingProfile& profile() const noexcept { return profile_; }
+
+ private:
+  [[nodiscard]] Status open(const std::string& sequence);
+
+  const datasets::Dataset& dataset_;
+  mount::Mount mount_;
+  const datasets::ClassTable& classes_;
+
+  std::string sequence_;  ///< That is open; empty: none.
+  std::optional<datasets::Sequence> open_;
+  std::map<std::string, std::size_t> scan_of_frame_;
+  mount::RingProfile profile_;
+  std::unique_ptr<memory::FixedMemory> memory_;
+  std::unique_ptr<eval::DirectWay> way_;
+
+  datasets::LabelledScan labelled_;
+  eval::PlacedScan placed_;
+  std::vector<datasets::Role> truth_;
+  std::vector<std::uint8_t> is_road_;
+};
+
+}  // namespace terracut::report

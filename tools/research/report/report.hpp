@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+#include "rt/error.hpp"
+#include "tools/research/datasets/class_table.hpp"
+#include "tools/research/eval/evaluation.hpp"
+
+namespace terracut::report {
+
+/// What a report is made from. Everything must outlive the call it is given to.
+struct ReportInput {
+  const nlohmann::ordered_json& evaluation;  ///< evaluation_json()
+  const eval::EvaluationConfig& config;      ///< Frames are read and labelled again for pictures.
+  const datasets::ClassTable& classes;
+  /// False: no files exist from which frames could be read again (simulated drives). The report
+  /// then has no pictures and no cells.
+  bool on_disk = true;
+};
+
+/// Writes what ./tools/report draws its page from: `folder`/evaluation.json, whole or not at all,
+/// and the pictures it names. It is the evaluation with, of frames on disk, these besides:
+///
+///   cells            how returns are spread over the cells of grids (cells_json())
+///   side_by_side[]   the middle frame of every sequence (DrawnFrames)
+///   worst_of, worst[]  a method, and the frames where it is worst
+///   colours          of the pictures (colours_json())
+///
+/// `methods` of the evaluation must have at least one frame each, else kNothingCameOut; also
+/// kWriteFailed. `on_progress(done, of)` counts frames.
+[[nodiscard]] Status write_report(const std::filesystem::path& folder, const ReportInput& input,
+                                  const std::function<void(std::size_t, std::size_t)>& on_progress);
+
+}  // namespace terracut::report

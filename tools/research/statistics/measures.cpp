@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "measures.hpp"
+
+namespace terracut::statistics {
+namespace {
+
+void add(quality::Quality& quality, datasets::Role role, std::uint64_t as_ground,
+         std::uint64_t as_obstacle) {
+  switch (role) {
+    case datasets::Role::kIgnored:
+      return;
+    case datasets::Role::kGround:
+      quality.ground_as_ground += as_ground;
+      quality.ground_as_obstacle += as_obstacle;
+      return;
+    case datasets::Role::kKeyObstacle:
+      quality.key_as_ground += as_ground;
+      quality.key_as_obstacle += as_obstacle;
+      break;
+    case datasets::Role::kOrdinaryObstacle:
+      break;
+  }
+  quality.obstacle_as_ground += as_ground;
+  quality.obstacle_as_obstacle += as_obstacle;
+}
+
+/// `labels_of(entry, counts)`: the labels to score instead of those counted.
+template <class LabelsOf>
+quality::Quality score(const eval::FrameCounts& counts, const datasets::ClassTable& classes,
+                       const Scope& scope, LabelsOf&& labels_of) {
+  quality::Quality quality;
+  for (const auto& [key, counted] : counts.by_class_and_band()) {
+    const datasets::ClassEntry* const entry = classes.find(key.class_id);
+    if (entry == nullptr || (entry->vegetation && !scope.vegetation)) continue;
+    if (scope.band && *scope.band != key.band) continue;
+    const eval::LabelCounts labels = labels_of(*entry, counted);
+    add(quality, entry->role(scope.ground), labels.ground, labels.obstacle);
+  }
+  return quality;
+}
+
+}  // namespace
+
+quality::Quality quality_of(const eval::FrameCounts& counts, const datasets::ClassTable& classes,
+                            const Scope& scope) {
+  return score(counts, classes, scope, [&](const datasets::ClassEntry&, eval::LabelCounts counted) {
+    if (scope.ground == datasets::GroundDefinition::kRoad) {
+      counted.ground -= counted.other_ground;
+      counted.obstacle += counted.other_ground;
+    }
+    return counted;
+  });
+}
+
+quality::Quality everything_ground(const eval::FrameCounts& counts,
+                                   const datasets::ClassTable& classes, const Scope& scope) {
+  return score(counts, classes, scope,
+               [](const datasets::ClassEntry&, const eval::LabelCounts& counted) {
+                 return eval::LabelCounts{counted.ground + counted.obstacle, 0};
+               });
+}
+
+quality::Quality perfect_ground(const eval::FrameCounts& counts,
+                                const datasets::ClassTable& classes, const Scope& scope) {
+  return score(counts, classes, scope,
+               [&](const datasets::ClassEntry& entry, const eval::LabelCounts& counted) {
+                 datasets::Role truth = entry.role(datasets::GroundDefinition::kAll);
+                 if (truth == datasets::Role::kIgnored) truth = entry.role(scope.ground);
+                 const std::uint64_t points = counted.ground + counted.obstacle;
+                 return truth == datasets::Role::kGround ? eval::LabelCounts{points, 0}
+                                                         : eval::LabelCounts{0, points};
+               });
+}
+
+double f1_ground(const quality::Quality& quality) noexcept {
+  const double precision = quality.precision_ground(), recall = quality.recall_ground();
+  return precision + recall > 0 ? 2 * precision * recall / (precision + recall) : 0;
+}
+
+}  // namespace terracut::statistics

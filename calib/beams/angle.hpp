@@ -14,18 +14,18 @@ namespace terracut::beams {
   return rad * (180.0 / std::numbers::pi);
 }
 
-/// One turn in the unit of both sensors' wire azimuth, hundredths of a degree.
-inline constexpr int kTurn_cdeg = 36000;
+/// One frame in the unit of both sensors' wire azimuth, hundredths of a degree.
+inline constexpr int kRevolution_cdeg = 36000;
 
 /// `cdeg` reduced to [0, 36000).
 [[nodiscard]] constexpr int wrap_cdeg(std::int64_t cdeg) noexcept {
-  const auto rest = static_cast<int>(cdeg % kTurn_cdeg);
-  return rest < 0 ? rest + kTurn_cdeg : rest;
+  const auto rest = static_cast<int>(cdeg % kRevolution_cdeg);
+  return rest < 0 ? rest + kRevolution_cdeg : rest;
 }
 
 /// The signed step from `from` to `to`, both in [0, 36000), the short way round: [-18000, 18000).
 [[nodiscard]] constexpr int step_cdeg(int from, int to) noexcept {
-  return wrap_cdeg(std::int64_t{to} - from + kTurn_cdeg / 2) - kTurn_cdeg / 2;
+  return wrap_cdeg(std::int64_t{to} - from + kRevolution_cdeg / 2) - kRevolution_cdeg / 2;
 }
 
 }  // namespace terracut::beams

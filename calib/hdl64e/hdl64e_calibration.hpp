@@ -14,7 +14,7 @@ inline constexpr int kHdl64eLasers = 64;
 
 /// The factory correction of one laser (HDL-64E S3 manual Rev K, p. 10; docs/reference/sensors.md).
 struct Hdl64eLaser {
-  double rot_correction_rad = 0;   ///< rho: taken off the azimuth; positive turns left.
+  double rot_correction_rad = 0;   ///< rho: taken off the azimuth; positive frames left.
   double vert_correction_rad = 0;  ///< omega: elevation of the beam; positive is up.
   double dist_correction_m = 0;    ///< Added to the raw distance, calibrated at 25.04 m ("far").
   double dist_correction_x_m = 0;  ///< The same at 2.40 m, along x; used only when two_point.

@@ -44,9 +44,9 @@ inline constexpr double kNearPointY_m = 1.93;
 /// kRosLike extrapolates.
 ///
 /// All functions: `laser` in [0, 64); `azimuth_rad` is the head's azimuth at the laser's firing,
-/// clockwise from straight ahead seen from above, any turn. Immutable, so any thread may call them;
-/// no allocation, no locks; a few trigonometric functions a call (not meant for the per-packet
-/// path).
+/// clockwise from straight ahead seen from above, any revolution. Immutable, so any thread may call
+/// them; no allocation, no locks; a few trigonometric functions a call (not meant for the
+/// per-packet path).
 class Hdl64eGeometry {
  public:
   explicit Hdl64eGeometry(const Hdl64eCalibration& calibration,

@@ -12,12 +12,12 @@ namespace {
 
 /// Any mount that can be configured, whatever the one in use. An RS-Ruby128 3 m up has some 250
 /// points in the strip; a quarter of the candidates where the result is kept finds a plane of 20 %
-/// of the points with 98 %, and there are more turns.
+/// of the points with 98 %, and there are more frames.
 constexpr MountEstimateConfig kAnyMount{
     .min_height_m = 0.2, .max_height_m = 6.0, .min_points = 150, .candidates = 500};
 
-/// The mount of a sensor whose ground is seen as by `seen` from a frame that `mount`'s tilt has
-/// been taken out of.
+/// The mount of a sensor whose ground is seen as by `seen` from a frame that `mount` has already
+/// levelled.
 Mount on_top_of(const Mount& mount, const Mount& seen) {
   const RigidTransform T = T_vehicle_lidar(mount), T_seen = T_vehicle_lidar(seen);
   std::array<double, 3> up{};  // the ground's normal seen from the sensor
@@ -56,24 +56,24 @@ double median_of(std::vector<double> values) {
 MountCheck::MountCheck(const Mount& mount, const MountCheckConfig& config)
     : mount_(mount), config_(config) {}
 
-void MountCheck::add_turn(std::span<const std::array<float, 3>> points) {
+void MountCheck::add_frame(std::span<const std::array<float, 3>> points) {
   // Seen from the sensor, levelled as the mount says.
   std::vector<std::array<float, 3>> levelled(points.begin(), points.end());
   const auto height_m = static_cast<float>(mount_.height_m);
   for (auto& point : levelled) point[2] -= height_m;
   const auto found = estimate_mount(levelled, kAnyMount);
   if (!found) return;
-  Turn turn{on_top_of(mount_, found->mount), false};
-  if (contradicts(turn.seen)) {
+  Frame frame{on_top_of(mount_, found->mount), false};
+  if (contradicts(frame.seen)) {
     const Mount as_given{.height_m = mount_.height_m, .roll_rad = 0, .pitch_rad = 0};
-    turn.contradicts = support(levelled, as_given, found->mount) < config_.most_support;
+    frame.contradicts = support(levelled, as_given, found->mount) < config_.most_support;
   }
-  if (newest_.size() < config_.turns_kept) {
-    newest_.push_back(turn);
+  if (newest_.size() < config_.frames_kept) {
+    newest_.push_back(frame);
   } else {
-    newest_[turns_ % config_.turns_kept] = turn;
+    newest_[frames_ % config_.frames_kept] = frame;
   }
-  ++turns_;
+  ++frames_;
 }
 
 bool MountCheck::contradicts(const Mount& seen) const {
@@ -84,13 +84,13 @@ bool MountCheck::contradicts(const Mount& seen) const {
 
 std::optional<Mount> MountCheck::contradiction() const {
   std::vector<double> height_m, roll_rad, pitch_rad;
-  for (const Turn& turn : newest_) {
-    if (!turn.contradicts) continue;
-    height_m.push_back(turn.seen.height_m);
-    roll_rad.push_back(turn.seen.roll_rad);
-    pitch_rad.push_back(turn.seen.pitch_rad);
+  for (const Frame& frame : newest_) {
+    if (!frame.contradicts) continue;
+    height_m.push_back(frame.seen.height_m);
+    roll_rad.push_back(frame.seen.roll_rad);
+    pitch_rad.push_back(frame.seen.pitch_rad);
   }
-  const bool enough = newest_.size() >= config_.least_turns &&
+  const bool enough = newest_.size() >= config_.least_frames &&
                       static_cast<double>(height_m.size()) >=
                           config_.contradicting_share * static_cast<double>(newest_.size());
   if (!enough) return std::nullopt;

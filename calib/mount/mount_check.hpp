@@ -27,31 +27,31 @@ struct MountCheckConfig {
   /// sensor, a lorry ahead, a crest or a hollow has a plane of its own, but leaves the road beside
   /// it.
   double most_support = 0.15;
-  std::size_t turns_kept = 10;       ///< The newest that are judged together.
-  std::size_t least_turns = 3;       ///< Fewer say nothing.
-  double contradicting_share = 0.7;  ///< Of these turns.
+  std::size_t frames_kept = 10;      ///< The newest that are judged together.
+  std::size_t least_frames = 3;      ///< Fewer say nothing.
+  double contradicting_share = 0.7;  ///< Of these frames.
 };
 
-/// Compares a mount with the ground that a run sees, turn by turn. Start-up or threads without a
-/// deadline: add_turn() allocates and takes milliseconds. Deterministic.
+/// Compares a mount with the ground that a run sees, frame by frame. Start-up or threads without a
+/// deadline: add_frame() allocates and takes milliseconds. Deterministic.
 class MountCheck {
  public:
   explicit MountCheck(const Mount& mount, const MountCheckConfig& config = {});
 
-  /// Near points of one turn in the vehicle frame that the mount leads to. A turn in which no
+  /// Near points of one frame in the vehicle frame that the mount leads to. A frame in which no
   /// ground is found counts for nothing.
-  void add_turn(std::span<const std::array<float, 3>> points);
+  void add_frame(std::span<const std::array<float, 3>> points);
 
-  /// The mount that the ground shows, medians over the turns that contradict the given one; nothing
-  /// as long as that is not contradicted.
+  /// The mount that the ground shows, medians over the frames that contradict the given one;
+  /// nothing as long as that is not contradicted.
   [[nodiscard]] std::optional<Mount> contradiction() const;
 
-  /// Turns with a ground so far.
-  [[nodiscard]] std::uint64_t turns() const noexcept { return turns_; }
+  /// Frames with a ground so far.
+  [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
 
  private:
-  struct Turn {
+  struct Frame {
     Mount seen;
     bool contradicts = false;
   };
@@ -60,8 +60,8 @@ class MountCheck {
 
   Mount mount_;
   MountCheckConfig config_;
-  std::vector<Turn> newest_;  ///< At most turns_kept, as a ring.
-  std::uint64_t turns_ = 0;
+  std::vector<Frame> newest_;  ///< At most frames_kept, as a ring.
+  std::uint64_t frames_ = 0;
 };
 
 }  // namespace terracut::mount

@@ -169,7 +169,7 @@ Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> poi
   if (near.size() < config.min_points) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("mount estimate: expected at least {} points between {:g} and {:g} m, "
-                            "found {}; give more turns",
+                            "found {}; give more frames",
                             config.min_points, config.near_m, config.far_m, near.size()));
   }
   const auto seed = search(near, config);

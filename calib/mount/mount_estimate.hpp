@@ -31,12 +31,13 @@ struct MountEstimate {
   std::size_t points_used = 0;  ///< Those between near_m and far_m.
 };
 
-/// The mount that makes the ground plane of recorded turns level and at height zero. `points` are
-/// of the sensor frame (calib/mount/mount.hpp), of one or several turns; points that are not finite
-/// are left out. Deterministic: the same points give the same mount. Start-up only: allocates.
+/// The mount that makes the ground plane of recorded frames level and at height zero. `points` are
+/// of the sensor frame (calib/mount/mount.hpp), of one or several frames; points that are not
+/// finite are left out. Deterministic: the same points give the same mount. Start-up only:
+/// allocates.
 ///
 /// On a sloped or crowned road the estimate is that of the sensor over the road just there, so take
-/// turns from a level, open place. kMalformed when there are too few points or no plane holds the
+/// frames from a level, open place. kMalformed when there are too few points or no plane holds the
 /// share asked for; the message says which and what was found.
 [[nodiscard]] Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points,
                                                      const MountEstimateConfig& config = {});

@@ -19,7 +19,7 @@ struct RingObservation {
 };
 
 /// Measures the profile's ground distances from recordings, as the paper obtains them: the mean
-/// horizontal distance of each ring's ground returns. Feed turns, then read the profile. Memory is
+/// horizontal distance of each ring's ground returns. Feed frames, then read the profile. Memory is
 /// fixed by the constructor. Not real-time (it is cheap, but its place is `terracut calibrate`).
 class RingProfileEstimate {
  public:

@@ -28,7 +28,7 @@ inline constexpr double kRuby128LensAhead_m = 0.03615;
 ///   z =   d sin v
 ///
 /// All functions: `channel` in [0, 128); `azimuth_rad` is the head's azimuth at the channel's
-/// firing, clockwise from straight ahead seen from above, any turn. Immutable, so any thread may
+/// firing, clockwise from straight ahead seen from above, any revolution. Immutable, so any thread may
 /// call them; no allocation, no locks; a few trigonometric functions a call (not meant for the
 /// per-packet path).
 class Ruby128Geometry {

@@ -6,19 +6,19 @@
 #include <cstdlib>
 #include <utility>
 
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 
 namespace terracut::decode {
 namespace {
 
-/// Azimuths on the wire are rounded, and heads turn unevenly.
+/// Azimuths on the wire are rounded, and heads rotate unevenly.
 constexpr std::int64_t kJitter_ticks = 5 * kTicksPerCdeg;
 /// Of a sensor whose packets begin with its view, gaps are alike but for the wire's rounding.
 constexpr std::int64_t kRounding_ticks = 3 * kTicksPerCdeg;
 
 }  // namespace
 
-BlindSector::Verdict BlindSector::judge(const HeadInterval& head, std::int64_t packets,
+BlindSector::Verdict BlindSector::judge(const RotorInterval& head, std::int64_t packets,
                                         std::int64_t rejected, const Stride& stride) noexcept {
   Gap gap{head, packets, rejected, stride, false};
   const bool is_wide = head.ticks() >= least_ticks();
@@ -27,7 +27,7 @@ BlindSector::Verdict BlindSector::judge(const HeadInterval& head, std::int64_t p
     if (is_wide && !is_between(head)) remember(gap);
     return verdict;
   }
-  const bool may_be_blind = is_wide && head.ticks() < sector_.turn_ticks - least_ticks();
+  const bool may_be_blind = is_wide && head.ticks() < sector_.revolution_ticks - least_ticks();
   if (!may_be_blind) return {head, false, packets};
   if (gaps_known_ > 0 && !follows(head)) {
     const bool is_narrower = head.ticks() < gaps_.back().head.ticks();
@@ -41,12 +41,12 @@ BlindSector::Verdict BlindSector::judge(const HeadInterval& head, std::int64_t p
 }
 
 BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
-  const HeadInterval blind = sector_.next(gap.head.from_ticks);
-  const HeadInterval common = intersection(gap.head, blind);
+  const RotorInterval blind = sector_.next(gap.head.from_ticks);
+  const RotorInterval common = intersection(gap.head, blind);
   if (common.ticks() < least_ticks()) return {gap.head, false, gap.packets};
 
   move_to(common);
-  if (gap.head.ticks() >= sector_.turn_ticks) {  // an outage of turns
+  if (gap.head.ticks() >= sector_.revolution_ticks) {  // an outage of frames
     const std::int64_t lost =
         sector_.outside_ticks(gap.head) / gap.stride.mean_ticks - gap.rejected;
     return {gap.head, false, std::clamp<std::int64_t>(lost, 0, gap.packets)};
@@ -65,8 +65,8 @@ BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
 }
 
 /// The sector is known better now.
-void BlindSector::move_to(const HeadInterval& common) noexcept {
-  const HeadInterval blind = sector_.next(common.from_ticks);
+void BlindSector::move_to(const RotorInterval& common) noexcept {
+  const RotorInterval blind = sector_.next(common.from_ticks);
   const std::int64_t later_ticks = std::max<std::int64_t>(0, common.from_ticks - blind.from_ticks);
   const std::int64_t earlier_ticks = std::max<std::int64_t>(0, blind.to_ticks - common.to_ticks);
   earliest_ticks_ = later_ticks < least_ticks() ? earliest_ticks_ + later_ticks : 0;
@@ -91,30 +91,30 @@ std::int64_t BlindSector::packets_in(std::int64_t ticks, const Stride& stride) c
 
 // --- Learning ---
 
-/// Where the newest gap was a turn ago.
-bool BlindSector::follows(const HeadInterval& gap) const noexcept {
-  const HeadInterval again = shifted(gaps_.back().head, sector_.turn_ticks);
+/// Where the newest gap was a frame ago.
+bool BlindSector::follows(const RotorInterval& gap) const noexcept {
+  const RotorInterval again = shifted(gaps_.back().head, sector_.revolution_ticks);
   return intersection(again, gap).ticks() >= least_ticks();
 }
 
 /// The head has not come again to where the newest gap was.
-bool BlindSector::is_between(const HeadInterval& gap) const noexcept {
+bool BlindSector::is_between(const RotorInterval& gap) const noexcept {
   return gaps_known_ > 0 &&
-         gap.to_ticks <= gaps_.back().head.from_ticks + sector_.turn_ticks + least_ticks();
+         gap.to_ticks <= gaps_.back().head.from_ticks + sector_.revolution_ticks + least_ticks();
 }
 
 void BlindSector::remember(const Gap& gap) noexcept {
   std::rotate(gaps_.begin(), gaps_.begin() + 1, gaps_.end());
   gaps_.back() = gap;
-  gaps_known_ = std::min(gaps_known_ + 1, kTurnsToLearn);
-  if (gaps_known_ == kTurnsToLearn) learn();
+  gaps_known_ = std::min(gaps_known_ + 1, kFramesToLearn);
+  if (gaps_known_ == kFramesToLearn) learn();
 }
 
 void BlindSector::learn() noexcept {
-  HeadInterval common = gaps_.back().head;
+  RotorInterval common = gaps_.back().head;
   for (std::size_t i = 0; i < gaps_.size(); ++i) {
-    const auto turns = static_cast<std::int64_t>(gaps_.size() - 1 - i);
-    common = intersection(common, shifted(gaps_[i].head, turns * sector_.turn_ticks));
+    const auto frames = static_cast<std::int64_t>(gaps_.size() - 1 - i);
+    common = intersection(common, shifted(gaps_[i].head, frames * sector_.revolution_ticks));
   }
   if (common.ticks() < sector_.once.ticks() + least_ticks()) return;  // known, or not alike
   sector_.once = common;
@@ -144,14 +144,14 @@ void BlindSector::count(const Gap& gap) noexcept {
 
 // --- Packets ---
 
-void BlindSector::pass(const HeadInterval& swept) noexcept {
+void BlindSector::pass(const RotorInterval& swept) noexcept {
   if (sector_.is_none()) {
     if (gaps_known_ == 0) return;
-    const std::int64_t end_ticks = gaps_.back().head.to_ticks + sector_.turn_ticks;
+    const std::int64_t end_ticks = gaps_.back().head.to_ticks + sector_.revolution_ticks;
     if (swept.from_ticks > end_ticks + least_ticks()) refute();
     return;
   }
-  const HeadInterval blind = sector_.next(swept.from_ticks);
+  const RotorInterval blind = sector_.next(swept.from_ticks);
   // None was expected to begin so late.
   const std::int64_t before_ticks = blind.from_ticks - swept.from_ticks;
   if (before_ticks <= earliest_ticks_ + kRounding_ticks) {
@@ -164,28 +164,29 @@ void BlindSector::pass(const HeadInterval& swept) noexcept {
   gaps_known_ = 0;
 }
 
-bool BlindSector::is_inside(const PacketHeads& heads) const noexcept {
+bool BlindSector::is_inside(const PacketAzimuths& azimuths) const noexcept {
   if (sector_.is_none()) return false;
-  const HeadInterval inside = heads.sector_inside(std::int64_t{heads.first_cdeg()} * kTicksPerCdeg);
-  const HeadInterval blind = sector_.next(inside.from_ticks);
-  const std::int64_t slack_ticks = heads.widest_ticks + kJitter_ticks;
+  const RotorInterval inside =
+      azimuths.sector_inside(std::int64_t{azimuths.first_cdeg()} * kTicksPerCdeg);
+  const RotorInterval blind = sector_.next(inside.from_ticks);
+  const std::int64_t slack_ticks = azimuths.widest_ticks + kJitter_ticks;
   return std::abs(inside.from_ticks - blind.from_ticks) <= slack_ticks &&
          std::abs(inside.to_ticks - blind.to_ticks) <= slack_ticks;
 }
 
-BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks, const HeadInterval& inside,
+BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks, const RotorInterval& inside,
                                         const Stride& stride) noexcept {
   const Verdict verdict = judge(inside, 0, 0, stride);
   // It came when the head did: nothing was to be heard any more from where it begins. That is less
   // than a packet before the sector, those that begin a packet before it come at once: the two are
   // close together, so no more is taken for the wire's rounding than it rounds.
-  const HeadInterval blind = sector_.next(inside.from_ticks);
+  const RotorInterval blind = sector_.next(inside.from_ticks);
   const std::int64_t before_ticks = blind.from_ticks - begin_ticks + kTicksPerCdeg / 2;
   earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);
   return verdict;
 }
 
-void BlindSector::fill(const HeadInterval& found) noexcept {
+void BlindSector::fill(const RotorInterval& found) noexcept {
   Gap& newest = gaps_.back();
   if (gaps_known_ == 0 || !newest.is_pending) return;
   if (intersection(newest.head, found).ticks() == 0) return;
@@ -200,12 +201,12 @@ BlindSector::Loss BlindSector::take_due() noexcept {
   return std::exchange(due_, Loss{});
 }
 
-std::int64_t BlindSector::next_packet(std::int64_t head_ticks) const noexcept {
-  if (sector_.is_none()) return head_ticks;
-  const HeadInterval blind = sector_.next(head_ticks);
-  // No packet has begun so late in any turn before.
-  const bool is_last = head_ticks >= blind.from_ticks - earliest_ticks_ - kRounding_ticks;
-  return is_last ? blind.to_ticks : head_ticks;
+std::int64_t BlindSector::next_packet(std::int64_t rotor_ticks) const noexcept {
+  if (sector_.is_none()) return rotor_ticks;
+  const RotorInterval blind = sector_.next(rotor_ticks);
+  // No packet has begun so late in any frame before.
+  const bool is_last = rotor_ticks >= blind.from_ticks - earliest_ticks_ - kRounding_ticks;
+  return is_last ? blind.to_ticks : rotor_ticks;
 }
 
 }  // namespace terracut::decode

@@ -6,36 +6,36 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware_io/decode/head_sector.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/rotor_sector.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::decode {
 
-[[nodiscard]] inline frame::BlindAzimuths blind_azimuths(const HeadSector& sector) noexcept {
+[[nodiscard]] inline frame::BlindAzimuths blind_azimuths(const RotorSector& sector) noexcept {
   return {beams::wrap_cdeg(sector.once.from_ticks / kTicksPerCdeg),
           beams::wrap_cdeg(sector.once.to_ticks / kTicksPerCdeg)};
 }
 
 /// Finds out where a sensor with a limited field of view is blind: it sends nothing while its head
-/// passes there. What is missing at the same azimuths in three turns running is blind, once; what
-/// is missing beside it, or not every turn, is lost.
+/// passes there. What is missing at the same azimuths in three frames running is blind, once; what
+/// is missing beside it, or not every frame, is lost.
 ///
 /// A wide gap might be either until the head has been there again, so its loss is not counted at
 /// once: either the third gap shows that it was none, or a packet from where the gap was, at the
-/// latest a turn later, that it was. Where a known sector ends is known to the packet: those who
+/// latest a frame later, that it was. Where a known sector ends is known to the packet: those who
 /// keep their rhythm while they are blind end it anywhere within a packet, others always alike.
 ///
-/// Angles in ticks of head azimuth, unwrapped (head_sector.hpp). Fixed memory, O(1) a call,
+/// Angles in ticks of head azimuth, unwrapped (rotor_sector.hpp). Fixed memory, O(1) a call,
 /// noexcept. One thread.
 class BlindSector {
  public:
-  static constexpr int kTurnsToLearn = 3;
+  static constexpr int kFramesToLearn = 3;
 
-  explicit BlindSector(std::int64_t turn_ticks) noexcept : sector_{{}, turn_ticks} {}
+  explicit BlindSector(std::int64_t revolution_ticks) noexcept : sector_{{}, revolution_ticks} {}
 
-  /// How far the head turns from packet to packet: on the average, and at most.
+  /// How far the head rotates from packet to packet: on the average, and at most.
   struct Stride {
     std::int64_t mean_ticks = 1, widest_ticks = 1;
   };
@@ -46,41 +46,41 @@ class BlindSector {
   struct Verdict {
     /// What was lost of a gap, and the blind sector where that lies in it; empty where all of it
     /// is blind.
-    HeadInterval lost;
+    RotorInterval lost;
     bool is_pending = false;   ///< It may be blind; if not, take_due() will have the loss.
     std::int64_t packets = 0;  ///< Lost in it, unless it is pending.
   };
   /// Narrower gaps are never blind.
-  [[nodiscard]] std::int64_t least_ticks() const noexcept { return sector_.turn_ticks / 72; }
+  [[nodiscard]] std::int64_t least_ticks() const noexcept { return sector_.revolution_ticks / 72; }
 
   /// The head was not seen in `gap`, for so many packets by their stamps; in it came `rejected`
   /// ones.
-  [[nodiscard]] Verdict judge(const HeadInterval& gap, std::int64_t packets, std::int64_t rejected,
+  [[nodiscard]] Verdict judge(const RotorInterval& gap, std::int64_t packets, std::int64_t rejected,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// A packet sweeps over `swept`; after judge() of the gap before it.
-  void pass(const HeadInterval& swept) noexcept TERRACUT_NONBLOCKING;
-  /// The sector lies in a packet as that says (PacketHeads::behind_sector), to the packet.
-  [[nodiscard]] bool is_inside(const PacketHeads& heads) const noexcept TERRACUT_NONBLOCKING;
+  void pass(const RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
+  /// The sector lies in a packet as that says (PacketAzimuths::behind_sector), to the packet.
+  [[nodiscard]] bool is_inside(const PacketAzimuths& azimuths) const noexcept TERRACUT_NONBLOCKING;
   /// Instead of pass(): a packet that begins where `begin_ticks` says, with the sector, or what was
   /// seen of it, inside.
-  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const HeadInterval& inside,
+  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// A packet came late and fills a part of a gap.
-  void fill(const HeadInterval& found) noexcept TERRACUT_NONBLOCKING;
+  void fill(const RotorInterval& found) noexcept TERRACUT_NONBLOCKING;
   /// What pass() and judge() have found to be lost since it was last taken.
   [[nodiscard]] Loss take_due() noexcept TERRACUT_NONBLOCKING;
   /// The stream ends: what was pending is lost. The sector stays known.
   void end() noexcept TERRACUT_NONBLOCKING { refute(); }
 
-  /// Where the next packet is expected to begin when the head was seen until `head_ticks`: there,
-  /// or behind the blind sector where none has begun there in the turns before.
-  [[nodiscard]] std::int64_t next_packet(std::int64_t head_ticks) const noexcept
+  /// Where the next packet is expected to begin when the head was seen until `rotor_ticks`: there,
+  /// or behind the blind sector where none has begun there in the frames before.
+  [[nodiscard]] std::int64_t next_packet(std::int64_t rotor_ticks) const noexcept
       TERRACUT_NONBLOCKING;
-  [[nodiscard]] const HeadSector& sector() const noexcept { return sector_; }
+  [[nodiscard]] const RotorSector& sector() const noexcept { return sector_; }
 
  private:
   struct Gap {
-    HeadInterval head;
+    RotorInterval head;
     std::int64_t packets = 0, rejected = 0;
     Stride stride;
     bool is_pending = false;
@@ -93,19 +93,19 @@ class BlindSector {
   static void note_end(std::int64_t ticks, const Stride& stride,
                        std::int64_t& widest_ticks) noexcept;
   [[nodiscard]] std::int64_t packets_in(std::int64_t ticks, const Stride& stride) const noexcept;
-  void move_to(const HeadInterval& common) noexcept;
-  [[nodiscard]] bool follows(const HeadInterval& gap) const noexcept;
-  [[nodiscard]] bool is_between(const HeadInterval& gap) const noexcept;
+  void move_to(const RotorInterval& common) noexcept;
+  [[nodiscard]] bool follows(const RotorInterval& gap) const noexcept;
+  [[nodiscard]] bool is_between(const RotorInterval& gap) const noexcept;
   void remember(const Gap& gap) noexcept;
   void learn() noexcept;
   void refute() noexcept TERRACUT_NONBLOCKING;
   void count(const Gap& gap) noexcept;
 
-  HeadSector sector_;
+  RotorSector sector_;
   /// Gaps without loss have begun so much earlier than the sector, and ended so much later.
   std::int64_t earliest_ticks_ = 0, latest_ticks_ = 0;
-  std::array<Gap, kTurnsToLearn> gaps_;  ///< Of successive turns, the newest last; the others ...
-  int gaps_known_ = 0;                   ///< ... before this many are not used.
+  std::array<Gap, kFramesToLearn> gaps_;  ///< Of successive frames, the newest last; the others ...
+  int gaps_known_ = 0;                    ///< ... before this many are not used.
   Loss due_;
 };
 

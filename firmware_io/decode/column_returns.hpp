@@ -16,9 +16,9 @@ struct ColumnReturns {
   alignas(64) std::array<float, kLasers> y_m;
   alignas(64) std::array<float, kLasers> z_m;
   alignas(64) std::array<float, kLasers> ground_range_m;
-  alignas(64) std::array<std::int32_t, kLasers> column;       ///< Of the range image.
-  alignas(64) std::array<std::int32_t, kLasers> turn_offset;  ///< Beam's - head's turn, -1..1.
-  alignas(64) std::array<std::uint16_t, kLasers> raw;         ///< Wire distance; 0 = no return.
+  alignas(64) std::array<std::int32_t, kLasers> column;        ///< Of the range image.
+  alignas(64) std::array<std::int32_t, kLasers> frame_offset;  ///< Beam's - head's frame, -1..1.
+  alignas(64) std::array<std::uint16_t, kLasers> raw;          ///< Wire distance; 0 = no return.
   alignas(64) std::array<std::uint8_t, kLasers> intensity;
 };
 

@@ -11,13 +11,16 @@ namespace terracut::decode {
 namespace {
 
 Deskewer::Config checked(const Deskewer::Config& config, std::span<const std::int32_t> beam_ticks) {
-  if (config.motion == nullptr || config.turn_ticks < 1 || config.shape.columns < 1 ||
+  if (config.motion == nullptr || config.revolution_ticks < 1 || config.shape.columns < 1 ||
       beam_ticks.size() != static_cast<std::size_t>(config.shape.rows) || beam_ticks.empty()) {
     throw std::invalid_argument("Deskewer needs a motion, an image shape and a beam for each row");
   }
-  const auto wide = [&](std::int32_t ticks) { return std::abs(ticks) >= config.turn_ticks / 2; };
+  const auto wide = [&](std::int32_t ticks) {
+    return std::abs(ticks) >= config.revolution_ticks / 2;
+  };
   if (std::any_of(beam_ticks.begin(), beam_ticks.end(), wide)) {
-    throw std::invalid_argument("Deskewer: beams must point less than half a turn off the head");
+    throw std::invalid_argument(
+        "Deskewer: beams must point less than half a revolution off the head");
   }
   return config;
 }
@@ -25,7 +28,7 @@ Deskewer::Config checked(const Deskewer::Config& config, std::span<const std::in
 /// Whole columns from a beam to its head, to the nearest: at most half a column's time off.
 std::int64_t shift_of(std::int32_t beam_ticks, const Deskewer::Config& config) {
   return std::llround(-static_cast<double>(beam_ticks) * config.shape.columns /
-                      static_cast<double>(config.turn_ticks));
+                      static_cast<double>(config.revolution_ticks));
 }
 
 }  // namespace
@@ -39,7 +42,7 @@ Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_tick
   const auto head_columns = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
   const std::size_t nodes = head_columns / kNodeColumns + 3;
 
-  // Two turns are open, and beams reach into the next.
+  // Two frames are open, and beams reach into the next.
   instants_ns_ = memory.take<std::int64_t>("deskew", std::bit_ceil(3 * nodes));
   node_ns_ = memory.take<std::int64_t>("deskew", nodes);
   node_poses_ = memory.take<vehicle::PlanarPose>("deskew", nodes);
@@ -55,9 +58,9 @@ Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_tick
   }
 }
 
-double Deskewer::nodes(std::int64_t head_ticks) const noexcept {
-  return static_cast<double>(head_ticks) * static_cast<double>(columns_) /
-         static_cast<double>(kNodeColumns * config_.turn_ticks);
+double Deskewer::nodes(std::int64_t rotor_ticks) const noexcept {
+  return static_cast<double>(rotor_ticks) * static_cast<double>(columns_) /
+         static_cast<double>(kNodeColumns * config_.revolution_ticks);
 }
 
 void Deskewer::restart() noexcept {
@@ -65,14 +68,14 @@ void Deskewer::restart() noexcept {
   anew_node_ = kFromTheStart;
 }
 
-void Deskewer::begin_anew(std::int64_t head_ticks) noexcept {
+void Deskewer::begin_anew(std::int64_t rotor_ticks) noexcept {
   noted_ = false;
-  anew_node_ = static_cast<std::int64_t>(std::ceil(nodes(head_ticks)));
-  config_.motion->forget();
+  anew_node_ = static_cast<std::int64_t>(std::ceil(nodes(rotor_ticks)));
+  config_.motion->reset();
 }
 
-void Deskewer::note(std::int64_t head_ticks, std::int64_t instant_ns) noexcept {
-  const Note note{nodes(head_ticks), instant_ns};
+void Deskewer::note(std::int64_t rotor_ticks, std::int64_t instant_ns) noexcept {
+  const Note note{nodes(rotor_ticks), instant_ns};
   if (!noted_) {
     noted_ = true;
     first_node_ = next_node_ = static_cast<std::int64_t>(std::ceil(note.position));
@@ -107,25 +110,25 @@ std::int64_t Deskewer::instant_of(std::int64_t node) const noexcept {
                       (instants_ns_.size() - 1)];
 }
 
-std::int64_t Deskewer::instant_at(std::int64_t head_ticks) const noexcept {
-  const double position = nodes(head_ticks);
+std::int64_t Deskewer::instant_at(std::int64_t rotor_ticks) const noexcept {
+  const double position = nodes(rotor_ticks);
   const auto node = static_cast<std::int64_t>(std::floor(position));
   const std::int64_t before_ns = instant_of(node), after_ns = instant_of(node + 1);
   return before_ns + static_cast<std::int64_t>((position - static_cast<double>(node)) *
                                                static_cast<double>(after_ns - before_ns));
 }
 
-std::int64_t Deskewer::reference_ns(std::int64_t turn) const noexcept {
-  const std::int64_t begin = turn * config_.turn_ticks;
+std::int64_t Deskewer::reference_ns(std::int64_t frame) const noexcept {
+  const std::int64_t begin = frame * config_.revolution_ticks;
   switch (config_.at) {
-    case frame::TurnInstant::kStart:
+    case frame::FrameInstant::kStart:
       return instant_at(begin);
-    case frame::TurnInstant::kMiddle:
-      return instant_at(begin + config_.turn_ticks / 2);
-    case frame::TurnInstant::kEnd:
+    case frame::FrameInstant::kMiddle:
+      return instant_at(begin + config_.revolution_ticks / 2);
+    case frame::FrameInstant::kEnd:
       break;
   }
-  return instant_at(begin + config_.turn_ticks);
+  return instant_at(begin + config_.revolution_ticks);
 }
 
 void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept {
@@ -145,13 +148,13 @@ void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node) 
   }
 }
 
-frame::DeskewInfo Deskewer::apply(std::int64_t turn, frame::RangeImage& image) noexcept {
+frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) noexcept {
   vehicle::EgoMotion& motion = *config_.motion;
   motion.take_new();
-  const std::int64_t first_column = turn * columns_ + first_shift_;
+  const std::int64_t first_column = frame * columns_ + first_shift_;
   const std::int64_t first_node =
       (first_column - ((first_column % kNodeColumns) + kNodeColumns) % kNodeColumns) / kNodeColumns;
-  const double end = nodes((turn + 1) * config_.turn_ticks);
+  const double end = nodes((frame + 1) * config_.revolution_ticks);
   fill(std::max(first_node + static_cast<std::int64_t>(node_ns_.size()),
                 static_cast<std::int64_t>(std::floor(end)) + 1));
   for (std::size_t i = 0; i < node_ns_.size(); ++i) {
@@ -159,10 +162,10 @@ frame::DeskewInfo Deskewer::apply(std::int64_t turn, frame::RangeImage& image) n
   }
   frame::DeskewInfo info{.state = frame::DeskewState::kNoEgoMotion,
                          .at = config_.at,
-                         .reference_ns = reference_ns(turn),
+                         .reference_ns = reference_ns(frame),
                          .newest_motion_ns = 0};
   if (const auto newest_ns = motion.newest_ns()) {
-    info.newest_motion_ns = *newest_ns - instant_at((turn + 1) * config_.turn_ticks);
+    info.newest_motion_ns = *newest_ns - instant_at((frame + 1) * config_.revolution_ticks);
   }
   if (first_node < anew_node_) return info;
   if (!motion.poses(node_ns_, info.reference_ns, node_poses_)) return info;

@@ -16,13 +16,14 @@
 
 namespace terracut::decode {
 
-/// Takes the vehicle's motion out of a turn: every return moves to where it would have been seen
-/// at one instant of the turn, if what it is of stood still. Its cell (row, column) stays the
-/// ray's own, its height stays, too: the motion is one in the ground plane of the vehicle frame.
+/// Deskews a frame, that is, removes the vehicle's motion: every return moves to where it would
+/// have been seen at one instant of the frame, if what it is of stood still. Its cell (row, column)
+/// stays the ray's own, its height stays, too: the motion is one in the ground plane of the vehicle
+/// frame.
 ///
-/// In one pass when the turn is handed over, not while returns are placed. Then the motion until
-/// the turn's end is known, which on the way would have been guessed from the last sample; the
-/// reference may be the turn's end; and packets cost no more than the note of when the head was
+/// In one pass when the frame is handed over, not while returns are placed. Then the motion until
+/// the frame's end is known, which on the way would have been guessed from the last sample; the
+/// reference may be the frame's end; and packets cost no more than the note of when the head was
 /// where. The pass is a multiplication, row by row: the beam of a cell left the head at an azimuth
 /// that its row and column give (a table unit's beams point up to 10 degrees, 3 ms, off the head),
 /// the azimuth gives the instant, that the pose. Instants and poses are kept every 8 columns of
@@ -33,13 +34,13 @@ class Deskewer {
  public:
   struct Config {
     vehicle::EgoMotion* motion = nullptr;  ///< Must outlive this.
-    frame::TurnInstant at = frame::TurnInstant::kEnd;
+    frame::FrameInstant at = frame::FrameInstant::kEnd;
     frame::ImageShape shape;
-    std::int64_t turn_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
+    std::int64_t revolution_ticks = 0;  ///< Ticks of azimuth in 360 degrees.
   };
 
   /// `beam_ticks[row]`: azimuth of that row's beam minus the head's when it fires; less than half a
-  /// turn. Throws std::invalid_argument on a setting outside its range.
+  /// frame. Throws std::invalid_argument on a setting outside its range.
   Deskewer(const Config& config, std::span<const std::int32_t> beam_ticks,
            memory::FixedMemory& memory);
   Deskewer(const Deskewer&) = delete;
@@ -48,16 +49,16 @@ class Deskewer {
   /// A stream begins: what was noted does not belong with what comes. Where there was a stream
   /// before, neither do samples of motion added by now: nobody saw whether a clock was set since.
   void restart() noexcept TERRACUT_NONBLOCKING;
-  /// A clock was set, and the head has come to `head_ticks`: instants noted from now on are not to
-  /// be compared with those before, nor with samples of motion added before. The turns that were
+  /// A clock was set, and the head has come to `rotor_ticks`: instants noted from now on are not to
+  /// be compared with those before, nor with samples of motion added before. The frames that were
   /// begun by then have no ego motion.
-  void begin_anew(std::int64_t head_ticks) noexcept TERRACUT_NONBLOCKING;
-  /// The head stood at `head_ticks` (unwrapped) at `instant_ns`. Both do not fall; one that does is
-  /// not used.
-  void note(std::int64_t head_ticks, std::int64_t instant_ns) noexcept TERRACUT_NONBLOCKING;
+  void begin_anew(std::int64_t rotor_ticks) noexcept TERRACUT_NONBLOCKING;
+  /// The head stood at `rotor_ticks` (unwrapped) at `instant_ns`. Both do not fall; one that does
+  /// is not used.
+  void note(std::int64_t rotor_ticks, std::int64_t instant_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// Moves the returns of a turn, the number of which is that of its azimuth, 360 degrees each.
-  [[nodiscard]] frame::DeskewInfo apply(std::int64_t turn,
+  /// Moves the returns of a frame, the number of which is that of its azimuth, 360 degrees each.
+  [[nodiscard]] frame::DeskewInfo apply(std::int64_t frame,
                                         frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
 
  private:
@@ -70,13 +71,13 @@ class Deskewer {
   };
 
   /// Azimuth in nodes; both unwrapped.
-  [[nodiscard]] double nodes(std::int64_t head_ticks) const noexcept;
+  [[nodiscard]] double nodes(std::int64_t rotor_ticks) const noexcept;
   /// Gives the nodes between the last two notes their instants, up to `last_node`.
   void fill(std::int64_t last_node) noexcept;
   /// When the head was at a node; at the ends of what was seen, that end.
   [[nodiscard]] std::int64_t instant_of(std::int64_t node) const noexcept;
-  [[nodiscard]] std::int64_t instant_at(std::int64_t head_ticks) const noexcept;
-  [[nodiscard]] std::int64_t reference_ns(std::int64_t turn) const noexcept;
+  [[nodiscard]] std::int64_t instant_at(std::int64_t rotor_ticks) const noexcept;
+  [[nodiscard]] std::int64_t reference_ns(std::int64_t frame) const noexcept;
   void spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept;
 
   Config config_;
@@ -88,11 +89,11 @@ class Deskewer {
   std::int64_t anew_node_ = kFromTheStart;  ///< Of nodes before it, instants are of another time.
   bool noted_ = false;
   /// The last two. The way between them is left until its nodes are asked for: it may be several
-  /// turns long, more than the ring holds, and the turn that it begins in is still to be handed
+  /// frames long, more than the ring holds, and the frame that it begins in is still to be handed
   /// over.
   Note before_, newest_;
 
-  // Of the turn in work.
+  // Of the frame in work.
   std::span<std::int64_t> node_ns_;
   std::span<vehicle::PlanarPose> node_poses_;
   std::span<float> cosine_, sine_, x_m_, y_m_;  ///< By column of the head, from first_shift_.

@@ -8,11 +8,11 @@
 
 namespace terracut::decode {
 FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
-    : shape_(config.shape), turn_ticks_(config.turn_ticks) {
+    : shape_(config.shape), revolution_ticks_(config.revolution_ticks) {
   if (config.images < 3) {
     throw std::invalid_argument("FrameBuilder needs 3 images or more: two open, one handed over");
   }
-  if (config.shape.rows < 1 || config.shape.columns < 1 || config.turn_ticks < 1) {
+  if (config.shape.rows < 1 || config.shape.columns < 1 || config.revolution_ticks < 1) {
     throw std::invalid_argument("FrameBuilder needs at least one row, one column and one tick");
   }
   images_.reserve(static_cast<std::size_t>(config.images));
@@ -31,36 +31,36 @@ frame::RangeImage& FrameBuilder::exchange(frame::RangeImage& handed_over) noexce
   return longest_free;
 }
 
-void FrameBuilder::open(std::size_t slot, std::int64_t turn, frame::RangeImage& image) noexcept {
-  OpenTurn& opened = open_[slot];
-  opened = OpenTurn{};
+void FrameBuilder::open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept {
+  OpenFrame& opened = open_[slot];
+  opened = OpenFrame{};
   opened.image = &image;
   image.clear();
-  add_missing(opened, turn, last_gap_, +1, spread_);
+  add_missing(opened, frame, last_gap_, +1, spread_);
 }
 
-void FrameBuilder::start(std::int64_t oldest_turn, std::int64_t head_ticks) noexcept {
+void FrameBuilder::start(std::int64_t oldest_frame, std::int64_t rotor_ticks) noexcept {
   started_ = true;
-  oldest_ = over_before_ = oldest_turn;
+  oldest_ = over_before_ = oldest_frame;
   rolls_ = 0;
-  start_ticks_ = frontier_ticks_ = head_ticks;
+  start_ticks_ = frontier_ticks_ = rotor_ticks;
   last_gap_ = {};
-  open(0, oldest_turn, *open_[0].image);
-  open(1, oldest_turn + 1, *open_[1].image);
+  open(0, oldest_frame, *open_[0].image);
+  open(1, oldest_frame + 1, *open_[1].image);
 }
 
-void FrameBuilder::add_missing(OpenTurn& turn, std::int64_t number, const Missing& missing,
+void FrameBuilder::add_missing(OpenFrame& frame, std::int64_t number, const Missing& missing,
                                int sign, const BeamSpread& spread) noexcept {
-  const HeadInterval of_head{number * turn_ticks_, (number + 1) * turn_ticks_};
-  const HeadInterval of_beams{of_head.from_ticks - spread.foremost_ticks,
-                              of_head.to_ticks - spread.hindmost_ticks};
+  const RotorInterval of_head{number * revolution_ticks_, (number + 1) * revolution_ticks_};
+  const RotorInterval of_beams{of_head.from_ticks - spread.foremost_ticks,
+                               of_head.to_ticks - spread.hindmost_ticks};
   if (missing.is_counted) {
-    turn.hole_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_head));
+    frame.hole_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_head));
   }
-  turn.missing_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_beams));
+  frame.missing_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_beams));
 }
 
-void FrameBuilder::lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
+void FrameBuilder::lose(RotorInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
                         bool is_counted) noexcept {
   step_ticks_ = step_ticks;
   spread_ = spread;
@@ -69,21 +69,21 @@ void FrameBuilder::lose(HeadInterval gap, const BeamSpread& spread, std::int64_t
   add_missing(open_[1], oldest_ + 1, last_gap_, +1, spread);
 }
 
-void FrameBuilder::regain(HeadInterval found, const BeamSpread& spread) noexcept {
+void FrameBuilder::regain(RotorInterval found, const BeamSpread& spread) noexcept {
   add_missing(open_[0], oldest_, {found}, -1, spread);
   add_missing(open_[1], oldest_ + 1, {found}, -1, spread);
 }
 
-void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_turn,
-                               std::int64_t last_turn, std::int64_t frontier_ticks,
+void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_frame,
+                               std::int64_t last_frame, std::int64_t frontier_ticks,
                                std::int64_t step_ticks, const BeamSpread& spread) noexcept {
   ++packets_;
   frontier_ticks_ = frontier_ticks;
   step_ticks_ = step_ticks;
   spread_ = spread;
-  for (std::int64_t turn = std::max(first_turn, oldest_); turn <= std::min(last_turn, oldest_ + 1);
-       ++turn) {
-    OpenTurn& touched = open_[static_cast<std::size_t>(turn - oldest_)];
+  for (std::int64_t frame = std::max(first_frame, oldest_);
+       frame <= std::min(last_frame, oldest_ + 1); ++frame) {
+    OpenFrame& touched = open_[static_cast<std::size_t>(frame - oldest_)];
     touched.first_packet_ns =
         touched.touched ? std::min(touched.first_packet_ns, stamp_ns) : stamp_ns;
     touched.last_packet_ns =
@@ -92,15 +92,15 @@ void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_turn,
   }
 }
 
-bool FrameBuilder::seen_whole(const OpenTurn& turn) const noexcept {
+bool FrameBuilder::seen_whole(const OpenFrame& frame) const noexcept {
   // Wire azimuths are rounded, so firings lie up to a rounding apart from where they belong; three
   // quarters of a step is no missing firing yet.
   const std::int64_t slack_ticks = step_ticks_ * 3 / 4;
-  const std::int64_t first_ticks = oldest_ * turn_ticks_ - spread_.foremost_ticks;
-  const std::int64_t end_ticks = (oldest_ + 1) * turn_ticks_ - spread_.hindmost_ticks;
+  const std::int64_t first_ticks = oldest_ * revolution_ticks_ - spread_.foremost_ticks;
+  const std::int64_t end_ticks = (oldest_ + 1) * revolution_ticks_ - spread_.hindmost_ticks;
   return blind_.outside_ticks({first_ticks, start_ticks_}) <= slack_ticks &&
          blind_.outside_ticks({frontier_ticks_, end_ticks}) <= slack_ticks &&
-         turn.missing_ticks < slack_ticks;
+         frame.missing_ticks < slack_ticks;
 }
 
 void FrameBuilder::count_holes(std::int64_t hole_ticks) noexcept {
@@ -109,31 +109,31 @@ void FrameBuilder::count_holes(std::int64_t hole_ticks) noexcept {
       static_cast<std::uint64_t>((hole_ticks + step_ticks_ / 2) / step_ticks_);
 }
 
-void FrameBuilder::pass_over(std::int64_t turn) noexcept {
-  const HeadInterval passed{oldest_ * turn_ticks_, turn * turn_ticks_};
+void FrameBuilder::pass_over(std::int64_t frame) noexcept {
+  const RotorInterval passed{oldest_ * revolution_ticks_, frame * revolution_ticks_};
   if (last_gap_.is_counted) {
     count_holes(blind_.outside_ticks(intersection(last_gap_.head, passed)));
   }
-  oldest_ = turn;
-  open(0, turn, *open_[0].image);
-  open(1, turn + 1, *open_[1].image);
+  oldest_ = frame;
+  open(0, frame, *open_[0].image);
+  open(1, frame + 1, *open_[1].image);
 }
 
 bool FrameBuilder::close_oldest() noexcept {
-  const OpenTurn closing = open_[0];
+  const OpenFrame closing = open_[0];
   count_holes(closing.hole_ticks);
   const bool has_returns = closing.image->returns() > 0;
   if (has_returns) {
     frame_.image = closing.image;
     frame_.info = frame::FrameInfo{.number = frames_++,
-                             .first_packet_ns = closing.first_packet_ns,
-                             .last_packet_ns = closing.last_packet_ns,
-                             .packets = packets_,
-                             .returns = closing.image->returns(),
-                             .complete = seen_whole(closing),
-                             .blind = {},
-                             .losses = losses_,
-                             .deskew = {}};
+                                   .first_packet_ns = closing.first_packet_ns,
+                                   .last_packet_ns = closing.last_packet_ns,
+                                   .packets = packets_,
+                                   .returns = closing.image->returns(),
+                                   .complete = seen_whole(closing),
+                                   .blind = {},
+                                   .losses = losses_,
+                                   .deskew = {}};
     losses_handed_over_ += losses_;
     losses_ = {};
     packets_ = 0;
@@ -141,8 +141,8 @@ bool FrameBuilder::close_oldest() noexcept {
   return has_returns;
 }
 
-void FrameBuilder::roll_to(std::int64_t turn) noexcept {
-  over_before_ = std::max(oldest_, turn);
+void FrameBuilder::roll_to(std::int64_t frame) noexcept {
+  over_before_ = std::max(oldest_, frame);
   rolls_ = 2;
 }
 

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "firmware_io/decode/head_sector.hpp"
+#include "firmware_io/decode/rotor_sector.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -22,31 +22,31 @@ struct BeamSpread {
   std::int64_t hindmost_ticks = 0, foremost_ticks = 0;
 };
 
-/// Sorts returns into turns. Knows nothing of any sensor.
+/// Sorts returns into frames. Knows nothing of any sensor.
 ///
 /// Beams point some degrees before and behind the head, so around the seam (azimuth 0) returns of
-/// turn k and of turn k + 1 arrive mixed. Two images are open at any time, of the `oldest()` turn
-/// and the next; a laser that passes the seam late still lands in the right one. The oldest turn is
-/// handed out by next(), when the decoder has seen the hindmost beam pass the seam. A turn without
-/// a single return is no frame; one that misses firings is, with complete = false.
+/// frame k and of frame k + 1 arrive mixed. Two images are open at any time, of the `oldest()`
+/// frame and the next; a laser that passes the seam late still lands in the right one. The oldest
+/// frame is handed out by next(), when the decoder has seen the hindmost beam pass the seam. A
+/// frame without a single return is no frame; one that misses firings is, with complete = false.
 ///
-///   head turns on -->        seam k             seam k+1
-///   foremost beam     .......|------- turn k ---|=== turn k+1 ===
-///   hindmost beam     ............|------- turn k ---|=== turn k+1
+///   head rotates on -->        seam k             seam k+1
+///   foremost beam     .......|------- frame k ---|=== frame k+1 ===
+///   hindmost beam     ............|------- frame k ---|=== frame k+1
 ///
 /// Frames are pulled: roll_to() and flush() say which frames are over, next() hands them out one by
 /// one. The image handed out stays untouched until the (n - 2)th frame after it, with n images. Or
-/// the next call gets another image in exchange: then the builder goes on with that one and does not
-/// touch the one it handed out any more, which may go to a reader on another thread.
+/// the next call gets another image in exchange: then the builder goes on with that one and does
+/// not touch the one it handed out any more, which may go to a reader on another thread.
 ///
 /// Memory is taken in the constructor; nothing else allocates, locks or throws. One thread.
 class FrameBuilder {
  public:
   struct Config {
     frame::ImageShape shape;
-    std::size_t overflow_capacity = 0;  ///< Returns of a turn that find their cell taken.
+    std::size_t overflow_capacity = 0;  ///< Returns of a frame that find their cell taken.
     int images = 3;                     ///< >= 3: two open, one with whoever it was handed to.
-    std::int64_t turn_ticks = 0;        ///< Ticks in 360 degrees.
+    std::int64_t revolution_ticks = 0;  ///< Ticks in 360 degrees.
   };
 
   /// Throws std::invalid_argument on a setting outside its range.
@@ -54,53 +54,53 @@ class FrameBuilder {
   FrameBuilder(const FrameBuilder&) = delete;
   FrameBuilder& operator=(const FrameBuilder&) = delete;
 
-  /// A stream begins: the first firing is at head azimuth `head_ticks`, its hindmost beam in
-  /// `oldest_turn`. Nothing may be open with returns in it (see flush()).
-  void start(std::int64_t oldest_turn, std::int64_t head_ticks) noexcept TERRACUT_NONBLOCKING;
+  /// A stream begins: the first firing is at head azimuth `rotor_ticks`, its hindmost beam in
+  /// `oldest_frame`. Nothing may be open with returns in it (see flush()).
+  void start(std::int64_t oldest_frame, std::int64_t rotor_ticks) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool started() const noexcept { return started_; }
   [[nodiscard]] std::int64_t oldest() const noexcept { return oldest_; }
-  [[nodiscard]] bool is_open(std::int64_t turn) const noexcept {
-    return started_ && turn - oldest_ >= 0 && turn - oldest_ <= 1;
+  [[nodiscard]] bool is_open(std::int64_t frame) const noexcept {
+    return started_ && frame - oldest_ >= 0 && frame - oldest_ <= 1;
   }
 
-  /// Puts a return into an open turn. False, and counted, when its overflow list is full.
-  bool place(std::int64_t turn, int row, int column, const frame::Return& echo,
+  /// Puts a return into an open frame. False, and counted, when its overflow list is full.
+  bool place(std::int64_t frame, int row, int column, const frame::Return& point,
              frame::CellOwner owner = frame::CellOwner::kFirstArrived) noexcept {
-    if (image(turn).place(row, column, echo, owner)) return true;
+    if (image(frame).place(row, column, point, owner)) return true;
     ++losses_.overflow_full_returns;
     return false;
   }
 
-  /// An open turn's image, for returns that place_numbered() has room for.
-  [[nodiscard]] frame::RangeImage& image(std::int64_t turn) noexcept {
-    return *open_[static_cast<std::size_t>(turn - oldest_)].image;
+  /// An open frame's image, for returns that place_numbered() has room for.
+  [[nodiscard]] frame::RangeImage& image(std::int64_t frame) noexcept {
+    return *open_[static_cast<std::size_t>(frame - oldest_)].image;
   }
 
   /// Where the sensor is blind, nothing is missing: of the intervals given from now on, of the
   /// stream's beginning and of its end.
-  void set_blind(const HeadSector& blind) noexcept { blind_ = blind; }
+  void set_blind(const RotorSector& blind) noexcept { blind_ = blind; }
 
   /// Firings were lost in this interval / arrived after all (reordered). `step_ticks`: from firing
   /// to firing. `is_counted`: as a hole, too; else whoever calls does that.
-  void lose(HeadInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
+  void lose(RotorInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
             bool is_counted = true) noexcept TERRACUT_NONBLOCKING;
-  void regain(HeadInterval found, const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
+  void regain(RotorInterval found, const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
-  /// A packet with this datagram stamp was decoded; its beams touch turns [first, last].
+  /// A packet with this datagram stamp was decoded; its beams touch frames [first, last].
   /// `step_ticks` and `spread` as they are now; the head has been seen up to `frontier_ticks`, or
   /// is blind before.
-  void note_packet(std::int64_t stamp_ns, std::int64_t first_turn, std::int64_t last_turn,
+  void note_packet(std::int64_t stamp_ns, std::int64_t first_frame, std::int64_t last_frame,
                    std::int64_t frontier_ticks, std::int64_t step_ticks,
                    const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
-  /// The turns before `turn` are over. next() must be called until it returns null.
-  void roll_to(std::int64_t turn) noexcept TERRACUT_NONBLOCKING;
-  /// The stream ends here, and with it both open turns. next() must be called until it returns null,
-  /// then start().
+  /// The frames before `frame` are over. next() must be called until it returns null.
+  void roll_to(std::int64_t frame) noexcept TERRACUT_NONBLOCKING;
+  /// The stream ends here, and with it both open frames. next() must be called until it returns
+  /// null, then start().
   void flush() noexcept TERRACUT_NONBLOCKING;
 
-  /// The oldest turn that is over and has returns; null: there is none. Valid until the next call.
+  /// The oldest frame that is over and has returns; null: there is none. Valid until the next call.
   /// `in_exchange`: an image that nobody else uses, of images(), for the one handed out last; null:
   /// the one of the builder's own that was handed out longest ago.
   [[nodiscard]] frame::Frame* next(frame::RangeImage* in_exchange = nullptr) noexcept
@@ -116,49 +116,49 @@ class FrameBuilder {
   [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return images_; }
 
  private:
-  struct OpenTurn {
+  struct OpenFrame {
     frame::RangeImage* image = nullptr;
     std::int64_t first_packet_ns = 0, last_packet_ns = 0;
-    std::int64_t missing_ticks = 0;  ///< Lost where any beam of the turn fires.
-    std::int64_t hole_ticks = 0;     ///< Lost in the head's own turn; these tile the stream.
+    std::int64_t missing_ticks = 0;  ///< Lost where any beam of the frame fires.
+    std::int64_t hole_ticks = 0;     ///< Lost in the head's own revolution; these tile the stream.
     bool touched = false;
   };
 
   /// The image that nobody has written to for the longest, for the one just handed over.
   [[nodiscard]] frame::RangeImage& exchange(frame::RangeImage& handed_over) noexcept
       TERRACUT_NONBLOCKING;
-  void open(std::size_t slot, std::int64_t turn, frame::RangeImage& image) noexcept;
+  void open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept;
   struct Missing {
-    HeadInterval head;
+    RotorInterval head;
     bool is_counted = true;
   };
-  void add_missing(OpenTurn& turn, std::int64_t number, const Missing& missing, int sign,
+  void add_missing(OpenFrame& frame, std::int64_t number, const Missing& missing, int sign,
                    const BeamSpread& spread) noexcept;
-  /// The open turns have nothing in them; opens `turn` and the next instead.
-  void pass_over(std::int64_t turn) noexcept TERRACUT_NONBLOCKING;
+  /// The open frames have nothing in them; opens `frame` and the next instead.
+  void pass_over(std::int64_t frame) noexcept TERRACUT_NONBLOCKING;
   void count_holes(std::int64_t hole_ticks) noexcept;
-  [[nodiscard]] bool seen_whole(const OpenTurn& turn) const noexcept;
-  /// Fills frame_, or returns false when the turn has no returns.
+  [[nodiscard]] bool seen_whole(const OpenFrame& frame) const noexcept;
+  /// Fills frame_, or returns false when the frame has no returns.
   [[nodiscard]] bool close_oldest() noexcept TERRACUT_NONBLOCKING;
-  /// Shifts the open turns by one; the new one goes into `image`.
+  /// Shifts the open frames by one; the new one goes into `image`.
   void open_next(frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
 
   frame::ImageShape shape_;
-  std::int64_t turn_ticks_;
+  std::int64_t revolution_ticks_;
   std::vector<frame::RangeImage> images_;
   std::vector<frame::RangeImage*> free_;  ///< Not open; a ring, the longest so at next_free_.
   std::size_t next_free_ = 0;
 
   bool started_ = false;
   std::int64_t oldest_ = 0;
-  std::int64_t over_before_ = 0;  ///< Turns before this one are over.
-  int rolls_ = 0;                 ///< So many turns that are over may have returns.
+  std::int64_t over_before_ = 0;  ///< Frames before this one are over.
+  int rolls_ = 0;                 ///< So many frames that are over may have returns.
   bool is_ending_ = false;
-  std::array<OpenTurn, 2> open_;  ///< Of oldest_ and oldest_ + 1.
+  std::array<OpenFrame, 2> open_;  ///< Of oldest_ and oldest_ + 1.
   std::int64_t start_ticks_ = 0, frontier_ticks_ = 0, step_ticks_ = 1;
   BeamSpread spread_;
-  Missing last_gap_;  ///< A turn that opens later may begin inside it.
-  HeadSector blind_;
+  Missing last_gap_;  ///< A frame that opens later may begin inside it.
+  RotorSector blind_;
 
   std::uint32_t frames_ = 0;
   std::uint32_t packets_ = 0;

@@ -27,7 +27,7 @@ class HostClock {
   explicit HostClock(std::int64_t wrap_us) noexcept : wrap_us_(wrap_us) {}
 
   /// The next packet is the first one of a stream.
-  void forget() noexcept { known_ = false; }
+  void reset() noexcept { known_ = false; }
 
   /// For each packet in the order of the stream; not for one that was overtaken.
   [[nodiscard]] Sent sent(std::int64_t device_us, std::int64_t arrived_ns) noexcept {
@@ -38,7 +38,7 @@ class HostClock {
     if (step_us > kLongestStep_us) return {start_at(arrived_ns), true};
     const std::int64_t step_ns = step_us * 1000;
     const std::int64_t late_ns = arrived_ns - sent_ns_ - step_ns;
-    earlier_ns_ = std::max<std::int64_t>(0, earlier_ns_ - step_ns / kForgetting) -
+    earlier_ns_ = std::max<std::int64_t>(0, earlier_ns_ - step_ns / kDecay) -
                   std::min<std::int64_t>(0, late_ns);
     if (late_ns > kLatest_ns || earlier_ns_ > kEarliest_ns) return {start_at(arrived_ns), true};
     sent_ns_ += step_ns + std::min(late_ns, step_ns / kDrift);
@@ -56,7 +56,7 @@ class HostClock {
   static constexpr std::int64_t kEarliest_ns = 2'000'000;
   static constexpr std::int64_t kLongestStep_us = 100'000'000;  // more: outages, backward steps
   static constexpr std::int64_t kDrift = 1'000;  // 1000 ppm: NTP slews by 500, quartz drifts by 100
-  static constexpr std::int64_t kForgetting = 250;  // 4000 ppm, faster than any of that adds up
+  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than any of that adds up
 
   std::int64_t wrap_us_;
   bool known_ = false;

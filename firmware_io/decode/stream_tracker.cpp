@@ -16,11 +16,12 @@ constexpr std::int64_t kOutage_us = 1'000'000;
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
 /// The head's way across a gap from here on is told to the caller even where the period is not yet
 /// known.
-constexpr std::int64_t kWide_ticks = kTurn_ticks / 90;
-/// Turns are counted up to here: years of a turning head. Then the count begins again.
+constexpr std::int64_t kWide_ticks = kRevolution_ticks / 90;
+/// Frames are counted up to here: years of a rotating head. Then the count begins again.
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
-/// The head may be this far from where time and speed put it, plus an eighth of what it has turned.
-constexpr std::int64_t kHeadSlack_cdeg = 2'000;
+/// The head may be this far from where time and speed put it, plus an eighth of what it has
+/// rotated.
+constexpr std::int64_t kRotorSlack_cdeg = 2'000;
 /// A missing packet may arrive out of order for so many packets more.
 constexpr int kMissingGrace_packets = 16;
 /// Steps that do not fit the measured period, in a row, until it is measured anew (a mode switch).
@@ -58,73 +59,73 @@ std::int64_t StreamTracker::device_step_us(std::int64_t from_us,
   return step;
 }
 
-StreamTracker::Seen StreamTracker::seen(const PacketHeads& heads) noexcept {
-  return {static_cast<std::uint32_t>(heads.device_stamp_us),
-          static_cast<std::uint16_t>(heads.first_cdeg()),
-          static_cast<std::uint16_t>(heads.last_cdeg()), 0};
+StreamTracker::Seen StreamTracker::seen(const PacketAzimuths& azimuths) noexcept {
+  return {static_cast<std::uint32_t>(azimuths.device_stamp_us),
+          static_cast<std::uint16_t>(azimuths.first_cdeg()),
+          static_cast<std::uint16_t>(azimuths.last_cdeg()), 0};
 }
 
-std::size_t StreamTracker::slot_of(const PacketHeads& heads) noexcept {
-  return static_cast<std::size_t>(heads.device_stamp_us / kSeenSlot_us) % kSeenSlots;
+std::size_t StreamTracker::slot_of(const PacketAzimuths& azimuths) noexcept {
+  return static_cast<std::size_t>(azimuths.device_stamp_us / kSeenSlot_us) % kSeenSlots;
 }
 
-bool StreamTracker::is_repeat(const PacketHeads& heads) const noexcept {
-  const Seen& before = seen_[slot_of(heads)];
-  const Seen now = seen(heads);
+bool StreamTracker::is_repeat(const PacketAzimuths& azimuths) const noexcept {
+  const Seen& before = seen_[slot_of(azimuths)];
+  const Seen now = seen(azimuths);
   return before.packet != 0 && before.stamp_us == now.stamp_us &&
          before.first_cdeg == now.first_cdeg && before.last_cdeg == now.last_cdeg &&
          packets_ - before.packet <= kRepeatWindow_packets;
 }
 
-void StreamTracker::remember(const PacketHeads& heads) noexcept {
-  Seen& slot = seen_[slot_of(heads)];
-  slot = seen(heads);
+void StreamTracker::remember(const PacketAzimuths& azimuths) noexcept {
+  Seen& slot = seen_[slot_of(azimuths)];
+  slot = seen(azimuths);
   slot.packet = packets_;
 }
 
-Placement StreamTracker::place(const PacketHeads& heads, std::int64_t host_stamp_ns,
+Placement StreamTracker::place(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::LossCounters& losses) noexcept {
   ++packets_;
-  if (is_repeat(heads)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
-  if (!started_) return restart(heads, host_stamp_ns, losses);
-  const Placement placed = follow(heads, host_stamp_ns, losses);
-  if (placed.arrival == Arrival::kRejected) return doubt(heads, host_stamp_ns, placed.reject);
+  if (is_repeat(azimuths)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
+  if (!started_) return restart(azimuths, host_stamp_ns, losses);
+  const Placement placed = follow(azimuths, host_stamp_ns, losses);
+  if (placed.arrival == Arrival::kRejected) return doubt(azimuths, host_stamp_ns, placed.reject);
   doubtful_packets_ = 0;
   return placed;
 }
 
-Placement StreamTracker::begin(const PacketHeads& heads, std::int64_t host_stamp_ns,
+Placement StreamTracker::begin(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::LossCounters& losses) noexcept {
-  const std::int64_t step_us = device_step_us(newest_.stamp_us, heads.device_stamp_us);
+  const std::int64_t step_us = device_step_us(newest_.stamp_us, azimuths.device_stamp_us);
   if (step_us < -kReorder_us || step_us > kReorder_us) ++losses.clock_jumps;
-  return restart(heads, host_stamp_ns, losses);
+  return restart(azimuths, host_stamp_ns, losses);
 }
 
-Placement StreamTracker::go_on(const PacketHeads& heads, std::int64_t host_stamp_ns,
+Placement StreamTracker::go_on(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::LossCounters& losses) noexcept {
-  if (is_repeat(heads)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
-  return follow(heads, host_stamp_ns, losses);
+  if (is_repeat(azimuths)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
+  return follow(azimuths, host_stamp_ns, losses);
 }
 
-Placement StreamTracker::doubt(const PacketHeads& heads, std::int64_t host_stamp_ns,
+Placement StreamTracker::doubt(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::Reject reason) noexcept {
-  const std::int64_t step_us = device_step_us(doubtful_.stamp_us, heads.device_stamp_us);
+  const std::int64_t step_us = device_step_us(doubtful_.stamp_us, azimuths.device_stamp_us);
   if (doubtful_packets_ > 0 && step_us == 0 &&
-      beams::wrap_cdeg(doubtful_.head_cdeg) == heads.first_cdeg()) {
+      beams::wrap_cdeg(doubtful_.rotor_cdeg) == azimuths.first_cdeg()) {
     return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
   }
   const bool may_follow = doubtful_packets_ > 0 && step_us >= -kReorder_us &&
                           step_us <= kOutage_us &&
                           takes_its_time(step_us, host_step_us(doubtful_.host_ns, host_stamp_ns));
-  const auto head_cdeg = may_follow ? head_after(doubtful_, heads) : std::nullopt;
-  // A blind sector may lie between the two, but in more than a turn any angle would fit.
-  const bool agrees = head_cdeg && *head_cdeg - doubtful_.head_cdeg <= beams::kTurn_cdeg;
-  const std::int64_t in_doubt_cdeg = agrees ? *head_cdeg : heads.first_cdeg();
+  const auto rotor_cdeg = may_follow ? head_after(doubtful_, azimuths) : std::nullopt;
+  // A blind sector may lie between the two, but in more than a frame any angle would fit.
+  const bool agrees = rotor_cdeg && *rotor_cdeg - doubtful_.rotor_cdeg <= beams::kRevolution_cdeg;
+  const std::int64_t in_doubt_cdeg = agrees ? *rotor_cdeg : azimuths.first_cdeg();
   if (!agrees || step_us >= 0) {
-    doubtful_ = {heads.device_stamp_us, host_stamp_ns, in_doubt_cdeg, heads.pace_ticks};
+    doubtful_ = {azimuths.device_stamp_us, host_stamp_ns, in_doubt_cdeg, azimuths.pace_ticks};
   }
   doubtful_packets_ = agrees ? doubtful_packets_ + 1 : 1;
-  note_rejected(heads.device_stamp_us);
+  note_rejected(azimuths.device_stamp_us);
   if (doubtful_packets_ < kNewStream_packets) {
     return {Arrival::kDoubtful, reason, in_doubt_cdeg, 0, 0, !agrees};
   }
@@ -133,32 +134,32 @@ Placement StreamTracker::doubt(const PacketHeads& heads, std::int64_t host_stamp
 }
 
 /// The unwrapped azimuth at which the packet fits, by time and speed.
-std::optional<std::int64_t> StreamTracker::head_after(const Newest& newest,
-                                                      const PacketHeads& heads) const noexcept {
-  const std::int64_t step_us = device_step_us(newest.stamp_us, heads.device_stamp_us);
-  const std::int64_t turned_cdeg =
+std::optional<std::int64_t> StreamTracker::head_after(
+    const Newest& newest, const PacketAzimuths& azimuths) const noexcept {
+  const std::int64_t step_us = device_step_us(newest.stamp_us, azimuths.device_stamp_us);
+  const std::int64_t rotated_cdeg =
       newest.pace_ticks * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
-  const std::int64_t expected_cdeg = newest.head_cdeg + turned_cdeg;
+  const std::int64_t expected_cdeg = newest.rotor_cdeg + rotated_cdeg;
   const std::int64_t off_cdeg =
-      beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), heads.first_cdeg());
-  if (std::abs(off_cdeg) > kHeadSlack_cdeg + std::abs(turned_cdeg) / 8) return std::nullopt;
+      beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), azimuths.first_cdeg());
+  if (std::abs(off_cdeg) > kRotorSlack_cdeg + std::abs(rotated_cdeg) / 8) return std::nullopt;
   return expected_cdeg + off_cdeg;
 }
 
 /// Rejects what does not go on from the newest packet.
-Placement StreamTracker::follow(const PacketHeads& heads, std::int64_t host_stamp_ns,
+Placement StreamTracker::follow(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept {
-  const std::int64_t step_us = device_step_us(newest_.stamp_us, heads.device_stamp_us);
+  const std::int64_t step_us = device_step_us(newest_.stamp_us, azimuths.device_stamp_us);
   const std::int64_t step_cdeg =
-      beams::step_cdeg(beams::wrap_cdeg(newest_.head_cdeg), heads.first_cdeg());
+      beams::step_cdeg(beams::wrap_cdeg(newest_.rotor_cdeg), azimuths.first_cdeg());
 
-  const bool turns_on = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_.pace_ticks;
-  if (heads.clock_restarts) {
+  const bool keeps_rotating = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_.pace_ticks;
+  if (azimuths.clock_restarts) {
     steps_ = 0;  // the times between the packets before were not what they seemed
     missing_ = 0;
-    if (!turns_on) return restart(heads, host_stamp_ns, losses);
-    take_as_newest(heads, host_stamp_ns, newest_.head_cdeg + step_cdeg, losses);
-    return {Arrival::kNext, frame::Reject::kCount, newest_.head_cdeg, 0, 0, false};
+    if (!keeps_rotating) return restart(azimuths, host_stamp_ns, losses);
+    take_as_newest(azimuths, host_stamp_ns, newest_.rotor_cdeg + step_cdeg, losses);
+    return {Arrival::kNext, frame::Reject::kCount, newest_.rotor_cdeg, 0, 0, false};
   }
 
   const std::int64_t host_us = host_step_us(newest_.host_ns, host_stamp_ns);
@@ -167,60 +168,60 @@ Placement StreamTracker::follow(const PacketHeads& heads, std::int64_t host_stam
                            std::abs(host_us - step_us) < std::max(step_us / 16, kReorder_us);
     if (is_outage) {
       const std::int64_t missing = missing_in({step_us, explained_});
-      Placement placed = restart(heads, host_stamp_ns, losses);
+      Placement placed = restart(azimuths, host_stamp_ns, losses);
       placed.missing = missing;
       return placed;
     }
     // Another stream that passes where this one stood is no clock that was set.
-    const bool only_the_clock_was_set = turns_on && doubtful_packets_ == 0;
+    const bool only_the_clock_was_set = keeps_rotating && doubtful_packets_ == 0;
     if (!only_the_clock_was_set)
       return {Arrival::kRejected, frame::Reject::kClockJump, 0, 0, 0, false};
     ++losses.clock_jumps;
-    take_as_newest(heads, host_stamp_ns, newest_.head_cdeg + step_cdeg, losses);
-    return {Arrival::kNext, frame::Reject::kCount, newest_.head_cdeg, 0, 0, false};
+    take_as_newest(azimuths, host_stamp_ns, newest_.rotor_cdeg + step_cdeg, losses);
+    return {Arrival::kNext, frame::Reject::kCount, newest_.rotor_cdeg, 0, 0, false};
   }
   if (!takes_its_time(step_us, host_us))
     return {Arrival::kRejected, frame::Reject::kClockJump, 0, 0, 0, false};
 
-  const auto head_cdeg = head_after(newest_, heads);
-  if (!head_cdeg) return {Arrival::kRejected, frame::Reject::kAzimuthJump, 0, 0, 0, false};
-  if (std::abs(*head_cdeg) > kFarthest_cdeg) return restart(heads, host_stamp_ns, losses);
+  const auto rotor_cdeg = head_after(newest_, azimuths);
+  if (!rotor_cdeg) return {Arrival::kRejected, frame::Reject::kAzimuthJump, 0, 0, 0, false};
+  if (std::abs(*rotor_cdeg) > kFarthest_cdeg) return restart(azimuths, host_stamp_ns, losses);
   if (step_us < 0) {
     if (missing_ > 0 || period_ns_ == 0) --missing_;
-    remember(heads);
-    return {Arrival::kReordered, frame::Reject::kCount, *head_cdeg, 0, 0, false};
+    remember(azimuths);
+    return {Arrival::kReordered, frame::Reject::kCount, *rotor_cdeg, 0, 0, false};
   }
-  adopt_range(heads, losses);
-  Placement placed{Arrival::kNext, frame::Reject::kCount, *head_cdeg, 0, explained_, false};
+  adopt_range(azimuths, losses);
+  Placement placed{Arrival::kNext, frame::Reject::kCount, *rotor_cdeg, 0, explained_, false};
   if (step_us == 0) {
-    ++losses.clock_jumps;  // the clock stands still while the head turns
+    ++losses.clock_jumps;  // the clock stands still while the head rotates
   } else {
     // A wide gap may be the sensor's blind sector: the caller knows.
-    const bool is_wide = (*head_cdeg - newest_.head_cdeg) * kTicksPerCdeg > kWide_ticks;
+    const bool is_wide = (*rotor_cdeg - newest_.rotor_cdeg) * kTicksPerCdeg > kWide_ticks;
     const bool is_measured = period_ns_ != 0;
     if (is_measured || is_wide) placed.missing = missing_in({step_us, explained_});
     if (is_measured || !is_wide) measure_period(step_us, losses);
   }
-  take_as_newest(heads, host_stamp_ns, *head_cdeg, losses);
+  take_as_newest(azimuths, host_stamp_ns, *rotor_cdeg, losses);
   return placed;
 }
 
-void StreamTracker::take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns,
-                                   std::int64_t head_cdeg, frame::LossCounters& losses) noexcept {
-  adopt_range(heads, losses);
-  remember(heads);
-  newest_ = {heads.device_stamp_us, host_stamp_ns, head_cdeg, heads.pace_ticks};
+void StreamTracker::take_as_newest(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+                                   std::int64_t rotor_cdeg, frame::LossCounters& losses) noexcept {
+  adopt_range(azimuths, losses);
+  remember(azimuths);
+  newest_ = {azimuths.device_stamp_us, host_stamp_ns, rotor_cdeg, azimuths.pace_ticks};
   explained_ = 0;
 }
 
-Placement StreamTracker::restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
+Placement StreamTracker::restart(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                  frame::LossCounters& losses) noexcept {
-  settle_period(losses);
+  fix_period(losses);
   commit_missing(losses);
   started_ = true;
   doubtful_packets_ = 0;
-  take_as_newest(heads, host_stamp_ns, heads.first_cdeg(), losses);
-  return {Arrival::kRestart, frame::Reject::kCount, newest_.head_cdeg, 0, 0, false};
+  take_as_newest(azimuths, host_stamp_ns, azimuths.first_cdeg(), losses);
+  return {Arrival::kRestart, frame::Reject::kCount, newest_.rotor_cdeg, 0, 0, false};
 }
 
 // --- Missing packets, by the device's own stamps ---
@@ -248,19 +249,20 @@ void StreamTracker::commit_missing(frame::LossCounters& losses) noexcept {
 
 // --- The period from packet to packet ---
 
-void StreamTracker::adopt_range(const PacketHeads& heads, frame::LossCounters& losses) noexcept {
-  if (heads.nominal_period_ns == nominal_period_ns_) return;
-  settle_period(losses);  // what came in the mode before
-  nominal_period_ns_ = heads.nominal_period_ns;
-  shortest_period_ns_ = heads.shortest_period_ns;
-  longest_period_ns_ = heads.longest_period_ns;
+void StreamTracker::adopt_range(const PacketAzimuths& azimuths,
+                                frame::LossCounters& losses) noexcept {
+  if (azimuths.nominal_period_ns == nominal_period_ns_) return;
+  fix_period(losses);  // what came in the mode before
+  nominal_period_ns_ = azimuths.nominal_period_ns;
+  shortest_period_ns_ = azimuths.shortest_period_ns;
+  longest_period_ns_ = azimuths.longest_period_ns;
   if (period_ns_ < shortest_period_ns_ || period_ns_ > longest_period_ns_) period_ns_ = 0;
 }
 
 void StreamTracker::measure_period(std::int64_t step_us, frame::LossCounters& losses) noexcept {
   if (period_ns_ == 0) {
     to_measure_[steps_++] = {step_us, explained_};
-    if (steps_ == to_measure_.size()) settle_period(losses);
+    if (steps_ == to_measure_.size()) fix_period(losses);
     return;
   }
   if (std::abs(step_us * 1000 - period_ns_) < period_ns_ / 8) {
@@ -302,7 +304,7 @@ void StreamTracker::accept_median() noexcept {
   }
 }
 
-void StreamTracker::settle_period(frame::LossCounters& losses) noexcept {
+void StreamTracker::fix_period(frame::LossCounters& losses) noexcept {
   if (missing_ > 0) commit_missing(losses);  // since before these steps
   constexpr std::size_t kFewest = 3;
   if (steps_ >= kFewest) accept_median();
@@ -328,12 +330,12 @@ void StreamTracker::note_stationary(std::int64_t device_stamp_us, std::int32_t a
   miss(missing_in({step_us, explained_}), losses);
   explained_ = 0;
   newest_.stamp_us = device_stamp_us;
-  newest_.head_cdeg += beams::step_cdeg(beams::wrap_cdeg(newest_.head_cdeg), azimuth_cdeg);
+  newest_.rotor_cdeg += beams::step_cdeg(beams::wrap_cdeg(newest_.rotor_cdeg), azimuth_cdeg);
   newest_.pace_ticks = 0;
 }
 
 void StreamTracker::end_of_stream(frame::LossCounters& losses) noexcept {
-  settle_period(losses);
+  fix_period(losses);
   commit_missing(losses);
   std::fill(seen_.begin(), seen_.end(), Seen{});
   started_ = false;

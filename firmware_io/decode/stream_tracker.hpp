@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -29,7 +29,7 @@ struct Placement {
   frame::Reject reject =
       frame::Reject::kCount;  ///< The reason when kRejected; of a doubtful one, if need be.
   /// Unwrapped azimuth of the first column; while in doubt, from that of the first in doubt on.
-  std::int64_t head_cdeg = 0;
+  std::int64_t rotor_cdeg = 0;
   /// Between this packet and the newest before it: packets that did not come, by the stamps, and
   /// packets that did and were rejected.
   std::int64_t missing = 0, explained = 0;
@@ -41,14 +41,14 @@ struct Placement {
 ///
 /// The device's clock and the head's angle check each other: from the newest packet's angle, its
 /// speed and the time since, the tracker knows within some degrees where the head must be, and
-/// unwraps the azimuth to the turn nearest to that. So neither a lost half turn nor a step back
-/// starts a false turn. A packet that contradicts the stream by its stamp or its angle is in doubt:
-/// when as many as kNewStream_packets have come in a row that agree with each other, and none that
-/// agrees with the stream, it was the beginning of another one (a reboot, a loop of a replay);
-/// otherwise those in doubt were strays, and have cost nothing. Missing packets follow from the
-/// device stamps, which advance by a constant period: measured from the stream itself, and the
-/// model's own until that is done or where what is measured is no unit's. Fixed memory; every call
-/// O(1), noexcept. One thread.
+/// unwraps the azimuth to the frame nearest to that. So neither a lost half revolution nor a step
+/// back starts a false frame. A packet that contradicts the stream by its stamp or its angle is in
+/// doubt: when as many as kNewStream_packets have come in a row that agree with each other, and
+/// none that agrees with the stream, it was the beginning of another one (a reboot, a loop of a
+/// replay); otherwise those in doubt were strays, and have cost nothing. Missing packets follow
+/// from the device stamps, which advance by a constant period: measured from the stream itself, and
+/// the model's own until that is done or where what is measured is no unit's. Fixed memory; every
+/// call O(1), noexcept. One thread.
 class StreamTracker {
  public:
   static constexpr int kNewStream_packets = 32;
@@ -59,14 +59,14 @@ class StreamTracker {
   /// Where this packet belongs. Clock jumps go to `losses`; the caller counts the rejection, and
   /// says how many of the missing packets were to come. `host_stamp_ns` is the datagram's, used
   /// only to tell an outage from a jump.
-  [[nodiscard]] Placement place(const PacketHeads& heads, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement place(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// After kNewStream, with each of the packets kept, in order, and with the last one itself: the
   /// first begins the stream. As place(), but nothing is in doubt any more.
-  [[nodiscard]] Placement begin(const PacketHeads& heads, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement begin(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] Placement go_on(const PacketHeads& heads, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement go_on(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Of the packets missing before the one just placed (kNext, kRestart) these are lost; counted
@@ -79,10 +79,10 @@ class StreamTracker {
   void note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg,
                        frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Counts what is still thought to be on its way, and forgets the stream (but not its period).
+  /// Counts what is still thought to be on its way, and resets the stream (but not its period).
   void end_of_stream(frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Device time from packet to packet, nanoseconds, within the model's range (PacketHeads); 0
+  /// Device time from packet to packet, nanoseconds, within the model's range (PacketAzimuths); 0
   /// until enough packets have been seen.
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
 
@@ -100,7 +100,7 @@ class StreamTracker {
 
   /// Where a stream stands.
   struct Newest {
-    std::int64_t stamp_us = 0, host_ns = 0, head_cdeg = 0;
+    std::int64_t stamp_us = 0, host_ns = 0, rotor_cdeg = 0;
     std::int32_t pace_ticks = 0;
   };
 
@@ -108,31 +108,31 @@ class StreamTracker {
 
   [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us,
                                             std::int64_t to_us) const noexcept;
-  [[nodiscard]] static Seen seen(const PacketHeads& heads) noexcept;
-  [[nodiscard]] static std::size_t slot_of(const PacketHeads& heads) noexcept;
-  [[nodiscard]] bool is_repeat(const PacketHeads& heads) const noexcept;
+  [[nodiscard]] static Seen seen(const PacketAzimuths& azimuths) noexcept;
+  [[nodiscard]] static std::size_t slot_of(const PacketAzimuths& azimuths) noexcept;
+  [[nodiscard]] bool is_repeat(const PacketAzimuths& azimuths) const noexcept;
   /// A packet that was taken. Those in doubt are not: who foretells a packet must not replace it.
-  void remember(const PacketHeads& heads) noexcept;
-  void adopt_range(const PacketHeads& heads, frame::LossCounters& losses) noexcept;
+  void remember(const PacketAzimuths& azimuths) noexcept;
+  void adopt_range(const PacketAzimuths& azimuths, frame::LossCounters& losses) noexcept;
   [[nodiscard]] std::int64_t period_in_use_ns() const noexcept {
     return period_ns_ != 0 ? period_ns_ : nominal_period_ns_;
   }
   void measure_period(std::int64_t step_us, frame::LossCounters& losses) noexcept;
   void average_in(std::int64_t step_us) noexcept;
-  void settle_period(frame::LossCounters& losses) noexcept;
+  void fix_period(frame::LossCounters& losses) noexcept;
   void accept_median() noexcept;
   [[nodiscard]] std::int64_t missing_in(const Step& step) const noexcept;
   void commit_missing(frame::LossCounters& losses) noexcept;
-  [[nodiscard]] Placement follow(const PacketHeads& heads, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement follow(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                  frame::LossCounters& losses) noexcept;
-  [[nodiscard]] std::optional<std::int64_t> head_after(const Newest& newest,
-                                                       const PacketHeads& heads) const noexcept;
-  [[nodiscard]] Placement doubt(const PacketHeads& heads, std::int64_t host_stamp_ns,
+  [[nodiscard]] std::optional<std::int64_t> head_after(
+      const Newest& newest, const PacketAzimuths& azimuths) const noexcept;
+  [[nodiscard]] Placement doubt(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::Reject reason) noexcept;
-  [[nodiscard]] Placement restart(const PacketHeads& heads, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement restart(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                   frame::LossCounters& losses) noexcept;
-  void take_as_newest(const PacketHeads& heads, std::int64_t host_stamp_ns, std::int64_t head_cdeg,
-                      frame::LossCounters& losses) noexcept;
+  void take_as_newest(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+                      std::int64_t rotor_cdeg, frame::LossCounters& losses) noexcept;
 
   std::int64_t clock_wrap_us_;
   std::span<Seen> seen_;

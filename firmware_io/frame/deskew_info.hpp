@@ -6,24 +6,24 @@
 
 namespace terracut::frame {
 
-/// The instant of a turn at which all its returns are to lie where they were: when the head passes
+/// The instant of a frame at which all its returns are to lie where they were: when the head passes
 /// straight ahead for the first time, behind, or straight ahead again.
-enum class TurnInstant : std::uint8_t { kStart, kMiddle, kEnd };
+enum class FrameInstant : std::uint8_t { kStart, kMiddle, kEnd };
 
 enum class DeskewState : std::uint8_t {
   kOff,   ///< Not asked for: returns lie where the sensor saw them when it saw them.
   kDone,  ///< All returns lie where they were at one instant, if they stood still.
-  /// Asked for, but the vehicle's motion is not known, or a clock was set while the turn arrived:
+  /// Asked for, but the vehicle's motion is not known, or a clock was set while the frame arrived:
   /// as kOff.
   kNoEgoMotion,
 };
 
-/// Whether and how a turn was freed of the vehicle's motion.
+/// Whether and how a frame was freed of the vehicle's motion.
 struct DeskewInfo {
   DeskewState state = DeskewState::kOff;
-  TurnInstant at = TurnInstant::kEnd;
+  FrameInstant at = FrameInstant::kEnd;
   std::int64_t reference_ns = 0;  ///< That instant, on the clock of datagrams; not for kOff.
-  /// Stamp of the newest motion known, less the instant of the turn's last firing; about 0 where
+  /// Stamp of the newest motion known, less the instant of the frame's last firing; about 0 where
   /// both clocks are one. 0 without any motion.
   std::int64_t newest_motion_ns = 0;
 };

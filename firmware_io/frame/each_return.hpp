@@ -14,11 +14,11 @@ struct PlacedReturn {
   std::uint32_t return_index = 0;  ///< 0.. in order of arrival.
   int row = 0;
   int column = 0;
-  Return echo;
+  Return point;
 };
 
-/// Calls `visit(const PlacedReturn&)` once for every return of the turn, those on the overflow list
-/// included: cells row by row first, then the overflow list (so not in order of arrival).
+/// Calls `visit(const PlacedReturn&)` once for every return of the frame, those on the overflow
+/// list included: cells row by row first, then the overflow list (so not in order of arrival).
 template <class Visitor>
 void for_each_return(const RangeImage& image, Visitor&& visit) {
   const int stride = image.shape().stride();
@@ -36,7 +36,7 @@ void for_each_return(const RangeImage& image, Visitor&& visit) {
   }
   for (const OverflowReturn& extra : image.overflow()) {
     visit(PlacedReturn{extra.return_index, static_cast<int>(extra.cell) / stride,
-                       static_cast<int>(extra.cell) % stride, extra.echo});
+                       static_cast<int>(extra.cell) % stride, extra.point});
   }
 }
 

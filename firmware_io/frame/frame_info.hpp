@@ -22,19 +22,19 @@ struct BlindAzimuths {
   }
 };
 
-/// What is known of one turn besides its returns.
+/// What is known of one frame besides its returns.
 struct FrameInfo {
   std::uint32_t number = 0;  ///< 0.. in order of hand-over.
   std::int64_t first_packet_ns =
-      0;  ///< Datagram stamp of the first and last packet that touched the turn.
+      0;  ///< Datagram stamp of the first and last packet that touched the frame.
   std::int64_t last_packet_ns = 0;
   std::uint32_t packets = 0;  ///< Packets decoded since the frame before was handed over.
   std::uint32_t returns = 0;  ///< Returns placed; equals RangeImage::returns().
-  /// Every firing of the turn was seen, from seam to seam, but where the sensor is blind.
+  /// Every firing of the frame was seen, from seam to seam, but where the sensor is blind.
   bool complete = false;
   BlindAzimuths blind;
   LossCounters losses;  ///< What was lost since the frame before was handed over.
-  DeskewInfo deskew;    ///< Whether the vehicle's motion was taken out of it.
+  DeskewInfo deskew;    ///< Whether it was deskewed.
 };
 
 /// One frame: what came of one revolution of the head. Whoever hands it out says how long the image
@@ -45,12 +45,12 @@ struct Frame {
 };
 
 /// The frame that is being filled.
-struct ArrivingTurn {
+struct ArrivingFrame {
   const RangeImage* image = nullptr;
-  /// Columns [0, settled_columns) are complete but for packets that come late by more than the
+  /// Columns [0, complete_columns) are complete but for packets that come late by more than the
   /// decoder waits for; these may still change any of them.
-  int settled_columns = 0;
-  bool is_ending = false;  ///< It will be handed over within a fiftieth of a turn.
+  int complete_columns = 0;
+  bool is_ending = false;  ///< It will be handed over within a fiftieth of a frame.
 };
 
 }  // namespace terracut::frame

@@ -23,7 +23,7 @@ struct LabelledReturn {
 template <int kLasers>
 struct LabelledColumn {
   std::int64_t stamp_ns = 0;                ///< Of the first firing, nanoseconds since 1970 (UTC).
-  std::int64_t unwrapped_azimuth_cdeg = 0;  ///< Of the head; grows by 36000 a turn.
+  std::int64_t unwrapped_azimuth_cdeg = 0;  ///< Of the head; grows by 36000 a revolution.
   std::array<LabelledReturn, static_cast<std::size_t>(kLasers)> by_laser{};
 };
 

@@ -18,10 +18,10 @@ enum class Reject : std::uint8_t {
   kWrongModel,         ///< A data packet of a model that is recognised but not decoded.
   kAzimuthOutOfRange,  ///< A block azimuth >= 360 degrees.
   kAzimuthMismatch,    ///< Blocks that fire together carry different azimuths.
-  kAzimuthJump,        ///< Azimuths inside a packet do not advance like a turning head.
+  kAzimuthJump,        ///< Azimuths inside a packet do not advance like a rotating head.
   kRepeated,           ///< The same packet (device stamp and azimuths) as one already decoded.
   kLate,               ///< An older packet than its frame still accepts (reordered too far).
-  kStationary,         ///< The head is not turning, so there is no turn to build.
+  kStationary,         ///< The head is not rotating, so there is no frame to build.
   kClockJump,          ///< A device stamp that contradicts the stream's, borne out by no others.
   kCount,
 };
@@ -35,10 +35,10 @@ inline constexpr std::size_t kRejectReasons = static_cast<std::size_t>(Reject::k
 struct LossCounters {
   std::uint64_t kernel_drops = 0;          ///< Datagrams the socket buffer could not hold.
   std::uint64_t network_gap_packets = 0;   ///< Packets missing by the device's own stamps.
-  std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a turn, whatever the cause.
+  std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a frame, whatever the cause.
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets, by reason.
   std::uint64_t overflow_full_returns = 0;  ///< Returns beyond the frame's fixed overflow list.
-  /// Returns that came with the packet a blind sector lies in, too late for their turn; their
+  /// Returns that came with the packet a blind sector lies in, too late for their frame; their
   /// firings are holes, too.
   std::uint64_t late_returns = 0;
   std::uint64_t skipped_frames = 0;  ///< Frames not segmented for want of time.

@@ -28,7 +28,7 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::
 void RangeImage::clear() noexcept {
   returns_ = 0;
   overflow_used_ = 0;
-  if (++generation_ == 0) {  // stamps of 2^32 turns ago would look alive
+  if (++generation_ == 0) {  // stamps of 2^32 frames ago would look alive
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     generation_ = 1;
   }
@@ -38,7 +38,7 @@ void RangeImage::move(std::span<const PlanarMotions> by_row) noexcept {
   const auto columns = static_cast<std::size_t>(shape_.columns);
   const auto stride = static_cast<std::size_t>(stride_);
   for (std::size_t row = 0; row < by_row.size(); ++row) {
-    // Left-overs of earlier turns are moved with the rest: to leave them out costs more.
+    // Left-overs of earlier frames are moved with the rest: to leave them out costs more.
     float* const __restrict x_m = x_m_.subspan(row * stride, columns).data();
     float* const __restrict y_m = y_m_.subspan(row * stride, columns).data();
     float* const __restrict ground_range_m = ground_range_m_.subspan(row * stride, columns).data();
@@ -54,40 +54,40 @@ void RangeImage::move(std::span<const PlanarMotions> by_row) noexcept {
   for (OverflowReturn& extra : overflow_.first(overflow_used_)) {
     const PlanarMotions& motion = by_row[extra.cell / stride];
     const std::size_t i = extra.cell % stride;
-    Return& echo = extra.echo;
-    const float x = motion.cosine[i] * echo.x_m - motion.sine[i] * echo.y_m + motion.x_m[i];
-    const float y = motion.sine[i] * echo.x_m + motion.cosine[i] * echo.y_m + motion.y_m[i];
-    echo.x_m = x;
-    echo.y_m = y;
-    echo.ground_range_m = std::sqrt(x * x + y * y);
+    Return& point = extra.point;
+    const float x = motion.cosine[i] * point.x_m - motion.sine[i] * point.y_m + motion.x_m[i];
+    const float y = motion.sine[i] * point.x_m + motion.cosine[i] * point.y_m + motion.y_m[i];
+    point.x_m = x;
+    point.y_m = y;
+    point.ground_range_m = std::sqrt(x * x + y * y);
   }
 }
 
-bool RangeImage::owns(std::size_t cell, const Return& echo, CellOwner owner) const noexcept {
+bool RangeImage::owns(std::size_t cell, const Return& point, CellOwner owner) const noexcept {
   switch (owner) {
     case CellOwner::kFirstArrived:
       return false;
     case CellOwner::kStrongest:
-      return echo.intensity > intensity_[cell];
+      return point.intensity > intensity_[cell];
     case CellOwner::kNearest:
-      return echo.ground_range_m < ground_range_m_[cell];
+      return point.ground_range_m < ground_range_m_[cell];
     case CellOwner::kFarthest:
-      return echo.ground_range_m > ground_range_m_[cell];
+      return point.ground_range_m > ground_range_m_[cell];
   }
   return false;
 }
 
-bool RangeImage::place_second(std::size_t cell, const Return& echo, CellOwner owner,
+bool RangeImage::place_second(std::size_t cell, const Return& point, CellOwner owner,
                               std::uint32_t number) noexcept {
   if (overflow_used_ == overflow_.size()) return false;
   OverflowReturn& extra = overflow_[overflow_used_++];
   extra.cell = static_cast<std::uint32_t>(cell);
-  if (owns(cell, echo, owner)) {
-    extra.echo = {x_m_[cell], y_m_[cell], z_m_[cell], ground_range_m_[cell], intensity_[cell]};
+  if (owns(cell, point, owner)) {
+    extra.point = {x_m_[cell], y_m_[cell], z_m_[cell], ground_range_m_[cell], intensity_[cell]};
     extra.return_index = return_index_[cell];
-    write(cell, echo, number);
+    write(cell, point, number);
   } else {
-    extra.echo = echo;
+    extra.point = point;
     extra.return_index = number;
   }
   return true;

@@ -15,8 +15,9 @@ namespace terracut::frame {
 
 /// Size of a range image.
 struct ImageShape {
-  int rows = 64;       ///< Lasers; row 0 is the lowest elevation.
-  int columns = 2083;  ///< Per turn of 360 degrees; column 0 starts straight ahead, then clockwise.
+  int rows = 64;  ///< Lasers; row 0 is the lowest elevation.
+  int columns =
+      2083;  ///< Per revolution of 360 degrees; column 0 starts straight ahead, then clockwise.
 
   /// Cells from one row to the next: columns rounded up to a multiple of 16, for SIMD loads.
   [[nodiscard]] constexpr int stride() const noexcept { return (columns + 15) / 16 * 16; }
@@ -39,7 +40,7 @@ struct ColumnRange {
   }
 };
 
-/// One echo in the vehicle frame (calib/mount/mount.hpp).
+/// One return in the vehicle frame (calib/mount/mount.hpp).
 struct Return {
   float x_m = 0, y_m = 0;
   float z_m = 0;             ///< Height above the mount's ground plane.
@@ -58,7 +59,7 @@ enum class CellOwner : std::uint8_t {
 
 /// A return that shares its cell with the one that owns it (dual return, two firings in a column).
 struct OverflowReturn {
-  Return echo;
+  Return point;
   std::uint32_t cell = 0;          ///< The taken cell, row * stride + column.
   std::uint32_t return_index = 0;  ///< As in RangeImage::return_index().
 };
@@ -68,29 +69,29 @@ struct PlanarMotions {
   std::span<const float> cosine, sine, x_m, y_m;
 };
 
-/// One turn of returns as an image: structure of arrays, rows x columns, row-major with stride
+/// One frame of returns as an image: structure of arrays, rows x columns, row-major with stride
 /// `shape().stride()`, cyclic in columns. Fixed memory; no operation here allocates.
 ///
 /// A cell holds a return only where `stamp()[cell] == generation()`; all planes of other cells hold
-/// left-overs of earlier turns. Stamps make clearing unnecessary. The padding cells
+/// left-overs of earlier frames. Stamps make clearing unnecessary. The padding cells
 /// (column >= columns) never hold a return.
 ///
 /// Thread contract: one writer until the frame is handed over, then readers only.
 class RangeImage {
  public:
-  /// `overflow_capacity`: how many returns beyond one a cell a turn may have.
+  /// `overflow_capacity`: how many returns beyond one a cell a frame may have.
   RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory);
 
-  /// Forgets all returns. Real-time safe, O(1) but for one turn in 2^32.
+  /// Removes all returns. Real-time safe, O(1) but for one frame in 2^32.
   void clear() noexcept TERRACUT_NONBLOCKING;
 
   /// Puts a return into its cell. Where that is taken, `owner` says which of the two keeps it (the
   /// earlier one when they are equal); the other goes to the overflow list. Returns are numbered in
   /// the order of these calls. False when the overflow list is full: the return is not kept and the
   /// caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
-  bool place(int row, int column, const Return& echo,
+  bool place(int row, int column, const Return& point,
              CellOwner owner = CellOwner::kFirstArrived) noexcept {
-    if (!place_numbered(row, column, echo, owner, returns_)) return false;
+    if (!place_numbered(row, column, point, owner, returns_)) return false;
     ++returns_;
     return true;
   }
@@ -105,15 +106,15 @@ class RangeImage {
     return first;
   }
   /// place() of a return whose number was taken before.
-  bool place_numbered(int row, int column, const Return& echo, CellOwner owner,
+  bool place_numbered(int row, int column, const Return& point, CellOwner owner,
                       std::uint32_t number) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
                              static_cast<std::size_t>(column);
     fetch_ahead(cell);
     if (stamp_[cell] == generation_) [[unlikely]]
-      return place_second(cell, echo, owner, number);
+      return place_second(cell, point, owner, number);
     stamp_[cell] = generation_;
-    write(cell, echo, number);
+    write(cell, point, number);
     return true;
   }
 
@@ -142,7 +143,7 @@ class RangeImage {
   }
   /// Returns placed since clear(), those on the overflow list included.
   [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
-  /// The most returns a turn may have: cells + overflow capacity.
+  /// The most returns a frame may have: cells + overflow capacity.
   [[nodiscard]] std::size_t return_capacity() const noexcept {
     return shape_.cells() + overflow_.size();
   }
@@ -153,7 +154,7 @@ class RangeImage {
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
   [[nodiscard]] std::span<const float> ground_range_m() const noexcept { return ground_range_m_; }
   [[nodiscard]] std::span<const std::uint8_t> intensity() const noexcept { return intensity_; }
-  /// Number of the cell's return in the turn, 0.. in order of arrival.
+  /// Number of the cell's return in the frame, 0.. in order of arrival.
   [[nodiscard]] std::span<const std::uint32_t> return_index() const noexcept {
     return return_index_;
   }
@@ -162,12 +163,12 @@ class RangeImage {
   }
 
  private:
-  void write(std::size_t cell, const Return& echo, std::uint32_t return_index) noexcept {
-    x_m_[cell] = echo.x_m;
-    y_m_[cell] = echo.y_m;
-    z_m_[cell] = echo.z_m;
-    ground_range_m_[cell] = echo.ground_range_m;
-    intensity_[cell] = echo.intensity;
+  void write(std::size_t cell, const Return& point, std::uint32_t return_index) noexcept {
+    x_m_[cell] = point.x_m;
+    y_m_[cell] = point.y_m;
+    z_m_[cell] = point.z_m;
+    ground_range_m_[cell] = point.ground_range_m;
+    intensity_[cell] = point.intensity;
     return_index_[cell] = return_index;
   }
   struct Plane {
@@ -176,16 +177,16 @@ class RangeImage {
   };
 
   /// Asks for the cache lines that the next columns of this row will be written to, those of
-  /// another plane with every column. Three turns do not fit the caches next to a core, and a
+  /// another plane with every column. Three frames do not fit the caches next to a core, and a
   /// column writes to more rows than the processor could foresee by itself.
   void fetch_ahead(std::size_t cell) const noexcept {
     constexpr std::size_t kCellsAhead = 16;
     const Plane& plane = planes_[cell % planes_.size()];
     __builtin_prefetch(plane.begin + (cell + kCellsAhead) * plane.cell_bytes, 1);
   }
-  [[nodiscard]] bool owns(std::size_t cell, const Return& echo,
+  [[nodiscard]] bool owns(std::size_t cell, const Return& point,
                           CellOwner owner) const noexcept TERRACUT_NONBLOCKING;
-  bool place_second(std::size_t cell, const Return& echo, CellOwner owner,
+  bool place_second(std::size_t cell, const Return& point, CellOwner owner,
                     std::uint32_t number) noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;

@@ -10,21 +10,21 @@
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "firmware_io/decode/beam_azimuth.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 
 /// Where a beam points when its laser fires, in whole numbers, so that the decoder, the encoder and
-/// the truth beside a capture agree on the turn and the order of every return, bit for bit.
+/// the truth beside a capture agree on the frame and the order of every return, bit for bit.
 ///
 /// A packet's column carries one azimuth for 64 lasers, that of the head at the column's first
-/// firing. While the lasers fire one group after another the head turns on by almost a column:
+/// firing. While the lasers fire one group after another the head rotates on by almost a column:
 ///
 ///   head at the firing of laser i = azimuth of its column + advance(i)
 ///   beam of laser i               = head at its firing    - rotational correction(i)
 ///
 /// both clockwise from straight ahead. `offset` below is beam minus column azimuth. The step from
 /// column to column is taken from the packet's own first and last azimuth, so nothing depends on a
-/// nominal spin rate. Angles are in ticks (packet_heads.hpp). Everything here is allocation-free
+/// nominal spin rate. Angles are in ticks (packet_azimuths.hpp). Everything here is allocation-free
 /// and noexcept; any thread.
 namespace terracut::hdl64e {
 
@@ -34,7 +34,7 @@ enum class AzimuthAt : std::uint8_t {
   kBlock,   ///< The azimuth written in the block, for comparison with drivers that use it for all.
 };
 
-/// How far the head turns from column to column, ticks, given the packet's first and last azimuth
+/// How far the head rotates from column to column, ticks, given the packet's first and last azimuth
 /// (wire values, [0, 36000)). Exact: both divisors divide kTicksPerCdeg.
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
                                                        bool dual_return = false) noexcept {
@@ -59,7 +59,7 @@ inline constexpr int kFiringShareBits = 20;
 inline constexpr auto kFiringSharesSingle = firing_shares(kFiringTimesSingle48);
 inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 
-/// How far the head has turned since its column's azimuth when `laser` (0..63) fires, ticks.
+/// How far the head has rotated since its column's azimuth when `laser` (0..63) fires, ticks.
 /// `step_ticks` as of column_step_ticks(), >= 0.
 [[nodiscard]] constexpr std::int32_t firing_advance_ticks(
     std::int32_t step_ticks, int laser, bool dual_return = false,

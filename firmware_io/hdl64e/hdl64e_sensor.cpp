@@ -9,8 +9,8 @@ namespace terracut::hdl64e {
 namespace {
 
 int checked_columns(int columns) {
-  if (columns < 16 || columns > beams::kTurn_cdeg) {
-    throw std::invalid_argument("HDL-64E: columns per turn must be in [16, 36000]");
+  if (columns < 16 || columns > beams::kRevolution_cdeg) {
+    throw std::invalid_argument("HDL-64E: columns per frame must be in [16, 36000]");
   }
   return columns;
 }
@@ -23,22 +23,22 @@ Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& m
       kernel_(calibration, config.geometry, mount, checked_columns(columns), memory),
       rows_(rows_by_elevation(calibration)) {}
 
-void Hdl64eSensor::begin_packet(const decode::PacketHeads& heads) noexcept {
+void Hdl64eSensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
   std::array<std::int32_t, kLasersPerBlock> advance_ticks;
   std::array<std::int32_t, kHdl64eLasers> offset_ticks;
   for (int j = 0; j < kLasersPerBlock; ++j) {
     advance_ticks[static_cast<std::size_t>(j)] =
-        firing_advance_ticks(heads.step_ticks, j, heads.dual_return, offsets_.azimuth_at());
+        firing_advance_ticks(azimuths.step_ticks, j, azimuths.dual_return, offsets_.azimuth_at());
   }
   for (int i = 0; i < kRows; ++i) {
     offset_ticks[static_cast<std::size_t>(i)] =
-        offsets_.offset_ticks(heads.step_ticks, i, heads.dual_return);
+        offsets_.offset_ticks(azimuths.step_ticks, i, azimuths.dual_return);
   }
   kernel_.begin_packet(advance_ticks, offset_ticks);
 }
 
 void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload,
-                               const decode::PacketHeads& heads, int column,
+                               const decode::PacketAzimuths& azimuths, int column,
                                Column& found) noexcept {
   const auto packet = Hdl64ePacketView::of(payload);
   if (packet) {  // check() has seen to it
@@ -51,7 +51,7 @@ void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload,
       }
     }
   }
-  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], found);
+  kernel_.compute(azimuths.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
 }  // namespace terracut::hdl64e

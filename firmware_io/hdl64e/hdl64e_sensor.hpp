@@ -35,16 +35,16 @@ class Hdl64eSensor {
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
   using Column = decode::ColumnReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
-  static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a turn, 48 us each.
+  static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a frame, 48 us each.
   static constexpr int kDefaultReturnsPerCell = 2;
 
   /// columns: in [16, 36000], else std::invalid_argument.
   Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
                int columns, memory::FixedMemory& memory);
 
-  [[nodiscard]] std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                                   decode::PacketHeads& heads) const noexcept {
-    return check_hdl64e_packet(payload, heads);
+  [[nodiscard]] std::optional<frame::Reject> check(
+      std::span<const std::uint8_t> payload, decode::PacketAzimuths& azimuths) const noexcept {
+    return check_hdl64e_packet(payload, azimuths);
   }
   [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
@@ -52,8 +52,8 @@ class Hdl64eSensor {
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
     return offsets_.offset_ticks(0, laser);
   }
-  void begin_packet(const decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  void read_column(std::span<const std::uint8_t> payload, const decode::PacketHeads& heads,
+  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+  void read_column(std::span<const std::uint8_t> payload, const decode::PacketAzimuths& azimuths,
                    int column, Column& found) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::span<const std::int32_t, kHdl64eLasers> rows() const noexcept { return rows_; }
 

@@ -44,25 +44,25 @@ bool is_ruby(std::span<const std::uint8_t> payload) noexcept {
 }  // namespace
 
 std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
-                                                 decode::PacketHeads& heads) noexcept {
+                                                 decode::PacketAzimuths& azimuths) noexcept {
   const auto packet = Hdl64ePacketView::of(payload);
   if (!packet) return is_ruby(payload) ? frame::Reject::kWrongModel : frame::Reject::kWrongSize;
   if (const auto reason = reject_ids(*packet)) return reason;
 
-  heads.device_stamp_us = packet->stamp_us() % kDeviceHour_us;
-  heads.columns = kColumnsPerPacketSingle;
+  azimuths.device_stamp_us = packet->stamp_us() % kDeviceHour_us;
+  azimuths.columns = kColumnsPerPacketSingle;
   bool in_range = true, pairs_agree = true;
   for (int column = 0; column < kColumnsPerPacketSingle; ++column) {
     const int azimuth_cdeg = packet->azimuth_cdeg(2 * column);
     const int lower_cdeg = packet->azimuth_cdeg(2 * column + 1);
-    in_range &= azimuth_cdeg < beams::kTurn_cdeg && lower_cdeg < beams::kTurn_cdeg;
+    in_range &= azimuth_cdeg < beams::kRevolution_cdeg && lower_cdeg < beams::kRevolution_cdeg;
     pairs_agree &= azimuth_cdeg == lower_cdeg;
-    heads.azimuth_cdeg[static_cast<std::size_t>(column)] = azimuth_cdeg;
+    azimuths.azimuth_cdeg[static_cast<std::size_t>(column)] = azimuth_cdeg;
   }
   if (!in_range) return frame::Reject::kAzimuthOutOfRange;
   if (!pairs_agree) return frame::Reject::kAzimuthMismatch;
 
-  const auto& azimuth_cdeg = heads.azimuth_cdeg;
+  const auto& azimuth_cdeg = azimuths.azimuth_cdeg;
   int sweep_cdeg = 0;
   for (std::size_t column = 1; column < azimuth_cdeg.size(); ++column) {
     const int step_cdeg = beams::step_cdeg(azimuth_cdeg[column - 1], azimuth_cdeg[column]);
@@ -74,17 +74,17 @@ std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> p
   if (sweep_cdeg <= -kMinSweep_cdeg) return frame::Reject::kAzimuthJump;
   if (sweep_cdeg < kMinSweep_cdeg) return frame::Reject::kStationary;
 
-  heads.dual_return = azimuth_cdeg[0] == azimuth_cdeg[1] && azimuth_cdeg[2] == azimuth_cdeg[3] &&
-                      azimuth_cdeg[4] == azimuth_cdeg[5];
-  heads.step_ticks = column_step_ticks(azimuth_cdeg[0], azimuth_cdeg[5], heads.dual_return);
-  const FiringTimes& usual = heads.dual_return ? kFiringTimesDual : kFiringTimesSingle48;
-  const FiringTimes& slowest = heads.dual_return ? kFiringTimesDual : kFiringTimesSingle57;
-  heads.nominal_period_ns = usual.packet_ns();
-  heads.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / decode::kPeriodTolerance;
-  heads.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / decode::kPeriodTolerance;
-  heads.sweep_ticks =
-      heads.step_ticks * (heads.dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle);
-  heads.pace_ticks = heads.widest_ticks = heads.sweep_ticks;
+  azimuths.dual_return = azimuth_cdeg[0] == azimuth_cdeg[1] && azimuth_cdeg[2] == azimuth_cdeg[3] &&
+                         azimuth_cdeg[4] == azimuth_cdeg[5];
+  azimuths.step_ticks = column_step_ticks(azimuth_cdeg[0], azimuth_cdeg[5], azimuths.dual_return);
+  const FiringTimes& usual = azimuths.dual_return ? kFiringTimesDual : kFiringTimesSingle48;
+  const FiringTimes& slowest = azimuths.dual_return ? kFiringTimesDual : kFiringTimesSingle57;
+  azimuths.nominal_period_ns = usual.packet_ns();
+  azimuths.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / decode::kPeriodTolerance;
+  azimuths.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / decode::kPeriodTolerance;
+  azimuths.sweep_ticks = azimuths.step_ticks *
+                         (azimuths.dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle);
+  azimuths.pace_ticks = azimuths.widest_ticks = azimuths.sweep_ticks;
   return std::nullopt;
 }
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -18,8 +18,9 @@ inline constexpr int kMinSweep_cdeg = 10;  ///< First to last column; below, the
 inline constexpr int kMaxColumnStep_cdeg = 100;
 inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column.
 
-/// Checks that a payload is an HDL-64E S2, S2.1 or S3 data packet of a turning head and reads its
-/// azimuths and stamp into `heads`; otherwise the reason to reject it. The checks, in this order:
+/// Checks that a payload is an HDL-64E S2, S2.1 or S3 data packet of a rotating head and reads its
+/// azimuths and stamp into `azimuths`; otherwise the reason to reject it. The checks, in this
+/// order:
 ///
 ///   kWrongModel        another Velodyne's or a RoboSense's data packet, told by its block ids or
 ///                      size and leader (VLP-16, HDL-32E, VLP-32C: upper blocks only; VLS-128: four
@@ -29,10 +30,10 @@ inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column
 ///   kAzimuthOutOfRange, kAzimuthMismatch (of a pair), kAzimuthJump (steps beyond those above)
 ///   kStationary
 ///
-/// `heads` holds stamp and azimuths, as far as they exist, for the azimuth reasons and kStationary
-/// too. Real-time safe; any thread.
+/// `azimuths` holds stamp and azimuths, as far as they exist, for the azimuth reasons and
+/// kStationary too. Real-time safe; any thread.
 [[nodiscard]] std::optional<frame::Reject> check_hdl64e_packet(
     std::span<const std::uint8_t> payload,
-    decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
+    decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::hdl64e

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "calib/beams/angle.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "rt/vector_clones.hpp"
 
 namespace terracut::hdl64e {
@@ -73,13 +73,13 @@ void PointKernel::begin_packet(std::span<const std::int32_t, kLasers / 2> advanc
 TERRACUT_VECTOR_CLONES void PointKernel::compute(
     const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
     decode::ColumnReturns<kLasers>& __restrict out) const noexcept {
-  const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
+  const auto [sin_rotor, cos_rotor] = head_.at(azimuth_cdeg);
   const float resolution_m = resolution_m_, end_m = interpolation_end_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
 
   for (std::size_t i = 0; i < kLasers; ++i) {
-    const float sin_a = sin_head * offset.cos[i] + cos_head * offset.sin[i];
-    const float cos_a = cos_head * offset.cos[i] - sin_head * offset.sin[i];
+    const float sin_a = sin_rotor * offset.cos[i] + cos_rotor * offset.sin[i];
+    const float cos_a = cos_rotor * offset.cos[i] - sin_rotor * offset.sin[i];
     const float side_x = k.horiz_m[i] * cos_a, side_y = k.horiz_m[i] * sin_a;
     const float measured_m =
         static_cast<float>(static_cast<std::int32_t>(out.raw[i])) * resolution_m;

@@ -12,7 +12,7 @@
 #include "calib/mount/mount.hpp"
 #include "firmware_io/decode/beam_columns.hpp"
 #include "firmware_io/decode/column_returns.hpp"
-#include "firmware_io/decode/head_directions.hpp"
+#include "firmware_io/decode/rotor_directions.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -35,13 +35,13 @@ class PointKernel {
   PointKernel(const Hdl64eCalibration& calibration, GeometryModel model, const mount::Mount& mount,
               int columns, memory::FixedMemory& memory);
 
-  /// `advance_ticks`: how far the head has turned since its column's azimuth when laser j of either
-  /// block fires, [0, 1e5]. `offset_ticks`: beam minus column azimuth of each laser.
+  /// `advance_ticks`: how far the head has rotated since its column's azimuth when laser j of
+  /// either block fires, [0, 1e5]. `offset_ticks`: beam minus column azimuth of each laser.
   void begin_packet(std::span<const std::int32_t, kLasers / 2> advance_ticks,
                     std::span<const std::int32_t, kLasers> offset_ticks) noexcept
       TERRACUT_NONBLOCKING;
 
-  /// Points, columns and turn offsets from `column.raw`, for a column whose head azimuth is
+  /// Points, columns and frame offsets from `column.raw`, for a column whose head azimuth is
   /// `azimuth_cdeg`, [0, 36000).
   void compute(std::int32_t azimuth_cdeg,
                decode::ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
@@ -69,7 +69,7 @@ class PointKernel {
   float interpolation_end_m_;
   decode::BeamColumns columns_;
   std::array<float, 12> T_vehicle_lidar_;
-  decode::HeadDirections head_;
+  decode::RotorDirections head_;
   std::span<Constants> constants_;  ///< One element.
   std::span<Offsets> offsets_;      ///< One element.
 };

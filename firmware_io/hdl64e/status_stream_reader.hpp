@@ -49,7 +49,7 @@ class StatusStreamReader {
  public:
   void add(std::uint8_t type, std::uint8_t value, std::uint32_t device_stamp_us) noexcept;
 
-  /// Forgets everything, the accepted table included.
+  /// Resets everything, the accepted table included.
   void reset() noexcept { *this = StatusStreamReader{}; }
 
   [[nodiscard]] const StatusSnapshot& latest() const noexcept { return latest_; }

@@ -27,7 +27,7 @@ class StatusTableCollector {
   /// Places one byte: `cycle` counts cycles since any start, `place` is 0..6.
   void add(std::int64_t cycle, int place, std::uint8_t value) noexcept;
 
-  /// Forgets the bytes, keeps the last accepted table.
+  /// Drops the bytes, keeps the last accepted table.
   void clear() noexcept;
 
   /// Holes left; the whole table's size while its beginning is not known.

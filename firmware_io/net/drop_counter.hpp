@@ -6,7 +6,7 @@
 
 namespace terracut::net {
 
-/// Turns a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats) into
+/// Frames a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats) into
 /// what was added since the last look. The same count may be read by two ways of which one lags:
 /// a reading that is behind the newest one adds nothing, instead of four thousand million.
 class DropCounter {

@@ -11,14 +11,14 @@
 #include "calib/beams/angle.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "firmware_io/decode/beam_azimuth.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 
 /// Where a beam of the RS-Ruby128 points when its channel fires, in whole numbers (see
 /// firmware_io/decode/beam_azimuth.hpp).
 ///
 /// A block carries one azimuth for 128 channels, that of the head at the block's first firing.
-/// Channels fire in groups of four, both halves of 64 in parallel; meanwhile the head turns on by
+/// Channels fire in groups of four, both halves of 64 in parallel; meanwhile the head rotates on by
 /// almost a column:
 ///
 ///   head at the firing of channel c = azimuth of its block + advance(c)
@@ -51,7 +51,7 @@ static_assert(ruby_channel_ns(63) == 48'540 && ruby_channel_ns(64) == 0);
 /// blocks of their own, side by side, so that pairs straddle packets: A A B, then B C C.
 enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 
-/// By the azimuths of a turning head. All three equal: kPairFirst, but such a head stands still.
+/// By the azimuths of a rotating head. All three equal: kPairFirst, but such a head stands still.
 [[nodiscard]] constexpr RubyBlocks ruby_blocks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   if (azimuth_cdeg[0] == azimuth_cdeg[1]) return RubyBlocks::kPairFirst;
@@ -72,7 +72,7 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
   return 3;
 }
 
-/// How far the head turns from firing to firing, ticks, given the packet's azimuths. Exact.
+/// How far the head rotates from firing to firing, ticks, given the packet's azimuths. Exact.
 [[nodiscard]] constexpr std::int32_t ruby_step_ticks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   const std::int32_t firings_apart = ruby_blocks(azimuth_cdeg) == RubyBlocks::kSingle ? 2 : 1;
@@ -85,8 +85,8 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 class HeldFiring {
  public:
   /// The step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is the
-  /// packet's device stamp; `has_sector`: a blind sector lies in it (PacketHeads), so that the next
-  /// packet's stamp is later by that. To be called once for every packet, in order of arrival.
+  /// packet's device stamp; `has_sector`: a blind sector lies in it (PacketAzimuths), so that the
+  /// next packet's stamp is later by that. To be called once for every packet, in order of arrival.
   [[nodiscard]] constexpr std::int32_t join(
       const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg, std::int32_t step_ticks,
       std::int64_t stamp_us, bool has_sector) noexcept {
@@ -103,7 +103,7 @@ class HeldFiring {
     had_sector_ = has_sector;
     return first_step_ticks;
   }
-  constexpr void forget() noexcept { held_ = false; }
+  constexpr void reset() noexcept { held_ = false; }
 
  private:
   /// Two firings, plus what a stamp in whole microseconds and a jitter may add.
@@ -119,7 +119,7 @@ class HeldFiring {
 /// The share of the firing period after which a channel fires, in 1 / 2^20.
 inline constexpr int kRubyShareBits = 20;
 
-/// How far the head has turned since its block's azimuth when `channel` fires, ticks.
+/// How far the head has rotated since its block's azimuth when `channel` fires, ticks.
 [[nodiscard]] constexpr std::int32_t ruby_advance_ticks(std::int32_t step_ticks,
                                                         int channel) noexcept {
   const std::int64_t share =

@@ -28,35 +28,36 @@ std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload)
   }
 }
 
-/// What follows from the azimuths of a turning head and the step from firing to firing.
-void complete(decode::PacketHeads& heads) noexcept {
-  const auto& cdeg = heads.azimuth_cdeg;
-  heads.dual_return = cdeg[0] == cdeg[1] || cdeg[1] == cdeg[2];
-  heads.nominal_period_ns = kRubyBlocksPerPacket * kRubyBlock_ns / (heads.dual_return ? 2 : 1);
-  heads.shortest_period_ns =
-      heads.nominal_period_ns - heads.nominal_period_ns / decode::kPeriodTolerance;
-  heads.longest_period_ns =
-      heads.nominal_period_ns + heads.nominal_period_ns / decode::kPeriodTolerance;
-  heads.pace_ticks = heads.step_ticks * kRubyBlocksPerPacket / (heads.dual_return ? 2 : 1);
-  heads.widest_ticks = heads.step_ticks * (heads.dual_return ? 2 : kRubyBlocksPerPacket);
+/// What follows from the azimuths of a rotating head and the step from firing to firing.
+void complete(decode::PacketAzimuths& azimuths) noexcept {
+  const auto& cdeg = azimuths.azimuth_cdeg;
+  azimuths.dual_return = cdeg[0] == cdeg[1] || cdeg[1] == cdeg[2];
+  azimuths.nominal_period_ns =
+      kRubyBlocksPerPacket * kRubyBlock_ns / (azimuths.dual_return ? 2 : 1);
+  azimuths.shortest_period_ns =
+      azimuths.nominal_period_ns - azimuths.nominal_period_ns / decode::kPeriodTolerance;
+  azimuths.longest_period_ns =
+      azimuths.nominal_period_ns + azimuths.nominal_period_ns / decode::kPeriodTolerance;
+  azimuths.pace_ticks = azimuths.step_ticks * kRubyBlocksPerPacket / (azimuths.dual_return ? 2 : 1);
+  azimuths.widest_ticks = azimuths.step_ticks * (azimuths.dual_return ? 2 : kRubyBlocksPerPacket);
 }
 
 }  // namespace
 
 std::optional<frame::Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
-                                                  decode::PacketHeads& heads) noexcept {
+                                                  decode::PacketAzimuths& azimuths) noexcept {
   if (const auto reason = reject_model(payload)) return reason;
   const auto packet = Ruby128PacketView::of(payload);
   if (!packet) return frame::Reject::kWrongSize;
 
   std::array<std::int32_t, kRubyBlocksPerPacket> azimuth_cdeg{};
-  heads.columns = kRubyBlocksPerPacket;
-  heads.behind_sector = 0;
+  azimuths.columns = kRubyBlocksPerPacket;
+  azimuths.behind_sector = 0;
   bool in_range = true;
   for (int block = 0; block < kRubyBlocksPerPacket; ++block) {
     const auto b = static_cast<std::size_t>(block);
-    azimuth_cdeg[b] = heads.azimuth_cdeg[b] = packet->azimuth_cdeg(block);
-    in_range &= azimuth_cdeg[b] < beams::kTurn_cdeg;
+    azimuth_cdeg[b] = azimuths.azimuth_cdeg[b] = packet->azimuth_cdeg(block);
+    in_range &= azimuth_cdeg[b] < beams::kRevolution_cdeg;
   }
   if (!in_range) return frame::Reject::kAzimuthOutOfRange;
 
@@ -69,34 +70,34 @@ std::optional<frame::Reject> check_ruby128_packet(std::span<const std::uint8_t> 
   }
   if (first_cdeg + second_cdeg < kRubyMinSweep_cdeg) return frame::Reject::kStationary;
 
-  heads.step_ticks = ruby_step_ticks(azimuth_cdeg);
-  heads.sweep_ticks = heads.step_ticks * ruby_firings(ruby_blocks(azimuth_cdeg));
-  complete(heads);
+  azimuths.step_ticks = ruby_step_ticks(azimuth_cdeg);
+  azimuths.sweep_ticks = azimuths.step_ticks * ruby_firings(ruby_blocks(azimuth_cdeg));
+  complete(azimuths);
   return std::nullopt;
 }
 
-bool read_across_sector(decode::PacketHeads& heads, std::int32_t step_ticks) noexcept {
+bool read_across_sector(decode::PacketAzimuths& azimuths, std::int32_t step_ticks) noexcept {
   if (step_ticks <= 0) return false;
   for (int block = 1; block < kRubyBlocksPerPacket; ++block) {
     const auto b = static_cast<std::size_t>(block);
-    const int step_cdeg = beams::step_cdeg(heads.azimuth_cdeg[b - 1], heads.azimuth_cdeg[b]);
+    const int step_cdeg = beams::step_cdeg(azimuths.azimuth_cdeg[b - 1], azimuths.azimuth_cdeg[b]);
     if (step_cdeg >= -kRubyMaxJitter_cdeg && step_cdeg <= kRubyMaxStep_cdeg) continue;
-    if (heads.behind_sector > 0) return false;
-    heads.behind_sector = block;
+    if (azimuths.behind_sector > 0) return false;
+    azimuths.behind_sector = block;
   }
-  heads.step_ticks = step_ticks;
+  azimuths.step_ticks = step_ticks;
   // The firing of a pair whose second return is yet to come belongs to the next packet.
-  const bool ends_with_half_a_pair = heads.azimuth_cdeg[0] == heads.azimuth_cdeg[1];
-  heads.sweep_ticks = heads.advance_cdeg(kRubyBlocksPerPacket - 1) * decode::kTicksPerCdeg +
-                      (ends_with_half_a_pair ? 0 : step_ticks);
-  complete(heads);
+  const bool ends_with_half_a_pair = azimuths.azimuth_cdeg[0] == azimuths.azimuth_cdeg[1];
+  azimuths.sweep_ticks = azimuths.advance_cdeg(kRubyBlocksPerPacket - 1) * decode::kTicksPerCdeg +
+                         (ends_with_half_a_pair ? 0 : step_ticks);
+  complete(azimuths);
   return true;
 }
 
-std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const decode::PacketHeads& heads,
-                                bool turning) noexcept {
+std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const decode::PacketAzimuths& azimuths,
+                                bool rotating) noexcept {
   const bool begins_late =
-      turning && heads.dual_return && heads.azimuth_cdeg[0] != heads.azimuth_cdeg[1];
+      rotating && azimuths.dual_return && azimuths.azimuth_cdeg[0] != azimuths.azimuth_cdeg[1];
   const std::int64_t delay_ns = begins_late ? kRubyBlock_ns / 2 : 0;
   constexpr std::int64_t kLatest_ns = std::numeric_limits<std::int64_t>::max() - kRubyBlock_ns;
   return (std::min(stamp_ns, kLatest_ns) + delay_ns) / 1000;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -19,8 +19,9 @@ inline constexpr int kRubyMinSweep_cdeg =
 inline constexpr int kRubyMaxStep_cdeg = 100;
 inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to firing.
 
-/// Checks that a payload is an RS-Ruby128 data packet of a turning head and reads its azimuths into
-/// `heads`, all but the device stamp; otherwise the reason to reject it. The checks, in this order:
+/// Checks that a payload is an RS-Ruby128 data packet of a rotating head and reads its azimuths
+/// into `azimuths`, all but the device stamp; otherwise the reason to reject it. The checks, in
+/// this order:
 ///
 ///   kWrongModel         another sensor's data packet: any Velodyne's, a Ruby Lite's (four blocks
 ///   of
@@ -31,26 +32,26 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 ///   kAzimuthOutOfRange, kAzimuthJump (steps beyond those above)
 ///   kStationary
 ///
-/// `heads` holds the azimuths for the azimuth reasons and kStationary too. Real-time safe; any
+/// `azimuths` holds the azimuths for the azimuth reasons and kStationary too. Real-time safe; any
 /// thread.
 [[nodiscard]] std::optional<frame::Reject> check_ruby128_packet(
     std::span<const std::uint8_t> payload,
-    decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
+    decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
-/// A packet that was rejected for kAzimuthJump, and has `heads` from there, may be one that the
-/// sensor's blind sector lies in: it jumps ahead once. Completes `heads` then and answers true.
+/// A packet that was rejected for kAzimuthJump, and has `azimuths` from there, may be one that the
+/// sensor's blind sector lies in: it jumps ahead once. Completes `azimuths` then and returns true.
 /// `step_ticks`: from firing to firing in the packet before, there may be none in this one; 0: not
-/// known, and the answer is false. Whether the sector is there is for the caller to know. Real-time
+/// known, and the result is false. Whether the sector is there is for the caller to know. Real-time
 /// safe; any thread.
-[[nodiscard]] bool read_across_sector(decode::PacketHeads& heads,
+[[nodiscard]] bool read_across_sector(decode::PacketAzimuths& azimuths,
                                       std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 
 /// A device stamp that advances evenly from packet to packet, microseconds >= 0, from the packet's
 /// own, which is its first block's: in dual return packets begin with a new firing and with the
-/// second return of an old one in turn. `heads` as check_ruby128_packet() leaves them; `turning`
-/// when it took them. `stamp_ns` >= 0, as far as 64 bits go.
+/// second return of an old one in turn. `azimuths` as check_ruby128_packet() leaves them;
+/// `rotating` when it took them. `stamp_ns` >= 0, as far as 64 bits go.
 [[nodiscard]] std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns,
-                                              const decode::PacketHeads& heads,
-                                              bool turning) noexcept TERRACUT_NONBLOCKING;
+                                              const decode::PacketAzimuths& azimuths,
+                                              bool rotating) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::ruby128

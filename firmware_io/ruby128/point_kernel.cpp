@@ -55,16 +55,16 @@ void Ruby128PointKernel::set_step(std::int32_t step_ticks) noexcept {
 TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
     const Constants& __restrict k, const Offsets& __restrict offset, std::int32_t azimuth_cdeg,
     decode::ColumnReturns<kLasers>& __restrict out) const noexcept {
-  const auto [sin_head, cos_head] = head_.at(azimuth_cdeg);
+  const auto [sin_rotor, cos_rotor] = head_.at(azimuth_cdeg);
   constexpr auto kCount_m = static_cast<float>(kRuby128MetresPerCount);
   constexpr auto kAhead_m = static_cast<float>(kRuby128LensAhead_m);
   const std::array<float, 12> T = T_vehicle_lidar_;
 
   for (std::size_t i = 0; i < kLasers; ++i) {
-    const float sin_lens = sin_head * offset.cos_advance[i] + cos_head * offset.sin_advance[i];
-    const float cos_lens = cos_head * offset.cos_advance[i] - sin_head * offset.sin_advance[i];
-    const float sin_beam = sin_head * offset.cos_beam[i] + cos_head * offset.sin_beam[i];
-    const float cos_beam = cos_head * offset.cos_beam[i] - sin_head * offset.sin_beam[i];
+    const float sin_lens = sin_rotor * offset.cos_advance[i] + cos_rotor * offset.sin_advance[i];
+    const float cos_lens = cos_rotor * offset.cos_advance[i] - sin_rotor * offset.sin_advance[i];
+    const float sin_beam = sin_rotor * offset.cos_beam[i] + cos_rotor * offset.sin_beam[i];
+    const float cos_beam = cos_rotor * offset.cos_beam[i] - sin_rotor * offset.sin_beam[i];
 
     const float distance_m = static_cast<float>(static_cast<std::int32_t>(out.raw[i])) * kCount_m;
     const float along_m = distance_m * k.cos_elevation[i];

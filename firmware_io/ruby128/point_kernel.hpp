@@ -11,7 +11,7 @@
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "firmware_io/decode/beam_columns.hpp"
 #include "firmware_io/decode/column_returns.hpp"
-#include "firmware_io/decode/head_directions.hpp"
+#include "firmware_io/decode/rotor_directions.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -31,10 +31,10 @@ class Ruby128PointKernel {
   Ruby128PointKernel(const Ruby128Calibration& calibration, const mount::Mount& mount, int columns,
                      memory::FixedMemory& memory);
 
-  /// How far the head turns from firing to firing, for the firings to come; [0, 1e5] ticks.
+  /// How far the head rotates from firing to firing, for the firings to come; [0, 1e5] ticks.
   void set_step(std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 
-  /// Points, columns and turn offsets from `column.raw`, for a firing whose head azimuth is
+  /// Points, columns and frame offsets from `column.raw`, for a firing whose head azimuth is
   /// `azimuth_cdeg`, [0, 36000).
   void compute(std::int32_t azimuth_cdeg,
                decode::ColumnReturns<kLasers>& column) const noexcept TERRACUT_NONBLOCKING;
@@ -59,7 +59,7 @@ class Ruby128PointKernel {
 
   Ruby128BeamOffsets beam_offsets_;
   decode::BeamColumns columns_;
-  decode::HeadDirections head_;
+  decode::RotorDirections head_;
   std::array<float, 12> T_vehicle_lidar_;
   std::span<Constants> constants_;  ///< One element.
   std::span<Offsets> offsets_;      ///< One element.

@@ -12,14 +12,15 @@ namespace terracut::ruby128 {
 namespace {
 
 int checked_columns(int columns) {
-  if (columns < 16 || columns > beams::kTurn_cdeg) {
-    throw std::invalid_argument("RS-Ruby128: columns per turn must be in [16, 36000]");
+  if (columns < 16 || columns > beams::kRevolution_cdeg) {
+    throw std::invalid_argument("RS-Ruby128: columns per frame must be in [16, 36000]");
   }
   return columns;
 }
 
-std::array<std::int32_t, kRubyBlocksPerPacket> azimuths(const decode::PacketHeads& heads) noexcept {
-  return {heads.azimuth_cdeg[0], heads.azimuth_cdeg[1], heads.azimuth_cdeg[2]};
+std::array<std::int32_t, kRubyBlocksPerPacket> block_azimuths(
+    const decode::PacketAzimuths& azimuths) noexcept {
+  return {azimuths.azimuth_cdeg[0], azimuths.azimuth_cdeg[1], azimuths.azimuth_cdeg[2]};
 }
 
 }  // namespace
@@ -32,11 +33,11 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount&
       rows_(rows_by_elevation(calibration)) {}
 
 std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
-                                                  decode::PacketHeads& heads) noexcept {
-  auto reason = check_ruby128_packet(payload, heads);
-  if (reason == frame::Reject::kAzimuthJump && read_across_sector(heads, step_ticks_))
+                                                  decode::PacketAzimuths& azimuths) noexcept {
+  auto reason = check_ruby128_packet(payload, azimuths);
+  if (reason == frame::Reject::kAzimuthJump && read_across_sector(azimuths, step_ticks_))
     reason.reset();
-  if (!reason) step_ticks_ = heads.step_ticks;
+  if (!reason) step_ticks_ = azimuths.step_ticks;
   const bool is_of_this_sensor = !reason || *reason == frame::Reject::kAzimuthOutOfRange ||
                                  *reason == frame::Reject::kAzimuthJump ||
                                  *reason == frame::Reject::kStationary;
@@ -46,20 +47,20 @@ std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> 
   const RubyTimestamp detected = timestamp_.add(packet->stamp());
   const RubyTimestamp encoding = given_timestamp_.value_or(detected);
   // On about one start in a thousand the first packet looks like the other unit of UTC.
-  heads.clock_restarts = encoding != last_encoding_.value_or(encoding);
+  azimuths.clock_restarts = encoding != last_encoding_.value_or(encoding);
   last_encoding_ = encoding;
   const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp(), encoding);
-  heads.device_stamp_us = ruby_even_stamp_us(stamp_ns, heads, !reason);
+  azimuths.device_stamp_us = ruby_even_stamp_us(stamp_ns, azimuths, !reason);
   return reason;
 }
 
-void Ruby128Sensor::begin_packet(const decode::PacketHeads& heads) noexcept {
-  first_step_ticks_ =
-      held_.join(azimuths(heads), heads.step_ticks, heads.device_stamp_us, heads.behind_sector > 0);
+void Ruby128Sensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
+  first_step_ticks_ = held_.join(block_azimuths(azimuths), azimuths.step_ticks,
+                                 azimuths.device_stamp_us, azimuths.behind_sector > 0);
 }
 
 void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
-                                const decode::PacketHeads& heads, int column,
+                                const decode::PacketAzimuths& azimuths, int column,
                                 Column& found) noexcept {
   if (const auto packet = Ruby128PacketView::of(payload)) {  // check() has seen to it
     const auto bytes = packet->returns(column);
@@ -68,8 +69,8 @@ void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
       found.intensity[i] = bytes[3 * i + 2];
     }
   }
-  kernel_.set_step(column == 0 ? first_step_ticks_ : heads.step_ticks);
-  kernel_.compute(heads.azimuth_cdeg[static_cast<std::size_t>(column)], found);
+  kernel_.set_step(column == 0 ? first_step_ticks_ : azimuths.step_ticks);
+  kernel_.compute(azimuths.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
 }  // namespace terracut::ruby128

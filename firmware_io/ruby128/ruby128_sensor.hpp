@@ -11,7 +11,7 @@
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "firmware_io/decode/column_returns.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/point_kernel.hpp"
@@ -37,7 +37,7 @@ class Ruby128Sensor {
   using Column = decode::ColumnReturns<static_cast<std::size_t>(kRows)>;
   /// Device stamps count up from 1970; this is farther than they can get.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
-  static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a turn at 10 Hz.
+  static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
   /// Dual return and the columns that two firings share: more than two for some cells.
   static constexpr int kDefaultReturnsPerCell = 3;
 
@@ -46,7 +46,7 @@ class Ruby128Sensor {
                 int columns, memory::FixedMemory& memory);
 
   [[nodiscard]] std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                                   decode::PacketHeads& heads) noexcept
+                                                   decode::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
   [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
@@ -54,8 +54,8 @@ class Ruby128Sensor {
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
     return offsets_.offset_ticks(0, laser);
   }
-  void begin_packet(const decode::PacketHeads& heads) noexcept TERRACUT_NONBLOCKING;
-  void read_column(std::span<const std::uint8_t> payload, const decode::PacketHeads& heads,
+  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+  void read_column(std::span<const std::uint8_t> payload, const decode::PacketAzimuths& azimuths,
                    int column, Column& found) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::span<const std::int32_t, kRuby128Lasers> rows() const noexcept {
     return rows_;

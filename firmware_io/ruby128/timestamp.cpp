@@ -101,15 +101,15 @@ std::array<std::uint8_t, 10> write_ruby_timestamp(std::int64_t time_ns,
 }
 
 RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp) noexcept {
-  if (settled_) return encoding_;
-  const auto settle = [this](RubyTimestamp encoding) {
+  if (complete_) return encoding_;
+  const auto finalize = [this](RubyTimestamp encoding) {
     encoding_ = encoding;
-    settled_ = true;
+    complete_ = true;
     return encoding;
   };
-  if (stamp[0] != 0 || stamp[1] != 0) return settle(RubyTimestamp::kCalendar);
+  if (stamp[0] != 0 || stamp[1] != 0) return finalize(RubyTimestamp::kCalendar);
   const std::uint32_t fraction = sub_second(stamp);
-  if (fraction > kMostMicroseconds) return settle(RubyTimestamp::kUtcNanoseconds);
+  if (fraction > kMostMicroseconds) return finalize(RubyTimestamp::kUtcNanoseconds);
   const std::uint32_t before = last_sub_second_;
   const bool has_before = has_last_;
   last_sub_second_ = fraction;
@@ -119,7 +119,7 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   // the shortest in nanoseconds proves microseconds; a longer one is either nanoseconds, which show
   // a value of a million before long, or microseconds with a gap of hundreds of packets.
   constexpr std::uint32_t kShortestPacket_ns = 50'000;
-  if (fraction - before < kShortestPacket_ns) return settle(RubyTimestamp::kUtcMicroseconds);
+  if (fraction - before < kShortestPacket_ns) return finalize(RubyTimestamp::kUtcMicroseconds);
   return encoding_ = RubyTimestamp::kUtcNanoseconds;
 }
 

@@ -33,7 +33,7 @@ enum class RubyTimestamp : std::uint8_t {
                                                                 RubyTimestamp encoding) noexcept;
 
 /// Finds out from the packets of one stream which encoding its sensor uses. Never guesses silently:
-/// settled() tells whether the answer is proven or still the most common one.
+/// complete() tells whether the answer is proven or still the most common one.
 ///
 /// A year or a month in the first two bytes is a calendar's: UTC seconds leave both 0 until 2106,
 /// and a calendar has no month 0. A sub-second value above 999,999 can only be nanoseconds; a step
@@ -46,12 +46,12 @@ class RubyTimestampDetector {
   RubyTimestamp add(std::span<const std::uint8_t, 10> stamp) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] RubyTimestamp encoding() const noexcept { return encoding_; }
-  [[nodiscard]] bool settled() const noexcept { return settled_; }
+  [[nodiscard]] bool complete() const noexcept { return complete_; }
   void restart() noexcept { *this = {}; }
 
  private:
   RubyTimestamp encoding_ = RubyTimestamp::kUtcMicroseconds;
-  bool settled_ = false;
+  bool complete_ = false;
   bool has_last_ = false;
   std::uint32_t last_sub_second_ = 0;
 };

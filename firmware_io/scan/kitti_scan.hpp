@@ -12,7 +12,7 @@
 
 namespace terracut::scan {
 
-/// More points than any HDL-64E turn can hold (64 lasers x 4167 firings at 5 Hz, two echoes).
+/// More points than any HDL-64E frame can hold (64 lasers x 4167 firings at 5 Hz, two returns).
 inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
 
 /// One point of a KITTI `.bin` file, in the sensor frame: x forward, y left, z up.
@@ -31,19 +31,19 @@ struct ScanPoint {
 }
 
 /// Azimuth of a point in [0, 2 pi) radians, clockwise from straight ahead seen from above, as the
-/// sensor turns and as the range image counts its columns. -0.0 counts as 0.
+/// sensor rotates and as the range image counts its columns. -0.0 counts as 0.
 [[nodiscard]] inline double azimuth_rad(double x_m, double y_m) noexcept {
-  constexpr double kTurn_rad = 6.283185307179586476925286766559;
+  constexpr double kRevolution_rad = 6.283185307179586476925286766559;
   const double azimuth = std::atan2(0.0 - y_m, x_m);  // 0 - y has no negative zero
   if (azimuth >= 0) return azimuth;
-  const double wrapped = azimuth + kTurn_rad;
-  return wrapped < kTurn_rad ? wrapped : 0.0;  // the sum may round up to a whole turn
+  const double wrapped = azimuth + kRevolution_rad;
+  return wrapped < kRevolution_rad ? wrapped : 0.0;  // the sum may round up to a whole frame
 }
 
 /// Intensity as the sensor sends it, 0..255, from a remission of 0..1; anything else is clamped.
 [[nodiscard]] std::uint8_t intensity_of(float remission) noexcept;
 
-/// One recorded turn. Buffers are kept from scan to scan.
+/// One recorded frame. Buffers are kept from scan to scan.
 struct KittiScan {
   std::vector<ScanPoint> points;      ///< In the file's order: ring after ring from the top.
   std::vector<std::uint32_t> labels;  ///< SemanticKITTI labels of the points; empty without a file.

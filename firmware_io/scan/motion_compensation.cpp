@@ -15,9 +15,10 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// exp(-seconds * twist) applied to p, to second order in the angle (under 0.1 rad in half a turn).
+/// exp(-seconds * twist) applied to p, to second order in the angle (under 0.1 rad in half a
+/// revolution).
 Vector moved_back(const SensorTwist& twist, double seconds, const Vector& p) {
-  Vector w = twist.turning_rad_s, v = twist.velocity_m_s;
+  Vector w = twist.angular_velocity_rad_s, v = twist.velocity_m_s;
   for (std::size_t i = 0; i < 3; ++i) {
     w[i] *= -seconds;
     v[i] *= -seconds;
@@ -28,8 +29,8 @@ Vector moved_back(const SensorTwist& twist, double seconds, const Vector& p) {
   return q;
 }
 
-/// Azimuth as a share of the turn, clockwise, on the same side of the seam behind as `near`.
-double share_of_turn(const Vector& p, double near) {
+/// Azimuth as a share of the frame, clockwise, on the same side of the seam behind as `near`.
+double share_of_frame(const Vector& p, double near) {
   const double share = std::atan2(-p[1], p[0]) / (2 * std::numbers::pi);
   return share - std::floor(share - near + 0.5);
 }
@@ -42,10 +43,10 @@ void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> poi
     if (!is_place(point)) continue;
     const Vector in_file{point.x_m, point.y_m, point.z_m};
     Vector p = in_file;
-    double share = share_of_turn(p, 0.0);
+    double share = share_of_frame(p, 0.0);
     for (int i = 0; i < kCorrections; ++i) {
-      p = moved_back(twist, share * twist.turn_duration_s, in_file);
-      share = share_of_turn(p, share);
+      p = moved_back(twist, share * twist.frame_duration_s, in_file);
+      share = share_of_frame(p, share);
     }
     point.x_m = static_cast<float>(p[0]);
     point.y_m = static_cast<float>(p[1]);

@@ -37,7 +37,7 @@ Expected<std::size_t> count_records(const std::filesystem::path& path, const Rec
   if (bytes / layout.record_bytes > layout.max_records) {
     return fail(
         ErrorCode::kMalformed,
-        fmt::format("{}: {} records, expected at most {}, one turn; one record is a {}",
+        fmt::format("{}: {} records, expected at most {}, one frame; one record is a {}",
                     path.string(), bytes / layout.record_bytes, layout.max_records, layout.record));
   }
   return static_cast<std::size_t>(bytes / layout.record_bytes);

@@ -26,7 +26,7 @@ Status read_some_scans(std::size_t scans, const std::function<Status(std::size_t
   Error last{ErrorCode::kMalformed, ""};
   std::size_t used = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    // What cannot be read says so when its turn comes; a scan without all rings is aligned later,
+    // What cannot be read says so when its frame comes; a scan without all rings is aligned later,
     // with the table of those that have them.
     if (const Status status = read(i * scans / count); status) {
       ++used;
@@ -48,7 +48,7 @@ Expected<FittedRings> fit_rings_of_scans(std::size_t scans, const AddScan& add) 
   if (!fitted) return fitted;
   const RingTable first = fitted->table;
   fitted = fit_once(scans, add, &first, &nominal);
-  if (fitted) fitted->told_by_nominal_table = true;
+  if (fitted) fitted->from_nominal_table = true;
   return fitted;
 }
 

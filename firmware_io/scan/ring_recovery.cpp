@@ -14,7 +14,7 @@
 namespace terracut::scan {
 namespace {
 
-constexpr double kHalfTurn_rad = std::numbers::pi;
+constexpr double kHalfRevolution_rad = std::numbers::pi;
 constexpr double kJitter_rad = std::numbers::pi / 18;  // steps back over the seam, see the header
 /// A fall of the azimuth that no jitter makes: recorded rings fall by 10 degrees at most. A ring of
 /// a cropped view ends with one, which need not lead past straight ahead.
@@ -23,19 +23,19 @@ constexpr int kMaxSegments = 4 * kScanRings;
 constexpr std::size_t kMinFirstRingPoints = 8;  // fewer before the first crossing are its jitter
 
 /// Follows the azimuth of a file and counts how often it fell by more than `fall_rad`: by half a
-/// turn, past straight ahead.
+/// frame, past straight ahead.
 class FallCounter {
  public:
   explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}
 
   int ring_at(const ScanPoint& point) {
-    const double azimuth = 2 * kHalfTurn_rad - azimuth_rad(point.x_m, point.y_m);
-    const double counter_clockwise = azimuth < 2 * kHalfTurn_rad ? azimuth : 0.0;
+    const double azimuth = 2 * kHalfRevolution_rad - azimuth_rad(point.x_m, point.y_m);
+    const double counter_clockwise = azimuth < 2 * kHalfRevolution_rad ? azimuth : 0.0;
     if (started_) {
       const double step = counter_clockwise - last_rad_;
       if (step < -fall_rad_) ++ring_;
       const bool back_over_the_seam =
-          last_rad_ < kJitter_rad && counter_clockwise > 2 * kHalfTurn_rad - kJitter_rad;
+          last_rad_ < kJitter_rad && counter_clockwise > 2 * kHalfRevolution_rad - kJitter_rad;
       if (back_over_the_seam && ring_ > 0) --ring_;
     }
     started_ = true;
@@ -54,11 +54,11 @@ class FallCounter {
 class Directions {
  public:
   void add(const ScanPoint& point) {
-    constexpr double kPerRad = kBins / (2 * kHalfTurn_rad);
+    constexpr double kPerRad = kBins / (2 * kHalfRevolution_rad);
     const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
     seen_.set(std::min(bin, kBins - 1));
   }
-  /// A laser looks in each direction once a turn: the halves of a torn ring overlap a little at
+  /// A laser looks in each direction once a frame: the halves of a torn ring overlap a little at
   /// most, where jitter tore it.
   [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
     return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
@@ -77,7 +77,7 @@ class AlignmentCost {
   static constexpr double kTorn_rad = 0.001;  // two segments of one laser: possible, but rare
   /// Two lasers in one row: dearer than moving all others by a row.
   static constexpr double kSameDirections_rad = kScanRings * kCap_rad;
-  /// At the slowest spin rate, two echoes; more are of several lasers.
+  /// At the slowest spin rate, two returns; more are of several lasers.
   static constexpr std::size_t kMostPoints = std::size_t{2} * 4167;
 
   AlignmentCost(std::span<const ScanPoint> points, const RingRecovery& split)
@@ -218,7 +218,8 @@ Status split_at_falls(std::span<const ScanPoint> points, double fall_rad, RingRe
 }  // namespace
 
 Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery) {
-  if (const Status split = split_at_falls(points, kHalfTurn_rad, recovery); !split) return split;
+  if (const Status split = split_at_falls(points, kHalfRevolution_rad, recovery); !split)
+    return split;
   if (recovery.rings == kScanRings) return {};
   RingRecovery cropped;
   const Status split = split_at_falls(points, kCroppedFall_rad, cropped);

@@ -15,8 +15,8 @@ namespace terracut::scan {
 namespace {
 
 // Spread of a compensated point's horizontal distance and of its height about the true line,
-// metres: what half a turn does at some 10 m/s, and a laser's own noise. Only the ratio matters,
-// and only for rings steeper than a few degrees; it was set from these, not tuned.
+// metres: what half a revolution does at some 10 m/s, and a laser's own noise. Only the ratio
+// matters, and only for rings steeper than a few degrees; it was set from these, not tuned.
 constexpr double kDistanceError_m = 0.2;
 constexpr double kHeightError_m = 0.01;
 

@@ -25,8 +25,8 @@ struct FittedRings {
   RingTable table;
   HeightResidual residual;  ///< Over all rings.
   std::vector<HeightResidual> by_ring;
-  int interpolated_rings = 0;          ///< Rings with too few points, put between their neighbours.
-  bool told_by_nominal_table = false;  ///< No scan had all rings (ScanReader::fit_rings()).
+  int interpolated_rings = 0;       ///< Rings with too few points, put between their neighbours.
+  bool from_nominal_table = false;  ///< No scan had all rings (ScanReader::fit_rings()).
 };
 
 /// Finds elevation and vertical offset of every ring of a unit from scans whose rings are known.

@@ -12,7 +12,7 @@
 
 namespace terracut::scan {
 
-/// One recorded turn on disk.
+/// One recorded frame on disk.
 struct ScanFile {
   std::filesystem::path points;  ///< The `.bin`.
   std::optional<std::filesystem::path>

@@ -34,12 +34,12 @@ ScanToImage::Summary ScanToImage::place(std::span<const ScanPoint> points,
       continue;
     }
     const auto [x, y, z] = mount::apply(T_vehicle_lidar_, p.x_m, p.y_m, p.z_m);
-    const frame::Return echo{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
-                             static_cast<float>(std::sqrt(x * x + y * y)),
-                             intensity_of(p.remission)};
+    const frame::Return point{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
+                              static_cast<float>(std::sqrt(x * x + y * y)),
+                              intensity_of(p.remission)};
     const int column =
         std::min(static_cast<int>(azimuth_rad(p.x_m, p.y_m) * columns_per_rad), columns - 1);
-    if (!image.place(rows - 1 - ring_of_point[i], column, echo)) {
+    if (!image.place(rows - 1 - ring_of_point[i], column, point)) {
       ++summary.overflow_full;
       continue;
     }

@@ -44,12 +44,12 @@ Pose inverse(const Pose& a) {
 }
 
 /// Rotation vector and, to second order in it, the translation of the logarithm of a small motion.
-void logarithm(const Pose& T, std::array<double, 3>& turning, std::array<double, 3>& moving) {
+void logarithm(const Pose& T, std::array<double, 3>& rotating, std::array<double, 3>& moving) {
   const double cosine = std::clamp((T[0] + T[5] + T[10] - 1) / 2, -1.0, 1.0);
   const double angle = std::acos(cosine);
   const double scale = angle > 1e-9 ? angle / (2 * std::sin(angle)) : 0.5;
-  turning = {scale * (T[9] - T[6]), scale * (T[2] - T[8]), scale * (T[4] - T[1])};
-  const auto& w = turning;
+  rotating = {scale * (T[9] - T[6]), scale * (T[2] - T[8]), scale * (T[4] - T[1])};
+  const auto& w = rotating;
   const std::array<double, 3> t{T[3], T[7], T[11]};
   const std::array<double, 3> wt{w[1] * t[2] - w[2] * t[1], w[2] * t[0] - w[0] * t[2],
                                  w[0] * t[1] - w[1] * t[0]};
@@ -171,9 +171,9 @@ Expected<SensorTwist> SensorMotion::twist(std::uint32_t frame) const {
   const Pose in_sensor_frame =
       product(inverse(T_camera_lidar_), product(T_before_after, T_camera_lidar_));
   SensorTwist twist;
-  logarithm(in_sensor_frame, twist.turning_rad_s, twist.velocity_m_s);
+  logarithm(in_sensor_frame, twist.angular_velocity_rad_s, twist.velocity_m_s);
   const double seconds = times_s_[after] - times_s_[before];
-  for (double& w : twist.turning_rad_s) w /= seconds;
+  for (double& w : twist.angular_velocity_rad_s) w /= seconds;
   double squares = 0;
   for (double& v : twist.velocity_m_s) {
     v /= seconds;
@@ -185,7 +185,7 @@ Expected<SensorTwist> SensorMotion::twist(std::uint32_t frame) const {
                             "of the same sequence, poses in metres and times in seconds?",
                             poses_path_.string(), std::sqrt(squares), frame));
   }
-  twist.turn_duration_s = seconds / static_cast<double>(after - before);
+  twist.frame_duration_s = seconds / static_cast<double>(after - before);
   return twist;
 }
 

@@ -14,9 +14,9 @@ namespace terracut::scan {
 
 /// Constant motion of the sensor, in its own frame (x forward, y left, z up).
 struct SensorTwist {
-  std::array<double, 3> turning_rad_s{};
+  std::array<double, 3> angular_velocity_rad_s{};
   std::array<double, 3> velocity_m_s{};
-  double turn_duration_s = 0.1;  ///< Of one turn of the head.
+  double frame_duration_s = 0.1;  ///< Of one frame of the head.
 };
 
 /// How the sensor moved during a recorded KITTI / SemanticKITTI sequence.

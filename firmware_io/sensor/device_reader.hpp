@@ -35,7 +35,7 @@ class Ruby128DeviceReader {
   /// False for what is no DIFOP.
   bool add(std::span<const std::uint8_t> payload) noexcept;
 
-  /// Forgets everything, the calibration included.
+  /// Resets everything, the calibration included.
   void reset() noexcept { *this = {}; }
 
   [[nodiscard]] const Ruby128DeviceCounters& counters() const noexcept { return counters_; }

@@ -16,7 +16,7 @@ namespace {
 
 /// Another sensor at the same port shows within this time, after the first.
 constexpr std::int64_t kAnotherShows_ns = 300'000'000;
-/// A sensor that turns sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
+/// A sensor that rotates sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
 constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
 
 Error several(const std::vector<HeardSenders::Sensor>& found) {
@@ -37,14 +37,14 @@ bool FirstSeconds::wants_device_port() const {
 }
 
 bool FirstSeconds::is_enough() const {
-  const auto sensors = senders_.turning();
+  const auto sensors = senders_.rotating();
   if (sensors.empty() || senders_.known_for_ns() < kAnotherShows_ns) return false;
   return sensors.size() > 1 || config_.calibration.is_given() ||
          senders_.has_told(sensors.front()) || senders_.known_for_ns() >= kCalibrationComes_ns;
 }
 
 std::string FirstSeconds::waits_for() const {
-  if (const auto sensors = senders_.turning(); !sensors.empty()) {
+  if (const auto sensors = senders_.rotating(); !sensors.empty()) {
     return fmt::format("{} at {} is heard; waiting for its calibration",
                        to_string(sensors.front().model), net::ipv4_text(sensors.front().address));
   }
@@ -54,7 +54,7 @@ std::string FirstSeconds::waits_for() const {
 }
 
 Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) const {
-  auto found = senders_.turning();
+  auto found = senders_.rotating();
   if (found.empty()) found = senders_.steady();
   if (found.empty()) return tl::unexpected(nobody(patience_s));
   if (found.size() > 1) return tl::unexpected(several(found));

@@ -48,7 +48,7 @@ class FirstSeconds {
 
   /// It pays to listen at the device port.
   [[nodiscard]] bool wants_device_port() const;
-  /// A sensor's head turns, nobody else sends, and its calibration is known or will not come:
+  /// A sensor's head rotates, nobody else sends, and its calibration is known or will not come:
   /// within 0.3 s another sensor would have shown, within 6 s a calibration.
   [[nodiscard]] bool is_enough() const;
   /// For people: what is missing.

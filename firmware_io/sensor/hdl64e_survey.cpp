@@ -12,13 +12,13 @@ void Hdl64eSurvey::add(std::span<const std::uint8_t> payload) {
   const auto packet = hdl64e::Hdl64ePacketView::of(payload);
   if (!packet) return;
   status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
-  decode::PacketHeads heads;
-  const auto reject = hdl64e::check_hdl64e_packet(payload, heads);
-  if (reject && heads.columns == 0) return;  // not its block ids after all
+  decode::PacketAzimuths azimuths;
+  const auto reject = hdl64e::check_hdl64e_packet(payload, azimuths);
+  if (reject && azimuths.columns == 0) return;  // not its block ids after all
   if (reject == frame::Reject::kAzimuthOutOfRange) {
     stream_.add_out_of_range();
   } else {
-    stream_.add(heads, !reject);
+    stream_.add(azimuths, !reject);
   }
 }
 

@@ -30,10 +30,10 @@ void HeardSenders::add(const decode::Datagram& datagram) {
     sender.hdl64e_status.add(packet->status_type(), packet->status_value(), packet->stamp_us());
   }
   newest_ns_ = datagram.stamp_ns;
-  if (first_known_ns_ == 0 && !turning().empty()) first_known_ns_ = newest_ns_;
+  if (first_known_ns_ == 0 && !rotating().empty()) first_known_ns_ = newest_ns_;
 }
 
-std::vector<HeardSenders::Sensor> HeardSenders::turning() const {
+std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
   std::vector<Sensor> found;
   for (const auto& [address, sender] : senders_) {
     for (const SensorModel model : kDecoded) {
@@ -69,7 +69,7 @@ std::string HeardSenders::describe(const Sender& sender) const {
       return fmt::format("{} packets of another sensor, {}", packets, to_string(model));
     if (packets < kSteady_packets)
       return fmt::format("{} data packets of {}", packets, to_string(model));
-    return fmt::format("{}, whose head does not turn,", to_string(model));
+    return fmt::format("{}, whose head does not rotate,", to_string(model));
   }
   if (std::string models = sender.probe.foreign_models(); !models.empty()) return models;
   return fmt::format("{} datagrams of no sensor known here",
@@ -79,10 +79,10 @@ std::string HeardSenders::describe(const Sender& sender) const {
 std::string HeardSenders::others() const {
   std::string text;
   for (const auto& [address, sender] : senders_) {
-    const auto is_turning = [&](SensorModel model) {
+    const auto is_rotating = [&](SensorModel model) {
       return wants(model) && sender.probe.knows(model);
     };
-    if (std::ranges::any_of(kDecoded, is_turning)) continue;
+    if (std::ranges::any_of(kDecoded, is_rotating)) continue;
     text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", describe(sender),
                         net::ipv4_text(address));
   }

@@ -16,7 +16,7 @@
 namespace terracut::sensor {
 
 /// Who sends to the ports that are listened at, and on what evidence: a sensor is who sends a
-/// steady stream of data packets of a turning head, not who sent one packet. Time is that of the
+/// steady stream of data packets of a rotating head, not who sent one packet. Time is that of the
 /// datagrams' stamps. Allocates; one thread.
 class HeardSenders {
  public:
@@ -31,9 +31,9 @@ class HeardSenders {
   void add(const decode::Datagram& datagram);
 
   [[nodiscard]] bool wants(SensorModel model) const { return !wanted_ || *wanted_ == model; }
-  /// Those whose head is known to turn.
-  [[nodiscard]] std::vector<Sensor> turning() const;
-  /// Those that send data packets steadily, whether their head turns or not.
+  /// Those whose head is known to rotate.
+  [[nodiscard]] std::vector<Sensor> rotating() const;
+  /// Those that send data packets steadily, whether their head rotates or not.
   [[nodiscard]] std::vector<Sensor> steady() const;
   /// Since the first of turning() was known, by the newest datagram: 0 without one. Another sensor
   /// at the port would have shown within half a second.
@@ -52,8 +52,8 @@ class HeardSenders {
   [[nodiscard]] const Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
     return senders_.at(address).ruby128_device;
   }
-  /// For people, what came instead of a turning sensor: "12 datagrams of no sensor known here from
-  /// 192.168.1.7; HDL-64E at 192.168.1.201, whose head does not turn". Empty: nothing did.
+  /// For people, what came instead of a rotating sensor: "12 datagrams of no sensor known here from
+  /// 192.168.1.7; HDL-64E at 192.168.1.201, whose head does not rotate". Empty: nothing did.
   [[nodiscard]] std::string others() const;
 
  private:

@@ -10,23 +10,23 @@ namespace terracut::sensor {
 void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
   const auto packet = ruby128::Ruby128PacketView::of(payload);
   if (!packet) return;
-  decode::PacketHeads heads;
-  auto reject = ruby128::check_ruby128_packet(payload, heads);
-  if (reject && heads.columns == 0) return;  // not its block ids after all
+  decode::PacketAzimuths azimuths;
+  auto reject = ruby128::check_ruby128_packet(payload, azimuths);
+  if (reject && azimuths.columns == 0) return;  // not its block ids after all
   const bool may_have_sector =
-      reject == frame::Reject::kAzimuthJump && ruby128::read_across_sector(heads, step_ticks_);
-  if (may_have_sector && stream_.blind().is_inside(heads)) reject.reset();
-  if (!reject) step_ticks_ = heads.step_ticks;
+      reject == frame::Reject::kAzimuthJump && ruby128::read_across_sector(azimuths, step_ticks_);
+  if (may_have_sector && stream_.blind().is_inside(azimuths)) reject.reset();
+  if (!reject) step_ticks_ = azimuths.step_ticks;
   const ruby128::RubyTimestamp encoding = timestamp_.add(packet->stamp());
   const std::int64_t device_ns = ruby128::read_ruby_timestamp(packet->stamp(), encoding);
   last_.protocol_version = packet->protocol_version();
   last_.ahead_of_capture_s = static_cast<double>(device_ns - stamp_ns) * 1e-9;
   last_.temperature_deg_c = packet->temperature_deg_c();
-  heads.device_stamp_us = ruby128::ruby_even_stamp_us(device_ns, heads, !reject);
+  azimuths.device_stamp_us = ruby128::ruby_even_stamp_us(device_ns, azimuths, !reject);
   if (reject == frame::Reject::kAzimuthOutOfRange) {
     stream_.add_out_of_range();
   } else {
-    stream_.add(heads, !reject);
+    stream_.add(azimuths, !reject);
   }
 }
 
@@ -34,7 +34,7 @@ Ruby128Facts Ruby128Survey::facts() const {
   Ruby128Facts facts = last_;
   static_cast<StreamFacts&>(facts) = stream_.facts();
   facts.timestamp = timestamp_.encoding();
-  facts.timestamp_proven = timestamp_.settled();
+  facts.timestamp_proven = timestamp_.complete();
   return facts;
 }
 

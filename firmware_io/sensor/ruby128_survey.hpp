@@ -30,7 +30,7 @@ class Ruby128Survey {
  private:
   StreamSurvey stream_{ruby128::Ruby128Sensor::kClockWrap_us};
   ruby128::RubyTimestampDetector timestamp_;
-  std::int32_t step_ticks_ = 0;  ///< Of the last packet of a turning head; 0: none yet.
+  std::int32_t step_ticks_ = 0;  ///< Of the last packet of a rotating head; 0: none yet.
   Ruby128Facts last_;
 };
 

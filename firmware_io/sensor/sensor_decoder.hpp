@@ -22,13 +22,13 @@ namespace terracut::sensor {
 class SensorDecoder {
  public:
   struct Config {
-    /// Firings per turn, as Decoder::Config::columns; 0: the sensor's default.
+    /// Firings per frame, as Decoder::Config::columns; 0: the sensor's default.
     int columns = 0;
     int images = 3;
     int reorder_packets = 2;
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
     vehicle::EgoMotion* motion = nullptr;  ///< As Decoder::Config::motion.
-    frame::TurnInstant deskew_at = frame::TurnInstant::kEnd;
+    frame::FrameInstant deskew_at = frame::FrameInstant::kEnd;
     hdl64e::Hdl64eSensor::Config hdl64e;
     ruby128::Ruby128Sensor::Config ruby128;
   };
@@ -87,7 +87,7 @@ class SensorDecoder {
     return visit([](const auto& decoder) { return decoder.rejected(); });
   }
 
-  [[nodiscard]] frame::ArrivingTurn arriving() noexcept {
+  [[nodiscard]] frame::ArrivingFrame arriving() noexcept {
     return visit([](auto& decoder) { return decoder.arriving(); });
   }
 
@@ -109,7 +109,7 @@ class SensorDecoder {
   [[nodiscard]] const frame::ImageShape& shape() const noexcept {
     return visit([](const auto& decoder) -> const frame::ImageShape& { return decoder.shape(); });
   }
-  /// The most returns a turn may have (RangeImage::return_capacity()).
+  /// The most returns a frame may have (RangeImage::return_capacity()).
   [[nodiscard]] std::size_t return_capacity() const noexcept {
     return visit([](const auto& decoder) { return decoder.return_capacity(); });
   }

@@ -43,33 +43,33 @@ std::optional<double> nominal_spin_hz(double spin_hz) {
 
 }  // namespace
 
-void SensorProbe::Head::add(const decode::PacketHeads& heads) {
+void SensorProbe::Head::add(const decode::PacketAzimuths& azimuths) {
   ++packets;
-  dual_packets += heads.dual_return ? 1 : 0;
+  dual_packets += azimuths.dual_return ? 1 : 0;
   if (last) {
-    const std::int64_t step_us = heads.device_stamp_us - last->device_stamp_us;
-    const int step_cdeg = beams::step_cdeg(last->first_cdeg(), heads.first_cdeg());
+    const std::int64_t step_us = azimuths.device_stamp_us - last->device_stamp_us;
+    const int step_cdeg = beams::step_cdeg(last->first_cdeg(), azimuths.first_cdeg());
     if (step_us > 0 && step_us < kLongestStep_us && step_cdeg > 0) {
-      turned_cdeg += step_cdeg;
+      rotated_cdeg += step_cdeg;
       time_us += step_us;
       slow_steps += is_slow_step(step_us) ? 1 : 0;
     }
   }
-  last = heads;
+  last = azimuths;
 }
 
 void SensorProbe::add(std::span<const std::uint8_t> payload) {
   const SensorModel model = recognise_sensor(payload);
   ++votes_[model];
-  decode::PacketHeads heads;
+  decode::PacketAzimuths azimuths;
   if (model == SensorModel::kHdl64e) {
-    if (!hdl64e::check_hdl64e_packet(payload, heads)) heads_[model].add(heads);
+    if (!hdl64e::check_hdl64e_packet(payload, azimuths)) azimuths_[model].add(azimuths);
   } else if (model == SensorModel::kRuby128) {
     const auto packet = ruby128::Ruby128PacketView::of(payload);
-    if (!packet || ruby128::check_ruby128_packet(payload, heads)) return;
+    if (!packet || ruby128::check_ruby128_packet(payload, azimuths)) return;
     const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp());
-    heads.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp(), encoding) / 1000;
-    heads_[model].add(heads);
+    azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp(), encoding) / 1000;
+    azimuths_[model].add(azimuths);
   }
 }
 
@@ -79,8 +79,8 @@ std::uint64_t SensorProbe::packets_of(SensorModel model) const {
 }
 
 const SensorProbe::Head* SensorProbe::head_of(SensorModel model) const {
-  const auto found = heads_.find(model);
-  return found == heads_.end() ? nullptr : &found->second;
+  const auto found = azimuths_.find(model);
+  return found == azimuths_.end() ? nullptr : &found->second;
 }
 
 bool SensorProbe::knows(SensorModel model) const {
@@ -91,7 +91,7 @@ bool SensorProbe::knows(SensorModel model) const {
 double SensorProbe::spin_hz(SensorModel model) const {
   const Head* head = head_of(model);
   if (head == nullptr || head->time_us == 0) return 0;
-  return static_cast<double>(head->turned_cdeg) / beams::kTurn_cdeg * 1e6 /
+  return static_cast<double>(head->rotated_cdeg) / beams::kRevolution_cdeg * 1e6 /
          static_cast<double>(head->time_us);
 }
 

@@ -8,14 +8,14 @@
 #include <span>
 #include <string>
 
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/sensor/sensor_model.hpp"
 
 namespace terracut::sensor {
 
-/// Finds out from the first packets of a stream which sensor sends them, and how it turns, so that
-/// a decoder can be made for it. Not for the receive thread: allocates.
+/// Finds out from the first packets of a stream which sensor sends them, and how it rotates, so
+/// that a decoder can be made for it. Not for the receive thread: allocates.
 class SensorProbe {
  public:
   /// Any datagram's payload.
@@ -26,14 +26,14 @@ class SensorProbe {
     return votes_;
   }
   [[nodiscard]] std::uint64_t packets_of(SensorModel model) const;
-  /// Enough data packets of a turning head of that model for the answers below.
+  /// Enough data packets of a rotating head of that model for the answers below.
   [[nodiscard]] bool knows(SensorModel model) const;
 
-  /// Turns per second of a decoded model, by its own stamps and azimuths; 0 while unknown.
+  /// Frames per second of a decoded model, by its own stamps and azimuths; 0 while unknown.
   [[nodiscard]] double spin_hz(SensorModel model) const;
   [[nodiscard]] bool dual_return(SensorModel model) const;
-  /// The columns its range image should have: firings a turn at 5, 10, 15 or 20 Hz, where it turns
-  /// at one of those; else, and while unknown, the model's default.
+  /// The columns its range image should have: firings a frame at 5, 10, 15 or 20 Hz, where it
+  /// rotates at one of those; else, and while unknown, the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
   /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLS-128".
@@ -45,15 +45,15 @@ class SensorProbe {
   struct Head {
     std::uint64_t packets = 0, dual_packets = 0;
     std::uint64_t slow_steps = 0;  ///< From packet to packet, as of the HDL-64E's 57.6 us cycle.
-    std::int64_t turned_cdeg = 0, time_us = 0;
-    std::optional<decode::PacketHeads> last;
+    std::int64_t rotated_cdeg = 0, time_us = 0;
+    std::optional<decode::PacketAzimuths> last;
 
-    void add(const decode::PacketHeads& heads);
+    void add(const decode::PacketAzimuths& azimuths);
   };
   [[nodiscard]] const Head* head_of(SensorModel model) const;
 
   std::map<SensorModel, std::uint64_t> votes_;
-  std::map<SensorModel, Head> heads_;  ///< Of decoded models.
+  std::map<SensorModel, Head> azimuths_;  ///< Of decoded models.
   ruby128::RubyTimestampDetector ruby_timestamp_;
 };
 

@@ -12,8 +12,9 @@ namespace terracut::sensor {
 namespace {
 
 constexpr std::int64_t kJump_us = 10'000'000;
-/// Less than half a turn at the fastest spin (20 Hz), so that the short way round is the true one.
-constexpr std::int64_t kSurelyUnderHalfATurn_us = 20'000;
+/// Less than half a revolution at the fastest spin (20 Hz), so that the short way round is the true
+/// one.
+constexpr std::int64_t kSurelyUnderHalfARevolution_us = 20'000;
 constexpr std::int64_t kShortestPeriod_us = 50;
 constexpr std::int64_t kLongestPeriod_us = 1'000;
 /// Bounds the memory a senseless capture can take.
@@ -33,14 +34,14 @@ std::string_view to_string(ReturnMode mode) noexcept {
   return "unknown";
 }
 
-void StreamSurvey::add(const decode::PacketHeads& heads, bool turning) {
+void StreamSurvey::add(const decode::PacketAzimuths& azimuths, bool rotating) {
   ++facts_.packets;
-  if (turning) {
-    ++turning_packets_;
-    steps_ticks_ += heads.step_ticks;
-    dual_packets_ += heads.dual_return ? 1 : 0;
+  if (rotating) {
+    ++rotating_packets_;
+    steps_ticks_ += azimuths.step_ticks;
+    dual_packets_ += azimuths.dual_return ? 1 : 0;
   }
-  add_step(heads, turning);
+  add_step(azimuths, rotating);
 }
 
 std::int64_t StreamSurvey::clock_step_us(std::int64_t from_us, std::int64_t to_us) const {
@@ -50,10 +51,10 @@ std::int64_t StreamSurvey::clock_step_us(std::int64_t from_us, std::int64_t to_u
   return step_us;
 }
 
-void StreamSurvey::add_step(const decode::PacketHeads& heads, bool turning) {
+void StreamSurvey::add_step(const decode::PacketAzimuths& azimuths, bool rotating) {
   bool goes_on = false;
   if (newest_) {
-    const std::int64_t step_us = clock_step_us(newest_->device_stamp_us, heads.device_stamp_us);
+    const std::int64_t step_us = clock_step_us(newest_->device_stamp_us, azimuths.device_stamp_us);
     if (step_us == 0) {
       ++facts_.packets_repeated;
       return;
@@ -67,63 +68,64 @@ void StreamSurvey::add_step(const decode::PacketHeads& heads, bool turning) {
       seen_.reset();
       blind_.end();
     } else {
-      goes_on = turning && seen_;
-      const bool is_told = goes_on && follow(heads, step_us);
+      goes_on = rotating && seen_;
+      const bool is_told = goes_on && follow(azimuths, step_us);
       const bool is_known = steps_us_.size() < kMostDistinctSteps || steps_us_.contains(step_us);
       if (!is_told && is_known) ++steps_us_[step_us];
-      if (step_us < kSurelyUnderHalfATurn_us) {
+      if (step_us < kSurelyUnderHalfARevolution_us) {
         short_time_us_ += step_us;
-        short_advance_cdeg_ += beams::step_cdeg(newest_->first_cdeg(), heads.first_cdeg());
+        short_advance_cdeg_ += beams::step_cdeg(newest_->first_cdeg(), azimuths.first_cdeg());
       } else {
         long_time_us_ += step_us;
       }
     }
   }
-  if (turning && !goes_on) begin_turning(heads);
-  if (!turning) ++not_turning_;
-  newest_ = heads;
+  if (rotating && !goes_on) begin_rotating(azimuths);
+  if (!rotating) ++not_rotating_;
+  newest_ = azimuths;
 }
 
-void StreamSurvey::begin_turning(const decode::PacketHeads& heads) {
-  seen_ = {heads.device_stamp_us, heads.first_cdeg(), heads.behind_sector > 0};
-  frontier_ticks_ = std::int64_t{heads.first_cdeg()} * decode::kTicksPerCdeg + heads.sweep_ticks;
-  not_turning_ = 0;
+void StreamSurvey::begin_rotating(const decode::PacketAzimuths& azimuths) {
+  seen_ = {azimuths.device_stamp_us, azimuths.first_cdeg(), azimuths.behind_sector > 0};
+  frontier_ticks_ =
+      std::int64_t{azimuths.first_cdeg()} * decode::kTicksPerCdeg + azimuths.sweep_ticks;
+  not_rotating_ = 0;
 }
 
-bool StreamSurvey::follow(const decode::PacketHeads& heads, std::int64_t step_us) {
-  const double nominal_us = heads.nominal_period_ns * 1e-3;
+bool StreamSurvey::follow(const decode::PacketAzimuths& azimuths, std::int64_t step_us) {
+  const double nominal_us = azimuths.nominal_period_ns * 1e-3;
   const double step_periods = static_cast<double>(step_us) / nominal_us;
   const double measured_us = step_periods > 2 ? period_us() : 0;
   const double one_us = measured_us > 0 ? measured_us : nominal_us;
-  const std::int64_t since_us = clock_step_us(seen_->stamp_us, heads.device_stamp_us);
+  const std::int64_t since_us = clock_step_us(seen_->stamp_us, azimuths.device_stamp_us);
   const auto expected_cdeg =
-      seen_->head_cdeg + std::llround(static_cast<double>(since_us) / one_us * heads.pace_ticks /
-                                      decode::kTicksPerCdeg);
-  const std::int64_t head_cdeg =
-      expected_cdeg + beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), heads.first_cdeg());
+      seen_->rotor_cdeg + std::llround(static_cast<double>(since_us) / one_us *
+                                       azimuths.pace_ticks / decode::kTicksPerCdeg);
+  const std::int64_t rotor_cdeg =
+      expected_cdeg + beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), azimuths.first_cdeg());
 
-  const std::int64_t begin_ticks = head_cdeg * decode::kTicksPerCdeg;
-  const decode::HeadInterval gap{frontier_ticks_, begin_ticks};
-  const decode::HeadInterval swept{begin_ticks, begin_ticks + heads.sweep_ticks};
-  const decode::BlindSector::Stride stride{heads.pace_ticks, heads.widest_ticks};
+  const std::int64_t begin_ticks = rotor_cdeg * decode::kTicksPerCdeg;
+  const decode::RotorInterval gap{frontier_ticks_, begin_ticks};
+  const decode::RotorInterval swept{begin_ticks, begin_ticks + azimuths.sweep_ticks};
+  const decode::BlindSector::Stride stride{azimuths.pace_ticks, azimuths.widest_ticks};
   const bool is_wide = gap.ticks() >= blind_.least_ticks();
   if (is_wide || seen_->has_sector) {
     std::int64_t missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
     if (seen_->has_sector) {  // its time is in the step; what is missing behind it is in the gap
-      missing = std::min(missing, (gap.ticks() + heads.pace_ticks / 2) / heads.pace_ticks);
+      missing = std::min(missing, (gap.ticks() + azimuths.pace_ticks / 2) / azimuths.pace_ticks);
     }
-    lost_in_gaps_ += is_wide ? blind_.judge(gap, missing, not_turning_, stride).packets : missing;
+    lost_in_gaps_ += is_wide ? blind_.judge(gap, missing, not_rotating_, stride).packets : missing;
   }
-  if (heads.behind_sector > 0) {
-    lost_in_gaps_ += blind_.cross(begin_ticks, heads.sector_inside(begin_ticks), stride).packets;
+  if (azimuths.behind_sector > 0) {
+    lost_in_gaps_ += blind_.cross(begin_ticks, azimuths.sector_inside(begin_ticks), stride).packets;
   } else {
     blind_.pass(swept);
   }
   lost_in_gaps_ += blind_.take_due().packets;
   const bool is_told = is_wide || seen_->has_sector;
-  seen_ = {heads.device_stamp_us, head_cdeg, heads.behind_sector > 0};
+  seen_ = {azimuths.device_stamp_us, rotor_cdeg, azimuths.behind_sector > 0};
   frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
-  not_turning_ = 0;
+  not_rotating_ = 0;
   return is_told;
 }
 
@@ -162,18 +164,18 @@ StreamFacts StreamSurvey::facts() const {
   // A packet put back in order fills a gap that was counted when the later one overtook it.
   facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
   facts.blind = decode::blind_azimuths(blind_.sector());
-  if (turning_packets_ > 0) {
+  if (rotating_packets_ > 0) {
     facts.return_mode =
-        dual_packets_ * 2 > turning_packets_ ? ReturnMode::kDual : ReturnMode::kSingle;
+        dual_packets_ * 2 > rotating_packets_ ? ReturnMode::kDual : ReturnMode::kSingle;
     facts.step_deg =
-        static_cast<double>(steps_ticks_) / static_cast<double>(turning_packets_) * 1e-5;
+        static_cast<double>(steps_ticks_) / static_cast<double>(rotating_packets_) * 1e-5;
   }
   if (short_time_us_ > 0) {
     const double cdeg_per_us =
         static_cast<double>(short_advance_cdeg_) / static_cast<double>(short_time_us_);
-    facts.spin_rpm = cdeg_per_us * 60e6 / beams::kTurn_cdeg;
-    facts.turns =
-        cdeg_per_us * static_cast<double>(short_time_us_ + long_time_us_) / beams::kTurn_cdeg;
+    facts.spin_rpm = cdeg_per_us * 60e6 / beams::kRevolution_cdeg;
+    facts.frames =
+        cdeg_per_us * static_cast<double>(short_time_us_ + long_time_us_) / beams::kRevolution_cdeg;
   }
   return facts;
 }

@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "firmware_io/decode/blind_sector.hpp"
-#include "firmware_io/decode/head_sector.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/rotor_sector.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 
 namespace terracut::sensor {
@@ -25,7 +25,7 @@ struct StreamFacts {
   double packet_period_us = 0;         ///< Mean; 0 while unknown.
   double spin_rpm = 0;                 ///< 0 for a head that stands still.
   double step_deg = 0;                 ///< Azimuth from one firing to the next, mean.
-  double turns = 0;                    ///< Turned from the first packet to the last, gaps included.
+  double frames = 0;                   ///< Turned from the first packet to the last, gaps included.
   std::uint64_t packets_lost = 0;      ///< Missing by the device stamps; in no blind sector.
   frame::BlindAzimuths blind;          ///< At the end; as BlindSector finds it.
   std::uint64_t packets_repeated = 0;  ///< With the stamp of the packet before.
@@ -40,9 +40,9 @@ class StreamSurvey {
   /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
   explicit StreamSurvey(std::int64_t clock_wrap_us) : clock_wrap_us_(clock_wrap_us) {}
 
-  /// A packet; `turning` when its head turns and all of `heads` is valid, else only its stamp and
-  /// azimuths are.
-  void add(const decode::PacketHeads& heads, bool turning);
+  /// A packet; `rotating` when its head rotates and all of `azimuths` is valid, else only its stamp
+  /// and azimuths are.
+  void add(const decode::PacketAzimuths& azimuths, bool rotating);
   /// A packet of which no azimuth can be believed.
   void add_out_of_range() {
     ++facts_.packets;
@@ -53,36 +53,36 @@ class StreamSurvey {
   [[nodiscard]] StreamFacts facts() const;
 
  private:
-  /// The newest packet of a turning head, by unwrapped azimuth.
+  /// The newest packet of a rotating head, by unwrapped azimuth.
   struct Seen {
-    std::int64_t stamp_us = 0, head_cdeg = 0;
-    bool has_sector = false;  ///< In it (PacketHeads).
+    std::int64_t stamp_us = 0, rotor_cdeg = 0;
+    bool has_sector = false;  ///< In it (PacketAzimuths).
   };
 
   /// Device time and azimuth between two packets next to each other in the capture.
-  void add_step(const decode::PacketHeads& heads, bool turning);
+  void add_step(const decode::PacketAzimuths& azimuths, bool rotating);
   [[nodiscard]] std::int64_t clock_step_us(std::int64_t from_us, std::int64_t to_us) const;
-  /// A packet of a turning head comes `step_us` after the one before. True where it tells by the
+  /// A packet of a rotating head comes `step_us` after the one before. True where it tells by the
   /// azimuths what was lost between them.
-  [[nodiscard]] bool follow(const decode::PacketHeads& heads, std::int64_t step_us);
-  void begin_turning(const decode::PacketHeads& heads);
+  [[nodiscard]] bool follow(const decode::PacketAzimuths& azimuths, std::int64_t step_us);
+  void begin_rotating(const decode::PacketAzimuths& azimuths);
   [[nodiscard]] double period_us() const;
 
   std::int64_t clock_wrap_us_;
   StreamFacts facts_;
-  std::optional<decode::PacketHeads> newest_;
+  std::optional<decode::PacketAzimuths> newest_;
   std::map<std::int64_t, std::uint64_t> steps_us_;  ///< How often stamps advanced by how much.
   std::int64_t short_time_us_ = 0;  ///< Over steps short enough to know the azimuth advance.
   std::int64_t short_advance_cdeg_ = 0;
   std::int64_t long_time_us_ = 0;  ///< Over the others.
-  decode::BlindSector blind_{decode::kTurn_ticks};
+  decode::BlindSector blind_{decode::kRevolution_ticks};
   std::optional<Seen> seen_;
   std::int64_t frontier_ticks_ = 0;  ///< The head was seen up to here.
-  std::int64_t not_turning_ = 0;     ///< Packets since then.
+  std::int64_t not_rotating_ = 0;    ///< Packets since then.
   std::int64_t lost_in_gaps_ = 0;    ///< Gaps wide enough for a blind sector.
   std::int64_t steps_ticks_ = 0;     ///< Sum of the packets' own steps.
   std::uint64_t dual_packets_ = 0;
-  std::uint64_t turning_packets_ = 0;
+  std::uint64_t rotating_packets_ = 0;
 };
 
 }  // namespace terracut::sensor

@@ -40,13 +40,13 @@ struct StreamSearch {
 StreamSearch search_status_stream(PcapSource& source) {
   StreamSearch search;
   hdl64e::StatusStreamReader status;
-  decode::PacketHeads heads;
+  decode::PacketAzimuths azimuths;
   while (search.data_packets < kPacketsToSearch && !status.has_table()) {
     const auto next = source.next();
     if (!next) search.broke_off = next.error().message;
     if (!next || !*next) break;
     ++search.datagrams;
-    const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, heads);
+    const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, azimuths);
     if (reject && *reject != frame::Reject::kStationary) {  // a standing head still talks
       ++search.losses.rejected[static_cast<std::size_t>(*reject)];
       continue;
@@ -82,7 +82,7 @@ Error no_calibration(const PcapSource& source, const StreamSearch& search) {
                   source.name(), missing, search.broke_off.empty() ? "" : "; " + search.broke_off)};
 }
 
-Expected<calib::SensorCalibration> told_by_hdl64e(PcapSource& source) {
+Expected<calib::SensorCalibration> from_packets_of_hdl64e(PcapSource& source) {
   StreamSearch search = search_status_stream(source);
   if (!search.found) return tl::unexpected(no_calibration(source, search));
   return *std::move(search.found);
@@ -103,7 +103,7 @@ Expected<ruby128::Ruby128Calibration> search_difop(PcapSource& source) {
   return device.calibration();
 }
 
-Expected<calib::SensorCalibration> told_by_ruby128(PcapSource& source) {
+Expected<calib::SensorCalibration> from_packets_of_ruby128(PcapSource& source) {
   auto found = search_difop(source);
   if (found) return *std::move(found);
   return fail(
@@ -134,7 +134,8 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
 Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                     SensorModel model, PcapSource& source) {
   return unit_calibration(choice, model, [&] {
-    return model == SensorModel::kRuby128 ? told_by_ruby128(source) : told_by_hdl64e(source);
+    return model == SensorModel::kRuby128 ? from_packets_of_ruby128(source)
+                                          : from_packets_of_hdl64e(source);
   });
 }
 

@@ -32,7 +32,7 @@ Expected<sensor::HeardSenders::Sensor> sender_in(capture::PcapSource& source) {
     if (!next || !*next) break;
     senders.add(**next);
   }
-  auto found = senders.turning();
+  auto found = senders.rotating();
   if (found.empty()) found = senders.steady();
   if (found.empty()) {
     return fail(ErrorCode::kUnsupported,

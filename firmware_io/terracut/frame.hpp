@@ -36,7 +36,7 @@ struct Frame {
   std::int64_t first_packet_ns = 0;  ///< Receive stamp, nanoseconds since 1970 (UTC).
   std::int64_t last_packet_ns = 0;
   bool complete = false;  ///< Every firing was seen; where the sensor is blind, none is missing.
-  bool deskewed = false;  ///< The vehicle's motion was taken out of it.
+  bool deskewed = false;  ///< The vehicle's motion was removed.
   std::uint64_t packets_lost = 0;  ///< On the network, since the frame before.
   std::span<const Point> points;
   std::span<const Label> labels;  ///< Empty where the frame was not labelled.

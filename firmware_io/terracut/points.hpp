@@ -17,8 +17,8 @@ namespace terracut {
 /// room.
 inline void copy_points(const frame::RangeImage& image, std::span<Point> points) noexcept {
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) noexcept {
-    points[placed.return_index] = {placed.echo.x_m, placed.echo.y_m, placed.echo.z_m,
-                                   static_cast<std::uint16_t>(placed.row), placed.echo.intensity};
+    points[placed.return_index] = {placed.point.x_m, placed.point.y_m, placed.point.z_m,
+                                   static_cast<std::uint16_t>(placed.row), placed.point.intensity};
   });
 }
 
@@ -35,7 +35,7 @@ inline void copy_points(const frame::RangeImage& image, std::span<Point> points)
           .labels = {}};
 }
 
-/// Runs `make`, which constructs what takes all memory at once, and turns what it throws into an
+/// Runs `make`, which constructs what takes all memory at once, and frames what it throws into an
 /// error.
 template <class Make>
 [[nodiscard]] auto made(Make&& make) -> Expected<decltype(make())> {

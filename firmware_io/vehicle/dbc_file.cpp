@@ -25,7 +25,7 @@ constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 constexpr std::string_view kNumberCharacters = "0123456789+-.eEinfaN";
 
-/// Takes a line apart, from left to right. Every step answers whether what was asked for was there.
+/// Takes a line apart, from left to right. Every step returns whether what was asked for was there.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}

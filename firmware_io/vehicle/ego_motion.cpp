@@ -10,7 +10,7 @@ namespace terracut::vehicle {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-/// Bounds what one stretch between samples may turn, too.
+/// Bounds what one stretch between samples may rotate, too.
 constexpr double kFastest_mps = 150, kFastest_radps = 10;
 
 bool is_plausible(const MotionSample& sample) noexcept {
@@ -113,7 +113,7 @@ void EgoMotion::take_new() noexcept {
   }
 }
 
-void EgoMotion::forget() noexcept {
+void EgoMotion::reset() noexcept {
   take_new();
   count_ = 0;
 }

@@ -24,12 +24,12 @@ struct EgoMotionCounters {
   std::uint64_t not_taken = 0;     ///< The reader was away and the queue is full.
 };
 
-/// Where the sensor was, from the vehicle's speed and turn rate: one thread gives samples, one
+/// Where the sensor was, from the vehicle's speed and yaw rate: one thread gives samples, one
 /// other asks for poses.
 ///
 ///   CAN thread --add()--> SpscQueue --take_new()--> history --poses()--> decoder thread
 ///
-/// Between two samples speed and turn rate are constant, the mean of both; before the first and
+/// Between two samples speed and yaw rate are constant, the mean of both; before the first and
 /// behind the newest they are those of the nearest stretch. Poses are known only where samples
 /// follow each other within `max_age_ns`; the first may lie that long behind the first instant
 /// asked for, and the last that long before the last instant. Otherwise there is no ego motion: old
@@ -72,7 +72,7 @@ class EgoMotion {
 
   /// Reader only: the clock of the stamps was set, so all samples added until now are of another
   /// time.
-  void forget() noexcept TERRACUT_NONBLOCKING;
+  void reset() noexcept TERRACUT_NONBLOCKING;
 
   /// Reader only: the sensor's poses at `instants_ns`, which do not fall, in the frame it has at
   /// `reference_ns`. `poses` is as long. False, and `poses` untouched, where there is no ego motion

@@ -123,7 +123,7 @@ std::optional<MotionSample> MotionSignals::take(const can::CanFrame& frame) noex
       return std::nullopt;
     }
     ++counters_.clock_set_back;
-    forget();
+    reset();
   }
   newest_frame_ns_ = frame.stamp_ns;
   update(speed_, frame);
@@ -163,7 +163,7 @@ void MotionSignals::note_sample(std::int64_t stamp_ns) noexcept {
   newest_sample_ns_ = stamp_ns;
 }
 
-void MotionSignals::forget() noexcept {
+void MotionSignals::reset() noexcept {
   for (Figure* figure : {&speed_, &yaw_rate_}) {
     for (TrackedSignal& signal : figure->signals) signal.heard = false;
     if (figure->sign) figure->sign->heard = false;

@@ -46,7 +46,7 @@ struct MotionCounters {
   std::uint64_t frames = 0;        ///< With one or more of the signals.
   std::uint64_t too_short = 0;     ///< Signals that their frame had no room for.
   std::uint64_t out_of_order = 0;  ///< Stamped before one that came earlier; left out.
-  /// By more than kMotionDisorder_ns, so that the clock was set; all was forgotten.
+  /// By more than kMotionDisorder_ns, so that the clock was set; all was reset.
   std::uint64_t clock_set_back = 0;
   std::uint64_t samples = 0;           ///< Made.
   std::uint64_t yaw_rate_invalid = 0;  ///< The validity signal said no, or it was no number.
@@ -63,9 +63,10 @@ struct TrackedSignal {
   bool heard = false;
 };
 
-/// The vehicle's motion out of CAN frames: a MotionSample each time a new yaw rate came, with the
-/// newest speed. (Speed changes little between two frames: braking hard, 0.1 m/s in 10 ms, which
-/// moves a turn's points by less than a centimetre. Yaw rate turns them about a hundred metres.)
+/// Reads the vehicle's motion from CAN frames: a MotionSample each time a new yaw rate came, with
+/// the newest speed. (Speed changes little between two frames: braking hard, 0.1 m/s in 10 ms,
+/// which moves a frame's points by less than a centimetre. Yaw rate turns them about a hundred
+/// metres.)
 ///
 /// Fixed size after make(); one thread.
 class MotionSignals {
@@ -81,7 +82,7 @@ class MotionSignals {
   /// The messages the signals are in, each once: what a socket has to let pass.
   [[nodiscard]] std::span<const can::CanId> ids() const noexcept { return ids_; }
 
-  /// Takes a frame; answers a sample if it completes one. Frames of other messages, remote frames
+  /// Takes a frame; returns a sample if it completes one. Frames of other messages, remote frames
   /// and error frames change nothing.
   [[nodiscard]] std::optional<MotionSample> take(const can::CanFrame& frame) noexcept
       TERRACUT_NONBLOCKING;
@@ -113,7 +114,7 @@ class MotionSignals {
   bool update(Figure& figure, const can::CanFrame& frame) noexcept;
   bool update(TrackedSignal& signal, const can::CanFrame& frame) noexcept;
   void note_sample(std::int64_t stamp_ns) noexcept;
-  void forget() noexcept;
+  void reset() noexcept;
   [[nodiscard]] bool fresh(const TrackedSignal& signal, std::int64_t now_ns) const noexcept;
   [[nodiscard]] Judgement judge(const Figure& figure, std::int64_t now_ns,
                                 double& value) const noexcept;

@@ -19,21 +19,21 @@ struct PlanarPose {
   return {-a.cosine * a.x_m - a.sine * a.y_m, a.sine * a.x_m - a.cosine * a.y_m, a.cosine, -a.sine};
 }
 
-/// Where a vehicle is after `seconds` (or was before, when negative) of constant speed and turn
+/// Where a vehicle is after `seconds` (or was before, when negative) of constant speed and yaw
 /// rate, seen from where it started: an arc, in a straight drive a line. State equations of the
 /// CTRV model as in R. Schubert, E. Richter, G. Wanielik, "Comparison and evaluation of advanced
 /// motion models for vehicle tracking" (FUSION 2008), with sine and cosine as series:
 ///
-///   x = v t sin(a) / a,   y = v t (1 - cos(a)) / a,   a = turn rate * t
+///   x = v t sin(a) / a,   y = v t (1 - cos(a)) / a,   a = yaw rate * t
 ///
 /// so that a = 0 is nothing special and every machine gets the same bits. Error below 1e-11 of the
-/// way for turns up to kLongestArc_rad a series; longer ones are put together of such.
+/// way for rotations up to kLongestArc_rad a series; longer ones are put together of such.
 [[nodiscard]] constexpr PlanarPose after_constant_motion(double speed_mps, double yaw_rate_radps,
                                                          double seconds) noexcept {
   constexpr double kLongestArc_rad = 0.25;
-  const double turned = yaw_rate_radps * seconds;
-  const int arcs = 1 + static_cast<int>((turned < 0 ? -turned : turned) / kLongestArc_rad);
-  const double a = turned / arcs, way_m = speed_mps * seconds / arcs;
+  const double rotated = yaw_rate_radps * seconds;
+  const int arcs = 1 + static_cast<int>((rotated < 0 ? -rotated : rotated) / kLongestArc_rad);
+  const double a = rotated / arcs, way_m = speed_mps * seconds / arcs;
   const double aa = a * a;
   const double sine_by_a = 1 - aa / 6 * (1 - aa / 20 * (1 - aa / 42 * (1 - aa / 72)));
   const double versine_by_a = a / 2 * (1 - aa / 12 * (1 - aa / 30 * (1 - aa / 56)));

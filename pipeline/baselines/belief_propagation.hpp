@@ -56,7 +56,7 @@ class BeliefPropagation {
     within_row_[static_cast<std::size_t>(row)] = cost;
   }
 
-  /// Forgets earlier messages and passes new ones `iterations` times. Real-time safe:
+  /// Drops earlier messages and passes new ones `iterations` times. Real-time safe:
   /// O(iterations * nodes * labels).
   void run(int iterations) noexcept;
 

@@ -35,7 +35,7 @@ class ColumnAngles {
   ColumnAngles(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Labels one turn of the shape given. Reports kAdjacentPoints and kLabels. Real-time safe.
+  /// Labels one frame of the shape given. Reports kAdjacentPoints and kLabels. Real-time safe.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
 

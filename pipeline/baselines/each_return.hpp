@@ -15,7 +15,7 @@ struct Place {
   int column;
 };
 
-/// Calls `visit(place)` for every return of the turn, those on the overflow list included: methods
+/// Calls `visit(place)` for every return of the frame, those on the overflow list included: methods
 /// on a map see points, not an image.
 template <class Visit>
 void each_return(const frame::RangeImage& image, Visit visit) noexcept {
@@ -31,8 +31,8 @@ void each_return(const frame::RangeImage& image, Visit visit) noexcept {
     }
   }
   for (const frame::OverflowReturn& extra : image.overflow()) {
-    const frame::Return& echo = extra.echo;
-    visit(Place{echo.x_m, echo.y_m, echo.z_m, echo.ground_range_m,
+    const frame::Return& point = extra.point;
+    visit(Place{point.x_m, point.y_m, point.z_m, point.ground_range_m,
                 static_cast<int>(extra.cell % static_cast<std::uint32_t>(shape.stride()))});
   }
 }

@@ -55,7 +55,7 @@ class FixedGridElevationMap {
                         frame::ImageShape shape, std::size_t return_capacity,
                         memory::FixedMemory& memory);
 
-  /// Labels one turn of the shape given. Reports kElevationMap and kLabels. Real-time safe.
+  /// Labels one frame of the shape given. Reports kElevationMap and kLabels. Real-time safe.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
 

@@ -50,7 +50,7 @@ class HeightFieldMrf {
   HeightFieldMrf(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                  std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Labels one turn of the shape given. Reports kElevationMap when the costs are there, kMinCut
+  /// Labels one frame of the shape given. Reports kElevationMap when the costs are there, kMinCut
   /// when the field is solved, and kLabels. Real-time safe.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;

@@ -162,7 +162,7 @@ float AdjacentPoints::ring_spacing_m(int row, int row_step) const noexcept {
   return ring_spacing_m_[static_cast<std::size_t>((row_step - 1) * shape_.rows + row)];
 }
 
-void AdjacentPoints::forget(frame::ColumnRange columns, stage::CellPlanes& planes) const noexcept {
+void AdjacentPoints::reset(frame::ColumnRange columns, stage::CellPlanes& planes) const noexcept {
   for (int row = 0; row < shape_.rows; ++row) {
     std::ranges::fill(planes.steep.subspan(shape_.cell(row, columns.begin), columns.size()),
                       std::uint8_t{0});

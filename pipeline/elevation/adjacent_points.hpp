@@ -40,12 +40,12 @@ class AdjacentPoints {
   AdjacentPoints(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                  memory::FixedMemory& memory);
 
-  // For a turn, also while it arrives (CoarseStages): forget() and compare() columns until all of
+  // For a frame, also while it arrives (CoarseStages): reset() and compare() columns until all of
   // them are, compare_across_seam(), and mark() what may have become steep.
 
   /// No return of these columns is steep. Real-time safe, as all of this.
-  void forget(frame::ColumnRange columns,
-              stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
+  void reset(frame::ColumnRange columns,
+             stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Fills `steep` for the pairs of returns of which one is in these columns and the other in the
   /// same column or one to the left of it.
   void compare(const frame::RangeImage& image, frame::ColumnRange columns,
@@ -53,7 +53,7 @@ class AdjacentPoints {
   /// The pairs of which one is in the first columns and the other in the last ones.
   void compare_across_seam(const frame::RangeImage& image,
                            stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
-  /// Turns labels in these columns to kObstacle where they are steep.
+  /// Frames labels in these columns to kObstacle where they are steep.
   void mark(frame::ColumnRange columns,
             stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Columns to either side that a column is compared with.

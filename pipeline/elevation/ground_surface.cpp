@@ -11,8 +11,8 @@ namespace terracut::elevation {
 GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
                              memory::FixedMemory& memory)
     : config_(config),
-      reach_(std::min(config.borrow_sectors, (grid.sectors() - 1) / 2)),
-      walked_m_(memory.take<float>("ground surface", grid.cells())),
+      reach_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
+      traced_m_(memory.take<float>("ground surface", grid.cells())),
       height_m_(memory.take<float>("ground surface", grid.cells())),
       found_(memory.take<Origin>("ground surface", grid.cells())),
       origin_(memory.take<Origin>("ground surface", grid.cells())),
@@ -29,45 +29,45 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
   }
 }
 
-void GroundSurface::forget() noexcept {
+void GroundSurface::reset() noexcept {
   std::fill(found_.begin(), found_.end(), kPredicted);
   std::fill(origin_.begin(), origin_.end(), kPredicted);
   std::fill(has_regained_.begin(), has_regained_.end(), std::uint8_t{0});
   std::fill(is_open_.begin(), is_open_.end(), std::uint8_t{1});
 }
 
-void GroundSurface::walk(const RingGrid& grid, RingGrid::Sectors sectors,
-                         std::span<const LowestReturn> lowest) noexcept {
+void GroundSurface::trace(const RingGrid& grid, RingGrid::Sectors sectors,
+                          std::span<const LowestReturn> lowest) noexcept {
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    walk_outwards(grid, sector, lowest);
+    trace_outward(grid, sector, lowest);
   }
 }
 
-void GroundSurface::settle(const RingGrid& grid, RingGrid::Sectors sectors,
-                           std::span<const LowestReturn> lowest) noexcept {
+void GroundSurface::finalize(const RingGrid& grid, RingGrid::Sectors sectors,
+                             std::span<const LowestReturn> lowest) noexcept {
   const int first = std::max(sectors.begin - reach_, 0);
   const int end = std::min(sectors.end + reach_, grid.sectors());
-  for (int sector = first; sector < end; ++sector) find_lenders(grid, sector);
+  for (int sector = first; sector < end; ++sector) find_donors(grid, sector);
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    borrow_from_neighbours(grid, sector, lowest);
+    interpolate_from_neighbours(grid, sector, lowest);
   }
 }
 
-void GroundSurface::settle_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
-                                std::span<std::uint8_t> is_current) noexcept {
-  for (int sector = 0; sector < grid.sectors(); ++sector) find_lenders(grid, sector);
+void GroundSurface::finalize_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
+                                  std::span<std::uint8_t> is_current) noexcept {
+  for (int sector = 0; sector < grid.sectors(); ++sector) find_donors(grid, sector);
   for (int sector = 0; sector < grid.sectors(); ++sector) {
     const auto i = static_cast<std::size_t>(sector);
-    if (is_open_[i] != 0 && borrow_from_neighbours(grid, sector, lowest)) is_current[i] = 0;
+    if (is_open_[i] != 0 && interpolate_from_neighbours(grid, sector, lowest)) is_current[i] = 0;
   }
 }
 
-float GroundSurface::Walk::predict_m(float to_range_m, const Config& config) const noexcept {
+float GroundSurface::Trace::predict_m(float to_range_m, const Config& config) const noexcept {
   return height_m + slope * std::min(to_range_m - range_m, config.slope_memory_m);
 }
 
-bool GroundSurface::Walk::reaches(float to_range_m, float to_height_m,
-                                  const Config& config) const noexcept {
+bool GroundSurface::Trace::reaches(float to_range_m, float to_height_m,
+                                   const Config& config) const noexcept {
   const float run_m = to_range_m - range_m;
   const float rise_m = to_height_m - predict_m(to_range_m, config);
   const float accepted_m =
@@ -75,8 +75,8 @@ bool GroundSurface::Walk::reaches(float to_range_m, float to_height_m,
   return rise_m < accepted_m && rise_m > -(accepted_m + config.extra_fall * run_m);
 }
 
-float GroundSurface::Walk::step(float to_range_m, float to_height_m,
-                                const Config& config) noexcept {
+float GroundSurface::Trace::step(float to_range_m, float to_height_m,
+                                 const Config& config) noexcept {
   const float run_m = std::max(to_range_m - range_m, config.first_slope_run_m);
   const float step_slope =
       std::clamp((to_height_m - height_m) / run_m, -config.max_slope, config.max_slope);
@@ -87,11 +87,11 @@ float GroundSurface::Walk::step(float to_range_m, float to_height_m,
   return step_slope;
 }
 
-void GroundSurface::walk_outwards(const RingGrid& grid, int sector,
+void GroundSurface::trace_outward(const RingGrid& grid, int sector,
                                   std::span<const LowestReturn> lowest) noexcept {
-  Walk ground;
+  Trace ground;
   has_regained_[static_cast<std::size_t>(sector)] = 0;
-  int lost_band = walk_on(grid, sector, 0, kMeasured, ground, lowest);
+  int lost_band = trace_on(grid, sector, 0, kMeasured, ground, lowest);
   for (;;) {
     const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest);
     if (detour.band < 0) return;
@@ -99,12 +99,12 @@ void GroundSurface::walk_outwards(const RingGrid& grid, int sector,
     const LowestReturn& start = lowest[grid.cell(sector, detour.band)];
     ground = {start.height_m, start.range_m, detour.slope};
     lost_band =
-        std::max(detour.band, walk_on(grid, sector, detour.band, kRegained, ground, lowest));
+        std::max(detour.band, trace_on(grid, sector, detour.band, kRegained, ground, lowest));
   }
 }
 
-int GroundSurface::walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
-                           std::span<const LowestReturn> lowest) noexcept {
+int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin origin,
+                            Trace& ground, std::span<const LowestReturn> lowest) noexcept {
   int last_band = -1;
   for (; band < grid.bands(); ++band) {
     const std::size_t cell = grid.cell(sector, band);
@@ -115,25 +115,25 @@ int GroundSurface::walk_on(const RingGrid& grid, int sector, int band, Origin or
     found_[cell] = is_ground ? origin : kPredicted;
     if (is_ground) {
       // The step's own slope carries the heights of both returns to the middles of their cells.
-      const Walk before = ground;
+      const Trace before = ground;
       const float step_slope = ground.step(here.range_m, here.height_m, config_);
       if (last_band >= 0 && grid.center_m(last_band) > before.range_m) {
-        walked_m_[grid.cell(sector, last_band)] =
+        traced_m_[grid.cell(sector, last_band)] =
             before.height_m + step_slope * (grid.center_m(last_band) - before.range_m);
       }
-      walked_m_[cell] = center_m < here.range_m
+      traced_m_[cell] = center_m < here.range_m
                             ? here.height_m - step_slope * (here.range_m - center_m)
                             : ground.predict_m(center_m, config_);
       last_band = band;
     } else {
-      walked_m_[cell] = ground.predict_m(center_m, config_);
+      traced_m_[cell] = ground.predict_m(center_m, config_);
     }
   }
   return last_band;
 }
 
 GroundSurface::Detour GroundSurface::find_ground_again(
-    const RingGrid& grid, int sector, int lost_band, const Walk& ground,
+    const RingGrid& grid, int sector, int lost_band, const Trace& ground,
     std::span<const LowestReturn> lowest) const noexcept {
   // No steeper than regain_slope from one place to the next.
   const auto passable = [this](const LowestReturn& from, const LowestReturn& to) {
@@ -162,7 +162,7 @@ GroundSurface::Detour GroundSurface::find_ground_again(
   return {};
 }
 
-void GroundSurface::find_lenders(const RingGrid& grid, int sector) noexcept {
+void GroundSurface::find_donors(const RingGrid& grid, int sector) noexcept {
   const std::span<const Origin> found = of_sector(found_, grid, sector);
   const std::span<Origin> origin = of_sector(origin_, grid, sector);
   bool has_changed = false;
@@ -196,8 +196,8 @@ bool GroundSurface::lies_on_wide_strip(const RingGrid& grid, int sector, int ban
   return end - first >= wide_from;
 }
 
-bool GroundSurface::borrow_from_neighbours(const RingGrid& grid, int sector,
-                                           std::span<const LowestReturn> lowest) noexcept {
+bool GroundSurface::interpolate_from_neighbours(const RingGrid& grid, int sector,
+                                                std::span<const LowestReturn> lowest) noexcept {
   const int bands = grid.bands();
   const std::size_t first = grid.cell(sector, 0);
   const auto has_return = [&](int band) {
@@ -210,8 +210,8 @@ bool GroundSurface::borrow_from_neighbours(const RingGrid& grid, int sector,
     // Heights are asked for where returns are, and between bands only from one to the next.
     const bool is_asked_for = has_return(band - 1) || has_return(band) || has_return(band + 1);
     const float height_m = origin_[cell] == kPredicted && is_asked_for
-                               ? borrowed_m(grid, sector, band)
-                               : walked_m_[cell];
+                               ? interpolated_m(grid, sector, band)
+                               : traced_m_[cell];
     has_changed |= height_m != height_m_[cell];
     height_m_[cell] = height_m;
   }
@@ -219,18 +219,18 @@ bool GroundSurface::borrow_from_neighbours(const RingGrid& grid, int sector,
   return has_changed;
 }
 
-float GroundSurface::borrowed_m(const RingGrid& grid, int sector, int band) const noexcept {
+float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) const noexcept {
   const int sectors = grid.sectors();
-  float weights = config_.walked_weight;
-  float sum_m = weights * walked_m_[grid.cell(sector, band)];
+  float weights = config_.traced_weight;
+  float sum_m = weights * traced_m_[grid.cell(sector, band)];
   for (int distance = 1; distance <= reach_; ++distance) {
     const float weight = 1.0F / static_cast<float>(distance);
     const int left = sector >= distance ? sector - distance : sector - distance + sectors;
     const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;
     for (const int neighbour : {left, right}) {
-      const std::size_t lender = grid.cell(neighbour, band);
-      if (origin_[lender] == kPredicted) continue;
-      sum_m += weight * walked_m_[lender];
+      const std::size_t donor = grid.cell(neighbour, band);
+      if (origin_[donor] == kPredicted) continue;
+      sum_m += weight * traced_m_[donor];
       weights += weight;
     }
   }

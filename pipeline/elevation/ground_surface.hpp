@@ -14,7 +14,7 @@ namespace terracut::elevation {
 /// The local ground surface over a ring grid, from the lowest return of every grid cell.
 ///
 /// Departs from the paper, which takes the lowest return of a cell for the ground whatever it is:
-/// there a car that hides the ground becomes ground. Here each sector is walked from the vehicle
+/// there a car that hides the ground becomes ground. Here each sector is traced from the vehicle
 /// outwards; the lowest return of a cell is ground only if a passable slope leads to it from the
 /// ground before. Ground that was lost is found again where the lowest returns form a passable way
 /// of some metres among themselves (a bank behind a ditch, a hillside behind a hedge). Cells
@@ -31,9 +31,9 @@ class GroundSurface {
 
   struct Config {
     float step_up_m = 0.04F;        ///< Rise accepted at no distance at all (noise, bumps).
-    float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre walked.
+    float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre traced.
     float step_up_limit_m = 0.31F;  ///< A higher rise is never accepted, at whatever distance.
-    float extra_fall = 0.30F;  ///< Further fall accepted per metre walked (ground may drop away).
+    float extra_fall = 0.30F;  ///< Further fall accepted per metre traced (ground may drop away).
     float slope_gain = 0.30F;  ///< Share of a new step in the running slope, (0, 1].
     float max_slope = 0.55F;   ///< Largest running slope, rise over run.
     float slope_memory_m = 2.0F;  ///< How far the running slope is carried on over missing ground.
@@ -43,29 +43,30 @@ class GroundSurface {
         4.0F;  ///< Lost ground is found again after so many metres of passable steps ...
     float regain_slope = 0.55F;   ///< ... that begin no steeper than this from the last ground ...
     float regain_width_m = 4.0F;  ///< ... on a strip at least so wide.
-    int borrow_sectors = 14;      ///< How many sectors to each side a cell may borrow from.
-    float walked_weight =
-        0.30F;  ///< Weight of the walked prediction against a neighbour's 1/distance.
+    int interpolate_sectors =
+        14;  ///< How many sectors to each side a cell may be interpolated from.
+    float traced_weight =
+        0.30F;  ///< Weight of the traced prediction against a neighbour's 1/distance.
   };
 
   GroundSurface(const Config& config, const RingGrid& grid, memory::FixedMemory& memory);
 
-  // For a turn, also while it arrives: forget(), then walk() sectors as they become known, settle()
-  // those whose surface is wanted already, and at last settle_rest().
+  // For a frame, also while it arrives: reset(), then trace() sectors as they become known,
+  // finalize() those whose surface is wanted already, and at last finalize_rest().
 
-  /// A new turn: no sector has been walked. Real-time safe, as all of this.
-  void forget() noexcept TERRACUT_NONBLOCKING;
+  /// A new frame: no sector has been traced. Real-time safe, as all of this.
+  void reset() noexcept TERRACUT_NONBLOCKING;
   /// The lowest returns of these sectors are known.
-  void walk(const RingGrid& grid, RingGrid::Sectors sectors,
-            std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
-  /// Estimates the surface in sectors that have been walked. A neighbour that has not been walked
+  void trace(const RingGrid& grid, RingGrid::Sectors sectors,
+             std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
+  /// Estimates the surface in sectors that have been traced. A neighbour that has not been walked
   /// yet gives no ground.
-  void settle(const RingGrid& grid, RingGrid::Sectors sectors,
-              std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
-  /// Estimates the surface of the whole frame once all sectors have been walked. `is_current[s]`
-  /// becomes 0 where this changed the surface that settle() had found for sector s.
-  void settle_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
-                   std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
+  void finalize(const RingGrid& grid, RingGrid::Sectors sectors,
+                std::span<const LowestReturn> lowest) noexcept TERRACUT_NONBLOCKING;
+  /// Estimates the surface of the whole frame once all sectors have been traced. `is_current[s]`
+  /// becomes 0 where this changed the surface that finalize() had found for sector s.
+  void finalize_rest(const RingGrid& grid, std::span<const LowestReturn> lowest,
+                     std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
   /// The surface of a sector depends on this many sectors to each side (on more of them only
   /// beside a strip that may be too narrow to be ground).
   [[nodiscard]] int reach() const noexcept { return reach_; }
@@ -78,11 +79,11 @@ class GroundSurface {
   enum Origin : std::uint8_t {
     kPredicted,  // the cell had no return, or none on the ground
     kMeasured,   // the cell's own lowest return is the ground
-    kRegained,   // the same, but the walk lost the ground on its way here
+    kRegained,   // the same, but the trace lost the ground on its way here
   };
 
-  /// Where a walk stands: its last step and the slope it has been going at.
-  struct Walk {
+  /// Where a trace stands: its last step and the slope it has been going at.
+  struct Trace {
     float height_m = 0;  // at first on the mount's plane, under the sensor
     float range_m = 0;
     float slope = 0;
@@ -99,11 +100,11 @@ class GroundSurface {
                                               int sector) noexcept {
     return cells.subspan(grid.cell(sector, 0), static_cast<std::size_t>(grid.bands()));
   }
-  void walk_outwards(const RingGrid& grid, int sector,
+  void trace_outward(const RingGrid& grid, int sector,
                      std::span<const LowestReturn> lowest) noexcept;
-  /// Walks from `band` to the end of the sector; returns the last band that was ground, or -1.
-  int walk_on(const RingGrid& grid, int sector, int band, Origin origin, Walk& ground,
-              std::span<const LowestReturn> lowest) noexcept;
+  /// Traces from `band` to the end of the sector; returns the last band that was ground, or -1.
+  int trace_on(const RingGrid& grid, int sector, int band, Origin origin, Trace& ground,
+               std::span<const LowestReturn> lowest) noexcept;
   /// Where ground begins again, and the slope it goes on at.
   struct Detour {
     int band = -1;  // -1: nowhere
@@ -112,22 +113,22 @@ class GroundSurface {
   /// The first band after `lost_band` that is passable from where the ground was lost and leads on
   /// passably for `regain_length_m`.
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
-                                         const Walk& ground,
+                                         const Trace& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
   /// Finds which ground of a sector its neighbours may use: all that was found in it, except ground
   /// found again on a strip too narrow to be ground (a row of car roofs, for example).
-  void find_lenders(const RingGrid& grid, int sector) noexcept;
+  void find_donors(const RingGrid& grid, int sector) noexcept;
   [[nodiscard]] bool lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept;
   /// True where that changed the surface.
-  bool borrow_from_neighbours(const RingGrid& grid, int sector,
-                              std::span<const LowestReturn> lowest) noexcept;
-  [[nodiscard]] float borrowed_m(const RingGrid& grid, int sector, int band) const noexcept;
+  bool interpolate_from_neighbours(const RingGrid& grid, int sector,
+                                   std::span<const LowestReturn> lowest) noexcept;
+  [[nodiscard]] float interpolated_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;
   int reach_;
-  std::span<float> walked_m_;
+  std::span<float> traced_m_;
   std::span<float> height_m_;
-  std::span<Origin> found_;               // by the walk; kPredicted in sectors not walked
+  std::span<Origin> found_;               // by the trace; kPredicted in sectors not traced
   std::span<Origin> origin_;              // without narrow strips
   std::span<std::uint8_t> has_regained_;  // of each sector, anything of found_
   std::span<std::uint8_t> is_open_;       // of each sector: its surface is not that of origin_ yet

@@ -57,7 +57,7 @@ GroundSurface::LowestReturn return_of(std::int64_t key) noexcept {
           std::bit_cast<float>(static_cast<std::int32_t>(key))};
 }
 
-/// Keys of some cells; those without a return get that of an empty grid cell. Answers how many have
+/// Keys of some cells; those without a return get that of an empty grid cell. Returns how many have
 /// one.
 TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
                                                const float* __restrict range_m,
@@ -87,24 +87,24 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
       row_keys_(memory.take<std::int64_t>("ring grid", static_cast<std::size_t>(shape.columns))),
       row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())) {}
 
-void RingElevationMap::forget() noexcept {
-  walked_ = 0;
+void RingElevationMap::reset() noexcept {
+  traced_ = 0;
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
   std::fill(lowest_key_.begin(), lowest_key_.end(), key_of(GroundSurface::kEmpty, 0.0F));
-  surface_.forget();
+  surface_.reset();
 }
 
-void RingElevationMap::walk_to(int end, const frame::RangeImage& image) noexcept {
-  const RingGrid::Sectors sectors{walked_, end};
+void RingElevationMap::trace_to(int end, const frame::RangeImage& image) noexcept {
+  const RingGrid::Sectors sectors{traced_, end};
   take_overflow(image);
-  if (walked_ == end) return;
+  if (traced_ == end) return;
   take_columns(image, sectors);
   for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
     lowest_[i] = return_of(lowest_key_[i]);
   }
-  if (config_.reference == GroundReference::kLocalSurface) surface_.walk(grid_, sectors, lowest_);
-  walked_ = end;
+  if (config_.reference == GroundReference::kLocalSurface) surface_.trace(grid_, sectors, lowest_);
+  traced_ = end;
 }
 
 void RingElevationMap::take_columns(const frame::RangeImage& image,
@@ -134,21 +134,22 @@ void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
   const auto stride = static_cast<std::uint32_t>(image.shape().stride());
   for (const frame::OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
     const int sector = grid_.sector_of(static_cast<int>(extra.cell % stride));
-    was_overtaken_ |= sector < walked_;
+    was_overtaken_ |= sector < traced_;
     std::int64_t& lowest =
-        lowest_key_[grid_.cell(sector, grid_.band_of(extra.echo.ground_range_m))];
-    lowest = std::min(lowest, key_of(extra.echo.z_m, extra.echo.ground_range_m));
+        lowest_key_[grid_.cell(sector, grid_.band_of(extra.point.ground_range_m))];
+    lowest = std::min(lowest, key_of(extra.point.z_m, extra.point.ground_range_m));
   }
   seen_overflow_ = image.overflow().size();
 }
 
-void RingElevationMap::settle(RingGrid::Sectors sectors) noexcept {
-  if (config_.reference == GroundReference::kLocalSurface) surface_.settle(grid_, sectors, lowest_);
+void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
+  if (config_.reference == GroundReference::kLocalSurface)
+    surface_.finalize(grid_, sectors, lowest_);
 }
 
-void RingElevationMap::settle_rest(std::span<std::uint8_t> is_current) noexcept {
+void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcept {
   if (config_.reference == GroundReference::kLocalSurface) {
-    surface_.settle_rest(grid_, lowest_, is_current);
+    surface_.finalize_rest(grid_, lowest_, is_current);
   }
 }
 

@@ -33,24 +33,24 @@ class RingElevationMap {
   RingElevationMap(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                    memory::FixedMemory& memory);
 
-  // For a turn, also while it arrives (CoarseStages): forget(), then walk_to() sector after sector,
-  // settle() what is to be labelled already, settle_rest() when all have been walked, and label()
-  // whatever was settled.
+  // For a frame, also while it arrives (CoarseStages): reset(), then trace_to() sector after
+  // sector, finalize() what is to be labelled already, finalize_rest() when all have been traced,
+  // and label() what was final before.
 
-  /// A new turn. Real-time safe, as all of this.
-  void forget() noexcept TERRACUT_NONBLOCKING;
-  /// All columns of the sectors from walked() to `end` are there.
-  void walk_to(int end, const frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] int walked() const noexcept { return walked_; }
-  /// False where a return came after its sector had been walked: what was found is of no use then.
-  /// Once all sectors have been walked.
+  /// A new frame. Real-time safe, as all of this.
+  void reset() noexcept TERRACUT_NONBLOCKING;
+  /// All columns of the sectors from traced() to `end` are there.
+  void trace_to(int end, const frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] int traced() const noexcept { return traced_; }
+  /// False where a return came after its sector had been traced: what was found is of no use then.
+  /// Once all sectors have been traced.
   [[nodiscard]] bool saw_all_of(const frame::RangeImage& image) const noexcept {
     return !was_overtaken_ && seen_ + seen_overflow_ == image.returns();
   }
-  void settle(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
-  /// As GroundSurface::settle_rest().
-  void settle_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
-  /// Sectors to either side that have to be walked for a sector to be settled for good.
+  void finalize(RingGrid::Sectors sectors) noexcept TERRACUT_NONBLOCKING;
+  /// As GroundSurface::finalize_rest().
+  void finalize_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
+  /// Sectors to either side that have to be traced for a sector to be final.
   [[nodiscard]] int reach() const noexcept {
     return config_.reference == GroundReference::kLocalSurface ? surface_.reach() : 0;
   }
@@ -67,7 +67,7 @@ class RingElevationMap {
   Config config_;
   RingGrid grid_;
   GroundSurface surface_;
-  int walked_ = 0;                 // sectors
+  int traced_ = 0;                 // sectors
   std::size_t seen_ = 0;           // returns that own a cell of these
   std::size_t seen_overflow_ = 0;  // returns of the overflow list, wherever they are
   bool was_overtaken_ = false;

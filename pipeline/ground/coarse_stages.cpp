@@ -7,7 +7,7 @@
 namespace terracut::ground {
 namespace {
 
-/// Sectors labelled together while the turn arrives: few, so that they are in the caches next to
+/// Sectors labelled together while the frame arrives: few, so that they are in the caches next to
 /// the core from when they came to when they are labelled, and little is left at the end.
 constexpr int kBlock = 16;
 
@@ -31,28 +31,28 @@ void CoarseStages::begin(const frame::RangeImage& image) noexcept {
   generation_ = image.generation();
   labelled_ = 0;
   std::ranges::fill(is_current_, std::uint8_t{0});
-  map_.forget();
+  map_.reset();
 }
 
-void CoarseStages::advance(const frame::RangeImage& image, int settled_columns,
+void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
                            stage::CellPlanes& planes, stage::StageObserver* observer,
                            int most_blocks) noexcept {
-  if (image.returns() == 0) return;  // a stream begins behind a turn that it has nothing of
+  if (image.returns() == 0) return;  // a stream begins behind a frame that it has nothing of
   if (!has_begun(image)) begin(image);
   const elevation::RingGrid& grid = map_.grid();
-  for (int block = 0; block < most_blocks && map_.walked() + kBlock <= grid.sectors() &&
-                      grid.columns_of({0, map_.walked() + kBlock}).end <= settled_columns;
+  for (int block = 0; block < most_blocks && map_.traced() + kBlock <= grid.sectors() &&
+                      grid.columns_of({0, map_.traced() + kBlock}).end <= complete_columns;
        ++block) {
     if (observer != nullptr) observer->resumed();
-    map_.walk_to(map_.walked() + kBlock, image);
-    // The first sectors wait for the last ones: ground is lent across the seam.
+    map_.trace_to(map_.traced() + kBlock, image);
+    // The first sectors wait for the last ones: ground is interpolated across the seam.
     const elevation::RingGrid::Sectors next{std::max(labelled_, map_.reach()),
-                                            map_.walked() - map_.reach()};
+                                            map_.traced() - map_.reach()};
     if (next.end - next.begin < kBlock) {
       done(observer, stage::Stage::kElevationMap);
       continue;
     }
-    map_.settle(next);
+    map_.finalize(next);
     label(next, image, planes, observer);
   }
 }
@@ -62,12 +62,12 @@ void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& pla
   const int sectors = map_.grid().sectors();
   if (observer != nullptr) observer->resumed();
   if (!has_begun(image)) begin(image);
-  map_.walk_to(sectors, image);
+  map_.trace_to(sectors, image);
   if (!map_.saw_all_of(image)) {
     begin(image);
-    map_.walk_to(sectors, image);
+    map_.trace_to(sectors, image);
   }
-  map_.settle_rest(is_current_);
+  map_.finalize_rest(is_current_);
   const int labelled_ahead = labelled_;
   if (labelled_ < sectors) label({labelled_, sectors}, image, planes, observer);
   label_changed(labelled_ahead, image, planes);
@@ -86,7 +86,7 @@ void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::Rang
   map_.label(image, columns, planes);
   done(observer, stage::Stage::kElevationMap);
   if (uses_adjacent_points()) {
-    adjacent_.forget(columns, planes);
+    adjacent_.reset(columns, planes);
     adjacent_.compare(image, columns, planes);
     adjacent_.mark({std::max(columns.begin - adjacent_.reach(), 0), columns.end}, planes);
     done(observer, stage::Stage::kAdjacentPoints);
@@ -111,7 +111,7 @@ void CoarseStages::label_changed(int end, const frame::RangeImage& image,
 
 void CoarseStages::label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
                                stage::CellPlanes& planes) noexcept {
-  // What columns next to changed ones are compared with has changed, too, and is forgotten.
+  // What columns next to changed ones are compared with has changed, too, and is reset.
   const auto widened = [this](frame::ColumnRange columns) {
     return frame::ColumnRange{std::max(columns.begin - adjacent_.reach(), 0),
                               std::min(columns.end + adjacent_.reach(), shape_.columns)};
@@ -123,7 +123,7 @@ void CoarseStages::label_again(elevation::RingGrid::Sectors sectors, const frame
   }
   const frame::ColumnRange columns = widened(changed);
   map_.label(image, columns, planes);
-  adjacent_.forget(columns, planes);
+  adjacent_.reset(columns, planes);
   adjacent_.compare(image, {columns.begin, widened(columns).end}, planes);
   adjacent_.mark(columns, planes);
 }

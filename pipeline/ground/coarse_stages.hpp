@@ -19,11 +19,11 @@
 namespace terracut::ground {
 
 /// The coarse stages of the method, elevation map and adjacent points. Most of their work can be
-/// done while the turn is still arriving, on columns that were just written and are in the caches
+/// done while the frame is still arriving, on columns that were just written and are in the caches
 /// next to the core:
 ///
 ///   columns   0 ......................................................... all
-///             |  labelled  | walked: their lowest returns known |  to come  |
+///             |  labelled  | traced: their lowest returns known |  to come  |
 ///                          '-- as many sectors as give ground to a neighbour --'
 ///
 /// Columns that come later can change the ground of sectors that were labelled: at the seam, where
@@ -39,21 +39,21 @@ class CoarseStages {
                frame::ImageShape shape, memory::FixedMemory& memory);
 
   /// Does what can be done ahead for a frame that is still arriving: labels columns in blocks, at
-  /// most `most_blocks` of them in this call. Columns [0, settled_columns) of `image` are complete
+  /// most `most_blocks` of them in this call. Columns [0, complete_columns) of `image` are complete
   /// and must not be moved any more. The labels go to `planes`, which belong to this frame until
   /// finish(). Another image, or the same image cleared, begins another frame and drops what was
   /// done for the one before.
-  void advance(const frame::RangeImage& image, int settled_columns, stage::CellPlanes& planes,
+  void advance(const frame::RangeImage& image, int complete_columns, stage::CellPlanes& planes,
                stage::StageObserver* observer = nullptr,
                int most_blocks = kAnyNumber) noexcept TERRACUT_NONBLOCKING;
-  /// The share of a turn's sectors, [0, 1], that finish() would find labelled.
+  /// The share of a frame's sectors, [0, 1], that finish() would find labelled.
   [[nodiscard]] float share_ahead(const frame::RangeImage& image) const noexcept
       TERRACUT_NONBLOCKING {
     if (!has_begun(image)) return 0;
     return static_cast<float>(labelled_) / static_cast<float>(map_.grid().sectors());
   }
 
-  /// The turn is whole: fills `height_m`, `label` and, where the adjacent points are among the
+  /// The frame is whole: fills `height_m`, `label` and, where the adjacent points are among the
   /// stages, `steep` of every cell.
   void finish(const frame::RangeImage& image, stage::CellPlanes& planes,
               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
@@ -69,7 +69,7 @@ class CoarseStages {
   /// label_again(), which compares them with their neighbours once more.
   void label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
              stage::CellPlanes& planes, stage::StageObserver* observer) noexcept;
-  /// Labels sectors again in a turn that is labelled.
+  /// Labels sectors again in a frame that is labelled.
   void label_again(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
                    stage::CellPlanes& planes) noexcept;
   /// Labels again what has changed in the sectors [0, end).
@@ -82,7 +82,7 @@ class CoarseStages {
   frame::ImageShape shape_;
   elevation::RingElevationMap map_;
   elevation::AdjacentPoints adjacent_;
-  const frame::RangeImage* image_ = nullptr;  // of the turn that has begun
+  const frame::RangeImage* image_ = nullptr;  // of the frame that has begun
   std::uint32_t generation_ = 0;
   int labelled_ = 0;                    // sectors
   std::span<std::uint8_t> is_current_;  // of each sector: labelled by the surface as it is

@@ -27,8 +27,8 @@ class FineStages {
   FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
              frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Labels the returns of a turn. `planes`: what CoarseStages::finish() made of it; labels in them
-  /// become final. Where `budget` has expired before the random field, or too soon in its cut,
+  /// Labels the returns of a frame. `planes`: what CoarseStages::finish() made of it; labels in
+  /// them become final. Where `budget` has expired before the random field, or too soon in its cut,
   /// labels stay as they were.
   [[nodiscard]] stage::SegmentationReport refine(
       const frame::RangeImage& image, stage::CellPlanes& planes,

@@ -28,7 +28,7 @@ MethodConfig paper_up_to(stage::Stage last) {
   return config;
 }
 
-MethodConfig rival(MethodKind kind) {
+MethodConfig baseline(MethodKind kind) {
   MethodConfig config;
   config.kind = kind;
   return config;
@@ -41,9 +41,9 @@ std::span<const MethodName> method_names() noexcept {
 }
 
 Expected<MethodConfig> method_named(std::string_view name) {
-  if (name == "pfaff") return rival(MethodKind::kPfaff);
-  if (name == "bogoslavskyi") return rival(MethodKind::kBogoslavskyi);
-  if (name == "zhang") return rival(MethodKind::kZhang);
+  if (name == "pfaff") return baseline(MethodKind::kPfaff);
+  if (name == "bogoslavskyi") return baseline(MethodKind::kBogoslavskyi);
+  if (name == "zhang") return baseline(MethodKind::kZhang);
   if (name == "ring_map") return paper_up_to(stage::Stage::kElevationMap);
   if (name == "ring_map_adjacent") return paper_up_to(stage::Stage::kAdjacentPoints);
   if (name == "paper") return paper_up_to(stage::Stage::kMinCut);

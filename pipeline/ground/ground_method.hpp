@@ -38,20 +38,20 @@ struct MethodName {
   std::string_view about;  ///< "Column angles in the range image (Bogoslavskyi, Stachniss 2017)"
 };
 
-/// All there are, in the order of the paper's tables: the rivals, the rows of Table III, ours.
+/// All there are, in the order of the paper's tables: the baselines, the rows of Table III, ours.
 [[nodiscard]] std::span<const MethodName> method_names() noexcept;
 
 /// The method of that name with its default parameters. kInvalidArgument, naming those there are,
 /// for any other name.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
-/// Segmenter or a rival, chosen at run time. Has Segmenter's interface and contracts, and costs one
-/// switch a frame.
+/// Segmenter or a baseline, chosen at run time. Has Segmenter's interface and contracts, and costs
+/// one switch a frame.
 class GroundMethod {
  private:
   /// std::visit without its exception: after the constructor there is always a method.
   template <class Self, class Function>
-  static decltype(auto) visit_rival(Self& self, Function&& function) noexcept {
+  static decltype(auto) visit_baseline(Self& self, Function&& function) noexcept {
     if (auto* pfaff = std::get_if<baselines::FixedGridElevationMap>(&self.method_))
       return function(*pfaff);
     if (auto* angles = std::get_if<baselines::ColumnAngles>(&self.method_))
@@ -81,32 +81,32 @@ class GroundMethod {
     }
   }
 
-  /// As Segmenter::advance(); rivals do nothing ahead.
-  void advance(const frame::RangeImage& image, int settled_columns,
+  /// As Segmenter::advance(); baselines do nothing ahead.
+  void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept {
     if (auto* segmenter = std::get_if<Segmenter>(&method_)) {
-      segmenter->advance(image, settled_columns, observer);
+      segmenter->advance(image, complete_columns, observer);
     }
   }
 
-  /// Rivals report the stage that is most like theirs (their headers say which).
+  /// Baselines report the stage that is most like theirs (their headers say which).
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept {
     if (auto* segmenter = std::get_if<Segmenter>(&method_)) {
       return segmenter->segment(image, {}, observer);
     }
     if (observer != nullptr) observer->resumed();
-    return visit_rival(*this, [&](auto& rival) { return rival.segment(image, observer); });
+    return visit_baseline(*this, [&](auto& baseline) { return baseline.segment(image, observer); });
   }
 
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
     if (const auto* segmenter = std::get_if<Segmenter>(&method_)) return segmenter->labels();
-    return visit_rival(*this, [](const auto& rival) { return rival.labels(); });
+    return visit_baseline(*this, [](const auto& baseline) { return baseline.labels(); });
   }
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept {
     if (const auto* segmenter = std::get_if<Segmenter>(&method_)) return segmenter->planes();
-    return visit_rival(
-        *this, [](const auto& rival) -> const stage::CellPlanes& { return rival.planes(); });
+    return visit_baseline(
+        *this, [](const auto& baseline) -> const stage::CellPlanes& { return baseline.planes(); });
   }
 
  private:

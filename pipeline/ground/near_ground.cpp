@@ -7,15 +7,15 @@
 namespace terracut::ground {
 namespace {
 
-/// A sixth of a turn: at the nearest range the strip is 30 degrees wide to either side.
-constexpr int kSectorsATurn = 6;
+/// A sixth of a frame: at the nearest range the strip is 30 degrees wide to either side.
+constexpr int kSectorsAFrame = 6;
 
 }  // namespace
 
 void take_near_ground(const frame::RangeImage& image,
                       NearGround& ground) noexcept TERRACUT_NONBLOCKING {
   const frame::ImageShape& shape = image.shape();
-  const int sector = shape.columns / kSectorsATurn;
+  const int sector = shape.columns / kSectorsAFrame;
   const auto cells = 2 * static_cast<std::size_t>(sector) * static_cast<std::size_t>(shape.rows);
   const int step = static_cast<int>((cells + NearGround::kMostCellsLookedAt - 1) /
                                     NearGround::kMostCellsLookedAt);

@@ -51,11 +51,11 @@ constexpr std::array kParameters{
 
     Parameter{"surface.step_up_m", "m", "Rise accepted as ground at no distance", 0, 1, {},
               TERRACUT_FIELD(elevation_map.surface.step_up_m)},
-    Parameter{"surface.slope_tolerance", "m/m", "Further rise or fall accepted per metre walked", 0, 1, {},
+    Parameter{"surface.slope_tolerance", "m/m", "Further rise or fall accepted per metre traced", 0, 1, {},
               TERRACUT_FIELD(elevation_map.surface.slope_tolerance)},
     Parameter{"surface.step_up_limit_m", "m", "Largest rise ever accepted in one step", 0, 5, {},
               TERRACUT_FIELD(elevation_map.surface.step_up_limit_m)},
-    Parameter{"surface.extra_fall", "m/m", "Further fall accepted per metre walked", 0, 2, {},
+    Parameter{"surface.extra_fall", "m/m", "Further fall accepted per metre traced", 0, 2, {},
               TERRACUT_FIELD(elevation_map.surface.extra_fall)},
     Parameter{"surface.slope_gain", "", "Share of a new step in the running slope", 0.01, 1, {},
               TERRACUT_FIELD(elevation_map.surface.slope_gain)},
@@ -71,10 +71,10 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(elevation_map.surface.regain_slope)},
     Parameter{"surface.regain_width_m", "m", "... on a strip at least so wide", 0, 100, {},
               TERRACUT_FIELD(elevation_map.surface.regain_width_m)},
-    Parameter{"surface.borrow_sectors", "sectors", "How far to each side a cell without ground borrows", 0, 100, {},
-              TERRACUT_FIELD(elevation_map.surface.borrow_sectors)},
-    Parameter{"surface.walked_weight", "", "Weight of the walked prediction when borrowing", 0.01, 10, {},
-              TERRACUT_FIELD(elevation_map.surface.walked_weight)},
+    Parameter{"surface.interpolate_sectors", "sectors", "How far to each side a cell without ground is interpolated from", 0, 100, {},
+              TERRACUT_FIELD(elevation_map.surface.interpolate_sectors)},
+    Parameter{"surface.traced_weight", "", "Weight of the traced prediction when interpolating", 0.01, 10, {},
+              TERRACUT_FIELD(elevation_map.surface.traced_weight)},
 
     Parameter{"adjacent.rule", "", "How a step too steep for ground is told", 0, 1, kAdjacentRules,
               TERRACUT_FIELD(adjacent_points.rule)},
@@ -242,7 +242,7 @@ constexpr std::array kParameters{
 #undef TERRACUT_FIELD
 #undef TERRACUT_FIELD_OF
 
-constexpr std::size_t kRivalsBegin = [] {
+constexpr std::size_t kBaselinesBegin = [] {
   std::size_t first = 0;
   while (!kParameters[first].key.starts_with("pfaff.")) ++first;
   return first;
@@ -288,14 +288,14 @@ std::string unknown(std::string_view key) {
 }  // namespace
 
 std::span<const Parameter> parameters() noexcept {
-  return std::span(kParameters).first(kRivalsBegin);
+  return std::span(kParameters).first(kBaselinesBegin);
 }
 
-std::span<const Parameter> rival_parameters() noexcept {
-  return std::span(kParameters).subspan(kRivalsBegin);
+std::span<const Parameter> baseline_parameters() noexcept {
+  return std::span(kParameters).subspan(kBaselinesBegin);
 }
 
-MethodKind kind_that_heeds(std::string_view key) noexcept {
+MethodKind kind_that_uses(std::string_view key) noexcept {
   if (key.starts_with("pfaff.")) return MethodKind::kPfaff;
   if (key.starts_with("bogoslavskyi.")) return MethodKind::kBogoslavskyi;
   if (key.starts_with("zhang.")) return MethodKind::kZhang;

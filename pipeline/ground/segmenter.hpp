@@ -24,15 +24,15 @@ class Segmenter {
         coarse_(config, profile, shape, memory),
         fine_(config, profile, shape, return_capacity, memory) {}
 
-  /// Does ahead what can be done of a turn that is still arriving: CoarseStages::advance(). Never
+  /// Does ahead what can be done of a frame that is still arriving: CoarseStages::advance(). Never
   /// necessary; labels are the same without it. Overwrites planes(), not labels().
-  void advance(const frame::RangeImage& image, int settled_columns,
+  void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {
-    coarse_.advance(image, settled_columns, planes_, observer);
+    coarse_.advance(image, complete_columns, planes_, observer);
   }
 
-  /// Labels one turn; `image` has the shape given at construction. The result of the turn before is
-  /// overwritten. `budget`: FineStages::refine(). Real-time safe if the observer is.
+  /// Labels one frame; `image` has the shape given at construction. The result of the frame before
+  /// is overwritten. `budget`: FineStages::refine(). Real-time safe if the observer is.
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, const min_cut::CutBudget& budget = {},
       stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING {

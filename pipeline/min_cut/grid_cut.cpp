@@ -110,7 +110,7 @@ CutReport GridCut::solve_contracted(const GridProblem& problem, OpClock& clock,
     } else {
       report.budget_hit = true;
       if (!is_worth_keeping(report)) return discard(report);
-      cost_beyond_flow += settle_unfinished(component, started, labels, report);
+      cost_beyond_flow += finalize_unfinished(component, started, labels, report);
     }
   }
 
@@ -140,9 +140,9 @@ bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock&
   return finished;
 }
 
-std::int64_t GridCut::settle_unfinished(std::span<const std::uint32_t> component, bool started,
-                                        std::span<const frame::Label> labels,
-                                        CutReport& report) noexcept {
+std::int64_t GridCut::finalize_unfinished(std::span<const std::uint32_t> component, bool started,
+                                          std::span<const frame::Label> labels,
+                                          CutReport& report) noexcept {
   std::uint32_t certified = 0;
   if (started) {
     certified = certify(graph_, component, queue_);

@@ -86,9 +86,9 @@ class GridCut {
                                      CutReport& report) noexcept;
   /// Proves what it can of an unfinished component, leaves the rest coarse, and returns what the
   /// labels cost beyond the flow.
-  [[nodiscard]] std::int64_t settle_unfinished(std::span<const std::uint32_t> component,
-                                               bool started, std::span<const frame::Label> labels,
-                                               CutReport& report) noexcept;
+  [[nodiscard]] std::int64_t finalize_unfinished(std::span<const std::uint32_t> component,
+                                                 bool started, std::span<const frame::Label> labels,
+                                                 CutReport& report) noexcept;
 
   Config config_;
   UnknownCells unknown_;

@@ -35,14 +35,14 @@ void draw_returns(Canvas& canvas, const ColouredFrame& frame) {
   std::vector<float> top_m(static_cast<std::size_t>(width) * static_cast<std::size_t>(height),
                            std::numeric_limits<float>::lowest());
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
-    const double column = canvas.column(static_cast<double>(placed.echo.y_m));
-    const double line = canvas.line(static_cast<double>(placed.echo.x_m));
+    const double column = canvas.column(static_cast<double>(placed.point.y_m));
+    const double line = canvas.line(static_cast<double>(placed.point.x_m));
     if (!(column >= 0 && column < width && line >= 0 && line < height)) return;
     const Colour colour = frame.colours[placed.return_index];
     const float level =
         frame.level.empty() ? 0.0F : static_cast<float>(frame.level[placed.return_index]);
     constexpr float kLevel_m = 1e5F;  // more than any height
-    const float rank = level * kLevel_m + placed.echo.z_m;
+    const float rank = level * kLevel_m + placed.point.z_m;
     const int x = static_cast<int>(column), y = static_cast<int>(line);
     for (int py = std::max(y - 1, 0); py <= std::min(y + 1, height - 1); ++py) {
       for (int px = std::max(x - 1, 0); px <= std::min(x + 1, width - 1); ++px) {
@@ -95,7 +95,7 @@ void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
 Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view) {
   std::vector<Colour> colours(frame.labels.size());
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
-    colours[placed.return_index] = colour_of_return(frame, placed.return_index, placed.echo);
+    colours[placed.return_index] = colour_of_return(frame, placed.return_index, placed.point);
   });
   // Mistakes lie on top of everything: they are what such a picture is looked at for.
   std::vector<std::uint8_t> mistaken;

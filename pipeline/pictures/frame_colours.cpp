@@ -37,7 +37,7 @@ Colour by_height(double height_m) noexcept {
 }  // namespace
 
 Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
-                        const frame::Return& echo) noexcept {
+                        const frame::Return& point) noexcept {
   const bool truth_known = !frame.mistakes.empty();
   if (truth_known && frame.mistakes[return_index] == Mistake::kMissedObstacle) {
     return kMissedObstacleColour;
@@ -47,12 +47,12 @@ Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
   }
   if (frame.labels[return_index] == frame::Label::kGround) {
     // The square root opens up the dark end, where asphalt lies.
-    return mix(kDarkSand, kBrightSand, std::sqrt(echo.intensity / 255.0));
+    return mix(kDarkSand, kBrightSand, std::sqrt(point.intensity / 255.0));
   }
   if (frame.labels[return_index] == frame::Label::kOtherGround) {
-    return mix(kDarkMoss, kBrightMoss, std::sqrt(echo.intensity / 255.0));
+    return mix(kDarkMoss, kBrightMoss, std::sqrt(point.intensity / 255.0));
   }
-  return truth_known ? kSlate : by_height(static_cast<double>(echo.z_m));
+  return truth_known ? kSlate : by_height(static_cast<double>(point.z_m));
 }
 
 }  // namespace terracut::pictures

@@ -33,6 +33,6 @@ inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 /// over violet to blue above 4 m; beside mistakes they are all slate, so that the mistakes stand
 /// out.
 [[nodiscard]] Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
-                                      const frame::Return& echo) noexcept;
+                                      const frame::Return& point) noexcept;
 
 }  // namespace terracut::pictures

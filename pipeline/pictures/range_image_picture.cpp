@@ -33,13 +33,14 @@ Picture range_image_picture(const LabelledFrame& frame) {
   const frame::ImageShape& shape = frame.image.shape();
   Picture picture(shape.columns, shape.rows * kPixelsPerRow, kPictureBackground);
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
-    // Column 0 is straight ahead and columns go clockwise, so half a turn further is the middle.
+    // Column 0 is straight ahead and columns go clockwise, so half a revolution further is the
+    // middle.
     const int x = (placed.column + shape.columns / 2) % shape.columns;
     const int y = (shape.rows - 1 - placed.row) * kPixelsPerRow;
-    Colour colour = colour_of_return(frame, placed.return_index, placed.echo);
+    Colour colour = colour_of_return(frame, placed.return_index, placed.point);
     const bool mistaken =
         !frame.mistakes.empty() && frame.mistakes[placed.return_index] != Mistake::kNone;
-    if (!mistaken) colour = dimmed(colour, static_cast<double>(placed.echo.ground_range_m));
+    if (!mistaken) colour = dimmed(colour, static_cast<double>(placed.point.ground_range_m));
     picture.rectangle(x, y, 1, kPixelsPerRow, colour);
   });
   close_lone_gaps(picture);

@@ -39,7 +39,7 @@ class DumpFolder {
   /// std::invalid_argument for a bad name or a limit out of its range.
   explicit DumpFolder(DumpFolderLimits limits);
 
-  /// Makes room for a dump of `bytes` (both files) and answers the path of its capture. Deletes old
+  /// Makes room for a dump of `bytes` (both files) and returns the path of its capture. Deletes old
   /// dumps as far as the limits ask for it, but only when the new one will then be allowed:
   /// kOverQuota, kDiskLow and kFolderUnusable leave everything as it was.
   [[nodiscard]] tl::expected<std::filesystem::path, RefusedDump> make_room(std::uint64_t bytes,

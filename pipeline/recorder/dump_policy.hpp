@@ -26,7 +26,7 @@ struct DumpLimits {
   DumpRate asked{.interval_s = 10, .burst = 3};
 };
 
-/// What became of all wishes for a dump.
+/// What became of all requests for a dump.
 struct DumpCounters {
   std::array<std::uint64_t, kDumpReasons> wanted{};  ///< By DumpReason.
   std::uint64_t written = 0;

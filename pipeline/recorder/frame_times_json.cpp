@@ -16,10 +16,10 @@ using Text = std::back_insert_iterator<std::string>;
 void append_frame(Text text, const status::FrameTiming& frame, bool whole,
                   std::span<const std::string_view> stages) {
   fmt::format_to(text,
-                 "  {{\"number\": {}, \"whole\": {}, \"returns\": {}, \"rung\": \"{}\", "
+                 "  {{\"number\": {}, \"whole\": {}, \"returns\": {}, \"level\": \"{}\", "
                  "\"motion\": \"{}\", \"missed\": {}",
-                 frame.number, whole, frame.returns, to_string(frame.rung), to_string(frame.motion),
-                 frame.missed);
+                 frame.number, whole, frame.returns, to_string(frame.level),
+                 to_string(frame.motion), frame.missed);
   if (frame.missed) fmt::format_to(text, ", \"cause\": \"{}\"", to_string(frame.cause));
   fmt::format_to(text,
                  ",\n   \"first_packet_ns\": {}, \"last_packet_ns\": {}, "

@@ -50,8 +50,8 @@ class GroundPatches {
   [[nodiscard]] std::span<const std::uint8_t> has_obstacle() const noexcept {
     return has_obstacle_;
   }
-  /// 1 where a ring's last returns of the turn and its first ones meet: in this patch or between it
-  /// and the next. The vehicle moved on between them, so heights do not fit together there.
+  /// 1 where a ring's last returns of the frame and its first ones meet: in this patch or between
+  /// it and the next. The vehicle moved on between them, so heights do not fit together there.
   [[nodiscard]] std::span<const std::uint8_t> is_seam() const noexcept { return is_seam_; }
   [[nodiscard]] int columns_per_patch() const noexcept { return columns_per_patch_; }
   /// Number of a patch along its row; the row goes on beyond both its ends.
@@ -82,7 +82,7 @@ class GroundPatches {
   };
 
  private:
-  /// Finds the seam in a row and forgets the bends across it. `returns`: of the turn.
+  /// Finds the seam in a row and resets the bends across it. `returns`: of the frame.
   void find_seam(std::size_t row, std::uint32_t returns) noexcept;
   void smooth_roughness(std::size_t row) noexcept;
 
@@ -98,7 +98,7 @@ class GroundPatches {
   std::span<float> bend_m_, low_m_;              // by column, see find_bends() and find_low()
   std::span<Bends> bends_;                       // by patch, kMostPatchesOver more on both sides
   std::span<Bends> bends_before_;                // the same, those before each of them
-  std::span<std::uint32_t> arrival_;  // by patch, number of its first ground return in the turn
+  std::span<std::uint32_t> arrival_;  // by patch, number of its first ground return in the frame
   std::span<std::int32_t> reach_;     // by patch, patches of the window to either side
 };
 

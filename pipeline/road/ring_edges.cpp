@@ -134,7 +134,7 @@ RingEdges::RingEdges(const Config& config, const GroundPatches& ground, memory::
   is_edge_ = memory.take<std::uint8_t>("ring edges", per_row);
 }
 
-void RingEdges::begin_turn() noexcept {
+void RingEdges::begin_frame() noexcept {
   for (const std::span<float> counts : {rings_, rises_, falls_}) {
     std::fill(counts.begin(), counts.end(), 0.0F);
   }
@@ -159,11 +159,11 @@ std::span<const std::uint8_t> RingEdges::find(const GroundPatches& ground,
     is_edge_[i] = std::fabs(slope_[i]) > config_.slope && ground.has_ground()[first + i] != 0 &&
                   !goes_on_beside(ground, static_cast<int>(i));
   }
-  forget_at_seam(ground, first);
+  reset_at_seam(ground, first);
   return is_edge_;
 }
 
-void RingEdges::forget_at_seam(const GroundPatches& ground, std::size_t first) noexcept {
+void RingEdges::reset_at_seam(const GroundPatches& ground, std::size_t first) noexcept {
   const auto is_seam = ground.is_seam().subspan(first, is_edge_.size());
   for (auto seam = std::ranges::find(is_seam, 1); seam != is_seam.end();
        seam = std::find(seam + 1, is_seam.end(), 1)) {

@@ -26,16 +26,16 @@ class RingEdges {
   /// For patches like those of `ground`.
   RingEdges(const Config& config, const GroundPatches& ground, memory::FixedMemory& memory);
 
-  /// To be called before the rows of a turn. Real-time safe.
-  void begin_turn() noexcept TERRACUT_NONBLOCKING;
+  /// To be called before the rows of a frame. Real-time safe.
+  void begin_frame() noexcept TERRACUT_NONBLOCKING;
   /// 1 for each patch of a row across which there is an edge. Of patches without ground it says
   /// nothing. What it returns lasts until the next call. Real-time safe.
   [[nodiscard]] std::span<const std::uint8_t> find(const GroundPatches& ground,
                                                    const TerrainSlope& terrain,
                                                    int row) noexcept TERRACUT_NONBLOCKING;
-  /// Whether an edge goes up, or down, at this number of a patch in most rings of the turn, near
+  /// Whether an edge goes up, or down, at this number of a patch in most rings of the frame, near
   /// and far. No kerb does that but one that leads from under the vehicle to 20 m away, and that
-  /// bars no way. What does is the seam of a turn compensated for the vehicle's motion: its last
+  /// bars no way. What does is the seam of a frame compensated for the vehicle's motion: its last
   /// returns lie on the circles of another place than its first.
   [[nodiscard]] bool runs_through_sensor(int index) const noexcept TERRACUT_NONBLOCKING;
 
@@ -47,8 +47,8 @@ class RingEdges {
   /// Makes the planes of a row with their margins; false if there is no ground in it.
   bool take_row(const GroundPatches& ground, const TerrainSlope& terrain,
                 std::size_t first) noexcept;
-  /// Takes back the edges whose windows lie on both sides of the turn's seam.
-  void forget_at_seam(const GroundPatches& ground, std::size_t first) noexcept;
+  /// Takes back the edges whose windows lie on both sides of the frame's seam.
+  void reset_at_seam(const GroundPatches& ground, std::size_t first) noexcept;
   void count_steps(int per_row) noexcept;
   void find_slopes_across(int per_row) noexcept;
   /// Whether the ring is about as steep to either side of a patch as across it.

@@ -149,7 +149,7 @@ void RoadSurface::mark_returns(const frame::RangeImage& image, const stage::Cell
 }
 
 void RoadSurface::find_barriers() noexcept {
-  edges_.begin_turn();
+  edges_.begin_frame();
   const auto per_row = static_cast<std::size_t>(ground_.per_row());
   for (int row = 0; row < ground_.rows(); ++row) {
     const std::size_t first = at(row, 0);

@@ -31,13 +31,13 @@ struct Intake {
   frame::BlindAzimuths blind;
 };
 
-/// The receiving half of a live run: datagrams in, turns handed over, and most of their coarse
-/// stages done by then. One thread with a deadline, which turn_round() is the work of.
+/// The receiving half of a live run: datagrams in, frames handed over, and most of their coarse
+/// stages done by then. One thread with a deadline, which calls work_round() again and again.
 ///
 /// What one packet may cost does not depend on what is in it (docs/design.md, "Work per packet"):
-/// its decoding; one block of the coarse stages; and where it ends turns, handing them over, of
-/// which one at most needs its last sectors labelled. A turn of which less than three quarters were
-/// labelled ahead, be it that motion is taken out of it, that packets are missing, or that its
+/// its decoding; one block of the coarse stages; and where it ends frames, handing them over, of
+/// which one at most needs its last sectors labelled. A frame of which less than three quarters
+/// were labelled ahead, be it that motion is removed from it, that packets are missing, or that its
 /// stream broke off, is left to the segmenting thread.
 ///
 /// `Source`: a DatagramSource with refresh_drops(). `Clock`: as measure::SystemClock. `Wait`: as
@@ -46,13 +46,13 @@ template <class Source, class Clock, class Wait>
 class FrameReceiver {
  public:
   struct Config {
-    std::int64_t deadline_ns = 0;  ///< From a turn's last packet to its labels.
-    std::int64_t turn_ns = 0;      ///< Of one turn of the head.
+    std::int64_t deadline_ns = 0;      ///< From a frame's last packet to its labels.
+    std::int64_t frame_period_ns = 0;  ///< Of one frame of the head.
   };
   /// Where things go; all must outlive this. `recorder` and `told_table` may be null.
   struct Outlets {
-    FrameExchange* turns;
-    const threads::WakeEvent* turn_ready;
+    FrameExchange* frames;
+    const threads::WakeEvent* frame_ready;
     FrameTimings* skipped;
     queues::LatestValue<Intake>* intake;
     recorder::FlightRecorder* recorder;
@@ -68,7 +68,7 @@ class FrameReceiver {
         clock_(clock),
         wait_(std::move(wait)),
         coarse_clock_(clock),
-        gate_(config.deadline_ns, config.turn_ns),
+        gate_(config.deadline_ns, config.frame_period_ns),
         spent_ns_(clock.thread_cpu_ns()),
         waited_before_fetch_ns_(wait_.read_ns()),
         waited_before_last_fetch_ns_(waited_before_fetch_ns_) {
@@ -79,23 +79,23 @@ class FrameReceiver {
   }
 
   struct Round {
-    int turns = 0;  ///< Handed over.
+    int frames = 0;  ///< Handed over.
     /// It pays to let the next packets gather before they are fetched, because none is expected
-    /// that ends a turn.
+    /// that ends a frame.
     bool may_gather = false;
   };
   /// Waits for datagrams, at most so long, and takes them in.
-  Round turn_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
+  Round work_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
     waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
     waited_before_fetch_ns_ = wait_.read_ns();
     const std::span<const decode::Datagram> datagrams = source_.receive(timeout_ns);
     const bool is_worthwhile = datagrams.size() >= kWorthwhileBatch;
     const std::int64_t now_ns = clock_.realtime_ns();
     gate_.begin_batch(is_worthwhile);
-    turns_ = 0;
+    frames_ = 0;
     for (std::size_t i = 0; i < datagrams.size(); ++i) take(datagrams[i], now_ns);
     publish();
-    return {turns_, !is_worthwhile && !is_ending_};
+    return {frames_, !is_worthwhile && !is_ending_};
   }
   /// The run is over: counts what the kernel dropped last.
   void finish() noexcept TERRACUT_NONBLOCKING {
@@ -106,7 +106,7 @@ class FrameReceiver {
  private:
   /// Waking up for every packet costs more than decoding it. After a small batch the next one is
   /// left to gather in the kernel's buffer, which stamps packets and holds a thousand times as
-  /// many; but not where the packet may come that ends the turn.
+  /// many; but not where the packet may come that ends the frame.
   static constexpr std::size_t kWorthwhileBatch = 32;
   /// More than any buffer holds: who sends without end holds up nothing.
   static constexpr int kMostBatches = 10'000;
@@ -131,10 +131,10 @@ class FrameReceiver {
     pipeline_.decoder.push(datagram);
     hand_over_frames();
     if (pipeline_.decoder.rejected() == frame::Reject::kDeviceInfo) ++device_info_;
-    const frame::ArrivingTurn arriving = pipeline_.decoder.arriving();
+    const frame::ArrivingFrame arriving = pipeline_.decoder.arriving();
     is_ending_ = arriving.is_ending;
     if (arriving.image == nullptr) return;
-    pipeline_.coarse.advance(*arriving.image, arriving.settled_columns,
+    pipeline_.coarse.advance(*arriving.image, arriving.complete_columns,
                              pipeline_.planes_of(*arriving.image), &coarse_clock_, kBlocksAPacket);
   }
 
@@ -147,23 +147,23 @@ class FrameReceiver {
 
   frame::RangeImage* hand_over(const frame::FrameInfo& info,
                                frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
-    FrameExchange::Turn turn{&image, info, {}, false};
+    FrameExchange::Frame frame{&image, info, {}, false};
     if (pipeline_.coarse.share_ahead(image) >= kEnoughAhead) {
       pipeline_.coarse.finish(image, pipeline_.planes_of(image), &coarse_clock_);
-      turn.has_coarse_stages = true;
+      frame.has_coarse_stages = true;
     }
-    turn.timing = timing_of(info);
-    turn.timing.stages_ahead = turn.has_coarse_stages ? kCoarseStages : std::uint8_t{0};
-    if (!lets_go_) gate_.note_turn(info.last_packet_ns, turn.timing.handed_over_ns);
+    frame.timing = timing_of(info);
+    frame.timing.stages_ahead = frame.has_coarse_stages ? kCoarseStages : std::uint8_t{0};
+    if (!lets_go_) gate_.note_frame(info.last_packet_ns, frame.timing.handed_over_ns);
     frame::RangeImage* next =
-        to_.turns->hand_over(turn, [this](const FrameExchange::Turn& skipped) noexcept {
+        to_.frames->hand_over(frame, [this](const FrameExchange::Frame& skipped) noexcept {
           status::FrameTiming timing = skipped.timing;
-          timing.rung = status::Rung::kSkipped;
+          timing.level = status::Level::kSkipped;
           timing.labels_ns = clock_.realtime_ns();
           to_.skipped->pass_on(timing);
         });
-    to_.turn_ready->wake();
-    ++turns_;
+    to_.frame_ready->wake();
+    ++frames_;
     return next;
   }
 
@@ -183,7 +183,7 @@ class FrameReceiver {
               timing.stage_cpu_ns.begin());
     timing.segment_cpu_ns = coarse_times.sum_ns();
     timing.decode_cpu_ns = now_ns - spent_ns_ - timing.segment_cpu_ns;
-    // The turn's last packet came with this fetch or the one before.
+    // The frame's last packet came with this fetch or the one before.
     timing.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
     timing.handed_over_ns = clock_.realtime_ns();
     spent_ns_ = now_ns;
@@ -211,7 +211,7 @@ class FrameReceiver {
   [[nodiscard]] static status::FrameMotion motion_of(frame::DeskewState state) noexcept {
     switch (state) {
       case frame::DeskewState::kDone:
-        return status::FrameMotion::kTakenOut;
+        return status::FrameMotion::kDeskewed;
       case frame::DeskewState::kNoEgoMotion:
         return status::FrameMotion::kNoEgoMotion;
       case frame::DeskewState::kOff:
@@ -232,8 +232,8 @@ class FrameReceiver {
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;
-  int turns_ = 0;           ///< Handed over in this round.
-  bool is_ending_ = false;  ///< The turn that is arriving.
+  int frames_ = 0;          ///< Handed over in this round.
+  bool is_ending_ = false;  ///< The frame that is arriving.
 
   std::int64_t spent_ns_;  ///< Processor time, up to the last hand-over.
   std::int64_t waited_before_fetch_ns_, waited_before_last_fetch_ns_;

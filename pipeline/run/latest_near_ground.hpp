@@ -12,8 +12,8 @@
 
 namespace terracut::run {
 
-/// Carries the near ground of a turn now and then from the segmenting thread to the one that checks
-/// the mount. Each side has one thread; neither waits for the other.
+/// Carries the near ground of a frame now and then from the segmenting thread to the one that
+/// checks the mount. Each side has one thread; neither waits for the other.
 class LatestNearGround {
  public:
   /// Of a sensor's frames, one in so many is looked at: twice a second at 10 Hz.
@@ -22,7 +22,7 @@ class LatestNearGround {
   explicit LatestNearGround(memory::FixedMemory& memory)
       : slots_(memory.take<ground::NearGround>("near ground", queues::LatestSlot::kSlots)) {}
 
-  /// Segmenting thread: copies the near ground of this turn.
+  /// Segmenting thread: copies the near ground of this frame.
   void take(const frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
     ground::take_near_ground(image, slots_[slot_.writer_slot()]);
     (void)slot_.publish();

@@ -8,14 +8,14 @@
 
 namespace terracut::run {
 
-threads::ThreadWish thread_wish(std::string name, int priority, std::optional<int> core) {
-  threads::ThreadWish wish{.name = std::move(name), .scheduling = {}, .core = core};
-  if (priority > 0) wish.scheduling = threads::FifoScheduling{priority};
-  return wish;
+threads::ThreadRequest thread_request(std::string name, int priority, std::optional<int> core) {
+  threads::ThreadRequest request{.name = std::move(name), .scheduling = {}, .core = core};
+  if (priority > 0) request.scheduling = threads::FifoScheduling{priority};
+  return request;
 }
 
-std::vector<threads::Grant> LiveThreadState::set_up(const threads::ThreadWish& wish) {
-  auto granted = threads::set_up_this_thread(wish);
+std::vector<threads::Grant> LiveThreadState::set_up(const threads::ThreadRequest& request) {
+  auto granted = threads::set_up_this_thread(request);
   scheduling =
       fmt::format("{}, core {}", threads::scheduling_in_force(), threads::cores_in_force());
   return granted ? *std::move(granted) : std::vector<threads::Grant>{};

@@ -40,11 +40,11 @@ LiveThreads::LiveThreads(const Config& config, LivePipeline& pipeline, net::Live
 }
 
 Expected<LiveThreads::Events> LiveThreads::Events::make() {
-  auto turn_ready = threads::WakeEvent::make();
-  if (!turn_ready) return tl::unexpected(turn_ready.error());
+  auto frame_ready = threads::WakeEvent::make();
+  if (!frame_ready) return tl::unexpected(frame_ready.error());
   auto points_ready = threads::WakeEvent::make();
   if (!points_ready) return tl::unexpected(points_ready.error());
-  return Events{*std::move(turn_ready), *std::move(points_ready)};
+  return Events{*std::move(frame_ready), *std::move(points_ready)};
 }
 
 std::vector<threads::Grant> LiveThreads::start() {
@@ -68,28 +68,29 @@ void LiveThreads::stop() {
   stop_ = true;
   source_.wake();
   if (receive_thread_.joinable()) receive_thread_.join();
-  events_.turn_ready.wake();
+  events_.frame_ready.wake();
   if (segment_thread_.joinable()) segment_thread_.join();
 }
 
 void LiveThreads::receive() noexcept {
-  Receiver receiver({.deadline_ns = config_.deadline_ns, .turn_ns = config_.frame_period_ns},
-                    pipeline_, source_,
-                    {.turns = &exchange_,
-                     .turn_ready = &events_.turn_ready,
-                     .skipped = &skipped_,
-                     .intake = &intake_,
-                     .recorder = recorder_,
-                     .told_table = config_.compares_tables ? &told_table_ : nullptr},
-                    {}, measure::RunQueueWait::of_this_thread());
-  receive_turns(receiver);
+  Receiver receiver(
+      {.deadline_ns = config_.deadline_ns, .frame_period_ns = config_.frame_period_ns}, pipeline_,
+      source_,
+      {.frames = &exchange_,
+       .frame_ready = &events_.frame_ready,
+       .skipped = &skipped_,
+       .intake = &intake_,
+       .recorder = recorder_,
+       .told_table = config_.compares_tables ? &told_table_ : nullptr},
+      {}, measure::RunQueueWait::of_this_thread());
+  receive_frames(receiver);
 }
 
-void LiveThreads::receive_turns(Receiver& receiver) noexcept {
+void LiveThreads::receive_frames(Receiver& receiver) noexcept {
   const measure::PageFaults at_start = measure::PageFaults::of_this_thread();
   while (!stop_.load(std::memory_order_relaxed)) {
-    const Receiver::Round round = receiver.turn_round(kLongestWait_ns);
-    if (round.turns > 0) receive_state_.note_faults(at_start);
+    const Receiver::Round round = receiver.work_round(kLongestWait_ns);
+    if (round.frames > 0) receive_state_.note_faults(at_start);
     if (round.may_gather) gather();
   }
   receiver.finish();
@@ -103,14 +104,14 @@ void LiveThreads::segment() noexcept {
                        .points_ready = &events_.points_ready,
                        .near_ground = &near_ground_},
                       {}, measure::RunQueueWait::of_this_thread());
-  segment_turns(segmenter);
+  segment_frames(segmenter);
 }
 
-void LiveThreads::segment_turns(Segmenter& segmenter) noexcept {
+void LiveThreads::segment_frames(Segmenter& segmenter) noexcept {
   const measure::PageFaults at_start = measure::PageFaults::of_this_thread();
   while (!stop_.load(std::memory_order_relaxed)) {
-    (void)events_.turn_ready.wait(-1, kLongestWait_ns);
-    if (segmenter.turn_round()) segment_state_.note_faults(at_start);
+    (void)events_.frame_ready.wait(-1, kLongestWait_ns);
+    if (segmenter.work_round()) segment_state_.note_faults(at_start);
   }
 }
 

@@ -12,14 +12,14 @@
 #include "firmware_io/sensor/told_table.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "pipeline/run/frame_exchange.hpp"
+#include "pipeline/run/frame_pool.hpp"
 #include "pipeline/run/frame_receiver.hpp"
 #include "pipeline/run/frame_segmenter.hpp"
-#include "pipeline/run/frame_slots.hpp"
 #include "pipeline/run/frame_timings.hpp"
 #include "pipeline/run/latest_near_ground.hpp"
 #include "pipeline/run/live_pipeline.hpp"
 #include "pipeline/run/live_thread_state.hpp"
-#include "pipeline/stream/labelled_turn_wire.hpp"
+#include "pipeline/stream/labelled_frame_wire.hpp"
 #include "rt/measure/run_queue_wait.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/queues/latest_value.hpp"
@@ -33,18 +33,18 @@ namespace terracut::run {
 /// The two threads of a live run that have a deadline, and the queues through which a third
 /// one hears of them. They allocate nothing, lock nothing and write nothing:
 ///
-///   FrameReceiver  datagrams -> recorder,  --FrameExchange-->  FrameSegmenter  turns -> labels
+///   FrameReceiver  datagrams -> recorder,  --FrameExchange-->  FrameSegmenter  frames -> labels
 ///      |          decoder, coarse stages                         |                      |
-///      '-- timings of skipped turns --.      .---- timings ------'                      |
-///      FrameSlots
+///      '-- timings of skipped frames --.      .---- timings ------'                      |
+///      FramePool
 ///                                     v      v                                          v
 ///                              whoever calls take_timing()            label files, stream of
 ///                              points
 class LiveThreads {
  public:
   struct Events {
-    threads::WakeEvent turn_ready;    ///< A turn was handed over.
-    threads::WakeEvent points_ready;  ///< A turn's labelled points were passed on.
+    threads::WakeEvent frame_ready;   ///< A frame was handed over.
+    threads::WakeEvent points_ready;  ///< A frame's labelled points were passed on.
     /// kCapacityExceeded when the process has no descriptor left.
     [[nodiscard]] static Expected<Events> make();
   };
@@ -55,7 +55,7 @@ class LiveThreads {
     bool keeps_labels = false;                   ///< labels()
     bool keeps_points = false;                   ///< points()
     bool compares_tables = false;                ///< told_table()
-    threads::ThreadWish receive, segment;
+    threads::ThreadRequest receive, segment;
   };
 
   /// Takes all memory from `memory`. `recorder` may be null.
@@ -63,7 +63,7 @@ class LiveThreads {
   LiveThreads(const Config& config, LivePipeline& pipeline, net::LiveSource& source, Events events,
               recorder::FlightRecorder* recorder, memory::FixedMemory& memory);
 
-  /// Starts both; answers what the system granted and refused them.
+  /// Starts both; returns what the system granted and refused them.
   [[nodiscard]] std::vector<threads::Grant> start();
   void stop();
 
@@ -71,20 +71,18 @@ class LiveThreads {
   [[nodiscard]] bool take_timing(status::FrameTiming& timing) noexcept {
     return segmented_.take(timing) || skipped_.take(timing);
   }
-  /// The labels of every turn, by return index; null without Config::keeps_labels.
-  [[nodiscard]] FrameSlots<frame::Label>* labels() noexcept {
-    return labels_ ? &*labels_ : nullptr;
-  }
-  /// The labelled points of every turn; null without Config::keeps_points.
-  [[nodiscard]] FrameSlots<stream::LabelledPoint>* points() noexcept {
+  /// The labels of every frame, by return index; null without Config::keeps_labels.
+  [[nodiscard]] FramePool<frame::Label>* labels() noexcept { return labels_ ? &*labels_ : nullptr; }
+  /// The labelled points of every frame; null without Config::keeps_points.
+  [[nodiscard]] FramePool<stream::LabelledPoint>* points() noexcept {
     return points_ ? &*points_ : nullptr;
   }
-  /// Woken after every turn that points() was given.
+  /// Woken after every frame that points() was given.
   [[nodiscard]] const threads::WakeEvent& points_ready() const noexcept {
     return events_.points_ready;
   }
 
-  /// The near ground of a turn now and then (LatestNearGround::kFramesApart), where there is a
+  /// The near ground of a frame now and then (LatestNearGround::kFramesApart), where there is a
   /// newer one than was taken last; else null. From one thread; valid until its next call.
   [[nodiscard]] const ground::NearGround* near_ground() noexcept { return near_ground_.newest(); }
 
@@ -108,9 +106,9 @@ class LiveThreads {
   using Segmenter = FrameSegmenter<measure::SystemClock, measure::RunQueueWait>;
 
   void receive() noexcept;
-  void receive_turns(Receiver& receiver) noexcept TERRACUT_NONBLOCKING;
+  void receive_frames(Receiver& receiver) noexcept TERRACUT_NONBLOCKING;
   void segment() noexcept;
-  void segment_turns(Segmenter& segmenter) noexcept TERRACUT_NONBLOCKING;
+  void segment_frames(Segmenter& segmenter) noexcept TERRACUT_NONBLOCKING;
 
   Config config_;
   LivePipeline& pipeline_;
@@ -124,8 +122,8 @@ class LiveThreads {
 
   LatestNearGround near_ground_;
 
-  std::optional<FrameSlots<frame::Label>> labels_;
-  std::optional<FrameSlots<stream::LabelledPoint>> points_;
+  std::optional<FramePool<frame::Label>> labels_;
+  std::optional<FramePool<stream::LabelledPoint>> points_;
 
   std::atomic<bool> stop_{false};
   queues::LatestValue<Intake> intake_;

@@ -13,21 +13,21 @@ namespace terracut::run {
 /// queue of more than a second; without this every label would be that much late, for as long as
 /// the overload lasts. Two rules:
 ///
-///   a packet is let go   when it is older than a turn and the deadline together: the turn it
+///   a packet is let go   when it is older than a frame and the deadline together: the frame it
 ///                        belongs to is due, whatever is done now. After a standstill this drops
 ///                        what is of no use and nothing else.
-///   the backlog is       when three turns in a row were handed over after their deadline. This
-///   let go               thread catches up on a standstill within two turns; when it does not,
+///   the backlog is       when three frames in a row were handed over after their deadline. This
+///   let go               thread catches up on a standstill within two frames; when it does not,
 ///                        it is too slow for what comes. It goes on with the newest packets, and
-///                        the turns after that are in time, until the lag has grown again.
+///                        the frames after that are in time, until the lag has grown again.
 ///
 /// Ages are by CLOCK_REALTIME, as the kernel's stamps are: a step of the clock costs what waits in
 /// the buffer at that moment, at most. One thread; looks at no clock.
 class PacketGate {
  public:
-  /// `turn_ns`: of one turn of the head.
-  PacketGate(std::int64_t deadline_ns, std::int64_t turn_ns) noexcept
-      : deadline_ns_(deadline_ns), oldest_useful_ns_(deadline_ns + turn_ns) {}
+  /// `frame_period_ns`: of one frame of the head.
+  PacketGate(std::int64_t deadline_ns, std::int64_t frame_period_ns) noexcept
+      : deadline_ns_(deadline_ns), oldest_useful_ns_(deadline_ns + frame_period_ns) {}
 
   /// Packets were fetched. `more_may_wait`: in such numbers that more of them may lie ready.
   void begin_batch(bool more_may_wait) noexcept TERRACUT_NONBLOCKING {
@@ -38,19 +38,19 @@ class PacketGate {
                              std::int64_t now_ns) const noexcept TERRACUT_NONBLOCKING {
     return !lets_backlog_go_ && now_ns - stamp_ns <= oldest_useful_ns_;
   }
-  /// A turn whose last packet has this stamp was handed over.
-  void note_turn(std::int64_t last_packet_ns, std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING {
-    late_turns_ = now_ns - last_packet_ns > deadline_ns_ ? late_turns_ + 1 : 0;
-    if (late_turns_ < kCatchesUpWithin) return;
+  /// A frame whose last packet has this stamp was handed over.
+  void note_frame(std::int64_t last_packet_ns, std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING {
+    late_frames_ = now_ns - last_packet_ns > deadline_ns_ ? late_frames_ + 1 : 0;
+    if (late_frames_ < kCatchesUpWithin) return;
     lets_backlog_go_ = true;
-    late_turns_ = 0;
+    late_frames_ = 0;
   }
 
  private:
   static constexpr int kCatchesUpWithin = 3;
 
   std::int64_t deadline_ns_, oldest_useful_ns_;
-  int late_turns_ = 0;  ///< In a row.
+  int late_frames_ = 0;  ///< In a row.
   bool lets_backlog_go_ = false;
 };
 

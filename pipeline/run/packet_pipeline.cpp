@@ -37,9 +37,9 @@ TimedFrame* PacketPipeline::next() noexcept {
   const frame::Frame* frame = decoder_.next();
   if (frame != nullptr || timing_ == Timing::kPackets) pause();
   if (frame == nullptr) {
-    const frame::ArrivingTurn arriving = decoder_.arriving();
+    const frame::ArrivingFrame arriving = decoder_.arriving();
     if (arriving.image != nullptr) {
-      method_.advance(*arriving.image, arriving.settled_columns, &clock_);
+      method_.advance(*arriving.image, arriving.complete_columns, &clock_);
     }
     return nullptr;
   }

@@ -6,7 +6,7 @@
 
 namespace terracut::run {
 
-StreamWriter::StreamWriter(stream::TurnStreamServer server, stream::StreamedSensor sensor,
+StreamWriter::StreamWriter(stream::FrameStreamServer server, stream::StreamedSensor sensor,
                            std::int64_t deadline_ns, Slots& slots, const threads::WakeEvent& ready)
     : server_(std::move(server)),
       sensor_(sensor),
@@ -26,11 +26,11 @@ void StreamWriter::work() {
   while (!finish_) {
     (void)ready_.wait(server_.descriptor(), kSecond_ns);
     for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(serve(frame));
-    server_.turn_round();
-    const stream::TurnStreamFigures& figures = server_.figures();
+    server_.work_round();
+    const stream::FrameStreamFigures& figures = server_.figures();
     losses_.publish({.missed = figures.missed,
                      .cut_short = figures.cut_short,
-                     .too_large = figures.turns_too_large,
+                     .too_large = figures.frames_too_large,
                      .refused = figures.refused,
                      .stalled = figures.stalled});
   }
@@ -42,7 +42,7 @@ bool StreamWriter::serve(const Slots::Frame& frame) {
                         .last_packet_ns = frame.info.last_packet_ns,
                         .labels_ns = frame.timing.labels_ns,
                         .sensor = sensor_,
-                        .rung = frame.timing.rung,
+                        .level = frame.timing.level,
                         .complete = frame.info.complete,
                         .late = frame.timing.labels_ns - frame.info.last_packet_ns > deadline_ns_,
                         .motion = frame.timing.motion,

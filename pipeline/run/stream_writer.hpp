@@ -5,8 +5,8 @@
 #include <atomic>
 #include <chrono>
 
-#include "frame_slots.hpp"
-#include "pipeline/stream/turn_stream_server.hpp"
+#include "frame_pool.hpp"
+#include "pipeline/stream/frame_stream_server.hpp"
 #include "rt/queues/latest_value.hpp"
 #include "rt/threads/background_thread.hpp"
 #include "rt/threads/wake_event.hpp"
@@ -16,20 +16,20 @@ namespace terracut::run {
 /// Hands labelled points to other processes, on a thread of its own.
 class StreamWriter {
  public:
-  using Slots = FrameSlots<stream::LabelledPoint>;
+  using Slots = FramePool<stream::LabelledPoint>;
 
   /// `ready` is woken when there is something in `slots`, and at finish(). All must outlive this.
-  StreamWriter(stream::TurnStreamServer server, stream::StreamedSensor sensor,
+  StreamWriter(stream::FrameStreamServer server, stream::StreamedSensor sensor,
                std::int64_t deadline_ns, Slots& slots, const threads::WakeEvent& ready);
 
   /// After LiveThreads::stop(). False when it does not end in time, which no peer can bring about.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
-  /// Turns times readers that did not get them, and readers that got none: TurnStreamFigures.
+  /// Frames times readers that did not get them, and readers that got none: FrameStreamFigures.
   struct Losses {
     std::uint64_t missed = 0, cut_short = 0, too_large = 0, refused = 0, stalled = 0;
   };
-  /// As of the last turn or second. From one other thread.
+  /// As of the last frame or second. From one other thread.
   [[nodiscard]] const Losses& losses() const noexcept {
     (void)losses_.take_if_new();
     return losses_.newest_taken();
@@ -39,7 +39,7 @@ class StreamWriter {
   void work();
   [[nodiscard]] bool serve(const Slots::Frame& frame);
 
-  stream::TurnStreamServer server_;
+  stream::FrameStreamServer server_;
   stream::StreamedSensor sensor_;
   std::int64_t deadline_ns_;
   Slots& slots_;

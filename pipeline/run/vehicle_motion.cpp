@@ -41,7 +41,7 @@ VehicleMotion::~VehicleMotion() {
 std::vector<threads::Grant> VehicleMotion::start(int priority) {
   std::promise<std::vector<threads::Grant>> granted;
   thread_ = std::jthread([&] {
-    granted.set_value(thread_state_.set_up(thread_wish("tc-can", priority, std::nullopt)));
+    granted.set_value(thread_state_.set_up(thread_request("tc-can", priority, std::nullopt)));
     hear();
   });
   return granted.get_future().get();

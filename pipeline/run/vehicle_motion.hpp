@@ -30,7 +30,7 @@ namespace terracut::run {
 /// more than reading three times what a bus of 1 Mbit/s can carry; what is beyond it the kernel
 /// drops, and counts. Frames bear the kernel's stamps, so resting makes nothing less exact. A flood
 /// of the motion itself is thinned to a sample every two milliseconds, so that it does not push
-/// the motion of the turn's end out of the decoder's queue.
+/// the motion of the frame's end out of the decoder's queue.
 ///
 /// The thread allocates, locks and writes nothing.
 class VehicleMotion {
@@ -43,7 +43,7 @@ class VehicleMotion {
   VehicleMotion(const VehicleMotion&) = delete;
   VehicleMotion& operator=(const VehicleMotion&) = delete;
 
-  /// Answers what the system granted and refused the thread. `priority`: SCHED_FIFO, 0: shared.
+  /// Returns what the system granted and refused the thread. `priority`: SCHED_FIFO, 0: shared.
   [[nodiscard]] std::vector<threads::Grant> start(int priority);
   void stop();
 

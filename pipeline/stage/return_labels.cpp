@@ -20,8 +20,8 @@ void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& plan
     labels_[label != frame::Label::kNone ? index[cell] : nowhere] = label;
   }
   for (const frame::OverflowReturn& extra : image.overflow()) {
-    const float above_owner_m = extra.echo.z_m - image.z_m()[extra.cell];
-    const float behind_owner_m = extra.echo.ground_range_m - image.ground_range_m()[extra.cell];
+    const float above_owner_m = extra.point.z_m - image.z_m()[extra.cell];
+    const float behind_owner_m = extra.point.ground_range_m - image.ground_range_m()[extra.cell];
     const bool same_surface = std::fabs(behind_owner_m) < config_.same_surface_range_m &&
                               std::fabs(above_owner_m) < config_.same_surface_height_m;
     const float height_m = planes.height_m[extra.cell] + above_owner_m;

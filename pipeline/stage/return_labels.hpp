@@ -12,7 +12,7 @@
 
 namespace terracut::stage {
 
-/// Last stage: labels of cells brought back to the returns, each return of the turn getting one
+/// Last stage: labels of cells brought back to the returns, each return of the frame getting one
 /// (docs/design.md, promise 1). A return that shares its cell with an earlier one takes that one's
 /// label when it lies close to it, and is judged by its own height above the ground otherwise.
 class ReturnLabels {

@@ -44,7 +44,7 @@ inline constexpr int kStages = static_cast<int>(Stage::kCount);
 class StageObserver {
  public:
   virtual ~StageObserver() = default;
-  /// Called on the segmenting thread when it begins to work on a turn, or goes on with it.
+  /// Called on the segmenting thread when it begins to work on a frame, or goes on with it.
   virtual void resumed() noexcept TERRACUT_NONBLOCKING {}
   /// Called on the segmenting thread right after `stage`, or a part of it. Both must be real-time
   /// safe.

@@ -44,21 +44,21 @@ struct MotionFigures {
   std::uint64_t spare_samples = 0;  ///< More of them than are of use; left out.
   std::int64_t last_sample_ns = 0;  ///< Kernel's stamp of the newest one; 0: none yet.
 
-  std::uint64_t taken_out = 0;      ///< Frames, whatever their rung.
+  std::uint64_t deskewed = 0;       ///< Frames, whatever their level.
   std::uint64_t no_ego_motion = 0;  ///< Frames that stayed as the sensor saw them.
 
   /// Stamp of the newest sample there was when a frame was handed over, less the instant of the
   /// frame's last firing: about 0 where both clocks are one. 0 where there was none.
-  std::int64_t newest_sample_after_turn_ns = 0;  ///< Of the newest frame.
-  /// Of the frames it was taken out of.
-  std::int64_t least_sample_after_turn_ns = 0, most_sample_after_turn_ns = 0;
-  double sum_sample_after_turn_ns = 0;
+  std::int64_t newest_sample_after_frame_ns = 0;  ///< Of the newest frame.
+  /// Of the frames that were deskewed.
+  std::int64_t least_sample_after_frame_ns = 0, most_sample_after_frame_ns = 0;
+  double sum_sample_after_frame_ns = 0;
 
   std::uint32_t fault_count = 0;  ///< How many of `faults` are in use.
   std::array<NamedCount, kMaxFaults> faults{};
 
-  [[nodiscard]] double mean_sample_after_turn_ns() const noexcept {
-    return taken_out == 0 ? 0.0 : sum_sample_after_turn_ns / static_cast<double>(taken_out);
+  [[nodiscard]] double mean_sample_after_frame_ns() const noexcept {
+    return deskewed == 0 ? 0.0 : sum_sample_after_frame_ns / static_cast<double>(deskewed);
   }
   [[nodiscard]] std::span<const NamedCount> faults_in_use() const noexcept {
     return std::span(faults).first(std::min<std::size_t>(fault_count, faults.size()));

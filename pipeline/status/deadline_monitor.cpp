@@ -12,9 +12,9 @@ namespace {
 constexpr double kSecond_ns = 1e9;
 constexpr std::size_t kRateFrames = 50;
 constexpr std::int64_t kRateWindow_ns = 5'000'000'000;  // what is older lies before a gap
-constexpr std::int64_t kStopped_ns = 1'000'000'000;     // the slowest head turns five times in it
+constexpr std::int64_t kStopped_ns = 1'000'000'000;     // the slowest head rotates five times in it
 
-/// Cuts up to `wanted_ns` off `rest_ns` and answers how much it was.
+/// Cuts up to `wanted_ns` off `rest_ns` and returns how much it was.
 std::int64_t take_share(std::int64_t wanted_ns,
                         std::int64_t& rest_ns) noexcept TERRACUT_NONBLOCKING {
   const std::int64_t share_ns = std::clamp<std::int64_t>(wanted_ns, 0, rest_ns);
@@ -59,7 +59,7 @@ void DeadlineMonitor::judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
   ++figures.frames;
   figures.returns += frame.returns;
-  if (frame.rung < Rung::kCount) ++figures.rungs[static_cast<std::size_t>(frame.rung)];
+  if (frame.level < Level::kCount) ++figures.levels[static_cast<std::size_t>(frame.level)];
 
   judge_latency(frame);
   if (frame.missed) {
@@ -79,7 +79,7 @@ void DeadlineMonitor::judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
 
 void DeadlineMonitor::judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
-  const bool skipped = frame.rung == Rung::kSkipped;
+  const bool skipped = frame.level == Level::kSkipped;
   frame.missed = skipped;
   frame.cause = FrameMissCause::kOwnWork;
   // A clock that was set back between packet and labels, or a packet without a stamp.
@@ -98,28 +98,28 @@ void DeadlineMonitor::judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLO
 void DeadlineMonitor::record_motion(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
   MotionFigures& motion = snapshot_->motion;
   if (frame.motion == FrameMotion::kNotAsked) return;
-  const std::int64_t after_turn_ns = frame.newest_motion_ns;
-  motion.newest_sample_after_turn_ns = after_turn_ns;
+  const std::int64_t after_frame_ns = frame.newest_motion_ns;
+  motion.newest_sample_after_frame_ns = after_frame_ns;
   if (frame.motion == FrameMotion::kNoEgoMotion) {
     ++motion.no_ego_motion;
     return;
   }
-  const bool first = motion.taken_out++ == 0;
-  motion.least_sample_after_turn_ns =
-      first ? after_turn_ns : std::min(motion.least_sample_after_turn_ns, after_turn_ns);
-  motion.most_sample_after_turn_ns =
-      first ? after_turn_ns : std::max(motion.most_sample_after_turn_ns, after_turn_ns);
-  motion.sum_sample_after_turn_ns += static_cast<double>(after_turn_ns);
+  const bool first = motion.deskewed++ == 0;
+  motion.least_sample_after_frame_ns =
+      first ? after_frame_ns : std::min(motion.least_sample_after_frame_ns, after_frame_ns);
+  motion.most_sample_after_frame_ns =
+      first ? after_frame_ns : std::max(motion.most_sample_after_frame_ns, after_frame_ns);
+  motion.sum_sample_after_frame_ns += static_cast<double>(after_frame_ns);
 }
 
 void DeadlineMonitor::record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
   figures.decode_cpu.record(frame.decode_cpu_ns);
-  if (frame.rung == Rung::kSkipped) return;
+  if (frame.level == Level::kSkipped) return;
   figures.total_cpu.record(frame.decode_cpu_ns + frame.segment_cpu_ns);
   figures.segment_cpu.record(frame.segment_cpu_ns);
   for (std::size_t i = 0; i < figures.stages(); ++i) {
-    // A stage left out on a lower rung must not make that stage look cheap.
+    // A stage left out on a lower level must not make that stage look cheap.
     if (frame.stage_cpu_ns[i] > 0) figures.stage_cpu[i].record(frame.stage_cpu_ns[i]);
   }
 }

@@ -47,7 +47,7 @@ class DeadlineMonitor {
   /// day.
   void look_at_rate(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING;
 
-  /// Copies the newest frames judged, oldest first; answers how many. At most into.size() and
+  /// Copies the newest frames judged, oldest first; returns how many. At most into.size() and
   /// kept_frames.
   std::size_t copy_newest(std::span<FrameTiming> into) const noexcept TERRACUT_NONBLOCKING;
 

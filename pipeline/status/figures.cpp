@@ -120,8 +120,8 @@ void add_input(const MonitorSnapshot& f, Table& table) {
      {"terracut_last_packet_time_seconds", "Kernel's stamp of the newest packet, since 1970."}},
     {"head_stands", f.head_stands != 0,
      {"terracut_head_stands",
-      "1 while packets come that say that the sensor's head does not turn."},
-     {"link", "the sensor's head does not turn", Shown::kAlarm}},
+      "1 while packets come that say that the sensor's head does not rotate."},
+     {"link", "the sensor's head does not rotate", Shown::kAlarm}},
     {"silences", f.silences,
      {"terracut_silences_total", "Times no packet came for a second or longer."},
      {"link", "times silent: {}", Shown::kIfAny}},
@@ -153,9 +153,9 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
     {"unjudged", f.unjudged,
      {"terracut_unjudged_frames_total", "Frames whose stamps give no latency."},
      {"frames", "{} not judged: their stamps give no latency", Shown::kIfAny}},
-    {"rungs", counts_of<Rung>("rung", f.rungs),
+    {"levels", counts_of<Level>("level", f.levels),
      {"terracut_frames_total", "Frames judged, by the degradation level they got to."},
-     {"rungs"}}});
+     {"levels"}}});
   table.add("", {
     {"deadline_ms", Duration{f.deadline_ns},
      {"terracut_deadline_seconds", "Allowed from a frame's last packet to its labels."},
@@ -195,8 +195,8 @@ void add_motion(const MotionFigures& f, Table& table) {
       {{"bus", bus}}},
      {"motion", "{}", alarm_unless(f.state == MotionState::kKnown)}},
     {"bus", bus, {}, {"motion", " on {}"}},
-    {"taken_out_frames", f.taken_out, frames(FrameMotion::kTakenOut),
-     {"motion", ": taken out of {} frames"}},
+    {"deskewed_frames", f.deskewed, frames(FrameMotion::kDeskewed),
+     {"motion", ": {} frames deskewed"}},
     {"no_ego_motion_frames", f.no_ego_motion, frames(FrameMotion::kNoEgoMotion),
      {"motion", "no ego motion in {}"}},
     {"samples", f.samples,
@@ -211,16 +211,16 @@ void add_motion(const MotionFigures& f, Table& table) {
      {"terracut_motion_faults_total",
       "What went wrong between the vehicle's CAN bus and its motion, by cause."},
      {"motion", "{}", Shown::kAlarm}}});
-  const std::string_view known_of_some = f.taken_out > 0 ? "motion" : "";
-  table.add("motion.newest_sample_after_turn_ms", {
-    {"newest", Duration{f.newest_sample_after_turn_ns},
-     {"terracut_motion_sample_after_turn_seconds",
+  const std::string_view known_of_some = f.deskewed > 0 ? "motion" : "";
+  table.add("motion.newest_sample_after_frame_ms", {
+    {"newest", Duration{f.newest_sample_after_frame_ns},
+     {"terracut_motion_sample_after_frame_seconds",
       "Stamp of the newest sample less the end of the newest frame; about 0."},
      {"motion", "newest sample {ms:+.1f} ms from its frame's end", Shown::kIfAny}},
-    {"mean", Duration{nanoseconds(f.mean_sample_after_turn_ns())}, {},
+    {"mean", Duration{nanoseconds(f.mean_sample_after_frame_ns())}, {},
      {known_of_some, "mean {ms:+.1f} ms"}},
-    {"min", Duration{f.least_sample_after_turn_ns}, {}, {known_of_some, " ({ms:+.1f}"}},
-    {"max", Duration{f.most_sample_after_turn_ns}, {}, {known_of_some, " to {ms:+.1f} ms)"}}});
+    {"min", Duration{f.least_sample_after_frame_ns}, {}, {known_of_some, " ({ms:+.1f}"}},
+    {"max", Duration{f.most_sample_after_frame_ns}, {}, {known_of_some, " to {ms:+.1f} ms)"}}});
 }
 
 void add_health(const HealthFigures& f, Table& table) {
@@ -287,13 +287,13 @@ void add_times(const MonitorSnapshot& f, Table& table) {
 std::vector<Figure> figures_of(const frame::BlindAzimuths& blind) {
   const auto edge = [](const char* which) {
     return Metric{"terracut_blind_azimuth_degrees",
-                  "Where that sector begins and ends, as the head turns, by its edge.",
+                  "Where that sector begins and ends, as the head rotates, by its edge.",
                   {{"edge", which}}};
   };
   const std::int64_t width_cdeg = std::int64_t{blind.to_cdeg} - blind.from_cdeg;
   Table table;
   table.add("", {
-    {{}, azimuth(width_cdeg < 0 ? width_cdeg + beams::kTurn_cdeg : width_cdeg),
+    {{}, azimuth(width_cdeg < 0 ? width_cdeg + beams::kRevolution_cdeg : width_cdeg),
      {"terracut_blind_degrees",
       "How wide the sector is in which the sensor sends nothing; 0 where none is known."}}});
   if (blind.is_none()) {
@@ -319,7 +319,7 @@ std::vector<Figure> figures_of(const MountFigures& f) {
     {"height_m", metres(f.height_m), height("given")},
     {"roll_deg", degrees(f.roll_deg), tilt("given", "roll")},
     {"pitch_deg", degrees(f.pitch_deg), tilt("given", "pitch")},
-    {"turns", f.turns},
+    {"frames", f.frames},
     {"contradicted", f.contradicted != 0,
      {"terracut_mount_contradicted",
       "1 where the near ground shows another mount than the one given."}},

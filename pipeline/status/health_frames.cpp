@@ -35,7 +35,7 @@ can::CanFrame empty_frame(can::CanId id) noexcept {
 }
 
 std::uint64_t latency_of(const HealthReport& report) noexcept {
-  if (report.latency_ns < 0 || report.rung == Rung::kSkipped) return kNoLatency;
+  if (report.latency_ns < 0 || report.level == Level::kSkipped) return kNoLatency;
   return static_cast<std::uint64_t>(std::min(report.latency_ns / kLatencyStep_ns, kMostLatency));
 }
 
@@ -46,15 +46,15 @@ HealthReport health_report_of(const MonitorSnapshot& figures) noexcept {
   HealthReport report;
   report.frame_number = newest.number;
   report.returns = newest.returns;
-  report.rung = newest.rung;
+  report.level = newest.level;
   report.missed = newest.missed;
   report.cause = newest.cause;
-  report.ego_motion = newest.motion == FrameMotion::kTakenOut;
+  report.ego_motion = newest.motion == FrameMotion::kDeskewed;
   const bool known = newest.last_packet_ns > 0 && newest.labels_ns >= newest.last_packet_ns;
   if (known) report.latency_ns = newest.labels_ns - newest.last_packet_ns;
   report.link = figures.link;
   report.misses = figures.all_misses();
-  report.skipped = figures.rungs[static_cast<std::size_t>(Rung::kSkipped)];
+  report.skipped = figures.levels[static_cast<std::size_t>(Level::kSkipped)];
   for (const NamedCount& loss : figures.losses_in_use()) report.losses += loss.count;
   return report;
 }
@@ -63,7 +63,7 @@ std::array<can::CanFrame, 2> health_frames(const HealthReport& report, can::CanI
   std::array frames{empty_frame(first), empty_frame({first.number + 1, first.extended})};
   can::CanFrame& frame = frames[0];
   put(frame, {0, 16}, report.frame_number);
-  put(frame, {16, 3}, static_cast<std::uint64_t>(report.rung));
+  put(frame, {16, 3}, static_cast<std::uint64_t>(report.level));
   put(frame, {19, 1}, report.missed ? 1 : 0);
   put(frame, {20, 3}, report.missed ? static_cast<std::uint64_t>(report.cause) : kNoCause);
   put(frame, {23, 1}, report.ego_motion ? 1 : 0);

@@ -16,11 +16,11 @@ namespace terracut::status {
 struct HealthReport {
   std::uint32_t frame_number = 0;
   std::uint32_t returns = 0;
-  Rung rung = Rung::kFull;
+  Level level = Level::kFull;
   bool missed = false;
   FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Means something only if missed.
   std::int64_t latency_ns = -1;  ///< From the last packet to the labels; negative: not known.
-  bool ego_motion = false;       ///< The vehicle's motion was taken out of the frame.
+  bool ego_motion = false;       ///< The frame was deskewed.
   LinkState link = LinkState::kWaiting;
   std::uint64_t misses = 0;  ///< Since the start, as the next two.
   std::uint64_t skipped = 0;

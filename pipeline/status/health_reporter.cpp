@@ -11,7 +11,7 @@ namespace terracut::status {
 HealthReporter::HealthReporter(std::string bus, can::CanSender sender)
     : bus_(std::move(bus)), sender_(std::move(sender)) {}
 
-void HealthReporter::turn_round(const MonitorSnapshot& figures, std::int64_t now_ns) noexcept {
+void HealthReporter::work_round(const MonitorSnapshot& figures, std::int64_t now_ns) noexcept {
   if (figures.frames == reported_frames_ && now_ns < next_report_ns_) return;
   reported_frames_ = figures.frames;
   next_report_ns_ = now_ns + kLongestSilence_ns;

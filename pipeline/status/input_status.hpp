@@ -23,7 +23,7 @@ struct InputState {
 };
 
 /// Keeps what the figures of a live run tell of its input: where each datagram went, whether the
-/// sensor is heard, whether its head turns, where it is blind. One thread, without a deadline.
+/// sensor is heard, whether its head rotates, where it is blind. One thread, without a deadline.
 class InputStatus {
  public:
   /// Shows `input` in `figures`, as of figures.taken_ns. Returns what there is to say to people

@@ -42,12 +42,12 @@ std::string LinkNews::look(MonitorSnapshot& figures) {
     case Trouble::kInterfaceGone:
       return "the network interface is down or gone; it is waited for";
     case Trouble::kHeadStands:
-      return "the sensor's head does not turn: its packets come, but no turns";
+      return "the sensor's head does not rotate: its packets come, but no frames";
     case Trouble::kNone:
       break;
   }
   return before == Trouble::kHeadStands
-             ? fmt::format("the sensor's head turns again, after {:.1f} s", lasted_s)
+             ? fmt::format("the sensor's head rotates again, after {:.1f} s", lasted_s)
              : fmt::format("the sensor is heard again, after {:.1f} s", lasted_s);
 }
 

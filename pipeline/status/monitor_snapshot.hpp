@@ -68,18 +68,18 @@ struct MonitorSnapshot {
   LinkState link = LinkState::kWaiting;
   std::uint64_t silences = 0;       ///< Times no packet came for a second or longer.
   std::int64_t silent_ns = 0;       ///< All of these together.
-  std::uint8_t head_stands = 0;     ///< 1: packets come, but say that the head does not turn.
+  std::uint8_t head_stands = 0;     ///< 1: packets come, but say that the head does not rotate.
   std::uint64_t packets = 0;        ///< Datagrams taken in, of those received.
   std::int64_t last_packet_ns = 0;  ///< Kernel's stamp of the newest one.
   /// Head azimuths between which the sensor sends nothing, [0, 36000), perhaps across 0; the same
   /// where no such sector is known.
   std::int32_t blind_from_cdeg = 0, blind_to_cdeg = 0;
 
-  std::uint64_t frames = 0;    ///< Judged, whatever their rung.
+  std::uint64_t frames = 0;    ///< Judged, whatever their level.
   std::uint64_t returns = 0;   ///< In these frames.
   std::uint64_t unjudged = 0;  ///< Of these frames, those whose stamps give no latency.
   double frames_per_s = 0;  ///< Of the last few seconds, by the packets' stamps; 0: they stopped.
-  std::array<std::uint64_t, kRungs> rungs{};
+  std::array<std::uint64_t, kLevels> levels{};
   std::array<std::uint64_t, kMissCauses> misses{};  ///< By cause.
   std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
   std::uint64_t longest_run_of_misses = 0;

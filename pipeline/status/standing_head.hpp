@@ -10,7 +10,7 @@
 namespace terracut::status {
 
 /// Whether the sensor's head stands: packets come, all of which the decoder refuses because they
-/// say so, and no turn will come out of them. No thread contract of its own.
+/// say so, and no frame will come out of them. No thread contract of its own.
 class StandingHead {
  public:
   [[nodiscard]] bool is_standing(const net::DatagramAccount& account) noexcept {

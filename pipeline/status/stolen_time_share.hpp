@@ -22,7 +22,7 @@ class StolenTimeShare {
   explicit StolenTimeShare(Stolen stolen) noexcept : stolen_(std::move(stolen)) {}
 
   /// As often as one likes.
-  void turn_round(std::int64_t now_ns) noexcept {
+  void work_round(std::int64_t now_ns) noexcept {
     const bool clock_was_set_back = now_ns < newest().at_ns;
     if (clock_was_set_back || now_ns - newest().at_ns >= kEvery_ns) read(now_ns);
   }

@@ -17,12 +17,12 @@ namespace {
 /// half times to twice as much on 128 rows, strips of 16 columns three times as much on 64.
 constexpr int kColumnsAtOnce = 256;
 
-LabelledPoint labelled_point(const frame::Return& echo, int row,
+LabelledPoint labelled_point(const frame::Return& point, int row,
                              frame::Label label) noexcept TERRACUT_NONBLOCKING {
-  return {echo.x_m,
-          echo.y_m,
-          echo.z_m,
-          echo.intensity,
+  return {point.x_m,
+          point.y_m,
+          point.z_m,
+          point.intensity,
           static_cast<std::uint8_t>(output::semantic_kitti_class(label)),
           static_cast<std::uint16_t>(row)};
 }
@@ -49,7 +49,7 @@ bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame:
     }
   }
   for (const frame::OverflowReturn& extra : image.overflow()) {
-    points[extra.return_index] = labelled_point(extra.echo, static_cast<int>(extra.cell) / stride,
+    points[extra.return_index] = labelled_point(extra.point, static_cast<int>(extra.cell) / stride,
                                                 labels[extra.return_index]);
   }
   return true;

@@ -6,12 +6,12 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/stream/labelled_turn_wire.hpp"
+#include "pipeline/stream/labelled_frame_wire.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::stream {
 
-/// Writes the returns of a labelled turn to the first `image.returns()` elements of `points`, in
+/// Writes the returns of a labelled frame to the first `image.returns()` elements of `points`, in
 /// order of arrival: the n-th is the n-th of a .label file. `labels` has one entry a return, by
 /// return index. False, and nothing written, when there are not as many labels as returns or not
 /// room for all of them. Real-time safe.

@@ -25,22 +25,23 @@ tl::unexpected<Error> refused(const StreamAddress& address) {
   if (reason == EACCES) advice = "choose a port from 1024 on, or a folder that may be written to";
   if (reason == ENOENT || reason == ENOTDIR) advice = "its folder has to be there";
   return fail(absent ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
-              fmt::format("cannot serve labelled turns on {}: {}; {}", to_string(address),
+              fmt::format("cannot serve labelled frames on {}: {}; {}", to_string(address),
                           std::strerror(reason), advice));
 }
 
 /// True when the file is a Unix socket whose process is gone.
 Expected<bool> left_behind(const StreamAddress& address) {
-  struct ::stat status{};
+  struct ::stat status {};
   if (::lstat(address.unix_path.c_str(), &status) != 0) {
     if (errno == ENOENT) return false;
     return refused(address);
   }
   if (!S_ISSOCK(status.st_mode)) {
-    return fail(ErrorCode::kUnreadable,
-                fmt::format("cannot serve labelled turns on {}: there is a file that is no socket; "
-                            "choose another path",
-                            address.unix_path));
+    return fail(
+        ErrorCode::kUnreadable,
+        fmt::format("cannot serve labelled frames on {}: there is a file that is no socket; "
+                    "choose another path",
+                    address.unix_path));
   }
   const files::OwnedDescriptor probe(
       ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
@@ -49,7 +50,7 @@ Expected<bool> left_behind(const StreamAddress& address) {
   if (answered) {
     errno = EADDRINUSE;
     return fail(ErrorCode::kUnreadable,
-                fmt::format("cannot serve labelled turns on {}: another program listens there; "
+                fmt::format("cannot serve labelled frames on {}: another program listens there; "
                             "choose another path",
                             address.unix_path));
   }
@@ -78,7 +79,7 @@ Expected<ListeningSocket> ListeningSocket::open(const StreamAddress& address, ::
   if (::bind(descriptor.get(), wanted.get(), wanted.size) != 0) return refused(address);
   ListeningSocket listening(std::move(descriptor), address);
   if (address.is_unix()) {
-    struct ::stat status{};
+    struct ::stat status {};
     // Nobody is connected in between: it does not listen yet.
     if (::lstat(address.unix_path.c_str(), &status) != 0 ||
         ::chmod(address.unix_path.c_str(), unix_mode) != 0) {
@@ -118,7 +119,7 @@ ListeningSocket& ListeningSocket::operator=(ListeningSocket&& other) noexcept {
 void ListeningSocket::close() noexcept {
   socket_.close();
   if (inode_ == 0) return;
-  struct ::stat status{};
+  struct ::stat status {};
   const bool still_ours = ::lstat(address_.unix_path.c_str(), &status) == 0 &&
                           status.st_dev == device_ && status.st_ino == inode_;
   if (still_ours) ::unlink(address_.unix_path.c_str());

@@ -33,7 +33,7 @@ threads::Grant send_buffer_grant(std::size_t bytes, std::size_t granted_bytes) {
                        .in_force = fmt::format("{} bytes", granted_bytes)};
   if (!granted) {
     grant.mend = fmt::format(
-        "sudo sysctl -w net.core.wmem_max={}: else a turn takes several rounds of the sink's "
+        "sudo sysctl -w net.core.wmem_max={}: else a frame takes several rounds of the sink's "
         "thread",
         bytes);
   }

@@ -9,7 +9,7 @@
 namespace terracut::stream {
 
 /// Gives `socket` a send buffer that takes `bytes` at once: beyond net.core.wmem_max when the
-/// process may (CAP_NET_ADMIN), else up to it. Answers the bytes granted. Allocates nothing.
+/// process may (CAP_NET_ADMIN), else up to it. Returns the bytes granted. Allocates nothing.
 std::size_t request_send_buffer(int socket, std::size_t bytes) noexcept;
 
 /// The grant of `bytes` out of `granted_bytes` for people, with what mends a refusal.

@@ -38,7 +38,7 @@ Expected<StreamAddress> parse_stream_address(std::string_view text) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("'{}' is no address for a stream; expected ADDRESS:PORT like "
                             "127.0.0.1:7447, a port alone, or the path of a Unix socket like "
-                            "/run/terracut/turns",
+                            "/run/terracut/frames",
                             text));
   }
   return StreamAddress{.tcp = *endpoint};

@@ -19,7 +19,7 @@ inline constexpr std::uint32_t kLoopbackAddress = 0x7F00'0001;  ///< 127.0.0.1
 /// programs.
 [[nodiscard]] Expected<net::Ipv4Endpoint> parse_serving_endpoint(std::string_view text);
 
-/// Where a stream of turns is to be had: TCP over IPv4, or a Unix socket.
+/// Where a stream of frames is to be had: TCP over IPv4, or a Unix socket.
 struct StreamAddress {
   net::Ipv4Endpoint tcp{kLoopbackAddress, 0};  ///< Port 0: one the system chooses.
   std::string unix_path{};                     ///< If not empty, this instead.
@@ -29,7 +29,7 @@ struct StreamAddress {
 };
 
 /// "192.168.3.10:7447"; "7447" or ":7447" on the loopback address; "0.0.0.0:7447" on every address
-/// of this machine; a text with a slash, "/run/terracut/turns" or "./turns", is a Unix socket's
+/// of this machine; a text with a slash, "/run/terracut/frames" or "./frames", is a Unix socket's
 /// path. kInvalidArgument, with what was expected, for anything else.
 [[nodiscard]] Expected<StreamAddress> parse_stream_address(std::string_view text);
 

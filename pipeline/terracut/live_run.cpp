@@ -84,8 +84,8 @@ struct LiveRun::Engine {
       of_threads.frame_period_ns = static_cast<std::int64_t>(1e9 / sensor.spin_hz);
     }
     of_threads.keeps_points = true;
-    of_threads.receive = run::thread_wish("tc-receive", config.receive_priority, std::nullopt);
-    of_threads.segment = run::thread_wish("tc-segment", config.segment_priority, std::nullopt);
+    of_threads.receive = run::thread_request("tc-receive", config.receive_priority, std::nullopt);
+    of_threads.segment = run::thread_request("tc-segment", config.segment_priority, std::nullopt);
     return of_threads;
   }
 
@@ -96,7 +96,7 @@ struct LiveRun::Engine {
   }
   void hand_out(const OnFrame& on_frame) {
     auto& slots = *threads.points();
-    for (run::FrameSlots<stream::LabelledPoint>::Frame taken; slots.take(taken);) {
+    for (run::FramePool<stream::LabelledPoint>::Frame taken; slots.take(taken);) {
       for (std::size_t i = 0; i < taken.items.size(); ++i) {
         const stream::LabelledPoint& point = taken.items[i];
         points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
@@ -117,7 +117,7 @@ struct LiveRun::Engine {
   }
   void judge() {
     for (status::FrameTiming timing; threads.take_timing(timing);) {
-      const bool is_skipped = timing.rung == status::Rung::kSkipped;
+      const bool is_skipped = timing.level == status::Level::kSkipped;
       figures.frames_skipped += is_skipped ? 1 : 0;
       figures.deadlines_missed +=
           is_skipped || timing.labels_ns - timing.last_packet_ns > deadline_ns ? 1 : 0;

@@ -38,7 +38,7 @@ std::string_view place_of(std::string_view name) {
   return name.substr(0, mark);
 }
 
-/// `make(path)` answers a descriptor, or -1 with errno.
+/// `make(path)` returns a descriptor, or -1 with errno.
 template <class Make>
 Part make_part(const fs::path& place, Make&& make) {
   static std::atomic<unsigned> serial{0};  // two threads may write to the same folder
@@ -53,7 +53,7 @@ Part make_part(const fs::path& place, Make&& make) {
     while (::flock(part.lock.get(), LOCK_EX) != 0 && errno == EINTR) {
     }
     // Somebody who tidied up may have taken it for abandoned before it was locked.
-    struct stat status{};
+    struct stat status {};
     if (::fstat(part.lock.get(), &status) == 0 && status.st_nlink > 0) return part;
   }
   part.lock.close();
@@ -63,7 +63,7 @@ Part make_part(const fs::path& place, Make&& make) {
 
 bool is_abandoned(const fs::path& path) {
   const OwnedDescriptor part(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  struct stat status{};
+  struct stat status {};
   if (!part || ::fstat(part.get(), &status) != 0 || status.st_uid != ::geteuid()) return false;
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return false;
   return ::flock(part.get(), LOCK_EX | LOCK_NB) == 0;

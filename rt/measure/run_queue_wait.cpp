@@ -9,7 +9,7 @@
 namespace terracut::measure {
 namespace {
 
-using Text = std::array<char, 96>;  // three numbers of at most 20 digits: "ran waited turns"
+using Text = std::array<char, 96>;  // three numbers of at most 20 digits: "ran waited frames"
 
 }  // namespace
 

@@ -9,12 +9,12 @@
 namespace terracut::memory {
 
 Expected<std::vector<threads::Grant>> FixedMemory::reserve(std::size_t bytes,
-                                                           const RegionWish& wish) {
+                                                           const RegionRequest& request) {
   if (!parts_.empty() || !region_.bytes().empty()) {
     return fail(ErrorCode::kInvalidArgument,
                 "memory must be reserved once, before anything is taken from it");
   }
-  auto region = MemoryRegion::map(bytes, wish);
+  auto region = MemoryRegion::map(bytes, request);
   if (!region) return tl::unexpected(region.error());
   region_ = std::move(*region);
   return region_.grants();
@@ -38,7 +38,7 @@ void* FixedMemory::take_bytes(std::string_view part, std::size_t bytes) {
 }
 
 std::byte* FixedMemory::from_heap(std::size_t bytes) {
-  auto* block = static_cast<std::byte*>(::operator new(bytes, std::align_val_t{kAlignment}));
+  auto* block = static_cast<std::byte*>(::operator new (bytes, std::align_val_t{kAlignment}));
   blocks_.emplace_back(block);
   std::memset(block, 0, bytes);  // also touches every page, so that none is missing later
   return block;

@@ -48,11 +48,11 @@ class FixedMemory {
 
   /// From here on arrays come from one region of `bytes`, in the order they are taken, without
   /// gaps. `bytes` is the total_bytes() of a dry run. Every page of the region is there when this
-  /// returns. Locking and large pages are asked for as `wish` says; the answers are returned, and
+  /// returns. Locking and large pages are asked for as `request` says; the grants are returned, and
   /// a refusal of either is no error. Errors: kInvalidArgument when arrays were taken already or a
   /// region is there; kCapacityExceeded when the system has not that much memory.
   [[nodiscard]] Expected<std::vector<threads::Grant>> reserve(std::size_t bytes,
-                                                              const RegionWish& wish);
+                                                              const RegionRequest& request);
 
   /// `count` zeroed elements, aligned to kAlignment. Sizes are rounded up to whole cache lines.
   /// The span stays valid, at the same address, as long as this object lives. What the region has
@@ -77,7 +77,7 @@ class FixedMemory {
  private:
   struct Release {
     void operator()(std::byte* block) const noexcept {
-      ::operator delete(block, std::align_val_t{kAlignment});
+      ::operator delete (block, std::align_val_t{kAlignment});
     }
   };
 

@@ -162,12 +162,12 @@ std::size_t locked_bytes() {
   return 0;
 }
 
-std::vector<threads::Grant> hold_memory(const MemoryWish& wish) {
+std::vector<threads::Grant> hold_memory(const MemoryRequest& request) {
   std::vector<threads::Grant> grants;
-  if (wish.heap > 0) grants.push_back(keep_heap(wish.heap));
-  if (wish.thread_stack > 0) grants.push_back(set_thread_stack(wish.thread_stack));
-  if (wish.lock) grants.push_back(lock_all(wish.later));
-  if (wish.stack > 0) grants.push_back(make_stack_present(wish.stack));
+  if (request.heap > 0) grants.push_back(keep_heap(request.heap));
+  if (request.thread_stack > 0) grants.push_back(set_thread_stack(request.thread_stack));
+  if (request.lock) grants.push_back(lock_all(request.later));
+  if (request.stack > 0) grants.push_back(make_stack_present(request.stack));
   return grants;
 }
 

@@ -11,7 +11,7 @@ namespace terracut::memory {
 
 /// What a process does about its memory before its real-time threads start. Sizes are bytes; 0
 /// leaves that point out.
-struct MemoryWish {
+struct MemoryRequest {
   /// Lock all memory of the process, and what it takes later.
   bool lock = true;
   /// What will be taken after this: stacks of threads, a frame region. If a limit has no room for
@@ -29,9 +29,9 @@ struct MemoryWish {
 
 /// Makes page faults unlikely from here on: the heap keeps what it has got, memory is made present
 /// and locked. Call it first thing in main, before threads start. Whatever the system refuses, the
-/// program can run: the answers say what holds instead and what would mend it.
+/// program can run: the grants say what holds instead and what would mend it.
 /// Start-up only, from the main thread.
-[[nodiscard]] std::vector<threads::Grant> hold_memory(const MemoryWish& wish);
+[[nodiscard]] std::vector<threads::Grant> hold_memory(const MemoryRequest& request);
 
 /// Touches up to `bytes` of the calling thread's stack below here, so that calls that deep do not
 /// fault later. Returns how many were touched: fewer if the stack ends before. Start-up only.

@@ -67,7 +67,7 @@ MemoryRegion::~MemoryRegion() {
   if (!mapping_.empty()) ::munmap(mapping_.data(), mapping_.size());
 }
 
-Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionWish& wish) {
+Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionRequest& request) {
   MemoryRegion region;
   if (bytes == 0) return region;
   const auto no_memory = [&](int error_number) {
@@ -78,7 +78,7 @@ Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionWish& wi
   };
   const auto page = static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
   // A large page begins at a multiple of its size, so the first and the last of them need room.
-  const std::size_t unit = wish.large_pages ? kLargePage : page;
+  const std::size_t unit = request.large_pages ? kLargePage : page;
   if (bytes > std::numeric_limits<std::size_t>::max() - 2 * unit) return no_memory(ENOMEM);
   const std::size_t usable = (bytes + unit - 1) / unit * unit;
   const std::size_t mapped = usable + unit - page;
@@ -91,7 +91,7 @@ Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionWish& wi
   const std::span<std::byte> whole = region.mapping_.subspan(skipped, usable);
   region.bytes_ = whole.first(bytes);
 
-  if (wish.large_pages) region.grants_.push_back(ask_for_large_pages(whole));
+  if (request.large_pages) region.grants_.push_back(ask_for_large_pages(whole));
   if (::mprotect(whole.data(), whole.size(), PROT_READ | PROT_WRITE) != 0) return no_memory(errno);
   for (std::size_t at = 0; at < whole.size(); at += page) {
     // Written, not read: a read would only borrow the one page of zeros that all share.
@@ -100,7 +100,7 @@ Expected<MemoryRegion> MemoryRegion::map(std::size_t bytes, const RegionWish& wi
   // The pages are as they shall stay; the kernel is not to put larger ones together meanwhile,
   // for which it would stop whoever touches them. A refusal changes nothing.
   (void)::madvise(whole.data(), whole.size(), MADV_NOHUGEPAGE);
-  if (wish.lock) region.grants_.push_back(ask_for_locking(whole));
+  if (request.lock) region.grants_.push_back(ask_for_locking(whole));
   return region;
 }
 

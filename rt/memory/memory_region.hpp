@@ -12,7 +12,7 @@
 namespace terracut::memory {
 
 /// What a region should be beyond being there; the system may refuse either.
-struct RegionWish {
+struct RegionRequest {
   /// Keep it in memory, whatever else the machine needs memory for.
   bool lock = false;
   /// Build it from pages of 2 MiB, which need fewer entries in the processor's address cache. A
@@ -33,10 +33,10 @@ class MemoryRegion {
 
   /// At least page-aligned. `bytes` of 0 is a region of no memory. kCapacityExceeded, with the
   /// system's reason, when there is not that much.
-  [[nodiscard]] static Expected<MemoryRegion> map(std::size_t bytes, const RegionWish& wish);
+  [[nodiscard]] static Expected<MemoryRegion> map(std::size_t bytes, const RegionRequest& request);
 
   [[nodiscard]] std::span<std::byte> bytes() const noexcept { return bytes_; }
-  /// The answers to the wishes that were made.
+  /// What the system granted of each request.
   [[nodiscard]] const std::vector<threads::Grant>& grants() const noexcept { return grants_; }
 
  private:

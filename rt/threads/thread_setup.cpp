@@ -57,32 +57,32 @@ std::string describe(const DeadlineScheduling& deadline) {
          " every " + in_us(deadline.period_ns);
 }
 
-Status check(const ThreadWish& wish) {
+Status check(const ThreadRequest& request) {
   constexpr std::int64_t kShortest_ns = 1024;  // the kernel's own limits
   constexpr std::int64_t kLongest_ns = std::int64_t{1} << 62;
-  if (wish.name.empty() || wish.name.size() > 15) {
+  if (request.name.empty() || request.name.size() > 15) {
     return fail(ErrorCode::kInvalidArgument,
-                "the name of a thread has 1 to 15 bytes, not '" + wish.name + "'");
+                "the name of a thread has 1 to 15 bytes, not '" + request.name + "'");
   }
-  if (wish.core && (*wish.core < 0 || *wish.core >= CPU_SETSIZE)) {
+  if (request.core && (*request.core < 0 || *request.core >= CPU_SETSIZE)) {
     return fail(ErrorCode::kInvalidArgument, "a core is numbered from 0 to " +
                                                  std::to_string(CPU_SETSIZE - 1) + ", not " +
-                                                 std::to_string(*wish.core));
+                                                 std::to_string(*request.core));
   }
-  if (const auto* fifo = std::get_if<FifoScheduling>(&wish.scheduling)) {
+  if (const auto* fifo = std::get_if<FifoScheduling>(&request.scheduling)) {
     if (fifo->priority < 1 || fifo->priority > 99) {
       return fail(ErrorCode::kInvalidArgument, "the priority of SCHED_FIFO is from 1 to 99, not " +
                                                    std::to_string(fifo->priority));
     }
   }
-  if (const auto* deadline = std::get_if<DeadlineScheduling>(&wish.scheduling)) {
+  if (const auto* deadline = std::get_if<DeadlineScheduling>(&request.scheduling)) {
     if (deadline->runtime_ns < kShortest_ns || deadline->deadline_ns < deadline->runtime_ns ||
         deadline->period_ns < deadline->deadline_ns || deadline->period_ns > kLongest_ns) {
       return fail(
           ErrorCode::kInvalidArgument,
           "SCHED_DEADLINE needs 1 us <= runtime <= deadline <= period, not " + describe(*deadline));
     }
-    if (wish.core) {
+    if (request.core) {
       return fail(ErrorCode::kInvalidArgument,
                   "SCHED_DEADLINE and a core of one's own exclude each other: the kernel chooses "
                   "the core. Leave one of them out, or give the process a core by a cpuset");
@@ -207,13 +207,13 @@ std::string cores_in_force() {
   return list;
 }
 
-Expected<std::vector<Grant>> set_up_this_thread(const ThreadWish& wish) {
-  if (const Status status = check(wish); !status) return tl::unexpected(status.error());
-  std::vector<Grant> grants{set_name(wish.name)};
-  if (wish.core) grants.push_back(set_core(*wish.core));
-  if (const auto* fifo = std::get_if<FifoScheduling>(&wish.scheduling)) {
+Expected<std::vector<Grant>> set_up_this_thread(const ThreadRequest& request) {
+  if (const Status status = check(request); !status) return tl::unexpected(status.error());
+  std::vector<Grant> grants{set_name(request.name)};
+  if (request.core) grants.push_back(set_core(*request.core));
+  if (const auto* fifo = std::get_if<FifoScheduling>(&request.scheduling)) {
     grants.push_back(set_fifo(*fifo));
-  } else if (const auto* deadline = std::get_if<DeadlineScheduling>(&wish.scheduling)) {
+  } else if (const auto* deadline = std::get_if<DeadlineScheduling>(&request.scheduling)) {
     grants.push_back(set_deadline(*deadline));
   }
   return grants;

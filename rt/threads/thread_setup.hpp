@@ -33,7 +33,7 @@ struct DeadlineScheduling {
 using Scheduling = std::variant<SharedScheduling, FifoScheduling, DeadlineScheduling>;
 
 /// What a thread asks for before its work begins.
-struct ThreadWish {
+struct ThreadRequest {
   std::string name;  ///< As top and debuggers show it; 1 to 15 bytes.
   Scheduling scheduling{};
   /// The only core it may run on, from 0; none: any. Not together with DeadlineScheduling, which
@@ -41,11 +41,11 @@ struct ThreadWish {
   std::optional<int> core{};
 };
 
-/// Sets up the calling thread. What the system refuses is in the answers, one for each wish (name,
-/// core, scheduling) in this order, with what holds instead and what would mend it; the thread can
-/// go on. Threads that this one creates get shared scheduling. kInvalidArgument, and nothing
-/// changed, for a wish outside its documented range. Start-up only.
-[[nodiscard]] Expected<std::vector<Grant>> set_up_this_thread(const ThreadWish& wish);
+/// Sets up the calling thread. What the system refuses is in the grants, one for each request
+/// (name, core, scheduling) in this order, with what holds instead and what would mend it; the
+/// thread can go on. Threads that this one creates get shared scheduling. kInvalidArgument, and
+/// nothing changed, for a request outside its documented range. Start-up only.
+[[nodiscard]] Expected<std::vector<Grant>> set_up_this_thread(const ThreadRequest& request);
 
 /// How the calling thread is scheduled: "SCHED_FIFO priority 50".
 [[nodiscard]] std::string scheduling_in_force();

@@ -18,15 +18,15 @@
 namespace terracut {
 namespace {
 
-/// Ten turns at 10 Hz in which nine of ten firings find something, as on a street.
+/// Ten frames at 10 Hz in which nine of ten firings find something, as on a street.
 std::vector<test::Packet> street_like() {
   auto firings = test::random_firings({.last_cdeg = 35'000 + 10 * 36'000});
   // Distances that change slowly from firing to firing, so that branches behave as on real data.
   for (std::size_t n = 0; n < firings.size(); ++n) {
     for (std::size_t i = 0; i < 64; ++i) {
-      auto& echo = firings[n].by_laser[i];
+      auto& beam = firings[n].by_laser[i];
       const auto phase = static_cast<unsigned>(n / 40 + 7 * i);
-      echo.raw = phase % 10 == 0 ? std::uint16_t{0}
+      beam.raw = phase % 10 == 0 ? std::uint16_t{0}
                                  : static_cast<std::uint16_t>(1'000 + 300 * i + phase % 97);
     }
   }
@@ -40,7 +40,7 @@ void report(benchmark::State& state, std::size_t packets, std::size_t columns_pe
       benchmark::Counter(columns, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
 }
 
-void decode_turns(benchmark::State& state) {
+void decode_frames(benchmark::State& state) {
   const auto packets = street_like();
   memory::FixedMemory memory;
   hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
@@ -55,10 +55,10 @@ void decode_turns(benchmark::State& state) {
   benchmark::DoNotOptimize(returns);
   report(state, packets.size());
 }
-BENCHMARK(decode_turns)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode_frames)->Unit(benchmark::kMillisecond);
 
-/// Five turns, in single (0) or dual return (1).
-void decode_ruby128_turns(benchmark::State& state) {
+/// Five frames, in single (0) or dual return (1).
+void decode_ruby128_frames(benchmark::State& state) {
   const auto packets = test::random_packets({.dual = state.range(0) == 1,
                                              .first_cdeg = 35'000,
                                              .last_cdeg = 35'000 + 5 * 36'000,
@@ -76,10 +76,11 @@ void decode_ruby128_turns(benchmark::State& state) {
   benchmark::DoNotOptimize(returns);
   report(state, packets.size(), 3);
 }
-BENCHMARK(decode_ruby128_turns)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
+BENCHMARK(decode_ruby128_frames)->Arg(0)->Arg(1)->Unit(benchmark::kMillisecond);
 
-/// One turn at 20 m/s and 0.5 rad/s moved to its end: 64 rows of 2083 columns (0), 128 of 1800 (1).
-void deskew_turn(benchmark::State& state) {
+/// One frame at 20 m/s and 0.5 rad/s moved to its end: 64 rows of 2083 columns (0), 128 of 1800
+/// (1).
+void deskew_frame(benchmark::State& state) {
   const bool ruby = state.range(0) == 1;
   const frame::ImageShape shape{ruby ? 128 : 64, ruby ? 1800 : 2083};
   memory::FixedMemory memory;
@@ -87,14 +88,14 @@ void deskew_turn(benchmark::State& state) {
   for (std::int64_t i = -1; i < 14; ++i) motion.add({i * 10'000'000, 20, 0.5});
   std::vector<std::int32_t> beam_ticks;
   for (int row = 0; row < shape.rows; ++row) beam_ticks.push_back((row % 4 - 2) * 300'000);
-  decode::Deskewer deskewer({&motion, frame::TurnInstant::kEnd, shape, decode::kTurn_ticks},
+  decode::Deskewer deskewer({&motion, frame::FrameInstant::kEnd, shape, decode::kRevolution_ticks},
                             beam_ticks, memory);
   for (std::int64_t i = -20; i < 380; ++i) {
-    deskewer.note(i * decode::kTurn_ticks / 360, i * 100'000'000 / 360);
+    deskewer.note(i * decode::kRevolution_ticks / 360, i * 100'000'000 / 360);
   }
   frame::RangeImage image(shape, 100, memory);
   for (auto _ : state) {
-    // The places of a turn, as they are not to move away.
+    // The places of a frame, as they are not to move away.
     state.PauseTiming();
     image.clear();
     for (int row = 0; row < shape.rows; ++row) {
@@ -109,22 +110,22 @@ void deskew_turn(benchmark::State& state) {
     }
   }
 }
-BENCHMARK(deskew_turn)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
+BENCHMARK(deskew_frame)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 /// Points only, nothing placed.
 void compute_points(benchmark::State& state) {
   const auto packets = street_like();
   memory::FixedMemory memory;
   hdl64e::Hdl64eSensor sensor(hdl64e::nominal_hdl64e(), {}, {}, 2083, memory);
-  decode::PacketHeads heads;
+  decode::PacketAzimuths azimuths;
   hdl64e::Hdl64eSensor::Column found{};
   float sum = 0;
   for (auto _ : state) {
     for (const test::Packet& packet : packets) {
-      if (sensor.check(packet.bytes, heads)) continue;
-      sensor.begin_packet(heads);
-      for (int column = 0; column < heads.columns; ++column) {
-        sensor.read_column(packet.bytes, heads, column, found);
+      if (sensor.check(packet.bytes, azimuths)) continue;
+      sensor.begin_packet(azimuths);
+      for (int column = 0; column < azimuths.columns; ++column) {
+        sensor.read_column(packet.bytes, azimuths, column, found);
         sum += found.x_m[5];
       }
     }
@@ -136,10 +137,10 @@ BENCHMARK(compute_points)->Unit(benchmark::kMillisecond);
 
 void check_packets(benchmark::State& state) {
   const auto packets = street_like();
-  decode::PacketHeads heads;
+  decode::PacketAzimuths azimuths;
   for (auto _ : state) {
     for (const test::Packet& packet : packets) {
-      benchmark::DoNotOptimize(hdl64e::check_hdl64e_packet(packet.bytes, heads));
+      benchmark::DoNotOptimize(hdl64e::check_hdl64e_packet(packet.bytes, azimuths));
     }
   }
   report(state, packets.size());

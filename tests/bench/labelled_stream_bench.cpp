@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// What the stream of labelled turns costs: packing on the segment thread, as it is done and row by
+// What the stream of labelled frames costs: packing on the segment thread, as it is done and row by
 // row, and serving on the sink's thread. Reports, asserts nothing.
 #include <benchmark/benchmark.h>
 
@@ -10,19 +10,19 @@
 
 #include "firmware_io/frame/each_return.hpp"
 #include "pipeline/output/label_sink.hpp"
+#include "pipeline/stream/frame_stream_reader.hpp"
+#include "pipeline/stream/frame_stream_server.hpp"
 #include "pipeline/stream/labelled_points.hpp"
-#include "pipeline/stream/turn_stream_reader.hpp"
-#include "pipeline/stream/turn_stream_server.hpp"
 
 namespace terracut {
 namespace {
 
 using stream::LabelledPoint;
 
-/// A turn of rows x columns that arrives firing by firing, each row shifted against the others as
+/// A frame of rows x columns that arrives firing by firing, each row shifted against the others as
 /// by its laser's rotational correction; `full_percent` of the cells hold a return.
-struct Turn {
-  Turn(int rows, int columns, int full_percent)
+struct Frame {
+  Frame(int rows, int columns, int full_percent)
       : image({.rows = rows, .columns = columns}, 64, memory), points(image.return_capacity()) {
     for (int firing = 0; firing < columns; ++firing) {
       for (int laser = 0; laser < rows; ++laser) {
@@ -47,83 +47,83 @@ struct Turn {
   std::vector<LabelledPoint> points;
 };
 
-void report(benchmark::State& state, const Turn& turn) {
-  state.counters["returns"] = static_cast<double>(turn.image.returns());
-  state.SetItemsProcessed(static_cast<std::int64_t>(turn.image.returns()) *
+void report(benchmark::State& state, const Frame& frame) {
+  state.counters["returns"] = static_cast<double>(frame.image.returns());
+  state.SetItemsProcessed(static_cast<std::int64_t>(frame.image.returns()) *
                           static_cast<std::int64_t>(state.iterations()));
 }
 
-/// 64 rows: 124,000 returns, an HDL-64E's turn. 128 rows: 256,000, a full RS-Ruby128's in 2,000
+/// 64 rows: 124,000 returns, an HDL-64E's frame. 128 rows: 256,000, a full RS-Ruby128's in 2,000
 /// columns.
-Turn turn_for(std::int64_t rows) {
-  return rows == 64 ? Turn(64, 2083, 93) : Turn(128, 2000, 100);
+Frame frame_for(std::int64_t rows) {
+  return rows == 64 ? Frame(64, 2083, 93) : Frame(128, 2000, 100);
 }
 
 void pack_points(benchmark::State& state) {
-  Turn turn = turn_for(state.range(0));
+  Frame frame = frame_for(state.range(0));
   for (auto each : state) {
-    benchmark::DoNotOptimize(stream::pack_labelled_points(turn.image, turn.labels, turn.points));
+    benchmark::DoNotOptimize(stream::pack_labelled_points(frame.image, frame.labels, frame.points));
     benchmark::ClobberMemory();
   }
-  report(state, turn);
+  report(state, frame);
 }
 BENCHMARK(pack_points)->Arg(64)->Arg(128)->Unit(benchmark::kMicrosecond);
 
 /// The other order of walking the image, for comparison.
 void pack_points_row_by_row(benchmark::State& state) {
-  Turn turn = turn_for(state.range(0));
+  Frame frame = frame_for(state.range(0));
   for (auto each : state) {
-    frame::for_each_return(turn.image, [&](const frame::PlacedReturn& placed) {
-      const auto label = output::semantic_kitti_class(turn.labels[placed.return_index]);
-      turn.points[placed.return_index] = {placed.echo.x_m,
-                                          placed.echo.y_m,
-                                          placed.echo.z_m,
-                                          placed.echo.intensity,
-                                          static_cast<std::uint8_t>(label),
-                                          static_cast<std::uint16_t>(placed.row)};
+    frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
+      const auto label = output::semantic_kitti_class(frame.labels[placed.return_index]);
+      frame.points[placed.return_index] = {placed.point.x_m,
+                                           placed.point.y_m,
+                                           placed.point.z_m,
+                                           placed.point.intensity,
+                                           static_cast<std::uint8_t>(label),
+                                           static_cast<std::uint16_t>(placed.row)};
     });
     benchmark::ClobberMemory();
   }
-  report(state, turn);
+  report(state, frame);
 }
 BENCHMARK(pack_points_row_by_row)->Arg(64)->Arg(128)->Unit(benchmark::kMicrosecond);
 
-/// One turn to `readers` readers over the loopback, until all of them have it. CPU time is that of
+/// One frame to `readers` readers over the loopback, until all of them have it. CPU time is that of
 /// the serving thread alone.
-void serve_turn(benchmark::State& state) {
-  const Turn turn = turn_for(state.range(0));
+void serve_frame(benchmark::State& state) {
+  const Frame frame = frame_for(state.range(0));
   const auto readers = static_cast<std::size_t>(state.range(1));
   memory::FixedMemory memory;
-  auto server = stream::TurnStreamServer::open(
-      {.max_points = turn.image.returns(), .max_peers = readers}, memory);
+  auto server = stream::FrameStreamServer::open(
+      {.max_points = frame.image.returns(), .max_peers = readers}, memory);
   if (!server) return state.SkipWithError(server.error().message.c_str());
   std::vector<std::jthread> threads;
   std::atomic<std::uint64_t> received{0};
   for (std::size_t n = 0; n < readers; ++n) {
     threads.emplace_back([&received, address = server->address()] {
-      auto reader = stream::TurnStreamReader::connect(address);
-      stream::ReceivedTurn got;
+      auto reader = stream::FrameStreamReader::connect(address);
+      stream::ReceivedFrame got;
       while (reader && reader->next(got, -1).value_or(false)) ++received;
     });
   }
-  while (server->peers() < readers) server->turn_round();
-  stream::LabelledTurn labelled;
-  labelled.points = std::span(turn.points).first(turn.image.returns());
+  while (server->peers() < readers) server->work_round();
+  stream::LabelledFrame labelled;
+  labelled.points = std::span(frame.points).first(frame.image.returns());
   std::uint64_t expected = 0;
   for (auto each : state) {
     server->serve(labelled);
     state.PauseTiming();
     expected += readers;
     while (received < expected && server->figures().missed == 0) {
-      server->turn_round();
+      server->work_round();
       std::this_thread::yield();
     }
     state.ResumeTiming();
   }
-  if (server->figures().missed > 0) state.SkipWithError("a reader missed a turn");
-  server = stream::TurnStreamServer::open({.max_points = 1}, memory);  // ends the readers
+  if (server->figures().missed > 0) state.SkipWithError("a reader missed a frame");
+  server = stream::FrameStreamServer::open({.max_points = 1}, memory);  // ends the readers
 }
-BENCHMARK(serve_turn)
+BENCHMARK(serve_frame)
     ->ArgsProduct({{64, 128}, {1, 4}})
     ->Unit(benchmark::kMicrosecond)
     ->Iterations(200);

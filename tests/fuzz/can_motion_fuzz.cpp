@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Streams of CAN frames, bent, beside the packets of a turning head, on one clock that is set now
-// and then or on two: from signals to a deskewed turn. Whatever comes, places stay finite, every
-// frame is accounted for, and a turn says that it is deskewed only where there was motion for it
+// Streams of CAN frames, bent, beside the packets of a rotating head, on one clock that is set now
+// and then or on two: from signals to a deskewed frame. Whatever comes, places stay finite, every
+// frame is accounted for, and a frame says that it is deskewed only where there was motion for it
 // lately.
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@
 
 #include "firmware_io/decode/deskewer.hpp"
 #include "firmware_io/decode/host_clock.hpp"
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "input.hpp"
@@ -74,8 +74,8 @@ class MotionRun {
         signals_(signals(bits_)),
         motion_({.sensor_ahead_m = (bits_ & 16) != 0 ? 2.0 : 0.0, .waiting = 16, .kept = 32},
                 memory_),
-        deskewer_({&motion_, static_cast<frame::TurnInstant>((bits_ >> 5) % 3), kShape,
-                   decode::kTurn_ticks},
+        deskewer_({&motion_, static_cast<frame::FrameInstant>((bits_ >> 5) % 3), kShape,
+                   decode::kRevolution_ticks},
                   kBeam_ticks, memory_),
         image_(kShape, 16, memory_) {}
 
@@ -127,12 +127,12 @@ class MotionRun {
         break;
       case 9:  // packets are lost, or the head begins anew
         if (input_.below(2) == 0) {
-          head_ticks_ += std::int64_t{input_.below(256)} * 1'000'000;
+          rotor_ticks_ += std::int64_t{input_.below(256)} * 1'000'000;
         } else {
           hand_over();
           deskewer_.restart();
-          clock_.forget();
-          turn_ = head_ticks_ = 0;
+          clock_.reset();
+          frame_ = rotor_ticks_ = 0;
           noted_ = false;
         }
         break;
@@ -220,16 +220,16 @@ class MotionRun {
   /// A packet, 2 ms and 7 degrees after the one before.
   void packet() {
     time_ns_ += 2 * kMillisecond_ns;
-    head_ticks_ += 700'000;
+    rotor_ticks_ += 700'000;
     const std::int64_t device_us = (time_ns_ + device_ns_) / 1'000 % kHour_us;
     const decode::HostClock::Sent sent =
         clock_.sent((device_us + kHour_us) % kHour_us, host_ns() + late_ns_);
-    if (sent.anew) deskewer_.begin_anew(head_ticks_);
-    deskewer_.note(head_ticks_, sent.instant_ns);
-    if (!noted_) turn_ = head_ticks_ / decode::kTurn_ticks;
+    if (sent.anew) deskewer_.begin_anew(rotor_ticks_);
+    deskewer_.note(rotor_ticks_, sent.instant_ns);
+    if (!noted_) frame_ = rotor_ticks_ / decode::kRevolution_ticks;
     noted_ = true;
     packet_before_ns_ = std::exchange(newest_packet_ns_, time_ns_);
-    while (head_ticks_ - (turn_ + 1) * decode::kTurn_ticks > 1'000'000) hand_over();
+    while (rotor_ticks_ - (frame_ + 1) * decode::kRevolution_ticks > 1'000'000) hand_over();
   }
 
   void hand_over() {
@@ -238,7 +238,7 @@ class MotionRun {
     for (int column = 0; column < kShape.columns; column += 3) {
       require(image_.place(column % 2, column, {10, 1, 0.5F, 10.05F, 1}), "no place for a return");
     }
-    const frame::DeskewInfo info = deskewer_.apply(turn_++, image_);
+    const frame::DeskewInfo info = deskewer_.apply(frame_++, image_);
     double moved_m = 0;
     for (int column = 0; column < kShape.columns; column += 3) {
       const auto cell = static_cast<std::size_t>(column % 2 * kShape.stride() + column);
@@ -249,15 +249,15 @@ class MotionRun {
     }
     if (info.state != frame::DeskewState::kDone) {
       require(info.state == frame::DeskewState::kNoEgoMotion && moved_m == 0,
-              "a turn moved by no motion");
+              "a frame moved by no motion");
       return;
     }
-    require(newest_sample_ns_.has_value(), "a turn moved without any sample");
-    require(info.newest_motion_ns >= -kMaxAge_ns, "a turn was moved by old motion");
+    require(newest_sample_ns_.has_value(), "a frame moved without any sample");
+    require(info.newest_motion_ns >= -kMaxAge_ns, "a frame was moved by old motion");
     // On one clock that also holds in the time that is never set.
     if (one_clock_) {
       require(packet_before_ns_ - *newest_sample_ns_ <= kMaxAge_ns + kDoubt_ns,
-              "a turn was moved by motion of long ago");
+              "a frame was moved by motion of long ago");
     }
   }
 
@@ -277,7 +277,7 @@ class MotionRun {
   std::int64_t newest_packet_ns_ = 0, packet_before_ns_ = 0;
   std::int64_t next_frames_ns_ = 0, period_ns_ = 10 * kMillisecond_ns;
   std::optional<std::int64_t> newest_sample_ns_;
-  std::int64_t head_ticks_ = 0, turn_ = 0;
+  std::int64_t rotor_ticks_ = 0, frame_ = 0;
   int speed_ = 3'600, rate_ = 900;
   std::uint64_t frames_ = 0, samples_ = 0;
   bool noted_ = false, one_clock_ = true, bus_is_heard_ = true;

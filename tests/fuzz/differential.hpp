@@ -15,8 +15,8 @@
 namespace terracut::fuzz {
 
 /// The product's decoder beside the reference, on stretches of packets that the input makes: a
-/// turning head's, with any returns, or bent ones. Both must refuse the same packets for the same
-/// reason and agree on the turn, the cell and the place of every return of the others.
+/// rotating head's, with any returns, or bent ones. Both must refuse the same packets for the same
+/// reason and agree on the frame, the cell and the place of every return of the others.
 template <class Sensor>
 class Differential {
  public:
@@ -59,7 +59,7 @@ class Differential {
           break;
         }
         default:
-          turning_head(1 + input_.below(64));
+          rotating_head(1 + input_.below(64));
           break;
       }
     }
@@ -83,7 +83,7 @@ class Differential {
   }
 
   /// The next columns of the head into the packet.
-  void turn_on() {
+  void keep_rotating() {
     const int pairing = dual_return_ ? 2 : 1;
     for (int column = 0; column < Sensor::kColumns; ++column) {
       if ((reading_++ + late_) % pairing == 0) {
@@ -95,17 +95,17 @@ class Differential {
     }
   }
 
-  void turning_head(int packets) {
+  void rotating_head(int packets) {
     stretch([&] {
       for (int n = 0; n < packets; ++n) {
-        turn_on();
+        keep_rotating();
         feed(packet_);
       }
     });
   }
 
   void bent_packet() {
-    turn_on();
+    keep_rotating();
     reference::PayloadBytes bent = packet_;
     for (int n = input_.below(8); n > 0; --n) {
       // Mostly where a block begins.
@@ -124,9 +124,10 @@ class Differential {
     constexpr std::int64_t kPause_ns = 50'000'000;
     stamp_ns_ += kPause_ns;
     reading_ = 0;
-    Sensor::forget(reference_);
-    turns_ = {};
-    expected_ = reference::ExpectedTurns(Sensor::elevations(calibration_), mount_, config_.columns);
+    Sensor::reset(reference_);
+    frames_ = {};
+    expected_ =
+        reference::ExpectedFrames(Sensor::elevations(calibration_), mount_, config_.columns);
     handed_ = {};
     packets();
     test::end_stream(decoder_, handed_.keep());
@@ -148,7 +149,7 @@ class Differential {
                 reference::as_refusal(reason) == packet.refusal,
             std::string("reference: ") + std::string(to_string(packet.refusal)) +
                 ", decoder: " + std::string(reason ? to_string(*reason) : "none"));
-    if (!reason) expected_.add(packet, turns_.unwrap(packet));
+    if (!reason) expected_.add(packet, frames_.unwrap(packet));
     const double packet_us =
         Sensor::firing_us(dual_return_) * Sensor::firings_per_packet(dual_return_);
     stamp_ns_ += static_cast<std::int64_t>(packet_us * 1e3);
@@ -167,8 +168,8 @@ class Differential {
   int step_cdeg_ = 18, jitter_cdeg_ = 0, azimuth_cdeg_ = 0, late_ = 0, reading_ = 0;
   bool dual_return_ = false;
   std::int64_t stamp_ns_ = 1'767'225'600'000'000'000;
-  reference::Turns turns_;
-  reference::ExpectedTurns expected_{{}, {}, 1};
+  reference::Frames frames_;
+  reference::ExpectedFrames expected_{{}, {}, 1};
   reference::HandedFrames handed_;
 };
 

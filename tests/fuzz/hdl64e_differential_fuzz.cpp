@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // The HDL-64E decoder beside the plain reference on packets that the input makes and bends: the
-// same refusals, and the same turn, cell and place of every return.
+// same refusals, and the same frame, cell and place of every return.
 #include "differential.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

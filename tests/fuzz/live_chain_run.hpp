@@ -34,12 +34,12 @@ namespace terracut::fuzz {
 /// - frames have the numbers that follow, stamps of packets that came, and returns at finite
 /// places;
 /// - every return of a packet that was decoded is in a frame or counted as lost;
-/// - a turn that the segmenter takes is as it was handed over, and has a label for each return;
+/// - a frame that the segmenter takes is as it was handed over, and has a label for each return;
 /// - memory stays what it was, and nothing is allocated.
 template <class Decoder, class Calibration>
 class LiveChainRun {
  public:
-  /// Two open turns that a restart ends, and two that end within the turn that was in doubt.
+  /// Two open frames that a restart ends, and two that end within the frame that was in doubt.
   static constexpr int kMostFramesAPacket = 4;
 
   struct Config {
@@ -78,9 +78,9 @@ class LiveChainRun {
                               hand_over());
         },
         [&] { return returns_in_(payload); });
-    const frame::ArrivingTurn arriving = decoder_.arriving();
+    const frame::ArrivingFrame arriving = decoder_.arriving();
     if (arriving.image != nullptr) {
-      coarse_.advance(*arriving.image, arriving.settled_columns, planes_of(*arriving.image));
+      coarse_.advance(*arriving.image, arriving.complete_columns, planes_of(*arriving.image));
     }
     require(frames_of_packet_ <= kMostFramesAPacket, "one packet hands over too many frames");
     require(memory_.total_bytes() == memory_bytes_, "memory was taken after the start");
@@ -92,8 +92,8 @@ class LiveChainRun {
 
   /// The vehicle's motion at this stamp of the host's clock.
   void move(const vehicle::MotionSample& sample) { (void)motion_.add(sample); }
-  /// The segmenter does not take any of the next turns.
-  void keep_segmenter_away(int turns) { segmenter_away_ = turns; }
+  /// The segmenter does not take any of the next frames.
+  void keep_segmenter_away(int frames) { segmenter_away_ = frames; }
   void flush() {
     account_.flush(decoder_, [&] { test::end_stream(decoder_, hand_over()); });
     segmenter_away_ = 0;
@@ -157,22 +157,22 @@ class LiveChainRun {
       handed_over_[number_of(image)] = {sum_of(image), info.number};
       coarse_.finish(image, planes_of(image));
       if (segmenter_away_ > 0) --segmenter_away_;
-      return exchange_.hand_over({&image, info, {}, true}, [](const Exchange::Turn&) noexcept {});
+      return exchange_.hand_over({&image, info, {}, true}, [](const Exchange::Frame&) noexcept {});
     };
   }
 
   void segment() {
-    const Exchange::Turn* turn = exchange_.take_if_new();
-    if (turn == nullptr) return;
-    const frame::RangeImage& image = *turn->image;
+    const Exchange::Frame* frame = exchange_.take_if_new();
+    if (frame == nullptr) return;
+    const frame::RangeImage& image = *frame->image;
     const HandedOver& expected = handed_over_[number_of(image)];
-    require(turn->info.number == expected.number && sum_of(image) == expected.sum,
-            "a turn changed after it was handed over");
-    require(turn->info.number + 1 > segmented_, "a turn is segmented after a newer one");
-    segmented_ = turn->info.number + 1;
+    require(frame->info.number == expected.number && sum_of(image) == expected.sum,
+            "a frame changed after it was handed over");
+    require(frame->info.number + 1 > segmented_, "a frame is segmented after a newer one");
+    segmented_ = frame->info.number + 1;
     (void)fine_.refine(image, planes_of(image));
     const auto labels = fine_.labels();
-    require(labels.size() == turn->info.returns, "not every return has a label");
+    require(labels.size() == frame->info.returns, "not every return has a label");
     require(std::ranges::count(labels, frame::Label::kNone) == 0, "a return has no label");
   }
 

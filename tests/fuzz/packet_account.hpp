@@ -33,8 +33,8 @@ class PacketAccount {
     }
     const std::size_t kept = decoder.packets_kept();
     if (kept == 0 || (!reason && kept <= kept_before)) {
-      settle(kept_before, decoder.losses().rejected_total() - before.rejected_total() -
-                              (reason && !is_device_info ? 1 : 0));
+      finalize(kept_before, decoder.losses().rejected_total() - before.rejected_total() -
+                                (reason && !is_device_info ? 1 : 0));
     }
     if (!reason) (kept > 0 ? returns_kept_ : returns_decoded_) += returns();
     check(decoder);
@@ -45,7 +45,7 @@ class PacketAccount {
     const std::uint64_t before = decoder.losses().rejected_total();
     const std::size_t kept = decoder.packets_kept();
     flush();
-    settle(kept, decoder.losses().rejected_total() - before);
+    finalize(kept, decoder.losses().rejected_total() - before);
     require(decoder.packets_kept() == 0, "the end of the stream left packets in doubt");
     check(decoder);
   }
@@ -66,7 +66,7 @@ class PacketAccount {
   }
 
   /// Of the packets that were kept, so many turned out to be strays.
-  void settle(std::size_t kept, std::uint64_t strays) {
+  void finalize(std::size_t kept, std::uint64_t strays) {
     require(strays <= kept, "packets were rejected that had not come");
     if (strays == 0) {
       returns_decoded_ += returns_kept_;

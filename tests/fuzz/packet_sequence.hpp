@@ -14,7 +14,7 @@
 
 namespace terracut::fuzz {
 
-/// A head that turns, as it is at one time. What the input bends of it stays so.
+/// A head that rotates, as it is at one time. What the input bends of it stays so.
 struct Head {
   std::int64_t azimuth_cdeg = 0;  ///< Of the next firing, unwrapped.
   std::int64_t device_ns = 0;     ///< What the device's clock shows at it.
@@ -31,7 +31,7 @@ struct Head {
     return blind_cdeg > 0 &&
            beams::wrap_cdeg(azimuth_cdeg - blind_from_cdeg) < static_cast<std::int32_t>(blind_cdeg);
   }
-  /// Turns on to where it is not blind any more.
+  /// Frames on to where it is not blind any more.
   void leave_sector(std::int64_t firing_ns) {
     for (; is_blind() && step_cdeg > 0; device_ns += firing_ns) azimuth_cdeg += step_cdeg;
   }
@@ -71,7 +71,7 @@ class PacketSequence {
   }
 
   void bend() {
-    Head& head = heads_[sender_];
+    Head& head = azimuths_[sender_];
     switch (input_.next(1) % 21) {
       case 0:
         send(1);
@@ -90,13 +90,13 @@ class PacketSequence {
         }
         break;
       case 5:  // the head is elsewhere
-        head.azimuth_cdeg = head.azimuth_cdeg / beams::kTurn_cdeg * beams::kTurn_cdeg +
-                            input_.below(beams::kTurn_cdeg);
+        head.azimuth_cdeg = head.azimuth_cdeg / beams::kRevolution_cdeg * beams::kRevolution_cdeg +
+                            input_.below(beams::kRevolution_cdeg);
         break;
       case 6:  // packets are lost
         for (int n = input_.below(256); n > 0; --n) (void)make(head);
         break;
-      case 7:  // an outage, with or without the head's turning on
+      case 7:  // an outage, with or without the head's rotation
         time_ns_ += std::int64_t{input_.below(256)} * 10'000'000;
         if (input_.below(2) == 0) head.device_ns += time_ns_ - newest_ns_;
         break;
@@ -122,12 +122,12 @@ class PacketSequence {
       case 13:  // a field of view
         head.blind_from_cdeg = std::int64_t{input_.below(360)} * 100;
         head.blind_cdeg = std::int64_t{input_.below(720)} * 100;
-        head.fills_packets = head.blind_cdeg >= beams::kTurn_cdeg;
-        head.blind_cdeg %= beams::kTurn_cdeg;
+        head.fills_packets = head.blind_cdeg >= beams::kRevolution_cdeg;
+        head.blind_cdeg %= beams::kRevolution_cdeg;
         break;
       case 14:  // it reboots: clock and azimuth from anywhere
         head.device_ns = input_.below(2) == 0 ? 0 : head.device_ns / 3'600'000'000'000 * 1'000;
-        head.azimuth_cdeg = input_.below(beams::kTurn_cdeg);
+        head.azimuth_cdeg = input_.below(beams::kRevolution_cdeg);
         time_ns_ += std::int64_t{input_.below(16)} * 100'000'000;
         break;
       case 15:  // the host's clock is set
@@ -135,7 +135,7 @@ class PacketSequence {
         break;
       case 16:  // another sender, or both in turn
         sender_ = static_cast<std::size_t>(input_.below(2));
-        in_turn_ = input_.below(2) != 0;
+        in_frame_ = input_.below(2) != 0;
         break;
       case 17:
         head.pattern = input_.next(2);
@@ -158,12 +158,12 @@ class PacketSequence {
         run_.flush();
         break;
       case 1:
-        heads_[sender_].encoding = input_.below(3);
+        azimuths_[sender_].encoding = input_.below(3);
         break;
       case 2:  // near the end of the device's hour
-        heads_[sender_].device_ns += 3'600'000'000'000 -
-                                     heads_[sender_].device_ns % 3'600'000'000'000 -
-                                     std::int64_t{input_.below(64)} * 300'000;
+        azimuths_[sender_].device_ns += 3'600'000'000'000 -
+                                        azimuths_[sender_].device_ns % 3'600'000'000'000 -
+                                        std::int64_t{input_.below(64)} * 300'000;
         break;
       default:
         speed_mps_ = input_.below(80) - 20;
@@ -185,7 +185,7 @@ class PacketSequence {
     return Sensor::kColumns * Sensor::firing_ns(head.dual) / (head.dual ? 2 : 1);
   }
 
-  /// The next packet of a head, which turns on, and its time passes.
+  /// The next packet of a head, which rotates on, and its time passes.
   Bytes make(Head& head) {
     std::array<typename Sensor::Column, Sensor::kColumns> columns{};
     head.device_ns = std::clamp<std::int64_t>(head.device_ns, 0, 2 * kStart_ns);
@@ -196,9 +196,9 @@ class PacketSequence {
       column.unwrapped_azimuth_cdeg = head.azimuth_cdeg;
       for (std::size_t n = 0; n < Sensor::kReturnsAColumn; ++n) {
         head.pattern = head.pattern * 1'664'525U + 1'013'904'223U;
-        auto& echo = column.by_laser[(head.pattern >> 8) % column.by_laser.size()];
-        echo.raw = static_cast<std::uint16_t>(head.pattern >> 16);
-        echo.intensity = static_cast<std::uint8_t>(head.pattern >> 3);
+        auto& beam = column.by_laser[(head.pattern >> 8) % column.by_laser.size()];
+        beam.raw = static_cast<std::uint16_t>(head.pattern >> 16);
+        beam.intensity = static_cast<std::uint8_t>(head.pattern >> 3);
       }
       if (++head.readings % (head.dual ? 2 : 1) != 0) continue;
       head.azimuth_cdeg += head.step_cdeg;
@@ -214,9 +214,9 @@ class PacketSequence {
 
   void send(int packets) {
     for (; packets > 0 && sent_ < kMostPackets; --packets) {
-      if (in_turn_) sender_ = 1 - sender_;
-      const bool blind = heads_[sender_].is_blind() && !heads_[sender_].fills_packets;
-      const Bytes packet = make(heads_[sender_]);
+      if (in_frame_) sender_ = 1 - sender_;
+      const bool blind = azimuths_[sender_].is_blind() && !azimuths_[sender_].fills_packets;
+      const Bytes packet = make(azimuths_[sender_]);
       if (blind) {
         ++sent_;  // nothing was, but it took its time
         continue;
@@ -262,10 +262,10 @@ class PacketSequence {
 
   Input& input_;
   Run run_;
-  std::array<Head, 2> heads_{Head{.device_ns = kStart_ns},
-                             Head{.azimuth_cdeg = 12'000, .device_ns = kStart_ns + 777'000'000}};
+  std::array<Head, 2> azimuths_{Head{.device_ns = kStart_ns},
+                                Head{.azimuth_cdeg = 12'000, .device_ns = kStart_ns + 777'000'000}};
   std::size_t sender_ = 0;
-  bool in_turn_ = false;
+  bool in_frame_ = false;
   std::vector<Bytes> sent_last_, held_;
   int held_for_ = 0, sent_ = 0;
   std::int64_t time_ns_ = 0, newest_ns_ = 0, moved_ns_ = 0, host_ns_ = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Prints a fingerprint of the labels and cut energies of some made-up turns. Everything here is
+// Prints a fingerprint of the labels and cut energies of some made-up frames. Everything here is
 // plain IEEE arithmetic (no sin, cos or atan2, whose last bit differs between libraries), so that
 // the same line must come out on every machine: docs/design.md, promise 5. tools/test --all
 // compares x86-64 with AArch64.
@@ -49,9 +49,9 @@ mount::RingProfile profile() {
 
 /// A road between a kerb and rough ground with a hillside, and walls, boxes and bushes where the
 /// generator puts them.
-void make_turn(Random& random, frame::RangeImage& image) {
+void make_frame(Random& random, frame::RangeImage& image) {
   image.clear();
-  // The head turns by a fixed complex factor a column: (cos, sin) of 1 / 2083 of a turn.
+  // The head rotates by a fixed complex factor a column: (cos, sin) of 1 / 2083 of a frame.
   constexpr double kCos = 0.99999545070193, kSin = 0.0030163606178;
   double ahead = 1, left = 0;
   double thing_m = 20, thing_top_m = 1.5;
@@ -107,8 +107,8 @@ int main() {
   Random random;
   Fingerprint fingerprint;
   std::uint64_t labels = 0, obstacles = 0, unknown = 0, road = 0, other_ground = 0;
-  for (int turn = 0; turn < 5; ++turn) {
-    make_turn(random, image);
+  for (int frame = 0; frame < 5; ++frame) {
+    make_frame(random, image);
     for (ground::Segmenter* segmenter : {&terracut, &paper}) {
       const auto report = segmenter->segment(image);
       for (const frame::Label label : segmenter->labels()) {

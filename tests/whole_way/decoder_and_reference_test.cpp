@@ -24,9 +24,9 @@ namespace {
 // --- Streams ---
 
 struct Stream {
-  TurningHead head;
-  double turns = 2.2;
-  std::optional<int> columns = std::nullopt;  ///< Else as many as there are firings in a turn.
+  RotatingHead head;
+  double frames = 2.2;
+  std::optional<int> columns = std::nullopt;  ///< Else as many as there are firings in a frame.
   double share_of_losses = 0;                 ///< Packets that do not arrive.
   double share_of_unmeasured = 0;             ///< Packets without any return.
 };
@@ -42,10 +42,10 @@ class BothDecoders {
     const double firings = 1e6 / firing_us / stream.head.spin_hz;
     config_.columns = stream.columns.value_or(static_cast<int>(std::lround(firings)));
     config_.returns_per_cell = 6;
-    TurningHead head = stream.head;
+    RotatingHead head = stream.head;
     head.first_deg = std::uniform_real_distribution<double>(0, 360)(random_);
     head.packets =
-        static_cast<int>(stream.turns * firings / Sensor::firings_per_packet(head.dual_return));
+        static_cast<int>(stream.frames * firings / Sensor::firings_per_packet(head.dual_return));
     for (Payload& payload : Sensor::payloads(head)) {
       arrived_.push_back({std::move(payload), chance() >= stream.share_of_losses});
       if (chance() < stream.share_of_unmeasured) unmeasure(arrived_.back().payload);
@@ -54,11 +54,11 @@ class BothDecoders {
 
   /// What of the product differs from the reference.
   std::string difference() {
-    // Beams on the very seam may be of either turn.
+    // Beams on the very seam may be of either frame.
     reference_pass([&](Payload& payload, const Packet& packet, double) {
       erase_returns_on_the_seam<Sensor>(payload.bytes, packet);
     });
-    ExpectedTurns expected(Sensor::elevations(calibration_), mount_, config_.columns);
+    ExpectedFrames expected(Sensor::elevations(calibration_), mount_, config_.columns);
     reference_pass([&](Payload&, const Packet& packet, double unwrap_deg) {
       expected.add(packet, unwrap_deg);
       expected_returns_ += packet.returns.size();
@@ -105,15 +105,15 @@ class BothDecoders {
   template <class Visitor>
   void reference_pass(Visitor&& visit) {
     typename Sensor::Reference reference = make_reference();
-    Turns turns;
+    Frames frames;
     for (Arrival& arrival : arrived_) {
       if (!arrival.arrives) {
-        Sensor::forget(reference);
+        Sensor::reset(reference);
         continue;
       }
       const Packet packet = reference.decode(arrival.payload.bytes);
       ASSERT_EQ(packet.refusal, Refusal::kNone);
-      visit(arrival.payload, packet, turns.unwrap(packet));
+      visit(arrival.payload, packet, frames.unwrap(packet));
     }
   }
 
@@ -183,7 +183,7 @@ TYPED_TEST(DecoderAndReference, AgreeForManyUnitsAndMountsAtOddSpins) {
                                           .dual_return = dual_return,
                                           .share_of_returns = 0.2,
                                           .seed = seed},
-                                 .turns = 1.4});
+                                 .frames = 1.4});
   }
 }
 
@@ -191,7 +191,7 @@ TYPED_TEST(DecoderAndReference, AgreeWhenTheImageDoesNotFitTheSpin) {
   for (const int columns : {300, 1'024, 4'000, 9'000}) {
     SCOPED_TRACE(columns);
     expect_agreement<TypeParam>(
-        {.head = {.share_of_returns = 0.3, .seed = 3}, .turns = 1.4, .columns = columns});
+        {.head = {.share_of_returns = 0.3, .seed = 3}, .frames = 1.4, .columns = columns});
   }
 }
 
@@ -199,13 +199,13 @@ TYPED_TEST(DecoderAndReference, AgreeBesideLostPackets) {
   for (const bool dual_return : {false, true}) {
     SCOPED_TRACE(dual_return);
     expect_agreement<TypeParam>(
-        {.head = {.dual_return = dual_return, .seed = 4}, .turns = 2.5, .share_of_losses = 0.2});
+        {.head = {.dual_return = dual_return, .seed = 4}, .frames = 2.5, .share_of_losses = 0.2});
   }
 }
 
 TYPED_TEST(DecoderAndReference, AgreeWhenMostPacketsHaveNothingMeasured) {
   expect_agreement<TypeParam>(
-      {.head = {.share_of_returns = 0.05, .seed = 5}, .turns = 4.5, .share_of_unmeasured = 0.95});
+      {.head = {.share_of_returns = 0.05, .seed = 5}, .frames = 4.5, .share_of_unmeasured = 0.95});
 }
 
 TYPED_TEST(DecoderAndReference, RefuseTheSamePacketsForTheSameReason) {
@@ -217,7 +217,7 @@ TYPED_TEST(DecoderAndReference, RefuseTheSamePacketsForTheSameReason) {
   std::map<Refusal, int> seen;
   for (unsigned n = 0; n < 20'000; ++n) {
     std::vector<std::uint8_t> bytes(TypeParam::payloads({.packets = 1})[0].bytes);
-    // A head that turns or does not, evenly or not, singly or in pairs.
+    // A head that rotates or does not, evenly or not, singly or in pairs.
     const int step_cdeg = below(2) == 0 ? below(8) - 3 : below(140) - 20;
     const int jitter_cdeg = 1 + below(4), pairing = 1 + below(2), first = below(2);
     int azimuth_cdeg = below(36'000);
@@ -236,18 +236,18 @@ TYPED_TEST(DecoderAndReference, RefuseTheSamePacketsForTheSameReason) {
 
     typename TypeParam::Reference reference(no_corrections);
     const Packet expected = reference.decode(bytes);
-    decode::PacketHeads heads;
-    const auto reason = TypeParam::check(bytes, heads);
+    decode::PacketAzimuths azimuths;
+    const auto reason = TypeParam::check(bytes, azimuths);
     ASSERT_EQ(to_string(as_refusal(reason)), to_string(expected.refusal)) << n;
     if (!reason) {
-      ASSERT_EQ(heads.dual_return, expected.dual_return) << n;
-      ASSERT_NEAR(heads.step_ticks * 1e-5, expected.step_deg, 1e-9) << n;
+      ASSERT_EQ(azimuths.dual_return, expected.dual_return) << n;
+      ASSERT_NEAR(azimuths.step_ticks * 1e-5, expected.step_deg, 1e-9) << n;
     }
     ++seen[expected.refusal];
   }
   EXPECT_GT(seen[Refusal::kNone], 1'000);
   for (const Refusal refusal :
-       {Refusal::kOtherPacket, Refusal::kAzimuthRange, Refusal::kUneven, Refusal::kNotTurning}) {
+       {Refusal::kOtherPacket, Refusal::kAzimuthRange, Refusal::kUneven, Refusal::kNotRotating}) {
     EXPECT_GT(seen[refusal], 100) << to_string(refusal);
   }
   const bool pairs_of_blocks = TypeParam::kBlocks > TypeParam::kColumns;

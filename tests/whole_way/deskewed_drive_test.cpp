@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// A vehicle that drives and turns while its sensor's head does: from the simulated world through
+// A vehicle that drives and frames while its sensor's head does: from the simulated world through
 // packets and the decoder, with the vehicle's motion beside them, to places and labels.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,7 +31,7 @@
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
-#include "tools/lab/drive/truth_turns.hpp"
+#include "tools/lab/drive/truth_frames.hpp"
 #include "tools/lab/quality/quality.hpp"
 #include "tools/lab/simulator/drive.hpp"
 
@@ -66,11 +66,11 @@ void print(const std::string& drive, Distances& as_seen, Distances& deskewed) {
                            as_seen.p95_m(), deskewed.p95_m(), deskewed.most_m());
 }
 
-template <class Transmitter>
-simulator::SimulationConfig<Transmitter> fast_bend(const std::string& scene, int turns) {
-  simulator::SimulationConfig<Transmitter> config;
+template <class EncoderTraits>
+simulator::SimulationConfig<EncoderTraits> fast_bend(const std::string& scene, int frames) {
+  simulator::SimulationConfig<EncoderTraits> config;
   config.scene = scene;
-  config.duration_s = 0.1 * turns;
+  config.duration_s = 0.1 * frames;
   config.speed_mps = 20;
   config.yaw_rate_radps = 0.5;
   config.threads = 2;
@@ -84,30 +84,30 @@ class DeskewedDrive : public testing::Test {
 
   [[nodiscard]] fs::path pcap() const { return folder_ / "drive.pcap"; }
 
-  template <class Transmitter>
-  void write(const simulator::SimulationConfig<Transmitter>& config) {
+  template <class EncoderTraits>
+  void write(const simulator::SimulationConfig<EncoderTraits>& config) {
     in_world_.clear();
     const auto poses = simulator::simulated_poses(config);
     ASSERT_TRUE(poses) << poses.error().message;
     const mount::RigidTransform T_vehicle_lidar = mount::T_vehicle_lidar(config.mount);
     auto writer =
-        drive::DriveWriter<Transmitter>::create(pcap(), config.calibration, config.sensor);
+        drive::DriveWriter<EncoderTraits>::create(pcap(), config.calibration, config.sensor);
     ASSERT_TRUE(writer) << writer.error().message;
-    // Returns are sorted into turns as their truth is; here each is told by its number.
-    drive::TruthTurns<Transmitter> turns(Transmitter::offsets(config.calibration, config.sensor),
-                                         config.sensor.returns);
+    // Returns are sorted into frames as their truth is; here each is told by its number.
+    drive::TruthFrames<EncoderTraits> frames(
+        EncoderTraits::offsets(config.calibration, config.sensor), config.sensor.returns);
     const auto group_size =
-        static_cast<std::size_t>(Transmitter::limits(config.sensor.returns).firings_per_group *
+        static_cast<std::size_t>(EncoderTraits::limits(config.sensor.returns).firings_per_group *
                                  drive::returns_per_firing(config.sensor.returns));
-    std::vector<typename Transmitter::Column> group;
+    std::vector<typename EncoderTraits::Column> group;
     std::vector<std::uint32_t> numbers;
     std::vector<Point> in_world;
     const auto take = [&] {
-      std::vector<Point>& turn = in_world_.emplace_back();
-      for (const std::uint32_t number : numbers) turn.push_back(in_world[number]);
+      std::vector<Point>& frame = in_world_.emplace_back();
+      for (const std::uint32_t number : numbers) frame.push_back(in_world[number]);
     };
     const auto done = simulator::simulate_drive(
-        config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+        config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
           const mount::RigidTransform T_world_vehicle = (*poses)(column.wire.stamp_ns);
           group.push_back(column.wire);
           for (std::size_t i = 0; i < column.exact.size(); ++i) {
@@ -118,22 +118,22 @@ class DeskewedDrive : public testing::Test {
             in_world.push_back(mount::apply(T_world_vehicle, p[0], p[1], p[2]));
           }
           if (group.size() == group_size) {
-            turns.add(group);
+            frames.add(group);
             group.clear();
-            while (turns.take_finished(numbers)) take();
+            while (frames.take_finished(numbers)) take();
           }
           return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
                                     column.wire.by_laser);
         });
-    while (turns.take_any(numbers)) take();
+    while (frames.take_any(numbers)) take();
     ASSERT_TRUE(done) << done.error().message;
     ASSERT_TRUE(writer->finish());
   }
 
   /// Decodes with or without the vehicle's motion beside the packets.
-  template <class Transmitter, class OnFrame>
-  void decode(const simulator::SimulationConfig<Transmitter>& config,
-              std::optional<frame::TurnInstant> at, OnFrame&& on_frame) {
+  template <class EncoderTraits, class OnFrame>
+  void decode(const simulator::SimulationConfig<EncoderTraits>& config,
+              std::optional<frame::FrameInstant> at, OnFrame&& on_frame) {
     memory::FixedMemory memory;
     vehicle::EgoMotion motion({}, memory);
     const auto samples = simulator::simulated_motion(config);
@@ -157,9 +157,9 @@ class DeskewedDrive : public testing::Test {
     test::end_stream(decoder, on_frame);
   }
 
-  template <class Transmitter>
-  quality::Quality label(const simulator::SimulationConfig<Transmitter>& config,
-                         std::optional<frame::TurnInstant> at) {
+  template <class EncoderTraits>
+  quality::Quality label(const simulator::SimulationConfig<EncoderTraits>& config,
+                         std::optional<frame::FrameInstant> at) {
     quality::Quality quality;
     memory::FixedMemory memory;
     const auto profile = ring_profile(config.calibration, config.mount);
@@ -180,39 +180,40 @@ class DeskewedDrive : public testing::Test {
     return quality;
   }
 
-  /// How far decoded returns lie from where they would have been seen at the turns' instants, if
+  /// How far decoded returns lie from where they would have been seen at the frames' instants, if
   /// the vehicle had stood there.
-  template <class Transmitter>
-  Distances distances(const simulator::SimulationConfig<Transmitter>& config,
-                      std::optional<frame::TurnInstant> at, frame::TurnInstant wanted) {
+  template <class EncoderTraits>
+  Distances distances(const simulator::SimulationConfig<EncoderTraits>& config,
+                      std::optional<frame::FrameInstant> at, frame::FrameInstant wanted) {
     Distances distances;
     const auto poses = simulator::simulated_poses(config);
-    const auto turn_ns = static_cast<std::int64_t>(1e9 / config.spin_hz);
+    const auto frame_period_ns = static_cast<std::int64_t>(1e9 / config.spin_hz);
     decode(config, at, [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
       EXPECT_EQ(info.deskew.state, at ? frame::DeskewState::kDone : frame::DeskewState::kOff);
-      // A drive starts a little before the head passes straight ahead; turn 0 begins there.
-      const double share = wanted == frame::TurnInstant::kStart ? 0
-                           : wanted == frame::TurnInstant::kEnd ? 1
-                                                                : 0.5;
+      // A drive starts a little before the head passes straight ahead; frame 0 begins there.
+      const double share = wanted == frame::FrameInstant::kStart ? 0
+                           : wanted == frame::FrameInstant::kEnd ? 1
+                                                                 : 0.5;
       const std::int64_t reference_ns =
-          seam_ns(config) + std::llround((info.number + share) * static_cast<double>(turn_ns));
+          seam_ns(config) +
+          std::llround((info.number + share) * static_cast<double>(frame_period_ns));
       if (at) {
         EXPECT_NEAR(static_cast<double>(info.deskew.reference_ns - reference_ns), 0, 30'000);
       }
       const mount::RigidTransform T_world_vehicle = (*poses)(reference_ns);
       frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
         const Point truth = back(T_world_vehicle, in_world_[info.number][placed.return_index]);
-        distances.all_m.push_back(std::hypot(placed.echo.x_m - truth[0], placed.echo.y_m - truth[1],
-                                             placed.echo.z_m - truth[2]));
+        distances.all_m.push_back(std::hypot(
+            placed.point.x_m - truth[0], placed.point.y_m - truth[1], placed.point.z_m - truth[2]));
       });
     });
     return distances;
   }
   /// When the head first passes straight ahead.
-  template <class Transmitter>
-  static std::int64_t seam_ns(const simulator::SimulationConfig<Transmitter>& config) {
+  template <class EncoderTraits>
+  static std::int64_t seam_ns(const simulator::SimulationConfig<EncoderTraits>& config) {
     std::int64_t seam_ns = 0;
-    const auto sink = [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+    const auto sink = [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
       seam_ns = column.wire.stamp_ns - std::llround(column.time_s * 1e9);
       return fail(ErrorCode::kNothingCameOut, "enough");
     };
@@ -221,13 +222,13 @@ class DeskewedDrive : public testing::Test {
   }
 
   fs::path folder_;
-  std::vector<std::vector<Point>> in_world_;  ///< Of each turn's returns, in order of arrival.
+  std::vector<std::vector<Point>> in_world_;  ///< Of each frame's returns, in order of arrival.
 };
 
 TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
-  for (const frame::TurnInstant at :
-       {frame::TurnInstant::kStart, frame::TurnInstant::kMiddle, frame::TurnInstant::kEnd}) {
-    const auto config = fast_bend<encode::Hdl64eTransmitter>("flat", 2);
+  for (const frame::FrameInstant at :
+       {frame::FrameInstant::kStart, frame::FrameInstant::kMiddle, frame::FrameInstant::kEnd}) {
+    const auto config = fast_bend<encode::Hdl64eEncoderTraits>("flat", 2);
     write(config);
     Distances as_seen = distances(config, std::nullopt, at);
     Distances deskewed = distances(config, at, at);
@@ -237,24 +238,24 @@ TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
     EXPECT_LT(deskewed.most_m(), 0.02);
   }
   for (const drive::ReturnMode returns : {drive::ReturnMode::kSingle, drive::ReturnMode::kDual}) {
-    auto config = fast_bend<encode::Ruby128Transmitter>("flat", 2);
+    auto config = fast_bend<encode::Ruby128EncoderTraits>("flat", 2);
     config.sensor.returns = returns;
     write(config);
-    Distances as_seen = distances(config, std::nullopt, frame::TurnInstant::kEnd);
-    Distances deskewed = distances(config, frame::TurnInstant::kEnd, frame::TurnInstant::kEnd);
+    Distances as_seen = distances(config, std::nullopt, frame::FrameInstant::kEnd);
+    Distances deskewed = distances(config, frame::FrameInstant::kEnd, frame::FrameInstant::kEnd);
     print("RS-Ruby128, flat", as_seen, deskewed);
     EXPECT_LT(deskewed.p95_m(), 0.005);
     EXPECT_LT(deskewed.most_m(), 0.02);
   }
 }
 
-TEST_F(DeskewedDrive, OnUnevenRoadsWhatIsLeftIsTheRollAndPitchThatSpeedAndTurnRateDoNotTell) {
+TEST_F(DeskewedDrive, OnUnevenRoadsWhatIsLeftIsTheRollAndPitchThatSpeedAndFrameRateDoNotTell) {
   for (const auto& [scene, allowed_m] : {std::pair{"street", 0.03}, std::pair{"highway", 0.06},
                                          std::pair{"rural", 0.1}, std::pair{"hill", 0.3}}) {
-    const auto config = fast_bend<encode::Hdl64eTransmitter>(scene, 2);
+    const auto config = fast_bend<encode::Hdl64eEncoderTraits>(scene, 2);
     write(config);
-    Distances as_seen = distances(config, std::nullopt, frame::TurnInstant::kEnd);
-    Distances deskewed = distances(config, frame::TurnInstant::kEnd, frame::TurnInstant::kEnd);
+    Distances as_seen = distances(config, std::nullopt, frame::FrameInstant::kEnd);
+    Distances deskewed = distances(config, frame::FrameInstant::kEnd, frame::FrameInstant::kEnd);
     print(fmt::format("HDL-64E, {}", scene), as_seen, deskewed);
     EXPECT_LT(deskewed.p95_m(), allowed_m);
     EXPECT_GT(as_seen.p95_m(), 10 * deskewed.p95_m());
@@ -274,14 +275,14 @@ TEST_F(DeskewedDrive, LabelsAreAsGoodAsThoseOfTheSameScenesStandingStill) {
     sum += quality;
   };
   for (const char* scene : {"street", "highway", "rural", "flat", "hill"}) {
-    auto config = fast_bend<encode::Hdl64eTransmitter>(scene, 2);
-    config.motion_within_turn = false;
+    auto config = fast_bend<encode::Hdl64eEncoderTraits>(scene, 2);
+    config.motion_within_frame = false;
     write(config);
     add(standing, scene, "standing", label(config, std::nullopt));
-    config.motion_within_turn = true;
+    config.motion_within_frame = true;
     write(config);
     add(as_seen, scene, "as seen", label(config, std::nullopt));
-    add(deskewed, scene, "deskewed", label(config, frame::TurnInstant::kEnd));
+    add(deskewed, scene, "deskewed", label(config, frame::FrameInstant::kEnd));
   }
   print_quality("all", "standing", standing);
   print_quality("all", "as seen", as_seen);
@@ -290,8 +291,8 @@ TEST_F(DeskewedDrive, LabelsAreAsGoodAsThoseOfTheSameScenesStandingStill) {
   EXPECT_GT(deskewed.recall_key_obstacles(), standing.recall_key_obstacles() - 0.005);
 }
 
-TEST_F(DeskewedDrive, WithoutSamplesTheTurnsSayNoEgoMotionAndAreAsSeen) {
-  const auto config = fast_bend<encode::Hdl64eTransmitter>("flat", 1);
+TEST_F(DeskewedDrive, WithoutSamplesTheFramesSayNoEgoMotionAndAreAsSeen) {
+  const auto config = fast_bend<encode::Hdl64eEncoderTraits>("flat", 1);
   write(config);
   memory::FixedMemory memory;
   vehicle::EgoMotion motion({}, memory);
@@ -304,7 +305,7 @@ TEST_F(DeskewedDrive, WithoutSamplesTheTurnsSayNoEgoMotionAndAreAsSeen) {
     return [&x_m, expected](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
       EXPECT_EQ(info.deskew.state, expected);
       frame::for_each_return(
-          image, [&](const frame::PlacedReturn& placed) { x_m.push_back(placed.echo.x_m); });
+          image, [&](const frame::PlacedReturn& placed) { x_m.push_back(placed.point.x_m); });
     };
   };
   auto source = capture::PcapSource::open(pcap());

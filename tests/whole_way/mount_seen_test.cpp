@@ -14,26 +14,26 @@
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
-#include "tools/lab/encode/hdl64e_transmitter.hpp"
-#include "tools/lab/encode/ruby128_transmitter.hpp"
+#include "tools/lab/encode/hdl64e_encoder_traits.hpp"
+#include "tools/lab/encode/ruby128_encoder_traits.hpp"
 #include "tools/lab/simulator/drive.hpp"
 
 namespace terracut::whole_way {
 namespace {
 
-/// Drives three turns with the sensor on `truth` and looks at each as if it stood on each of
+/// Drives three frames with the sensor on `truth` and looks at each as if it stood on each of
 /// `given`.
-template <class Transmitter>
+template <class EncoderTraits>
 std::vector<mount::MountCheck> checks_of_drive(const std::string& scene, const mount::Mount& truth,
                                                const std::vector<mount::Mount>& given) {
-  simulator::SimulationConfig<Transmitter> config;
+  simulator::SimulationConfig<EncoderTraits> config;
   config.scene = scene;
   config.duration_s = 0.3;
   config.mount = truth;
   std::vector<mount::MountCheck> checks(given.begin(), given.end());
   std::vector<beams::Point> points;
-  double turn_ends_s = 0.1;
-  const auto end_turn = [&] {
+  double frame_ends_s = 0.1;
+  const auto end_frame = [&] {
     for (mount::MountCheck& check : checks) {
       const mount::RigidTransform T = mount::T_vehicle_lidar(check.mount());
       std::vector<std::array<float, 3>> near;
@@ -43,14 +43,14 @@ std::vector<mount::MountCheck> checks_of_drive(const std::string& scene, const m
         if (!ground::is_near_ground_place(x_m, y_m)) continue;
         near.push_back({x_m, y_m, static_cast<float>(z)});
       }
-      check.add_turn(near);
+      check.add_frame(near);
     }
     points.clear();
-    turn_ends_s += 0.1;
+    frame_ends_s += 0.1;
   };
-  const auto done =
-      simulator::simulate_drive(config, [&](const simulator::SimulatedColumn<Transmitter>& column) {
-        if (column.time_s >= turn_ends_s) end_turn();
+  const auto done = simulator::simulate_drive(
+      config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) {
+        if (column.time_s >= frame_ends_s) end_frame();
         for (std::size_t laser = 0; laser < column.exact.size(); ++laser) {
           if (column.wire.by_laser[laser].raw != 0) points.push_back(column.exact[laser]);
         }
@@ -67,23 +67,23 @@ struct Drive {
 
 class MountSeen : public testing::TestWithParam<Drive> {
  protected:
-  template <class Transmitter>
+  template <class EncoderTraits>
   void tell_apart(double height_m) {
     const mount::Mount right{height_m, 0, 0};
     const double roll_rad = beams::deg_to_rad(4), pitch_rad = beams::deg_to_rad(3);
-    const auto checks = checks_of_drive<Transmitter>(GetParam().scene, right,
-                                                     {right,
-                                                      {height_m - 0.3, 0, 0},
-                                                      {height_m + 0.3, 0, 0},
-                                                      {height_m + 1, 0, 0},
-                                                      {height_m, -roll_rad, 0},
-                                                      {height_m, roll_rad, 0},
-                                                      {height_m, 0, -pitch_rad},
-                                                      {height_m, 0, pitch_rad},
-                                                      {height_m, 0, beams::deg_to_rad(10)}});
+    const auto checks = checks_of_drive<EncoderTraits>(GetParam().scene, right,
+                                                       {right,
+                                                        {height_m - 0.3, 0, 0},
+                                                        {height_m + 0.3, 0, 0},
+                                                        {height_m + 1, 0, 0},
+                                                        {height_m, -roll_rad, 0},
+                                                        {height_m, roll_rad, 0},
+                                                        {height_m, 0, -pitch_rad},
+                                                        {height_m, 0, pitch_rad},
+                                                        {height_m, 0, beams::deg_to_rad(10)}});
     EXPECT_FALSE(checks.front().contradiction()) << "the right one";
     for (std::size_t i = 1; i < checks.size(); ++i) {
-      EXPECT_EQ(checks[i].turns(), 3U);
+      EXPECT_EQ(checks[i].frames(), 3U);
       const auto seen = checks[i].contradiction();
       ASSERT_TRUE(seen) << i;
       EXPECT_NEAR(seen->height_m, right.height_m, 0.1) << i;
@@ -94,8 +94,8 @@ class MountSeen : public testing::TestWithParam<Drive> {
 };
 
 TEST_P(MountSeen, TellsWrongMountsFromTheRightOne) {
-  tell_apart<encode::Hdl64eTransmitter>(GetParam().hdl64e_m);
-  tell_apart<encode::Ruby128Transmitter>(GetParam().ruby128_m);
+  tell_apart<encode::Hdl64eEncoderTraits>(GetParam().hdl64e_m);
+  tell_apart<encode::Ruby128EncoderTraits>(GetParam().ruby128_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(LevelScenes, MountSeen,
@@ -106,9 +106,9 @@ INSTANTIATE_TEST_SUITE_P(LevelScenes, MountSeen,
 TEST(MountSeenWhereAHillBegins, IsNotContradictedWhereItIsTheRightOne) {
   const mount::Mount low{1.73, 0, 0}, high{3, 0, 0};
   for (const mount::MountCheck& check :
-       {checks_of_drive<encode::Hdl64eTransmitter>("hill", low, {low}).front(),
-        checks_of_drive<encode::Ruby128Transmitter>("hill", high, {high}).front()}) {
-    EXPECT_EQ(check.turns(), 3U);
+       {checks_of_drive<encode::Hdl64eEncoderTraits>("hill", low, {low}).front(),
+        checks_of_drive<encode::Ruby128EncoderTraits>("hill", high, {high}).front()}) {
+    EXPECT_EQ(check.frames(), 3U);
     EXPECT_FALSE(check.contradiction()) << check.mount().height_m;
   }
 }
@@ -133,12 +133,12 @@ TEST(MountSeenInScans, TellsWrongMountsFromThePublishedHeight) {
       mount::MountCheck check(given);
       scan::KittiScan scan;
       scan::RingRecovery rings;
-      // Of some sequences there are two scans only: each twice makes enough turns.
+      // Of some sequences there are two scans only: each twice makes enough frames.
       for (std::size_t i = 0; i < 2 * reader->size(); ++i) {
         ASSERT_TRUE(reader->read(i % reader->size(), scan, rings));
         to_image.place(scan.points, rings.ring_of_point, image);
         ground::take_near_ground(image, *ground);
-        check.add_turn(ground->in_use());
+        check.add_frame(ground->in_use());
       }
       const bool is_right = given.height_m == right.height_m && given.roll_rad == right.roll_rad &&
                             given.pitch_rad == right.pitch_rad;

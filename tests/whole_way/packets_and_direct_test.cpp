@@ -24,8 +24,8 @@ namespace {
 
 using frame::Label;
 
-/// A turn's returns and labels in order of arrival.
-struct LabelledTurn {
+/// A frame's returns and labels in order of arrival.
+struct LabelledFrame {
   std::vector<frame::Return> returns;
   std::vector<Label> labels;
 };
@@ -40,21 +40,21 @@ struct TwoWays {
         segmenter(ground::terracut_profile(), ring_profile(config.calibration, config.mount),
                   decoder.shape(), 2 * decoder.shape().cells(), memory) {}
 
-  LabelledTurn label(const frame::RangeImage& image) {
+  LabelledFrame label(const frame::RangeImage& image) {
     (void)segmenter.segment(image);
-    LabelledTurn turn;
-    turn.labels.assign(segmenter.labels().begin(), segmenter.labels().end());
-    turn.returns.resize(image.returns());
+    LabelledFrame frame;
+    frame.labels.assign(segmenter.labels().begin(), segmenter.labels().end());
+    frame.returns.resize(image.returns());
     for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
       if (!image.has_return(cell)) continue;
-      turn.returns[image.return_index()[cell]] = {image.x_m()[cell], image.y_m()[cell],
-                                                  image.z_m()[cell], image.ground_range_m()[cell],
-                                                  image.intensity()[cell]};
+      frame.returns[image.return_index()[cell]] = {image.x_m()[cell], image.y_m()[cell],
+                                                   image.z_m()[cell], image.ground_range_m()[cell],
+                                                   image.intensity()[cell]};
     }
     for (const frame::OverflowReturn& extra : image.overflow()) {
-      turn.returns[extra.return_index] = extra.echo;
+      frame.returns[extra.return_index] = extra.point;
     }
-    return turn;
+    return frame;
   }
 
   auto on_frame() {
@@ -84,17 +84,17 @@ struct TwoWays {
         if (measured.raw == 0) continue;
         const decode::BeamAzimuth beam =
             decode::beam_azimuth(column.unwrapped_azimuth_cdeg, offsets.offset_ticks(step, laser));
-        const double head_rad = decode::firing_azimuth_rad(
+        const double rotor_rad = decode::firing_azimuth_rad(
             column.unwrapped_azimuth_cdeg, hdl64e::firing_advance_ticks(step, laser));
-        const beams::Point sensor = geometry.point(laser, head_rad, measured.raw);
+        const beams::Point sensor = geometry.point(laser, rotor_rad, measured.raw);
         const auto vehicle = mount::apply(T, sensor.x_m, sensor.y_m, sensor.z_m);
-        auto& image = images[beam.turn];
+        auto& image = images[beam.frame];
         if (!image) {
           image =
               std::make_unique<frame::RangeImage>(decoder.shape(), decoder.shape().cells(), memory);
         }
         image->place(rows[static_cast<std::size_t>(laser)],
-                     decode::column_of(beam.in_turn_ticks, decoder.shape().columns),
+                     decode::column_of(beam.in_revolution_ticks, decoder.shape().columns),
                      {static_cast<float>(vehicle[0]), static_cast<float>(vehicle[1]),
                       static_cast<float>(vehicle[2]),
                       static_cast<float>(std::hypot(vehicle[0], vehicle[1])), 0});
@@ -110,7 +110,7 @@ struct TwoWays {
   mount::RigidTransform T;
   ground::Segmenter segmenter;
   std::map<std::int64_t, std::unique_ptr<frame::RangeImage>> images;
-  std::vector<LabelledTurn> by_packets;
+  std::vector<LabelledFrame> by_packets;
 };
 
 class SimulatedDrive : public testing::TestWithParam<const char*> {};
@@ -139,9 +139,9 @@ TEST_P(SimulatedDrive, GetsTheSameLabelsThroughPacketsAndDirectly) {
   ASSERT_EQ(ways.by_packets.size(), 3U);
   ASSERT_EQ(ways.images.size(), 3U);
   std::size_t frame = 0, returns = 0;
-  for (const auto& [turn, image] : ways.images) {
-    const LabelledTurn direct = ways.label(*image);
-    const LabelledTurn& packets = ways.by_packets[frame++];
+  for (const auto& [number, image] : ways.images) {
+    const LabelledFrame direct = ways.label(*image);
+    const LabelledFrame& packets = ways.by_packets[frame++];
     ASSERT_EQ(direct.labels.size(), packets.labels.size());
     returns += direct.labels.size();
     std::size_t differing = 0;
@@ -151,7 +151,7 @@ TEST_P(SimulatedDrive, GetsTheSameLabelsThroughPacketsAndDirectly) {
       ASSERT_NEAR(direct.returns[i].z_m, packets.returns[i].z_m, 5e-4) << i;
       differing += direct.labels[i] != packets.labels[i];
     }
-    EXPECT_EQ(differing, 0U) << "turn " << turn << " of " << direct.labels.size() << " returns";
+    EXPECT_EQ(differing, 0U) << "frame " << frame << " of " << direct.labels.size() << " returns";
   }
   EXPECT_EQ(returns, summary->returns);
 }

@@ -26,9 +26,9 @@ using ground::SegmenterConfig;
 using stage::Stage;
 
 /// The scans of one sequence as range images, with the profile of their unit.
-class RecordedTurns {
+class RecordedFrames {
  public:
-  explicit RecordedTurns(const std::filesystem::path& sequence)
+  explicit RecordedFrames(const std::filesystem::path& sequence)
       : reader_(scan::ScanReader::open(sequence).value()), image_(ImageShape{}, 40'000, memory_) {
     const auto fitted = reader_.fit_rings();
     profile_ = mount::ring_profile(scan::hdl64e_calibration(fitted.value().table), {});
@@ -72,12 +72,12 @@ Accuracy accuracy(const std::vector<std::filesystem::path>& sequences, Segmenter
   config.last_stage = last_stage;
   Accuracy mean;
   for (const auto& sequence : sequences) {
-    RecordedTurns turns(sequence);
+    RecordedFrames frames(sequence);
     memory::FixedMemory memory;
-    ground::Segmenter segmenter(config, turns.profile(), turns.image().shape(),
-                                turns.image().return_capacity(), memory);
+    ground::Segmenter segmenter(config, frames.profile(), frames.image().shape(),
+                                frames.image().return_capacity(), memory);
     quality::Quality quality;
-    turns.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>& truth) {
+    frames.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>& truth) {
       const auto report = segmenter.segment(image, budget);
       EXPECT_EQ(report.returns, image.returns());
       quality += quality::measure(segmenter.labels(), truth);
@@ -138,13 +138,13 @@ test::TestProblem cut_problem(const SegmenterConfig& config, const mount::RingPr
 TEST(RecordedScansLabelled, AreCutAtTheEnergyOfAnIndependentSolver) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
-    RecordedTurns turns(sequence);
+    RecordedFrames frames(sequence);
     for (SegmenterConfig config : {ground::terracut_profile(), ground::paper_profile()}) {
       config.min_cut.max_unknown = 1U << 17;  // no cap: the optimum of the whole frame
       memory::FixedMemory memory;
-      min_cut::GridCut cut(turns.image().shape(), config.min_cut, memory);
-      turns.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>&) {
-        const auto problem = cut_problem(config, turns.profile(), image);
+      min_cut::GridCut cut(frames.image().shape(), config.min_cut, memory);
+      frames.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>&) {
+        const auto problem = cut_problem(config, frames.profile(), image);
         std::vector<frame::Label> labels = problem.coarse_labelling();
         const auto report = cut.solve(problem.view(), problem.weights(), {}, labels);
         EXPECT_TRUE(report.exact());
@@ -179,13 +179,13 @@ TEST(RecordedScansLabelled, AreCutToNoMoreThanTheCoarseEnergyWhereverItIsStopped
   TERRACUT_RECORDED_SEQUENCES(sequences);
   int stopped = 0;
   for (const auto& sequence : sequences) {
-    RecordedTurns turns(sequence);
+    RecordedFrames frames(sequence);
     for (SegmenterConfig config : {ground::terracut_profile(), ground::paper_profile()}) {
       config.min_cut.least_finished = 0;
       memory::FixedMemory memory;
-      min_cut::GridCut cut(turns.image().shape(), config.min_cut, memory);
-      turns.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>&) {
-        const auto problem = cut_problem(config, turns.profile(), image);
+      min_cut::GridCut cut(frames.image().shape(), config.min_cut, memory);
+      frames.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>&) {
+        const auto problem = cut_problem(config, frames.profile(), image);
         const std::int64_t coarse_energy = problem.energy(problem.coarse_labelling());
         for (const std::int64_t ops : kStops) {
           std::vector<frame::Label> labels = problem.coarse_labelling();

@@ -32,7 +32,7 @@ std::vector<frame::Return> arrivals(const frame::RangeImage& image) {
     returns[image.return_index()[cell]] = {image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
                                            image.ground_range_m()[cell], image.intensity()[cell]};
   }
-  for (const auto& extra : image.overflow()) returns[extra.return_index] = extra.echo;
+  for (const auto& extra : image.overflow()) returns[extra.return_index] = extra.point;
   return returns;
 }
 
@@ -46,15 +46,15 @@ class SimulatedDriveDecoded : public testing::Test {
   void SetUp() override { folder_ = terracut::test::make_scratch_folder(); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  /// Writes one turn of the world and answers what was measured, in order of arrival.
-  template <class Transmitter>
-  std::vector<Measured> write(const simulator::SimulationConfig<Transmitter>& config) {
+  /// Writes one frame of the world and returns what was measured, in order of arrival.
+  template <class EncoderTraits>
+  std::vector<Measured> write(const simulator::SimulationConfig<EncoderTraits>& config) {
     auto writer =
-        drive::DriveWriter<Transmitter>::create(pcap(), config.calibration, config.sensor);
+        drive::DriveWriter<EncoderTraits>::create(pcap(), config.calibration, config.sensor);
     EXPECT_TRUE(writer) << writer.error().message;
     std::vector<Measured> measured;
     const auto done = simulator::simulate_drive(
-        config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+        config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
           for (std::size_t i = 0; i < column.exact.size(); ++i) {
             const frame::LabelledReturn& wire = column.wire.by_laser[i];
             if (wire.raw != 0) measured.push_back({column.exact[i], wire});
@@ -70,17 +70,17 @@ class SimulatedDriveDecoded : public testing::Test {
     return measured;
   }
 
-  /// Decodes with the table beside the capture; answers the worst distance from where it was.
-  template <class Transmitter>
-  double worst_error_m(const simulator::SimulationConfig<Transmitter>& config,
+  /// Decodes with the table beside the capture; returns the worst distance from where it was.
+  template <class EncoderTraits>
+  double worst_error_m(const simulator::SimulationConfig<EncoderTraits>& config,
                        const std::vector<Measured>& measured) {
     const auto calibration =
-        Transmitter::read_calibration(drive::calibration_path_of<Transmitter>(pcap()));
+        EncoderTraits::read_calibration(drive::calibration_path_of<EncoderTraits>(pcap()));
     EXPECT_TRUE(calibration) << calibration.error().message;
     sensor::SensorDecoder::Config settings;
     settings.columns = static_cast<int>(
         std::lround(1e9 / (config.spin_hz *
-                           static_cast<double>(Transmitter::firing_ns(config.sensor.returns)))));
+                           static_cast<double>(EncoderTraits::firing_ns(config.sensor.returns)))));
     memory::FixedMemory memory;
     sensor::SensorDecoder decoder(*calibration, config.mount, settings, memory);
     const mount::RigidTransform T = mount::T_vehicle_lidar(config.mount);
@@ -123,11 +123,11 @@ class SimulatedDriveDecoded : public testing::Test {
     EXPECT_EQ(wrong, 0U);
   }
 
-  template <class Transmitter>
+  template <class EncoderTraits>
   void expect_whole(drive::ReturnMode returns, double spin_hz, double allowed_m) {
     SCOPED_TRACE(std::to_string(drive::returns_per_firing(returns)) + " returns at " +
                  std::to_string(spin_hz) + " Hz");
-    simulator::SimulationConfig<Transmitter> config;
+    simulator::SimulationConfig<EncoderTraits> config;
     config.spin_hz = spin_hz;
     config.duration_s = 1 / spin_hz;
     config.threads = 2;
@@ -148,18 +148,18 @@ class SimulatedDriveDecoded : public testing::Test {
 constexpr double kRubyRounding_m = 0.0027, kHdlRounding_m = 0.0013;
 
 TEST_F(SimulatedDriveDecoded, EveryReturnOfAnRsRuby128ArrivesWhereItWas) {
-  expect_whole<encode::Ruby128Transmitter>(drive::ReturnMode::kSingle, 10, kRubyRounding_m);
-  expect_whole<encode::Ruby128Transmitter>(drive::ReturnMode::kSingle, 20, kRubyRounding_m);
+  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kSingle, 10, kRubyRounding_m);
+  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kSingle, 20, kRubyRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAnRsRuby128ArriveWhereTheyWere) {
-  expect_whole<encode::Ruby128Transmitter>(drive::ReturnMode::kDual, 10, kRubyRounding_m);
-  expect_whole<encode::Ruby128Transmitter>(drive::ReturnMode::kDual, 5, kRubyRounding_m);
+  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kDual, 10, kRubyRounding_m);
+  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kDual, 5, kRubyRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAnHdl64eArriveWhereTheyWere) {
-  expect_whole<encode::Hdl64eTransmitter>(drive::ReturnMode::kDual, 10, kHdlRounding_m);
-  expect_whole<encode::Hdl64eTransmitter>(drive::ReturnMode::kDual, 20, kHdlRounding_m);
+  expect_whole<encode::Hdl64eEncoderTraits>(drive::ReturnMode::kDual, 10, kHdlRounding_m);
+  expect_whole<encode::Hdl64eEncoderTraits>(drive::ReturnMode::kDual, 20, kHdlRounding_m);
 }
 
 }  // namespace

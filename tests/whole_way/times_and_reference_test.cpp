@@ -15,8 +15,8 @@
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 #include "tests/support/reference/hdl64e_reference.hpp"
+#include "tests/support/reference/rotating_head.hpp"
 #include "tests/support/reference/ruby128_reference.hpp"
-#include "tests/support/reference/turning_head.hpp"
 
 namespace terracut::reference {
 namespace {
@@ -30,10 +30,10 @@ TEST(TimesAndReference, LasersOfTheHdl64eFireWhenTheReferenceSays) {
     const Packet packet = Hdl64eReference({}).decode(payloads[0].bytes);
     ASSERT_EQ(packet.returns.size(), 6U * 64U);
     const auto& times = dual_return ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48;
-    for (const Return& echo : packet.returns) {
-      const int firing = echo.column * times.columns_per_packet / 6;
-      const auto after_first_ns = times.after_stamp_ns(firing, echo.laser % 32) + times.packet_ns();
-      ASSERT_NEAR(after_first_ns, echo.fired_us * 1e3, 1e-6) << echo.column << ", " << echo.laser;
+    for (const Return& beam : packet.returns) {
+      const int firing = beam.column * times.columns_per_packet / 6;
+      const auto after_first_ns = times.after_stamp_ns(firing, beam.laser % 32) + times.packet_ns();
+      ASSERT_NEAR(after_first_ns, beam.fired_us * 1e3, 1e-6) << beam.column << ", " << beam.laser;
     }
   }
 }
@@ -42,10 +42,10 @@ TEST(TimesAndReference, ChannelsOfTheRuby128FireWhenTheReferenceSays) {
   const auto payloads = ruby128_payloads({.packets = 1, .share_of_returns = 1});
   const Packet packet = Ruby128Reference({}).decode(payloads[0].bytes);
   ASSERT_EQ(packet.returns.size(), 3U * 128U);
-  for (const Return& echo : packet.returns) {
+  for (const Return& beam : packet.returns) {
     const auto after_first_ns =
-        ruby128::kRubyBlock_ns * echo.column + ruby128::ruby_channel_ns(echo.laser);
-    ASSERT_NEAR(after_first_ns, echo.fired_us * 1e3, 1e-6) << echo.column << ", " << echo.laser;
+        ruby128::kRubyBlock_ns * beam.column + ruby128::ruby_channel_ns(beam.laser);
+    ASSERT_NEAR(after_first_ns, beam.fired_us * 1e3, 1e-6) << beam.column << ", " << beam.laser;
   }
 }
 

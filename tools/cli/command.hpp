@@ -39,7 +39,7 @@ inline constexpr std::array kCommands{
     CommandText{"replay", "Label every return of a capture, frame by frame"},
     CommandText{"segment", "Label recorded scans (.bin) without packets"},
     CommandText{"simulate", "Drive a simulated sensor: capture, table and truth"},
-    CommandText{"encode", "Turn recorded scans into packets with their truth"},
+    CommandText{"encode", "Frame recorded scans into packets with their truth"},
     CommandText{"calibrate",
                 "Find the mount and the rings' ground distances from a capture\n"
                 "taken on a straight, level, open road"},

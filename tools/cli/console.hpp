@@ -16,7 +16,7 @@ namespace terracut::cli {
 void say(std::string_view line);
 void warn(std::string_view line);
 
-/// Prints "error: <message>" and answers the exit code it leads to.
+/// Prints "error: <message>" and returns the exit code it leads to.
 [[nodiscard]] ExitCode refuse(const Error& error);
 [[nodiscard]] ExitCode refuse(ExitCode code, std::string_view message);
 

@@ -82,7 +82,7 @@ struct MotionOptions {
   MotionFigureOptions speed{.signals = "SPEED"}, yaw_rate{.signals = "YAW_RATE"};
   double max_age_ms = 100, timeout_ms = 500;
   double sensor_ahead_m = 0, sensor_left_m = 0;  ///< From the middle of the rear axle.
-  frame::TurnInstant deskew_to = frame::TurnInstant::kEnd;
+  frame::FrameInstant deskew_to = frame::FrameInstant::kEnd;
 };
 
 enum class ListenVia : std::uint8_t { kSocket, kLibpcap };
@@ -177,7 +177,7 @@ struct Options {
 
   ListenOptions listen;
   std::optional<double> patience_s;  ///< For the sensor at the start; none: as long as it takes.
-  std::string can;  ///< CAN interface of the vehicle; empty: its motion is not taken out.
+  std::string can;  ///< CAN interface of the vehicle; empty: frames are not deskewed.
   std::filesystem::path trace;
   std::string stream;           ///< Where others get labelled points; empty: nowhere.
   ::mode_t stream_mode = 0660;  ///< Rights of a Unix socket's file.

@@ -16,7 +16,7 @@ void catch_stop_signals(void (*also)() noexcept = nullptr);
 // For work that is whole or not at all.
 /// An error where stop_wanted(), to end the work with.
 [[nodiscard]] Status go_on();
-/// Prints why the work was not done, and answers the exit code: `error`, or that it was stopped.
+/// Prints why the work was not done, and returns the exit code: `error`, or that it was stopped.
 [[nodiscard]] ExitCode refuse_work(const Error& error);
 
 }  // namespace terracut::cli

@@ -9,13 +9,13 @@
 #include "finding.hpp"
 #include "system_view.hpp"
 
-/// The checks of `terracut doctor`. Each looks at one thing and answers one finding; they only
+/// The checks of `terracut doctor`. Each looks at one thing and returns one finding; they only
 /// read. What is not found out is said so, and is no problem.
 namespace terracut::doctor {
 
 /// What the program will want of the machine.
-struct Wishes {
-  std::string interface{};  ///< Of the sensor; empty: every one that is up, except loopback.
+struct Requests {
+  std::string interface {};  ///< Of the sensor; empty: every one that is up, except loopback.
   std::uint16_t port = 2368;
   std::int64_t buffer_bytes = 8 << 20;  ///< Receive buffer it asks for.
   std::optional<int> receive_core{}, segment_core{};
@@ -36,23 +36,23 @@ struct Wishes {
 
 // checks_processor.cpp: what disturbs the threads.
 [[nodiscard]] Finding check_governor(const SystemView& system);
-[[nodiscard]] Finding check_isolated_cores(const SystemView& system, const Wishes& wishes);
-[[nodiscard]] Finding check_tickless_cores(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_isolated_cores(const SystemView& system, const Requests& requests);
+[[nodiscard]] Finding check_tickless_cores(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_swap(const SystemView& system);
 [[nodiscard]] Finding check_huge_pages(const SystemView& system);
 
 // checks_network.cpp: what packets meet on their way in.
-[[nodiscard]] Finding check_interface(const SystemView& system, const Wishes& wishes);
-[[nodiscard]] Finding check_receive_buffer(const SystemView& system, const Wishes& wishes);
-[[nodiscard]] Finding check_interrupts(const SystemView& system, const Wishes& wishes);
-[[nodiscard]] Finding check_interface_drops(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_interface(const SystemView& system, const Requests& requests);
+[[nodiscard]] Finding check_receive_buffer(const SystemView& system, const Requests& requests);
+[[nodiscard]] Finding check_interrupts(const SystemView& system, const Requests& requests);
+[[nodiscard]] Finding check_interface_drops(const SystemView& system, const Requests& requests);
 [[nodiscard]] Finding check_socket_drops(const SystemView& system);
-[[nodiscard]] Finding check_port(const SystemView& system, const Wishes& wishes);
-[[nodiscard]] Finding check_return_path(const SystemView& system, const Wishes& wishes);
-[[nodiscard]] Finding check_firewall(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Finding check_port(const SystemView& system, const Requests& requests);
+[[nodiscard]] Finding check_return_path(const SystemView& system, const Requests& requests);
+[[nodiscard]] Finding check_firewall(const SystemView& system, const Requests& requests);
 
 /// All of them, in the order of docs/guide/real_time.md.
-[[nodiscard]] Findings examine(const SystemView& system, const Wishes& wishes);
+[[nodiscard]] Findings examine(const SystemView& system, const Requests& requests);
 
 /// Whether this process has a capability, by its number in <linux/capability.h>.
 [[nodiscard]] bool has_capability(const SystemView& system, int capability);

@@ -19,7 +19,7 @@ constexpr const char* kInterfaces = "sys/class/net/";
 /// of its packets of 1248 bytes. It grants twice what is asked for.
 constexpr double kPacketsPerSecond = 5833;
 constexpr double kBookedBytes = 2304;
-constexpr double kLeastBuffered_ms = 100;  // one turn
+constexpr double kLeastBuffered_ms = 100;  // one frame
 
 std::string in_interface(const std::string& interface, std::string_view rest) {
   return fmt::format("{}{}/{}", kInterfaces, interface, rest);
@@ -30,8 +30,8 @@ bool is_up(const SystemView& system, const std::string& interface) {
 }
 
 /// The sensor's interface, else all that are up.
-std::vector<std::string> interfaces_of(const SystemView& system, const Wishes& wishes) {
-  if (!wishes.interface.empty()) return {wishes.interface};
+std::vector<std::string> interfaces_of(const SystemView& system, const Requests& requests) {
+  if (!requests.interface.empty()) return {requests.interface};
   std::vector<std::string> names = system.names_in(kInterfaces);
   std::erase_if(names,
                 [&](const std::string& name) { return name == "lo" || !is_up(system, name); });
@@ -86,41 +86,41 @@ bool port_taken(const SystemView& system, std::uint16_t port) {
 
 }  // namespace
 
-Finding check_interface(const SystemView& system, const Wishes& wishes) {
-  const std::vector<std::string> names = interfaces_of(system, wishes);
+Finding check_interface(const SystemView& system, const Requests& requests) {
+  const std::vector<std::string> names = interfaces_of(system, requests);
   if (names.empty()) {
     return {"interface", Verdict::kProblem, "no network interface is up", "no packet can come in",
             "ip link set INTERFACE up; look at the cable and the sensor"};
   }
-  if (wishes.interface.empty()) {
+  if (requests.interface.empty()) {
     return ok("interface", fmt::format("up: {}", fmt::join(names, ", ")));
   }
-  if (!system.exists(in_interface(wishes.interface, ""))) {
-    return {"interface", Verdict::kProblem, fmt::format("there is no {}", wishes.interface),
+  if (!system.exists(in_interface(requests.interface, ""))) {
+    return {"interface", Verdict::kProblem, fmt::format("there is no {}", requests.interface),
             "no packet can come in",
             fmt::format("name one of: {}", fmt::join(system.names_in(kInterfaces), ", "))};
   }
   const std::string state =
-      system.text(in_interface(wishes.interface, "operstate")).value_or("unknown");
+      system.text(in_interface(requests.interface, "operstate")).value_or("unknown");
   // Loopback and tunnels have no link that could be down, and say "unknown".
   if (state == "up" || state == "unknown") {
-    return ok("interface", fmt::format("{} is {}", wishes.interface, state));
+    return ok("interface", fmt::format("{} is {}", requests.interface, state));
   }
-  return {"interface", Verdict::kProblem, fmt::format("{} is {}", wishes.interface, state),
+  return {"interface", Verdict::kProblem, fmt::format("{} is {}", requests.interface, state),
           "no packet can come in",
-          fmt::format("ip link set {} up; look at the cable and the sensor", wishes.interface)};
+          fmt::format("ip link set {} up; look at the cable and the sensor", requests.interface)};
 }
 
-Finding check_receive_buffer(const SystemView& system, const Wishes& wishes) {
+Finding check_receive_buffer(const SystemView& system, const Requests& requests) {
   const std::optional<std::int64_t> most = system.number("proc/sys/net/core/rmem_max");
   if (!most) return ok("receive buffer", "limit not known");
   const auto milliseconds = [](std::int64_t bytes) {
     return 2.0 * static_cast<double>(bytes) / kBookedBytes / kPacketsPerSecond * 1e3;
   };
-  const std::int64_t granted = std::min(*most, wishes.buffer_bytes);
+  const std::int64_t granted = std::min(*most, requests.buffer_bytes);
   const std::string found = fmt::format("{} KiB (rmem_max {}) hold {:.0f} ms of packets",
                                         granted >> 10, *most, milliseconds(granted));
-  if (*most >= wishes.buffer_bytes) return ok("receive buffer", found);
+  if (*most >= requests.buffer_bytes) return ok("receive buffer", found);
   // Who asks the doctor is often root; the service is not.
   const bool passes = has_capability(system, CAP_NET_ADMIN);
   const bool too_little = milliseconds(granted) < kLeastBuffered_ms;
@@ -130,18 +130,18 @@ Finding check_receive_buffer(const SystemView& system, const Wishes& wishes) {
           "when the program is held up for longer, the kernel throws packets away",
           fmt::format("sysctl -w net.core.rmem_max={0}; to keep it: echo net.core.rmem_max={0} > "
                       "/etc/sysctl.d/60-terracut.conf",
-                      wishes.buffer_bytes)};
+                      requests.buffer_bytes)};
 }
 
-Finding check_interrupts(const SystemView& system, const Wishes& wishes) {
+Finding check_interrupts(const SystemView& system, const Requests& requests) {
   std::set<int> kept = numbers_of_list(system.text("sys/devices/system/cpu/isolated").value_or(""));
-  for (const std::optional<int>& core : {wishes.receive_core, wishes.segment_core}) {
+  for (const std::optional<int>& core : {requests.receive_core, requests.segment_core}) {
     if (core) kept.insert(*core);
   }
   std::string everywhere;
   std::size_t seen = 0;
   std::vector<int> on_kept;
-  for (const std::string& interface : interfaces_of(system, wishes)) {
+  for (const std::string& interface : interfaces_of(system, requests)) {
     for (const int interrupt : interrupts_of(system, interface)) {
       const std::string folder = fmt::format("proc/irq/{}/", interrupt);
       std::optional<std::string> list = system.text(folder + "effective_affinity_list");
@@ -167,12 +167,12 @@ Finding check_interrupts(const SystemView& system, const Wishes& wishes) {
                   fmt::join(on_kept, " "))};
 }
 
-Finding check_interface_drops(const SystemView& system, const Wishes& wishes) {
+Finding check_interface_drops(const SystemView& system, const Requests& requests) {
   constexpr std::array<std::string_view, 4> kCounters{"rx_missed_errors", "rx_fifo_errors",
                                                       "rx_crc_errors", "rx_dropped"};
   std::string found;
   bool known = false;
-  for (const std::string& interface : interfaces_of(system, wishes)) {
+  for (const std::string& interface : interfaces_of(system, requests)) {
     for (const std::string_view counter : kCounters) {
       const auto count =
           system.number(in_interface(interface, "statistics/" + std::string(counter)));
@@ -197,24 +197,24 @@ Finding check_socket_drops(const SystemView& system) {
           "mend 'receive buffer' and 'priority'; nstat -az UdpRcvbufErrors shows whether it grows"};
 }
 
-Finding check_port(const SystemView& system, const Wishes& wishes) {
-  if (!port_taken(system, wishes.port)) {
-    return ok("port", fmt::format("UDP {} is free", wishes.port));
+Finding check_port(const SystemView& system, const Requests& requests) {
+  if (!port_taken(system, requests.port)) {
+    return ok("port", fmt::format("UDP {} is free", requests.port));
   }
-  return {"port", Verdict::kWarning, fmt::format("UDP {} is taken", wishes.port),
+  return {"port", Verdict::kWarning, fmt::format("UDP {} is taken", requests.port),
           "a second program gets nothing of what a sensor sends to one address; it may be terracut "
           "itself that listens",
           fmt::format("ss -ulpn 'sport = :{}' names the program; --share-port lets both hear "
                       "broadcasts and multicasts",
-                      wishes.port)};
+                      requests.port)};
 }
 
-Finding check_return_path(const SystemView& system, const Wishes& wishes) {
+Finding check_return_path(const SystemView& system, const Requests& requests) {
   constexpr const char* kFolder = "proc/sys/net/ipv4/conf/";
   constexpr std::int64_t kStrict = 1;
   const std::int64_t all = system.number(std::string(kFolder) + "all/rp_filter").value_or(0);
   std::vector<std::string> strict;
-  for (const std::string& interface : interfaces_of(system, wishes)) {
+  for (const std::string& interface : interfaces_of(system, requests)) {
     const auto own = system.number(fmt::format("{}{}/rp_filter", kFolder, interface));
     if (std::max(all, own.value_or(0)) == kStrict) strict.push_back(interface);
   }
@@ -228,7 +228,7 @@ Finding check_return_path(const SystemView& system, const Wishes& wishes) {
                       strict.front())};
 }
 
-Finding check_firewall(const SystemView& system, const Wishes& wishes) {
+Finding check_firewall(const SystemView& system, const Requests& requests) {
   std::vector<std::string> signs;
   for (const std::string& line : lines_of(system.text("etc/ufw/ufw.conf").value_or(""))) {
     if (line == "ENABLED=yes") signs.emplace_back("ufw");
@@ -240,16 +240,16 @@ Finding check_firewall(const SystemView& system, const Wishes& wishes) {
   if (line_after(modules, "nf_tables ")) signs.emplace_back("nftables");
   if (signs.empty()) return ok("firewall", "no sign of one");
   const std::string first = signs.front();
-  const std::string mend = first == "ufw" ? fmt::format("ufw allow {}/udp", wishes.port)
+  const std::string mend = first == "ufw" ? fmt::format("ufw allow {}/udp", requests.port)
                            : first == "firewalld"
                                ? fmt::format(
                                      "firewall-cmd --permanent --add-port={}/udp && "
                                      "firewall-cmd --reload",
-                                     wishes.port)
+                                     requests.port)
                                : fmt::format(
                                      "nft list ruleset (iptables -L -n) as root shows whether "
                                      "UDP {} may come in",
-                                     wishes.port);
+                                     requests.port);
   const bool sure = first == "ufw" || first == "firewalld";
   if (!sure) return ok("firewall", fmt::format("{} loaded; {}", fmt::join(signs, ", "), mend));
   return {"firewall", Verdict::kWarning, fmt::format("active: {}", fmt::join(signs, ", ")),

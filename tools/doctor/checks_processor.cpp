@@ -18,17 +18,17 @@ std::set<int> list_in(const SystemView& system, std::string_view file) {
 }
 
 /// The cores asked for that are not among `cores`.
-std::set<int> missing_of(const Wishes& wishes, const std::set<int>& cores) {
+std::set<int> missing_of(const Requests& requests, const std::set<int>& cores) {
   std::set<int> missing;
-  for (const std::optional<int>& core : {wishes.receive_core, wishes.segment_core}) {
+  for (const std::optional<int>& core : {requests.receive_core, requests.segment_core}) {
     if (core && !cores.contains(*core)) missing.insert(*core);
   }
   return missing;
 }
 
 /// The cores to set apart: those asked for, else the last two.
-std::string cores_to_free(const SystemView& system, const Wishes& wishes) {
-  std::set<int> cores = missing_of(wishes, {});
+std::string cores_to_free(const SystemView& system, const Requests& requests) {
+  std::set<int> cores = missing_of(requests, {});
   if (cores.empty()) {
     const std::set<int> online = list_in(system, "online");
     const std::vector<int> all(online.begin(), online.end());
@@ -66,9 +66,9 @@ Finding check_governor(const SystemView& system) {
       "cpupower frequency-set -g performance"};
 }
 
-Finding check_isolated_cores(const SystemView& system, const Wishes& wishes) {
+Finding check_isolated_cores(const SystemView& system, const Requests& requests) {
   const std::set<int> isolated = list_in(system, "isolated");
-  const std::set<int> missing = missing_of(wishes, isolated);
+  const std::set<int> missing = missing_of(requests, isolated);
   if (!isolated.empty() && missing.empty()) {
     return ok("isolated cores", fmt::format("{}", fmt::join(isolated, ",")));
   }
@@ -84,24 +84,24 @@ Finding check_isolated_cores(const SystemView& system, const Wishes& wishes) {
           "other programs, and the kernel's own work for them, run on the cores of the frames",
           fmt::format("add isolcpus=managed_irq,domain,{}{}; and name these cores as "
                       "realtime.receive_core and segment_core",
-                      cores_to_free(system, wishes), kThenGrub)};
+                      cores_to_free(system, requests), kThenGrub)};
 }
 
-Finding check_tickless_cores(const SystemView& system, const Wishes& wishes) {
+Finding check_tickless_cores(const SystemView& system, const Requests& requests) {
   const std::set<int> tickless = list_in(system, "nohz_full");
-  const std::set<int> missing = missing_of(wishes, tickless);
+  const std::set<int> missing = missing_of(requests, tickless);
   if (!tickless.empty() && missing.empty()) {
     return ok("tickless cores", fmt::format("{}", fmt::join(tickless, ",")));
   }
   // Only worth a word where cores are set apart at all; the check before asks for that.
   if (list_in(system, "isolated").empty()) return ok("tickless cores", "none");
-  return {
-      "tickless cores", Verdict::kWarning,
-      tickless.empty()
-          ? std::string("none")
-          : fmt::format("{}, but not {}", fmt::join(tickless, ","), fmt::join(missing, ",")),
-      "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
-      fmt::format("add nohz_full={0} rcu_nocbs={0}{1}", cores_to_free(system, wishes), kThenGrub)};
+  return {"tickless cores", Verdict::kWarning,
+          tickless.empty()
+              ? std::string("none")
+              : fmt::format("{}, but not {}", fmt::join(tickless, ","), fmt::join(missing, ",")),
+          "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
+          fmt::format("add nohz_full={0} rcu_nocbs={0}{1}", cores_to_free(system, requests),
+                      kThenGrub)};
 }
 
 Finding check_swap(const SystemView& system) {

@@ -55,9 +55,9 @@ class Seen {
   Cloud points_;
 };
 
-std::optional<Mount> verdict(const Mount& given, const Cloud& each_turn, int turns = 3) {
+std::optional<Mount> verdict(const Mount& given, const Cloud& each_frame, int frames = 3) {
   MountCheck check(given);
-  for (int i = 0; i < turns; ++i) check.add_turn(each_turn);
+  for (int i = 0; i < frames; ++i) check.add_frame(each_frame);
   return check.contradiction();
 }
 
@@ -98,19 +98,19 @@ TEST(MountCheck, SaysNothingOfWhatItsTolerancesAllow) {
   }
 }
 
-TEST(MountCheck, NeedsSeveralTurnsThatAgree) {
+TEST(MountCheck, NeedsSeveralFramesThatAgree) {
   const Mount given = mount(1.73, 0, 0), truth = mount(1.2, 0, 0);
   const Cloud wrong = Seen(truth, given).add_lane().points();
   const Cloud right = Seen(given, given).add_lane().points();
   EXPECT_FALSE(verdict(given, wrong, 2));
   MountCheck check(given);
-  for (int i = 0; i < 10; ++i) check.add_turn(i % 2 == 0 ? wrong : right);
-  EXPECT_FALSE(check.contradiction()) << "half of the turns only";
-  for (int i = 0; i < 10; ++i) check.add_turn(wrong);
-  EXPECT_TRUE(check.contradiction()) << "the newest turns count";
-  for (int i = 0; i < 10; ++i) check.add_turn(right);
+  for (int i = 0; i < 10; ++i) check.add_frame(i % 2 == 0 ? wrong : right);
+  EXPECT_FALSE(check.contradiction()) << "half of the frames only";
+  for (int i = 0; i < 10; ++i) check.add_frame(wrong);
+  EXPECT_TRUE(check.contradiction()) << "the newest frames count";
+  for (int i = 0; i < 10; ++i) check.add_frame(right);
   EXPECT_FALSE(check.contradiction()) << "what was put right is no longer said";
-  EXPECT_EQ(check.turns(), 30U);
+  EXPECT_EQ(check.frames(), 30U);
 }
 
 TEST(MountCheck, IsNotMisledByALongRoofUnderTheSensor) {
@@ -138,10 +138,10 @@ TEST(MountCheck, IsNotMisledByALorryAheadAndSlopesBeyond) {
   }
 }
 
-TEST(MountCheck, ATurnWithoutGroundCountsForNothing) {
+TEST(MountCheck, AFrameWithoutGroundCountsForNothing) {
   MountCheck check(mount(1.73, 0, 0));
-  for (int i = 0; i < 20; ++i) check.add_turn({});
-  EXPECT_EQ(check.turns(), 0U);
+  for (int i = 0; i < 20; ++i) check.add_frame({});
+  EXPECT_EQ(check.frames(), 0U);
   EXPECT_FALSE(check.contradiction());
 }
 

@@ -33,9 +33,9 @@ class Scene {
   void add_street(double noise_m) {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0.0, noise_m);
-    std::uniform_real_distribution<double> turn(0.0, 6.2831853), share(0.0, 1.0);
+    std::uniform_real_distribution<double> frame(0.0, 6.2831853), share(0.0, 1.0);
     for (int i = 0; i < 30000; ++i) {
-      const double range = 2.5 + 37.5 * share(random) * share(random), at = turn(random);
+      const double range = 2.5 + 37.5 * share(random) * share(random), at = frame(random);
       const double y = range * std::sin(at);
       add(range * std::cos(at), y, (y > 6 ? 0.15 : 0.0) + noise(random));
     }

@@ -60,7 +60,7 @@ TEST(Ruby128Geometry, FollowsAHandComputedExample) {
   EXPECT_NEAR(p.z_m, -5.0, 1e-12);
 }
 
-TEST(Ruby128Geometry, PositiveAzimuthOffsetTurnsTheBeamRight) {
+TEST(Ruby128Geometry, PositiveAzimuthOffsetFramesTheBeamRight) {
   Ruby128Calibration calibration;
   calibration.channels[0].azimuth_offset_rad = beams::deg_to_rad(5.95);
   EXPECT_LT(Ruby128Geometry(calibration).point(0, 0.0, 5000).y_m, 0);

@@ -281,7 +281,7 @@ TEST_F(CanBus, TellsHealthToOtherReaders) {
     const status::HealthReport report{
         .frame_number = 1000 + i,
         .returns = 120'000 + 7 * i,
-        .rung = static_cast<status::Rung>(i % 4),
+        .level = static_cast<status::Level>(i % 4),
         .missed = i % 2 == 1,
         .cause = static_cast<status::FrameMissCause>(i % 4),
         .latency_ns = 20'000'000 + 1'230'000 * static_cast<std::int64_t>(i),
@@ -292,11 +292,11 @@ TEST_F(CanBus, TellsHealthToOtherReaders) {
         .losses = 100'000 * i,
         .alive = 254 + i};
     EXPECT_EQ(terracut.send(health_frames(report)), 2U);
-    const bool skipped = report.rung == status::Rung::kSkipped;
+    const bool skipped = report.level == status::Level::kSkipped;
     fmt::print(
-        "health FrameNumber={} Returns={} Rung={} Missed={} MissCause={} Latency={:.2f} "
+        "health FrameNumber={} Returns={} Level={} Missed={} MissCause={} Latency={:.2f} "
         "EgoMotion={} Link={} Misses={} Skipped={} Losses={} Alive={}\n",
-        report.frame_number, report.returns, static_cast<int>(report.rung), report.missed ? 1 : 0,
+        report.frame_number, report.returns, static_cast<int>(report.level), report.missed ? 1 : 0,
         report.missed ? static_cast<int>(report.cause) : 7,
         skipped ? 655.35 : static_cast<double>(report.latency_ns) / 1e6, report.ego_motion ? 1 : 0,
         static_cast<int>(report.link), report.misses, report.skipped, report.losses,

@@ -44,10 +44,10 @@ TYPED_TEST(BentStream, LosesNothingWithoutNamingIt) {
     config.returns_per_cell = 2;
     HeardStream<TypeParam> stream(config);
     for (int piece = 0; piece < 8; ++piece) {
-      const Head<TypeParam> turning{.spin_hz = std::array{5.0, 10.0, 20.0}[random() % 3],
-                                    .dual_return = random() % 2 == 0,
-                                    .share_of_returns = 1};
-      auto packets = turning.turns(0.1 + 0.1 * static_cast<double>(random() % 15));
+      const Head<TypeParam> rotating{.spin_hz = std::array{5.0, 10.0, 20.0}[random() % 3],
+                                     .dual_return = random() % 2 == 0,
+                                     .share_of_returns = 1};
+      auto packets = rotating.frames(0.1 + 0.1 * static_cast<double>(random() % 15));
       const std::int64_t stamp_off_ns = static_cast<std::int64_t>(random() % 4) * 1'700'000'000;
       const auto trouble = random() % 7;
       const std::size_t silent = packets.size() * (random() % 3) / 4;
@@ -74,7 +74,7 @@ TYPED_TEST(BentStream, LosesNothingWithoutNamingIt) {
 }
 
 TYPED_TEST(BentStream, OneStrayFromAnotherTimeCostsNothingButItself) {
-  const auto packets = this->head.turns(4);
+  const auto packets = this->head.frames(4);
   HeardStream<TypeParam> alone, disturbed;
   alone.hear_all(packets);
   std::uint64_t strays = 0;
@@ -101,7 +101,7 @@ TYPED_TEST(BentStream, OneStrayFromAnotherTimeCostsNothingButItself) {
 }
 
 TYPED_TEST(BentStream, ARejectedPacketOfAnotherTimeHidesNoLoss) {
-  const auto packets = this->head.turns(3);
+  const auto packets = this->head.frames(3);
   HeardStream<TypeParam> stream;
   std::uint64_t lost = 0;
   for (std::size_t n = 0; n < packets.size(); ++n) {
@@ -120,8 +120,8 @@ TYPED_TEST(BentStream, ARejectedPacketOfAnotherTimeHidesNoLoss) {
   EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
 }
 
-TYPED_TEST(BentStream, PacketsAheadOfTheirTimeDoNotEndTheTurn) {
-  const auto packets = this->head.turns(3);
+TYPED_TEST(BentStream, PacketsAheadOfTheirTimeDoNotEndTheFrame) {
+  const auto packets = this->head.frames(3);
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
   std::uint64_t strays = 0;
   for (std::size_t n = 0; n < packets.size(); ++n) {
@@ -139,8 +139,8 @@ TYPED_TEST(BentStream, PacketsAheadOfTheirTimeDoNotEndTheTurn) {
 }
 
 TYPED_TEST(BentStream, ARestartLosesNothingAndTakesTheNewPace) {
-  auto first = Head<TypeParam>{.spin_hz = 5, .share_of_returns = 1}.turns(1.6);
-  auto second = Head<TypeParam>{.spin_hz = 20, .share_of_returns = 1}.turns(2.6);
+  auto first = Head<TypeParam>{.spin_hz = 5, .share_of_returns = 1}.frames(1.6);
+  auto second = Head<TypeParam>{.spin_hz = 20, .share_of_returns = 1}.frames(2.6);
   for (Payload& packet : second) this->set_stamp(packet, packet.stamp_ns - 400'000'000'000);
   second.erase(second.begin() + 60, second.begin() + 63);
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
@@ -156,20 +156,20 @@ TYPED_TEST(BentStream, ARestartLosesNothingAndTakesTheNewPace) {
   EXPECT_EQ(losses.azimuth_hole_columns - columns_lost_before, 3U * TypeParam::kColumns);
 }
 
-TYPED_TEST(BentStream, ARestartOfWhichLittleShowsInATurnHandsNoHeapOfFramesOver) {
+TYPED_TEST(BentStream, ARestartOfWhichLittleShowsInAFrameHandsNoHeapOfFramesOver) {
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
-  stream.hear_all(Head<TypeParam>{.share_of_returns = 1}.turns(1.6));
-  const auto second = Head<TypeParam>{.share_of_returns = 1}.turns(20);
-  const std::size_t packets_a_turn = second.size() / 20;
+  stream.hear_all(Head<TypeParam>{.share_of_returns = 1}.frames(1.6));
+  const auto second = Head<TypeParam>{.share_of_returns = 1}.frames(20);
+  const std::size_t packets_a_frame = second.size() / 20;
   for (std::size_t i = 0; i < second.size(); ++i) {
-    if (i % packets_a_turn >= 3) continue;
+    if (i % packets_a_frame >= 3) continue;
     Payload packet = second[i];
     this->set_stamp(packet, packet.stamp_ns - 400'000'000'000);
     (void)stream.hear(packet);  // looks at the work of each packet
   }
   this->expect_all_accounted_for(stream);
   EXPECT_EQ(stream.decoder.losses().clock_jumps, 1U);
-  EXPECT_GT(stream.rejected(Reject::kClockJump), 20U) << "those of the turns before the last";
+  EXPECT_GT(stream.rejected(Reject::kClockJump), 20U) << "those of the frames before the last";
   EXPECT_LT(stream.rejected(Reject::kClockJump), 31U);
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Sensors with a limited field of view: one complete frame a turn, in time, and only real losses.
+// Sensors with a limited field of view: one complete frame a revolution, in time, and only real
+// losses.
 #include "firmware_io/decode/blind_sector.hpp"
 
 #include <gtest/gtest.h>
@@ -30,9 +31,9 @@ struct Sector {
 
 template <class Sensor>
 double first_deg(const Payload& payload) {
-  decode::PacketHeads heads;
-  EXPECT_EQ(Sensor::check(payload.bytes, heads), std::nullopt);
-  return heads.first_cdeg() * 0.01;
+  decode::PacketAzimuths azimuths;
+  EXPECT_EQ(Sensor::check(payload.bytes, azimuths), std::nullopt);
+  return azimuths.first_cdeg() * 0.01;
 }
 
 /// What a sensor sends that keeps its rhythm, but is silent while its head is in `blind`.
@@ -52,8 +53,8 @@ int incomplete(const std::vector<FrameInfo>& frames, std::size_t first) {
                     frames.end() - 1, [](const FrameInfo& frame) { return !frame.complete; }));
 }
 
-/// Two frames with turns not seen whole, and those that the sector was learnt in.
-constexpr std::size_t kLearnt = decode::BlindSector::kTurnsToLearn + 2;
+/// Two frames of revolutions not seen whole, and those that the sector was learnt in.
+constexpr std::size_t kLearnt = decode::BlindSector::kFramesToLearn + 2;
 
 template <class Sensor>
 class BlindSensor : public testing::Test {
@@ -79,21 +80,21 @@ class BlindSensor : public testing::Test {
 using BothSensors = testing::Types<reference::Hdl64e, reference::Ruby128>;
 TYPED_TEST_SUITE(BlindSensor, BothSensors);
 
-TYPED_TEST(BlindSensor, GivesACompleteFrameATurnWithoutLossWhereverItIsBlind) {
+TYPED_TEST(BlindSensor, GivesACompleteFrameARevolutionWithoutLossWhereverItIsBlind) {
   for (const Sector blind : {Sector{90, 270}, Sector{270, 90}, Sector{355, 3}, Sector{100, 130},
                              Sector{20, 340}, Sector{0, 180}, Sector{180, 359.99}}) {
     for (const bool dual : {false, true}) {
       for (const double spin_hz : {5.0, 10.0, 20.0}) {
         SCOPED_TRACE(std::to_string(blind.from_deg) + ".." + std::to_string(blind.to_deg) +
                      (dual ? " dual " : " single ") + std::to_string(spin_hz));
-        constexpr int kTurns = 12;
-        const Head<TypeParam> turning{spin_hz, dual, 0.02};
+        constexpr int kFrames = 12;
+        const Head<TypeParam> rotating{spin_hz, dual, 0.02};
         HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
-        stream.hear_all(without<TypeParam>(turning.turns(kTurns), blind));
+        stream.hear_all(without<TypeParam>(rotating.frames(kFrames), blind));
         stream.flush();
         this->expect_no_loss(stream);
         EXPECT_EQ(incomplete(stream.frames, kLearnt), 0);
-        EXPECT_NEAR(static_cast<double>(stream.frames.size()), kTurns + 1, 1);
+        EXPECT_NEAR(static_cast<double>(stream.frames.size()), kFrames + 1, 1);
         this->expect_blind(stream, blind);
         EXPECT_EQ(stream.packets_unaccounted(), 0);
         EXPECT_EQ(stream.returns_unaccounted(), 0);
@@ -106,7 +107,7 @@ TYPED_TEST(BlindSensor, HandsAFrameOverWithItsLastPacketWhereTheSeamIsNotSeen) {
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
   std::size_t handed = 0;
   int in_time = 0, late = 0;
-  for (const Payload& payload : without<TypeParam>(this->head.turns(40), {270, 90})) {
+  for (const Payload& payload : without<TypeParam>(this->head.frames(40), {270, 90})) {
     (void)stream.hear(payload);
     if (stream.frames.size() == handed) continue;
     handed = stream.frames.size();
@@ -121,10 +122,10 @@ TYPED_TEST(BlindSensor, HandsAFrameOverWithItsLastPacketWhereTheSeamIsNotSeen) {
   EXPECT_EQ(stream.returns_unaccounted(), 0);
 }
 
-TYPED_TEST(BlindSensor, IsCloseToTheEndOfItsTurnWhereNothingMoreIsSeenOfIt) {
+TYPED_TEST(BlindSensor, IsCloseToTheEndOfItsFrameWhereNothingMoreIsSeenOfIt) {
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
   int ending = 0;
-  for (const Payload& payload : without<TypeParam>(this->head.turns(20), {270, 90})) {
+  for (const Payload& payload : without<TypeParam>(this->head.frames(20), {270, 90})) {
     (void)stream.hear(payload);
     const bool is_near = first_deg<TypeParam>(payload) > 265;
     if (stream.frames.size() > 10 && is_near) ending += stream.decoder.arriving().is_ending ? 1 : 0;
@@ -134,7 +135,7 @@ TYPED_TEST(BlindSensor, IsCloseToTheEndOfItsTurnWhereNothingMoreIsSeenOfIt) {
 
 TYPED_TEST(BlindSensor, CountsRealLossesBesideItToThePacket) {
   for (const Sector blind : {Sector{90, 270}, Sector{300, 60}}) {
-    const auto sent = without<TypeParam>(this->head.turns(40), blind);
+    const auto sent = without<TypeParam>(this->head.frames(40), blind);
     std::mt19937 random(1);
     std::vector<Payload> kept;
     std::uint64_t lost = 0;
@@ -159,19 +160,21 @@ TYPED_TEST(BlindSensor, CountsRealLossesBesideItToThePacket) {
 
 TYPED_TEST(BlindSensor, CountsRealLossesAtItsVeryEndsWhereItsPacketsBeginWithItsView) {
   // A sensor that begins a packet where its view does.
-  constexpr std::int64_t kTurn_ns = 100'000'000, kStart_ns = 1'767'229'199'000'000'000;
+  constexpr std::int64_t kFramePeriod_ns = 100'000'000, kStart_ns = 1'767'229'199'000'000'000;
   const auto packet_ns = static_cast<std::int64_t>(1e3 * TypeParam::firing_us(false) *
                                                    TypeParam::firings_per_packet(false));
-  const std::int64_t in_view = kTurn_ns * 200 / 360 / packet_ns;
+  const std::int64_t in_view = kFramePeriod_ns * 200 / 360 / packet_ns;
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
   std::uint64_t lost = 0;
-  for (int turn = 0; turn < 20; ++turn) {
+  for (int frame = 0; frame < 20; ++frame) {
     for (std::int64_t n = 0; n < in_view; ++n) {
-      const std::int64_t since_ns = turn * kTurn_ns + kTurn_ns * 50 / 360 + n * packet_ns;
+      const std::int64_t since_ns =
+          frame * kFramePeriod_ns + kFramePeriod_ns * 50 / 360 + n * packet_ns;
       const bool is_lost =
-          turn > 5 && turn < 18 && (turn % 3 == 0 ? n < 2 : turn % 3 == 1 && n == in_view - 1);
+          frame > 5 && frame < 18 && (frame % 3 == 0 ? n < 2 : frame % 3 == 1 && n == in_view - 1);
       lost += is_lost ? 1U : 0U;
-      const double deg = 360.0 * static_cast<double>(since_ns) / static_cast<double>(kTurn_ns);
+      const double deg =
+          360.0 * static_cast<double>(since_ns) / static_cast<double>(kFramePeriod_ns);
       if (!is_lost) (void)stream.hear(this->head.packet(deg, kStart_ns + since_ns));
     }
   }
@@ -179,17 +182,17 @@ TYPED_TEST(BlindSensor, CountsRealLossesAtItsVeryEndsWhereItsPacketsBeginWithIts
   EXPECT_EQ(stream.decoder.losses().network_gap_packets, lost);
 }
 
-TYPED_TEST(BlindSensor, DoesNotTakeALossInTwoTurnsRunningForASector) {
-  const auto sent = this->head.turns(8);
+TYPED_TEST(BlindSensor, DoesNotTakeALossInTwoFramesRunningForASector) {
+  const auto sent = this->head.frames(8);
   std::vector<Payload> kept;
   std::uint64_t lost = 0;
-  int turn = 0;
+  int frame = 0;
   double before_deg = 0;
   for (const Payload& payload : sent) {
     const double deg = first_deg<TypeParam>(payload);
-    turn += deg < before_deg ? 1 : 0;
+    frame += deg < before_deg ? 1 : 0;
     before_deg = deg;
-    if ((turn == 3 || turn == 4) && deg > 100 && deg < 160) {
+    if ((frame == 3 || frame == 4) && deg > 100 && deg < 160) {
       ++lost;
     } else {
       kept.push_back(payload);
@@ -206,18 +209,18 @@ TYPED_TEST(BlindSensor, DoesNotTakeALossInTwoTurnsRunningForASector) {
   EXPECT_EQ(incomplete(stream.frames, 1), 2);
 }
 
-TYPED_TEST(BlindSensor, CountsLossesBesideItOfTheTurnsItIsLearntIn) {
+TYPED_TEST(BlindSensor, CountsLossesBesideItOfTheFramesItIsLearntIn) {
   const Sector blind{90, 270};
-  const auto sent = without<TypeParam>(this->head.turns(12), blind);
+  const auto sent = without<TypeParam>(this->head.frames(12), blind);
   HeardStream<TypeParam> stream;
   std::uint64_t lost = 0;
   double before_deg = 0;
-  int turn = 0;
+  int frame = 0;
   for (const Payload& payload : sent) {
     const double deg = first_deg<TypeParam>(payload);
-    if (deg < before_deg) ++turn;
+    if (deg < before_deg) ++frame;
     before_deg = deg;
-    if (turn == 2 && deg >= blind.to_deg && deg < blind.to_deg + 15) {
+    if (frame == 2 && deg >= blind.to_deg && deg < blind.to_deg + 15) {
       ++lost;
     } else {
       (void)stream.hear(payload);
@@ -231,18 +234,18 @@ TYPED_TEST(BlindSensor, CountsLossesBesideItOfTheTurnsItIsLearntIn) {
   this->expect_blind(stream, blind);
 }
 
-TYPED_TEST(BlindSensor, CountsGapsThatWanderFromTurnToTurn) {
-  const auto sent = this->head.turns(14);
+TYPED_TEST(BlindSensor, CountsGapsThatWanderFromFrameToFrame) {
+  const auto sent = this->head.frames(14);
   HeardStream<TypeParam> stream;
   std::uint64_t lost = 0;
   double before_deg = 0;
-  int turn = 0;
+  int frame = 0;
   for (const Payload& payload : sent) {
     const double deg = first_deg<TypeParam>(payload);
-    if (deg < before_deg) ++turn;
+    if (deg < before_deg) ++frame;
     before_deg = deg;
-    const double gap_deg = 60 + 5 * turn;  // overlaps the one before, but never by much
-    if (turn >= 2 && turn < 10 && deg >= gap_deg && deg < gap_deg + 8) {
+    const double gap_deg = 60 + 5 * frame;  // overlaps the one before, but never by much
+    if (frame >= 2 && frame < 10 && deg >= gap_deg && deg < gap_deg + 8) {
       ++lost;
     } else {
       (void)stream.hear(payload);
@@ -255,7 +258,7 @@ TYPED_TEST(BlindSensor, CountsGapsThatWanderFromTurnToTurn) {
 }
 
 TYPED_TEST(BlindSensor, CountsAWideLossThatTheStreamEndsBehind) {
-  auto sent = this->head.turns(2);
+  auto sent = this->head.frames(2);
   const auto from = static_cast<std::ptrdiff_t>(sent.size()) * 8 / 10;
   const auto lost = static_cast<std::ptrdiff_t>(sent.size()) / 20;
   sent.erase(sent.begin() + from, sent.begin() + from + lost);
@@ -270,7 +273,7 @@ TYPED_TEST(BlindSensor, CountsAWideLossThatTheStreamEndsBehind) {
 }
 
 TYPED_TEST(BlindSensor, FollowsAFieldOfViewThatIsSetAnew) {
-  const auto all = this->head.turns(60);
+  const auto all = this->head.frames(60);
   const std::size_t third = all.size() / 3;
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
   const auto hear = [&](std::size_t from, const Sector& blind) {
@@ -293,7 +296,7 @@ TYPED_TEST(BlindSensor, FollowsAFieldOfViewThatIsSetAnew) {
 }
 
 TYPED_TEST(BlindSensor, IsBlindNowhereAgainOnceItsWholeViewIsSet) {
-  const auto all = this->head.turns(30);
+  const auto all = this->head.frames(30);
   const auto third = static_cast<std::ptrdiff_t>(all.size() / 3);
   HeardStream<TypeParam> stream(HeardStream<TypeParam>::hasty());
   const Sector blind{90, 270};
@@ -309,22 +312,22 @@ TYPED_TEST(BlindSensor, IsBlindNowhereAgainOnceItsWholeViewIsSet) {
 
 TYPED_TEST(BlindSensor, WithItsWholeViewIsBlindNowhere) {
   HeardStream<TypeParam> stream;
-  stream.hear_all(this->head.turns(6));
+  stream.hear_all(this->head.frames(6));
   EXPECT_TRUE(stream.decoder.blind().is_none());
 }
 
 TYPED_TEST(BlindSensor, LosesItsViewsShareInAnOutage) {
-  auto sent = without<TypeParam>(this->head.turns(30), {90, 270});
+  auto sent = without<TypeParam>(this->head.frames(30), {90, 270});
   std::erase_if(sent, [&, from = sent[sent.size() / 2].stamp_ns](const Payload& payload) {
     return payload.stamp_ns > from && payload.stamp_ns <= from + 1'400'000'000;
   });
   HeardStream<TypeParam> stream;
   stream.hear_all(sent);
   stream.flush();
-  const double packets_a_turn =
+  const double packets_a_frame =
       1e5 / (TypeParam::firing_us(false) * TypeParam::firings_per_packet(false));
   EXPECT_NEAR(static_cast<double>(stream.decoder.losses().network_gap_packets),
-              14 * packets_a_turn / 2, packets_a_turn / 20);
+              14 * packets_a_frame / 2, packets_a_frame / 20);
 }
 
 // --- Packets that the sector lies in ---
@@ -377,14 +380,14 @@ int blocks_before_the_sector(const Payload& payload) {
 
 class RubyAcrossItsSector : public testing::Test {
  protected:
-  static constexpr int kTurns = 20;
+  static constexpr int kFrames = 20;
 
   /// Calls visit(blind, dual, spin_hz) for all of them.
   template <class Visit>
   static void in_every_mode(std::initializer_list<Sector> sectors, Visit&& visit) {
     for (const bool dual : {false, true}) {
-      for (const double spin_hz : {5.03, 9.7, 19.4}) {  // packets begin elsewhere every turn
-        const auto whole = Head<Ruby>{spin_hz, dual, 0.02}.turns(kTurns);
+      for (const double spin_hz : {5.03, 9.7, 19.4}) {  // packets begin elsewhere every frame
+        const auto whole = Head<Ruby>{spin_hz, dual, 0.02}.frames(kFrames);
         for (const Sector& blind : sectors) {
           SCOPED_TRACE(std::to_string(blind.from_deg) + ".." + std::to_string(blind.to_deg) +
                        (dual ? " dual " : " single ") + std::to_string(spin_hz));
@@ -393,10 +396,10 @@ class RubyAcrossItsSector : public testing::Test {
       }
     }
   }
-  /// Those of the turns that the sector was learnt in.
+  /// Those of the frames that the sector was learnt in.
   static void expect_few_rejected(const HeardStream<Ruby>& stream, std::uint64_t most_late = 1) {
     EXPECT_LE(stream.rejected(frame::Reject::kAzimuthJump),
-              static_cast<std::uint64_t>(decode::BlindSector::kTurnsToLearn));
+              static_cast<std::uint64_t>(decode::BlindSector::kFramesToLearn));
     EXPECT_EQ(stream.decoder.losses().rejected_total(),
               stream.rejected(frame::Reject::kAzimuthJump) + stream.rejected(frame::Reject::kLate));
     EXPECT_LE(stream.rejected(frame::Reject::kLate), most_late);
@@ -415,7 +418,7 @@ TEST_F(RubyAcrossItsSector, IsDecodedOnBothSidesOfIt) {
                             Ruby::kBlocks * stream.decoder.losses().rejected_total());
                   EXPECT_EQ(stream.decoder.losses().clock_jumps, 0U);
                   EXPECT_EQ(incomplete(stream.frames, kLearnt), 0);
-                  EXPECT_NEAR(static_cast<double>(stream.frames.size()), kTurns + 1, 1);
+                  EXPECT_NEAR(static_cast<double>(stream.frames.size()), kFrames + 1, 1);
                   EXPECT_EQ(stream.packets_unaccounted(), 0);
                   EXPECT_EQ(stream.returns_unaccounted(), 0);
                   // To the firing.
@@ -437,25 +440,25 @@ TEST_F(RubyAcrossItsSector, CostsNoDeadlineWhereTheSeamIsNotSeen) {
       if (handed < kLearnt + 4) continue;
       (stream.frames.back().last_packet_ns == payload.stamp_ns ? in_time : late) += 1;
     }
-    EXPECT_GE(in_time, kTurns - 10);
+    EXPECT_GE(in_time, kFrames - 10);
     EXPECT_EQ(late, 0);
     stream.flush();
-    expect_few_rejected(stream, kTurns / 2);  // where a firing is hardly more than the rounding
+    expect_few_rejected(stream, kFrames / 2);  // where a firing is hardly more than the rounding
     EXPECT_EQ(stream.decoder.losses().network_gap_packets, 0U);
     EXPECT_EQ(stream.packets_unaccounted(), 0);
   });
 }
 
-TEST_F(RubyAcrossItsSector, CountsTheFiringsThatComeBehindItTooLateForTheirTurn) {
+TEST_F(RubyAcrossItsSector, CountsTheFiringsThatComeBehindItTooLateForTheirFrame) {
   HeardStream<Ruby> stream(HeardStream<Ruby>::hasty());
   std::uint64_t late_firings = 0, counted_firings = 0, late_returns = 0;
-  for (const Payload& payload : filled_across(Head<Ruby>{9.7}.turns(kTurns), false, {270, 90})) {
-    const std::size_t turns = stream.frames.size();
+  for (const Payload& payload : filled_across(Head<Ruby>{9.7}.frames(kFrames), false, {270, 90})) {
+    const std::size_t frames = stream.frames.size();
     const std::uint64_t holes = stream.decoder.losses().azimuth_hole_columns;
     const bool is_taken = !stream.hear(payload);
     const int before = blocks_before_the_sector(payload);
-    const bool its_turn_waited = stream.frames.size() > turns;
-    if (!is_taken || before == 0 || its_turn_waited) continue;
+    const bool its_frame_waited = stream.frames.size() > frames;
+    if (!is_taken || before == 0 || its_frame_waited) continue;
     late_firings += static_cast<std::uint64_t>(before);
     counted_firings += stream.decoder.losses().azimuth_hole_columns - holes;
     Payload late = payload;
@@ -473,9 +476,9 @@ TEST_F(RubyAcrossItsSector, CountsTheFiringsThatComeBehindItTooLateForTheirTurn)
   EXPECT_EQ(stream.returns_unaccounted(), 0);
 }
 
-/// Beams lie before and behind the head, so that the first columns begin in the turn before the
-/// seam, and the last ones end in the turn behind the next.
-TEST_F(RubyAcrossItsSector, TouchesThreeTurnsWhereTheViewIsNarrowerThanItsBeamsAreApart) {
+/// Beams lie before and behind the head, so that the first columns begin in the frame before the
+/// seam, and the last ones end in the frame behind the next.
+TEST_F(RubyAcrossItsSector, TouchesThreeFramesWhereTheViewIsNarrowerThanItsBeamsAreApart) {
   in_every_mode({{4, 356}}, [](const Sector&, const std::vector<Payload>& sent) {
     for (const int reorder_packets : {0, 2}) {
       HeardStream<Ruby>::Config config;
@@ -484,14 +487,14 @@ TEST_F(RubyAcrossItsSector, TouchesThreeTurnsWhereTheViewIsNarrowerThanItsBeamsA
       stream.hear_all(sent);
       stream.flush();
       EXPECT_FALSE(stream.decoder.blind().is_none());
-      expect_few_rejected(stream, kTurns);
+      expect_few_rejected(stream, kFrames);
       EXPECT_EQ(stream.packets_unaccounted(), 0);
       EXPECT_EQ(stream.returns_unaccounted(), 0);
     }
   });
 }
 
-TEST_F(RubyAcrossItsSector, LosesNothingOfItWhereATurnWaitsForLatePackets) {
+TEST_F(RubyAcrossItsSector, LosesNothingOfItWhereAFrameWaitsForLatePackets) {
   in_every_mode({{270, 90}}, [](const Sector&, const std::vector<Payload>& sent) {
     HeardStream<Ruby> stream;  // as replay does
     stream.hear_all(sent);
@@ -508,7 +511,7 @@ TEST_F(RubyAcrossItsSector, CountsPacketsLostBehindIt) {
   std::vector<Payload> kept;
   std::uint64_t lost = 0;
   int since = 100;
-  for (const Payload& payload : filled_across(Head<Ruby>{9.7}.turns(kTurns), false, {90, 270})) {
+  for (const Payload& payload : filled_across(Head<Ruby>{9.7}.frames(kFrames), false, {90, 270})) {
     since = blocks_before_the_sector(payload) > 0 ? 0 : since + 1;
     const bool is_lost = kept.size() > 2'000 && since >= 1 && since <= 3;
     lost += is_lost ? 1U : 0U;
@@ -535,7 +538,7 @@ TEST_F(RubyAcrossItsSector, IsNoLossToTheSurveyOfACapture) {
 
 TEST_F(RubyAcrossItsSector, IsRejectedWhereNoSectorIsKnownToBe) {
   HeardStream<Ruby> stream;
-  auto sent = Head<Ruby>{}.turns(8);
+  auto sent = Head<Ruby>{}.frames(8);
   Payload& torn = sent[sent.size() / 2];
   const double last_deg = first_deg<Ruby>(torn) + 90;
   Ruby::set_azimuth(torn.bytes, 2,

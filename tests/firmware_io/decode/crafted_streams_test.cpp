@@ -44,7 +44,7 @@ TYPED_TEST_SUITE(CraftedStream, BothSensors);
 TYPED_TEST(CraftedStream, OfStampsAMicrosecondApartDividesByNothing) {
   this->stand_still_with_rejections(0);
   this->expect_a_period_of_the_sensor();
-  this->stream.hear_all(this->head.turns(1));
+  this->stream.hear_all(this->head.frames(1));
   this->stream.flush();
   EXPECT_EQ(this->stream.packets_unaccounted(), 0);
   EXPECT_EQ(this->stream.returns_handed_over + this->stream.decoder.losses().overflow_full_returns,
@@ -52,8 +52,8 @@ TYPED_TEST(CraftedStream, OfStampsAMicrosecondApartDividesByNothing) {
 }
 
 TYPED_TEST(CraftedStream, ThatHasThePeriodMeasuredAnewGetsNoneThatTheSensorHasNot) {
-  this->stream.hear_all(this->head.turns(1.5));
-  const auto packets = this->head.turns(3);
+  this->stream.hear_all(this->head.frames(1.5));
+  const auto packets = this->head.frames(3);
   const std::int64_t now_ns = packets[packets.size() / 2].stamp_ns - this->kStart_ns;
   constexpr std::int64_t kOffPeriod_ns = 15'000'000;
   for (std::int64_t n = 1; n <= 70; ++n)

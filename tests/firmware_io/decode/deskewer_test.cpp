@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/decode/packet_heads.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace terracut::decode {
@@ -23,15 +23,15 @@ using frame::ImageShape;
 using frame::RangeImage;
 
 constexpr std::int64_t kStart_ns = 1'700'000'000'000'000'000;  // the head passes straight ahead
-constexpr std::int64_t kTurn_ns = 100'000'000;
+constexpr std::int64_t kFramePeriod_ns = 100'000'000;
 constexpr ImageShape kShape{3, 401};
 constexpr std::array<std::int32_t, 3> kBeam_ticks{-1'000'000, 0, 1'000'000};  // 10 degrees
 constexpr double kSpeed_mps = 20, kYawRate_radps = 0.5;
 
 class DeskewerTest : public testing::Test {
  protected:
-  [[nodiscard]] Deskewer deskewer(frame::TurnInstant at) {
-    return Deskewer({&motion_, at, kShape, kTurn_ticks}, kBeam_ticks, memory_);
+  [[nodiscard]] Deskewer deskewer(frame::FrameInstant at) {
+    return Deskewer({&motion_, at, kShape, kRevolution_ticks}, kBeam_ticks, memory_);
   }
 
   void drive(double speed_mps, double yaw_rate_radps) {
@@ -40,30 +40,30 @@ class DeskewerTest : public testing::Test {
     }
   }
 
-  /// Where the head is `share` of a turn after it passed straight ahead.
+  /// Where the head is `share` of a frame after it passed straight ahead.
   static void note(Deskewer& deskewer, double share) {
-    deskewer.note(std::llround(share * kTurn_ticks), instant_ns(share));
+    deskewer.note(std::llround(share * kRevolution_ticks), instant_ns(share));
   }
   static void note(Deskewer& deskewer, double from, double to) {
     for (double share = from; share <= to; share += 1.0 / 350) note(deskewer, share);
   }
   static std::int64_t instant_ns(double share) {
-    return kStart_ns + std::llround(share * static_cast<double>(kTurn_ns));
+    return kStart_ns + std::llround(share * static_cast<double>(kFramePeriod_ns));
   }
 
   /// A return in each cell, of which the test knows where it was at the start of the drive.
-  void see(int turn, double speed_mps, double yaw_rate_radps) {
+  void see(int frame, double speed_mps, double yaw_rate_radps) {
     image_.clear();
     for (int row = 0; row < kShape.rows; ++row) {
       for (int column = 0; column < kShape.columns; ++column) {
         const vehicle::PlanarPose sensor =
-            pose(share_of(turn, row, column), speed_mps, yaw_rate_radps);
+            pose(share_of(frame, row, column), speed_mps, yaw_rate_radps);
         const vehicle::PlanarPose seen = vehicle::inverse(sensor) * world(row, column);
-        EXPECT_TRUE(image_.place(row, column, echo_at(seen)));
+        EXPECT_TRUE(image_.place(row, column, point_at(seen)));
       }
     }
   }
-  static frame::Return echo_at(const vehicle::PlanarPose& seen) {
+  static frame::Return point_at(const vehicle::PlanarPose& seen) {
     const auto x = static_cast<float>(seen.x_m), y = static_cast<float>(seen.y_m);
     return {x, y, 0.5F, std::sqrt(x * x + y * y), 7};
   }
@@ -72,14 +72,14 @@ class DeskewerTest : public testing::Test {
     const double range_m = 10 + 20 * row;
     return {range_m * std::cos(azimuth_rad), -range_m * std::sin(azimuth_rad), 1, 0};
   }
-  /// Turns of the head until a cell's beam fires: the beam is in the middle of its column.
-  static double share_of(int turn, int row, int column) {
-    return turn + (column + 0.5) / kShape.columns -
-           static_cast<double>(kBeam_ticks[static_cast<std::size_t>(row)]) / kTurn_ticks;
+  /// Frames of the head until a cell's beam fires: the beam is in the middle of its column.
+  static double share_of(int frame, int row, int column) {
+    return frame + (column + 0.5) / kShape.columns -
+           static_cast<double>(kBeam_ticks[static_cast<std::size_t>(row)]) / kRevolution_ticks;
   }
   static vehicle::PlanarPose pose(double share, double speed_mps, double yaw_rate_radps) {
     return vehicle::after_constant_motion(speed_mps, yaw_rate_radps,
-                                          share * static_cast<double>(kTurn_ns) * 1e-9);
+                                          share * static_cast<double>(kFramePeriod_ns) * 1e-9);
   }
 
   /// The farthest that a return lies from where the sensor at `share` would see it.
@@ -110,10 +110,10 @@ constexpr double kHalfAColumn_m = 0.009;
 
 TEST_F(DeskewerTest, ReturnsLieWhereTheyWereAtTheInstantAskedFor) {
   drive(kSpeed_mps, kYawRate_radps);
-  const std::array<std::pair<frame::TurnInstant, double>, 3> instants{
-      {{frame::TurnInstant::kStart, 1.0},
-       {frame::TurnInstant::kMiddle, 1.5},
-       {frame::TurnInstant::kEnd, 2.0}}};
+  const std::array<std::pair<frame::FrameInstant, double>, 3> instants{
+      {{frame::FrameInstant::kStart, 1.0},
+       {frame::FrameInstant::kMiddle, 1.5},
+       {frame::FrameInstant::kEnd, 2.0}}};
   for (const auto& [at, share] : instants) {
     Deskewer deskewer = this->deskewer(at);
     note(deskewer, 0, 2.1);
@@ -129,7 +129,7 @@ TEST_F(DeskewerTest, ReturnsLieWhereTheyWereAtTheInstantAskedFor) {
 
 TEST_F(DeskewerTest, PacketsThatWereLostLeaveNoHole) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, 0, 1.2);
   note(deskewer, 1.7, 2.1);
   see(1, kSpeed_mps, kYawRate_radps);
@@ -137,27 +137,27 @@ TEST_F(DeskewerTest, PacketsThatWereLostLeaveNoHole) {
   EXPECT_LT(worst_m(2.0), kHalfAColumn_m);
 }
 
-TEST_F(DeskewerTest, EveryTurnOfALongDriveComesOutAsTheFirst) {
+TEST_F(DeskewerTest, EveryFrameOfALongDriveComesOutAsTheFirst) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kStart);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
   note(deskewer, -0.1, 0.05);
-  for (int turn = 0; turn < 4; ++turn) {
-    note(deskewer, turn + 0.06, turn + 1.05);
-    see(turn, kSpeed_mps, kYawRate_radps);
-    EXPECT_EQ(deskewer.apply(turn, image_).state, frame::DeskewState::kDone);
-    EXPECT_LT(worst_m(turn), kHalfAColumn_m) << "turn " << turn;
+  for (int frame = 0; frame < 4; ++frame) {
+    note(deskewer, frame + 0.06, frame + 1.05);
+    see(frame, kSpeed_mps, kYawRate_radps);
+    EXPECT_EQ(deskewer.apply(frame, image_).state, frame::DeskewState::kDone);
+    EXPECT_LT(worst_m(frame), kHalfAColumn_m) << "frame " << frame;
   }
 }
 
 TEST_F(DeskewerTest, AHeadThatChangesItsSpeedIsFollowed) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kStart);
-  // The head is ahead of an even turn by up to 3 degrees; instants stay as they are.
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
+  // The head is ahead of an even frame by up to 3 degrees; instants stay as they are.
   const auto head = [](double share) {
     return share + 0.008 * std::sin(2 * std::numbers::pi * share);
   };
   for (double share = -0.1; share <= 1.1; share += 1.0 / 350) {
-    deskewer.note(std::llround(head(share) * kTurn_ticks), instant_ns(share));
+    deskewer.note(std::llround(head(share) * kRevolution_ticks), instant_ns(share));
   }
   image_.clear();
   for (int row = 0; row < kShape.rows; ++row) {
@@ -166,7 +166,7 @@ TEST_F(DeskewerTest, AHeadThatChangesItsSpeedIsFollowed) {
       for (int i = 0; i < 20; ++i) share += share_of(0, row, column) - head(share);
       const vehicle::PlanarPose sensor = pose(share, kSpeed_mps, kYawRate_radps);
       EXPECT_TRUE(
-          image_.place(row, column, echo_at(vehicle::inverse(sensor) * world(row, column))));
+          image_.place(row, column, point_at(vehicle::inverse(sensor) * world(row, column))));
     }
   }
   EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
@@ -175,7 +175,7 @@ TEST_F(DeskewerTest, AHeadThatChangesItsSpeedIsFollowed) {
 
 TEST_F(DeskewerTest, BothReturnsOfACellAreMoved) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kStart);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
   const auto cell = static_cast<std::size_t>(2 * kShape.stride() + 300);
@@ -184,15 +184,15 @@ TEST_F(DeskewerTest, BothReturnsOfACellAreMoved) {
   ASSERT_TRUE(image_.place(2, 300, owner));
   EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
   ASSERT_EQ(image_.overflow().size(), 1U);
-  const frame::Return& extra = image_.overflow()[0].echo;
+  const frame::Return& extra = image_.overflow()[0].point;
   EXPECT_EQ(extra.x_m, image_.x_m()[cell]);
   EXPECT_EQ(extra.y_m, image_.y_m()[cell]);
   EXPECT_EQ(extra.ground_range_m, image_.ground_range_m()[cell]);
   EXPECT_NE(extra.x_m, owner.x_m);
 }
 
-TEST_F(DeskewerTest, WithoutMotionReturnsStayAndTheTurnSaysSo) {
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+TEST_F(DeskewerTest, WithoutMotionReturnsStayAndTheFrameSaysSo) {
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
   const std::vector<float> before(image_.x_m().begin(), image_.x_m().end());
@@ -200,9 +200,9 @@ TEST_F(DeskewerTest, WithoutMotionReturnsStayAndTheTurnSaysSo) {
   EXPECT_TRUE(std::equal(before.begin(), before.end(), image_.x_m().begin()));
 }
 
-TEST_F(DeskewerTest, MotionThatEndedBeforeTheTurnIsNotUsed) {
+TEST_F(DeskewerTest, MotionThatEndedBeforeTheFrameIsNotUsed) {
   drive(kSpeed_mps, kYawRate_radps);  // until 440 ms
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, 3.9, 6.1);
   see(4, kSpeed_mps, kYawRate_radps);
   const frame::DeskewInfo info = deskewer.apply(4, image_);
@@ -214,7 +214,7 @@ TEST_F(DeskewerTest, MotionThatEndedBeforeTheTurnIsNotUsed) {
 
 TEST_F(DeskewerTest, AVehicleThatStandsStillKeepsEveryBitOfItsReturns) {
   drive(0, 0);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 1.1);
   see(0, 0, 0);
   const std::vector<float> x(image_.x_m().begin(), image_.x_m().end());
@@ -224,8 +224,8 @@ TEST_F(DeskewerTest, AVehicleThatStandsStillKeepsEveryBitOfItsReturns) {
   EXPECT_TRUE(std::equal(range.begin(), range.end(), image_.ground_range_m().begin()));
 }
 
-TEST_F(DeskewerTest, AStreamThatBeginsAnewForgetsTheOneBefore) {
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kStart);
+TEST_F(DeskewerTest, AStreamThatBeginsAnewResetsTheOneBefore) {
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
   note(deskewer, 50, 52);
   deskewer.restart();
   drive(kSpeed_mps, kYawRate_radps);
@@ -237,57 +237,57 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewForgetsTheOneBefore) {
 
 TEST_F(DeskewerTest, AHeadThatStandsOrIsSeenAtAnEarlierTimeIsNotNoted) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 0.4);
-  const std::int64_t head_ticks = std::llround(0.41 * kTurn_ticks);
-  deskewer.note(head_ticks, instant_ns(0.41));
-  deskewer.note(head_ticks, instant_ns(0.9));                             // the same place
-  deskewer.note(head_ticks - 1'000'000, instant_ns(0.9));                 // one before it
-  deskewer.note(std::llround(0.45 * kTurn_ticks), instant_ns(0.41) - 1);  // before it in time
+  const std::int64_t rotor_ticks = std::llround(0.41 * kRevolution_ticks);
+  deskewer.note(rotor_ticks, instant_ns(0.41));
+  deskewer.note(rotor_ticks, instant_ns(0.9));                                  // the same place
+  deskewer.note(rotor_ticks - 1'000'000, instant_ns(0.9));                      // one before it
+  deskewer.note(std::llround(0.45 * kRevolution_ticks), instant_ns(0.41) - 1);  // before it in time
   note(deskewer, 0.5, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
   EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
   EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
 }
 
-TEST_F(DeskewerTest, AGapOfManyTurnsLeavesTheTurnBeforeItAndTheOneBehindItAsTheyAre) {
-  for (const int turns : {2, 5, 12, 20}) {
-    SCOPED_TRACE(turns);
+TEST_F(DeskewerTest, AGapOfManyFramesLeavesTheFrameBeforeItAndTheOneBehindItAsTheyAre) {
+  for (const int frames : {2, 5, 12, 20}) {
+    SCOPED_TRACE(frames);
     vehicle::EgoMotion motion({}, memory_);
-    for (std::int64_t i = -5; i < turns * 10 + 25; ++i) {
+    for (std::int64_t i = -5; i < frames * 10 + 25; ++i) {
       motion.add({kStart_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps});
       motion.take_new();
     }
-    Deskewer deskewer({&motion, frame::TurnInstant::kEnd, kShape, kTurn_ticks}, kBeam_ticks,
+    Deskewer deskewer({&motion, frame::FrameInstant::kEnd, kShape, kRevolution_ticks}, kBeam_ticks,
                       memory_);
     note(deskewer, -0.1, 0.7);
-    note(deskewer, turns + 0.02);  // handed over with the first packet behind the gap
+    note(deskewer, frames + 0.02);  // handed over with the first packet behind the gap
     see(0, kSpeed_mps, kYawRate_radps);
     frame::DeskewInfo info = deskewer.apply(0, image_);
     EXPECT_EQ(info.state, frame::DeskewState::kDone);
     EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(1)), 0, 1000);
     EXPECT_LT(worst_m(1.0), kHalfAColumn_m);
-    note(deskewer, turns + 0.03, turns + 1.1);
-    see(turns, kSpeed_mps, kYawRate_radps);
-    info = deskewer.apply(turns, image_);
+    note(deskewer, frames + 0.03, frames + 1.1);
+    see(frames, kSpeed_mps, kYawRate_radps);
+    info = deskewer.apply(frames, image_);
     EXPECT_EQ(info.state, frame::DeskewState::kDone);
-    EXPECT_LT(worst_m(turns + 1.0), kHalfAColumn_m);
+    EXPECT_LT(worst_m(frames + 1.0), kHalfAColumn_m);
     // Of a time that is not remembered any more the first that is stands in.
     constexpr double kRemembered = 256 * 8 / 401.0;
-    const double first = std::max(-0.1, turns + 1.1 - kRemembered);
-    info = deskewer.apply(turns - 9, image_);
+    const double first = std::max(-0.1, frames + 1.1 - kRemembered);
+    info = deskewer.apply(frames - 9, image_);
     EXPECT_NEAR(static_cast<double>(info.reference_ns - instant_ns(first)), 0, 5e6);
   }
 }
 
-TEST_F(DeskewerTest, WhereAClockWasSetTheTurnsBegunHaveNoEgoMotionAndTheNextHasItsOwn) {
+TEST_F(DeskewerTest, WhereAClockWasSetTheFramesBegunHaveNoEgoMotionAndTheNextHasItsOwn) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 1.4);
-  deskewer.begin_anew(std::llround(1.41 * kTurn_ticks));
+  deskewer.begin_anew(std::llround(1.41 * kRevolution_ticks));
   constexpr std::int64_t kSet_ns = -150'000'000;  // where samples are of the time before
   for (double share = 1.41; share <= 3.1; share += 1.0 / 350) {
-    deskewer.note(std::llround(share * kTurn_ticks), instant_ns(share) + kSet_ns);
+    deskewer.note(std::llround(share * kRevolution_ticks), instant_ns(share) + kSet_ns);
   }
   see(0, kSpeed_mps, kYawRate_radps);
   const std::vector<float> before(image_.x_m().begin(), image_.x_m().end());
@@ -308,7 +308,7 @@ TEST_F(DeskewerTest, WhereAClockWasSetTheTurnsBegunHaveNoEgoMotionAndTheNextHasI
 
 TEST_F(DeskewerTest, AStreamThatBeginsAnewHasNoMotionFromBefore) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kStart);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
   note(deskewer, 50, 52);
   deskewer.restart();
   // The clock may have been set back while there was no stream, to where samples are.
@@ -319,8 +319,8 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewHasNoMotionFromBefore) {
 
 TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kStart);
-  deskewer.begin_anew(50LL * kTurn_ticks);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
+  deskewer.begin_anew(50LL * kRevolution_ticks);
   note(deskewer, 50, 52);
   deskewer.restart();
   for (int i = -5; i < 15; ++i) {
@@ -332,9 +332,9 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet)
   EXPECT_LT(worst_m(0), kHalfAColumn_m);
 }
 
-TEST_F(DeskewerTest, ATurnOfOnePacketIsLeftWhereItIs) {
+TEST_F(DeskewerTest, AFrameOfOnePacketIsLeftWhereItIs) {
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, 0.5);
   image_.clear();
   ASSERT_TRUE(image_.place(1, 200, {10, 0, 0, 10, 1}));
@@ -344,21 +344,21 @@ TEST_F(DeskewerTest, ATurnOfOnePacketIsLeftWhereItIs) {
 }
 
 TEST_F(DeskewerTest, SettingsOutsideTheirRangeAreRefused) {
+  EXPECT_THROW(Deskewer({nullptr, frame::FrameInstant::kEnd, kShape, kRevolution_ticks},
+                        kBeam_ticks, memory_),
+               std::invalid_argument);
+  EXPECT_THROW(Deskewer({&motion_, frame::FrameInstant::kEnd, {2, 400}, kRevolution_ticks},
+                        kBeam_ticks, memory_),
+               std::invalid_argument);
   EXPECT_THROW(
-      Deskewer({nullptr, frame::TurnInstant::kEnd, kShape, kTurn_ticks}, kBeam_ticks, memory_),
-      std::invalid_argument);
-  EXPECT_THROW(
-      Deskewer({&motion_, frame::TurnInstant::kEnd, {2, 400}, kTurn_ticks}, kBeam_ticks, memory_),
-      std::invalid_argument);
-  EXPECT_THROW(
-      Deskewer({&motion_, frame::TurnInstant::kEnd, kShape, 1'500'000}, kBeam_ticks, memory_),
+      Deskewer({&motion_, frame::FrameInstant::kEnd, kShape, 1'500'000}, kBeam_ticks, memory_),
       std::invalid_argument);
 }
 
-TEST_F(DeskewerTest, MovingATurnAllocatesNothing) {
+TEST_F(DeskewerTest, MovingAFrameAllocatesNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
   drive(kSpeed_mps, kYawRate_radps);
-  Deskewer deskewer = this->deskewer(frame::TurnInstant::kEnd);
+  Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   see(0, kSpeed_mps, kYawRate_radps);
   const std::uint64_t before = test::allocations_of_this_thread();
   note(deskewer, -0.1, 1.1);

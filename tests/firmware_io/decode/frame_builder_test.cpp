@@ -14,12 +14,12 @@
 namespace terracut::decode {
 namespace {
 
-constexpr std::int64_t kTurn = 3600;
+constexpr std::int64_t kRevolution = 3600;
 constexpr BeamSpread kSpread{-100, 110};
 constexpr std::int64_t kStep = 10;
 
 FrameBuilder::Config small(int images = 3) {
-  return {{.rows = 4, .columns = 20}, 2, images, kTurn};
+  return {{.rows = 4, .columns = 20}, 2, images, kRevolution};
 }
 
 struct Handed {
@@ -28,8 +28,8 @@ struct Handed {
 };
 
 template <class OnFrame>
-void roll_to(FrameBuilder& builder, std::int64_t turn, OnFrame&& on_frame) {
-  builder.roll_to(turn);
+void roll_to(FrameBuilder& builder, std::int64_t frame, OnFrame&& on_frame) {
+  builder.roll_to(frame);
   test::hand_out(builder, on_frame);
 }
 template <class OnFrame>
@@ -58,8 +58,8 @@ TEST_F(FrameBuilderTest, RefusesFewerThanThreeImages) {
   EXPECT_THROW(FrameBuilder(small(2), memory), std::invalid_argument);
 }
 
-TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenTurns) {
-  builder.start(7, 7 * kTurn);
+TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenFrames) {
+  builder.start(7, 7 * kRevolution);
   EXPECT_TRUE(builder.is_open(7));
   EXPECT_TRUE(builder.is_open(8));
   EXPECT_FALSE(builder.is_open(6));
@@ -77,7 +77,7 @@ TEST_F(FrameBuilderTest, SortsReturnsIntoTheTwoOpenTurns) {
   EXPECT_EQ(handed[1].info.number, 1U);
 }
 
-TEST_F(FrameBuilderTest, ATurnWithoutReturnsIsNoFrame) {
+TEST_F(FrameBuilderTest, AFrameWithoutReturnsIsNoFrame) {
   builder.start(0, 0);
   roll(builder, keep());
   builder.place(1, 0, 0, {});
@@ -89,15 +89,15 @@ TEST_F(FrameBuilderTest, ATurnWithoutReturnsIsNoFrame) {
 
 TEST_F(FrameBuilderTest, LeavesAnImageAloneUntilTheNextHandOver) {
   builder.start(0, 0);
-  for (std::int64_t turn = 0; turn < 20; ++turn) {
-    builder.place(turn, 0, 0, {});
+  for (std::int64_t frame = 0; frame < 20; ++frame) {
+    builder.place(frame, 0, 0, {});
     roll(builder, keep());
-    // What comes until then: empty turns, an end, a new start.
-    if (turn % 3 == 1) {
+    // What comes until then: empty frames, an end, a new start.
+    if (frame % 3 == 1) {
       flush(builder, keep());
-      builder.start(turn + 1, 0);
+      builder.start(frame + 1, 0);
     }
-    builder.place(turn + 1, 1, 1, {});
+    builder.place(frame + 1, 1, 1, {});
     ASSERT_EQ(handed.back().image->returns(), handed.back().info.returns);
   }
 }
@@ -107,17 +107,17 @@ TEST_F(FrameBuilderTest, LeavesAnImageAloneAsLongAsItHasOthers) {
     FrameBuilder many(small(images), memory);
     handed.clear();
     many.start(0, 0);
-    for (std::int64_t turn = 0; turn < 20; ++turn) {
-      many.place(turn, 0, 0, {});
-      many.place(turn + 1, 0, 0, {});
+    for (std::int64_t frame = 0; frame < 20; ++frame) {
+      many.place(frame, 0, 0, {});
+      many.place(frame + 1, 0, 0, {});
       roll(many, keep());
       // All that were handed over and may be looked at still, the newest last.
       const std::size_t kept = std::min(handed.size(), static_cast<std::size_t>(images - 2));
       for (std::size_t back = 1; back <= kept; ++back) {
-        const Handed& frame = handed[handed.size() - back];
-        ASSERT_EQ(frame.image->returns(), frame.info.returns) << images << ", " << back;
+        const Handed& one = handed[handed.size() - back];
+        ASSERT_EQ(one.image->returns(), one.info.returns) << images << ", " << back;
         for (std::size_t other = 1; other < back; ++other) {
-          ASSERT_NE(frame.image, handed[handed.size() - other].image) << images;
+          ASSERT_NE(one.image, handed[handed.size() - other].image) << images;
         }
       }
     }
@@ -134,10 +134,10 @@ TEST_F(FrameBuilderTest, CountsReturnsThatOverflowTheOverflowList) {
   EXPECT_EQ(builder.total_losses().overflow_full_returns, 7U);
 }
 
-TEST_F(FrameBuilderTest, ATurnSeenFromSeamToSeamIsComplete) {
+TEST_F(FrameBuilderTest, AFrameSeenFromSeamToSeamIsComplete) {
   builder.start(-1, -200);
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, kTurn + 100, kStep, kSpread);
+  builder.note_packet(5, -1, 0, kRevolution + 100, kStep, kSpread);
   roll(builder, keep());
   roll(builder, keep());
   ASSERT_EQ(handed.size(), 1U);
@@ -145,14 +145,14 @@ TEST_F(FrameBuilderTest, ATurnSeenFromSeamToSeamIsComplete) {
   EXPECT_EQ(handed[0].info.losses.azimuth_hole_columns, 0U);
 }
 
-TEST_F(FrameBuilderTest, ATurnWhoseStartOrEndWasNotSeenIsIncomplete) {
+TEST_F(FrameBuilderTest, AFrameWhoseStartOrEndWasNotSeenIsIncomplete) {
   builder.start(-1, -50);  // the foremost beam was 60 past the seam already
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, kTurn + 100, kStep, kSpread);
+  builder.note_packet(5, -1, 0, kRevolution + 100, kStep, kSpread);
   flush(builder, keep());
   builder.start(-1, -200);
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, kTurn + 80, kStep, kSpread);
+  builder.note_packet(5, -1, 0, kRevolution + 80, kStep, kSpread);
   flush(builder, keep());
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_FALSE(handed[0].info.complete);
@@ -168,42 +168,42 @@ TEST_F(FrameBuilderTest, GoesOnWithTheImageItIsGivenInExchange) {
     return std::exchange(at_the_reader, &image);
   };
   builder.start(0, 0);
-  for (std::int64_t turn = 0; turn < 6; ++turn) {
-    for (int i = 0; i <= turn; ++i) builder.place(turn, 0, i, {});
+  for (std::int64_t frame = 0; frame < 6; ++frame) {
+    for (int i = 0; i <= frame; ++i) builder.place(frame, 0, i, {});
     roll(builder, exchange);
-    EXPECT_EQ(handed.back().info.returns, turn + 1);
-    builder.place(turn + 1, 3, 19, {});
-    builder.place(turn + 2, 3, 19, {});
+    EXPECT_EQ(handed.back().info.returns, frame + 1);
+    builder.place(frame + 1, 3, 19, {});
+    builder.place(frame + 2, 3, 19, {});
     EXPECT_EQ(at_the_reader->returns(), handed.back().info.returns);  // nobody writes to it
     ASSERT_EQ(handed.back().image, at_the_reader);
     flush(builder, exchange);
-    builder.start(turn + 1, 0);
+    builder.start(frame + 1, 0);
   }
 }
 
-TEST_F(FrameBuilderTest, AHoleMakesATurnIncompleteUntilItIsFilled) {
+TEST_F(FrameBuilderTest, AHoleMakesAFrameIncompleteUntilItIsFilled) {
   for (const bool filled : {false, true}) {
     builder.start(-1, -200);
     builder.place(0, 0, 0, {});
     builder.lose({1000, 1060}, kSpread, kStep);
     if (filled) builder.regain({1000, 1060}, kSpread);
-    builder.note_packet(5, -1, 0, kTurn + 100, kStep, kSpread);
+    builder.note_packet(5, -1, 0, kRevolution + 100, kStep, kSpread);
     flush(builder, keep());
     EXPECT_EQ(handed.back().info.complete, filled);
     EXPECT_EQ(handed.back().info.losses.azimuth_hole_columns, filled ? 0U : 6U);
   }
 }
 
-TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothTurns) {
+TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothFrames) {
   builder.start(-1, -200);
   builder.place(0, 0, 0, {});
   builder.note_packet(5, -1, 0, 0, kStep, kSpread);
-  roll(builder, keep());  // turn -1, without returns
+  roll(builder, keep());  // frame -1, without returns
   builder.place(1, 0, 0, {});
-  builder.lose({kTurn - 30, kTurn + 30}, kSpread, kStep);
-  builder.note_packet(6, 0, 1, kTurn + 100, kStep, kSpread);
+  builder.lose({kRevolution - 30, kRevolution + 30}, kSpread, kStep);
+  builder.note_packet(6, 0, 1, kRevolution + 100, kStep, kSpread);
   roll(builder, keep());
-  builder.note_packet(7, 1, 1, 2 * kTurn + 100, kStep, kSpread);
+  builder.note_packet(7, 1, 1, 2 * kRevolution + 100, kStep, kSpread);
   roll(builder, keep());
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_FALSE(handed[0].info.complete);
@@ -212,18 +212,18 @@ TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothTurns) {
   EXPECT_EQ(handed[1].info.losses.azimuth_hole_columns, 3U);
 }
 
-TEST_F(FrameBuilderTest, AHoleOverWholeTurnsIsCountedInFull) {
+TEST_F(FrameBuilderTest, AHoleOverWholeFramesIsCountedInFull) {
   builder.start(0, 0);
   builder.place(0, 0, 0, {});
-  builder.lose({kTurn / 2, 3 * kTurn + kTurn / 2}, kSpread, kStep);
+  builder.lose({kRevolution / 2, 3 * kRevolution + kRevolution / 2}, kSpread, kStep);
   for (int n = 0; n < 3; ++n) roll(builder, keep());
   builder.place(3, 0, 0, {});
   flush(builder, keep());
   EXPECT_EQ(builder.total_losses().azimuth_hole_columns,
-            static_cast<std::uint64_t>(3 * kTurn / kStep));
+            static_cast<std::uint64_t>(3 * kRevolution / kStep));
 }
 
-TEST_F(FrameBuilderTest, KeepsThePacketStampsOfEachTurn) {
+TEST_F(FrameBuilderTest, KeepsThePacketStampsOfEachFrame) {
   builder.start(0, 0);
   builder.place(0, 0, 0, {});
   builder.place(1, 0, 0, {});

@@ -22,14 +22,14 @@ namespace terracut::test {
 
 using reference::Payload;
 
-/// Payload number `n` of a head that turns steadily from 340 degrees on, or any part of it.
+/// Payload number `n` of a head that rotates steadily from 340 degrees on, or any part of it.
 template <class Sensor>
 struct Head {
   double spin_hz = 10;
   bool dual_return = false;
   double share_of_returns = 0.3;
 
-  [[nodiscard]] std::vector<Payload> turns(double count) const {
+  [[nodiscard]] std::vector<Payload> frames(double count) const {
     const double packet_s =
         Sensor::firing_us(dual_return) * Sensor::firings_per_packet(dual_return) * 1e-6;
     return Sensor::payloads({.spin_hz = spin_hz,
@@ -37,11 +37,11 @@ struct Head {
                              .packets = static_cast<int>(count / (spin_hz * packet_s)),
                              .share_of_returns = share_of_returns});
   }
-  /// One packet of a head that stands at `head_deg`, by the device's clock at `stamp_ns`.
-  [[nodiscard]] Payload packet(double head_deg, std::int64_t stamp_ns) const {
+  /// One packet of a head that stands at `rotor_deg`, by the device's clock at `stamp_ns`.
+  [[nodiscard]] Payload packet(double rotor_deg, std::int64_t stamp_ns) const {
     Payload payload = Sensor::payloads({.spin_hz = spin_hz,
                                         .dual_return = dual_return,
-                                        .first_deg = std::fmod(head_deg, 360.0),
+                                        .first_deg = std::fmod(rotor_deg, 360.0),
                                         .packets = 1,
                                         .share_of_returns = share_of_returns})[0];
     payload.stamp_ns = stamp_ns;
@@ -115,7 +115,8 @@ class HeardStream {
     return Sensor::random_unit(random);
   }
   /// "Work per packet" of docs/design.md: one packet may bear out 31 others that were in doubt, and
-  /// ends the two open turns of the stream before them, and two that end within the turn in doubt.
+  /// ends the two open frames of the stream before them, and two that end within the frame in
+  /// doubt.
   static void expect_bounded_work(std::size_t frames, std::uint64_t packets) {
     EXPECT_LE(packets, 32U);
     EXPECT_LE(frames, packets <= 1 ? 2U : 4U);

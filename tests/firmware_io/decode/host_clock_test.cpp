@@ -97,10 +97,10 @@ TEST(HostClock, SmallCorrectionsThatAddUpAreAStepUnlessTheyAreFarApart) {
   EXPECT_EQ(steps(1'000'000), 0);  // a clock that is 1000 ppm slow
 }
 
-TEST(HostClock, KnowsNothingOfAStreamThatItIsToForget) {
+TEST(HostClock, KnowsNothingOfAStreamThatItIsToReset) {
   HostClock clock(kHour_us);
   (void)next(clock, 0, kStart_ns);
-  clock.forget();
+  clock.reset();
   EXPECT_EQ(next(clock, 288, kStart_ns - 5'000'000'000).instant_ns, kStart_ns - 5'000'000'000);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // Packets and the vehicle's CAN frames together, as a live run hears them, through steps of the
-// clock that stamps both, outages and packets that are held up: whatever happens, a turn that says
-// that the vehicle's motion was taken out of it looks as it does when nothing happens.
+// clock that stamps both, outages and packets that are held up: whatever happens, a frame that says
+// that it was deskewed looks as it does when nothing happens.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ constexpr std::int64_t kMillisecond_ns = 1'000'000;
 constexpr std::int64_t kSecond_ns = 1'000 * kMillisecond_ns;
 constexpr std::int64_t kStart_ns = 1'700'000'000 * kSecond_ns;
 constexpr std::int64_t kSamplePeriod_ns = 10 * kMillisecond_ns;
-constexpr std::int64_t kTurns = 7;
+constexpr std::int64_t kFrames = 7;
 
 /// What a clock shows at a time that never jumps.
 using Clock = std::function<std::int64_t(std::int64_t)>;
@@ -45,7 +45,7 @@ Clock stepping(std::int64_t at_ns, std::int64_t step_ns) {
 
 /// A sensor's packets, stamped with the time at which they end.
 const std::vector<Packet>& drive() {
-  static const std::vector<Packet> packets = random_packets({.last_cdeg = 36'000 * kTurns + 1'500,
+  static const std::vector<Packet> packets = random_packets({.last_cdeg = 36'000 * kFrames + 1'500,
                                                              .first_stamp_ns = kStart_ns,
                                                              .share_of_returns = 0.05});
   return packets;
@@ -104,7 +104,7 @@ std::vector<Frame> decode(const std::vector<Arrival>& arrivals, const Clock& can
   config.columns = 521;
   config.returns_per_cell = 4;
   config.motion = &motion;
-  config.deskew_at = frame::TurnInstant::kMiddle;
+  config.deskew_at = frame::FrameInstant::kMiddle;
   Recorder recorder(config);
   const auto times = bus(right), frames = bus(can_clock);
   std::size_t next = 0;
@@ -121,10 +121,10 @@ std::vector<Frame> decode(const std::vector<Arrival>& arrivals, const Clock& can
 /// The farthest that a return lies from where it lies in the other, by what is allowed: 2 ms of the
 /// way, and what the motion changes in 20 ms.
 double worst_share(const Frame& frame, const Frame& expected) {
-  EXPECT_EQ(frame.echoes.size(), expected.echoes.size());
+  EXPECT_EQ(frame.returns.size(), expected.returns.size());
   double worst = 0;
-  for (std::size_t i = 0; i < std::min(frame.echoes.size(), expected.echoes.size()); ++i) {
-    const auto &a = frame.echoes[i].point, &b = expected.echoes[i].point;
+  for (std::size_t i = 0; i < std::min(frame.returns.size(), expected.returns.size()); ++i) {
+    const auto &a = frame.returns[i].point, &b = expected.returns[i].point;
     const double allowed_m = 0.05 + 0.004 * b.ground_range_m;
     worst = std::max(worst, std::hypot(a.x_m - b.x_m, a.y_m - b.y_m) / allowed_m);
   }
@@ -140,7 +140,7 @@ std::vector<std::uint32_t> not_deskewed(const std::vector<Frame>& frames,
     if (frames[i].info.deskew.state != DeskewState::kDone) {
       numbers.push_back(frames[i].info.number);
     } else {
-      EXPECT_LT(worst_share(frames[i], expected[i]), 1.0) << "turn " << i;
+      EXPECT_LT(worst_share(frames[i], expected[i]), 1.0) << "frame " << i;
     }
   }
   return numbers;
@@ -155,19 +155,19 @@ class MotionChain : public testing::Test {
   }
 };
 
-/// Just before the packet in which the head is `share` of its way through a turn.
-std::int64_t moment_ns(std::uint32_t turn, double share) {
-  const double head_cdeg = (turn + share) * 36'000 - 34'900;
-  const auto packet = static_cast<std::size_t>(std::llround(head_cdeg / (6 * 17.28)));
+/// Just before the packet in which the head is `share` of its way through a frame.
+std::int64_t moment_ns(std::uint32_t frame, double share) {
+  const double rotor_cdeg = (frame + share) * 36'000 - 34'900;
+  const auto packet = static_cast<std::size_t>(std::llround(rotor_cdeg / (6 * 17.28)));
   return drive().at(packet).stamp_ns - 100'000;
 }
 
-TEST_F(MotionChain, TakesTheMotionOutOfEveryTurn) {
-  EXPECT_EQ(undisturbed().size(), static_cast<std::size_t>(kTurns + 1));
+TEST_F(MotionChain, DeskewsEveryFrame) {
+  EXPECT_EQ(undisturbed().size(), static_cast<std::size_t>(kFrames + 1));
   EXPECT_TRUE(not_deskewed(undisturbed(), undisturbed()).empty());
 }
 
-TEST_F(MotionChain, AStepOfTheClockCostsTheTurnInWhichItFallsAndNoOther) {
+TEST_F(MotionChain, AStepOfTheClockCostsTheFrameInWhichItFallsAndNoOther) {
   using Numbers = std::vector<std::uint32_t>;
   const auto expect_cost = [](std::int64_t step_ms, double share, std::int64_t apart_ms) {
     SCOPED_TRACE(fmt::format("{} ms at {}, the bus {} ms apart", step_ms, share, apart_ms));
@@ -185,7 +185,7 @@ TEST_F(MotionChain, AStepOfTheClockCostsTheTurnInWhichItFallsAndNoOther) {
   }
 }
 
-TEST_F(MotionChain, AStepWhereTwoTurnsAreOpenCostsThoseTwo) {
+TEST_F(MotionChain, AStepWhereTwoFramesAreOpenCostsThoseTwo) {
   for (const std::int64_t step_ms : {-5'000L, -60L, 60L, 5'000L}) {
     for (const double share : {-0.02, -0.001, 0.001, 0.02, 0.03, 0.04}) {
       SCOPED_TRACE(fmt::format("{} ms at {}", step_ms, share));
@@ -199,7 +199,7 @@ TEST_F(MotionChain, AStepWhereTwoTurnsAreOpenCostsThoseTwo) {
   }
 }
 
-TEST_F(MotionChain, StepsBelowTheDisorderOfTheWayCostOneTurnAtMost) {
+TEST_F(MotionChain, StepsBelowTheDisorderOfTheWayCostOneFrameAtMost) {
   for (const std::int64_t step_ms : {-20, -19, -11, -6, -4, -1, 1, 4, 11, 19, 20}) {
     SCOPED_TRACE(fmt::format("{} ms", step_ms));
     const Clock clock = stepping(moment_ns(3, 0.5), step_ms * kMillisecond_ns);
@@ -207,11 +207,12 @@ TEST_F(MotionChain, StepsBelowTheDisorderOfTheWayCostOneTurnAtMost) {
   }
 }
 
-TEST_F(MotionChain, AStepOfOneClockAloneNeverMakesATurnSayWhatIsNotSo) {
+TEST_F(MotionChain, AStepOfOneClockAloneNeverMakesAFrameSayWhatIsNotSo) {
   for (const std::int64_t step_ms : {-700L, -150L, -60L, 60L, 150L, 700L}) {
     SCOPED_TRACE(fmt::format("{} ms", step_ms));
     const Clock clock = stepping(moment_ns(3, 0.5), step_ms * kMillisecond_ns);
-    // What is left of the drive is on two clocks; how far they are apart is in every turn's report.
+    // What is left of the drive is on two clocks; how far they are apart is in every frame's
+    // report.
     const auto packets_alone = decode(in_time(clock));
     const auto bus_alone = decode(in_time(), clock);
     for (const auto* frames : {&packets_alone, &bus_alone}) {
@@ -242,7 +243,7 @@ TEST_F(MotionChain, BeginsAnewAfterAnOutage) {
     return time_ns + (is_behind(time_ns) ? kOutage_ns : 0);
   };
   const auto frames = decode(longer, later);
-  ASSERT_EQ(frames.size(), undisturbed().size() + 1) << "turn 3 is two: before and behind";
+  ASSERT_EQ(frames.size(), undisturbed().size() + 1) << "frame 3 is two: before and behind";
   for (std::size_t i = 5; i + 1 < frames.size(); ++i) {
     EXPECT_EQ(frames[i].info.deskew.state, DeskewState::kDone) << i;
     EXPECT_LT(worst_share(frames[i], undisturbed()[i - 1]), 1.0) << i;
@@ -250,7 +251,7 @@ TEST_F(MotionChain, BeginsAnewAfterAnOutage) {
   }
 }
 
-TEST_F(MotionChain, APartOfATurnBeforeALongGapIsDeskewedAsWithoutTheGap) {
+TEST_F(MotionChain, APartOfAFrameBeforeALongGapIsDeskewedAsWithoutTheGap) {
   for (const std::int64_t gap_ms : {30, 150, 320, 520}) {
     SCOPED_TRACE(fmt::format("{} ms", gap_ms));
     const std::int64_t from_ns = moment_ns(2, 0.6);
@@ -265,9 +266,9 @@ TEST_F(MotionChain, APartOfATurnBeforeALongGapIsDeskewedAsWithoutTheGap) {
       ASSERT_EQ(frames[i].info.deskew.state, DeskewState::kDone);
       Frame before = undisturbed()[i];
       Frame seen = frames[i];
-      const std::size_t count = before.echoes.size() / 2;
-      before.echoes.resize(count);
-      seen.echoes.resize(count);
+      const std::size_t count = before.returns.size() / 2;
+      before.returns.resize(count);
+      seen.returns.resize(count);
       EXPECT_LT(worst_share(seen, before), 1.0) << i;
       EXPECT_NEAR(static_cast<double>(frames[i].info.deskew.reference_ns -
                                       undisturbed()[i].info.deskew.reference_ns),
@@ -276,7 +277,7 @@ TEST_F(MotionChain, APartOfATurnBeforeALongGapIsDeskewedAsWithoutTheGap) {
   }
 }
 
-TEST_F(MotionChain, PacketsThatAreHeldUpCostTheirTurnsButNoneSaysWhatIsNotSo) {
+TEST_F(MotionChain, PacketsThatAreHeldUpCostTheirFramesButNoneSaysWhatIsNotSo) {
   for (const std::int64_t held_ms : {3, 15, 40, 90, 250}) {
     SCOPED_TRACE(fmt::format("{} ms", held_ms));
     const std::int64_t from_ns = moment_ns(3, 0.5);

@@ -15,23 +15,23 @@ constexpr std::int64_t kPeriod_us = 288;
 constexpr std::int32_t kSweep_cdeg = 104;
 
 /// Packet `n` of a head at 10 Hz, 6 firings a packet.
-PacketHeads packet(std::int64_t n, std::int64_t first_us = 0) {
-  PacketHeads heads;
-  heads.device_stamp_us = (first_us + n * kPeriod_us) % kWrap_us;
-  heads.nominal_period_ns = kPeriod_us * 1000;
-  heads.shortest_period_ns = 252'000;
-  heads.longest_period_ns = 388'800;
-  heads.columns = 1;
-  heads.azimuth_cdeg[0] = beams::wrap_cdeg(n * kSweep_cdeg);
-  heads.step_ticks = kSweep_cdeg * kTicksPerCdeg / 6;
-  heads.sweep_ticks = heads.pace_ticks = kSweep_cdeg * kTicksPerCdeg;
-  return heads;
+PacketAzimuths packet(std::int64_t n, std::int64_t first_us = 0) {
+  PacketAzimuths azimuths;
+  azimuths.device_stamp_us = (first_us + n * kPeriod_us) % kWrap_us;
+  azimuths.nominal_period_ns = kPeriod_us * 1000;
+  azimuths.shortest_period_ns = 252'000;
+  azimuths.longest_period_ns = 388'800;
+  azimuths.columns = 1;
+  azimuths.azimuth_cdeg[0] = beams::wrap_cdeg(n * kSweep_cdeg);
+  azimuths.step_ticks = kSweep_cdeg * kTicksPerCdeg / 6;
+  azimuths.sweep_ticks = azimuths.pace_ticks = kSweep_cdeg * kTicksPerCdeg;
+  return azimuths;
 }
 
 class Tracked : public testing::Test {
  protected:
-  Placement place(const PacketHeads& heads, std::int64_t host_ns = 0) {
-    const Placement placed = tracker.place(heads, host_ns, losses);
+  Placement place(const PacketAzimuths& azimuths, std::int64_t host_ns = 0) {
+    const Placement placed = tracker.place(azimuths, host_ns, losses);
     if (placed.arrival == Arrival::kNext) tracker.miss(placed.missing, losses);
     return placed;
   }
@@ -74,7 +74,7 @@ TEST_F(Tracked, APacketThatIsLateAcrossTheHourIsReordered) {
   (void)place(packet(20, first_us));  // the first of the hour
   const Placement late = place(packet(19, first_us));
   EXPECT_EQ(late.arrival, Arrival::kReordered);
-  EXPECT_EQ(late.head_cdeg, 19 * kSweep_cdeg);
+  EXPECT_EQ(late.rotor_cdeg, 19 * kSweep_cdeg);
   place_all(21, 60, first_us);
   tracker.end_of_stream(losses);
   EXPECT_EQ(losses.clock_jumps, 0U);
@@ -91,30 +91,30 @@ TEST_F(Tracked, WhereEverySecondPacketIsLostFromTheStartTheyAreCounted) {
 TEST_F(Tracked, LossesAreToldWithinSomePacketsWhereThePeriodIsNoSensors) {
   std::int64_t stamp_us = 0;
   for (std::int64_t n = 0; n < 100; ++n) {
-    PacketHeads heads = packet(n);
-    heads.device_stamp_us = stamp_us += n == 20 ? 2 * kPeriod_us : 2;
-    (void)place(heads);
+    PacketAzimuths azimuths = packet(n);
+    azimuths.device_stamp_us = stamp_us += n == 20 ? 2 * kPeriod_us : 2;
+    (void)place(azimuths);
   }
   EXPECT_EQ(tracker.period_ns(), 0);
   EXPECT_EQ(losses.network_gap_packets, 1U);
 }
 
 TEST_F(Tracked, ASwitchToDualReturnAndBackLosesNothing) {
-  std::int64_t stamp_us = 0, head_cdeg = 0;
+  std::int64_t stamp_us = 0, rotor_cdeg = 0;
   for (int n = 0; n < 300; ++n) {
-    PacketHeads heads = packet(0);
+    PacketAzimuths azimuths = packet(0);
     const bool dual = n >= 100 && n < 200;
     if (dual) {
-      heads.nominal_period_ns = 172'800;
-      heads.shortest_period_ns = 151'200;
-      heads.longest_period_ns = 194'400;
-      heads.sweep_ticks = heads.pace_ticks = 62'000;
+      azimuths.nominal_period_ns = 172'800;
+      azimuths.shortest_period_ns = 151'200;
+      azimuths.longest_period_ns = 194'400;
+      azimuths.sweep_ticks = azimuths.pace_ticks = 62'000;
     }
     stamp_us += dual ? 173 : 288;
-    head_cdeg += dual ? 62 : 104;
-    heads.device_stamp_us = stamp_us;
-    heads.azimuth_cdeg[0] = beams::wrap_cdeg(head_cdeg);
-    EXPECT_NE(place(heads).arrival, Arrival::kRejected) << n;
+    rotor_cdeg += dual ? 62 : 104;
+    azimuths.device_stamp_us = stamp_us;
+    azimuths.azimuth_cdeg[0] = beams::wrap_cdeg(rotor_cdeg);
+    EXPECT_NE(place(azimuths).arrival, Arrival::kRejected) << n;
   }
   tracker.end_of_stream(losses);
   EXPECT_EQ(losses.network_gap_packets, 0U);
@@ -126,7 +126,7 @@ TEST_F(Tracked, PacketsLostWhileTheHeadStandsAreCounted) {
   for (const std::int64_t n : {50, 51, 54, 55}) {
     tracker.note_stationary(packet(n).device_stamp_us, packet(50).azimuth_cdeg[0], losses);
   }
-  PacketHeads next = packet(50);
+  PacketAzimuths next = packet(50);
   next.device_stamp_us = packet(56).device_stamp_us;
   (void)place(next);
   tracker.end_of_stream(losses);
@@ -136,17 +136,17 @@ TEST_F(Tracked, PacketsLostWhileTheHeadStandsAreCounted) {
 TEST_F(Tracked, AHeadThatHasStoodIsExpectedWhereItStands) {
   place_all(0, 50);
   tracker.note_stationary(packet(50).device_stamp_us, packet(50).azimuth_cdeg[0], losses);
-  PacketHeads next = packet(50);
+  PacketAzimuths next = packet(50);
   next.device_stamp_us = packet(200).device_stamp_us;
   EXPECT_EQ(place(next).arrival, Arrival::kNext);
 }
 
 TEST_F(Tracked, ARebootIsFollowedWhereFewerPacketsShowAtOnceThanBearOutAStream) {
-  constexpr int kPacketsATurn = 346, kInView = StreamTracker::kNewStream_packets / 2;
-  const auto is_in_view = [](std::int64_t n) { return n % kPacketsATurn < kInView; };
+  constexpr int kPacketsAFrame = 346, kInView = StreamTracker::kNewStream_packets / 2;
+  const auto is_in_view = [](std::int64_t n) { return n % kPacketsAFrame < kInView; };
   place_all(0, kInView);
   std::int64_t agreed = 0;
-  for (std::int64_t n = 0; n < 4 * kPacketsATurn; ++n) {
+  for (std::int64_t n = 0; n < 4 * kPacketsAFrame; ++n) {
     if (!is_in_view(n)) continue;
     const Placement placed = place(packet(n, kWrap_us / 2));
     agreed += placed.arrival == Arrival::kDoubtful ? 1 : 0;
@@ -160,7 +160,7 @@ TEST_F(Tracked, ARebootIsFollowedWhereFewerPacketsShowAtOnceThanBearOutAStream) 
 
 TEST_F(Tracked, PacketsThatDoNotTakeTheirTimeBearOutNoStream) {
   place_all(0, 20);
-  for (std::int64_t n = 0; n < 100; ++n) {  // a turn of stamps in each microsecond of the host's
+  for (std::int64_t n = 0; n < 100; ++n) {  // a frame of stamps in each microsecond of the host's
     const Placement placed = place(packet(346 * n, kWrap_us / 2), 1 + n * 1000);
     EXPECT_EQ(placed.arrival, Arrival::kDoubtful) << n;
   }

@@ -32,7 +32,7 @@ TEST_F(SmallImage, NumbersReturnsInTheOrderOfArrival) {
   EXPECT_EQ(image.intensity()[0], 10);
 }
 
-TEST_F(SmallImage, ClearingForgetsEverythingWithoutTouchingThePlanes) {
+TEST_F(SmallImage, ClearingResetsEverythingWithoutTouchingThePlanes) {
   for (int i = 0; i < 3; ++i) ASSERT_TRUE(image.place(1, 1, {1, 2, 3, 4, 5}));
   image.clear();
   EXPECT_EQ(image.returns(), 0U);
@@ -48,7 +48,7 @@ TEST_F(SmallImage, ASecondReturnOfACellGoesToTheOverflowListWithTheNextNumber) {
   ASSERT_EQ(image.overflow().size(), 1U);
   EXPECT_EQ(image.overflow()[0].cell, 2U * 32U + 5U);
   EXPECT_EQ(image.overflow()[0].return_index, 1U);
-  EXPECT_EQ(image.overflow()[0].echo.x_m, 9.0F);
+  EXPECT_EQ(image.overflow()[0].point.x_m, 9.0F);
   EXPECT_EQ(image.x_m()[2 * 32 + 5], 1.0F) << "the first return keeps the cell";
 }
 
@@ -74,8 +74,8 @@ TEST_F(SmallImage, TheOwnerOfACellIsTheReturnAskedForAndTheFirstOfEquals) {
     EXPECT_EQ(image.return_index()[32 + 2], c.second_owns ? 1U : 0U);
     EXPECT_EQ(image.z_m()[32 + 2], c.second_owns ? 0.7F : 0.5F);
     EXPECT_EQ(other.return_index, c.second_owns ? 0U : 1U);
-    EXPECT_EQ(other.echo.z_m, c.second_owns ? 0.5F : 0.7F);
-    EXPECT_EQ(other.echo.intensity, c.second_owns ? 5 : c.second_intensity);
+    EXPECT_EQ(other.point.z_m, c.second_owns ? 0.5F : 0.7F);
+    EXPECT_EQ(other.point.intensity, c.second_owns ? 5 : c.second_intensity);
   }
 }
 
@@ -96,7 +96,7 @@ TEST_F(SmallImage, MovesEachReturnAsItsRowAndColumnSaySecondOnesAsWell) {
   EXPECT_EQ(image.y_m()[cell], 3.0F + 1.0F);
   EXPECT_EQ(image.z_m()[cell], 0.5F);
   EXPECT_FLOAT_EQ(image.ground_range_m()[cell], std::hypot(1.0F, 4.0F));
-  const Return& second = image.overflow()[0].echo;
+  const Return& second = image.overflow()[0].point;
   EXPECT_EQ(second.x_m, -8.0F + 3.0F);
   EXPECT_EQ(second.y_m, 6.0F + 1.0F);
   EXPECT_EQ(second.z_m, 0.7F);

@@ -49,7 +49,7 @@ TEST(Disorder, LostPacketsAreCountedExactlyByDeviceStamps) {
   recorder.flush();
   const LossCounters losses = recorder.decoder.losses();
   EXPECT_EQ(losses.network_gap_packets, lost);
-  // Azimuths are rounded, and holes are told in whole firings a turn.
+  // Azimuths are rounded, and holes are told in whole firings a frame.
   EXPECT_NEAR(static_cast<double>(losses.azimuth_hole_columns), static_cast<double>(6 * lost), 6.0);
   EXPECT_EQ(recorder.returns(), returns_in(kept));
   EXPECT_EQ(losses.rejected_total(), 0U);
@@ -81,13 +81,13 @@ TEST(Disorder, TheSlowerCycleHasItsOwnPeriod) {
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 3U);
 }
 
-TEST(Disorder, AMissingSectorSpoilsItsTurnOnly) {
+TEST(Disorder, AMissingSectorSpoilsItsFrameOnly) {
   auto packets = long_drive();
   packets.erase(packets.begin() + 450, packets.begin() + 500);
   Recorder recorder;
   recorder.decode_all(packets);
   recorder.flush();
-  ASSERT_EQ(recorder.frames.size(), 6U);  // five turns and what leads and trails
+  ASSERT_EQ(recorder.frames.size(), 6U);  // five frames and what leads and trails
   EXPECT_TRUE(recorder.frames[1].info.complete);
   EXPECT_FALSE(recorder.frames[2].info.complete);
   EXPECT_TRUE(recorder.frames[3].info.complete);
@@ -98,9 +98,9 @@ TEST(Disorder, AMissingSectorSpoilsItsTurnOnly) {
   EXPECT_EQ(recorder.returns(), returns_in(packets));
 }
 
-TEST(Disorder, AGapOfMoreThanHalfATurnDoesNotLoseCountOfTurns) {
+TEST(Disorder, AGapOfMoreThanHalfARevolutionDoesNotLoseCountOfFrames) {
   auto packets = long_drive();
-  packets.erase(packets.begin() + 450, packets.begin() + 450 + 600);  // 1.73 turns
+  packets.erase(packets.begin() + 450, packets.begin() + 450 + 600);  // 1.73 frames
   Recorder recorder;
   recorder.decode_all(packets);
   recorder.flush();
@@ -111,7 +111,7 @@ TEST(Disorder, AGapOfMoreThanHalfATurnDoesNotLoseCountOfTurns) {
   EXPECT_EQ(losses.rejected_total(), 0U);
 }
 
-TEST(Disorder, ReorderedPacketsStillFindTheirTurnAndAreNotMissing) {
+TEST(Disorder, ReorderedPacketsStillFindTheirFrameAndAreNotMissing) {
   auto packets = long_drive();
   std::mt19937 random(2);
   for (std::size_t n = 30; n + 3 < packets.size(); n += 3) {
@@ -149,8 +149,8 @@ Recorder::Config waiting_for(int reorder_packets) {
   return config;
 }
 
-/// Numbers of the packets with which turns are handed over.
-std::vector<std::size_t> ends_of_turns(Recorder& recorder, std::span<const Packet> packets) {
+/// Numbers of the packets with which frames are handed over.
+std::vector<std::size_t> ends_of_frames(Recorder& recorder, std::span<const Packet> packets) {
   std::vector<std::size_t> ends;
   for (std::size_t n = 0; n < packets.size(); ++n) {
     recorder.decode(packets[n]);
@@ -160,12 +160,12 @@ std::vector<std::size_t> ends_of_turns(Recorder& recorder, std::span<const Packe
   return ends;
 }
 
-TEST(Disorder, WithoutWaitingForLatePacketsTurnsAreTheSameAndThreePacketsEarlier) {
+TEST(Disorder, WithoutWaitingForLatePacketsFramesAreTheSameAndThreePacketsEarlier) {
   const auto packets = long_drive();
   Recorder waiting(waiting_for(2)), hasty(waiting_for(0));
-  const auto late_ends = ends_of_turns(waiting, packets);
-  const auto ends = ends_of_turns(hasty, packets);
-  ASSERT_EQ(late_ends.size(), 4U);  // the capture ends before the fifth is settled
+  const auto late_ends = ends_of_frames(waiting, packets);
+  const auto ends = ends_of_frames(hasty, packets);
+  ASSERT_EQ(late_ends.size(), 4U);  // the capture ends before the fifth is complete
   for (std::size_t n = 0; n < late_ends.size(); ++n) EXPECT_EQ(ends.at(n) + 3, late_ends[n]) << n;
   EXPECT_EQ(hasty.decoder.losses().rejected_total(), 0U);
   ASSERT_EQ(hasty.frames.size(), waiting.frames.size());
@@ -174,7 +174,7 @@ TEST(Disorder, WithoutWaitingForLatePacketsTurnsAreTheSameAndThreePacketsEarlier
   }
 }
 
-TEST(Disorder, WithoutWaitingNothingIsLostWhereTheHeadTurnsUnevenly) {
+TEST(Disorder, WithoutWaitingNothingIsLostWhereTheHeadRotatesUnevenly) {
   auto firings = random_firings({.last_cdeg = 37'100 + 40 * 36'000, .share_of_returns = 0.1});
   std::mt19937 random(3);
   std::uniform_int_distribution<int> jitter_cdeg(-3, 3);  // recorded sensors: 1
@@ -187,12 +187,12 @@ TEST(Disorder, WithoutWaitingNothingIsLostWhereTheHeadTurnsUnevenly) {
   EXPECT_EQ(recorder.returns(), returns_in(packets));
 }
 
-TEST(Disorder, WithoutWaitingALatePacketIsLostOnlyWhereItsTurnIsOver) {
+TEST(Disorder, WithoutWaitingALatePacketIsLostOnlyWhereItsFrameIsOver) {
   const auto packets = long_drive();
   Recorder ordered(waiting_for(0));
-  const std::size_t end = ends_of_turns(ordered, packets).at(1);
+  const std::size_t end = ends_of_frames(ordered, packets).at(1);
   auto shuffled = packets;
-  std::swap(shuffled[end - 200], shuffled[end - 199]);  // in the middle of a turn
+  std::swap(shuffled[end - 200], shuffled[end - 199]);  // in the middle of a frame
   std::swap(shuffled[end], shuffled[end + 1]);          // where one ends
   Recorder recorder(waiting_for(0));
   recorder.decode_all(shuffled);
@@ -202,7 +202,7 @@ TEST(Disorder, WithoutWaitingALatePacketIsLostOnlyWhereItsTurnIsOver) {
   EXPECT_EQ(returns_in(packets) - recorder.returns(), returns_in({&packets[end], 1}));
 }
 
-TEST(Disorder, AnySmallShuffleGivesTheSameTurnsAsTheOrderedStream) {
+TEST(Disorder, AnySmallShuffleGivesTheSameFramesAsTheOrderedStream) {
   const auto packets = long_drive();
   Recorder ordered;
   ordered.decode_all(packets);
@@ -223,7 +223,7 @@ TEST(Disorder, AnySmallShuffleGivesTheSameTurnsAsTheOrderedStream) {
   }
 }
 
-TEST(Disorder, APacketTooLateForItsTurnIsRefusedAsLate) {
+TEST(Disorder, APacketTooLateForItsFrameIsRefusedAsLate) {
   auto packets = long_drive();
   // The packet just before the first seam comes 50 packets (15 ms) later.
   const auto seam = static_cast<std::size_t>(
@@ -263,7 +263,7 @@ TEST(Disorder, RepeatedPacketsAreRefusedAtOnceOrLater) {
   }
 }
 
-TEST(Disorder, ADuplicatedTurnIsRepeatedPacketsAndNoSecondFrame) {
+TEST(Disorder, ADuplicatedFrameIsRepeatedPacketsAndNoSecondFrame) {
   auto packets = long_drive();
   std::vector<Packet> twice(packets.begin(), packets.begin() + 700);
   twice.insert(twice.end(), packets.begin() + 353, packets.begin() + 700);
@@ -306,7 +306,7 @@ TEST(Disorder, ALossAcrossTheHourIsStillExact) {
   EXPECT_EQ(recorder.decoder.losses().clock_jumps, 0U);
 }
 
-TEST(Disorder, ASetDeviceClockDoesNotBreakTheTurn) {
+TEST(Disorder, ASetDeviceClockDoesNotBreakTheFrame) {
   auto packets = long_drive();
   for (std::size_t n = 500; n < packets.size(); ++n) {
     packets[n].set_device_stamp_us(static_cast<std::uint32_t>(2'000'000'000U + 288 * n));
@@ -321,7 +321,7 @@ TEST(Disorder, ASetDeviceClockDoesNotBreakTheTurn) {
   EXPECT_EQ(recorder.returns(), returns_in(packets));
 }
 
-TEST(Disorder, ALoopHandsOverTheOpenTurnsAndStartsAfresh) {
+TEST(Disorder, ALoopHandsOverTheOpenFramesAndStartsAfresh) {
   const auto packets = long_drive();
   Recorder once, looped;
   once.decode_all(packets);
@@ -386,7 +386,7 @@ TEST(Disorder, AStationaryHeadGivesNoFramesAndNoGrowth) {
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);
 }
 
-TEST(Disorder, AHeadThatStopsAndTurnsOnLosesNothingElse) {
+TEST(Disorder, AHeadThatStopsAndRotatesOnLosesNothingElse) {
   auto firings = random_firings({.last_cdeg = 37'100 + 2 * 36'000, .share_of_returns = 0.3});
   auto packets = to_packets(firings);
   std::vector<Packet> stream(packets.begin(), packets.begin() + 400);
@@ -416,7 +416,7 @@ TEST(Disorder, AHeadThatStopsAndTurnsOnLosesNothingElse) {
   EXPECT_EQ(recorder.frames.size(), 4U);
 }
 
-TEST(Disorder, AHeadThatJittersBackAtTheSeamStartsNoFalseTurn) {
+TEST(Disorder, AHeadThatJittersBackAtTheSeamStartsNoFalseFrame) {
   auto firings = random_firings({.share_of_returns = 0.3});
   std::mt19937 random(8);
   for (auto& firing : firings) firing.unwrapped_azimuth_cdeg -= static_cast<int>(random() % 20);
@@ -435,7 +435,7 @@ TEST(Disorder, ForeignAzimuthsAreRefusedWhileTheStreamGoesOn) {
   std::size_t foreign = 0;
   for (std::size_t n = 0; n < packets.size(); ++n) {
     stream.push_back(packets[n]);
-    if (n % 10 == 5) {  // another head, half a turn away, with the same clock
+    if (n % 10 == 5) {  // another head, half a revolution away, with the same clock
       Packet other = packets[(n + 170) % packets.size()];
       other.set_device_stamp_us(
           static_cast<std::uint32_t>(packets[n].stamp_ns / 1000 % 3'600'000'000LL + 100));
@@ -454,7 +454,8 @@ TEST(Disorder, ForeignAzimuthsAreRefusedWhileTheStreamGoesOn) {
 TEST(Disorder, AHeadThatIsElsewhereForGoodIsFollowed) {
   auto packets = long_drive();
   std::vector<Packet> stream(packets.begin(), packets.begin() + 500);
-  for (std::size_t n = 500; n + 170 < packets.size(); ++n) {  // no time passes, half a turn does
+  for (std::size_t n = 500; n + 170 < packets.size();
+       ++n) {  // no time passes, half a revolution does
     stream.push_back(packets[n + 170]);
     stream.back().set_device_stamp_us(
         static_cast<std::uint32_t>(packets[n].stamp_ns / 1000 % 3'600'000'000LL));
@@ -489,7 +490,7 @@ TEST(Disorder, AFrozenDeviceClockIsCountedAndDecodedAnyway) {
 }
 
 TEST(Disorder, NoStreamMakesAFrameLargerThanItsImage) {
-  // The same sector over and over, with running stamps: the head "turns" but gets nowhere.
+  // The same sector over and over, with running stamps: the head "frames" but gets nowhere.
   const auto packets = random_packets({.last_cdeg = 35'100, .share_of_returns = 1.0});
   Recorder recorder;
   std::uint64_t sent = 0;

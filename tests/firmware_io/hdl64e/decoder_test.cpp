@@ -28,18 +28,18 @@ void expect_same_returns(std::span<const Packet> packets,
   const reference::Hdl64eReference reference(calibration, ros_like
                                                               ? reference::Hdl64eOffsets::kRosLike
                                                               : reference::Hdl64eOffsets::kManual);
-  reference::ExpectedTurns expected(elevations, mount, config.columns);
-  reference::Turns turns;
+  reference::ExpectedFrames expected(elevations, mount, config.columns);
+  reference::Frames frames;
   reference::HandedFrames handed;
   Recorder recorder(config, calibration, mount);
   for (const Packet& packet : packets) {
     const reference::Packet plain = reference.decode(packet.bytes);
     ASSERT_EQ(plain.refusal, reference::Refusal::kNone);
-    for (const reference::Return& echo : plain.returns) {
-      ASSERT_GT(reference::seam_distance_deg(echo.beam_deg), reference::kBorder_deg)
+    for (const reference::Return& seen : plain.returns) {
+      ASSERT_GT(reference::seam_distance_deg(seen.beam_deg), reference::kBorder_deg)
           << "choose another seed";
     }
-    expected.add(plain, turns.unwrap(plain));
+    expected.add(plain, frames.unwrap(plain));
     ASSERT_FALSE(test::decode(recorder.decoder, packet.datagram(), handed.keep()));
   }
   test::end_stream(recorder.decoder, handed.keep());
@@ -131,27 +131,27 @@ TEST(Hdl64eDecoder, ReadsTheBytesOfTheFormatsDescription) {
   recorder.decode_all(packets);
   recorder.flush();
   ASSERT_EQ(recorder.frames.size(), 1U);
-  ASSERT_EQ(recorder.frames[0].echoes.size(), 1U);
-  const Frame::Echo& echo = recorder.frames[0].echoes[0];
-  EXPECT_NEAR(echo.point.x_m, 20.0 * std::cos(beams::deg_to_rad(0.01)), 1e-5);
-  EXPECT_NEAR(echo.point.y_m, 20.0 * std::sin(beams::deg_to_rad(0.01)), 1e-5);
-  EXPECT_NEAR(echo.point.z_m, 1.0, 1e-6);
-  EXPECT_NEAR(echo.point.ground_range_m, 20.0, 1e-5);
-  EXPECT_EQ(echo.point.intensity, 77);
-  EXPECT_EQ(echo.column, 2082U);
+  ASSERT_EQ(recorder.frames[0].returns.size(), 1U);
+  const Frame::Placed& placed = recorder.frames[0].returns[0];
+  EXPECT_NEAR(placed.point.x_m, 20.0 * std::cos(beams::deg_to_rad(0.01)), 1e-5);
+  EXPECT_NEAR(placed.point.y_m, 20.0 * std::sin(beams::deg_to_rad(0.01)), 1e-5);
+  EXPECT_NEAR(placed.point.z_m, 1.0, 1e-6);
+  EXPECT_NEAR(placed.point.ground_range_m, 20.0, 1e-5);
+  EXPECT_EQ(placed.point.intensity, 77);
+  EXPECT_EQ(placed.column, 2082U);
 }
 
-TEST(Hdl64eDecoder, HandsOverEachTurnOnceInOrderAndWhole) {
+TEST(Hdl64eDecoder, HandsOverEachFrameOnceInOrderAndWhole) {
   // From 11 degrees before a seam to 13 after the third.
   const auto packets = random_packets({.last_cdeg = 37'300 + 2 * 36'000});
   Recorder recorder;
   recorder.decode_all(packets);
-  // The frame of the last turn is handed over in the stream, not only by flush().
+  // The last frame is handed over in the stream, not only by flush().
   EXPECT_EQ(recorder.frames.size(), 3U);
   recorder.flush();
   ASSERT_EQ(recorder.frames.size(), 4U);
   for (std::uint32_t n = 0; n < 4; ++n) EXPECT_EQ(recorder.frames[n].info.number, n);
-  // Lasers point both ways, so a little of the turns before and after was seen, too.
+  // Lasers point both ways, so a little of the frames before and after was seen, too.
   EXPECT_FALSE(recorder.frames[0].info.complete);
   EXPECT_TRUE(recorder.frames[1].info.complete);
   EXPECT_TRUE(recorder.frames[2].info.complete);
@@ -165,7 +165,7 @@ TEST(Hdl64eDecoder, HandsOverEachTurnOnceInOrderAndWhole) {
   EXPECT_NEAR(static_cast<double>(recorder.decoder.packet_period_ns()), 288'000, 100);
 }
 
-TEST(Hdl64eDecoder, TurnsWithoutReturnsAreNoFrames) {
+TEST(Hdl64eDecoder, FramesWithoutReturnsAreNoFrames) {
   auto firings = random_firings({});
   for (auto& firing : firings) {
     if (firing.unwrapped_azimuth_cdeg < 72'000) firing.by_laser = {};
@@ -173,19 +173,19 @@ TEST(Hdl64eDecoder, TurnsWithoutReturnsAreNoFrames) {
   Recorder recorder;
   recorder.decode_all(to_packets(firings));
   recorder.flush();
-  // The head's third turn from the start, what of it leads and trails, and no empty ones.
+  // The head's third frame from the start, what of it leads and trails, and no empty ones.
   ASSERT_EQ(recorder.frames.size(), 3U);
   EXPECT_EQ(recorder.frames[0].info.number, 0U);
   EXPECT_EQ(recorder.returns(), [&] {
     std::uint64_t sum = 0;
     for (const auto& firing : firings) {
-      for (const auto& echo : firing.by_laser) sum += echo.raw != 0;
+      for (const auto& beam : firing.by_laser) sum += beam.raw != 0;
     }
     return sum;
   }());
 }
 
-TEST(Hdl64eDecoder, TurnsLaterLasersOnUnlessAskedForTheBlockAzimuth) {
+TEST(Hdl64eDecoder, RotatesLaterLasersOnUnlessAskedForTheBlockAzimuth) {
   std::vector<FiringColumn> firings(6);
   for (std::size_t c = 0; c < 6; ++c) {
     firings[c].unwrapped_azimuth_cdeg = 9'000 + 20 * static_cast<std::int64_t>(c);
@@ -199,8 +199,8 @@ TEST(Hdl64eDecoder, TurnsLaterLasersOnUnlessAskedForTheBlockAzimuth) {
     Recorder recorder(config, flat);
     recorder.decode_all(to_packets(firings));
     recorder.flush();
-    const frame::Return& echo = recorder.frames.at(0).echoes.at(0).point;
-    return beams::rad_to_deg(std::atan2(-echo.y_m, echo.x_m));
+    const frame::Return& point = recorder.frames.at(0).returns.at(0).point;
+    return beams::rad_to_deg(std::atan2(-point.y_m, point.x_m));
   };
   EXPECT_NEAR(azimuth_deg(hdl64e::AzimuthAt::kBlock), 90.0, 1e-4);
   // The last group of four fires 42 us into the 48 us, its last laser 3.66 us later.
@@ -211,11 +211,11 @@ TEST(Hdl64eDecoder, PlacesBothReturnsOfADualReturnPacket) {
   // Three firings a packet, each twice: strongest, then last.
   std::vector<FiringColumn> firings;
   for (int n = 0; n < 900; ++n) {
-    for (int echo = 0; echo < 2; ++echo) {
+    for (int second = 0; second < 2; ++second) {
       FiringColumn& firing = firings.emplace_back();
       firing.unwrapped_azimuth_cdeg = 18'000 + 20 * n;
-      firing.stamp_ns = 57'600 * n + echo * 28'800;
-      firing.by_laser.fill({static_cast<std::uint16_t>(5'000 + 1'000 * echo), 1, 0});
+      firing.stamp_ns = 57'600 * n + second * 28'800;
+      firing.by_laser.fill({static_cast<std::uint16_t>(5'000 + 1'000 * second), 1, 0});
     }
   }
   Recorder::Config config;
@@ -248,14 +248,14 @@ TEST(Hdl64eDecoder, InSingleReturnACellStaysWithTheFirstToArrive) {
   recorder.decode_all(to_packets(firings));
   recorder.flush();
   ASSERT_EQ(recorder.returns(), 2U);
-  const std::vector<Frame::Echo>& echoes = recorder.frames.at(0).echoes;
-  EXPECT_EQ(echoes[0].column, echoes[1].column);
-  EXPECT_EQ(echoes[0].point.intensity, 10);
-  EXPECT_FALSE(echoes[0].overflow);
-  EXPECT_TRUE(echoes[1].overflow);
+  const std::vector<Frame::Placed>& returns = recorder.frames.at(0).returns;
+  EXPECT_EQ(returns[0].column, returns[1].column);
+  EXPECT_EQ(returns[0].point.intensity, 10);
+  EXPECT_FALSE(returns[0].overflow);
+  EXPECT_TRUE(returns[1].overflow);
 }
 
-TEST(Hdl64eDecoder, ARestartAtAnotherSpinRateForgetsTheStepBefore) {
+TEST(Hdl64eDecoder, ARestartAtAnotherSpinRateResetsTheStepBefore) {
   const auto slow = random_packets({.last_cdeg = 34'900 + 3 * 36'000, .step_deg = 0.0864});
   auto fast = random_packets({.step_deg = 0.3456});
   fast.erase(fast.begin() + 50, fast.begin() + 52);

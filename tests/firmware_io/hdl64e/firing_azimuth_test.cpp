@@ -38,16 +38,16 @@ TEST(FiringAzimuth, BothSingleReturnCyclesAgreeToAHundredthOfAStep) {
   }
 }
 
-TEST(FiringAzimuth, BeamsPassTheSeamIntoTheRightTurn) {
-  EXPECT_EQ(decode::beam_azimuth(0, 0).turn, 0);
-  EXPECT_EQ(decode::beam_azimuth(0, -1).turn, -1);
-  EXPECT_EQ(decode::beam_azimuth(0, -1).in_turn_ticks, decode::kTurn_ticks - 1);
-  EXPECT_EQ(decode::beam_azimuth(35'999, 999).turn, 0);
-  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).turn, 1);
-  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).in_turn_ticks, 0);
-  EXPECT_EQ(decode::beam_azimuth(36'000, 0).turn, 1);
-  EXPECT_EQ(decode::beam_azimuth(-1, 0).turn, -1);
-  EXPECT_EQ(decode::beam_azimuth(-36'000, -1).turn, -2);
+TEST(FiringAzimuth, BeamsPassTheSeamIntoTheRightFrame) {
+  EXPECT_EQ(decode::beam_azimuth(0, 0).frame, 0);
+  EXPECT_EQ(decode::beam_azimuth(0, -1).frame, -1);
+  EXPECT_EQ(decode::beam_azimuth(0, -1).in_revolution_ticks, decode::kRevolution_ticks - 1);
+  EXPECT_EQ(decode::beam_azimuth(35'999, 999).frame, 0);
+  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).frame, 1);
+  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).in_revolution_ticks, 0);
+  EXPECT_EQ(decode::beam_azimuth(36'000, 0).frame, 1);
+  EXPECT_EQ(decode::beam_azimuth(-1, 0).frame, -1);
+  EXPECT_EQ(decode::beam_azimuth(-36'000, -1).frame, -2);
 }
 
 TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
@@ -55,22 +55,22 @@ TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
   std::uniform_int_distribution<std::int64_t> head(-1'000'000, 1'000'000);
   std::uniform_int_distribution<std::int32_t> offset(-1'100'000, 1'100'000);
   for (int n = 0; n < 100'000; ++n) {
-    const std::int64_t head_cdeg = head(random);
+    const std::int64_t rotor_cdeg = head(random);
     const std::int32_t offset_ticks = offset(random);
-    const decode::BeamAzimuth beam = decode::beam_azimuth(head_cdeg, offset_ticks);
-    ASSERT_GE(beam.in_turn_ticks, 0);
-    ASSERT_LT(beam.in_turn_ticks, decode::kTurn_ticks);
-    ASSERT_EQ(beam.turn * decode::kTurn_ticks + beam.in_turn_ticks,
-              head_cdeg * decode::kTicksPerCdeg + offset_ticks);
+    const decode::BeamAzimuth beam = decode::beam_azimuth(rotor_cdeg, offset_ticks);
+    ASSERT_GE(beam.in_revolution_ticks, 0);
+    ASSERT_LT(beam.in_revolution_ticks, decode::kRevolution_ticks);
+    ASSERT_EQ(beam.frame * decode::kRevolution_ticks + beam.in_revolution_ticks,
+              rotor_cdeg * decode::kTicksPerCdeg + offset_ticks);
   }
 }
 
-TEST(FiringAzimuth, ColumnsCoverTheTurn) {
+TEST(FiringAzimuth, ColumnsCoverTheFrame) {
   EXPECT_EQ(decode::column_of(0, 2083), 0);
-  EXPECT_EQ(decode::column_of(decode::kTurn_ticks - 1, 2083), 2082);
-  EXPECT_EQ(decode::column_of(decode::kTurn_ticks / 2, 2083), 1041);
-  EXPECT_EQ(decode::column_of(decode::kTurn_ticks / 2 - 1, 2000), 999);
-  EXPECT_EQ(decode::column_of(decode::kTurn_ticks / 2, 2000), 1000);
+  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks - 1, 2083), 2082);
+  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks / 2, 2083), 1041);
+  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks / 2 - 1, 2000), 999);
+  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks / 2, 2000), 1000);
 }
 
 TEST(FiringAzimuth, NoBeamLeavesTheSpread) {

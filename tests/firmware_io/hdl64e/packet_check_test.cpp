@@ -18,8 +18,8 @@ test::Packet good_packet() {
 }
 
 std::optional<frame::Reject> check(const test::Packet& packet) {
-  decode::PacketHeads heads;
-  return check_hdl64e_packet(packet.bytes, heads);
+  decode::PacketAzimuths azimuths;
+  return check_hdl64e_packet(packet.bytes, azimuths);
 }
 
 void set_ids(test::Packet& packet, std::initializer_list<unsigned> cycle) {
@@ -35,19 +35,19 @@ void set_azimuths(test::Packet& packet, std::array<unsigned, 6> azimuth_cdeg) {
   }
 }
 
-TEST(PacketCheck, TakesAGoodPacketAndReadsItsHeads) {
+TEST(PacketCheck, TakesAGoodPacketAndReadsItsAzimuths) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {35'950, 35'967, 35'984, 2, 19, 36});
   packet.set_device_stamp_us(3'599'999'900U);
-  decode::PacketHeads heads;
-  ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
-  EXPECT_EQ(heads.device_stamp_us, 3'599'999'900);
-  EXPECT_EQ(heads.columns, 6);
-  EXPECT_EQ(heads.first_cdeg(), 35'950);
-  EXPECT_EQ(heads.last_cdeg(), 36);
-  EXPECT_EQ(heads.step_ticks, 17'200);  // 86 hundredths of a degree over five steps
-  EXPECT_EQ(heads.advance_cdeg(3), 52);
-  EXPECT_FALSE(heads.dual_return);
+  decode::PacketAzimuths azimuths;
+  ASSERT_EQ(check_hdl64e_packet(packet.bytes, azimuths), std::nullopt);
+  EXPECT_EQ(azimuths.device_stamp_us, 3'599'999'900);
+  EXPECT_EQ(azimuths.columns, 6);
+  EXPECT_EQ(azimuths.first_cdeg(), 35'950);
+  EXPECT_EQ(azimuths.last_cdeg(), 36);
+  EXPECT_EQ(azimuths.step_ticks, 17'200);  // 86 hundredths of a degree over five steps
+  EXPECT_EQ(azimuths.advance_cdeg(3), 52);
+  EXPECT_FALSE(azimuths.dual_return);
 }
 
 TEST(PacketCheck, TakesTheHighestAzimuthOfTheWire) {
@@ -60,19 +60,19 @@ TEST(PacketCheck, TakesTheHighestAzimuthOfTheWire) {
 
 TEST(PacketCheck, RefusesEveryOtherSize) {
   const test::Packet packet = good_packet();
-  decode::PacketHeads heads;
+  decode::PacketAzimuths azimuths;
   for (const std::size_t size : {0U, 1U, 42U, 512U, 1205U}) {
-    EXPECT_EQ(check_hdl64e_packet(std::span(packet.bytes).first(size), heads),
+    EXPECT_EQ(check_hdl64e_packet(std::span(packet.bytes).first(size), azimuths),
               frame::Reject::kWrongSize);
   }
   std::array<std::uint8_t, 1248> longer{};
-  EXPECT_EQ(check_hdl64e_packet(longer, heads), frame::Reject::kWrongSize);
+  EXPECT_EQ(check_hdl64e_packet(longer, azimuths), frame::Reject::kWrongSize);
 }
 
 TEST(PacketCheck, KnowsARubyPacketByItsLeader) {
   std::array<std::uint8_t, 1248> ruby{0x55, 0xAA, 0x05, 0x5A};
-  decode::PacketHeads heads;
-  EXPECT_EQ(check_hdl64e_packet(ruby, heads), frame::Reject::kWrongModel);
+  decode::PacketAzimuths azimuths;
+  EXPECT_EQ(check_hdl64e_packet(ruby, azimuths), frame::Reject::kWrongModel);
 }
 
 TEST(PacketCheck, KnowsOtherVelodyneModelsByTheirBlocks) {
@@ -131,7 +131,7 @@ TEST(PacketCheck, TakesAJitterBackwards) {
   EXPECT_EQ(check(packet), std::nullopt);
 }
 
-TEST(PacketCheck, CallsAHeadThatDoesNotTurnStationary) {
+TEST(PacketCheck, CallsAHeadThatDoesNotRotateStationary) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {100, 100, 100, 100, 100, 100});
   EXPECT_EQ(check(packet), frame::Reject::kStationary);
@@ -142,10 +142,10 @@ TEST(PacketCheck, CallsAHeadThatDoesNotTurnStationary) {
 TEST(PacketCheck, SeesDualReturnAndItsLongerSteps) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {100, 100, 121, 121, 142, 142});
-  decode::PacketHeads heads;
-  ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
-  EXPECT_TRUE(heads.dual_return);
-  EXPECT_EQ(heads.step_ticks, 21'000);
+  decode::PacketAzimuths azimuths;
+  ASSERT_EQ(check_hdl64e_packet(packet.bytes, azimuths), std::nullopt);
+  EXPECT_TRUE(azimuths.dual_return);
+  EXPECT_EQ(azimuths.step_ticks, 21'000);
 }
 
 TEST(PacketCheck, SeesNoDualReturnWhereOnlySomePairsStandStill) {
@@ -155,9 +155,10 @@ TEST(PacketCheck, SeesNoDualReturnWhereOnlySomePairsStandStill) {
                                     {100, 117, 134, 134, 168, 168}}) {
     test::Packet packet = good_packet();
     set_azimuths(packet, jittering);
-    decode::PacketHeads heads;
-    ASSERT_EQ(check_hdl64e_packet(packet.bytes, heads), std::nullopt);
-    EXPECT_FALSE(heads.dual_return) << jittering[1] << ", " << jittering[3] << ", " << jittering[5];
+    decode::PacketAzimuths azimuths;
+    ASSERT_EQ(check_hdl64e_packet(packet.bytes, azimuths), std::nullopt);
+    EXPECT_FALSE(azimuths.dual_return)
+        << jittering[1] << ", " << jittering[3] << ", " << jittering[5];
   }
 }
 
@@ -173,8 +174,8 @@ TEST_P(RealCapture, OfAnotherModelIsRefusedAsThat) {
     const auto datagram = source->next();
     ASSERT_TRUE(datagram) << datagram.error().message;
     if (!*datagram) break;
-    decode::PacketHeads heads;
-    const auto reason = check_hdl64e_packet((*datagram)->payload, heads);
+    decode::PacketAzimuths azimuths;
+    const auto reason = check_hdl64e_packet((*datagram)->payload, azimuths);
     if ((*datagram)->payload.size() == kHdl64ePacketBytes) {
       ++data_packets;
       EXPECT_EQ(reason, frame::Reject::kWrongModel);

@@ -65,8 +65,9 @@ Worst compare(const Hdl64eCalibration& calibration, GeometryModel model,
       worst.error_m =
           std::max({worst.error_m, error_m - 1e-6 * range_m, range_error_m - 1e-6 * range_m});
       const decode::BeamAzimuth beam = decode::beam_azimuth(azimuth_cdeg, offset[i]);
-      worst.wrong_columns += column.turn_offset[i] != beam.turn;
-      worst.wrong_columns += column.column[i] != decode::column_of(beam.in_turn_ticks, kColumns);
+      worst.wrong_columns += column.frame_offset[i] != beam.frame;
+      worst.wrong_columns +=
+          column.column[i] != decode::column_of(beam.in_revolution_ticks, kColumns);
     }
   }
   return worst;
@@ -114,7 +115,7 @@ TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
     PointKernel kernel(flat, GeometryModel::kManual, {}, columns, memory);
     int wrong = 0;
     for (int boundary = 0; boundary <= columns; ++boundary) {
-      const std::int64_t ticks = std::int64_t{boundary} * decode::kTurn_ticks / columns;
+      const std::int64_t ticks = std::int64_t{boundary} * decode::kRevolution_ticks / columns;
       const auto cdeg = static_cast<std::int32_t>(std::min<std::int64_t>(ticks / 1000, 35'999));
       std::array<std::int32_t, 64> offset{};
       for (int i = 0; i < 64; ++i) {
@@ -126,8 +127,8 @@ TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
       kernel.compute(cdeg, out);
       for (std::size_t i = 0; i < kLasers; ++i) {
         const decode::BeamAzimuth beam = decode::beam_azimuth(cdeg, offset[i]);
-        wrong += out.turn_offset[i] != beam.turn;
-        wrong += out.column[i] != decode::column_of(beam.in_turn_ticks, columns);
+        wrong += out.frame_offset[i] != beam.frame;
+        wrong += out.column[i] != decode::column_of(beam.in_revolution_ticks, columns);
       }
     }
     EXPECT_EQ(wrong, 0) << columns;

@@ -47,7 +47,7 @@ struct DriveSettings {
   unsigned seed = 1;
 };
 
-/// Firings of a steadily turning head with random returns, a multiple of six.
+/// Firings of a steadily rotating head with random returns, a multiple of six.
 inline std::vector<FiringColumn> random_firings(const DriveSettings& settings) {
   std::mt19937 random(settings.seed);
   std::uniform_real_distribution<double> chance(0, 1);
@@ -61,9 +61,9 @@ inline std::vector<FiringColumn> random_firings(const DriveSettings& settings) {
     FiringColumn& firing = firings.emplace_back();
     firing.stamp_ns = settings.first_stamp_ns + n * settings.column_ns;
     firing.unwrapped_azimuth_cdeg = azimuth_cdeg;
-    for (auto& echo : firing.by_laser) {
+    for (auto& beam : firing.by_laser) {
       if (chance(random) < settings.share_of_returns) {
-        echo = {static_cast<std::uint16_t>(distance(random)),
+        beam = {static_cast<std::uint16_t>(distance(random)),
                 static_cast<std::uint8_t>(byte(random)), 0};
       }
     }
@@ -90,29 +90,29 @@ inline std::vector<Packet> random_packets(const DriveSettings& settings = {}) {
 
 /// A frame as the decoder handed it over, copied: its returns in order of arrival.
 struct Frame {
-  struct Echo {
+  struct Placed {
     frame::Return point;
     std::uint32_t row = 0, column = 0;
     bool overflow = false;
   };
   frame::FrameInfo info;
-  std::vector<Echo> echoes;
+  std::vector<Placed> returns;
 };
 
 inline Frame copy_of(const frame::FrameInfo& info, const frame::RangeImage& image) {
-  Frame frame{info, std::vector<Frame::Echo>(image.returns())};
+  Frame frame{info, std::vector<Frame::Placed>(image.returns())};
   const auto stride = static_cast<std::uint32_t>(image.shape().stride());
   for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
     if (!image.has_return(cell)) continue;
-    auto& echo = frame.echoes.at(image.return_index()[cell]);
-    echo.point = {image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
-                  image.ground_range_m()[cell], image.intensity()[cell]};
-    echo.row = static_cast<std::uint32_t>(cell) / stride;
-    echo.column = static_cast<std::uint32_t>(cell) % stride;
+    auto& placed = frame.returns.at(image.return_index()[cell]);
+    placed.point = {image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
+                    image.ground_range_m()[cell], image.intensity()[cell]};
+    placed.row = static_cast<std::uint32_t>(cell) / stride;
+    placed.column = static_cast<std::uint32_t>(cell) % stride;
   }
   for (const auto& spare : image.overflow()) {
-    frame.echoes.at(spare.return_index) = {spare.echo, spare.cell / stride, spare.cell % stride,
-                                           true};
+    frame.returns.at(spare.return_index) = {spare.point, spare.cell / stride, spare.cell % stride,
+                                            true};
   }
   return frame;
 }
@@ -145,7 +145,7 @@ class Recorder {
   }
   [[nodiscard]] std::uint64_t returns() const {
     std::uint64_t sum = 0;
-    for (const Frame& frame : frames) sum += frame.echoes.size();
+    for (const Frame& frame : frames) sum += frame.returns.size();
     return sum;
   }
 

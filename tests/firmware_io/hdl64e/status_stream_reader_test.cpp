@@ -309,7 +309,7 @@ TEST(StatusStreamReader, OwnsNoHeapMemory) {
   static_assert(noexcept(std::declval<StatusStreamReader&>().add(0, 0, 0)));
 }
 
-TEST(StatusStreamReader, ForgetsEverythingOnReset) {
+TEST(StatusStreamReader, ResetsEverythingOnReset) {
   StatusStreamReader reader;
   feed(reader, stream(test::s3_table(), StatusFlavour::kS3, kRound));
   ASSERT_TRUE(reader.has_table());

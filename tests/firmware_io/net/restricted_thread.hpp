@@ -81,7 +81,7 @@ class PrivateNetwork {
     return done;
   }
 
-  /// What `body` answers when it is run on the other machine.
+  /// What `body` returns when it is run on the other machine.
   template <class Body>
   [[nodiscard]] auto on_the_other(Body&& body) const {
     enter(there_);

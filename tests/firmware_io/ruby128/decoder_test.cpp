@@ -72,7 +72,7 @@ struct Mode {
 
 class EveryMode : public testing::TestWithParam<Mode> {};
 
-TEST_P(EveryMode, DecodesEveryReturnOfThreeTurnsAndLosesNothing) {
+TEST_P(EveryMode, DecodesEveryReturnOfThreeFramesAndLosesNothing) {
   const Mode mode = GetParam();
   const auto packets = test::random_packets({.spin_hz = mode.spin_hz,
                                              .dual = mode.dual,
@@ -111,7 +111,7 @@ INSTANTIATE_TEST_SUITE_P(OfTheSensor, EveryMode,
                                   std::to_string(static_cast<int>(m.param.timestamp));
                          });
 
-TEST(Ruby128Decoder, DecodesTheTurnsOfAUnitWhoseCalendarStandsInTheYear2000) {
+TEST(Ruby128Decoder, DecodesTheFramesOfAUnitWhoseCalendarStandsInTheYear2000) {
   const auto packets = test::random_packets({.last_cdeg = 36'000 * 4 + 1'200,
                                              .timestamp = RubyTimestamp::kCalendar,
                                              .start_ns = 946'684'800'500'000'000});
@@ -143,7 +143,7 @@ TEST(Ruby128Decoder, LosesNothingWhereTheUnitOfItsStampsShowsLate) {
     EXPECT_EQ(heard.losses.rejected_total(), 0U);
     EXPECT_EQ(heard.losses.network_gap_packets, 0U);
     EXPECT_EQ(heard.losses.clock_jumps, 0U);
-    EXPECT_EQ(heard.frames.size(), 4U);  // two turns, beams beyond either end; none torn in two
+    EXPECT_EQ(heard.frames.size(), 4U);  // two frames, beams beyond either end; none torn in two
   }
 }
 
@@ -205,7 +205,7 @@ TEST_P(LossIn, OneFrameLeavesTheOthersAsTheyWere) {
   const auto packets =
       test::random_packets({.dual = dual, .first_cdeg = 34'800, .last_cdeg = 36'000 * 5});
   auto kept = packets;
-  const auto middle = static_cast<std::ptrdiff_t>(packets.size() * 38 / 100);  // half a turn
+  const auto middle = static_cast<std::ptrdiff_t>(packets.size() * 38 / 100);  // half a revolution
   kept.erase(kept.begin() + middle, kept.begin() + middle + 7);
   const Heard whole = hear(packets), disturbed = hear(kept);
   ASSERT_EQ(whole.frames.size(), disturbed.frames.size());

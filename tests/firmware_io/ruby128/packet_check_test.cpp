@@ -28,50 +28,51 @@ Bytes packet_at(std::array<int, 3> azimuth_cdeg) {
 }
 
 std::optional<frame::Reject> check(const Bytes& payload) {
-  decode::PacketHeads heads;
-  return check_ruby128_packet(payload, heads);
+  decode::PacketAzimuths azimuths;
+  return check_ruby128_packet(payload, azimuths);
 }
 
-decode::PacketHeads heads_of(std::array<int, 3> azimuth_cdeg) {
-  decode::PacketHeads heads;
-  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), std::nullopt);
-  return heads;
+decode::PacketAzimuths azimuths_of(std::array<int, 3> azimuth_cdeg) {
+  decode::PacketAzimuths azimuths;
+  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), azimuths), std::nullopt);
+  return azimuths;
 }
 
 TEST(Ruby128PacketCheck, ReadsTheHeadsOfASingleReturnPacketAcrossTheSeam) {
-  const decode::PacketHeads heads = heads_of({35'970, 35'990, 11});
-  EXPECT_FALSE(heads.dual_return);
-  EXPECT_EQ(heads.columns, 3);
-  EXPECT_EQ(heads.advance_cdeg(2), 41);
-  EXPECT_EQ(heads.step_ticks, 20'500);
-  EXPECT_EQ(heads.sweep_ticks, 61'500);
+  const decode::PacketAzimuths azimuths = azimuths_of({35'970, 35'990, 11});
+  EXPECT_FALSE(azimuths.dual_return);
+  EXPECT_EQ(azimuths.columns, 3);
+  EXPECT_EQ(azimuths.advance_cdeg(2), 41);
+  EXPECT_EQ(azimuths.step_ticks, 20'500);
+  EXPECT_EQ(azimuths.sweep_ticks, 61'500);
 }
 
 TEST(Ruby128PacketCheck, KnowsBothPacketsOfDualReturn) {
-  const decode::PacketHeads pair_first = heads_of({100, 100, 120});
+  const decode::PacketAzimuths pair_first = azimuths_of({100, 100, 120});
   EXPECT_TRUE(pair_first.dual_return);
   EXPECT_EQ(pair_first.step_ticks, 20'000);
   EXPECT_EQ(pair_first.sweep_ticks, 20'000);  // the firing at 120 is the next packet's
-  const decode::PacketHeads pair_last = heads_of({120, 140, 140});
+  const decode::PacketAzimuths pair_last = azimuths_of({120, 140, 140});
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.step_ticks, 20'000);
   EXPECT_EQ(pair_last.sweep_ticks, 40'000);
 }
 
 TEST(Ruby128PacketCheck, KnowsWhatItsPacketsMayBeApart) {
-  const decode::PacketHeads single = heads_of({100, 120, 140}), dual = heads_of({100, 100, 120});
+  const decode::PacketAzimuths single = azimuths_of({100, 120, 140}),
+                               dual = azimuths_of({100, 100, 120});
   EXPECT_EQ(single.nominal_period_ns, 166'650);
   EXPECT_EQ(dual.nominal_period_ns, 83'325);
-  for (const decode::PacketHeads& heads : {single, dual}) {
-    EXPECT_LT(heads.shortest_period_ns, heads.nominal_period_ns);
-    EXPECT_GT(heads.longest_period_ns, heads.nominal_period_ns);
+  for (const decode::PacketAzimuths& azimuths : {single, dual}) {
+    EXPECT_LT(azimuths.shortest_period_ns, azimuths.nominal_period_ns);
+    EXPECT_GT(azimuths.longest_period_ns, azimuths.nominal_period_ns);
   }
   EXPECT_GT(single.shortest_period_ns, dual.longest_period_ns);
 }
 
 TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
-  const decode::PacketHeads pair_first = heads_of({100, 100, 120}),
-                            pair_last = heads_of({120, 140, 140});
+  const decode::PacketAzimuths pair_first = azimuths_of({100, 100, 120}),
+                               pair_last = azimuths_of({120, 140, 140});
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_first, true), 5'000);
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, true), 5'027);  // half a firing later
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, false), 5'000);
@@ -79,37 +80,37 @@ TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
   EXPECT_GT(ruby_even_stamp_us(kMost_ns, pair_last, true), kMost_ns / 1000 - 100);
 }
 
-decode::PacketHeads heads_across(std::array<int, 3> azimuth_cdeg) {
-  decode::PacketHeads heads;
-  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), heads), frame::Reject::kAzimuthJump);
-  EXPECT_TRUE(read_across_sector(heads, 20'000));
-  return heads;
+decode::PacketAzimuths azimuths_across(std::array<int, 3> azimuth_cdeg) {
+  decode::PacketAzimuths azimuths;
+  EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), azimuths), frame::Reject::kAzimuthJump);
+  EXPECT_TRUE(read_across_sector(azimuths, 20'000));
+  return azimuths;
 }
 
 TEST(Ruby128PacketCheck, ReadsAPacketThatABlindSectorLiesIn) {
-  const decode::PacketHeads late = heads_across({8'970, 8'990, 27'010});
+  const decode::PacketAzimuths late = azimuths_across({8'970, 8'990, 27'010});
   EXPECT_FALSE(late.dual_return);
   EXPECT_EQ(late.behind_sector, 2);
   EXPECT_EQ(late.advance_cdeg(1), 20);
-  EXPECT_EQ(late.advance_cdeg(2), 18'040) << "the head turns on, by more than half a turn";
+  EXPECT_EQ(late.advance_cdeg(2), 18'040) << "the head rotates on, by more than half a revolution";
   EXPECT_EQ(late.sweep_ticks, 18'060'000) << "to the first firing of the next packet";
   EXPECT_EQ(late.pace_ticks, 60'000);
   EXPECT_EQ(late.sector_inside(8'970'000).from_ticks, 9'010'000);
   EXPECT_EQ(late.sector_inside(8'970'000).to_ticks, 27'010'000);
   EXPECT_NEAR(static_cast<double>(late.sector_ns()), 50e6, 0.1e6) << "of 10 Hz";
 
-  const decode::PacketHeads early = heads_across({35'000, 10, 30});
+  const decode::PacketAzimuths early = azimuths_across({35'000, 10, 30});
   EXPECT_EQ(early.behind_sector, 1);
   EXPECT_EQ(early.sweep_ticks, 1'050'000);
   EXPECT_EQ(early.sector_inside(0).ticks(), 990'000);
 }
 
 TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
-  const decode::PacketHeads pair_first = heads_across({8'990, 8'990, 27'010});
+  const decode::PacketAzimuths pair_first = azimuths_across({8'990, 8'990, 27'010});
   EXPECT_TRUE(pair_first.dual_return);
   EXPECT_EQ(pair_first.behind_sector, 2);
   EXPECT_EQ(pair_first.sweep_ticks, 18'020'000) << "the firing at 270.1 is the next packet's";
-  const decode::PacketHeads pair_last = heads_across({8'990, 27'010, 27'010});
+  const decode::PacketAzimuths pair_last = azimuths_across({8'990, 27'010, 27'010});
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.behind_sector, 1);
   EXPECT_EQ(pair_last.sweep_ticks, 18'040'000);
@@ -117,20 +118,20 @@ TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
 }
 
 TEST(Ruby128PacketCheck, FindsNoSectorInAzimuthsThatJumpTwiceNorWithoutAStep) {
-  for (const auto& azimuths : {std::array{100, 9'000, 18'000}, {100, 9'000, 120}}) {
-    decode::PacketHeads heads;
-    EXPECT_EQ(check_ruby128_packet(packet_at(azimuths), heads), frame::Reject::kAzimuthJump);
-    EXPECT_FALSE(read_across_sector(heads, 20'000));
+  for (const auto& azimuth_cdeg : {std::array{100, 9'000, 18'000}, {100, 9'000, 120}}) {
+    decode::PacketAzimuths azimuths;
+    EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), azimuths), frame::Reject::kAzimuthJump);
+    EXPECT_FALSE(read_across_sector(azimuths, 20'000));
   }
-  decode::PacketHeads heads;
-  EXPECT_EQ(check_ruby128_packet(packet_at({100, 9'000, 9'020}), heads),
+  decode::PacketAzimuths azimuths;
+  EXPECT_EQ(check_ruby128_packet(packet_at({100, 9'000, 9'020}), azimuths),
             frame::Reject::kAzimuthJump);
-  EXPECT_FALSE(read_across_sector(heads, 0));
+  EXPECT_FALSE(read_across_sector(azimuths, 0));
 }
 
 TEST(Ruby128PacketCheck, TakesEverySpinRate) {
   for (const int step_cdeg : {10, 20, 40}) {
-    EXPECT_EQ(heads_of({0, step_cdeg, 2 * step_cdeg}).step_ticks,
+    EXPECT_EQ(azimuths_of({0, step_cdeg, 2 * step_cdeg}).step_ticks,
               step_cdeg * decode::kTicksPerCdeg);
   }
 }
@@ -193,8 +194,8 @@ TEST_P(RealCapture, OfAnotherSensorIsRefusedByModel) {
     const auto next = source->next();
     ASSERT_TRUE(next) << next.error().message;
     if (!*next) break;
-    decode::PacketHeads heads;
-    const auto reason = check_ruby128_packet((*next)->payload, heads);
+    decode::PacketAzimuths azimuths;
+    const auto reason = check_ruby128_packet((*next)->payload, azimuths);
     ASSERT_TRUE(reason);
     if ((*next)->payload.size() == 1206) {
       EXPECT_EQ(*reason, frame::Reject::kWrongModel);
@@ -232,9 +233,9 @@ TEST(HeldFiring, DropsAFiringWhosePacketIsLost) {
   EXPECT_EQ(held.join({180, 201, 201}, 21'000, 1249, false), 21'000);
   (void)held.join({100, 100, 120}, 20'000, 1000, false);
   EXPECT_EQ(held.join({120, 141, 141}, 21'000, 101'083, false),
-            21'000);  // the same place, a turn later
+            21'000);  // the same place, a frame later
   (void)held.join({100, 100, 120}, 20'000, 1000, false);
-  held.forget();
+  held.reset();
   EXPECT_EQ(held.join({120, 141, 141}, 21'000, 1083, false), 21'000);
 }
 

@@ -16,7 +16,7 @@
 
 namespace terracut::test {
 
-/// A turning RS-Ruby128 that measures noise.
+/// A rotating RS-Ruby128 that measures noise.
 struct RubyStream {
   double spin_hz = 10;
   bool dual = false;
@@ -42,15 +42,15 @@ inline std::vector<RubyPacket> random_packets(const RubyStream& stream) {
   std::mt19937 random(stream.seed);
   std::uniform_real_distribution<double> chance(0, 1);
   std::uniform_int_distribution<unsigned> distance(100, 40'000), intensity(1, 255);
-  const double step_cdeg = stream.spin_hz * beams::kTurn_cdeg * ruby128::kRubyBlock_ns * 1e-9;
+  const double step_cdeg = stream.spin_hz * beams::kRevolution_cdeg * ruby128::kRubyBlock_ns * 1e-9;
   std::vector<RubyPacket> packets;
   const int returns_a_firing = stream.dual ? 2 : 1;
   for (std::int64_t block = 0;; ++block) {
     const std::int64_t firing = block / returns_a_firing;
-    const double head_cdeg = stream.first_cdeg + static_cast<double>(firing) * step_cdeg;
+    const double rotor_cdeg = stream.first_cdeg + static_cast<double>(firing) * step_cdeg;
     const int slot = static_cast<int>(block % ruby128::kRubyBlocksPerPacket);
     if (slot == 0) {
-      if (head_cdeg >= stream.last_cdeg) return packets;
+      if (rotor_cdeg >= stream.last_cdeg) return packets;
       RubyPacket& packet = packets.emplace_back();
       packet.stamp_ns = stream.start_ns + firing * ruby128::kRubyBlock_ns;
       packet.bytes.set_protocol_version(stream.protocol_version);
@@ -59,7 +59,7 @@ inline std::vector<RubyPacket> random_packets(const RubyStream& stream) {
     }
     RubyPacket& packet = packets.back();
     packet.bytes.set_azimuth_cdeg(
-        slot, static_cast<std::uint16_t>(beams::wrap_cdeg(std::llround(head_cdeg))));
+        slot, static_cast<std::uint16_t>(beams::wrap_cdeg(std::llround(rotor_cdeg))));
     for (int channel = 0; channel < ruby128::kRubyChannelsPerBlock; ++channel) {
       if (chance(random) >= stream.share_of_returns) continue;
       packet.bytes.set_return(slot, channel, static_cast<std::uint16_t>(distance(random)),

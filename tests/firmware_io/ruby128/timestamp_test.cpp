@@ -73,7 +73,7 @@ RubyTimestampDetector watch(RubyTimestamp encoding, std::int64_t start_ns, int p
 
 TEST(RubyTimestampDetector, KnowsTheCalendarFromTheFirstPacket) {
   const auto detector = watch(RubyTimestamp::kCalendar, kMoment_ns, 1);
-  EXPECT_TRUE(detector.settled());
+  EXPECT_TRUE(detector.complete());
   EXPECT_EQ(detector.encoding(), RubyTimestamp::kCalendar);
 }
 
@@ -82,7 +82,7 @@ TEST(RubyTimestampDetector, KnowsTheCalendarOfAUnitThatStandsInTheYear2000) {
   for (const std::int64_t start_ns : {946'684'800'000'000'000,     // 2000-01-01
                                       978'307'199'999'900'000}) {  // 2000-12-31 23:59:59.9999
     RubyTimestampDetector detector = watch(RubyTimestamp::kCalendar, start_ns, 1);
-    EXPECT_TRUE(detector.settled());
+    EXPECT_TRUE(detector.complete());
     EXPECT_EQ(detector.encoding(), RubyTimestamp::kCalendar);
   }
 }
@@ -90,7 +90,7 @@ TEST(RubyTimestampDetector, KnowsTheCalendarOfAUnitThatStandsInTheYear2000) {
 TEST(RubyTimestampDetector, TakesUtcSecondsOfTheNextEightyYearsForNoCalendar) {
   const auto detector = watch(RubyTimestamp::kUtcMicroseconds,
                               std::int64_t{0xFFFF'FFFF} * 1'000'000'000, 2);  // in 2106
-  EXPECT_TRUE(detector.settled());
+  EXPECT_TRUE(detector.complete());
   EXPECT_EQ(detector.encoding(), RubyTimestamp::kUtcMicroseconds);
 }
 
@@ -100,28 +100,28 @@ TEST(RubyTimestampDetector, LearnsNothingFromAPacketThatIsRepeated) {
       write_ruby_timestamp(1'795'264'496'000'100'000, RubyTimestamp::kUtcNanoseconds);
   detector.add(stamp);
   detector.add(stamp);
-  EXPECT_FALSE(detector.settled()) << "a step of 0 is below every packet's period";
+  EXPECT_FALSE(detector.complete()) << "a step of 0 is below every packet's period";
 }
 
 TEST(RubyTimestampDetector, KnowsNanosecondsByAValueThatMicrosecondsCannotHave) {
   const auto detector = watch(RubyTimestamp::kUtcNanoseconds, kMoment_ns, 1);
-  EXPECT_TRUE(detector.settled());
+  EXPECT_TRUE(detector.complete());
   EXPECT_EQ(detector.encoding(), RubyTimestamp::kUtcNanoseconds);
 }
 
 TEST(RubyTimestampDetector, TakesMicrosecondsForGrantedButSaysItIsNotProven) {
   const auto detector = watch(RubyTimestamp::kUtcMicroseconds, kMoment_ns, 1);
-  EXPECT_FALSE(detector.settled());
+  EXPECT_FALSE(detector.complete());
   EXPECT_EQ(detector.encoding(), RubyTimestamp::kUtcMicroseconds);
 }
 
 TEST(RubyTimestampDetector, TellsTheUnitByThePacketPeriod) {
   const auto us = watch(RubyTimestamp::kUtcMicroseconds, kMoment_ns, 2);
-  EXPECT_TRUE(us.settled());
+  EXPECT_TRUE(us.complete());
   EXPECT_EQ(us.encoding(), RubyTimestamp::kUtcMicroseconds);
   // In the first millisecond of a second nanoseconds look like microseconds.
   const auto ns = watch(RubyTimestamp::kUtcNanoseconds, 1'795'264'496'000'100'000, 2);
-  EXPECT_FALSE(ns.settled());
+  EXPECT_FALSE(ns.complete());
   EXPECT_EQ(ns.encoding(), RubyTimestamp::kUtcNanoseconds);
 }
 
@@ -133,7 +133,7 @@ TEST(RubyTimestampDetector, IsNotMisledByAGap) {
     for (const int n : {0, lost + 1, lost + 2}) {
       detector.add(write_ruby_timestamp(begin_ns + n * std::int64_t{166'650}, us));
     }
-    EXPECT_TRUE(detector.settled()) << lost;
+    EXPECT_TRUE(detector.complete()) << lost;
     EXPECT_EQ(detector.encoding(), us) << lost;
   }
 }
@@ -143,9 +143,9 @@ TEST(RubyTimestampDetector, WaitsWhereASecondBegins) {
   const auto us = RubyTimestamp::kUtcMicroseconds;
   detector.add(write_ruby_timestamp(1'795'264'496'999'990'000, us));
   detector.add(write_ruby_timestamp(1'795'264'497'000'156'000, us));
-  EXPECT_FALSE(detector.settled());
+  EXPECT_FALSE(detector.complete());
   detector.add(write_ruby_timestamp(1'795'264'497'000'322'000, us));
-  EXPECT_TRUE(detector.settled());
+  EXPECT_TRUE(detector.complete());
   EXPECT_EQ(detector.encoding(), us);
 }
 

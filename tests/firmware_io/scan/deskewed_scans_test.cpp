@@ -49,7 +49,7 @@ struct Drive {
   hdl64e::Hdl64eCalibration calibration;
 };
 
-/// Decodes, moved to each turn's middle where there is a CAN log and `deskew`; visits every turn.
+/// Decodes, moved to each frame's middle where there is a CAN log and `deskew`; visits every frame.
 template <class Visit>
 void decode(const Drive& drive, bool deskew, Visit&& visit) {
   memory::FixedMemory memory;
@@ -58,7 +58,7 @@ void decode(const Drive& drive, bool deskew, Visit&& visit) {
   hdl64e::Hdl64eDecoder::Config config;
   if (deskew) {
     config.motion = &motion;
-    config.deskew_at = frame::TurnInstant::kMiddle;
+    config.deskew_at = frame::FrameInstant::kMiddle;
     std::ifstream log(drive::can_log_path_of(drive.pcap));
     samples = test::samples_of({std::istreambuf_iterator<char>(log), {}});
   }
@@ -111,7 +111,7 @@ Drive encode(const fs::path& sequence, const fs::path& pcap, bool twisted) {
 /// The points of a scan in boxes, to find the nearest.
 class Cloud {
  public:
-  /// Half a turn round, as the sensor of a drive with a CAN log is; in the vehicle frame.
+  /// Rotated by 180 degrees, as the sensor of a drive with a CAN log is; in the vehicle frame.
   explicit Cloud(const std::vector<ScanPoint>& points) {
     for (const ScanPoint& p : points) {
       const Point at{-p.x_m, -p.y_m, p.z_m + static_cast<float>(mount::Mount{}.height_m)};
@@ -119,15 +119,15 @@ class Cloud {
     }
   }
   /// To the nearest point; no more than about kBox_m.
-  [[nodiscard]] double distance_m(const frame::Return& echo) const {
+  [[nodiscard]] double distance_m(const frame::Return& point) const {
     double nearest_m = kBox_m;
     for (int i = 0; i < 27; ++i) {
-      const auto box =
-          boxes_.find(box_of({echo.x_m, echo.y_m, echo.z_m}, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
+      const auto box = boxes_.find(
+          box_of({point.x_m, point.y_m, point.z_m}, i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1));
       if (box == boxes_.end()) continue;
       for (const Point& p : box->second) {
-        nearest_m = std::min<double>(nearest_m,
-                                     std::hypot(p[0] - echo.x_m, p[1] - echo.y_m, p[2] - echo.z_m));
+        nearest_m = std::min<double>(
+            nearest_m, std::hypot(p[0] - point.x_m, p[1] - point.y_m, p[2] - point.z_m));
       }
     }
     return nearest_m;
@@ -155,9 +155,9 @@ double distance_p95_m(const Drive& drive, const fs::path& sequence, bool deskew)
     const Cloud cloud(scan.points);
     frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
       // Poles, walls and bumpers near by: there the nearest point is as good as the same.
-      const frame::Return& echo = placed.echo;
-      if (placed.return_index % 5 != 0 || echo.ground_range_m > 20 || echo.z_m < 0.5F) return;
-      distances_m.push_back(cloud.distance_m(echo));
+      const frame::Return& point = placed.point;
+      if (placed.return_index % 5 != 0 || point.ground_range_m > 20 || point.z_m < 0.5F) return;
+      distances_m.push_back(cloud.distance_m(point));
     });
   });
   const auto p95 = distances_m.begin() + static_cast<std::ptrdiff_t>(distances_m.size() * 95 / 100);

@@ -38,7 +38,7 @@ TEST(KittiScan, ReadsPointsAndLabelsInTheFilesOrder) {
   EXPECT_EQ(scan.no_place, 0U);
 }
 
-TEST(KittiScan, ForgetsTheScanBeforeWhenItIsReused) {
+TEST(KittiScan, ResetsTheScanBeforeWhenItIsReused) {
   const ScratchFolder folder;
   const auto bin = folder.write_records("a.bin", three_points());
   const auto label = folder.write_records("a.label", std::vector<std::uint32_t>{1, 2, 3});
@@ -76,7 +76,7 @@ TEST(KittiScan, RefusesATruncatedFileAndSaysWhereItsLastWholePointEnds) {
               AllOf(HasSubstr("truncated"), HasSubstr("37 bytes"), HasSubstr("byte 32")));
 }
 
-TEST(KittiScan, RefusesAFileLargerThanAnyTurnWithoutReadingIt) {
+TEST(KittiScan, RefusesAFileLargerThanAnyFrameWithoutReadingIt) {
   const ScratchFolder folder;
   const auto bin = folder.write("a.bin", "x");
   std::filesystem::resize_file(bin, (kMaxScanPoints + 1) * 16);  // sparse
@@ -137,7 +137,7 @@ TEST(KittiScan, AzimuthGrowsClockwiseFromStraightAhead) {
   EXPECT_NEAR(azimuth_rad(0, 1), 3 * std::numbers::pi / 2, 1e-15);
 }
 
-TEST(KittiScan, AzimuthTakesNegativeZeroAsZeroAndStaysBelowAWholeTurn) {
+TEST(KittiScan, AzimuthTakesNegativeZeroAsZeroAndStaysBelowAWholeRevolution) {
   EXPECT_EQ(azimuth_rad(1, -0.0), 0.0);
   EXPECT_FALSE(std::signbit(azimuth_rad(1, 0.0)));
   EXPECT_NEAR(azimuth_rad(-1, -0.0), std::numbers::pi, 1e-15);

@@ -23,13 +23,13 @@ using testing::HasSubstr;
 /// Compensates as KITTI did, written from its definition: integrates the motion in small steps.
 ScanPoint compensated(const SensorTwist& twist, const ScanPoint& p) {
   const double share = std::atan2(-double{p.y_m}, double{p.x_m}) / (2 * std::numbers::pi);
-  const double seconds = share * twist.turn_duration_s;
-  const Eigen::Vector3d w(twist.turning_rad_s.data()), v(twist.velocity_m_s.data());
+  const double seconds = share * twist.frame_duration_s;
+  const Eigen::Vector3d w(twist.angular_velocity_rad_s.data()), v(twist.velocity_m_s.data());
   Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
   constexpr int kSteps = 2000;
   Eigen::Isometry3d step = Eigen::Isometry3d::Identity();
-  const Eigen::Vector3d turned = w * (seconds / kSteps);
-  step.linear() = Eigen::AngleAxisd(turned.norm(), turned.normalized()).toRotationMatrix();
+  const Eigen::Vector3d rotated = w * (seconds / kSteps);
+  step.linear() = Eigen::AngleAxisd(rotated.norm(), rotated.normalized()).toRotationMatrix();
   step.translation() = v * (seconds / kSteps);
   for (int i = 0; i < kSteps; ++i) moved = moved * step;
   const Eigen::Vector3d q = moved * Eigen::Vector3d(p.x_m, p.y_m, p.z_m);
@@ -88,7 +88,7 @@ TEST(SensorMotion, TakesVelocityIntoTheSensorsFrame) {
     ASSERT_TRUE(twist);
     EXPECT_NEAR(twist->velocity_m_s[0], 10, 1e-9);
     EXPECT_NEAR(twist->velocity_m_s[1], 0, 1e-9);
-    EXPECT_NEAR(twist->turn_duration_s, 0.1, 1e-12);
+    EXPECT_NEAR(twist->frame_duration_s, 0.1, 1e-12);
   }
 }
 
@@ -108,7 +108,7 @@ TEST(SensorMotion, FollowsACurve) {
   ASSERT_TRUE(motion);
   const auto twist = motion->twist(1);
   ASSERT_TRUE(twist);
-  EXPECT_NEAR(twist->turning_rad_s[2], 0.5, 1e-4);
+  EXPECT_NEAR(twist->angular_velocity_rad_s[2], 0.5, 1e-4);
   for (const double v : twist->velocity_m_s) EXPECT_NEAR(v, 0, 1e-3);
 }
 

@@ -170,15 +170,15 @@ TEST_P(RecordedScansEncoded, KeepRangeAzimuthAndNearlyAllPoints) {
     std::size_t returns = 0;
     encode::ScanEncoder encoder(hdl64e_calibration(fitted->table), 0,
                                 [&](const encode::EncodedFiring& f) -> Status {
-                                  for (const auto& echo : f.column.by_laser)
-                                    returns += echo.raw != 0 ? 1U : 0U;
+                                  for (const auto& beam : f.column.by_laser)
+                                    returns += beam.raw != 0 ? 1U : 0U;
                                   return {};
                                 });
     KittiScan scan;
     RingRecovery rings;
     for (std::size_t i = 0; i < reader.size(); ++i) {
       ASSERT_TRUE(reader.read(i, scan, rings));
-      ASSERT_TRUE(encoder.add_turn(scan.points, rings.ring_of_point, scan.labels));
+      ASSERT_TRUE(encoder.add_frame(scan.points, rings.ring_of_point, scan.labels));
     }
     const auto summary = encoder.finish();
     ASSERT_TRUE(summary);
@@ -186,10 +186,10 @@ TEST_P(RecordedScansEncoded, KeepRangeAzimuthAndNearlyAllPoints) {
     EXPECT_GE(static_cast<double>(summary->encoded), 0.998 * static_cast<double>(summary->points))
         << sequence;
     EXPECT_LE(summary->max_range_error_m, 0.003) << sequence;
-    for (const encode::EncodedTurn& turn : summary->turns) {
-      EXPECT_LE(turn.max_azimuth_error_deg, 180.0 / static_cast<double>(turn.firings) + 0.01)
+    for (const encode::EncodedFrame& frame : summary->frames) {
+      EXPECT_LE(frame.max_azimuth_error_deg, 180.0 / static_cast<double>(frame.firings) + 0.01)
           << sequence;
-      EXPECT_LE(turn.firings, 4167U) << "slower than the 5 Hz an HDL-64E can turn at";
+      EXPECT_LE(frame.firings, 4167U) << "slower than the 5 Hz an HDL-64E can rotate at";
     }
     EXPECT_LT(summary->height.p95_m, GetParam() ? 0.025 : 0.12) << sequence;
   }

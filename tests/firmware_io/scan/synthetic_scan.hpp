@@ -41,7 +41,7 @@ inline double distance_m(const World& world, const scan::RingLine& ring, double 
   return std::min({wall_m, ground_m, near_wall_m});
 }
 
-/// One turn in KITTI's order: rings from the top, each counter-clockwise from straight ahead.
+/// One frame in KITTI's order: rings from the top, each counter-clockwise from straight ahead.
 inline std::vector<scan::ScanPoint> scan(const scan::RingTable& rings, const World& world = {}) {
   std::vector<scan::ScanPoint> points;
   for (const scan::RingLine& ring : rings) {

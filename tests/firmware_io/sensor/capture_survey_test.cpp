@@ -17,7 +17,7 @@ namespace {
 
 using test::Bytes;
 
-/// A unit that turns at 10 Hz, 288 us a packet.
+/// A unit that rotates at 10 Hz, 288 us a packet.
 class Unit {
  public:
   explicit Unit(bool dual = false) : dual_(dual), status_(table(), hdl64e::StatusFlavour::kS3) {}
@@ -90,14 +90,14 @@ class SurveyOfAUnit : public testing::Test {
   test::TemporaryFolder folder_;
 };
 
-TEST_F(SurveyOfAUnit, TellsSpinStepTurnsAndCalibration) {
+TEST_F(SurveyOfAUnit, TellsSpinStepFramesAndCalibration) {
   const Hdl64eFacts facts = survey(5000, false, [](std::int64_t) { return true; });
   EXPECT_EQ(facts.packets, 5000U);
   EXPECT_EQ(facts.return_mode, ReturnMode::kSingle);
   EXPECT_NEAR(facts.packet_period_us, 288.0, 0.01);
   EXPECT_NEAR(facts.spin_rpm, 600.0, 0.5);
   EXPECT_NEAR(facts.step_deg, 0.1728, 0.0005);
-  EXPECT_NEAR(facts.turns, 5000 * 288e-6 * 10, 0.02);
+  EXPECT_NEAR(facts.frames, 5000 * 288e-6 * 10, 0.02);
   EXPECT_EQ(facts.packets_lost, 0U);
   EXPECT_EQ(facts.clock_jumps, 0U);
   EXPECT_TRUE(facts.table);
@@ -112,7 +112,7 @@ TEST_F(SurveyOfAUnit, TellsDualReturn) {
   EXPECT_NEAR(facts.spin_rpm, 600.0, 0.5);
 }
 
-TEST_F(SurveyOfAUnit, CountsLostPacketsAndTurnsAcrossGaps) {
+TEST_F(SurveyOfAUnit, CountsLostPacketsAndFramesAcrossGaps) {
   std::uint64_t dropped = 0;
   const Hdl64eFacts facts = survey(5000, false, [&](std::int64_t n) {
     const bool lost = (n > 10 && n % 97 == 0) || (n > 1000 && n < 2000);
@@ -120,25 +120,25 @@ TEST_F(SurveyOfAUnit, CountsLostPacketsAndTurnsAcrossGaps) {
     return !lost;
   });
   EXPECT_EQ(facts.packets_lost, dropped);
-  EXPECT_NEAR(facts.turns, 5000 * 288e-6 * 10, 0.05);
+  EXPECT_NEAR(facts.frames, 5000 * 288e-6 * 10, 0.05);
 }
 
 /// The head's azimuth, degrees, at packet `n` of a unit in single return.
-double head_deg(std::int64_t n) {
+double rotor_deg(std::int64_t n) {
   return std::fmod(static_cast<double>(n) * 288e-6 * 3600, 360);
 }
 
 TEST_F(SurveyOfAUnit, NamesItsBlindSectorAndDoesNotTakeItsTimeForLoss) {
   for (const auto& [from_deg, to_deg] : {std::pair{90.0, 270.0}, {355.0, 5.0}, {20.0, 340.0}}) {
     const auto is_blind = [from = from_deg, to = to_deg](std::int64_t n) {
-      const double deg = head_deg(n);
+      const double deg = rotor_deg(n);
       return from < to ? deg >= from && deg < to : deg >= from || deg < to;
     };
     const Hdl64eFacts facts = survey(5000, false, [&](std::int64_t n) { return !is_blind(n); });
     EXPECT_EQ(facts.packets_lost, 0U) << from_deg;
     EXPECT_NEAR(std::remainder(facts.blind.from_cdeg * 0.01 - from_deg, 360), 0, 1.1);
     EXPECT_NEAR(std::remainder(facts.blind.to_cdeg * 0.01 - to_deg, 360), 0, 1.1);
-    EXPECT_NEAR(facts.turns, 5000 * 288e-6 * 10, 1);
+    EXPECT_NEAR(facts.frames, 5000 * 288e-6 * 10, 1);
 
     std::uint64_t dropped = 0;
     const Hdl64eFacts lossy = survey(5000, false, [&](std::int64_t n) {

@@ -120,7 +120,7 @@ TEST(Ruby128DeviceReader, WaitsForAnglesAndSaysWhyThereAreNone) {
   EXPECT_EQ(reader.counters().implausible_angles, 1U);
 }
 
-TEST(Ruby128DeviceReader, ForgetsEverythingOnReset) {
+TEST(Ruby128DeviceReader, ResetsEverythingOnReset) {
   Ruby128DeviceReader reader;
   const Difop difop = difop_of_unit(1);
   reader.add(ruby128::payload_of(difop));

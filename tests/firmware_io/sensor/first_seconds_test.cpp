@@ -22,7 +22,7 @@ using testing::HasSubstr;
 constexpr std::uint32_t kSensorAddress = 0xC0A801C9, kOtherAddress = 0xC0A80107;
 constexpr double kFrames_hz = 10;
 
-/// Packets of a head that turns ten times a second.
+/// Packets of a head that rotates ten times a second.
 std::vector<test::Packet> seconds(double duration_s) {
   return test::random_packets(
       {.first_cdeg = 0,
@@ -57,7 +57,7 @@ TEST(FirstSeconds, SayWhatIsWaitedForAsLongAsNothingCame) {
   EXPECT_EQ(first.waits_for(), "waiting for an HDL-64E or RS-Ruby128 at 0.0.0.0:2368");
 }
 
-TEST(FirstSeconds, AreEnoughWhenASensorTurnsThatNobodyElseSendsBeside) {
+TEST(FirstSeconds, AreEnoughWhenASensorRotatesThatNobodyElseSendsBeside) {
   FirstSeconds first(with_table());
   const auto packets = seconds(1);
   hear(first, std::span(packets).first(600));

@@ -37,21 +37,21 @@ class HeardSendersTest : public testing::Test {
   std::vector<test::Packet> packets_ = a_second();
 };
 
-TEST_F(HeardSendersTest, ASteadyStreamOfATurningHeadIsASensor) {
+TEST_F(HeardSendersTest, ASteadyStreamOfARotatingHeadIsASensor) {
   hear(std::span(packets_).first(20), kSensor);
-  EXPECT_THAT(senders_.turning(), IsEmpty());
+  EXPECT_THAT(senders_.rotating(), IsEmpty());
   EXPECT_EQ(senders_.known_for_ns(), 0);
   hear(std::span(packets_).subspan(20), kSensor);
-  ASSERT_THAT(senders_.turning(), SizeIs(1));
-  EXPECT_EQ(senders_.turning().front().address, kSensor);
-  EXPECT_EQ(senders_.turning().front().model, SensorModel::kHdl64e);
+  ASSERT_THAT(senders_.rotating(), SizeIs(1));
+  EXPECT_EQ(senders_.rotating().front().address, kSensor);
+  EXPECT_EQ(senders_.rotating().front().model, SensorModel::kHdl64e);
   EXPECT_GT(senders_.known_for_ns(), 900 * kMs);
 }
 
 TEST_F(HeardSendersTest, AStrayPacketOfAnotherSenderIsNoSensor) {
   hear(std::span(packets_).first(1), kOther);
   hear(packets_, kSensor);
-  EXPECT_THAT(senders_.turning(), SizeIs(1));
+  EXPECT_THAT(senders_.rotating(), SizeIs(1));
   EXPECT_THAT(senders_.steady(), SizeIs(1));
   EXPECT_THAT(senders_.others(),
               testing::MatchesRegex("1 data packets of .*HDL-64E.* from 192.168.1.7"));
@@ -60,7 +60,7 @@ TEST_F(HeardSendersTest, AStrayPacketOfAnotherSenderIsNoSensor) {
 TEST_F(HeardSendersTest, TwoSteadyStreamsAreTwoSensors) {
   hear(packets_, kOther);
   hear(packets_, kSensor);
-  EXPECT_THAT(senders_.turning(), SizeIs(2));
+  EXPECT_THAT(senders_.rotating(), SizeIs(2));
 }
 
 TEST_F(HeardSendersTest, AHeadThatStandsIsNamedButNotKnown) {
@@ -68,15 +68,15 @@ TEST_F(HeardSendersTest, AHeadThatStandsIsNamedButNotKnown) {
     for (std::size_t block = 0; block < 12; ++block) packet.set_u16(100 * block + 2, 1234);
   }
   hear(packets_, kSensor);
-  EXPECT_THAT(senders_.turning(), IsEmpty());
+  EXPECT_THAT(senders_.rotating(), IsEmpty());
   EXPECT_THAT(senders_.steady(), SizeIs(1));
-  EXPECT_THAT(senders_.others(), HasSubstr(", whose head does not turn, from 192.168.1.201"));
+  EXPECT_THAT(senders_.others(), HasSubstr(", whose head does not rotate, from 192.168.1.201"));
 }
 
 TEST_F(HeardSendersTest, ASensorOfAnotherModelThanWantedDoesNotCount) {
   senders_ = HeardSenders(SensorModel::kRuby128);
   hear(packets_, kSensor);
-  EXPECT_THAT(senders_.turning(), IsEmpty());
+  EXPECT_THAT(senders_.rotating(), IsEmpty());
   EXPECT_THAT(senders_.steady(), IsEmpty());
   EXPECT_THAT(senders_.others(), HasSubstr("packets of another sensor, "));
 }

@@ -20,7 +20,7 @@ int columns_of(double spin_hz, std::int64_t column_ns, std::size_t every = 1) {
   return probe.columns(SensorModel::kHdl64e);
 }
 
-TEST(SensorProbe, GivesAnHdl64eAsManyColumnsAsItFiresATurn) {
+TEST(SensorProbe, GivesAnHdl64eAsManyColumnsAsItFiresAFrame) {
   EXPECT_EQ(columns_of(10, 48'000), 2083);
   EXPECT_EQ(columns_of(20, 48'000), 1042);
 }

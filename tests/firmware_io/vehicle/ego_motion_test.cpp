@@ -48,16 +48,16 @@ class EgoMotionTest : public testing::Test {
   EgoMotion motion_{{}, memory_};
 };
 
-TEST_F(EgoMotionTest, ASteadyTurnIsAnArcSeenFromAnyReference) {
+TEST_F(EgoMotionTest, ASteadyFrameIsAnArcSeenFromAnyReference) {
   drive(0, 200, 20, 0.5);
   for (const double reference_ms : {37.0, 80.0, 150.0, 200.0}) {
     for (const double instant_ms : {11.0, 80.0, 123.4, 199.0}) {
       const auto found = pose(instant_ms, reference_ms);
       ASSERT_TRUE(found);
-      const double turned_rad = 0.5 * (instant_ms - reference_ms) * 1e-3;
-      EXPECT_NEAR(found->x_m, 40 * std::sin(turned_rad), 1e-6);
-      EXPECT_NEAR(found->y_m, 40 * (1 - std::cos(turned_rad)), 1e-6);
-      EXPECT_NEAR(found->sine, std::sin(turned_rad), 1e-9);
+      const double rotated_rad = 0.5 * (instant_ms - reference_ms) * 1e-3;
+      EXPECT_NEAR(found->x_m, 40 * std::sin(rotated_rad), 1e-6);
+      EXPECT_NEAR(found->y_m, 40 * (1 - std::cos(rotated_rad)), 1e-6);
+      EXPECT_NEAR(found->sine, std::sin(rotated_rad), 1e-9);
     }
   }
 }
@@ -159,7 +159,7 @@ TEST_F(EgoMotionTest, ASampleFromBeforeTheNewestIsANewBeginningIfItIsNoDisorder)
 TEST_F(EgoMotionTest, SamplesOfATimeThatIsOverAreForgottenThoseOnTheirWayToo) {
   drive(0, 100, 20, 0);
   EXPECT_TRUE(motion_.add({at_ms(110), 20, 0}));
-  motion_.forget();
+  motion_.reset();
   EXPECT_FALSE(motion_.newest_ns());
   EXPECT_FALSE(pose(100, 90));
   drive(120, 150, 10, 0);

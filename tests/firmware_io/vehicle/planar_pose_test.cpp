@@ -22,19 +22,19 @@ TEST(PlanarPose, APoseAndItsInverseCancel) {
   expect_near(inverse(pose) * pose, {}, 1e-15);
 }
 
-TEST(PlanarPose, ConstantMotionIsAnArcOfTheRadiusSpeedByTurnRate) {
+TEST(PlanarPose, ConstantMotionIsAnArcOfTheRadiusSpeedByFrameRate) {
   for (const double yaw_rate_radps : {0.5, -0.5, 0.013, 3.0, -9.0}) {
     for (const double seconds : {0.01, 0.1, 1.0, -0.1}) {
-      const double radius_m = 20 / yaw_rate_radps, turned_rad = yaw_rate_radps * seconds;
+      const double radius_m = 20 / yaw_rate_radps, rotated_rad = yaw_rate_radps * seconds;
       expect_near(after_constant_motion(20, yaw_rate_radps, seconds),
-                  {radius_m * std::sin(turned_rad), radius_m * (1 - std::cos(turned_rad)),
-                   std::cos(turned_rad), std::sin(turned_rad)},
+                  {radius_m * std::sin(rotated_rad), radius_m * (1 - std::cos(rotated_rad)),
+                   std::cos(rotated_rad), std::sin(rotated_rad)},
                   1e-9);
     }
   }
 }
 
-TEST(PlanarPose, WithoutTurningTheWayIsStraight) {
+TEST(PlanarPose, WithoutYawTheWayIsStraight) {
   expect_near(after_constant_motion(20, 0, 0.1), {2, 0, 1, 0}, 1e-15);
   expect_near(after_constant_motion(-20, 0, 0.1), {-2, 0, 1, 0}, 1e-15);
 }

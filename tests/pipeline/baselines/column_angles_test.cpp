@@ -7,12 +7,12 @@
 #include <cmath>
 #include <optional>
 
-#include "rival_scenes.hpp"
+#include "baseline_scenes.hpp"
 
 namespace terracut::baselines {
 namespace {
 
-struct ColumnAnglesOnScenes : testing::Test, test::RivalScene {
+struct ColumnAnglesOnScenes : testing::Test, test::BaselineScene {
   ColumnAngles& segment(const test::BeamCast& beams, const ColumnAngles::Config& config = {}) {
     cast(beams);
     return again(config);
@@ -121,7 +121,7 @@ TEST_F(ColumnAnglesOnScenes, AMarginGrowsTheGround) {
   EXPECT_LT(report.ground, report.returns);
 }
 
-TEST_F(ColumnAnglesOnScenes, TheSeamOfTheTurnIsNoEdge) {
+TEST_F(ColumnAnglesOnScenes, TheSeamOfTheFrameIsNoEdge) {
   // The lowest ring sees nothing but one column left of the seam: ground has to cross it.
   ColumnAngles::Config config;
   const auto island = [](double azimuth_rad, double elevation_rad) {

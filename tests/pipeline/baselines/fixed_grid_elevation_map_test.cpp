@@ -7,14 +7,14 @@
 #include <cmath>
 #include <optional>
 
-#include "rival_scenes.hpp"
+#include "baseline_scenes.hpp"
 
 namespace terracut::baselines {
 namespace {
 
 using SquareKind = FixedGridElevationMap::SquareKind;
 
-struct FixedGridOnScenes : testing::Test, test::RivalScene {
+struct FixedGridOnScenes : testing::Test, test::BaselineScene {
   FixedGridElevationMap& segment(const test::BeamCast& beams,
                                  const FixedGridElevationMap::Config& config = {}) {
     cast(beams);

@@ -7,12 +7,12 @@
 #include <cmath>
 #include <optional>
 
-#include "rival_scenes.hpp"
+#include "baseline_scenes.hpp"
 
 namespace terracut::baselines {
 namespace {
 
-struct HeightFieldOnScenes : testing::Test, test::RivalScene {
+struct HeightFieldOnScenes : testing::Test, test::BaselineScene {
   HeightFieldMrf& segment(const test::BeamCast& beams, const HeightFieldMrf::Config& config = {}) {
     cast(beams);
     field.emplace(config, profile, kShape, image.return_capacity(), memory);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "pipeline/ground/coarse_stages.hpp"
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::elevation {
 namespace {
@@ -30,7 +30,7 @@ struct Refined {
     ground::SegmenterConfig stages;
     stages.elevation_map = {};
     stages.adjacent_points = config;
-    test::cast_turn(profile, cast, image);
+    test::cast_frame(profile, cast, image);
     ground::CoarseStages(stages, profile, kShape, memory).finish(image, planes);
   }
   [[nodiscard]] int steep_cells() const {

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::elevation {
 namespace {
@@ -34,9 +34,9 @@ struct SurfaceOverGrid : testing::Test {
         lowest[grid.cell(s, b)] = {height_of_range(grid.center_m(b)), grid.center_m(b)};
   }
   void estimate() {
-    surface.forget();
-    surface.walk(grid, grid.all_sectors(), lowest);
-    surface.settle(grid, grid.all_sectors(), lowest);
+    surface.reset();
+    surface.trace(grid, grid.all_sectors(), lowest);
+    surface.finalize(grid, grid.all_sectors(), lowest);
   }
   float at(int sector, float range_m) {
     return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
@@ -131,7 +131,7 @@ TEST_F(SurfaceOverGrid, IgnoresAReflectionFarBelowTheGround) {
   EXPECT_NEAR(at(7, 15.0F), 0.0F, 0.01F);
 }
 
-TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam) {
+TEST_F(SurfaceOverGrid, ACellWithoutGroundIsInterpolatedAcrossTheSeam) {
   // Ground that rises slowly with range, hidden behind a wall in the sectors around the seam.
   fill([](float range_m) { return 0.03F * range_m; });
   for (int band = grid.band_of(8.0F); band < grid.bands(); ++band) {
@@ -144,8 +144,8 @@ TEST_F(SurfaceOverGrid, ACellWithoutGroundBorrowsFromItsNeighboursAcrossTheSeam)
   EXPECT_NEAR(at(grid.sectors() - 1, 40.0F), true_m, 0.25F);
 }
 
-TEST_F(SurfaceOverGrid, BorrowsAcrossTheSeamFromOneSideAlone) {
-  // Hidden sectors from the seam on, more of them than ground is lent over.
+TEST_F(SurfaceOverGrid, InterpolatesAcrossTheSeamFromOneSideAlone) {
+  // Hidden sectors from the seam on, more of them than ground is interpolated over.
   constexpr int kHidden = 30;
   const float true_m = 0.03F * grid.center_m(grid.band_of(40.0F));
   for (const bool is_right : {false, true}) {
@@ -161,13 +161,13 @@ TEST_F(SurfaceOverGrid, BorrowsAcrossTheSeamFromOneSideAlone) {
   }
 }
 
-TEST_F(SurfaceOverGrid, LendsGroundThatTheLastSectorsTellToAllThatWereSettledBefore) {
+TEST_F(SurfaceOverGrid, GivesGroundThatTheLastSectorsTellToAllThatWereFinalBefore) {
   // Behind a ditch there is ground on a strip across the seam only; its part to the right of it is
   // too narrow to be ground by itself.
   fill([](float range_m) {
     return range_m < 10 ? 0.0F : range_m < 16 ? GroundSurface::kEmpty : 9;
   });
-  constexpr int kRight = 3, kLeft = 8, kFirst = 14, kSettled = 60, kWalked = 80;
+  constexpr int kRight = 3, kLeft = 8, kFirst = 14, kFinal = 60, kTraced = 80;
   for (int n = -kLeft; n < kRight; ++n) {
     for (int band = grid.band_of(16.5F); band < grid.bands(); ++band) {
       lowest[grid.cell(grid.wrapped(n), band)].height_m = 0.8F;
@@ -177,15 +177,15 @@ TEST_F(SurfaceOverGrid, LendsGroundThatTheLastSectorsTellToAllThatWereSettledBef
   const std::vector<float> expected(surface.height_m().begin(), surface.height_m().end());
   EXPECT_GT(at(1, 20.0F), 0.7F);
 
-  surface.forget();
-  surface.walk(grid, {0, kWalked}, lowest);
-  surface.settle(grid, {kFirst, kSettled}, lowest);
-  surface.walk(grid, {kWalked, grid.sectors()}, lowest);
+  surface.reset();
+  surface.trace(grid, {0, kTraced}, lowest);
+  surface.finalize(grid, {kFirst, kFinal}, lowest);
+  surface.trace(grid, {kTraced, grid.sectors()}, lowest);
   std::vector<std::uint8_t> is_current(static_cast<std::size_t>(grid.sectors()), 1);
-  surface.settle_rest(grid, lowest, is_current);
+  surface.finalize_rest(grid, lowest, is_current);
   EXPECT_TRUE(std::ranges::equal(surface.height_m(), expected));
-  // Ground is lent over 14 sectors, so to those from 14 to 16 by the strip's.
-  for (int sector = kFirst; sector < kSettled; ++sector) {
+  // Ground is interpolated over 14 sectors, so to those from 14 to 16 by the strip's.
+  for (int sector = kFirst; sector < kFinal; ++sector) {
     EXPECT_EQ(is_current[static_cast<std::size_t>(sector)], sector >= kFirst + kRight) << sector;
   }
 }

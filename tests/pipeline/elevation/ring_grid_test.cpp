@@ -8,7 +8,7 @@
 #include <set>
 #include <vector>
 
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::elevation {
 namespace {

@@ -17,7 +17,7 @@
 
 #include "plain_coarse_labels.hpp"
 #include "tests/support/allocation_counter.hpp"
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::ground {
 namespace {
@@ -100,11 +100,11 @@ struct Way {
   CoarseStages stages;
 };
 
-/// A turn whose columns arrive one after the other.
+/// A frame whose columns arrive one after the other.
 struct ArrivingColumns {
   explicit ArrivingColumns(const test::BeamCast& cast)
       : whole(kShape, 0, memory), image(kShape, kOverflow, memory) {
-    test::cast_turn(test::even_profile(), cast, whole);
+    test::cast_frame(test::even_profile(), cast, whole);
     image.clear();
   }
   void place(int column) {
@@ -131,7 +131,7 @@ struct Recorder : stage::StageObserver {
   stage::Stage last = stage::Stage::kCount;
 };
 
-struct CoarseStagesOfArrivingTurns : testing::TestWithParam<const char*> {
+struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
   static SegmenterConfig config() {
     SegmenterConfig config =
         std::string_view(GetParam()) == "paper" ? paper_profile() : terracut_profile();
@@ -145,7 +145,7 @@ struct CoarseStagesOfArrivingTurns : testing::TestWithParam<const char*> {
     way.stages.finish(image, way.planes);
     return way.result();
   }
-  /// Ends the turn: its planes are those of the whole image at once, and what the rules say.
+  /// Ends the frame: its planes are those of the whole image at once, and what the rules say.
   void expect_right_labels(const frame::RangeImage& image) {
     way.stages.finish(image, way.planes);
     EXPECT_EQ(way.result(), at_once(image));
@@ -179,85 +179,85 @@ struct CoarseStagesOfArrivingTurns : testing::TestWithParam<const char*> {
     EXPECT_EQ(wrong_steps, 0);
     EXPECT_EQ(wrong_labels, 0);
   }
-  /// Lets the turn arrive; `meanwhile(column)` is called after each packet.
+  /// Lets the frame arrive; `meanwhile(column)` is called after each packet.
   template <class Meanwhile>
-  void arrive(ArrivingColumns& turn, Meanwhile meanwhile) {
+  void arrive(ArrivingColumns& frame, Meanwhile meanwhile) {
     for (int column = 0; column < kShape.columns; ++column) {
-      turn.place(column);
+      frame.place(column);
       if ((column + 1) % kPacket != 0) continue;
-      way.stages.advance(turn.image, column + 1, way.planes, &recorder);
+      way.stages.advance(frame.image, column + 1, way.planes, &recorder);
       meanwhile(column);
     }
   }
-  void arrive(ArrivingColumns& turn) {
-    arrive(turn, [](int) {});
+  void arrive(ArrivingColumns& frame) {
+    arrive(frame, [](int) {});
   }
   Way way{config()};
   Recorder recorder;
 };
 
-TEST_P(CoarseStagesOfArrivingTurns, LabelAsIfTheTurnHadComeAtOnce) {
-  ArrivingColumns turn(hills_and_walls());
-  arrive(turn);
-  const int blocks = 6;  // of 16 sectors: each is walked, and those in the middle labelled, ahead
+TEST_P(CoarseStagesOfArrivingFrames, LabelAsIfTheFrameHadComeAtOnce) {
+  ArrivingColumns frame(hills_and_walls());
+  arrive(frame);
+  const int blocks = 6;  // of 16 sectors: each is traced, and those in the middle labelled, ahead
   EXPECT_GE(recorder.parts, blocks);
   EXPECT_EQ(recorder.parts > blocks, config().last_stage >= stage::Stage::kAdjacentPoints);
-  expect_right_labels(turn.image);
+  expect_right_labels(frame.image);
   EXPECT_GT(std::ranges::count(way.planes.label, frame::Label::kObstacle), 1000);
   EXPECT_GT(std::ranges::count(way.planes.label, frame::Label::kGround), 1000);
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, LabelAsIfAtOnceHoweverFarTheTurnHadCome) {
-  ArrivingColumns turn(hills_and_walls());
-  for (int column = 0; column < kShape.columns; ++column) turn.place(column);
-  const auto expected = at_once(turn.image);
-  for (const int settled : {0, 1, 159, 160, 161, 320, 500, 777, 950, 959, 960}) {
-    way.stages.advance(turn.image, settled, way.planes);
-    way.stages.finish(turn.image, way.planes);
-    EXPECT_EQ(way.result(), expected) << settled << " columns settled";
+TEST_P(CoarseStagesOfArrivingFrames, LabelAsIfAtOnceHoweverFarTheFrameHadCome) {
+  ArrivingColumns frame(hills_and_walls());
+  for (int column = 0; column < kShape.columns; ++column) frame.place(column);
+  const auto expected = at_once(frame.image);
+  for (const int complete : {0, 1, 159, 160, 161, 320, 500, 777, 950, 959, 960}) {
+    way.stages.advance(frame.image, complete, way.planes);
+    way.stages.finish(frame.image, way.planes);
+    EXPECT_EQ(way.result(), expected) << complete << " columns complete";
   }
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, LabelAnythingAsIfAtOnce) {
+TEST_P(CoarseStagesOfArrivingFrames, LabelAnythingAsIfAtOnce) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range_m(0.5, 119);
   for (int trial = 0; trial < 5; ++trial) {
-    ArrivingColumns turn([&](double, double) { return range_m(random); });
-    arrive(turn);
-    expect_right_labels(turn.image);
+    ArrivingColumns frame([&](double, double) { return range_m(random); });
+    arrive(frame);
+    expect_right_labels(frame.image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, LabelStripsOfAllWidthsWhoseGroundIsLostOnTheWay) {
+TEST_P(CoarseStagesOfArrivingFrames, LabelStripsOfAllWidthsWhoseGroundIsLostOnTheWay) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 25; ++trial) {
     SCOPED_TRACE(trial);
-    ArrivingColumns turn(strips_behind_ditches(random));
-    arrive(turn);
-    expect_right_labels(turn.image);
+    ArrivingColumns frame(strips_behind_ditches(random));
+    arrive(frame);
+    expect_right_labels(frame.image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, CompareAcrossTheSeamBothWays) {
+TEST_P(CoarseStagesOfArrivingFrames, CompareAcrossTheSeamBothWays) {
   // Two returns in a column each, nothing else near: a step up of 0.5 m over 5 cm.
   const int reach = config().adjacent_points.column_reach;
   for (int before = 1; before <= reach; ++before) {
     for (int after = 0; before + after <= reach; ++after) {
       for (const bool lower_is_before : {false, true}) {
         SCOPED_TRACE(testing::Message() << before << " before, " << after << " after the seam");
-        ArrivingColumns turn(test::flat_ground());
+        ArrivingColumns frame(test::flat_ground());
         const int last = kShape.columns - before;
         for (int column = 0; column < kShape.columns; ++column) {
-          if (column > 20 && column < kShape.columns - 20) turn.place(column);
+          if (column > 20 && column < kShape.columns - 20) frame.place(column);
           constexpr int kRow = 20;
           if (column != after && column != last) continue;
           const bool is_lower = (column == last) == lower_is_before;
-          ASSERT_TRUE(turn.image.place(
+          ASSERT_TRUE(frame.image.place(
               kRow + (is_lower ? 0 : 2), column,
               {is_lower ? 6.0F : 6.05F, 0, is_lower ? 0.0F : 0.5F, is_lower ? 6.0F : 6.05F, 0}));
-          way.stages.advance(turn.image, column + 1, way.planes);
+          way.stages.advance(frame.image, column + 1, way.planes);
         }
-        expect_right_labels(turn.image);
+        expect_right_labels(frame.image);
         const std::size_t upper = kShape.cell(22, lower_is_before ? after : last);
         EXPECT_EQ(way.planes.label[upper], frame::Label::kObstacle);
         EXPECT_EQ(way.planes.steep[upper], config().last_stage >= stage::Stage::kAdjacentPoints);
@@ -266,45 +266,45 @@ TEST_P(CoarseStagesOfArrivingTurns, CompareAcrossTheSeamBothWays) {
   }
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, MarkAWallBesideTheSeamAsEverywhere) {
+TEST_P(CoarseStagesOfArrivingFrames, MarkAWallBesideTheSeamAsEverywhere) {
   // Straight ahead and low: its returns are obstacles by the steps between them alone.
-  ArrivingColumns turn(test::ground_with_wall(8, 0.4, 0.14));
-  arrive(turn);
-  expect_right_labels(turn.image);
+  ArrivingColumns frame(test::ground_with_wall(8, 0.4, 0.14));
+  arrive(frame);
+  expect_right_labels(frame.image);
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, SeeNothingInEmptyCellsWhateverTheTurnBeforeLeftThere) {
-  // Every eighth row comes back in the second turn, on ground with bumps. Left over below each of
+TEST_P(CoarseStagesOfArrivingFrames, SeeNothingInEmptyCellsWhateverTheFrameBeforeLeftThere) {
+  // Every eighth row comes back in the second frame, on ground with bumps. Left over below each of
   // its returns are those of the first one, 2 m deeper.
   constexpr int kApart = 8;
-  ArrivingColumns turn(test::flat_ground());
+  ArrivingColumns frame(test::flat_ground());
   const auto place = [&](int row, int column, float z_m) {
     const std::size_t above = kShape.cell((row + kApart - 1) / kApart * kApart, column);
-    if (above >= kShape.cells() || !turn.whole.has_return(above)) return;
-    ASSERT_TRUE(turn.image.place(row, column,
-                                 {turn.whole.x_m()[above], turn.whole.y_m()[above], z_m,
-                                  turn.whole.ground_range_m()[above], 0}));
+    if (above >= kShape.cells() || !frame.whole.has_return(above)) return;
+    ASSERT_TRUE(frame.image.place(row, column,
+                                  {frame.whole.x_m()[above], frame.whole.y_m()[above], z_m,
+                                   frame.whole.ground_range_m()[above], 0}));
   };
   for (int row = 0; row < kShape.rows; ++row) {
     for (int column = 0; column < kShape.columns; ++column) place(row, column, -2.0F);
   }
-  way.stages.finish(turn.image, way.planes);
-  turn.image.clear();
+  way.stages.finish(frame.image, way.planes);
+  frame.image.clear();
   for (int column = 0; column < kShape.columns; ++column) {
     for (int row = 0; row < kShape.rows; row += kApart) {
       place(row, column, column % 2 == 0 ? 0.0F : 0.08F);
     }
-    way.stages.advance(turn.image, column + 1, way.planes);
+    way.stages.advance(frame.image, column + 1, way.planes);
   }
-  expect_right_labels(turn.image);
+  expect_right_labels(frame.image);
   EXPECT_EQ(std::ranges::count(way.planes.label, frame::Label::kObstacle), 0);
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, LendGroundAcrossTheSeamFromEitherSide) {
-  // Rising ground, hidden by walls over more sectors than ground is lent to, on one side of the
-  // seam; above the walls something on poles is seen.
+TEST_P(CoarseStagesOfArrivingFrames, GiveGroundAcrossTheSeamFromEitherSide) {
+  // Rising ground, hidden by walls over more sectors than ground is interpolated over, on one side
+  // of the seam; above the walls something on poles is seen.
   for (const bool is_hidden_before : {false, true}) {
-    ArrivingColumns turn([&](double azimuth_rad, double elevation_rad) {
+    ArrivingColumns frame([&](double azimuth_rad, double elevation_rad) {
       const double share = azimuth_rad / (2 * std::numbers::pi);
       const bool is_hidden = is_hidden_before ? share > 0.8 : share < 0.2;
       const double down = 0.03 - std::tan(elevation_rad);
@@ -312,109 +312,109 @@ TEST_P(CoarseStagesOfArrivingTurns, LendGroundAcrossTheSeamFromEitherSide) {
       if (!is_hidden || (range_m > 0 && range_m < 6)) return range_m / std::cos(elevation_rad);
       return (elevation_rad < -0.02 ? 6.0 : 30.0) / std::cos(elevation_rad);
     });
-    arrive(turn);
-    expect_right_labels(turn.image);
+    arrive(frame);
+    expect_right_labels(frame.image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, TakeAReturnThatComesAfterItsColumnWasDone) {
-  ArrivingColumns turn(hills_and_walls());
+TEST_P(CoarseStagesOfArrivingFrames, TakeAReturnThatComesAfterItsColumnWasDone) {
+  ArrivingColumns frame(hills_and_walls());
   const std::size_t late = kShape.cell(20, 100);
-  ASSERT_TRUE(turn.whole.has_return(late));
+  ASSERT_TRUE(frame.whole.has_return(late));
   for (int column = 0; column < kShape.columns; ++column) {
     for (int row = 0; row < kShape.rows; ++row) {
-      if (kShape.cell(row, column) != late) turn.place(row, column);
+      if (kShape.cell(row, column) != late) frame.place(row, column);
     }
-    way.stages.advance(turn.image, column + 1, way.planes, &recorder);
-    if (column == 800) turn.place(20, 100);
+    way.stages.advance(frame.image, column + 1, way.planes, &recorder);
+    if (column == 800) frame.place(20, 100);
   }
-  expect_right_labels(turn.image);
+  expect_right_labels(frame.image);
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, TakeASecondEchoThatComesAfterItsColumnWasDone) {
+TEST_P(CoarseStagesOfArrivingFrames, TakeASecondReturnThatComesAfterItsColumnWasDone) {
   struct Late {
     frame::CellOwner owner;
     int column;
   };
-  // Into a sector that was done long ago, and into that walked last.
+  // Into a sector that was done long ago, and into that traced last.
   for (const Late& late :
        {Late{frame::CellOwner::kFirstArrived, 100}, Late{frame::CellOwner::kNearest, 100},
         Late{frame::CellOwner::kFirstArrived, 795}}) {
-    ArrivingColumns turn(hills_and_walls());
-    arrive(turn, [&](int column) {
+    ArrivingColumns frame(hills_and_walls());
+    arrive(frame, [&](int column) {
       if (column != 803) return;
-      int echoes = 0;
+      int returns = 0;
       for (const int row : {5, 20, 30, 40}) {
         const std::size_t cell = kShape.cell(row, late.column);
-        if (!turn.image.has_return(cell)) continue;
+        if (!frame.image.has_return(cell)) continue;
         // Lower and nearer than what is there: it changes the ground of its sector.
         const float share = 0.8F;
-        ASSERT_TRUE(turn.image.place(
+        ASSERT_TRUE(frame.image.place(
             row, late.column,
-            {share * turn.image.x_m()[cell], share * turn.image.y_m()[cell],
-             turn.image.z_m()[cell] - 0.3F, share * turn.image.ground_range_m()[cell], 0},
+            {share * frame.image.x_m()[cell], share * frame.image.y_m()[cell],
+             frame.image.z_m()[cell] - 0.3F, share * frame.image.ground_range_m()[cell], 0},
             late.owner));
-        ++echoes;
+        ++returns;
       }
-      EXPECT_GT(echoes, 2);
+      EXPECT_GT(returns, 2);
     });
-    expect_right_labels(turn.image);
+    expect_right_labels(frame.image);
   }
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, TakeSecondEchoesInTheirOwnTime) {
-  ArrivingColumns turn(hills_and_walls());
-  int echoes = 0;
+TEST_P(CoarseStagesOfArrivingFrames, TakeSecondReturnsInTheirOwnTime) {
+  ArrivingColumns frame(hills_and_walls());
+  int returns = 0;
   for (int column = 0; column < kShape.columns; ++column) {
-    turn.place(column);
+    frame.place(column);
     for (int row = 3; row < 40; row += 20) {
       const std::size_t cell = kShape.cell(row, column);
-      if (!turn.image.has_return(cell)) continue;
-      ASSERT_TRUE(
-          turn.image.place(row, column,
-                           {turn.image.x_m()[cell], turn.image.y_m()[cell],
-                            turn.image.z_m()[cell] - 0.4F, turn.image.ground_range_m()[cell], 0}));
-      ++echoes;
+      if (!frame.image.has_return(cell)) continue;
+      ASSERT_TRUE(frame.image.place(
+          row, column,
+          {frame.image.x_m()[cell], frame.image.y_m()[cell], frame.image.z_m()[cell] - 0.4F,
+           frame.image.ground_range_m()[cell], 0}));
+      ++returns;
     }
-    way.stages.advance(turn.image, column + 1, way.planes, &recorder);
+    way.stages.advance(frame.image, column + 1, way.planes, &recorder);
   }
-  EXPECT_GT(echoes, 500);
+  EXPECT_GT(returns, 500);
   const int ahead = recorder.parts;
-  way.stages.finish(turn.image, way.planes, &recorder);
+  way.stages.finish(frame.image, way.planes, &recorder);
   EXPECT_LT(recorder.parts - ahead, ahead) << "most was done ahead, not again";
-  EXPECT_EQ(way.result(), at_once(turn.image));
+  EXPECT_EQ(way.result(), at_once(frame.image));
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, ForgetATurnThatNeverBecameWhole) {
+TEST_P(CoarseStagesOfArrivingFrames, ResetAFrameThatNeverBecameWhole) {
   ArrivingColumns first(hills_and_walls()), second(test::ground_with_wall(12, 4, 2.0));
   arrive(first);
   arrive(second);
   expect_right_labels(second.image);
 
   way.stages.advance(first.image, 900, way.planes);
-  first.image.clear();  // its next turn
+  first.image.clear();  // its next frame
   for (int column = 0; column < 700; ++column) first.place(column);
   way.stages.advance(first.image, 600, way.planes);
   expect_right_labels(first.image);
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, DoNothingForATurnWithoutReturns) {
-  ArrivingColumns turn([](double, double) { return -1.0; });
-  arrive(turn);
+TEST_P(CoarseStagesOfArrivingFrames, DoNothingForAFrameWithoutReturns) {
+  ArrivingColumns frame([](double, double) { return -1.0; });
+  arrive(frame);
   EXPECT_EQ(recorder.parts, 0);
-  expect_right_labels(turn.image);
+  expect_right_labels(frame.image);
 }
 
-TEST_P(CoarseStagesOfArrivingTurns, AllocateNothing) {
+TEST_P(CoarseStagesOfArrivingFrames, AllocateNothing) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
-  ArrivingColumns turn(hills_and_walls());
+  ArrivingColumns frame(hills_and_walls());
   const std::uint64_t before = test::allocations_of_this_thread();
-  arrive(turn);
-  way.stages.finish(turn.image, way.planes);
+  arrive(frame);
+  way.stages.finish(frame.image, way.planes);
   EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Profiles, CoarseStagesOfArrivingTurns,
+INSTANTIATE_TEST_SUITE_P(Profiles, CoarseStagesOfArrivingFrames,
                          testing::Values("terracut", "paper", "elevation"),
                          [](const auto& one) { return std::string(one.param); });
 

@@ -9,14 +9,14 @@
 #include <set>
 #include <vector>
 
-#include "tests/pipeline/baselines/rival_scenes.hpp"
+#include "tests/pipeline/baselines/baseline_scenes.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace terracut::ground {
 namespace {
 
 /// What holds for every method, whatever it thinks of the ground.
-struct EveryMethod : testing::TestWithParam<MethodName>, test::RivalScene {
+struct EveryMethod : testing::TestWithParam<MethodName>, test::BaselineScene {
   static MethodConfig config() {
     MethodConfig named = method_named(GetParam().name).value();
     named.zhang.height_labels = 32;  // what is tested here does not need the whole cost
@@ -84,7 +84,7 @@ TEST_P(EveryMethod, GivesTheSameLabelsWhateverCameBefore) {
       std::equal(first.begin(), first.end(), method.labels().begin(), method.labels().end()));
 }
 
-TEST_P(EveryMethod, HasNoLabelsForAnEmptyTurn) {
+TEST_P(EveryMethod, HasNoLabelsForAnEmptyFrame) {
   cast([](double, double) { return -1.0; });
   EXPECT_EQ(method.segment(image).returns, 0U);
   EXPECT_TRUE(method.labels().empty());

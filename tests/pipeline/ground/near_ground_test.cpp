@@ -18,12 +18,12 @@ void fill(frame::RangeImage& image) {
     for (int column = 0; column < image.shape().columns; ++column) {
       const double azimuth = 2 * std::numbers::pi * (column + 0.5) / image.shape().columns;
       const double range_m = 2 + row / 2.0;
-      frame::Return echo;
-      echo.x_m = static_cast<float>(range_m * std::cos(azimuth));
-      echo.y_m = static_cast<float>(-range_m * std::sin(azimuth));
-      echo.z_m = static_cast<float>(row) / 1000;
-      echo.ground_range_m = static_cast<float>(range_m);
-      image.place(row, column, echo);
+      frame::Return point;
+      point.x_m = static_cast<float>(range_m * std::cos(azimuth));
+      point.y_m = static_cast<float>(-range_m * std::sin(azimuth));
+      point.z_m = static_cast<float>(row) / 1000;
+      point.ground_range_m = static_cast<float>(range_m);
+      image.place(row, column, point);
     }
   }
 }
@@ -68,7 +68,7 @@ TEST(NearGround, ThinsLargeImagesOutEvenly) {
   EXPECT_NEAR(share, 1.0 / kStep, 0.02);
 }
 
-TEST(NearGround, IsEmptyOfAnEmptyTurn) {
+TEST(NearGround, IsEmptyOfAnEmptyFrame) {
   memory::FixedMemory memory;
   frame::RangeImage image({64, 360}, 1, memory);
   fill(image);

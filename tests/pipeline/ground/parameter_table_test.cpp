@@ -10,14 +10,14 @@
 namespace terracut::ground {
 namespace {
 
-/// The method's and its rivals'.
+/// The method's and its baselines'.
 std::vector<Parameter> all_parameters() {
   std::vector<Parameter> all(parameters().begin(), parameters().end());
-  all.insert(all.end(), rival_parameters().begin(), rival_parameters().end());
+  all.insert(all.end(), baseline_parameters().begin(), baseline_parameters().end());
   return all;
 }
 
-TEST(ParameterTable, KeepsTheRivalsApart) {
+TEST(ParameterTable, KeepsTheBaselinesApart) {
   for (const Parameter& p : parameters()) {
     MethodConfig config;
     p.set(config, p.get(config) == p.least ? p.most : p.least);
@@ -25,7 +25,7 @@ TEST(ParameterTable, KeepsTheRivalsApart) {
         << p.key << " is not the method's own";
     EXPECT_EQ(p.get(MethodConfig(config.segmenter)), p.get(config)) << p.key;
   }
-  for (const Parameter& p : rival_parameters()) {
+  for (const Parameter& p : baseline_parameters()) {
     MethodConfig config;
     p.set(config, p.get(config) == p.least ? p.most : p.least);
     EXPECT_EQ(p.get(MethodConfig(config.segmenter)), p.get(MethodConfig())) << p.key;
@@ -34,13 +34,13 @@ TEST(ParameterTable, KeepsTheRivalsApart) {
 
 TEST(ParameterTable, TellsWhichMethodLooksAtAParameter) {
   for (const Parameter& p : parameters()) {
-    EXPECT_EQ(kind_that_heeds(p.key), MethodKind::kSegmenter) << p.key;
+    EXPECT_EQ(kind_that_uses(p.key), MethodKind::kSegmenter) << p.key;
   }
-  for (const Parameter& p : rival_parameters()) {
+  for (const Parameter& p : baseline_parameters()) {
     // The methods are called as the keys begin.
     const auto method = method_named(p.key.substr(0, p.key.find('.')));
     ASSERT_TRUE(method) << p.key;
-    EXPECT_EQ(kind_that_heeds(p.key), method->kind) << p.key;
+    EXPECT_EQ(kind_that_uses(p.key), method->kind) << p.key;
   }
 }
 

@@ -38,8 +38,8 @@ decltype(auto) at(T& values, int index) {
 }
 
 /// One column of grid cells, from the vehicle outwards.
-struct WalkedSector {
-  std::vector<double> z_m;        // of the walk, in the middle of each band
+struct TracedSector {
+  std::vector<double> z_m;        // of the trace, in the middle of each band
   std::vector<bool> is_ground;    // the band's lowest return is ground ...
   std::vector<bool> is_regained;  // ... behind a stretch on which ground was lost
 };
@@ -49,29 +49,29 @@ class PlainSurface {
   PlainSurface(const GroundSurface::Config& config, const RingGrid& grid,
                std::vector<LowestOfSector> lowest)
       : config_(config), grid_(grid), lowest_(std::move(lowest)) {
-    for (const LowestOfSector& sector : lowest_) walked_.push_back(walk(sector));
-    lends_.resize(walked_.size());
+    for (const LowestOfSector& sector : lowest_) traced_.push_back(trace(sector));
+    is_donor_.resize(traced_.size());
     for (int sector = 0; sector < grid_.sectors(); ++sector) {
       for (int band = 0; band < grid_.bands(); ++band) {
-        at(lends_, sector)
-            .push_back(at(at(walked_, sector).is_ground, band) &&
-                       (!at(at(walked_, sector).is_regained, band) || is_wide(sector, band)));
+        at(is_donor_, sector)
+            .push_back(at(at(traced_, sector).is_ground, band) &&
+                       (!at(at(traced_, sector).is_regained, band) || is_wide(sector, band)));
       }
     }
   }
 
   /// Height of the surface in the middle of a band.
   [[nodiscard]] double z_m(int sector, int band) const {
-    const WalkedSector& walked = at(walked_, sector);
-    if (at(at(lends_, sector), band)) return at(walked.z_m, band);
-    double weights = double{config_.walked_weight};
-    double sum = weights * at(walked.z_m, band);
-    const int reach = std::min(config_.borrow_sectors, (grid_.sectors() - 1) / 2);
+    const TracedSector& traced = at(traced_, sector);
+    if (at(at(is_donor_, sector), band)) return at(traced.z_m, band);
+    double weights = double{config_.traced_weight};
+    double sum = weights * at(traced.z_m, band);
+    const int reach = std::min(config_.interpolate_sectors, (grid_.sectors() - 1) / 2);
     for (int away = -reach; away <= reach; ++away) {
-      const int lender = around(sector + away);
-      if (away == 0 || !at(at(lends_, lender), band)) continue;
+      const int donor = around(sector + away);
+      if (away == 0 || !at(at(is_donor_, donor), band)) continue;
       weights += 1.0 / std::abs(away);
-      sum += at(at(walked_, lender).z_m, band) / std::abs(away);
+      sum += at(at(traced_, donor).z_m, band) / std::abs(away);
     }
     return sum / weights;
   }
@@ -89,24 +89,24 @@ class PlainSurface {
     return std::clamp(slope, -double{config_.max_slope}, double{config_.max_slope});
   }
 
-  [[nodiscard]] WalkedSector walk(const LowestOfSector& lowest) const {
+  [[nodiscard]] TracedSector trace(const LowestOfSector& lowest) const {
     const auto bands = static_cast<std::size_t>(grid_.bands());
-    WalkedSector sector{std::vector<double>(bands), std::vector<bool>(bands),
+    TracedSector sector{std::vector<double>(bands), std::vector<bool>(bands),
                         std::vector<bool>(bands)};
     Place last;
     double slope = 0;
-    int lost = walk_from(0, false, lowest, last, slope, sector);
+    int lost = trace_from(0, false, lowest, last, slope, sector);
     while (const auto again = find_again(lost, last, lowest)) {
       last = *at(lowest, again->first);
       slope = again->second;
-      lost = walk_from(again->first, true, lowest, last, slope, sector);
+      lost = trace_from(again->first, true, lowest, last, slope, sector);
     }
     return sector;
   }
 
   /// Returns the last band that is ground; -1 if none is.
-  int walk_from(int first, bool regained, const LowestOfSector& lowest, Place& last, double& slope,
-                WalkedSector& sector) const {
+  int trace_from(int first, bool regained, const LowestOfSector& lowest, Place& last, double& slope,
+                 TracedSector& sector) const {
     int last_band = -1;
     for (int band = first; band < grid_.bands(); ++band) {
       const double middle_m = double{grid_.center_m(band)};
@@ -172,7 +172,7 @@ class PlainSurface {
     const double sector_m = 2 * std::numbers::pi / grid_.sectors() * double{grid_.center_m(band)};
     const int enough =
         std::min(static_cast<int>(double{config_.regain_width_m} / sector_m), grid_.sectors());
-    const auto is_ground = [&](int s) { return at(at(walked_, around(s)).is_ground, band); };
+    const auto is_ground = [&](int s) { return at(at(traced_, around(s)).is_ground, band); };
     int wide = 1;
     for (int s = sector + 1; wide < enough && is_ground(s); ++s) ++wide;
     for (int s = sector - 1; wide < enough && is_ground(s); --s) ++wide;
@@ -182,8 +182,8 @@ class PlainSurface {
   GroundSurface::Config config_;
   const RingGrid& grid_;
   std::vector<LowestOfSector> lowest_;
-  std::vector<WalkedSector> walked_;
-  std::vector<std::vector<bool>> lends_;
+  std::vector<TracedSector> traced_;
+  std::vector<std::vector<bool>> is_donor_;
 };
 
 std::vector<LowestOfSector> find_lowest(const RingGrid& grid, const RangeImage& image) {
@@ -203,7 +203,8 @@ std::vector<LowestOfSector> find_lowest(const RingGrid& grid, const RangeImage& 
     }
   }
   for (const OverflowReturn& extra : image.overflow()) {
-    take(static_cast<int>(extra.cell) % shape.stride(), extra.echo.z_m, extra.echo.ground_range_m);
+    take(static_cast<int>(extra.cell) % shape.stride(), extra.point.z_m,
+         extra.point.ground_range_m);
   }
   return lowest;
 }

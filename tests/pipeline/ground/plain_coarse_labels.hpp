@@ -11,7 +11,7 @@
 
 namespace terracut::test {
 
-/// What the elevation map and the adjacent points make of a turn, written a second time from their
+/// What the elevation map and the adjacent points make of a frame, written a second time from their
 /// rules (docs/reference/method.md, the headers): the whole image at once, one cell after the
 /// other, in double. Only the grid itself is taken over, which has tests of its own.
 ///

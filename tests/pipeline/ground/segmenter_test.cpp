@@ -10,18 +10,18 @@
 #include <vector>
 
 #include "tests/support/allocation_counter.hpp"
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::ground {
 namespace {
 
 const frame::ImageShape kShape{64, 1000};
 
-struct SegmenterOnSyntheticTurns : testing::Test {
-  SegmenterOnSyntheticTurns() : image(kShape, 1000, memory) {}
+struct SegmenterOnSyntheticFrames : testing::Test {
+  SegmenterOnSyntheticFrames() : image(kShape, 1000, memory) {}
   std::span<const frame::Label> segment(const test::BeamCast& cast,
                                         const SegmenterConfig& config = {}) {
-    test::cast_turn(profile, cast, image);
+    test::cast_frame(profile, cast, image);
     return resegment(config);
   }
   /// What the stages before the cut say, under the defaults otherwise.
@@ -55,7 +55,7 @@ struct SegmenterOnSyntheticTurns : testing::Test {
   stage::SegmentationReport report;
 };
 
-TEST_F(SegmenterOnSyntheticTurns, FlatGroundIsAllGroundInBothProfiles) {
+TEST_F(SegmenterOnSyntheticFrames, FlatGroundIsAllGroundInBothProfiles) {
   for (const auto& config : {terracut_profile(), paper_profile()}) {
     const auto labels = segment(test::flat_ground(), config);
     EXPECT_GT(labels.size(), 50'000U);
@@ -65,7 +65,7 @@ TEST_F(SegmenterOnSyntheticTurns, FlatGroundIsAllGroundInBothProfiles) {
   }
 }
 
-TEST_F(SegmenterOnSyntheticTurns, AWallStandsOutOfTheGroundInBothProfiles) {
+TEST_F(SegmenterOnSyntheticFrames, AWallStandsOutOfTheGroundInBothProfiles) {
   for (const auto& config : {terracut_profile(), paper_profile()}) {
     segment(test::ground_with_wall(12, 4, 2.0), config);
     EXPECT_EQ(share(frame::Label::kObstacle, 0.3F, 3.0F), 1.0);
@@ -73,16 +73,16 @@ TEST_F(SegmenterOnSyntheticTurns, AWallStandsOutOfTheGroundInBothProfiles) {
   }
 }
 
-TEST_F(SegmenterOnSyntheticTurns, TheLowEdgeOfAnObstacleIsPulledToItByTheCut) {
+TEST_F(SegmenterOnSyntheticFrames, TheLowEdgeOfAnObstacleIsPulledToItByTheCut) {
   // The wall's returns between 5 and 12 cm are no higher than road bumps; their neighbours decide.
   segment(test::ground_with_wall(9, 4, 1.5, 0.05));
   EXPECT_GT(share(frame::Label::kObstacle, 0.05F, 0.12F), 0.95);
 }
 
-TEST_F(SegmenterOnSyntheticTurns, EveryReturnIsLabelledThoseOfTakenCellsIncluded) {
-  test::cast_turn(profile, test::ground_with_wall(12, 4, 2.0), image);
+TEST_F(SegmenterOnSyntheticFrames, EveryReturnIsLabelledThoseOfTakenCellsIncluded) {
+  test::cast_frame(profile, test::ground_with_wall(12, 4, 2.0), image);
   for (int column = 0; column < 500; ++column) {
-    // Second echoes: half of them on the ground, half high above it.
+    // Second returns: half of them on the ground, half high above it.
     const float x = 10 + 0.01F * static_cast<float>(column);
     ASSERT_TRUE(image.place(20, column, {0, -x, column % 2 == 0 ? 0.0F : 1.0F, x, 0}));
   }
@@ -92,12 +92,12 @@ TEST_F(SegmenterOnSyntheticTurns, EveryReturnIsLabelledThoseOfTakenCellsIncluded
   EXPECT_EQ(std::count(labels.begin(), labels.end(), frame::Label::kNone), 0);
   for (const frame::OverflowReturn& extra : image.overflow()) {
     const frame::Label expected =
-        extra.echo.z_m > 0.5F ? frame::Label::kObstacle : frame::Label::kGround;
+        extra.point.z_m > 0.5F ? frame::Label::kObstacle : frame::Label::kGround;
     EXPECT_EQ(labels[extra.return_index], expected);
   }
 }
 
-TEST_F(SegmenterOnSyntheticTurns, EveryStageCanBeTheLast) {
+TEST_F(SegmenterOnSyntheticFrames, EveryStageCanBeTheLast) {
   SegmenterConfig config;
   for (const stage::Stage last :
        {stage::Stage::kElevationMap, stage::Stage::kAdjacentPoints, stage::Stage::kMinCut}) {
@@ -108,7 +108,7 @@ TEST_F(SegmenterOnSyntheticTurns, EveryStageCanBeTheLast) {
   }
 }
 
-TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStagesBefore) {
+TEST_F(SegmenterOnSyntheticFrames, ABudgetThatHasExpiredLeavesTheLabelsOfTheStagesBefore) {
   const std::vector<frame::Label> expected = coarse_labels(test::ground_with_wall(9, 4, 1.5, 0.05));
   segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
                                           image.return_capacity(), memory);
@@ -122,7 +122,7 @@ TEST_F(SegmenterOnSyntheticTurns, ABudgetThatHasExpiredLeavesTheLabelsOfTheStage
   EXPECT_EQ(segmenter->segment(image).last_stage, stage::Stage::kMinCut);
 }
 
-TEST_F(SegmenterOnSyntheticTurns, ACutStoppedTooSoonLeavesTheLabelsOfTheStagesBefore) {
+TEST_F(SegmenterOnSyntheticFrames, ACutStoppedTooSoonLeavesTheLabelsOfTheStagesBefore) {
   const std::vector<frame::Label> expected = coarse_labels(test::ground_with_wall(9, 4, 1.5, 0.05));
   segmenter = std::make_unique<Segmenter>(SegmenterConfig{}, profile, kShape,
                                           image.return_capacity(), memory);
@@ -140,12 +140,12 @@ TEST_F(SegmenterOnSyntheticTurns, ACutStoppedTooSoonLeavesTheLabelsOfTheStagesBe
   EXPECT_TRUE(std::equal(labels.begin(), labels.end(), expected.begin(), expected.end()));
 }
 
-TEST_F(SegmenterOnSyntheticTurns, AnEmptyTurnHasNoLabels) {
+TEST_F(SegmenterOnSyntheticFrames, AnEmptyFrameHasNoLabels) {
   EXPECT_TRUE(segment([](double, double) { return -1.0; }).empty());
   EXPECT_TRUE(segment([](double, double) { return -1.0; }, paper_profile()).empty());
 }
 
-TEST_F(SegmenterOnSyntheticTurns, NoiseOfAnyKindGetsALabelForEveryReturn) {
+TEST_F(SegmenterOnSyntheticFrames, NoiseOfAnyKindGetsALabelForEveryReturn) {
   std::mt19937 random(11);
   std::uniform_real_distribution<double> range_m(0.5, 119);
   for (const auto& config : {terracut_profile(), paper_profile()}) {
@@ -155,41 +155,43 @@ TEST_F(SegmenterOnSyntheticTurns, NoiseOfAnyKindGetsALabelForEveryReturn) {
   }
 }
 
-TEST_F(SegmenterOnSyntheticTurns, TheSameTurnGivesTheSameLabelsWhateverCameBefore) {
+TEST_F(SegmenterOnSyntheticFrames, TheSameFrameGivesTheSameLabelsWhateverCameBefore) {
   const auto wall = test::ground_with_wall(12, 4, 2.0);
   const auto first_view = segment(wall);
   const std::vector<frame::Label> first(first_view.begin(), first_view.end());
   std::mt19937 random(5);
   std::uniform_real_distribution<double> range_m(0.5, 119);
-  test::cast_turn(profile, [&](double, double) { return range_m(random); }, image);
+  test::cast_frame(
+      profile, [&](double, double) { return range_m(random); }, image);
   (void)segmenter->segment(image);
-  test::cast_turn(profile, wall, image);
+  test::cast_frame(profile, wall, image);
   (void)segmenter->segment(image);
   EXPECT_TRUE(std::equal(first.begin(), first.end(), segmenter->labels().begin(),
                          segmenter->labels().end()));
 }
 
-TEST_F(SegmenterOnSyntheticTurns, TurningTheWorldTurnsTheLabels) {
+TEST_F(SegmenterOnSyntheticFrames, RotatingTheWorldRotatesTheLabels) {
   // By whole sectors, so that the ring grid sees the same cells in other places.
   const auto cast = test::ground_with_wall(12, 4, 2.0);
-  const double turn_rad = 2 * std::numbers::pi * 100 / kShape.columns;
+  const double rotation_rad = 2 * std::numbers::pi * 100 / kShape.columns;
   segment(cast);
   std::vector<frame::Label> labels(kShape.cells(), frame::Label::kNone);
   std::copy(segmenter->planes().label.begin(), segmenter->planes().label.end(), labels.begin());
-  segment([&](double azimuth, double elevation) { return cast(azimuth - turn_rad, elevation); });
+  segment(
+      [&](double azimuth, double elevation) { return cast(azimuth - rotation_rad, elevation); });
   int different = 0;
   for (int row = 0; row < kShape.rows; ++row) {
     for (int column = 0; column < kShape.columns; ++column) {
       const auto first = static_cast<std::size_t>(row * kShape.stride());
-      const auto turned = static_cast<std::size_t>((column + 100) % kShape.columns);
+      const auto rotated = static_cast<std::size_t>((column + 100) % kShape.columns);
       different += labels[first + static_cast<std::size_t>(column)] !=
-                   segmenter->planes().label[first + turned];
+                   segmenter->planes().label[first + rotated];
     }
   }
   EXPECT_LE(different, 5) << "rounding may move a return at the very edge of the wall";
 }
 
-TEST_F(SegmenterOnSyntheticTurns, NothingIsAllocatedPerFrame) {
+TEST_F(SegmenterOnSyntheticFrames, NothingIsAllocatedPerFrame) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
   segment(test::ground_with_wall(12, 4, 2.0));
   const std::uint64_t before = test::allocations_of_this_thread();
@@ -197,7 +199,7 @@ TEST_F(SegmenterOnSyntheticTurns, NothingIsAllocatedPerFrame) {
   EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
 }
 
-TEST_F(SegmenterOnSyntheticTurns, ReportsStagesToTheObserverInTheirOrder) {
+TEST_F(SegmenterOnSyntheticFrames, ReportsStagesToTheObserverInTheirOrder) {
   struct Recorder : stage::StageObserver {
     void stage_done(stage::Stage stage) noexcept override {
       if (std::ranges::find(seen, stage) == seen.end()) seen.push_back(stage);

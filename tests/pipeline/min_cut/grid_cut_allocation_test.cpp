@@ -18,7 +18,7 @@ TEST(GridCutMemory, SolvingAllocatesNothing) {
   const TestProblem problem =
       random_problem(shape, {.ground_seeds = 5, .obstacle_seeds = 5}, random);
   min_cut::GridCut::Config config = push_relabel_only();
-  config.max_unknown = 2000;  // the cap, both solvers and the certificate all have their turn
+  config.max_unknown = 2000;  // the cap, both solvers and the certificate all have their frame
   config.least_finished = 0;
   memory::FixedMemory memory;
   min_cut::GridCut cut(shape, config, memory);

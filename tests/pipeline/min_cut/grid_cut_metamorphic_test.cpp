@@ -11,7 +11,7 @@
 namespace terracut::test {
 namespace {
 
-TestProblem turned(const TestProblem& problem, int columns) {
+TestProblem rotated(const TestProblem& problem, int columns) {
   TestProblem out(problem.shape);
   problem.for_each_cell([&](int row, int column, std::uint32_t p) {
     const std::uint32_t q = problem.cell(row, (column + columns) % problem.shape.columns);
@@ -25,14 +25,14 @@ TestProblem turned(const TestProblem& problem, int columns) {
   return out;
 }
 
-TEST(GridCutMetamorphic, TurningTheSensorTurnsTheLabels) {
+TEST(GridCutMetamorphic, RotatingTheSensorRotatesTheLabels) {
   Random random(11);
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
     const int columns = uniform(random, 1, problem.shape.columns - 1);
     const Solution straight = solve(problem);
-    const Solution other = solve(turned(problem, columns));
+    const Solution other = solve(rotated(problem, columns));
     ASSERT_EQ(other.report.energy, straight.report.energy);
     problem.for_each_cell([&](int row, int column, std::uint32_t p) {
       ASSERT_EQ(other.labels[problem.cell(row, (column + columns) % problem.shape.columns)],

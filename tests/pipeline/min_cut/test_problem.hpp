@@ -30,7 +30,7 @@ struct TestProblem {
   std::vector<std::array<std::uint16_t, min_cut::kDirections>> weight;
 
   [[nodiscard]] std::uint32_t cell(int row,
-                                   int column) const;  ///< Column may lie one turn outside.
+                                   int column) const;  ///< Column may lie one frame outside.
   void set_weight(int row, int column, int direction, int value);
   /// Calls visit(row, column, cell) for every cell that is not padding.
   template <class Visit>

@@ -56,7 +56,7 @@ TEST_F(Pictures, DrawingOutsideThePictureLeavesNoTrace) {
 TEST_F(Pictures, RangeImageShowsTheSkyUpAndStraightAheadInTheMiddle) {
   output::SmallFrame small;
   small.add(3, 0, 10, 0, 2.0F, Label::kObstacle);  // highest laser, straight ahead
-  small.add(0, 8, 0, -5, 0.0F, Label::kGround);    // lowest laser, a quarter turn to the right
+  small.add(0, 8, 0, -5, 0.0F, Label::kGround);    // lowest laser, 90 degrees to the right
   const Picture picture = range_image_picture(small.frame());
   ASSERT_EQ(picture.width(), 32);
   ASSERT_EQ(picture.height(), 4 * kPixelsPerRow);

@@ -7,7 +7,7 @@
 #include <memory>
 #include <random>
 
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::random_field {
 namespace {

@@ -69,9 +69,9 @@ std::vector<Frame> frames_of(const std::vector<Datagram>& datagrams, const Calib
 
 void expect_same_image(const Frame& live, const Frame& replayed) {
   EXPECT_EQ(live.info.last_packet_ns, replayed.info.last_packet_ns);
-  ASSERT_EQ(live.echoes.size(), replayed.echoes.size());
-  for (std::size_t i = 0; i < live.echoes.size(); ++i) {
-    const Frame::Echo &a = live.echoes[i], &b = replayed.echoes[i];
+  ASSERT_EQ(live.returns.size(), replayed.returns.size());
+  for (std::size_t i = 0; i < live.returns.size(); ++i) {
+    const Frame::Placed &a = live.returns[i], &b = replayed.returns[i];
     ASSERT_TRUE(a.row == b.row && a.column == b.column && a.overflow == b.overflow) << i;
     ASSERT_EQ(std::memcmp(&a.point.x_m, &b.point.x_m, sizeof(float)), 0) << i;
     ASSERT_EQ(std::memcmp(&a.point.y_m, &b.point.y_m, sizeof(float)), 0) << i;
@@ -148,7 +148,7 @@ class FlightRecorderTest : public testing::Test {
     for (const auto& entry : json["frames"]) {
       if (!entry["whole"]) continue;
       const Frame& frame = live.at(entry["number"]);
-      if (!frame.info.complete) continue;  // the last turn breaks off
+      if (!frame.info.complete) continue;  // the last frame breaks off
       const auto same = std::find_if(replayed.begin(), replayed.end(), [&](const Frame& candidate) {
         return candidate.info.last_packet_ns == entry["last_packet_ns"];
       });
@@ -216,7 +216,7 @@ TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   times[1].missed = true;
   times[1].cause = status::FrameMissCause::kStolenTime;
   times[1].motion = status::FrameMotion::kNoEgoMotion;
-  times[1].rung = status::Rung::kCoarse;
+  times[1].level = status::Level::kCoarse;
   times[1].stage_cpu_ns = {11, 22, 33};
   times[1].cut_operations = 18'446'744'073'709'551'615ULL;
   constexpr std::array<std::string_view, 2> kStages{"elevation_map", "adjacent_points"};
@@ -241,7 +241,7 @@ TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   EXPECT_EQ(frame["missed"], true);
   EXPECT_EQ(frame["cause"], "stolen_time");
   EXPECT_EQ(frame["motion"], "no_ego_motion");
-  EXPECT_EQ(frame["rung"], "coarse");
+  EXPECT_EQ(frame["level"], "coarse");
   EXPECT_EQ(frame["labels_ns"], 1'155'000'000);
   EXPECT_EQ(frame["cut_operations"], 18'446'744'073'709'551'615ULL);
   EXPECT_EQ(frame["stage_cpu_ns"],

@@ -18,7 +18,7 @@ namespace terracut::test {
 /// How a child process ended that has no test framework.
 enum class InChild : int { kAsExpected = 0, kOtherwise = 1, kNotPossible = 77 };
 
-/// Runs `body`, which answers an InChild, in a child process.
+/// Runs `body`, which returns an InChild, in a child process.
 template <class Body>
 [[nodiscard]] InChild in_child(Body&& body) {
   const ::pid_t child = ::fork();
@@ -48,7 +48,7 @@ template <class Body>
 template <class Body>
 [[nodiscard]] InChild where_files_end_at(::rlim_t bytes, Body&& body) {
   return in_child([&] {
-    std::signal(SIGXFSZ, SIG_IGN);  // write() then answers EFBIG
+    std::signal(SIGXFSZ, SIG_IGN);  // write() then returns EFBIG
     const ::rlimit limit{bytes, bytes};
     if (::setrlimit(RLIMIT_FSIZE, &limit) != 0) return InChild::kNotPossible;
     return body();

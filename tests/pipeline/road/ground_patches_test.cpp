@@ -162,12 +162,12 @@ TEST_F(PatchesOfARow, OfARowWithoutReturnsAreEmpty) {
   EXPECT_TRUE(std::isnan(patch(ground.per_row() + 3).range_m));
 }
 
-/// A turn that was begun in the middle of the row, in which the ground rose by 10 cm.
-struct SeamOfATurn : testing::Test {
+/// A frame that was begun in the middle of the row, in which the ground rose by 10 cm.
+struct SeamOfAFrame : testing::Test {
   static constexpr frame::ImageShape kShape{2, 720};
   static constexpr int kFirst = 300;  // column that arrived first
 
-  SeamOfATurn() {
+  SeamOfAFrame() {
     for (int n = 0; n < kShape.columns; ++n) {
       const int column = (kFirst + n) % kShape.columns;
       for (int row = 0; row < kShape.rows; ++row) {
@@ -187,7 +187,7 @@ struct SeamOfATurn : testing::Test {
   GroundPatches ground{{}, kShape, memory};
 };
 
-TEST_F(SeamOfATurn, IsWhereTheLastReturnsMeetTheFirst) {
+TEST_F(SeamOfAFrame, IsWhereTheLastReturnsMeetTheFirst) {
   const int before = (kFirst - 1) / ground.columns_per_patch();
   for (int row = 0; row < kShape.rows; ++row) {
     for (int index = 0; index < ground.per_row(); ++index) {
@@ -197,7 +197,7 @@ TEST_F(SeamOfATurn, IsWhereTheLastReturnsMeetTheFirst) {
   }
 }
 
-TEST_F(SeamOfATurn, IsNotRough) {
+TEST_F(SeamOfAFrame, IsNotRough) {
   for (const float roughness_m : ground.roughness_m()) EXPECT_LT(roughness_m, 0.005F);
 }
 

@@ -13,15 +13,15 @@
 #include <vector>
 
 #include "pipeline/ground/segmenter.hpp"
-#include "tests/pipeline/baselines/rival_scenes.hpp"
+#include "tests/pipeline/baselines/baseline_scenes.hpp"
 
 namespace terracut::road {
 namespace {
 
 constexpr double kKerb_m = 0.12;
 
-struct RoadSurfaceOfATurn : testing::Test, test::RivalScene {
-  RoadSurfaceOfATurn() { config.road.enabled = true; }
+struct RoadSurfaceOfAFrame : testing::Test, test::BaselineScene {
+  RoadSurfaceOfAFrame() { config.road.enabled = true; }
 
   std::span<const frame::Label> segment(const test::BeamCast& beams) {
     cast(beams);
@@ -55,14 +55,14 @@ struct RoadSurfaceOfATurn : testing::Test, test::RivalScene {
   double elevation_of(int row) const {
     return profile.rings[static_cast<std::size_t>(row)].elevation_rad;
   }
-  /// Share of a turn from straight behind to a column.
+  /// Share of a frame from straight behind to a column.
   double since_behind(int column) const {
     return static_cast<double>((column + kShape.columns / 2) % kShape.columns) / kShape.columns;
   }
-  /// A turn from `first_column` on, while the vehicle came down by 15 cm between straight behind
+  /// A frame from `first_column` on, while the vehicle came down by 15 cm between straight behind
   /// and straight behind again. So few rings see it that only the order of arrival tells the step
   /// there from a kerb.
-  void place_turn_of_sinking_vehicle(int first_column) {
+  void place_frame_of_sinking_vehicle(int first_column) {
     image.clear();
     for (int n = 0; n < kShape.columns; ++n) {
       const int column = (first_column + n) % kShape.columns;
@@ -101,7 +101,7 @@ struct RoadSurfaceOfATurn : testing::Test, test::RivalScene {
   stage::SegmentationReport report;
 };
 
-TEST_F(RoadSurfaceOfATurn, EndsAtTheKerb) {
+TEST_F(RoadSurfaceOfAFrame, EndsAtTheKerb) {
   segment(street(0));
   EXPECT_GT(road_share(4, 25, -3, 3), 0.99);
   EXPECT_EQ(road_share(-15, 20, 3.8, 5.5), 0.0) << "the pavement";
@@ -109,13 +109,13 @@ TEST_F(RoadSurfaceOfATurn, EndsAtTheKerb) {
   EXPECT_EQ(road_share(-15, 20, -12, -3.8), 0.0);
 }
 
-TEST_F(RoadSurfaceOfATurn, LeadsThroughAGapInTheKerbThatIsWideEnoughForTheVehicle) {
+TEST_F(RoadSurfaceOfAFrame, LeadsThroughAGapInTheKerbThatIsWideEnoughForTheVehicle) {
   segment(street(6));
   EXPECT_GT(road_share(0, 15, 7, 12), 0.8);
   EXPECT_EQ(road_share(-15, 20, -12, -3.8), 0.0) << "the other side";
 }
 
-TEST_F(RoadSurfaceOfATurn, DoesNotLeadThroughAGapThatIsNot) {
+TEST_F(RoadSurfaceOfAFrame, DoesNotLeadThroughAGapThatIsNot) {
   segment(street(1.5));
   EXPECT_EQ(road_share(-15, 20, 6, 12), 0.0);
   config.road.vehicle_width_m = 0.4F;
@@ -123,7 +123,7 @@ TEST_F(RoadSurfaceOfATurn, DoesNotLeadThroughAGapThatIsNot) {
   EXPECT_GT(road_share(0, 15, 7, 12), 0.8) << "for a narrower vehicle it is one";
 }
 
-TEST_F(RoadSurfaceOfATurn, IsTheSameUphillDownhillAndUnderATiltedSensor) {
+TEST_F(RoadSurfaceOfAFrame, IsTheSameUphillDownhillAndUnderATiltedSensor) {
   for (const double rise : {0.15, -0.15, 0.087}) {
     segment(inclined(street(0), rise));
     EXPECT_GT(road_share(5, 15, -2.5, 2.5), 0.99) << rise;
@@ -131,7 +131,7 @@ TEST_F(RoadSurfaceOfATurn, IsTheSameUphillDownhillAndUnderATiltedSensor) {
   }
 }
 
-TEST_F(RoadSurfaceOfATurn, EndsWhereTheGroundIsRough) {
+TEST_F(RoadSurfaceOfAFrame, EndsWhereTheGroundIsRough) {
   // Ground beyond y = 4 that is up and down by 2 cm from one beam to the next: mown grass.
   const auto grass = [](double azimuth_rad, double elevation_rad) {
     const double level = test::flat_ground()(azimuth_rad, elevation_rad);
@@ -144,7 +144,7 @@ TEST_F(RoadSurfaceOfATurn, EndsWhereTheGroundIsRough) {
   EXPECT_EQ(road_share(-10, 20, 5, 15), 0.0);
 }
 
-TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
+TEST_F(RoadSurfaceOfAFrame, DoesNotEndAtTheNoiseOfASingleRing) {
   // One laser that sees a step of 10 cm in the middle of nowhere.
   constexpr int kRow = 30;
   for (int row = 0; row < kShape.rows; ++row) {
@@ -160,26 +160,26 @@ TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheNoiseOfASingleRing) {
   EXPECT_GT(road_share(4, 30, -2, 2), 0.97);
 }
 
-TEST_F(RoadSurfaceOfATurn, DoesNotEndWhereTheTurnEnds) {
-  place_turn_of_sinking_vehicle(kShape.columns / 2);
+TEST_F(RoadSurfaceOfAFrame, DoesNotEndWhereTheFrameEnds) {
+  place_frame_of_sinking_vehicle(kShape.columns / 2);
   resegment();
   EXPECT_GT(road_share(-6, -4, -0.1, 0.1), 0.97);
-  place_turn_of_sinking_vehicle(0);  // had it begun ahead, there would be a step behind
+  place_frame_of_sinking_vehicle(0);  // had it begun ahead, there would be a step behind
   resegment();
   EXPECT_LT(road_share(-6, -4, -0.1, 0.1), 0.1);
 }
 
-TEST_F(RoadSurfaceOfATurn, IsTheSameHoweverOftenItWasSeenBefore) {
-  place_turn_of_sinking_vehicle(0);
+TEST_F(RoadSurfaceOfAFrame, IsTheSameHoweverOftenItWasSeenBefore) {
+  place_frame_of_sinking_vehicle(0);
   resegment();
   const std::vector<frame::Label> first(segmenter->labels().begin(), segmenter->labels().end());
-  for (int turn = 1; turn < 5; ++turn) {
+  for (int frame = 1; frame < 5; ++frame) {
     (void)segmenter->segment(image);
-    EXPECT_TRUE(std::ranges::equal(segmenter->labels(), first)) << "after " << turn;
+    EXPECT_TRUE(std::ranges::equal(segmenter->labels(), first)) << "after " << frame;
   }
 }
 
-TEST_F(RoadSurfaceOfATurn, LeadsAcrossTwoRingsWithoutReturns) {
+TEST_F(RoadSurfaceOfAFrame, LeadsAcrossTwoRingsWithoutReturns) {
   // Both beyond the track that the way begins on; 13 m away, rings are 0.7 m apart.
   segment([](double azimuth_rad, double elevation_rad) {
     const double d = test::flat_ground()(azimuth_rad, elevation_rad);
@@ -189,8 +189,8 @@ TEST_F(RoadSurfaceOfATurn, LeadsAcrossTwoRingsWithoutReturns) {
   EXPECT_GT(road_share(15, 25, -3, 3), 0.97);
 }
 
-TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheSeamOfACompensatedTurn) {
-  // Returns moved to where they are seen from in the middle of a turn from behind to behind, then
+TEST_F(RoadSurfaceOfAFrame, DoesNotEndAtTheSeamOfACompensatedFrame) {
+  // Returns moved to where they are seen from in the middle of a frame from behind to behind, then
   // put back on their laser's rays, in another order.
   constexpr double kDriven_m = 1.2;
   for (int row = 0; row < kShape.rows; ++row) {
@@ -207,14 +207,14 @@ TEST_F(RoadSurfaceOfATurn, DoesNotEndAtTheSeamOfACompensatedTurn) {
   EXPECT_GT(road_share(-20, -4.5, -1, 1), 0.97);
 }
 
-TEST_F(RoadSurfaceOfATurn, EndsAtAKerbUnderTheVehicleThatEndsNearBy) {
+TEST_F(RoadSurfaceOfAFrame, EndsAtAKerbUnderTheVehicleThatEndsNearBy) {
   // The vehicle stands with its left wheels on a pavement that ends 8 m behind it.
   segment(test::ground_with_boxes({{-8, 0, 0.05, 4, -1, kKerb_m}}));
   EXPECT_EQ(road_share(-7, -4.5, 0.2, 3.5), 0.0);
   EXPECT_GT(road_share(-9, -4.5, -5, -0.5), 0.97);
 }
 
-TEST_F(RoadSurfaceOfATurn, LeadsToBothSidesOfAnEdgeUnderTheVehicleThatLeadsFarAway) {
+TEST_F(RoadSurfaceOfAFrame, LeadsToBothSidesOfAnEdgeUnderTheVehicleThatLeadsFarAway) {
   for (const test::Box& higher_side :
        {test::Box{-60, 0, 0.05, 6, -1, kKerb_m}, test::Box{-60, 0, -6, -0.05, -1, kKerb_m}}) {
     segment(test::ground_with_boxes({higher_side}));
@@ -223,12 +223,12 @@ TEST_F(RoadSurfaceOfATurn, LeadsToBothSidesOfAnEdgeUnderTheVehicleThatLeadsFarAw
   }
 }
 
-TEST_F(RoadSurfaceOfATurn, EndsAtAKerbBesideTheVehicleHoweverFarItLeads) {
+TEST_F(RoadSurfaceOfAFrame, EndsAtAKerbBesideTheVehicleHoweverFarItLeads) {
   segment(test::ground_with_boxes({{-60, 60, 1.3, 6, -1, kKerb_m}}));
   EXPECT_LT(road_share(-15, 15, 1.5, 5.5), 0.01);
 }
 
-TEST_F(RoadSurfaceOfATurn, DoesNotGoOnBehindAWall) {
+TEST_F(RoadSurfaceOfAFrame, DoesNotGoOnBehindAWall) {
   // Walls around the vehicle, low enough for the ground behind them to be seen.
   segment(test::ground_with_boxes({{8, 8.3, -60, 60, -1, 0.8},
                                    {-8.3, -8, -60, 60, -1, 0.8},
@@ -238,11 +238,11 @@ TEST_F(RoadSurfaceOfATurn, DoesNotGoOnBehindAWall) {
   EXPECT_EQ(road_share(16, 40, -20, 20), 0.0);
 }
 
-TEST_F(RoadSurfaceOfATurn, IsTheSameWhereverTheSeamOfTheImageLies) {
+TEST_F(RoadSurfaceOfAFrame, IsTheSameWhereverTheSeamOfTheImageLies) {
   // Kerbs, bumps that bar the way and bumps that are noise; then the same seen from a vehicle that
   // stands the other way round, so that what was at the seam is in the middle of the image.
   constexpr frame::ImageShape kHalves{64, 1080};  // halves of whole patches and sectors
-  frame::RangeImage turn(kHalves, 0, memory);
+  frame::RangeImage frame(kHalves, 0, memory);
   std::mt19937 random(5);
   const auto between = [&random](double least, double most) {
     return std::uniform_real_distribution<double>(least, most)(random);
@@ -262,22 +262,22 @@ TEST_F(RoadSurfaceOfATurn, IsTheSameWhereverTheSeamOfTheImageLies) {
     }
     const auto beams = test::ground_with_boxes(boxes);
     std::vector<frame::Label> cells[2];
-    for (const int half_turns : {0, 1}) {
-      test::cast_turn(
+    for (const int half_revolutions : {0, 1}) {
+      test::cast_frame(
           profile,
           [&](double azimuth_rad, double elevation_rad) {
-            return beams(azimuth_rad + half_turns * std::numbers::pi, elevation_rad);
+            return beams(azimuth_rad + half_revolutions * std::numbers::pi, elevation_rad);
           },
-          turn);
-      ground::Segmenter of_halves(config, profile, kHalves, turn.return_capacity(), memory);
-      (void)of_halves.segment(turn);
+          frame);
+      ground::Segmenter of_halves(config, profile, kHalves, frame.return_capacity(), memory);
+      (void)of_halves.segment(frame);
       for (int row = 0; row < kHalves.rows; ++row) {
         for (int column = 0; column < kHalves.columns; ++column) {
-          const int turned = (column + half_turns * kHalves.columns / 2) % kHalves.columns;
-          const std::size_t cell = kHalves.cell(row, turned);
-          cells[half_turns].push_back(turn.has_return(cell)
-                                          ? of_halves.labels()[turn.return_index()[cell]]
-                                          : frame::Label::kNone);
+          const int rotated = (column + half_revolutions * kHalves.columns / 2) % kHalves.columns;
+          const std::size_t cell = kHalves.cell(row, rotated);
+          cells[half_revolutions].push_back(frame.has_return(cell)
+                                                ? of_halves.labels()[frame.return_index()[cell]]
+                                                : frame::Label::kNone);
         }
       }
     }
@@ -287,7 +287,7 @@ TEST_F(RoadSurfaceOfATurn, IsTheSameWhereverTheSeamOfTheImageLies) {
   }
 }
 
-TEST_F(RoadSurfaceOfATurn, ChangesNothingButWhichGroundItIs) {
+TEST_F(RoadSurfaceOfAFrame, ChangesNothingButWhichGroundItIs) {
   const auto beams = street(6);
   segment(beams);
   const std::vector<frame::Label> with(segmenter->labels().begin(), segmenter->labels().end());
@@ -306,23 +306,23 @@ TEST_F(RoadSurfaceOfATurn, ChangesNothingButWhichGroundItIs) {
   EXPECT_GT(report_with.other_ground, 0U);
 }
 
-TEST_F(RoadSurfaceOfATurn, CountsTheSecondReturnOfACellWhereTheCellIs) {
+TEST_F(RoadSurfaceOfAFrame, CountsTheSecondReturnOfACellWhereTheCellIs) {
   cast(street(0));
   const auto double_up = [&](float least_y, float most_y) {
-    std::vector<frame::Return> echoes;
+    std::vector<frame::Return> returns;
     std::vector<std::pair<int, int>> cells;
     for (int row = 5; row < 30; ++row) {
       for (int column = 0; column < kShape.columns; ++column) {
         const auto cell = static_cast<std::size_t>(row * kShape.stride() + column);
-        const frame::Return echo{image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
-                                 image.ground_range_m()[cell], 0};
-        if (echo.x_m < 5 || echo.x_m > 12 || echo.y_m < least_y || echo.y_m > most_y) continue;
-        echoes.push_back(echo);
+        const frame::Return point{image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
+                                  image.ground_range_m()[cell], 0};
+        if (point.x_m < 5 || point.x_m > 12 || point.y_m < least_y || point.y_m > most_y) continue;
+        returns.push_back(point);
         cells.emplace_back(row, column);
       }
     }
-    for (std::size_t i = 0; i < std::min<std::size_t>(echoes.size(), 100); ++i) {
-      ASSERT_TRUE(image.place(cells[i].first, cells[i].second, echoes[i]));
+    for (std::size_t i = 0; i < std::min<std::size_t>(returns.size(), 100); ++i) {
+      ASSERT_TRUE(image.place(cells[i].first, cells[i].second, returns[i]));
     }
   };
   double_up(-1, 1);
@@ -331,18 +331,18 @@ TEST_F(RoadSurfaceOfATurn, CountsTheSecondReturnOfACellWhereTheCellIs) {
   ASSERT_GT(image.overflow().size(), 50U);
   for (const frame::OverflowReturn& extra : image.overflow()) {
     const frame::Label expected =
-        extra.echo.y_m < 2 ? frame::Label::kGround : frame::Label::kOtherGround;
-    EXPECT_EQ(labels[extra.return_index], expected) << extra.echo.y_m;
+        extra.point.y_m < 2 ? frame::Label::kGround : frame::Label::kOtherGround;
+    EXPECT_EQ(labels[extra.return_index], expected) << extra.point.y_m;
   }
 }
 
-TEST_F(RoadSurfaceOfATurn, AnEmptyTurnAndOneOfAFewColumnsAreNoTrouble) {
+TEST_F(RoadSurfaceOfAFrame, AnEmptyFrameAndOneOfAFewColumnsAreNoTrouble) {
   EXPECT_TRUE(segment([](double, double) { return -1.0; }).empty());
   for (const int columns : {3, 7, 40}) {
     const frame::ImageShape shape{64, columns};
     frame::RangeImage small(shape, 0, memory);
     ground::Segmenter of_small(config, profile, shape, small.return_capacity(), memory);
-    test::cast_turn(profile, street(0), small);
+    test::cast_frame(profile, street(0), small);
     EXPECT_EQ(of_small.segment(small).returns, small.returns());
   }
 }

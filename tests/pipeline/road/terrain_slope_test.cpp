@@ -7,12 +7,12 @@
 #include <cmath>
 #include <functional>
 
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::road {
 namespace {
 
-struct SlopeOfATurn : testing::Test {
+struct SlopeOfAFrame : testing::Test {
   static constexpr frame::ImageShape kShape{64, 1000};
 
   /// Fits a world of ground whose height is a function of the place, seen from right above it;
@@ -20,7 +20,7 @@ struct SlopeOfATurn : testing::Test {
   void fit(const std::function<float(float x, float y)>& height) {
     image.clear();
     const mount::RingProfile profile = test::even_profile();
-    test::cast_turn(profile, test::flat_ground(), image);
+    test::cast_frame(profile, test::flat_ground(), image);
     frame::RangeImage raised(kShape, 0, memory);
     for (int row = 0; row < kShape.rows; ++row) {
       for (int column = 0; column < kShape.columns; ++column) {
@@ -46,7 +46,7 @@ struct SlopeOfATurn : testing::Test {
   TerrainSlope slope{{.square_m = 10}, ground.x_m().size(), memory};
 };
 
-TEST_F(SlopeOfATurn, IsThatOfAPlane) {
+TEST_F(SlopeOfAFrame, IsThatOfAPlane) {
   fit([](float x, float y) { return 0.1F * x - 0.05F * y; });
   for (const float x : {-25.0F, 0.0F, 12.0F, 30.0F}) {
     EXPECT_NEAR(slope.at(x, 3).along_x, 0.1F, 0.015F) << x;
@@ -55,7 +55,7 @@ TEST_F(SlopeOfATurn, IsThatOfAPlane) {
   EXPECT_NEAR(slope.at(10, 0).rise_m(2, 2), 0.1F, 0.03F);
 }
 
-TEST_F(SlopeOfATurn, IsThatOfALongStrip) {
+TEST_F(SlopeOfAFrame, IsThatOfALongStrip) {
   // 12 m wide: what is known across it counts for less than what is along it, but not for nothing.
   for (const bool is_across : {false, true}) {
     fit([is_across](float x, float y) {
@@ -66,7 +66,7 @@ TEST_F(SlopeOfATurn, IsThatOfALongStrip) {
   }
 }
 
-TEST_F(SlopeOfATurn, IsKnownByPatchAsByPlace) {
+TEST_F(SlopeOfAFrame, IsKnownByPatchAsByPlace) {
   fit([](float x, float y) { return x > 0 ? 0.1F * x : 0.02F * y; });
   for (std::size_t i = 0; i < ground.x_m().size(); ++i) {
     const auto& by_place = slope.at(ground.x_m()[i], ground.y_m()[i]);
@@ -75,13 +75,13 @@ TEST_F(SlopeOfATurn, IsKnownByPatchAsByPlace) {
   }
 }
 
-TEST_F(SlopeOfATurn, FollowsAHillThatBeginsAhead) {
+TEST_F(SlopeOfAFrame, FollowsAHillThatBeginsAhead) {
   fit([](float x, float) { return x > 15 ? 0.15F * (x - 15) : 0.0F; });
   EXPECT_NEAR(slope.at(-20, 0).along_x, 0, 0.01F);
   EXPECT_NEAR(slope.at(35, 0).along_x, 0.15F, 0.02F);
 }
 
-TEST_F(SlopeOfATurn, DoesNotListenToRoughGround) {
+TEST_F(SlopeOfAFrame, DoesNotListenToRoughGround) {
   fit([](float x, float y) {
     // Grass: steep, and up and down by more than a road is.
     return y > 4 ? 0.4F * (y - 4) + 0.03F * (std::sin(97 * y) + std::sin(89 * x)) : 0.0F;
@@ -89,7 +89,7 @@ TEST_F(SlopeOfATurn, DoesNotListenToRoughGround) {
   EXPECT_NEAR(slope.at(5, 0).along_y, 0, 0.05F);
 }
 
-TEST_F(SlopeOfATurn, IsLevelWhereNothingIsSeen) {
+TEST_F(SlopeOfAFrame, IsLevelWhereNothingIsSeen) {
   fit([](float x, float) { return 0.1F * x; });
   image.clear();
   for (frame::Label& label : planes.label) label = frame::Label::kNone;
@@ -99,7 +99,7 @@ TEST_F(SlopeOfATurn, IsLevelWhereNothingIsSeen) {
   EXPECT_EQ(slope.at(5, 0).along_x, 0);
 }
 
-TEST_F(SlopeOfATurn, IsKnownEverywhere) {
+TEST_F(SlopeOfAFrame, IsKnownEverywhere) {
   fit([](float x, float) { return 0.1F * x; });
   for (const float far_m : {-1e9F, -100.0F, 100.0F, 1e9F, INFINITY, -INFINITY}) {
     EXPECT_TRUE(std::isfinite(slope.at(far_m, far_m).along_x)) << far_m;

@@ -22,13 +22,13 @@ class FrameExchangeTest : public testing::Test {
     open_ = {&images_[0], &images_[1]};
   }
 
-  /// The turn goes over in the older of the two open images; the numbers of those skipped.
+  /// The frame goes over in the older of the two open images; the numbers of those skipped.
   void hand_over(std::uint32_t number) {
-    FrameExchange::Turn turn;
-    turn.image = open_[0];
-    turn.timing.number = number;
+    FrameExchange::Frame frame;
+    frame.image = open_[0];
+    frame.timing.number = number;
     open_[0] = open_[1];
-    open_[1] = exchange_->hand_over(turn, [this](const FrameExchange::Turn& skipped) noexcept {
+    open_[1] = exchange_->hand_over(frame, [this](const FrameExchange::Frame& skipped) noexcept {
       skipped_.push_back(skipped.timing.number);
     });
   }
@@ -40,27 +40,27 @@ class FrameExchangeTest : public testing::Test {
   std::vector<std::uint32_t> skipped_;
 };
 
-TEST_F(FrameExchangeTest, GivesTheNewestTurnAndTellsOfThoseThatWereNeverTaken) {
+TEST_F(FrameExchangeTest, GivesTheNewestFrameAndTellsOfThoseThatWereNeverTaken) {
   EXPECT_EQ(exchange_->take_if_new(), nullptr);
   hand_over(1);
   EXPECT_TRUE(skipped_.empty()) << "it may still be taken";
   hand_over(2);
   EXPECT_EQ(skipped_, (std::vector<std::uint32_t>{1}));
-  FrameExchange::Turn* turn = exchange_->take_if_new();
-  ASSERT_NE(turn, nullptr);
-  EXPECT_EQ(turn->timing.number, 2U);
+  FrameExchange::Frame* frame = exchange_->take_if_new();
+  ASSERT_NE(frame, nullptr);
+  EXPECT_EQ(frame->timing.number, 2U);
   EXPECT_EQ(exchange_->take_if_new(), nullptr) << "it was had";
   hand_over(3);
   EXPECT_EQ(skipped_, (std::vector<std::uint32_t>{1})) << "the one before it was taken";
 }
 
-TEST_F(FrameExchangeTest, LeavesEveryTurnEitherTakenOrSkipped) {
+TEST_F(FrameExchangeTest, LeavesEveryFrameEitherTakenOrSkipped) {
   std::vector<std::uint32_t> taken;
   for (std::uint32_t number = 0; number < 100; ++number) {
     hand_over(number);
     if (number % 7 < 3) taken.push_back(exchange_->take_if_new()->timing.number);
   }
-  if (FrameExchange::Turn* last = exchange_->take_if_new()) taken.push_back(last->timing.number);
+  if (FrameExchange::Frame* last = exchange_->take_if_new()) taken.push_back(last->timing.number);
   EXPECT_EQ(taken.size() + skipped_.size(), 100U);
   std::set<std::uint32_t> all(taken.begin(), taken.end());
   all.insert(skipped_.begin(), skipped_.end());

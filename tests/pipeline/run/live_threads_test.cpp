@@ -25,7 +25,7 @@ using test::Packet;
 
 constexpr std::int64_t kMs = 1'000'000;
 constexpr std::int64_t kStart_ns = 1'700'000'000'000 * kMs;
-constexpr std::int64_t kTurn_ns = 100 * kMs;
+constexpr std::int64_t kFramePeriod_ns = 100 * kMs;
 
 /// Every time a test's machine has. Each look at the time of day takes a nanosecond, and each look
 /// at the processor time `work_ns` of work.
@@ -98,36 +98,37 @@ class MadeSource {
   net::ReceiveCounters counters_;
 };
 
-class LiveTurns : public testing::Test {
+class LiveFrames : public testing::Test {
  protected:
   using Receiver = FrameReceiver<MadeSource, HeldClock, HeldWait>;
   using Segmenter = FrameSegmenter<HeldClock, HeldWait>;
   static constexpr std::int64_t kDeadline_ns = 50 * kMs;
 
-  LiveTurns() {
+  LiveFrames() {
     begin_receiving();
     segmenter_.emplace(
-        kDeadline_ns, chain_, turns_,
+        kDeadline_ns, chain_, frames_,
         Segmenter::Outlets{
             .timings = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
         HeldClock{&time_}, HeldWait{&time_});
   }
 
   void begin_receiving() {
-    receiver_.emplace(Receiver::Config{.deadline_ns = kDeadline_ns, .turn_ns = kTurn_ns}, chain_,
-                      source_,
-                      Receiver::Outlets{.turns = &turns_,
-                                        .turn_ready = &*turn_ready_,
-                                        .skipped = &skipped_,
-                                        .intake = &intake_,
-                                        .recorder = nullptr},
-                      HeldClock{&time_}, HeldWait{&time_});
+    receiver_.emplace(
+        Receiver::Config{.deadline_ns = kDeadline_ns, .frame_period_ns = kFramePeriod_ns}, chain_,
+        source_,
+        Receiver::Outlets{.frames = &frames_,
+                          .frame_ready = &*frame_ready_,
+                          .skipped = &skipped_,
+                          .intake = &intake_,
+                          .recorder = nullptr},
+        HeldClock{&time_}, HeldWait{&time_});
   }
 
-  /// A head that turns `turns` times, beginning at 0 degrees now.
-  std::vector<Packet> drive(int turns, double share_of_returns = 0.05) {
+  /// A head that rotates `frames` times, beginning at 0 degrees now.
+  std::vector<Packet> drive(int frames, double share_of_returns = 0.05) {
     return test::random_packets({.first_cdeg = 0,
-                                 .last_cdeg = 36'000 * turns,
+                                 .last_cdeg = 36'000 * frames,
                                  .first_stamp_ns = kStart_ns,
                                  .share_of_returns = share_of_returns});
   }
@@ -136,15 +137,15 @@ class LiveTurns : public testing::Test {
     sent_.push_back(std::move(packets));
     for (const Packet& packet : sent_.back()) source_.add(packet.bytes, packet.stamp_ns);
   }
-  /// Receives all that was sent, and segments each turn as soon as it is there.
+  /// Receives all that was sent, and segments each frame as soon as it is there.
   void run() {
     while (source_.has_more()) {
-      (void)receiver_->turn_round(100 * kMs);
+      (void)receiver_->work_round(100 * kMs);
       expect_balance();
-      (void)segmenter_->turn_round();
+      (void)segmenter_->work_round();
       take_timings();
     }
-    (void)receiver_->turn_round(0);
+    (void)receiver_->work_round(0);
   }
   void take_timings() {
     for (status::FrameTiming timing; skipped_.take(timing) || segmented_.take(timing);) {
@@ -165,7 +166,7 @@ class LiveTurns : public testing::Test {
   [[nodiscard]] std::uint64_t rejected(Reject reason) {
     return intake().account.losses.rejected[static_cast<std::size_t>(reason)];
   }
-  /// From a turn's last packet to where it was handed over.
+  /// From a frame's last packet to where it was handed over.
   static std::int64_t lag_ns(const status::FrameTiming& timing) {
     return timing.handed_over_ns - timing.last_packet_ns;
   }
@@ -183,22 +184,22 @@ class LiveTurns : public testing::Test {
   LivePipeline chain_{calibration_, profile_, decoder_config(), {}, memory_};
   std::vector<std::vector<Packet>> sent_;
   MadeSource source_{time_, chain_.decoder};
-  FrameExchange turns_{chain_.decoder.images()};
-  Expected<threads::WakeEvent> turn_ready_ = threads::WakeEvent::make();
+  FrameExchange frames_{chain_.decoder.images()};
+  Expected<threads::WakeEvent> frame_ready_ = threads::WakeEvent::make();
   FrameTimings skipped_{memory_}, segmented_{memory_};
   queues::LatestValue<Intake> intake_;
-  FrameSlots<frame::Label> labels_{"labels", 4, chain_.decoder.return_capacity(), memory_};
+  FramePool<frame::Label> labels_{"labels", 4, chain_.decoder.return_capacity(), memory_};
   std::optional<Receiver> receiver_;
   std::optional<Segmenter> segmenter_;
   std::vector<status::FrameTiming> timings_;
 };
 
-TEST_F(LiveTurns, EachDatagramIsInExactlyOnePlaceWithOrWithoutFrames) {
+TEST_F(LiveFrames, EachDatagramIsInExactlyOnePlaceWithOrWithoutFrames) {
   const std::vector<std::uint8_t> too_short(100);
   const auto packets = drive(3);
   for (int i = 0; i < 10; ++i) source_.add(too_short, kStart_ns);
   source_.leave_out(7, 2);
-  (void)receiver_->turn_round(100 * kMs);
+  (void)receiver_->work_round(100 * kMs);
   EXPECT_EQ(rejected(Reject::kWrongSize), 10U) << "shown although no frame came";
   EXPECT_EQ(intake().account.source.received, 19U);
   expect_balance();
@@ -211,7 +212,7 @@ TEST_F(LiveTurns, EachDatagramIsInExactlyOnePlaceWithOrWithoutFrames) {
   expect_balance();
 }
 
-TEST_F(LiveTurns, AHeadThatStandsShowsInTheCountsAlthoughNoFrameComes) {
+TEST_F(LiveFrames, AHeadThatStandsShowsInTheCountsAlthoughNoFrameComes) {
   std::vector<Packet> standing = drive(1);
   for (Packet& packet : standing) {
     for (std::size_t block = 0; block < 12; ++block) packet.set_u16(100 * block + 2, 1234);
@@ -223,11 +224,11 @@ TEST_F(LiveTurns, AHeadThatStandsShowsInTheCountsAlthoughNoFrameComes) {
   expect_balance();
 }
 
-TEST_F(LiveTurns, ALimitedFieldOfViewIsNamedAndCostsNoDeadline) {
+TEST_F(LiveFrames, ALimitedFieldOfViewIsNamedAndCostsNoDeadline) {
   auto packets = drive(20);
   std::erase_if(packets, [](const Packet& packet) {
-    const int head_cdeg = packet.bytes[2] + 256 * packet.bytes[3];
-    return head_cdeg < 9'000 || head_cdeg >= 27'000;
+    const int rotor_cdeg = packet.bytes[2] + 256 * packet.bytes[3];
+    return rotor_cdeg < 9'000 || rotor_cdeg >= 27'000;
   });
   send(packets);
   run();
@@ -236,34 +237,34 @@ TEST_F(LiveTurns, ALimitedFieldOfViewIsNamedAndCostsNoDeadline) {
   EXPECT_EQ(intake().account.losses.network_gap_packets, 0U);
   EXPECT_GE(timings_.size(), 19U);
   for (const status::FrameTiming& timing : timings_) {
-    // The sector is known after three turns, after five more how packets come to lie beside it.
+    // The sector is known after three frames, after five more how packets come to lie beside it.
     if (timing.number < 9) continue;
-    EXPECT_NE(timing.rung, status::Rung::kSkipped) << timing.number;
+    EXPECT_NE(timing.level, status::Level::kSkipped) << timing.number;
   }
 }
 
-TEST_F(LiveTurns, CountsWhatTheKernelDroppedLastAtTheEnd) {
+TEST_F(LiveFrames, CountsWhatTheKernelDroppedLastAtTheEnd) {
   source_.drops_in_kernel = 23'162;
-  (void)receiver_->turn_round(0);
+  (void)receiver_->work_round(0);
   EXPECT_EQ(intake().account.losses.kernel_drops, 0U);
   receiver_->finish();
   EXPECT_EQ(intake().account.losses.kernel_drops, 23'162U);
   EXPECT_EQ(intake().account.source.kernel_drops, 23'162U);
 }
 
-TEST_F(LiveTurns, WhatCameBeforeTheRunIsNotInItsAccount) {
+TEST_F(LiveFrames, WhatCameBeforeTheRunIsNotInItsAccount) {
   source_.leave_out(7, 2);
   source_.drops_in_kernel = 5;
   begin_receiving();
   source_.leave_out(1, 0);
-  (void)receiver_->turn_round(100 * kMs);
+  (void)receiver_->work_round(100 * kMs);
   EXPECT_EQ(intake().account.source.received, 1U);
   EXPECT_EQ(intake().account.source.foreign, 1U);
   EXPECT_EQ(intake().account.source.kernel_drops, 0U);
   expect_balance();
 }
 
-TEST_F(LiveTurns, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
+TEST_F(LiveFrames, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
   const auto packets = drive(60);
   send(packets);
   const std::int64_t period_ns = 6 * 48'000;
@@ -273,56 +274,56 @@ TEST_F(LiveTurns, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
   for (const status::FrameTiming& timing : timings_) {
     longest_lag_ns = std::max(longest_lag_ns, lag_ns(timing));
   }
-  EXPECT_LE(longest_lag_ns, kDeadline_ns + kTurn_ns + 64 * source_.cost_ns) << "and a batch";
+  EXPECT_LE(longest_lag_ns, kDeadline_ns + kFramePeriod_ns + 64 * source_.cost_ns) << "and a batch";
   EXPECT_GT(intake().account.let_go, packets.size() / 10);
   EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
   const auto in_time = std::ranges::count_if(timings_, [](const status::FrameTiming& timing) {
-    return timing.rung != status::Rung::kSkipped &&
+    return timing.level != status::Level::kSkipped &&
            timing.labels_ns - timing.last_packet_ns <= kDeadline_ns;
   });
   EXPECT_GE(in_time, 10) << "and labels are still made, all through it";
   for (const status::FrameTiming& timing : timings_) {
-    if (timing.rung == status::Rung::kSkipped) continue;
+    if (timing.level == status::Level::kSkipped) continue;
     EXPECT_LE(timing.labels_ns - timing.last_packet_ns, kDeadline_ns) << timing.number;
   }
 }
 
-TEST_F(LiveTurns, LetsNothingGoThatMayStillBeLabelledInTimeAfterAStandstill) {
+TEST_F(LiveFrames, LetsNothingGoThatMayStillBeLabelledInTimeAfterAStandstill) {
   send(drive(10));
   source_.cost_ns = 10'000;
   while (timings_.size() < 3) {
-    (void)receiver_->turn_round(100 * kMs);
-    (void)segmenter_->turn_round();
+    (void)receiver_->work_round(100 * kMs);
+    (void)segmenter_->work_round();
     take_timings();
   }
-  time_.now_ns += 140 * kMs;  // less than a turn and the deadline
+  time_.now_ns += 140 * kMs;  // less than a frame and the deadline
   run();
   EXPECT_EQ(intake().account.let_go, 0U);
 }
 
-TEST_F(LiveTurns, IsBackWithTheNextWholeTurnAfterAStandstillOfASecond) {
+TEST_F(LiveFrames, IsBackWithTheNextWholeFrameAfterAStandstillOfASecond) {
   const auto packets = drive(20);
   send(packets);
   source_.cost_ns = 10'000;
   while (timings_.size() < 3) {
-    (void)receiver_->turn_round(100 * kMs);
-    (void)segmenter_->turn_round();
+    (void)receiver_->work_round(100 * kMs);
+    (void)segmenter_->work_round();
     take_timings();
   }
   const std::size_t before = timings_.size();
   const std::int64_t back_ns = time_.now_ns += 1000 * kMs;
   run();
   EXPECT_NEAR(static_cast<double>(intake().account.let_go), 850.0 / 1000 * 3472, 30)
-      << "what was older than a turn and the deadline";
+      << "what was older than a frame and the deadline";
   EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
   for (std::size_t i = before; i < timings_.size(); ++i) {
     if (timings_[i].first_packet_ns < back_ns) continue;
-    EXPECT_NE(timings_[i].rung, status::Rung::kSkipped) << timings_[i].number;
+    EXPECT_NE(timings_[i].level, status::Level::kSkipped) << timings_[i].number;
   }
   expect_balance();
 }
 
-TEST_F(LiveTurns, TurnsThatBreakOffCostNoCoarsePassEach) {
+TEST_F(LiveFrames, FramesThatBreakOffCostNoCoarsePassEach) {
   // As many packets as it takes to begin another stream, then the next one, elsewhere and at
   // another time.
   constexpr std::size_t kStreams = 60, kPackets = decode::StreamTracker::kNewStream_packets;
@@ -338,19 +339,19 @@ TEST_F(LiveTurns, TurnsThatBreakOffCostNoCoarsePassEach) {
     }
   }
   send(packets);
-  int turns = 0, with_coarse_stages = 0;
+  int frames = 0, with_coarse_stages = 0;
   while (source_.has_more()) {
-    turns += receiver_->turn_round(100 * kMs).turns;
-    if (const FrameExchange::Turn* turn = turns_.take_if_new()) {
-      with_coarse_stages += turn->has_coarse_stages ? 1 : 0;
+    frames += receiver_->work_round(100 * kMs).frames;
+    if (const FrameExchange::Frame* frame = frames_.take_if_new()) {
+      with_coarse_stages += frame->has_coarse_stages ? 1 : 0;
     }
   }
-  EXPECT_GE(turns, static_cast<int>(kStreams) - 1) << "the stream breaks off again and again";
+  EXPECT_GE(frames, static_cast<int>(kStreams) - 1) << "the stream breaks off again and again";
   EXPECT_EQ(with_coarse_stages, 0);
 }
 
-TEST_F(LiveTurns, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
-  // The stream breaks off in the midst of a turn and goes on elsewhere.
+TEST_F(LiveFrames, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
+  // The stream breaks off in the midst of a frame and goes on elsewhere.
   const auto packets = test::random_packets(
       {.first_cdeg = 0, .last_cdeg = 54'000, .first_stamp_ns = kStart_ns, .share_of_returns = 0.2});
   auto later = test::random_packets({.first_cdeg = 3'000,
@@ -366,10 +367,10 @@ TEST_F(LiveTurns, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
                             chain_.decoder.return_capacity(), memory_);
   int ahead = 0, late = 0;
   while (source_.has_more()) {
-    if (receiver_->turn_round(100 * kMs).turns == 0) continue;
+    if (receiver_->work_round(100 * kMs).frames == 0) continue;
     // What the segmenting half is about to label, labelled here first.
-    ASSERT_TRUE(segmenter_->turn_round());
-    FrameSlots<frame::Label>::Frame frame;
+    ASSERT_TRUE(segmenter_->work_round());
+    FramePool<frame::Label>::Frame frame;
     ASSERT_TRUE(labels_.take(frame));
     (frame.timing.stages_ahead > 0 ? ahead : late) += 1;
     const auto image =
@@ -385,53 +386,53 @@ TEST_F(LiveTurns, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
   EXPECT_GE(late, 1);
 }
 
-TEST_F(LiveTurns, AFrameIsJudgedByWhenItsLabelsWereHandedOn) {
+TEST_F(LiveFrames, AFrameIsJudgedByWhenItsLabelsWereHandedOn) {
   send(drive(2));
   run();
   ASSERT_FALSE(timings_.empty());
-  FrameSlots<frame::Label>::Frame frame;
+  FramePool<frame::Label>::Frame frame;
   ASSERT_TRUE(labels_.take(frame));
   EXPECT_EQ(frame.info.number, timings_.front().number);
   EXPECT_GT(timings_.front().labels_ns, frame.timing.labels_ns);
 }
 
-TEST_F(LiveTurns, ATurnThatIsTakenLateEndsOnALowerRung) {
+TEST_F(LiveFrames, AFrameThatIsTakenLateEndsOnALowerLevel) {
   struct Case {
     std::int64_t left_ns;
-    status::Rung rung;
+    status::Level level;
   };
   send(drive(5));
-  for (const Case& late : {Case{30 * kMs, status::Rung::kFull},
-                           {2 * kMs, status::Rung::kCoarse},
-                           {-kMs, status::Rung::kSkipped}}) {
-    while (receiver_->turn_round(100 * kMs).turns == 0) {
+  for (const Case& late : {Case{30 * kMs, status::Level::kFull},
+                           {2 * kMs, status::Level::kCoarse},
+                           {-kMs, status::Level::kSkipped}}) {
+    while (receiver_->work_round(100 * kMs).frames == 0) {
     }
     take_timings();
     time_.now_ns += kDeadline_ns - late.left_ns;
-    ASSERT_TRUE(segmenter_->turn_round());
+    ASSERT_TRUE(segmenter_->work_round());
     timings_.clear();
     for (status::FrameTiming timing; segmented_.take(timing);) timings_.push_back(timing);
     ASSERT_EQ(timings_.size(), 1U);
-    EXPECT_EQ(timings_[0].rung, late.rung) << late.left_ns / kMs << " ms left";
+    EXPECT_EQ(timings_[0].level, late.level) << late.left_ns / kMs << " ms left";
   }
 }
 
-TEST_F(LiveTurns, LabelsOfAFrameThatWasTriedAndCameLateAreHandedToNobody) {
+TEST_F(LiveFrames, LabelsOfAFrameThatWasTriedAndCameLateAreHandedToNobody) {
   send(drive(12));
   std::vector<std::uint32_t> handed_on, labelled;
   int tried_and_late = 0;
   while (source_.has_more()) {
-    (void)receiver_->turn_round(100 * kMs);
+    (void)receiver_->work_round(100 * kMs);
     time_.work_ns = 26 * kMs;  // labels made and handed on take longer than the deadline
-    (void)segmenter_->turn_round();
+    (void)segmenter_->work_round();
     time_.work_ns = 0;
-    for (FrameSlots<frame::Label>::Frame frame; labels_.take(frame); labels_.give_back(true)) {
+    for (FramePool<frame::Label>::Frame frame; labels_.take(frame); labels_.give_back(true)) {
       handed_on.push_back(frame.info.number);
     }
     for (status::FrameTiming timing; segmented_.take(timing);) {
-      if (timing.rung != status::Rung::kSkipped) labelled.push_back(timing.number);
+      if (timing.level != status::Level::kSkipped) labelled.push_back(timing.number);
       const bool was_tried = timing.segment_cpu_ns > kDeadline_ns;
-      if (timing.rung == status::Rung::kSkipped && was_tried) ++tried_and_late;
+      if (timing.level == status::Level::kSkipped && was_tried) ++tried_and_late;
     }
   }
   EXPECT_EQ(handed_on, labelled);
@@ -439,25 +440,25 @@ TEST_F(LiveTurns, LabelsOfAFrameThatWasTriedAndCameLateAreHandedToNobody) {
   EXPECT_EQ(labelled.size(), 3U) << "until the cost was known";
 }
 
-TEST_F(LiveTurns, WaitingForACoreIsCountedSinceTheFetchBefore) {
+TEST_F(LiveFrames, WaitingForACoreIsCountedSinceTheFetchBefore) {
   send(drive(6));
   while (source_.has_more()) {
     time_.waited_ns += 1000;
-    (void)receiver_->turn_round(100 * kMs);
-    take_timings();  // of turns that nobody segments
+    (void)receiver_->work_round(100 * kMs);
+    take_timings();  // of frames that nobody segments
   }
   ASSERT_GT(timings_.size(), 3U);
   for (const status::FrameTiming& timing : timings_) EXPECT_EQ(timing.run_queue_wait_ns, 1000);
 }
 
-TEST_F(LiveTurns, TimesOfAFrameAreItsOwnAndNoOthers) {
+TEST_F(LiveFrames, TimesOfAFrameAreItsOwnAndNoOthers) {
   send(drive(22));
   source_.cost_ns = 10'000;
   while (source_.has_more()) {
     time_.waited_ns += 1000;  // before every fetch
-    (void)receiver_->turn_round(100 * kMs);
+    (void)receiver_->work_round(100 * kMs);
     time_.waited_ns += 50;
-    (void)segmenter_->turn_round();
+    (void)segmenter_->work_round();
     take_timings();
   }
   ASSERT_GT(timings_.size(), 20U);

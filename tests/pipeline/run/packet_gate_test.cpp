@@ -12,7 +12,7 @@ constexpr std::int64_t kNow_ns = 1'700'000'000'000 * kMs;
 
 class PacketGateOf50Ms : public testing::Test {
  protected:
-  void hand_over_turn_aged(std::int64_t age_ns) { gate_.note_turn(kNow_ns - age_ns, kNow_ns); }
+  void hand_over_frame_aged(std::int64_t age_ns) { gate_.note_frame(kNow_ns - age_ns, kNow_ns); }
   [[nodiscard]] bool lets_in_packet_aged(std::int64_t age_ns) {
     return gate_.lets_in(kNow_ns - age_ns, kNow_ns);
   }
@@ -20,7 +20,7 @@ class PacketGateOf50Ms : public testing::Test {
   PacketGate gate_{50 * kMs, 100 * kMs};
 };
 
-TEST_F(PacketGateOf50Ms, LetsAPacketGoOnlyWhenItsTurnIsDueWhateverIsDone) {
+TEST_F(PacketGateOf50Ms, LetsAPacketGoOnlyWhenItsFrameIsDueWhateverIsDone) {
   EXPECT_TRUE(lets_in_packet_aged(0));
   EXPECT_TRUE(lets_in_packet_aged(150 * kMs));
   EXPECT_FALSE(lets_in_packet_aged(150 * kMs + 1));
@@ -28,12 +28,12 @@ TEST_F(PacketGateOf50Ms, LetsAPacketGoOnlyWhenItsTurnIsDueWhateverIsDone) {
   EXPECT_TRUE(lets_in_packet_aged(-3'600'000 * kMs)) << "the clock was set back";
 }
 
-TEST_F(PacketGateOf50Ms, LetsTheBacklogGoAfterThreeLateTurnsInARow) {
+TEST_F(PacketGateOf50Ms, LetsTheBacklogGoAfterThreeLateFramesInARow) {
   gate_.begin_batch(true);
-  hand_over_turn_aged(51 * kMs);
-  hand_over_turn_aged(60 * kMs);
+  hand_over_frame_aged(51 * kMs);
+  hand_over_frame_aged(60 * kMs);
   EXPECT_TRUE(lets_in_packet_aged(40 * kMs)) << "it may be catching up";
-  hand_over_turn_aged(70 * kMs);
+  hand_over_frame_aged(70 * kMs);
   EXPECT_FALSE(lets_in_packet_aged(40 * kMs));
   gate_.begin_batch(true);
   EXPECT_FALSE(lets_in_packet_aged(1 * kMs)) << "more may wait";
@@ -43,11 +43,11 @@ TEST_F(PacketGateOf50Ms, LetsTheBacklogGoAfterThreeLateTurnsInARow) {
   EXPECT_TRUE(lets_in_packet_aged(1 * kMs)) << "and it goes on with them";
 }
 
-TEST_F(PacketGateOf50Ms, CountsLateTurnsInARowOnly) {
+TEST_F(PacketGateOf50Ms, CountsLateFramesInARowOnly) {
   for (int i = 0; i < 10; ++i) {
-    hand_over_turn_aged(60 * kMs);
-    hand_over_turn_aged(60 * kMs);
-    hand_over_turn_aged(50 * kMs);
+    hand_over_frame_aged(60 * kMs);
+    hand_over_frame_aged(60 * kMs);
+    hand_over_frame_aged(50 * kMs);
   }
   EXPECT_TRUE(lets_in_packet_aged(0));
 }

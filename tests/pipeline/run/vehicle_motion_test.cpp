@@ -94,7 +94,7 @@ class VehicleMotionTest : public testing::Test {
     return false;
   }
   /// Whether the decoder's thread, which this one stands for, gets the motion of the last 0.1 s.
-  bool motion_of_last_turn(std::array<PlanarPose, 2>& poses) {
+  bool motion_of_last_frame(std::array<PlanarPose, 2>& poses) {
     vehicle_->motion().take_new();
     const auto newest_ns = vehicle_->motion().newest_ns();
     if (!newest_ns) return false;
@@ -114,7 +114,7 @@ TEST_F(VehicleMotionTest, HandsTheMotionOnTheBusToTheDecoder) {
   hear(60);
   EXPECT_EQ(figures().state, MotionState::kWaiting);
   std::array<PlanarPose, 2> poses;
-  ASSERT_TRUE(wait_until([&] { return figures().samples > 30 && motion_of_last_turn(poses); },
+  ASSERT_TRUE(wait_until([&] { return figures().samples > 30 && motion_of_last_frame(poses); },
                          [&] { bus_.put(at_20_mps()); }));
   EXPECT_NEAR(poses[0].x_m, -2, 1e-3);
   EXPECT_NEAR(poses[1].x_m, 0, 1e-9);
@@ -187,7 +187,7 @@ TEST_F(VehicleMotionTest, AFloodIsTakenInWholeWhileTheDecoderAndTheWatchGoOn) {
            counts["late_frames"] + counts["late_samples"];
   };
   while (heard() < kSent && in_time()) {
-    if (motion_of_last_turn(poses)) ++known;
+    if (motion_of_last_frame(poses)) ++known;
   }
   EXPECT_EQ(put, kSent);
   EXPECT_EQ(heard(), kSent) << "what is not used is counted";

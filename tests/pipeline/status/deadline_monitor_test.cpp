@@ -47,8 +47,8 @@ class DeadlineMonitorOf50Ms : public testing::Test {
   [[nodiscard]] std::uint64_t misses(FrameMissCause cause) const {
     return monitor_.snapshot().misses[static_cast<std::size_t>(cause)];
   }
-  [[nodiscard]] std::uint64_t rungs(Rung rung) const {
-    return monitor_.snapshot().rungs[static_cast<std::size_t>(rung)];
+  [[nodiscard]] std::uint64_t levels(Level level) const {
+    return monitor_.snapshot().levels[static_cast<std::size_t>(level)];
   }
 };
 
@@ -63,23 +63,23 @@ TEST_F(DeadlineMonitorOf50Ms, MissesOnlyWhatIsLaterThanTheDeadline) {
 
 TEST_F(DeadlineMonitorOf50Ms, CountsWhetherTheVehiclesMotionWasKnownAndHowOldItWas) {
   judged(frame_of(0, 10));
-  EXPECT_EQ(monitor_.snapshot().motion.taken_out + monitor_.snapshot().motion.no_ego_motion, 0U);
+  EXPECT_EQ(monitor_.snapshot().motion.deskewed + monitor_.snapshot().motion.no_ego_motion, 0U);
   FrameTiming frame = frame_of(1, 10);
-  frame.motion = FrameMotion::kTakenOut;
-  for (const std::int64_t after_turn_ms : {-12, 3, -6}) {
-    frame.newest_motion_ns = after_turn_ms * kMs;
+  frame.motion = FrameMotion::kDeskewed;
+  for (const std::int64_t after_frame_ms : {-12, 3, -6}) {
+    frame.newest_motion_ns = after_frame_ms * kMs;
     judged(frame);
   }
   frame.motion = FrameMotion::kNoEgoMotion;
   frame.newest_motion_ns = -900 * kMs;
   judged(frame);
   const MotionFigures& motion = monitor_.snapshot().motion;
-  EXPECT_EQ(motion.taken_out, 3U);
+  EXPECT_EQ(motion.deskewed, 3U);
   EXPECT_EQ(motion.no_ego_motion, 1U);
-  EXPECT_EQ(motion.newest_sample_after_turn_ns, -900 * kMs);
-  EXPECT_EQ(motion.least_sample_after_turn_ns, -12 * kMs);
-  EXPECT_EQ(motion.most_sample_after_turn_ns, 3 * kMs);
-  EXPECT_DOUBLE_EQ(motion.mean_sample_after_turn_ns(), -5.0 * kMs);
+  EXPECT_EQ(motion.newest_sample_after_frame_ns, -900 * kMs);
+  EXPECT_EQ(motion.least_sample_after_frame_ns, -12 * kMs);
+  EXPECT_EQ(motion.most_sample_after_frame_ns, 3 * kMs);
+  EXPECT_DOUBLE_EQ(motion.mean_sample_after_frame_ns(), -5.0 * kMs);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, BlamesOwnWorkForWhatNothingElseExplains) {
@@ -131,10 +131,10 @@ TEST_F(DeadlineMonitorOf50Ms, TakesAStolenTimeThatWentBackwardsForNone) {
 
 TEST_F(DeadlineMonitorOf50Ms, CountsASkippedFrameAsMissedButNotAsQuick) {
   FrameTiming skipped = frame_of(0, 2);
-  skipped.rung = Rung::kSkipped;
+  skipped.level = Level::kSkipped;
   skipped.segment_cpu_ns = 0;
   EXPECT_TRUE(judged(skipped).missed);
-  EXPECT_EQ(rungs(Rung::kSkipped), 1U);
+  EXPECT_EQ(levels(Level::kSkipped), 1U);
   EXPECT_EQ(monitor_.snapshot().latency.count(), 0U);
   EXPECT_EQ(monitor_.snapshot().segment_cpu.count(), 0U);
   EXPECT_EQ(monitor_.snapshot().total_cpu.count(), 0U);
@@ -183,17 +183,17 @@ TEST_F(DeadlineMonitorOf50Ms, RecordsEveryTimeUnderItsOwnHistogram) {
 TEST_F(DeadlineMonitorOf50Ms, AddsUpReturnsOverFrames) {
   judged(frame_of(0, 20));
   FrameTiming skipped = frame_of(1, 20);
-  skipped.rung = Rung::kSkipped;
+  skipped.level = Level::kSkipped;
   judged(skipped);
   EXPECT_EQ(monitor_.snapshot().returns, 2000U);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, LeavesAStageThatDidNotRunOutOfItsHistogram) {
   FrameTiming coarse = frame_of(0, 20);
-  coarse.rung = Rung::kCoarse;
+  coarse.level = Level::kCoarse;
   coarse.stage_cpu_ns[1] = 0;
   judged(coarse);
-  EXPECT_EQ(rungs(Rung::kCoarse), 1U);
+  EXPECT_EQ(levels(Level::kCoarse), 1U);
   EXPECT_EQ(monitor_.snapshot().stage_cpu[0].count(), 1U);
   EXPECT_EQ(monitor_.snapshot().stage_cpu[1].count(), 0U);
 }
@@ -245,10 +245,10 @@ TEST_F(DeadlineMonitorOf50Ms, SurvivesAnyNumbersInAFrame) {
   wild.closing_packet_ns = -5;
   wild.steal_ns = -7;
   wild.run_queue_wait_ns = -1;
-  wild.rung = static_cast<Rung>(200);
+  wild.level = static_cast<Level>(200);
   EXPECT_TRUE(judged(wild).missed);
   EXPECT_EQ(wild.cause, FrameMissCause::kOwnWork);
-  EXPECT_EQ(to_string(wild.rung), "unknown");
+  EXPECT_EQ(to_string(wild.level), "unknown");
   EXPECT_EQ(monitor_.snapshot().frames, 1U);
 }
 

@@ -43,7 +43,7 @@ struct WholeRun : WatchedRun {
   WholeRun() {
     narrow_view();
     hear_vehicle();
-    figures().mount = {.turns = 9,
+    figures().mount = {.frames = 9,
                        .contradicted = 1,
                        .height_m = 1.7,
                        .roll_deg = 0,

@@ -51,7 +51,7 @@ class HealthFrames : public testing::Test {
 TEST_F(HealthFrames, HoldEveryFigureWhereTheDbcSaysItIs) {
   const HealthReport report{.frame_number = 0x1ABCD,
                             .returns = 230'400,
-                            .rung = status::Rung::kCoarse,
+                            .level = status::Level::kCoarse,
                             .missed = true,
                             .cause = status::FrameMissCause::kStolenTime,
                             .latency_ns = 53'219'999,
@@ -62,7 +62,7 @@ TEST_F(HealthFrames, HoldEveryFigureWhereTheDbcSaysItIs) {
                             .losses = 0x1234567,
                             .alive = 513};
   EXPECT_EQ(value(report, "FrameNumber"), 0xABCD);
-  EXPECT_EQ(value(report, "Rung"), 2);
+  EXPECT_EQ(value(report, "Level"), 2);
   EXPECT_EQ(value(report, "Missed"), 1);
   EXPECT_EQ(value(report, "MissCause"), 2);
   EXPECT_EQ(value(report, "EgoMotion"), 1);
@@ -92,7 +92,7 @@ TEST_F(HealthFrames, KeepEachFigureApartFromTheOthers) {
 
 TEST_F(HealthFrames, SayWhatIsNotKnownAndStayAtTheMostThereIs) {
   EXPECT_NEAR(value({.latency_ns = -1}, "Latency"), 655.35, 1e-9);
-  EXPECT_NEAR(value({.rung = status::Rung::kSkipped, .latency_ns = 5}, "Latency"), 655.35, 1e-9);
+  EXPECT_NEAR(value({.level = status::Level::kSkipped, .latency_ns = 5}, "Latency"), 655.35, 1e-9);
   EXPECT_NEAR(value({.latency_ns = 655'339'999}, "Latency"), 655.33, 1e-9);
   EXPECT_NEAR(value({.latency_ns = std::int64_t{3'600'000'000'000}}, "Latency"), 655.34, 1e-9);
   EXPECT_EQ(value({.latency_ns = 0}, "Latency"), 0);
@@ -101,9 +101,9 @@ TEST_F(HealthFrames, SayWhatIsNotKnownAndStayAtTheMostThereIs) {
 }
 
 TEST_F(HealthFrames, HaveTheirNamesOfValuesInTheDbc) {
-  for (std::size_t i = 0; i < status::kRungs; ++i) {
+  for (std::size_t i = 0; i < status::kLevels; ++i) {
     EXPECT_THAT(text_,
-                HasSubstr(fmt::format("{} \"{}\"", i, to_string(static_cast<status::Rung>(i)))));
+                HasSubstr(fmt::format("{} \"{}\"", i, to_string(static_cast<status::Level>(i)))));
   }
   for (std::size_t i = 0; i < status::kMissCauses; ++i) {
     const auto name = to_string(static_cast<status::FrameMissCause>(i));
@@ -125,12 +125,12 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   auto figures = std::make_unique<status::MonitorSnapshot>();
   figures->newest.number = 17;
   figures->newest.returns = 1000;
-  figures->newest.rung = status::Rung::kCutStopped;
+  figures->newest.level = status::Level::kCutStopped;
   figures->newest.missed = true;
   figures->newest.cause = status::FrameMissCause::kWaitingForCore;
   figures->link = status::LinkState::kReceiving;
   figures->misses = {1, 2, 3, 4};
-  figures->rungs[static_cast<std::size_t>(status::Rung::kSkipped)] = 5;
+  figures->levels[static_cast<std::size_t>(status::Level::kSkipped)] = 5;
   figures->loss_count = 2;
   figures->losses[0].count = 6;
   figures->losses[1].count = 7;
@@ -138,7 +138,7 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   HealthReport report = status::health_report_of(*figures);
   EXPECT_EQ(report.frame_number, 17U);
   EXPECT_EQ(report.returns, 1000U);
-  EXPECT_EQ(report.rung, status::Rung::kCutStopped);
+  EXPECT_EQ(report.level, status::Level::kCutStopped);
   EXPECT_TRUE(report.missed);
   EXPECT_EQ(report.cause, status::FrameMissCause::kWaitingForCore);
   EXPECT_EQ(report.link, status::LinkState::kReceiving);

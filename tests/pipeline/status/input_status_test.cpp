@@ -62,9 +62,9 @@ TEST_F(InputStatusTest, SaysThatTheHeadStandsWherePacketsComeThatAllSaySo) {
   (void)hear(1, 1);
   EXPECT_EQ(figures_->head_stands, 0);
   account_.losses.rejected[static_cast<std::size_t>(frame::Reject::kStationary)] = 500;
-  EXPECT_THAT(look(1), HasSubstr("head does not turn"));
+  EXPECT_THAT(look(1), HasSubstr("head does not rotate"));
   EXPECT_EQ(figures_->head_stands, 1);
-  EXPECT_THAT(hear(1.5, 1.5), HasSubstr("turns again"));
+  EXPECT_THAT(hear(1.5, 1.5), HasSubstr("rotates again"));
   EXPECT_EQ(figures_->head_stands, 0);
 }
 

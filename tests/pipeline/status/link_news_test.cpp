@@ -63,9 +63,9 @@ TEST_F(LinkNewsTest, SaysThatTheInterfaceIsGone) {
 }
 
 TEST_F(LinkNewsTest, SaysThatTheHeadStandsWhichIsNoSilence) {
-  EXPECT_THAT(look(LinkState::kReceiving, 2, 2, true), HasSubstr("head does not turn"));
+  EXPECT_THAT(look(LinkState::kReceiving, 2, 2, true), HasSubstr("head does not rotate"));
   EXPECT_EQ(look(LinkState::kReceiving, 3, 3, true), "");
-  EXPECT_EQ(look(LinkState::kReceiving, 12, 12), "the sensor's head turns again, after 10.0 s");
+  EXPECT_EQ(look(LinkState::kReceiving, 12, 12), "the sensor's head rotates again, after 10.0 s");
   EXPECT_EQ(figures_->silences, 0U);
   EXPECT_EQ(figures_->silent_ns, 0);
 }
@@ -81,7 +81,7 @@ TEST(StandingHeadTest, StandsWhereManyPacketsSaySoAndNoneIsDecoded) {
   refused += 1;
   EXPECT_TRUE(head.is_standing(account));
   account.decoded += 1;
-  EXPECT_FALSE(head.is_standing(account)) << "it turns again";
+  EXPECT_FALSE(head.is_standing(account)) << "it rotates again";
   refused += 499;
   EXPECT_FALSE(head.is_standing(account)) << "counted from there";
 }

@@ -26,10 +26,10 @@ struct MadeStolenTime {
 TEST(StolenTimeShareTest, IsReadAFewTimesASecondHoweverManyFramesThereAre) {
   Host host;
   StolenTimeShare<MadeStolenTime> share({&host});
-  for (std::int64_t ms = 0; ms < 10'000; ++ms) share.turn_round(kStart_ns + ms * kMs);
+  for (std::int64_t ms = 0; ms < 10'000; ++ms) share.work_round(kStart_ns + ms * kMs);
   EXPECT_EQ(host.readings, 40);
   const int before = host.readings;
-  share.turn_round(kStart_ns - 3'600'000 * kMs);
+  share.work_round(kStart_ns - 3'600'000 * kMs);
   EXPECT_EQ(host.readings, before + 1) << "the clock was set back";
 }
 
@@ -37,7 +37,7 @@ TEST(StolenTimeShareTest, ChargesAFrameWithWhatWasTakenAroundItAndNothingEarlier
   Host host;
   StolenTimeShare<MadeStolenTime> share({&host});
   host.stolen_ns = 700 * kMs;
-  for (int round = 0; round < 20; ++round) share.turn_round(kStart_ns + round * 50 * kMs);
+  for (int round = 0; round < 20; ++round) share.work_round(kStart_ns + round * 50 * kMs);
   host.stolen_ns += 80 * kMs;
   EXPECT_EQ(share.since(kStart_ns + 960 * kMs, kStart_ns + 1060 * kMs), 80 * kMs);
   EXPECT_EQ(share.since(kStart_ns + 1060 * kMs, kStart_ns + 1100 * kMs), 0);

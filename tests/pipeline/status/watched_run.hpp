@@ -62,19 +62,19 @@ class WatchedRun {
     monitor_->snapshot().blind_to_cdeg = 8'990;
   }
 
-  /// As if the vehicle's motion were taken out of all frames except two, and health were told.
+  /// As if all frames except two were deskewed, and health were told.
   void hear_vehicle() {
     MonitorSnapshot& figures = monitor_->snapshot();
     figures.motion.bus = "can0";
     figures.motion.state = MotionState::kKnown;
     figures.motion.samples = 1034;
     figures.motion.last_sample_ns = kEnd_ns;
-    figures.motion.taken_out = 98;
+    figures.motion.deskewed = 98;
     figures.motion.no_ego_motion = 2;
-    figures.motion.newest_sample_after_turn_ns = -4 * kMs;
-    figures.motion.least_sample_after_turn_ns = -13 * kMs;
-    figures.motion.most_sample_after_turn_ns = 2 * kMs;
-    figures.motion.sum_sample_after_turn_ns = -98.0 * 5 * kMs;
+    figures.motion.newest_sample_after_frame_ns = -4 * kMs;
+    figures.motion.least_sample_after_frame_ns = -13 * kMs;
+    figures.motion.most_sample_after_frame_ns = 2 * kMs;
+    figures.motion.sum_sample_after_frame_ns = -98.0 * 5 * kMs;
     figures.motion.faults[figures.motion.fault_count++] = {"kernel_drops", 7};
     figures.motion.faults[figures.motion.fault_count++] = {"bus_off", 0};
     figures.health = {.bus = {"can1"}, .sent = 190, .queue_full = 10, .link_down = 0, .failed = 0};
@@ -89,7 +89,7 @@ class WatchedRun {
     frame.number = number;
     frame.returns = 100'000;
     frame.first_packet_ns = kStart_ns + number * 100 * kMs;
-    frame.last_packet_ns = frame.first_packet_ns + 105 * kMs;  // two turns are open at the seam
+    frame.last_packet_ns = frame.first_packet_ns + 105 * kMs;  // two frames are open at the seam
     frame.closing_packet_ns = frame.last_packet_ns;
     frame.handed_over_ns = frame.last_packet_ns + 1 * kMs;
     frame.segment_begin_ns = frame.handed_over_ns;
@@ -102,12 +102,12 @@ class WatchedRun {
       frame.run_queue_wait_ns = 70 * kMs;
       frame.labels_ns += 70 * kMs;
     } else if (number == 41) {
-      frame.rung = Rung::kSkipped;
+      frame.level = Level::kSkipped;
       frame.stage_cpu_ns = {};
       frame.segment_cpu_ns = 0;
       frame.labels_ns = frame.segment_begin_ns;
     } else if (number == 42) {
-      frame.rung = Rung::kCoarse;
+      frame.level = Level::kCoarse;
       frame.stage_cpu_ns[2] = 0;
       frame.segment_cpu_ns = 3 * kMs;
     }

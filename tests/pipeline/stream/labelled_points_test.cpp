@@ -8,7 +8,7 @@
 #include "pipeline/output/label_sink.hpp"
 #include "tests/pipeline/output/small_frame.hpp"
 #include "tests/support/allocation_counter.hpp"
-#include "tests/support/synthetic_turn.hpp"
+#include "tests/support/synthetic_frame.hpp"
 
 namespace terracut::stream {
 namespace {
@@ -34,10 +34,10 @@ TEST(LabelledPoints, AreInOrderOfArrivalWithTheOverflowList) {
   EXPECT_EQ(points[3], LabelledPoint{}) << "nothing is written beyond the returns";
 }
 
-TEST(LabelledPoints, OfAWholeTurnAreThoseOfTheImageOneByOne) {
+TEST(LabelledPoints, OfAWholeFrameAreThoseOfTheImageOneByOne) {
   memory::FixedMemory memory;
   frame::RangeImage image({.rows = 64, .columns = 2083}, 64, memory);
-  test::cast_turn(test::even_profile(), test::ground_with_wall(10, 5, 2), image);
+  test::cast_frame(test::even_profile(), test::ground_with_wall(10, 5, 2), image);
   std::vector<Label> labels(image.returns());
   for (std::size_t n = 0; n < labels.size(); ++n) {
     labels[n] = n % 3 == 0 ? Label::kObstacle : Label::kGround;
@@ -47,10 +47,10 @@ TEST(LabelledPoints, OfAWholeTurnAreThoseOfTheImageOneByOne) {
   std::size_t wrong = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
     const LabelledPoint expected{
-        placed.echo.x_m,
-        placed.echo.y_m,
-        placed.echo.z_m,
-        placed.echo.intensity,
+        placed.point.x_m,
+        placed.point.y_m,
+        placed.point.z_m,
+        placed.point.intensity,
         static_cast<std::uint8_t>(output::semantic_kitti_class(labels[placed.return_index])),
         static_cast<std::uint16_t>(placed.row)};
     if (points[placed.return_index] != expected) ++wrong;
@@ -59,7 +59,7 @@ TEST(LabelledPoints, OfAWholeTurnAreThoseOfTheImageOneByOne) {
   EXPECT_EQ(wrong, 0U);
 }
 
-TEST(LabelledPoints, OfATurnWithoutReturnsAreNone) {
+TEST(LabelledPoints, OfAFrameWithoutReturnsAreNone) {
   output::SmallFrame small;
   EXPECT_TRUE(pack_labelled_points(small.image, {}, {}));
 }

@@ -21,7 +21,7 @@ class ListeningSocketTest : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = test::make_scratch_folder();
-    address_ = {.unix_path = (folder_ / "turns").string()};
+    address_ = {.unix_path = (folder_ / "frames").string()};
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
@@ -54,7 +54,7 @@ TEST_F(ListeningSocketTest, AnAddressOfAnotherMachineIsRefused) {
 
 TEST_F(ListeningSocketTest, AUnixSocketHasTheRightsThatAreAskedForWhateverTheUmask) {
   const auto mode = [&] {
-    struct ::stat status{};
+    struct ::stat status {};
     EXPECT_EQ(::lstat(address_.unix_path.c_str(), &status), 0);
     return status.st_mode & 0777U;
   };
@@ -78,9 +78,7 @@ TEST_F(ListeningSocketTest, TheFileOfAUnixSocketGoesWithIt) {
   auto socket = ListeningSocket::open(address_);
   ASSERT_TRUE(socket.has_value()) << socket.error().message;
   EXPECT_TRUE(std::filesystem::is_socket(address_.unix_path));
-  {
-    const ListeningSocket moved = *std::move(socket);
-  }
+  { const ListeningSocket moved = *std::move(socket); }
   EXPECT_FALSE(std::filesystem::exists(address_.unix_path));
 }
 
@@ -124,7 +122,7 @@ TEST_F(ListeningSocketTest, AFileThatIsNoSocketIsLeftAlone) {
 }
 
 TEST_F(ListeningSocketTest, AFolderThatIsNotThereIsNamed) {
-  const auto socket = ListeningSocket::open({.unix_path = (folder_ / "none" / "turns").string()});
+  const auto socket = ListeningSocket::open({.unix_path = (folder_ / "none" / "frames").string()});
   ASSERT_FALSE(socket.has_value());
   EXPECT_EQ(socket.error().code, ErrorCode::kNotFound);
   EXPECT_THAT(socket.error().message, testing::HasSubstr("its folder has to be there"));

@@ -34,13 +34,13 @@ TEST(StreamAddress, AnAddressIsTakenAsItIs) {
 }
 
 TEST(StreamAddress, ATextWithASlashIsAUnixSocket) {
-  EXPECT_EQ(understood("/run/terracut/turns"), "/run/terracut/turns");
-  EXPECT_EQ(understood("./turns"), "./turns");
-  EXPECT_TRUE(parse_stream_address("./turns")->is_unix());
+  EXPECT_EQ(understood("/run/terracut/frames"), "/run/terracut/frames");
+  EXPECT_EQ(understood("./frames"), "./frames");
+  EXPECT_TRUE(parse_stream_address("./frames")->is_unix());
 }
 
 TEST(StreamAddress, AnythingElseIsRefusedWithWhatWasExpected) {
-  for (const char* text : {"", "localhost:7447", "127.0.0.1:70000", "127.0.0.1", "turns"}) {
+  for (const char* text : {"", "localhost:7447", "127.0.0.1:70000", "127.0.0.1", "frames"}) {
     SCOPED_TRACE(text);
     const auto address = parse_stream_address(text);
     ASSERT_FALSE(address.has_value());

@@ -15,8 +15,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/stream/turn_stream_reader.hpp"
-#include "pipeline/stream/turn_stream_server.hpp"
+#include "pipeline/stream/frame_stream_reader.hpp"
+#include "pipeline/stream/frame_stream_server.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -25,8 +25,8 @@ namespace terracut::stream {
 
 inline constexpr std::int64_t kTestPatience_ns = 200'000'000'000;
 
-/// Points of which each tells its turn and its place in it.
-inline std::vector<LabelledPoint> points_of_turn(std::uint32_t number, std::size_t count) {
+/// Points of which each tells its frame and its place in it.
+inline std::vector<LabelledPoint> points_of_frame(std::uint32_t number, std::size_t count) {
   std::vector<LabelledPoint> points(count);
   for (std::size_t n = 0; n < count; ++n) {
     points[n] = {static_cast<float>(n),
@@ -39,7 +39,7 @@ inline std::vector<LabelledPoint> points_of_turn(std::uint32_t number, std::size
   return points;
 }
 
-inline LabelledTurn turn_of(std::uint32_t number, const std::vector<LabelledPoint>& points) {
+inline LabelledFrame frame_of(std::uint32_t number, const std::vector<LabelledPoint>& points) {
   return {.number = number,
           .first_packet_ns = 1'000'000'000LL * number,
           .last_packet_ns = 1'000'000'000LL * number + 99'000'000,
@@ -76,16 +76,16 @@ class StreamTest : public testing::TestWithParam<Transport> {
 
   [[nodiscard]] StreamAddress any_address() const {
     if (GetParam() == Transport::kTcp) return {};
-    return {.unix_path = (folder_ / "turns").string()};
+    return {.unix_path = (folder_ / "frames").string()};
   }
-  void open(TurnStreamConfig config) {
+  void open(FrameStreamConfig config) {
     config.address = any_address();
-    auto server = TurnStreamServer::open(config, memory_);
+    auto server = FrameStreamServer::open(config, memory_);
     ASSERT_TRUE(server.has_value()) << server.error().message;
     server_.emplace(*std::move(server));
   }
-  [[nodiscard]] TurnStreamServer& server() { return *server_; }
-  [[nodiscard]] const TurnStreamFigures& figures() const { return server_->figures(); }
+  [[nodiscard]] FrameStreamServer& server() { return *server_; }
+  [[nodiscard]] const FrameStreamFigures& figures() const { return server_->figures(); }
 
   /// A connected socket, -1 if refused. `receive_buffer_bytes`: 0 leaves the system's choice.
   [[nodiscard]] files::OwnedDescriptor dial(int receive_buffer_bytes = 0) const {
@@ -107,20 +107,20 @@ class StreamTest : public testing::TestWithParam<Transport> {
     EXPECT_TRUE(step_until([&] { step(); }, [&] { return figures().connected > before; }));
     return socket;
   }
-  [[nodiscard]] TurnStreamReader reader(int receive_buffer_bytes = 0) {
-    return TurnStreamReader(join(receive_buffer_bytes));
+  [[nodiscard]] FrameStreamReader reader(int receive_buffer_bytes = 0) {
+    return FrameStreamReader(join(receive_buffer_bytes));
   }
 
   /// As a sink's thread lives: waits for something to do, for a short time, and does it.
   void step() {
     ::pollfd polled{server_->descriptor(), POLLIN, 0};
     ::poll(&polled, 1, 5);
-    server_->turn_round();
+    server_->work_round();
   }
 
   std::filesystem::path folder_;
   memory::FixedMemory memory_;
-  std::optional<TurnStreamServer> server_;
+  std::optional<FrameStreamServer> server_;
 };
 
 inline std::string transport_name(const testing::TestParamInfo<Transport>& info) {

@@ -24,7 +24,7 @@ void work_for_cpu_ns(std::int64_t time_ns) {
   }
 }
 
-TEST(RunQueueWait, CountsTheTurnsOfAnotherThreadOnTheSameCore) {
+TEST(RunQueueWait, CountsTheFramesOfAnotherThreadOnTheSameCore) {
   std::int64_t waited_ns = 0;
   bool known = false;
   std::atomic<bool> stop{false};
@@ -34,7 +34,7 @@ TEST(RunQueueWait, CountsTheTurnsOfAnotherThreadOnTheSameCore) {
     CPU_ZERO(&one);
     CPU_SET(static_cast<std::size_t>(::sched_getcpu()), &one);
     if (::sched_setaffinity(0, sizeof one, &one) != 0) return;
-    std::thread rival([&] {
+    std::thread baseline([&] {
       while (!stop.load(std::memory_order_relaxed)) {
       }
     });
@@ -44,7 +44,7 @@ TEST(RunQueueWait, CountsTheTurnsOfAnotherThreadOnTheSameCore) {
     work_for_cpu_ns(50'000'000);
     waited_ns = wait.read_ns() - before_ns;
     stop.store(true, std::memory_order_relaxed);
-    rival.join();
+    baseline.join();
   }).join();
   if (!known) GTEST_SKIP() << "this kernel does not tell how long threads wait";
   EXPECT_GT(waited_ns, 1'000'000);

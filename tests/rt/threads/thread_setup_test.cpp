@@ -184,7 +184,7 @@ TEST(ThreadSetup, NeedsNoMoreThanTheLimitOfPriorities) {
   EXPECT_EQ(complaint, "");
 }
 
-TEST(ThreadSetup, RefusesWishesThatMakeNoSense) {
+TEST(ThreadSetup, RefusesRequestsThatMakeNoSense) {
   const DeadlineScheduling sound{
       .runtime_ns = 1'000'000, .deadline_ns = 2'000'000, .period_ns = 3'000'000};
   auto longer_than_its_deadline = sound;
@@ -193,20 +193,20 @@ TEST(ThreadSetup, RefusesWishesThatMakeNoSense) {
   longer_than_its_period.deadline_ns = 4'000'000;
   auto nothing = sound;
   nothing.runtime_ns = 0;
-  for (const ThreadWish& wish : {
-           ThreadWish{.name = ""},
-           ThreadWish{.name = "sixteen bytes..."},
-           ThreadWish{.name = "fifo", .scheduling = FifoScheduling{.priority = 0}},
-           ThreadWish{.name = "fifo", .scheduling = FifoScheduling{.priority = 100}},
-           ThreadWish{.name = "core", .core = -1},
-           ThreadWish{.name = "core", .core = 1 << 20},
-           ThreadWish{.name = "both", .scheduling = sound, .core = 0},
-           ThreadWish{.name = "runtime", .scheduling = longer_than_its_deadline},
-           ThreadWish{.name = "deadline", .scheduling = longer_than_its_period},
-           ThreadWish{.name = "nothing", .scheduling = nothing},
+  for (const ThreadRequest& request : {
+           ThreadRequest{.name = ""},
+           ThreadRequest{.name = "sixteen bytes..."},
+           ThreadRequest{.name = "fifo", .scheduling = FifoScheduling{.priority = 0}},
+           ThreadRequest{.name = "fifo", .scheduling = FifoScheduling{.priority = 100}},
+           ThreadRequest{.name = "core", .core = -1},
+           ThreadRequest{.name = "core", .core = 1 << 20},
+           ThreadRequest{.name = "both", .scheduling = sound, .core = 0},
+           ThreadRequest{.name = "runtime", .scheduling = longer_than_its_deadline},
+           ThreadRequest{.name = "deadline", .scheduling = longer_than_its_period},
+           ThreadRequest{.name = "nothing", .scheduling = nothing},
        }) {
-    const auto grants = set_up_this_thread(wish);
-    ASSERT_FALSE(grants.has_value()) << wish.name;
+    const auto grants = set_up_this_thread(request);
+    ASSERT_FALSE(grants.has_value()) << request.name;
     EXPECT_EQ(grants.error().code, ErrorCode::kInvalidArgument);
   }
 }

@@ -16,10 +16,10 @@ namespace {
 
 using frame::Reject;
 
-std::string describe(const PlacedReturn& echo) {
+std::string describe(const PlacedReturn& beam) {
   return fmt::format("row {} column {} at ({:.5f}, {:.5f}, {:.5f}) m, {:.5f} m, intensity {}",
-                     echo.row, echo.column, echo.x_m, echo.y_m, echo.z_m, echo.ground_range_m,
-                     echo.intensity);
+                     beam.row, beam.column, beam.x_m, beam.y_m, beam.z_m, beam.ground_range_m,
+                     beam.intensity);
 }
 
 bool same_column(const PlacedReturn& expected, const PlacedReturn& found, int columns) {
@@ -48,7 +48,7 @@ Refusal as_refusal(std::optional<Reject> reason) {
     case Reject::kAzimuthJump:
       return Refusal::kUneven;
     case Reject::kStationary:
-      return Refusal::kNotTurning;
+      return Refusal::kNotRotating;
     case Reject::kWrongSize:
     case Reject::kWrongMagic:
     case Reject::kDeviceInfo:
@@ -63,25 +63,25 @@ Refusal as_refusal(std::optional<Reject> reason) {
   return Refusal::kNone;
 }
 
-void ExpectedTurns::add(const Packet& packet, double unwrap_deg) {
+void ExpectedFrames::add(const Packet& packet, double unwrap_deg) {
   const double cp = std::cos(mount_.pitch_rad), sp = std::sin(mount_.pitch_rad);
   const double cr = std::cos(mount_.roll_rad), sr = std::sin(mount_.roll_rad);
-  for (const Return& echo : packet.returns) {
-    const Cell cell = cell_of(echo.beam_deg + unwrap_deg, columns_);
+  for (const Return& beam : packet.returns) {
+    const Cell cell = cell_of(beam.beam_deg + unwrap_deg, columns_);
     PlacedReturn placed;
-    placed.row = rows_[static_cast<std::size_t>(echo.laser)];
+    placed.row = rows_[static_cast<std::size_t>(beam.laser)];
     placed.column = cell.column;
     placed.on_border = cell.border_deg < kBorder_deg;
-    placed.intensity = echo.intensity;
-    placed.range_m = std::hypot(echo.x_m, echo.y_m, echo.z_m);
+    placed.intensity = beam.intensity;
+    placed.range_m = std::hypot(beam.x_m, beam.y_m, beam.z_m);
     // Rolled about x, left side up; then pitched about y, front down; then lifted.
-    const double rolled_y = echo.y_m * cr - echo.z_m * sr;
-    const double rolled_z = echo.y_m * sr + echo.z_m * cr;
-    placed.x_m = echo.x_m * cp + rolled_z * sp;
+    const double rolled_y = beam.y_m * cr - beam.z_m * sr;
+    const double rolled_z = beam.y_m * sr + beam.z_m * cr;
+    placed.x_m = beam.x_m * cp + rolled_z * sp;
     placed.y_m = rolled_y;
-    placed.z_m = -echo.x_m * sp + rolled_z * cp + mount_.height_m;
+    placed.z_m = -beam.x_m * sp + rolled_z * cp + mount_.height_m;
     placed.ground_range_m = std::hypot(placed.x_m, placed.y_m);
-    turns_[cell.turn].push_back(placed);
+    frames_[cell.frame].push_back(placed);
   }
 }
 
@@ -94,25 +94,25 @@ std::size_t HandedFrames::returns() const {
 void HandedFrames::add(const frame::FrameInfo& info, const frame::RangeImage& image) {
   std::vector<PlacedReturn>& frame = frames_.emplace_back(info.returns);
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
-    PlacedReturn& echo = frame.at(placed.return_index);
-    echo.row = placed.row;
-    echo.column = placed.column;
-    echo.x_m = double{placed.echo.x_m};
-    echo.y_m = double{placed.echo.y_m};
-    echo.z_m = double{placed.echo.z_m};
-    echo.ground_range_m = double{placed.echo.ground_range_m};
-    echo.intensity = placed.echo.intensity;
+    PlacedReturn& beam = frame.at(placed.return_index);
+    beam.row = placed.row;
+    beam.column = placed.column;
+    beam.x_m = double{placed.point.x_m};
+    beam.y_m = double{placed.point.y_m};
+    beam.z_m = double{placed.point.z_m};
+    beam.ground_range_m = double{placed.point.ground_range_m};
+    beam.intensity = placed.point.intensity;
   });
 }
 
-std::string first_difference(const ExpectedTurns& expected, const HandedFrames& handed,
+std::string first_difference(const ExpectedFrames& expected, const HandedFrames& handed,
                              int columns) {
-  if (expected.turns().size() != handed.frames().size()) {
-    return fmt::format("{} turns expected, {} frames handed over", expected.turns().size(),
+  if (expected.frames().size() != handed.frames().size()) {
+    return fmt::format("{} frames expected, {} frames handed over", expected.frames().size(),
                        handed.frames().size());
   }
   std::size_t n = 0;
-  for (const auto& [turn, returns] : expected.turns()) {
+  for (const auto& [number, returns] : expected.frames()) {
     const std::vector<PlacedReturn>& frame = handed.frames()[n];
     for (std::size_t i = 0; i < std::min(returns.size(), frame.size()); ++i) {
       if (!same(returns[i], frame[i], columns)) {

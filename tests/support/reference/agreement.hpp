@@ -29,26 +29,26 @@ struct PlacedReturn {
   bool on_border = false;  ///< Between two columns: `column` may be off by one.
 };
 
-/// The turns that a stream should give by a reference decoder.
-class ExpectedTurns {
+/// The frames that a stream should give by a reference decoder.
+class ExpectedFrames {
  public:
   /// `elevations`: of each laser, in any unit.
-  ExpectedTurns(const std::vector<double>& elevations, const mount::Mount& mount, int columns)
+  ExpectedFrames(const std::vector<double>& elevations, const mount::Mount& mount, int columns)
       : rows_(rank_of_elevation(elevations)), mount_(mount), columns_(columns) {}
 
-  /// The next packet, whose azimuths grow by `unwrap_deg` (Turns).
+  /// The next packet, whose azimuths grow by `unwrap_deg` (Frames).
   void add(const Packet& packet, double unwrap_deg);
 
-  /// Turn -> its returns in order of arrival; turns without any do not appear.
-  [[nodiscard]] const std::map<std::int64_t, std::vector<PlacedReturn>>& turns() const {
-    return turns_;
+  /// Frame -> its returns in order of arrival; frames without any do not appear.
+  [[nodiscard]] const std::map<std::int64_t, std::vector<PlacedReturn>>& frames() const {
+    return frames_;
   }
 
  private:
   std::vector<int> rows_;
   mount::Mount mount_;
   int columns_;
-  std::map<std::int64_t, std::vector<PlacedReturn>> turns_;
+  std::map<std::int64_t, std::vector<PlacedReturn>> frames_;
 };
 
 /// The frames that the product handed over, copied, returns in order of arrival.
@@ -69,10 +69,10 @@ class HandedFrames {
   std::vector<std::vector<PlacedReturn>> frames_;
 };
 
-/// The first difference between what should be and what is: turns, their returns in number, order,
+/// The first difference between what should be and what is: frames, their returns in number, order,
 /// row, column and intensity, and in place by more than 1 mm + 1e-6 of the range. Empty when there
 /// is none.
-[[nodiscard]] std::string first_difference(const ExpectedTurns& expected,
+[[nodiscard]] std::string first_difference(const ExpectedFrames& expected,
                                            const HandedFrames& handed, int columns);
 
 }  // namespace terracut::reference

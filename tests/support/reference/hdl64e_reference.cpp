@@ -20,7 +20,7 @@ struct FiringPattern {
 constexpr FiringPattern kSinglePattern{48.0, 6.0, {0, 1.26, 2.46, 3.66}};
 constexpr FiringPattern kDualPattern{57.6, 7.2, {0, 1.3, 2.5, 3.7}};
 
-constexpr HeadLimits kLimits{
+constexpr RotorLimits kLimits{
     .forwards_cdeg = 100, .backwards_cdeg = 5, .least_sweep_cdeg = 10, .standing_back_cdeg = 9};
 
 int u16(std::span<const std::uint8_t> payload, std::size_t at) {
@@ -50,7 +50,7 @@ Packet Hdl64eReference::decode(std::span<const std::uint8_t> payload) const {
   int pair_cdeg[6] = {};
   packet.refusal = read_azimuths(payload, pair_cdeg);
   if (packet.refusal != Refusal::kNone) return packet;
-  packet.refusal = judge_turning(pair_cdeg, kLimits);
+  packet.refusal = judge_rotation(pair_cdeg, kLimits);
   if (packet.refusal != Refusal::kNone) return packet;
 
   packet.columns = 6;
@@ -64,33 +64,33 @@ Packet Hdl64eReference::decode(std::span<const std::uint8_t> payload) const {
   for (int block = 0; block < 12; ++block) {
     for (int j = 0; j < 32; ++j) {
       const auto at = static_cast<std::size_t>(100 * block + 4 + 3 * j);
-      Return echo;
-      echo.column = block / 2;
-      echo.laser = block % 2 == 0 ? j : 32 + j;
-      echo.raw_distance = u16(payload, at);
-      echo.intensity = payload[at + 2];
-      if (echo.raw_distance == 0) continue;
+      Return beam;
+      beam.column = block / 2;
+      beam.laser = block % 2 == 0 ? j : 32 + j;
+      beam.raw_distance = u16(payload, at);
+      beam.intensity = payload[at + 2];
+      if (beam.raw_distance == 0) continue;
       const double in_column_us = pattern.group_us * (j / 4) + pattern.in_group_us[j % 4];
-      echo.fired_us = pattern.column_us * (echo.column / returns_per_firing) + in_column_us;
-      const int advance_cdeg = clockwise_cdeg(pair_cdeg[0], pair_cdeg[echo.column]);
-      echo.head_deg = packet.first_deg + advance_cdeg / 100.0 +
-                      packet.step_deg * in_column_us / pattern.column_us;
-      locate(echo);
-      packet.returns.push_back(echo);
+      beam.fired_us = pattern.column_us * (beam.column / returns_per_firing) + in_column_us;
+      const int advance_cdeg = clockwise_cdeg(pair_cdeg[0], pair_cdeg[beam.column]);
+      beam.rotor_deg = packet.first_deg + advance_cdeg / 100.0 +
+                       packet.step_deg * in_column_us / pattern.column_us;
+      locate(beam);
+      packet.returns.push_back(beam);
     }
   }
   return packet;
 }
 
-void Hdl64eReference::locate(Return& echo) const {
-  const hdl64e::Hdl64eLaser& laser = calibration_.lasers[static_cast<std::size_t>(echo.laser)];
+void Hdl64eReference::locate(Return& beam) const {
+  const hdl64e::Hdl64eLaser& laser = calibration_.lasers[static_cast<std::size_t>(beam.laser)];
   const bool ros_like = offsets_ == Hdl64eOffsets::kRosLike;
   const double rho = laser.rot_correction_rad, omega = laser.vert_correction_rad;
   const double h_off = laser.horiz_offset_m, v_off = laser.vert_offset_m;
-  echo.beam_deg = echo.head_deg - rho / kRadPerDeg;
-  const double a = echo.head_deg * kRadPerDeg - rho;
+  beam.beam_deg = beam.rotor_deg - rho / kRadPerDeg;
+  const double a = beam.rotor_deg * kRadPerDeg - rho;
 
-  const double d1 = echo.raw_distance * calibration_.distance_resolution_m;
+  const double d1 = beam.raw_distance * calibration_.distance_resolution_m;
   const double far = laser.dist_correction_m;
   const double taken_off_xy = ros_like ? v_off * std::sin(omega) : 0.0;
   double c_x = far, c_y = far;
@@ -107,9 +107,9 @@ void Hdl64eReference::locate(Return& echo) const {
   const double right = xy_by_x * std::sin(a) - h_off * std::cos(a);
   const double ahead = xy_by_y * std::cos(a) + h_off * std::sin(a);
   const double up = (d1 + c_y) * std::sin(omega) + (ros_like ? v_off * std::cos(omega) : v_off);
-  echo.x_m = ahead;
-  echo.y_m = -right;
-  echo.z_m = up;
+  beam.x_m = ahead;
+  beam.y_m = -right;
+  beam.z_m = up;
 }
 
 }  // namespace terracut::reference

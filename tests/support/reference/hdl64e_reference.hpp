@@ -32,7 +32,7 @@ class Hdl64eReference {
   [[nodiscard]] Packet decode(std::span<const std::uint8_t> payload) const;
 
  private:
-  void locate(Return& echo) const;
+  void locate(Return& beam) const;
 
   hdl64e::Hdl64eCalibration calibration_;
   Hdl64eOffsets offsets_;

@@ -20,8 +20,8 @@ std::string_view to_string(Refusal refusal) {
       return "unequal firings";
     case Refusal::kUneven:
       return "uneven";
-    case Refusal::kNotTurning:
-      return "not turning";
+    case Refusal::kNotRotating:
+      return "not rotating";
   }
   return "?";
 }
@@ -31,7 +31,7 @@ int clockwise_cdeg(int from_cdeg, int to_cdeg) {
   return around < 18'000 ? around : around - 36'000;
 }
 
-Refusal judge_turning(std::span<const int> azimuths_cdeg, const HeadLimits& limits) {
+Refusal judge_rotation(std::span<const int> azimuths_cdeg, const RotorLimits& limits) {
   int sweep_cdeg = 0;
   for (std::size_t i = 1; i < azimuths_cdeg.size(); ++i) {
     const int step_cdeg = clockwise_cdeg(azimuths_cdeg[i - 1], azimuths_cdeg[i]);
@@ -41,10 +41,10 @@ Refusal judge_turning(std::span<const int> azimuths_cdeg, const HeadLimits& limi
     sweep_cdeg += step_cdeg;
   }
   if (-sweep_cdeg > limits.standing_back_cdeg) return Refusal::kUneven;
-  return sweep_cdeg < limits.least_sweep_cdeg ? Refusal::kNotTurning : Refusal::kNone;
+  return sweep_cdeg < limits.least_sweep_cdeg ? Refusal::kNotRotating : Refusal::kNone;
 }
 
-double Turns::unwrap(const Packet& packet) {
+double Frames::unwrap(const Packet& packet) {
   double offset_deg = 0;
   if (started_) {
     offset_deg = 360.0 * std::round((last_deg_ - packet.first_deg) / 360.0);
@@ -55,11 +55,11 @@ double Turns::unwrap(const Packet& packet) {
 }
 
 Cell cell_of(double unwrapped_deg, int columns) {
-  const double turn = std::floor(unwrapped_deg / 360.0);
+  const double frame = std::floor(unwrapped_deg / 360.0);
   const double pitch_deg = 360.0 / columns;
-  const double in_columns = (unwrapped_deg - 360.0 * turn) / pitch_deg;
+  const double in_columns = (unwrapped_deg - 360.0 * frame) / pitch_deg;
   Cell cell;
-  cell.turn = static_cast<std::int64_t>(turn);
+  cell.frame = static_cast<std::int64_t>(frame);
   cell.column = std::min(static_cast<int>(in_columns), columns - 1);
   cell.border_deg = std::abs(in_columns - std::round(in_columns)) * pitch_deg;
   return cell;

@@ -16,8 +16,8 @@ struct Return {
   int laser = 0;         ///< By its number on the wire.
   int raw_distance = 0;  ///< Counts, 1..65535.
   int intensity = 0;     ///< As on the wire.
-  double head_deg = 0;   ///< Where the head points when the laser fires: [0, 360) or a bit beyond.
-  double beam_deg = 0;   ///< Where the beam points, in the same turn as head_deg.
+  double rotor_deg = 0;  ///< Where the head points when the laser fires: [0, 360) or a bit beyond.
+  double beam_deg = 0;   ///< Where the beam points, in the same frame as rotor_deg.
   double x_m = 0, y_m = 0, z_m = 0;
   double fired_us = 0;  ///< After the first firing of the packet.
 };
@@ -28,22 +28,22 @@ enum class Refusal : std::uint8_t {
   kOtherPacket,     ///< No data packet of this sensor, by its size or the bytes that tell.
   kAzimuthRange,    ///< An azimuth of 360 degrees or more.
   kUnequalFirings,  ///< Blocks that fire together carry different azimuths.
-  kUneven,          ///< The azimuths are not those of a head turning clockwise.
-  kNotTurning,      ///< The azimuths hardly differ.
+  kUneven,          ///< The azimuths are not those of a head rotating clockwise.
+  kNotRotating,     ///< The azimuths hardly differ.
 };
 
 [[nodiscard]] std::string_view to_string(Refusal refusal);
 
-/// What no format says but terracut fixes: hundredths of a degree that a head may turn from one
-/// column to the next, either way; the least it must turn in a packet, else it stands still; and
+/// What no format says but terracut fixes: hundredths of a degree that a head may rotate from one
+/// column to the next, either way; the least it must rotate in a packet, else it stands still; and
 /// how far back it may come in a packet and still be thought to stand.
-struct HeadLimits {
+struct RotorLimits {
   int forwards_cdeg = 0, backwards_cdeg = 0;
   int least_sweep_cdeg = 0, standing_back_cdeg = 0;
 };
 
-/// Whether these azimuths, each in [0, 36000), can be a turning head's.
-[[nodiscard]] Refusal judge_turning(std::span<const int> azimuths_cdeg, const HeadLimits& limits);
+/// Whether these azimuths, each in [0, 36000), can be a rotating head's.
+[[nodiscard]] Refusal judge_rotation(std::span<const int> azimuths_cdeg, const RotorLimits& limits);
 
 /// Hundredths of a degree clockwise from one azimuth to another, the short way: [-18000, 18000).
 [[nodiscard]] int clockwise_cdeg(int from_cdeg, int to_cdeg);
@@ -58,9 +58,9 @@ struct Packet {
   std::vector<Return> returns;  ///< In order of arrival: block, laser.
 };
 
-/// Which turn each return belongs to, in a stream whose packets follow each other by less than half
-/// a turn. Turn 0 is the one in which the first packet's first column was measured.
-class Turns {
+/// Which frame each return belongs to, in a stream whose packets follow each other by less than
+/// half a frame. Frame 0 is the one in which the first packet's first column was measured.
+class Frames {
  public:
   /// To be called once a packet, in order: degrees to add to the packet's azimuths.
   [[nodiscard]] double unwrap(const Packet& packet);
@@ -74,16 +74,16 @@ class Turns {
 /// a beam nearer than this to a border between columns may be on either side of it.
 inline constexpr double kBorder_deg = 2e-5;
 
-/// Turn and column of a beam that points to `unwrapped_deg`, and how far it is from the nearest
+/// Frame and column of a beam that points to `unwrapped_deg`, and how far it is from the nearest
 /// border between two columns.
 struct Cell {
-  std::int64_t turn = 0;
+  std::int64_t frame = 0;
   int column = 0;
   double border_deg = 0;
 };
 [[nodiscard]] Cell cell_of(double unwrapped_deg, int columns);
 
-/// How far a beam is from the nearest border between two turns.
+/// How far a beam is from the nearest border between two frames.
 [[nodiscard]] double seam_distance_deg(double beam_deg);
 
 /// The rank of each elevation, 0 for the lowest; of equal ones the earlier is the lower.

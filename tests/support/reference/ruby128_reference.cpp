@@ -13,7 +13,7 @@ constexpr double kRadPerDeg = std::numbers::pi / 180.0;
 constexpr double kColumn_us = 55.55;
 constexpr double kGroup_us = 3.236;
 constexpr double kLensAhead_m = 0.03615;
-constexpr HeadLimits kLimits{
+constexpr RotorLimits kLimits{
     .forwards_cdeg = 100, .backwards_cdeg = 2, .least_sweep_cdeg = 4, .standing_back_cdeg = 4};
 
 std::int64_t big_endian(std::span<const std::uint8_t> payload, std::size_t at, std::size_t bytes) {
@@ -65,7 +65,7 @@ Packet Ruby128Reference::decode(std::span<const std::uint8_t> payload) {
   int block_cdeg[3] = {};
   packet.refusal = read_azimuths(payload, block_cdeg);
   if (packet.refusal != Refusal::kNone) return packet;
-  packet.refusal = judge_turning(block_cdeg, kLimits);
+  packet.refusal = judge_rotation(block_cdeg, kLimits);
   if (packet.refusal != Refusal::kNone) return packet;
 
   // In dual return A A B or A B B: the lone one has its partner in the packet before or after.
@@ -84,20 +84,20 @@ Packet Ruby128Reference::decode(std::span<const std::uint8_t> payload) {
         packet.first_deg + clockwise_cdeg(block_cdeg[0], block_cdeg[block]) / 100.0;
     for (int channel = 0; channel < 128; ++channel) {
       const auto at = static_cast<std::size_t>(80 + 388 * block + 4 + 3 * channel);
-      Return echo;
-      echo.column = block;
-      echo.laser = channel;
-      echo.raw_distance = static_cast<int>(big_endian(payload, at, 2));
-      echo.intensity = payload[at + 2];
-      if (echo.raw_distance == 0) continue;
+      Return beam;
+      beam.column = block;
+      beam.laser = channel;
+      beam.raw_distance = static_cast<int>(big_endian(payload, at, 2));
+      beam.intensity = payload[at + 2];
+      if (beam.raw_distance == 0) continue;
       const double in_column_us = kGroup_us * (channel / 4 % 16);
-      echo.fired_us = kColumn_us * firing_of_block[block] + in_column_us;
-      echo.head_deg = block_deg + step_deg * in_column_us / kColumn_us;
-      locate(echo);
-      packet.returns.push_back(echo);
+      beam.fired_us = kColumn_us * firing_of_block[block] + in_column_us;
+      beam.rotor_deg = block_deg + step_deg * in_column_us / kColumn_us;
+      locate(beam);
+      packet.returns.push_back(beam);
     }
   }
-  forget();
+  reset();
   if (pair_first) {
     pending_cdeg_ = block_cdeg[2];
     pending_step_deg_ = packet.step_deg;
@@ -105,16 +105,16 @@ Packet Ruby128Reference::decode(std::span<const std::uint8_t> payload) {
   return packet;
 }
 
-void Ruby128Reference::locate(Return& echo) const {
+void Ruby128Reference::locate(Return& beam) const {
   const ruby128::Ruby128Channel& channel =
-      calibration_.channels[static_cast<std::size_t>(echo.laser)];
+      calibration_.channels[static_cast<std::size_t>(beam.laser)];
   const double v = channel.elevation_rad, h = channel.azimuth_offset_rad;
-  const double head = echo.head_deg * kRadPerDeg;
-  const double d = echo.raw_distance * 0.005;
-  echo.beam_deg = echo.head_deg + h / kRadPerDeg;
-  echo.x_m = d * std::cos(v) * std::cos(head + h) + kLensAhead_m * std::cos(head);
-  echo.y_m = -d * std::cos(v) * std::sin(head + h) - kLensAhead_m * std::sin(head);
-  echo.z_m = d * std::sin(v);
+  const double head = beam.rotor_deg * kRadPerDeg;
+  const double d = beam.raw_distance * 0.005;
+  beam.beam_deg = beam.rotor_deg + h / kRadPerDeg;
+  beam.x_m = d * std::cos(v) * std::cos(head + h) + kLensAhead_m * std::cos(head);
+  beam.y_m = -d * std::cos(v) * std::sin(head + h) - kLensAhead_m * std::sin(head);
+  beam.z_m = d * std::sin(v);
 }
 
 double ruby128_temperature_c(std::span<const std::uint8_t> payload) {

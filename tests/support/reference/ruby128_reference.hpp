@@ -24,14 +24,14 @@ class Ruby128Reference {
   explicit Ruby128Reference(const ruby128::Ruby128Calibration& calibration)
       : calibration_(calibration) {}
 
-  /// `column` of a return is its block. Packets in order; call forget() where some are missing.
+  /// `column` of a return is its block. Packets in order; call reset() where some are missing.
   [[nodiscard]] Packet decode(std::span<const std::uint8_t> payload);
 
   /// The next packet does not follow the last one.
-  void forget() { pending_step_deg_.reset(); }
+  void reset() { pending_step_deg_.reset(); }
 
  private:
-  void locate(Return& echo) const;
+  void locate(Return& beam) const;
 
   ruby128::Ruby128Calibration calibration_;
   int pending_cdeg_ = 0;                    ///< A firing whose second return is yet to come.

@@ -13,8 +13,8 @@
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "hdl64e_reference.hpp"
+#include "rotating_head.hpp"
 #include "ruby128_reference.hpp"
-#include "turning_head.hpp"
 
 /// Both sensors under the same names, for tests and fuzzers that compare the product's decoder with
 /// the reference and are the same for either.
@@ -37,7 +37,7 @@ struct Hdl64e {
     for (const auto& laser : calibration.lasers) elevations.push_back(laser.vert_correction_rad);
     return elevations;
   }
-  static std::vector<Payload> payloads(const TurningHead& head) { return hdl64e_payloads(head); }
+  static std::vector<Payload> payloads(const RotatingHead& head) { return hdl64e_payloads(head); }
   static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
     set_hdl64e_azimuth(payload, column, cdeg);
   }
@@ -48,10 +48,10 @@ struct Hdl64e {
   static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
     set_hdl64e_clock(payload, time_ns);
   }
-  static void forget(Reference&) {}
+  static void reset(Reference&) {}
   static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                            decode::PacketHeads& heads) {
-    return hdl64e::check_hdl64e_packet(payload, heads);
+                                            decode::PacketAzimuths& azimuths) {
+    return hdl64e::check_hdl64e_packet(payload, azimuths);
   }
 };
 
@@ -70,7 +70,7 @@ struct Ruby128 {
     for (const auto& channel : calibration.channels) elevations.push_back(channel.elevation_rad);
     return elevations;
   }
-  static std::vector<Payload> payloads(const TurningHead& head) { return ruby128_payloads(head); }
+  static std::vector<Payload> payloads(const RotatingHead& head) { return ruby128_payloads(head); }
   static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
     set_ruby128_azimuth(payload, column, cdeg);
   }
@@ -81,19 +81,19 @@ struct Ruby128 {
   static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
     set_ruby128_clock(payload, time_ns, RubyClock::kMicroseconds);
   }
-  static void forget(Reference& reference) { reference.forget(); }
+  static void reset(Reference& reference) { reference.reset(); }
   static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                            decode::PacketHeads& heads) {
-    return ruby128::check_ruby128_packet(payload, heads);
+                                            decode::PacketAzimuths& azimuths) {
+    return ruby128::check_ruby128_packet(payload, azimuths);
   }
 };
 
-/// Takes the returns off whose beam is so near a seam that it may be of either turn.
+/// Takes the returns off whose beam is so near a seam that it may be of either frame.
 template <class Sensor>
 void erase_returns_on_the_seam(PayloadBytes& payload, const Packet& packet) {
-  for (const Return& echo : packet.returns) {
-    if (seam_distance_deg(echo.beam_deg) < kBorder_deg) {
-      Sensor::set_return(payload, echo.column, echo.laser, 0, 0);
+  for (const Return& beam : packet.returns) {
+    if (seam_distance_deg(beam.beam_deg) < kBorder_deg) {
+      Sensor::set_return(payload, beam.column, beam.laser, 0, 0);
     }
   }
 }

@@ -62,8 +62,8 @@ TEST_F(Cli, InfoAndReplayNameABlindSectorAndDoNotTakeItForLoss) {
   ASSERT_TRUE(whole && narrow);
   for (auto next = whole->next(); next && *next; next = whole->next()) {
     const decode::Datagram& datagram = **next;
-    const int head_cdeg = datagram.payload[2] + 256 * datagram.payload[3];
-    if (head_cdeg < 10'000 || head_cdeg >= 20'000) {
+    const int rotor_cdeg = datagram.payload[2] + 256 * datagram.payload[3];
+    if (rotor_cdeg < 10'000 || rotor_cdeg >= 20'000) {
       ASSERT_TRUE(narrow->write(datagram));
     }
   }
@@ -113,9 +113,9 @@ TEST_F(Cli, ReportHoldsWhatTheExchangePromises) {
   const auto& frame = report["frames"][0];
   EXPECT_TRUE(frame["losses"].contains("network_gap_packets"));
   EXPECT_TRUE(frame["losses"].contains("rejected_wrong_model"));
-  EXPECT_LT(frame["ms"]["after_turn"], frame["ms"]["total"]);
+  EXPECT_LT(frame["ms"]["after_frame"], frame["ms"]["total"]);
   for (const char* stage : {"decode", "elevation_map", "adjacent_points", "seeds", "min_cut",
-                            "labels", "total", "after_turn"}) {
+                            "labels", "total", "after_frame"}) {
     EXPECT_TRUE(frame["ms"].contains(stage)) << stage;
     const auto& summed = report["summary"]["ms"][stage];
     EXPECT_LE(summed["p50"], summed["p99"]) << stage;
@@ -140,7 +140,7 @@ TEST_F(Cli, ReplayGivesTheSameLabelsEveryTimeAndFromEitherCopyOfTheTable) {
   }
 }
 
-TEST_F(Cli, ReplayGivesTheSameLabelsHoweverLongTurnsWaitForLatePackets) {
+TEST_F(Cli, ReplayGivesTheSameLabelsHoweverLongFramesWaitForLatePackets) {
   expect_done("replay " + quoted(kDrive) + " --labels waited --duration 0.5");
   expect_done("replay " + quoted(kDrive) + " --labels hasty --duration 0.5 --reorder-packets 0");
   int files = 0;
@@ -219,7 +219,7 @@ TEST_F(Cli, ReplayWritesCloudsAndPictures) {
 TEST_F(Cli, ReplayTakesTheWantedPartOfTheCapture) {
   expect_done("replay " + quoted(kDrive) + " --start 0.4 --duration 0.3 --json report.json");
   const auto summary = json("report.json")["summary"];
-  EXPECT_EQ(summary["complete_frames"], 2);  // 0.3 s cover two turns from seam to seam
+  EXPECT_EQ(summary["complete_frames"], 2);  // 0.3 s cover two frames from seam to seam
   EXPECT_EQ(summary["frames"], 4);           // and touch two more
 }
 
@@ -285,7 +285,7 @@ TEST_F(Cli, BenchTimesDecodingAndEveryStage) {
   EXPECT_EQ(bench["profile"], "terracut");
 }
 
-TEST_F(Cli, BenchTimesARivalAndPlanCountsItsMemory) {
+TEST_F(Cli, BenchTimesABaselineAndPlanCountsItsMemory) {
   expect_done("bench " + quoted(kDrive) + " --repeat 1 --duration 0.3 --calibration " +
               quoted(kDriveCalibration) + " --method bogoslavskyi --json bench.json");
   const auto bench = json("bench.json");

@@ -299,7 +299,7 @@ TEST_F(CliEval, EvaluatesSimulatedDrivesAndComparesTheirMethods) {
   EXPECT_THAT(other.err, HasSubstr("was begun with other settings"));
 }
 
-TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotHeed) {
+TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotUse) {
   const auto expect_refusal = [&](const std::string& arguments, const std::string& message) {
     const Outcome outcome = run("eval " + arguments);
     EXPECT_EQ(outcome.exit_code, kUsage) << arguments << outcome.err;

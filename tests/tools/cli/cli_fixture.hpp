@@ -80,7 +80,7 @@ class Cli : public testing::Test {
   fs::path folder_;
 };
 
-/// 1.3 s of the scene "street": 13 turns, and one whole round of the status stream.
+/// 1.3 s of the scene "street": 13 frames, and one whole round of the status stream.
 inline const fs::path kDrive = test::drive();
 inline const fs::path kDriveCalibration = fs::path(kDrive).replace_extension("calibration.xml");
 inline const fs::path kDriveTruth = fs::path(kDrive).replace_extension("truth");

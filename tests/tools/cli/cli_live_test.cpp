@@ -10,7 +10,7 @@
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/net/live_pcap_source.hpp"
 #include "firmware_io/net/udp_source.hpp"
-#include "pipeline/stream/turn_stream_reader.hpp"
+#include "pipeline/stream/frame_stream_reader.hpp"
 #include "tests/tools/cli/live/live_run.hpp"
 #include "tools/cli/exit_codes.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
@@ -73,9 +73,9 @@ class CliLive : public Cli {
     ASSERT_EQ(device_port, 7788) << "the capture begins with what the sensor says of itself";
     ASSERT_TRUE(often->finish());
   }
-  /// Waits until so many turns have labels.
-  [[nodiscard]] static bool labels(LiveRun& run, std::uint64_t turns) {
-    return run.shows([=](const auto& figures) { return LiveRun::labelled(figures) >= turns; });
+  /// Waits until so many frames have labels.
+  [[nodiscard]] static bool labels(LiveRun& run, std::uint64_t frames) {
+    return run.shows([=](const auto& figures) { return LiveRun::labelled(figures) >= frames; });
   }
   /// A run that was interrupted: how many deadlines it met is the machine's affair.
   static void expect_good_end(const Outcome& outcome) {
@@ -92,7 +92,7 @@ TEST_F(CliLive, LabelsWhatIsSentToIt) {
   EXPECT_THAT(heard.err, HasSubstr("HDL-64E"));
   const auto summary = json("live.json");
   const auto frames = summary.at("frames").at("count").get<std::size_t>();
-  const auto skipped = summary.at("frames").at("rungs").at("skipped").get<std::size_t>();
+  const auto skipped = summary.at("frames").at("levels").at("skipped").get<std::size_t>();
   EXPECT_GE(frames - skipped, 6U);
   const auto unwritten = summary.at("losses").at("unwritten_label_frames").get<std::size_t>();
   EXPECT_EQ(files_in(folder_ / "labels", ".label") + unwritten, frames - skipped);
@@ -228,36 +228,36 @@ TEST_F(CliLive, HearsByLibpcapWhatAnotherProgramHasThePortOf) {
 }
 
 TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
-  const fs::path socket = folder_ / "turns";
+  const fs::path socket = folder_ / "frames";
   LiveRun run = live_with_table("--labels labels --json live.json --stream " + quoted(socket));
   const Sensors sender = sensor(run);
   ASSERT_TRUE(run.says("labelled points at "));
   const auto address = stream::parse_stream_address(socket.string());
   ASSERT_TRUE(address) << address.error().message;
-  auto reader = stream::TurnStreamReader::connect(*address);
+  auto reader = stream::FrameStreamReader::connect(*address);
   ASSERT_TRUE(reader) << reader.error().message;
   constexpr std::int64_t kHour_ns = 3'600'000'000'000;
-  std::vector<stream::ReceivedTurn> turns(3);
-  for (stream::ReceivedTurn& turn : turns) {
-    const auto read = reader->next(turn, kHour_ns);
+  std::vector<stream::ReceivedFrame> frames(3);
+  for (stream::ReceivedFrame& frame : frames) {
+    const auto read = reader->next(frame, kHour_ns);
     EXPECT_TRUE(read) << read.error().message;
   }
   expect_good_end(run.interrupted());
   // The points are the label files' returns, in their order.
   std::uint64_t missing = 0;
-  for (const stream::ReceivedTurn& turn : turns) {
-    EXPECT_EQ(turn.header.sensor, 1);
-    const fs::path file = folder_ / "labels" / fmt::format("{:06}.label", turn.header.number);
+  for (const stream::ReceivedFrame& frame : frames) {
+    EXPECT_EQ(frame.header.sensor, 1);
+    const fs::path file = folder_ / "labels" / fmt::format("{:06}.label", frame.header.number);
     if (!fs::exists(file)) {
       ++missing;
       continue;
     }
     const auto ids = ids_of(file);
-    ASSERT_EQ(turn.points.size(), ids.size()) << turn.header.number;
-    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(turn.points[i].label, ids[i]);
+    ASSERT_EQ(frame.points.size(), ids.size()) << frame.header.number;
+    for (std::size_t i = 0; i < ids.size(); ++i) ASSERT_EQ(frame.points[i].label, ids[i]);
   }
   EXPECT_LE(missing, json("live.json").at("losses").at("unwritten_label_frames"));
-  EXPECT_LT(missing, turns.size());
+  EXPECT_LT(missing, frames.size());
 }
 
 TEST_F(CliLive, SaysWhereItsFiguresAre) {
@@ -265,7 +265,7 @@ TEST_F(CliLive, SaysWhereItsFiguresAre) {
   const Sensors sender = sensor(run);
   const std::string at = run.said_after("figures at http://");
   const auto served =
-      stream::TurnStreamReader::connect(*stream::parse_stream_address(at.substr(0, at.find('/'))));
+      stream::FrameStreamReader::connect(*stream::parse_stream_address(at.substr(0, at.find('/'))));
   EXPECT_TRUE(served) << served.error().message;
   EXPECT_THAT(at, testing::EndsWith("/metrics"));
   const std::string port = at.substr(at.find(':') + 1, at.find('/') - at.find(':') - 1);
@@ -336,7 +336,7 @@ TEST_F(CliLive, GoesOnWithoutTheVehiclesMotionWhereItsInterfacesAreNotThere) {
   EXPECT_THAT(outcome.out, HasSubstr("motion    interface_gone on nosuchcan0"));
   const auto summary = json("live.json");
   EXPECT_EQ(summary.at("motion").at("no_ego_motion_frames"), summary.at("frames").at("count"));
-  EXPECT_EQ(summary.at("motion").at("taken_out_frames"), 0);
+  EXPECT_EQ(summary.at("motion").at("deskewed_frames"), 0);
   EXPECT_GT(summary.at("health").at("link_down").get<int>(), 0);
 }
 

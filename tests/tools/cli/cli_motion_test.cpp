@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// `terracut replay --can`: the vehicle's motion, recorded beside a capture, taken out of its turns.
+// `terracut replay --can`: the vehicle's motion, recorded beside a capture, removed from its
+// frames.
 #include "cli_fixture.hpp"
 #include "tools/cli/exit_codes.hpp"
 
@@ -32,7 +33,7 @@ class CliMotion : public Cli {
   }
 };
 
-TEST_F(CliMotion, IsTakenOutOfEveryTurn) {
+TEST_F(CliMotion, EveryFrameIsDeskewed) {
   expect_done(replay("--pcd seen"));
   EXPECT_FALSE(json("report.json").at("summary").contains("motion"));
   expect_done(replay("--can d.can.log --dbc d.can.dbc --pcd freed"));
@@ -40,7 +41,7 @@ TEST_F(CliMotion, IsTakenOutOfEveryTurn) {
   const auto motion = json("report.json").at("summary").at("motion");
   EXPECT_EQ(motion.at("deskewed_frames"), 6);
   EXPECT_GT(motion.at("samples").get<int>(), 50);
-  EXPECT_GT(motion.at("newest_sample_after_turn_ms").at("min").get<double>(), -20.0);
+  EXPECT_GT(motion.at("newest_sample_after_frame_ms").at("min").get<double>(), -20.0);
   EXPECT_NE(content_of(folder_ / "seen" / "000003.pcd"),
             content_of(folder_ / "freed" / "000003.pcd"));
 }
@@ -57,9 +58,9 @@ TEST_F(CliMotion, IsNotMadeUpBehindTheEndOfItsRecording) {
   write("short.log", log.substr(0, log.rfind('\n', log.size() / 2) + 1));
   expect_done(replay("--pcd seen"));
   expect_done(replay("--can short.log --dbc d.can.dbc --pcd freed"));
-  const auto turns = deskewed();
-  EXPECT_TRUE(turns.front());
-  EXPECT_FALSE(turns.back());
+  const auto frames = deskewed();
+  EXPECT_TRUE(frames.front());
+  EXPECT_FALSE(frames.back());
   EXPECT_EQ(content_of(folder_ / "seen" / "000005.pcd"),
             content_of(folder_ / "freed" / "000005.pcd"))
       << "as the sensor saw it";
@@ -81,7 +82,7 @@ TEST_F(CliMotion, OfAnotherTimeIsNoSuccess) {
   write("old.log", "(1000000000.000000) can0 1A0#0E10000000000000\n");
   const Outcome outcome = run(replay("--can old.log --dbc d.can.dbc"));
   EXPECT_EQ(outcome.exit_code, kInputRefused);
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("old.log"), HasSubstr("none of the 6 turns")));
+  EXPECT_THAT(outcome.err, AllOf(HasSubstr("old.log"), HasSubstr("none of the 6 frames")));
   EXPECT_THAT(outcome.out, HasSubstr("6 without ego motion"))
       << "the labels are there all the same";
 }

@@ -106,7 +106,7 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
   EXPECT_NEAR(recall_o / count, 0.0, 0.01);
 }
 
-TEST_F(CliScans, AreLabelledByTheRivalThatIsNamedDirectlyAndThroughPackets) {
+TEST_F(CliScans, AreLabelledByTheBaselineThatIsNamedDirectlyAndThroughPackets) {
   expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   for (const std::string method : {"pfaff", "bogoslavskyi", "zhang"}) {

@@ -7,7 +7,7 @@ namespace {
 
 class DoctorNetwork : public MadeUpMachine {
  protected:
-  const Wishes eth0_{.interface = "eth0"};
+  const Requests eth0_{.interface = "eth0"};
 };
 
 TEST_F(DoctorNetwork, WantsTheInterfaceUp) {
@@ -26,7 +26,7 @@ TEST_F(DoctorNetwork, WantsTheInterfaceUp) {
   expect(check_interface(system(), {.interface = "lo"}), Verdict::kOk, "lo is unknown");
 }
 
-TEST_F(DoctorNetwork, WantsABufferForOneTurnAtLeast) {
+TEST_F(DoctorNetwork, WantsABufferForOneFrameAtLeast) {
   const std::string limit = "proc/sys/net/core/rmem_max";
   expect(check_receive_buffer(system(), {}), Verdict::kOk, "not known");
   file(limit, "212992\n");
@@ -51,8 +51,8 @@ TEST_F(DoctorNetwork, FindsInterruptsByTheDevice) {
   file("proc/irq/46/smp_affinity_list", "0-3\n");
   file("proc/irq/46/effective_affinity_list", "3\n");
   expect(check_interrupts(system(), eth0_), Verdict::kOk, "45 on 0-1; 46 on 3");
-  const Wishes wishes{.interface = "eth0", .segment_core = 3};
-  expect(check_interrupts(system(), wishes), Verdict::kWarning, "46 on the frames' cores 3",
+  const Requests requests{.interface = "eth0", .segment_core = 3};
+  expect(check_interrupts(system(), requests), Verdict::kWarning, "46 on the frames' cores 3",
          "for i in 46; do");
   file("sys/devices/system/cpu/isolated", "1\n");
   expect(check_interrupts(system(), eth0_), Verdict::kWarning, "45 on the frames' cores 1");

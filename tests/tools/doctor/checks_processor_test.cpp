@@ -31,29 +31,29 @@ TEST_F(DoctorProcessor, WantsCoresSetApart) {
   cores("isolated", "");
   expect(check_isolated_cores(system(), {}), Verdict::kWarning, "none",
          "isolcpus=managed_irq,domain,2,3 ");
-  const Wishes wishes{.receive_core = 1, .segment_core = 3};
-  expect(check_isolated_cores(system(), wishes), Verdict::kWarning, "none", "domain,1,3 ");
+  const Requests requests{.receive_core = 1, .segment_core = 3};
+  expect(check_isolated_cores(system(), requests), Verdict::kWarning, "none", "domain,1,3 ");
   cores("isolated", "3");
-  expect(check_isolated_cores(system(), wishes), Verdict::kWarning, "3, but not 1", "isolcpus=");
+  expect(check_isolated_cores(system(), requests), Verdict::kWarning, "3, but not 1", "isolcpus=");
   cores("isolated", "1-3");
-  expect(check_isolated_cores(system(), wishes), Verdict::kOk, "1,2,3");
+  expect(check_isolated_cores(system(), requests), Verdict::kOk, "1,2,3");
   cores("isolated", "");
   cores("online", "0");
   expect(check_isolated_cores(system(), {}), Verdict::kWarning, "one core only");
 }
 
 TEST_F(DoctorProcessor, WantsIsolatedCoresWithoutATick) {
-  const Wishes wishes{.receive_core = 2, .segment_core = 3};
+  const Requests requests{.receive_core = 2, .segment_core = 3};
   cores("online", "0-3");
-  expect(check_tickless_cores(system(), wishes), Verdict::kOk, "none");
+  expect(check_tickless_cores(system(), requests), Verdict::kOk, "none");
   cores("isolated", "2-3");
-  expect(check_tickless_cores(system(), wishes), Verdict::kWarning, "none", "nohz_full=2,3 ");
+  expect(check_tickless_cores(system(), requests), Verdict::kWarning, "none", "nohz_full=2,3 ");
   cores("nohz_full", "2");
-  expect(check_tickless_cores(system(), wishes), Verdict::kWarning, "2, but not 3");
+  expect(check_tickless_cores(system(), requests), Verdict::kWarning, "2, but not 3");
   cores("nohz_full", "2-3");
-  expect(check_tickless_cores(system(), wishes), Verdict::kOk, "2,3");
+  expect(check_tickless_cores(system(), requests), Verdict::kOk, "2,3");
   cores("nohz_full", "(null)");
-  expect(check_tickless_cores(system(), wishes), Verdict::kWarning, "none");
+  expect(check_tickless_cores(system(), requests), Verdict::kWarning, "none");
 }
 
 TEST_F(DoctorProcessor, SwapIsAProblemWhereMemoryCannotBeLocked) {

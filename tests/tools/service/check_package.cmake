@@ -34,7 +34,7 @@ foreach(path
     ./etc/terracut/terracut.yaml
     ./usr/share/doc/terracut/docs/guide/real_time.md
     ./usr/share/doc/terracut/docs/reference/configuration.md
-    ./usr/share/doc/terracut/examples/read_turns.py
+    ./usr/share/doc/terracut/examples/read_frames.py
     ./usr/share/doc/terracut/copyright
     ./usr/share/terracut/terracut_health.dbc
     ./usr/include/terracut/segmenter.hpp

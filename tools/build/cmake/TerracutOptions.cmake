@@ -3,7 +3,7 @@ if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
-# Consumers get a plain library; the project's own scripts and CI turn developer mode on.
+# Consumers get a plain library; the project's own scripts and CI frame developer mode on.
 if(DEFINED ENV{CI} OR PROJECT_IS_TOP_LEVEL)
   set(terracut_is_developed_here ON)
 else()

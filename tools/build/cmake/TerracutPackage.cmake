@@ -7,7 +7,7 @@ install(FILES ${terracut_service}/terracut.yaml
   DESTINATION /etc/terracut COMPONENT service EXCLUDE_FROM_ALL)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION share/doc/terracut
   COMPONENT service EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
-install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_turns.py
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_frames.py
   DESTINATION share/doc/terracut/examples COMPONENT service EXCLUDE_FROM_ALL)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION share/doc/terracut
   COMPONENT service EXCLUDE_FROM_ALL)

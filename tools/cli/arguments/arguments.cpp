@@ -81,8 +81,8 @@ class Assembly {
     }
     // The file's parameters are for all commands, whatever runs in them; those typed have to count.
     const std::span<const std::string> settings = options_.method.settings;
-    if (const Status heeded = check_heeded(settings.subspan(of_file), kinds()); !heeded) {
-      return wrong("--set: " + heeded.error().message);
+    if (const Status used = check_used(settings.subspan(of_file), kinds()); !used) {
+      return wrong("--set: " + used.error().message);
     }
     return {};
   }

@@ -32,7 +32,7 @@ namespace {
 
 using measure::milliseconds;
 
-/// Keeps this thread on one core; -1 means the last one it may use. Answers the core, or -1 when
+/// Keeps this thread on one core; -1 means the last one it may use. Returns the core, or -1 when
 /// the system does not allow it.
 int stay_on_core(int core) {
   const std::vector<int> allowed = threads::allowed_cores();
@@ -109,13 +109,13 @@ double run_decoding(sensor::SensorDecoder& decoder, const PacketStore& packets) 
   return columns == 0 ? 0 : static_cast<double>(spent_ns) / static_cast<double>(columns);
 }
 
-/// [{"decode", "segment", "after_turn"}, ..]: what the summary is made of.
+/// [{"decode", "segment", "after_frame"}, ..]: what the summary is made of.
 nlohmann::ordered_json frames_json(const std::vector<FrameRecord>& frames) {
   auto list = nlohmann::ordered_json::array();
   for (const FrameRecord& frame : frames) {
     list.push_back({{"decode", milliseconds(frame.decode_ns)},
                     {"segment", milliseconds(frame.times.sum_ns())},
-                    {"after_turn", milliseconds(after_turn_ns(frame))}});
+                    {"after_frame", milliseconds(after_frame_ns(frame))}});
   }
   return list;
 }
@@ -130,20 +130,22 @@ std::vector<status::Figure> figures_of(const Options& options, const BenchResult
   };
   // clang-format off: a table reads better with an entry on two lines than one word a line.
   std::vector<status::Figure> figures{
-    {"terracut", TERRACUT_VERSION},
-    {"command", "bench"},
-    {"input", options.capture.file.string()},
-    {"processor", processor_name(), {}, {"processor"}},
-    {{}, core < 0 ? "not pinned" : fmt::format("core {}", core), {}, {"processor"}},
-    {"frames", result.frames, {}, {"frames"}},
-    {{}, static_cast<std::uint64_t>(options.bench_repeat), {}, {"frames", " ({} passes)"}},
-    {"returns_per_frame", status::Number{returns_per_frame, 0, 1e9}, {},
-     {"frames", "{:.0f} returns each"}},
-    {"returns_unlabelled", result.unlabelled},
-    {{}, column_ns(50), {}, {"decode", "{} ns a packet column, p50 of the passes"}},
-    {"p50", column_ns(50), {}, {}, "decode_ns_per_column"},
-    {"p99", column_ns(99), {}, {}, "decode_ns_per_column"},
-    {"max", column_ns(100), {}, {}, "decode_ns_per_column"}};
+      {"terracut", TERRACUT_VERSION},
+      {"command", "bench"},
+      {"input", options.capture.file.string()},
+      {"processor", processor_name(), {}, {"processor"}},
+      {{}, core < 0 ? "not pinned" : fmt::format("core {}", core), {}, {"processor"}},
+      {"frames", result.frames, {}, {"frames"}},
+      {{}, static_cast<std::uint64_t>(options.bench_repeat), {}, {"frames", " ({} passes)"}},
+      {"returns_per_frame",
+       status::Number{returns_per_frame, 0, 1e9},
+       {},
+       {"frames", "{:.0f} returns each"}},
+      {"returns_unlabelled", result.unlabelled},
+      {{}, column_ns(50), {}, {"decode", "{} ns a packet column, p50 of the passes"}},
+      {"p50", column_ns(50), {}, {}, "decode_ns_per_column"},
+      {"p99", column_ns(99), {}, {}, "decode_ns_per_column"},
+      {"max", column_ns(100), {}, {}, "decode_ns_per_column"}};
   // clang-format on
   if (options.method.method.empty()) {
     figures.push_back({"profile", std::string(word_of(kProfileWords, options.method.profile))});

@@ -71,8 +71,8 @@ Expected<mount::MountEstimate> estimate(OpenCapture& capture, const CaptureOptio
                                 decoder_config_of(options, capture.sensor.columns), memory);
   const Status decoded = decode_frames(capture, options, decoder, [&](const RangeImage& image) {
     frame::for_each_return(image, [&](const PlacedReturn& placed) {
-      if (!ground::is_near_ground_place(placed.echo.x_m, placed.echo.y_m)) return;
-      points.push_back({placed.echo.x_m, placed.echo.y_m, placed.echo.z_m});
+      if (!ground::is_near_ground_place(placed.point.x_m, placed.point.y_m)) return;
+      points.push_back({placed.point.x_m, placed.point.y_m, placed.point.z_m});
     });
     return ++frames < kMountFrames;
   });
@@ -98,7 +98,7 @@ Expected<mount::RingProfileEstimate> measure_rings(OpenCapture& capture, const O
         observations.clear();
         frame::for_each_return(image, [&](const PlacedReturn& placed) {
           const bool is_ground = frame::is_ground(segmenter.labels()[placed.return_index]);
-          observations.push_back({placed.row, placed.echo.ground_range_m, is_ground});
+          observations.push_back({placed.row, placed.point.ground_range_m, is_ground});
         });
         rings.add(observations);
         progress.update(++frames);

@@ -52,7 +52,7 @@ std::string cure_of_heights(const Options& options, const encode::ScanDriveRepor
 void print(const Options& options, const encode::ScanDriveReport& report) {
   const encode::EncodeSummary& encoded = report.encoded;
   fmt::print("wrote     {}\n          {}\n          {}/\n", options.written.string(),
-             drive::calibration_path_of<encode::Hdl64eTransmitter>(options.written).string(),
+             drive::calibration_path_of<encode::Hdl64eEncoderTraits>(options.written).string(),
              drive::truth_folder_of(options.written).string());
   if (options.can_log) {
     fmt::print("          {}\n          {}\n", drive::can_log_path_of(options.written).string(),
@@ -89,7 +89,7 @@ void print(const Options& options, const encode::ResampleReport& report, const s
   };
   fmt::print("synthetic RS-Ruby128, resampled from an HDL-64E's recording, not recorded\n");
   fmt::print("wrote     {}\n          {}\n          {}/\n", options.written.string(),
-             drive::calibration_path_of<encode::Ruby128Transmitter>(options.written).string(),
+             drive::calibration_path_of<encode::Ruby128EncoderTraits>(options.written).string(),
              drive::truth_folder_of(options.written).string());
   fmt::print("table     {}\n{}\nframes    {}\nrays      {}\n", table,
              motion_line(report.why_as_recorded), report.drive.frames, rays.rays);
@@ -126,7 +126,7 @@ ExitCode run_encode(const Options& options) {
   catch_stop_signals();
   if (options.capture.sensor == sensor::SensorModel::kRuby128) {
     if (options.can_log) {
-      return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled turns begin ahead");
+      return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled frames begin ahead");
     }
     return resample(options);
   }

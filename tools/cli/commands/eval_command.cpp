@@ -69,7 +69,7 @@ bool is_simulated(const Options& options) {
   return options.eval.dataset == "simulated";
 }
 
-/// That no option was given which this kind of dataset would not heed.
+/// That no option was given which this kind of dataset would not use.
 Status check_fit(const Options& options) {
   const auto refuse = [&](std::string_view what) {
     return fail(ErrorCode::kInvalidArgument,
@@ -198,7 +198,7 @@ std::string settings_line(const Options& options, const EvaluationConfig& config
   }
   for (const eval::MethodChoice& method : config.methods) {
     line += fmt::format(" {}={}{{", method.name, method.base);
-    for (const auto part : {ground::parameters(), ground::rival_parameters()}) {
+    for (const auto part : {ground::parameters(), ground::baseline_parameters()}) {
       for (const ground::Parameter& parameter : part) {
         line += fmt::format("{}={} ", parameter.key, ground::value_text(parameter, method.config));
       }

@@ -65,11 +65,11 @@ std::string calibration_in(const Hdl64eFacts& facts) {
 
 std::string text_of(const StreamFacts& facts) {
   std::string text = fmt::format(
-      "  head         {:.1f} rpm, {:.1f} turns, {:.4f} deg a column\n"
+      "  head         {:.1f} rpm, {:.1f} frames, {:.4f} deg a column\n"
       "  mode         {} return, a packet every {:.1f} us\n"
       "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock "
       "jumps\n",
-      facts.spin_rpm, facts.turns, facts.step_deg, to_string(facts.return_mode),
+      facts.spin_rpm, facts.frames, facts.step_deg, to_string(facts.return_mode),
       facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
       facts.clock_jumps);
   if (!facts.blind.is_none()) {
@@ -122,7 +122,7 @@ std::string text_of(const Ruby128DeviceReader& device) {
   const auto info = device.newest();
   if (!info) return {};
   return fmt::format(
-      "  serial       {}\n  set to       {} rpm, turns at {}; return mode {} ({})\n"
+      "  serial       {}\n  set to       {} rpm, frames at {}; return mode {} ({})\n"
       "  network      {} to {}, data port {}, device port {}, MAC {}\n"
       "  time         by {}, status {}\n  calibration  {}\n"
       "  changes      {} of the serial number, {} of the angles\n",
@@ -174,7 +174,7 @@ Json json_of(const StreamFacts& facts) {
             {"packet_period_us", facts.packet_period_us},
             {"spin_rpm", facts.spin_rpm},
             {"step_deg", facts.step_deg},
-            {"turns", facts.turns},
+            {"frames", facts.frames},
             {"packets_lost", facts.packets_lost},
             {"packets_repeated", facts.packets_repeated},
             {"packets_reordered", facts.packets_reordered},

@@ -12,7 +12,7 @@ ExitCode run_parameters(const Options&) {
   const ground::MethodConfig terracut = ground::terracut_profile();
   const ground::MethodConfig paper = ground::paper_profile();
   fmt::print("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
-  for (const auto part : {ground::parameters(), ground::rival_parameters()}) {
+  for (const auto part : {ground::parameters(), ground::baseline_parameters()}) {
     for (const ground::Parameter& parameter : part) {
       fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
                  range_text(parameter), shown_value(parameter, terracut),

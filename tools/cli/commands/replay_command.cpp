@@ -186,7 +186,7 @@ class Replay {
     const stage::SegmentationReport segmented = pipeline_.label(frame);
     report_.add(record_of(frame, segmented));
     deskewed_ += info.deskew.state == frame::DeskewState::kDone ? 1 : 0;
-    if (info.number % run::LatestNearGround::kFramesApart == 0) mount_.add_turn(image);
+    if (info.number % run::LatestNearGround::kFramesApart == 0) mount_.add_frame(image);
 
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
@@ -228,7 +228,7 @@ class Replay {
     const ExitCode concluded = conclude_with(report_, options_.output.json);
     if (concluded != kOk || motion_ == nullptr || deskewed_ > 0) return concluded;
     return refuse(kInputRefused,
-                  fmt::format("{}: in none of the {} turns was there motion to take out; is it of "
+                  fmt::format("{}: none of the {} frames could be deskewed; is it of "
                               "this drive, its stamps on the clock of the capture's?",
                               options_.can_recording.string(), report_.frames()));
   }
@@ -247,7 +247,7 @@ class Replay {
   Progress progress_;
   quality::Quality quality_;
   std::uint64_t scored_ = 0;    ///< Frames with truth.
-  std::uint64_t deskewed_ = 0;  ///< Frames out of which the motion was taken.
+  std::uint64_t deskewed_ = 0;  ///< Frames.
   Status sinks_;
   std::uint64_t offered_ = 0;  ///< Datagrams given to the decoder.
 };

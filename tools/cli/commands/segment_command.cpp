@@ -47,7 +47,7 @@ struct ScanLabeller {
   /// Labels the scan and the rings that were just read.
   void label(FrameRecord& record) {
     const auto placed = scan_to_image.place(scan.points, rings.ring_of_point, image);
-    mount.add_turn(image);
+    mount.add_frame(image);
     record.cut = segmenter.segment(image, &clock).cut;
     record.times = clock.take();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
@@ -86,7 +86,7 @@ Expected<hdl64e::Hdl64eCalibration> calibration_of(const Options& options,
   if (!fitted) return tl::unexpected(fitted.error());
   say(fmt::format("calibration: fitted to the scans, height residual {:.1f} cm (p95)",
                   100 * fitted->residual.p95_m));
-  if (fitted->told_by_nominal_table) {
+  if (fitted->from_nominal_table) {
     say("             no scan has all rings, so they were told apart by a nominal unit's table; "
         "--calibration takes the unit's own");
   }

@@ -25,24 +25,25 @@
 namespace terracut::cli {
 namespace {
 
-using encode::Hdl64eTransmitter;
-using encode::Ruby128Transmitter;
+using encode::Hdl64eEncoderTraits;
+using encode::Ruby128EncoderTraits;
 
-Expected<Hdl64eTransmitter::Calibration> calibration_of(const Options& options, Hdl64eTransmitter) {
-  if (options.capture.calibration.empty()) return Hdl64eTransmitter::nominal();
+Expected<Hdl64eEncoderTraits::Calibration> calibration_of(const Options& options,
+                                                          Hdl64eEncoderTraits) {
+  if (options.capture.calibration.empty()) return Hdl64eEncoderTraits::nominal();
   return hdl64e::load_hdl64e_calibration(options.capture.calibration);
 }
-Expected<Ruby128Transmitter::Calibration> calibration_of(const Options& options,
-                                                         Ruby128Transmitter) {
-  if (options.capture.calibration.empty()) return Ruby128Transmitter::nominal();
+Expected<Ruby128EncoderTraits::Calibration> calibration_of(const Options& options,
+                                                           Ruby128EncoderTraits) {
+  if (options.capture.calibration.empty()) return Ruby128EncoderTraits::nominal();
   return ruby128::read_ruby128_csv(options.capture.calibration);
 }
 
-Hdl64eTransmitter::Config sensor_config(const Options& options, Hdl64eTransmitter) {
+Hdl64eEncoderTraits::Config sensor_config(const Options& options, Hdl64eEncoderTraits) {
   return {.returns = options.simulate.returns};
 }
-Ruby128Transmitter::Config sensor_config(const Options& options, Ruby128Transmitter) {
-  Ruby128Transmitter::Config config;
+Ruby128EncoderTraits::Config sensor_config(const Options& options, Ruby128EncoderTraits) {
+  Ruby128EncoderTraits::Config config;
   config.returns = options.simulate.returns;
   config.timestamp = options.simulate.timestamp;
   config.unit.rpm = static_cast<std::uint16_t>(std::lround(60 * options.simulate.spin_hz));
@@ -50,9 +51,9 @@ Ruby128Transmitter::Config sensor_config(const Options& options, Ruby128Transmit
   return config;
 }
 
-template <class Transmitter>
-Expected<simulator::SimulationConfig<Transmitter>> simulation_config(const Options& options) {
-  simulator::SimulationConfig<Transmitter> config;
+template <class EncoderTraits>
+Expected<simulator::SimulationConfig<EncoderTraits>> simulation_config(const Options& options) {
+  simulator::SimulationConfig<EncoderTraits> config;
   config.scene = options.simulate.scene;
   config.seed = options.simulate.seed;
   config.duration_s = options.simulate.duration_s;
@@ -61,27 +62,27 @@ Expected<simulator::SimulationConfig<Transmitter>> simulation_config(const Optio
   config.yaw_rate_radps = beams::deg_to_rad(options.simulate.yaw_rate_dps);
   config.effects.range_noise_m = options.simulate.noise_m;
   config.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
-  config.sensor = sensor_config(options, Transmitter{});
+  config.sensor = sensor_config(options, EncoderTraits{});
   const auto mount = mount_of(options.mount);
   if (!mount) return tl::unexpected(mount.error());
   config.mount = *mount;
-  auto calibration = calibration_of(options, Transmitter{});
+  auto calibration = calibration_of(options, EncoderTraits{});
   if (!calibration) return tl::unexpected(calibration.error());
   config.calibration = *std::move(calibration);
   return config;
 }
 
-template <class Transmitter>
+template <class EncoderTraits>
 ExitCode simulate(const Options& options, const std::filesystem::path& output) {
-  const auto config = simulation_config<Transmitter>(options);
+  const auto config = simulation_config<EncoderTraits>(options);
   if (!config) return refuse(config.error());
   auto writer =
-      drive::DriveWriter<Transmitter>::create(output, config->calibration, config->sensor);
+      drive::DriveWriter<EncoderTraits>::create(output, config->calibration, config->sensor);
   if (!writer) return refuse(writer.error());
 
   Progress progress("simulating", "seconds", options.simulate.duration_s);
   const auto simulated = simulator::simulate_drive(
-      *config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+      *config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
         if (Status status = go_on(); !status) return status;
         progress.update(column.time_s);
         return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
@@ -100,7 +101,7 @@ ExitCode simulate(const Options& options, const std::filesystem::path& output) {
   fmt::print("scene     {}, seed {}\n", options.simulate.scene, options.simulate.seed);
   if (!options.written.empty()) {
     fmt::print("wrote     {}\n          {}\n          {}/\n", output.string(),
-               drive::calibration_path_of<Transmitter>(output).string(),
+               drive::calibration_path_of<EncoderTraits>(output).string(),
                drive::truth_folder_of(output).string());
     if (options.can_log) {
       fmt::print("          {}\n          {}\n", drive::can_log_path_of(output).string(),
@@ -115,8 +116,8 @@ ExitCode simulate(const Options& options, const std::filesystem::path& output) {
 
 ExitCode simulate_to(const Options& options, const std::filesystem::path& output) {
   return options.capture.sensor == sensor::SensorModel::kRuby128
-             ? simulate<Ruby128Transmitter>(options, output)
-             : simulate<Hdl64eTransmitter>(options, output);
+             ? simulate<Ruby128EncoderTraits>(options, output)
+             : simulate<Hdl64eEncoderTraits>(options, output);
 }
 
 }  // namespace
@@ -129,7 +130,7 @@ ExitCode run_simulate(const Options& options) {
     }
     return simulate_to(options, options.written);
   }
-  // Rays take longer to trace than a turn lasts: the drive is computed first, then sent on time.
+  // Rays take longer to trace than a frame lasts: the drive is computed first, then sent on time.
   std::optional<TemporaryFolder> scratch;
   Options sending = options;
   sending.capture.file = options.written;

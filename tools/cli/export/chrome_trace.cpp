@@ -64,16 +64,16 @@ class Trace {
   void add_receive(const status::FrameTiming& frame) {
     const std::int64_t first_ns =
         frame.first_packet_ns > 0 ? frame.first_packet_ns : frame.last_packet_ns;
-    slice(kReceive, fmt::format("turn {}", frame.number),
+    slice(kReceive, fmt::format("frame {}", frame.number),
           first_ns > 0 ? std::max(first_ns, handed_over_before_ns_) : 0, frame.handed_over_ns,
           {{"returns", frame.returns}, {"cpu_ms", milliseconds(frame.decode_cpu_ns)}});
     if (frame.handed_over_ns > 0) handed_over_before_ns_ = frame.handed_over_ns;
   }
 
   void add_segment(const status::FrameTiming& frame) {
-    if (frame.rung == status::Rung::kSkipped) return;
+    if (frame.level == status::Level::kSkipped) return;
     slice(kSegment, fmt::format("frame {}", frame.number), frame.segment_begin_ns, frame.labels_ns,
-          {{"rung", to_string(frame.rung)},
+          {{"level", to_string(frame.level)},
            {"latency_ms", milliseconds(frame.labels_ns - frame.last_packet_ns)},
            {"cpu_ms", milliseconds(frame.segment_cpu_ns)},
            {"run_queue_wait_ms", milliseconds(frame.run_queue_wait_ns)},
@@ -83,7 +83,7 @@ class Trace {
     if (frame.segment_begin_ns <= 0) return;
     std::int64_t begin_ns = frame.segment_begin_ns;
     for (std::size_t i = frame.stages_ahead; i < figures_.stages(); ++i) {
-      if (frame.stage_cpu_ns[i] <= 0) continue;  // did not run on this rung
+      if (frame.stage_cpu_ns[i] <= 0) continue;  // did not run on this level
       const std::int64_t end_ns = std::min(begin_ns + frame.stage_cpu_ns[i], frame.labels_ns);
       slice(kSegment, std::string(figures_.stage_names[i].view()), begin_ns, end_ns,
             {{"cpu_ms", milliseconds(frame.stage_cpu_ns[i])}});
@@ -101,7 +101,7 @@ class Trace {
     Json event = event_of("i", kSegment, fmt::format("missed: {}", to_string(frame.cause)));
     event["ts"] = microseconds(when_ns);
     event["s"] = "p";
-    event["args"] = {{"frame", frame.number}, {"rung", to_string(frame.rung)}};
+    event["args"] = {{"frame", frame.number}, {"level", to_string(frame.level)}};
     events_.push_back(std::move(event));
   }
 

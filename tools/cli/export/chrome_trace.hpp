@@ -12,14 +12,14 @@
 namespace terracut::cli {
 
 /// The way of frames through the threads as Chrome's trace event format, which Perfetto's UI and
-/// chrome://tracing open: a track each for receive, segment and publish, a slice a turn and a
+/// chrome://tracing open: a track each for receive, segment and publish, a slice a frame and a
 /// frame, an instant event where a deadline was missed. Times are microseconds since the earliest
 /// stamp; its time of day is otherData.origin_ns.
 ///
 /// Stages are measured in processor time, so their slices stand one after another from the start of
 /// their frame at the width of that time; what is left of the frame's slice behind them is time off
-/// the core. A turn's slice begins at its first packet, but not before the turn before it was
-/// handed over, because two turns are open at once around the seam.
+/// the core. A frame's slice begins at its first packet, but not before the frame before it was
+/// handed over, because two frames are open at once around the seam.
 ///
 /// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,

@@ -22,7 +22,7 @@ namespace {
 
 constexpr const char* kMetricsType = "text/plain; version=0.0.4; charset=utf-8";
 
-/// Answers on the thread that accepts, so that there is never more than one connection open.
+/// Returns on the thread that accepts, so that there is never more than one connection open.
 class OneAtATime final : public httplib::TaskQueue {
   using Taken = decltype(std::declval<httplib::TaskQueue&>().enqueue({}));  // void, later bool
 

@@ -12,7 +12,7 @@
 
 namespace terracut::cli {
 
-/// Answers GET /metrics with the figures for Prometheus (metrics_text.hpp), over HTTP, from one
+/// Returns GET /metrics with the figures for Prometheus (metrics_text.hpp), over HTTP, from one
 /// thread of its own and of the caller's scheduling class: start it from a normal thread.
 ///
 /// One connection at a time, one request a connection, little memory: a slow or hostile client can

@@ -18,7 +18,7 @@ namespace {
 
 using Labels = std::vector<std::pair<std::string_view, std::string>>;
 
-/// From well below a quick stage to well above a deadline of one turn.
+/// From well below a quick stage to well above a deadline of one frame.
 constexpr std::array<std::int64_t, 19> kLimits_us{
     100,    250,    500,    1'000,  2'000,  3'000,  5'000,   7'500,   10'000,   15'000,
     20'000, 25'000, 30'000, 40'000, 50'000, 75'000, 100'000, 200'000, 1'000'000};

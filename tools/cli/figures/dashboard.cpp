@@ -87,7 +87,7 @@ std::string why_no_frames(const status::MonitorSnapshot& figures) {
   if (figures.received == 0) return "no frame came out, because no datagram came in";
   return fmt::format("no frame came out of {} datagrams: {}{}", figures.received,
                      status::counts_text(figures.outcomes_in_use()),
-                     figures.head_stands != 0 ? "; the sensor's head does not turn" : "");
+                     figures.head_stands != 0 ? "; the sensor's head does not rotate" : "");
 }
 
 }  // namespace terracut::cli

@@ -14,9 +14,9 @@ MountWatch::MountWatch(const mount::Mount& mount) : check_(mount) {
   figures_.pitch_deg = beams::rad_to_deg(mount.pitch_rad);
 }
 
-void MountWatch::add_turn(const ground::NearGround& ground) {
-  check_.add_turn(ground.in_use());
-  figures_.turns = check_.turns();
+void MountWatch::add_frame(const ground::NearGround& ground) {
+  check_.add_frame(ground.in_use());
+  figures_.frames = check_.frames();
   const auto seen = check_.contradiction();
   figures_.contradicted = seen ? 1 : 0;
   if (!seen) return;
@@ -27,9 +27,9 @@ void MountWatch::add_turn(const ground::NearGround& ground) {
   said_ = true;
 }
 
-void MountWatch::add_turn(const frame::RangeImage& image) {
+void MountWatch::add_frame(const frame::RangeImage& image) {
   ground::take_near_ground(image, ground_);
-  add_turn(ground_);
+  add_frame(ground_);
 }
 
 }  // namespace terracut::cli

@@ -11,13 +11,13 @@
 namespace terracut::cli {
 
 /// Says once that the near ground of a run contradicts the mount it was given, and keeps what there
-/// is to show of it. One thread without a deadline: a turn that is looked at takes milliseconds.
+/// is to show of it. One thread without a deadline: a frame that is looked at takes milliseconds.
 class MountWatch {
  public:
   explicit MountWatch(const mount::Mount& mount);
 
-  void add_turn(const ground::NearGround& ground);
-  void add_turn(const frame::RangeImage& image);
+  void add_frame(const ground::NearGround& ground);
+  void add_frame(const frame::RangeImage& image);
 
   [[nodiscard]] const status::MountFigures& figures() const noexcept { return figures_; }
 

@@ -42,7 +42,7 @@ Json milliseconds_json(const FrameRecord& frame) {
         milliseconds(frame.times.stage_ns[i]);
   }
   json["total"] = milliseconds(frame.decode_ns + frame.times.sum_ns());
-  json["after_turn"] = milliseconds(after_turn_ns(frame));
+  json["after_frame"] = milliseconds(after_frame_ns(frame));
   return json;
 }
 
@@ -67,17 +67,16 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const std::vector<Fram
   std::ranges::sort(newest_ns);
   const std::string_view line = samples > 0 ? "motion" : "";
   const auto of = [](std::string_view key, std::int64_t ns, const status::Phrase& phrase) {
-    return Figure{key, status::Duration{ns}, {}, phrase, "motion.newest_sample_after_turn_ms"};
+    return Figure{key, status::Duration{ns}, {}, phrase, "motion.newest_sample_after_frame_ms"};
   };
   // clang-format off: a table reads better with an entry on two lines than one word a line.
-  return {
-    {"samples", samples, {}, {"motion", "{} samples"}, "motion"},
-    {"deskewed_frames", deskewed, {}, {"motion", ": taken out of {} frames"}, "motion"},
-    {{}, records.size() - deskewed, {}, {"motion", "{} without ego motion"}},
-    of("median", newest_ns[newest_ns.size() / 2],
-       {line, "newest sample {ms:+.1f} ms from a frame's end (median"}),
-    of("min", newest_ns.front(), {line, ": {ms:+.1f}"}),
-    of("max", newest_ns.back(), {line, " to {ms:+.1f})"})};
+  return {{"samples", samples, {}, {"motion", "{} samples"}, "motion"},
+          {"deskewed_frames", deskewed, {}, {"motion", ": {} frames deskewed"}, "motion"},
+          {{}, records.size() - deskewed, {}, {"motion", "{} without ego motion"}},
+          of("median", newest_ns[newest_ns.size() / 2],
+             {line, "newest sample {ms:+.1f} ms from a frame's end (median"}),
+          of("min", newest_ns.front(), {line, ": {ms:+.1f}"}),
+          of("max", newest_ns.back(), {line, " to {ms:+.1f})"})};
   // clang-format on
 }
 
@@ -104,7 +103,7 @@ void TimeSummary::add(const FrameRecord& frame) noexcept {
   for (std::size_t i = 0; i < stages.size(); ++i) stages[i].record(frame.times.stage_ns[i]);
   decode.record(frame.decode_ns);
   total.record(frame.decode_ns + frame.times.sum_ns());
-  after_turn.record(after_turn_ns(frame));
+  after_frame.record(after_frame_ns(frame));
   wall.record(frame.times.segment_wall_ns);
 }
 
@@ -118,7 +117,7 @@ std::vector<Figure> TimeSummary::figures() const {
     add(to_string(static_cast<stage::Stage>(i)), stages[i]);
   }
   add("total", total);
-  add("after_turn", after_turn);
+  add("after_frame", after_frame);
   return figures;
 }
 
@@ -137,12 +136,11 @@ frame::LossCounters Report::losses() const {
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 
 std::vector<Figure> Report::run_figures() const {
-  std::vector<Figure> figures{
-    {"terracut", TERRACUT_VERSION},
-    {"command", run_.command},
-    {"input", run_.input},
-    {"interrupted", interrupted_},
-    {"calibration", run_.calibration}};
+  std::vector<Figure> figures{{"terracut", TERRACUT_VERSION},
+                              {"command", run_.command},
+                              {"input", run_.input},
+                              {"interrupted", interrupted_},
+                              {"calibration", run_.calibration}};
   const auto add_any = [&](std::string_view key, const std::string& text, std::string_view line) {
     if (!text.empty()) figures.push_back({key, text, {}, {line}});
   };
@@ -166,41 +164,47 @@ std::vector<Figure> Report::summary_figures() const {
     returns_labelled += frame.returns_labelled;
   }
   std::vector<Figure> figures{
-    {"frames", records_.size(), {}, {"frames"}},
-    {"complete_frames", complete, {}, {"frames", " ({} complete)"}},
-    {"returns_in", returns_in, {}, {"returns", "{} in"}},
-    {"returns_labelled", returns_labelled, {}, {"returns", "{} labelled"}},
-    {"segment_wall_ms", &times_.wall}};
-  const auto add = [&](std::initializer_list<Figure> more) {
-    figures.insert(figures.end(), more);
-  };
+      {"frames", records_.size(), {}, {"frames"}},
+      {"complete_frames", complete, {}, {"frames", " ({} complete)"}},
+      {"returns_in", returns_in, {}, {"returns", "{} in"}},
+      {"returns_labelled", returns_labelled, {}, {"returns", "{} labelled"}},
+      {"segment_wall_ms", &times_.wall}};
+  const auto add = [&](std::initializer_list<Figure> more) { figures.insert(figures.end(), more); };
   std::ranges::copy(times_.figures(), std::back_inserter(figures));
   if (scan_points_) {
-    add({
-      {"points_no_place", scan_points_->no_place, {},
-       {"returns", "{} points null or not finite, labelled 0", Shown::kIfAny}},
-      {"points_no_ring", scan_points_->no_ring, {},
-       {"returns", "{} points of no ring, labelled obstacle", Shown::kIfAny}}});
+    add({{"points_no_place",
+          scan_points_->no_place,
+          {},
+          {"returns", "{} points null or not finite, labelled 0", Shown::kIfAny}},
+         {"points_no_ring",
+          scan_points_->no_ring,
+          {},
+          {"returns", "{} points of no ring, labelled obstacle", Shown::kIfAny}}});
   }
   if (quality_) {
     const double iou_g = quality_->iou_ground(), recall_o = quality_->recall_key_obstacles();
-    add({
-      {"iou_g", status::Number{iou_g, 0, 1}},
-      {"recall_o", status::Number{recall_o, 0, 1}},
-      {{}, status::Number{100 * iou_g, 0, 100}, {}, {"quality", "IoU_g {:.2f} %"}},
-      {{}, status::Number{100 * recall_o, 0, 100}, {}, {"quality", "Recall_o {:.2f} %"}},
-      {"unscored_frames", unscored_, {}, {"quality", " ({} frames not scored)", Shown::kIfAny}}});
+    add({{"iou_g", status::Number{iou_g, 0, 1}},
+         {"recall_o", status::Number{recall_o, 0, 1}},
+         {{}, status::Number{100 * iou_g, 0, 100}, {}, {"quality", "IoU_g {:.2f} %"}},
+         {{}, status::Number{100 * recall_o, 0, 100}, {}, {"quality", "Recall_o {:.2f} %"}},
+         {"unscored_frames",
+          unscored_,
+          {},
+          {"quality", " ({} frames not scored)", Shown::kIfAny}}});
   }
   std::ranges::copy(status::figures_of(mount_), std::back_inserter(figures));
   std::ranges::copy(status::figures_of(blind_), std::back_inserter(figures));
   if (motion_samples_) {
     std::ranges::copy(motion_figures(*motion_samples_, records_), std::back_inserter(figures));
   }
-  add({
-    {"losses", status::counts_of("cause", status::causes_of(losses())), {},
-     {"losses", "{}", Shown::kAlarmOrNone}},
-    {{}, interrupted_, {},
-     {"ended", "interrupted: the rest of the input was not read", Shown::kAlarm}}});
+  add({{"losses",
+        status::counts_of("cause", status::causes_of(losses())),
+        {},
+        {"losses", "{}", Shown::kAlarmOrNone}},
+       {{},
+        interrupted_,
+        {},
+        {"ended", "interrupted: the rest of the input was not read", Shown::kAlarm}}});
   return figures;
 }
 

@@ -32,14 +32,14 @@ struct FrameRecord {
   std::uint32_t returns_labelled = 0;
   std::int64_t decode_ns = 0;  ///< Processor time of decoding the packets since the frame before.
   run::StageTimes times;
-  std::int64_t ahead_ns = 0;  ///< Of these, spent while the turn was still arriving.
+  std::int64_t ahead_ns = 0;  ///< Of these, spent while the frame was still arriving.
   min_cut::CutReport cut;
   frame::DeskewInfo deskew;
   frame::LossCounters losses;
 };
 
-/// Processor time of its stages after the last packet of the turn.
-[[nodiscard]] inline std::int64_t after_turn_ns(const FrameRecord& frame) noexcept {
+/// Processor time of its stages after the last packet of the frame.
+[[nodiscard]] inline std::int64_t after_frame_ns(const FrameRecord& frame) noexcept {
   return frame.times.sum_ns() - frame.ahead_ns;
 }
 
@@ -47,11 +47,11 @@ struct FrameRecord {
 [[nodiscard]] FrameRecord record_of(const run::TimedFrame& frame,
                                     const stage::SegmentationReport& segmented) noexcept;
 
-/// Times of all frames: per stage, decoding and the sum of both; of it what came after the turn's
+/// Times of all frames: per stage, decoding and the sum of both; of it what came after the frame's
 /// end; and by the wall clock.
 struct TimeSummary {
   std::array<measure::LogLinearHistogram, stage::kStages> stages;
-  measure::LogLinearHistogram decode, total, after_turn, wall;
+  measure::LogLinearHistogram decode, total, after_frame, wall;
 
   void add(const FrameRecord& frame) noexcept;
   /// They refer to this.
@@ -83,7 +83,7 @@ class Report {
   void set_losses(const frame::LossCounters& losses) { losses_ = losses; }
   /// Where the sensor sends nothing, as known at the end of the run.
   void set_blind(const frame::BlindAzimuths& blind) { blind_ = blind; }
-  /// Samples of the vehicle's motion there were; set where it was to be taken out of the turns.
+  /// Samples of the vehicle's motion there were; set where frames were to be deskewed.
   void set_motion_samples(std::uint64_t samples) { motion_samples_ = samples; }
   /// Points of scan files that got no return: null or not finite, labelled 0; and of no ring,
   /// labelled as obstacles.
@@ -112,14 +112,14 @@ class Report {
   ///   input_warning   where the input broke off, if it did
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
-  ///                   after_turn: of it, after the turn's last packet}, segment_wall_ms,
+  ///                   after_frame: of it, after the frame's last packet}, segment_wall_ms,
   ///                   min_cut{unknown, coarse, ops}; with a CAN recording deskewed
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {count, mean, p50, p90, p99, p99.9, max}}, segment_wall_ms{the
   ///                   same};
   ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
   ///                   points_no_ring; mount and blind as of a live run; with a CAN recording
-  ///                   motion{samples, deskewed_frames, newest_sample_after_turn_ms{min, median,
+  ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,
   ///                   max}}
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
@@ -145,7 +145,7 @@ class Report {
   bool interrupted_ = false;
 };
 
-/// Prints the report, writes it to `json` too unless that is empty, and answers the exit code.
+/// Prints the report, writes it to `json` too unless that is empty, and returns the exit code.
 [[nodiscard]] ExitCode conclude_with(const Report& report, const std::filesystem::path& json);
 
 }  // namespace terracut::cli

@@ -8,7 +8,7 @@
 #include "rt/files/file_place.hpp"
 #include "tools/cli/settings/setting.hpp"
 #include "tools/lab/drive/drive_files.hpp"
-#include "tools/lab/drive/transmitter.hpp"
+#include "tools/lab/drive/encoder_traits.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 
 namespace terracut::cli {
@@ -33,11 +33,11 @@ void add_scans(RunFiles& files, const fs::path& scans) {
   }
 }
 
-template <class Transmitter>
+template <class EncoderTraits>
 void add_drive_of(RunFiles& files, const Options& options) {
   const fs::path& capture = options.written;
   files.write("--output", capture);
-  files.write("the table of --output", drive::calibration_path_of<Transmitter>(capture));
+  files.write("the table of --output", drive::calibration_path_of<EncoderTraits>(capture));
   files.write("the truth of --output", drive::truth_folder_of(capture), Kind::kReplacedFolder);
   if (!options.can_log) return;
   files.write("--can-log", drive::can_log_path_of(capture));
@@ -47,9 +47,9 @@ void add_drive_of(RunFiles& files, const Options& options) {
 void add_drive(RunFiles& files, const Options& options) {
   if (options.written.empty()) return;
   if (options.capture.sensor == sensor::SensorModel::kRuby128) {
-    add_drive_of<encode::Ruby128Transmitter>(files, options);
+    add_drive_of<encode::Ruby128EncoderTraits>(files, options);
   } else {
-    add_drive_of<encode::Hdl64eTransmitter>(files, options);
+    add_drive_of<encode::Hdl64eEncoderTraits>(files, options);
   }
 }
 

@@ -18,7 +18,7 @@ class DeviceClock {
   /// After each decoded packet.
   void note(const ruby128::Ruby128Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
     encoding_ = decoder.sensor().timestamp().encoding();
-    proven_ = decoder.sensor().timestamp().settled();
+    proven_ = decoder.sensor().timestamp().complete();
     ahead_ns_ = decoder.device_stamp_us() * 1000 + offset_ns_ - host_stamp_ns;
     noted_ = true;
   }

@@ -55,8 +55,8 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   if (!source) return tl::unexpected(source.error());
   const auto sensor = choose_sensor(options, *source);
   if (!sensor) return tl::unexpected(sensor.error());
-  warn_of_unheeded(options, sensor->model);
-  // From here on this unit alone: packets of another would end up in the same turns.
+  warn_of_unused(options, sensor->model);
+  // From here on this unit alone: packets of another would end up in the same frames.
   capture::PcapFilter its_own = filter_of(options);
   its_own.source_address = sensor->address;
   auto unit = PcapSource::open(options.file, its_own);

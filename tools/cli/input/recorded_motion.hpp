@@ -18,7 +18,7 @@
 
 namespace terracut::cli {
 
-/// The vehicle's motion out of a recording of its CAN bus, read along with the packets of a
+/// Reads the vehicle's motion from a recording of its CAN bus, read along with the packets of a
 /// capture as it would have been heard beside them: by their stamps, on one clock.
 ///
 /// Where that clock was set back, both recordings go back at one time. Whichever does so first

@@ -19,7 +19,7 @@ class DumpSignal {
   /// The signal came since the last call. Never waits; any one thread.
   [[nodiscard]] bool take() noexcept;
 
-  /// Readable when take() would answer true, for poll().
+  /// Readable when take() would return true, for poll().
   [[nodiscard]] int descriptor() const noexcept { return descriptor_.get(); }
 
  private:

@@ -11,8 +11,8 @@
 
 #include "pipeline/status/status_page.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/lab/encode/hdl64e_transmitter.hpp"
-#include "tools/lab/encode/ruby128_transmitter.hpp"
+#include "tools/lab/encode/hdl64e_encoder_traits.hpp"
+#include "tools/lab/encode/ruby128_encoder_traits.hpp"
 
 namespace terracut::cli {
 
@@ -22,8 +22,9 @@ namespace {
 
 /// Writes tables of the sensor that has such a calibration.
 template <class Calibration>
-using TransmitterOf = std::conditional_t<std::is_same_v<Calibration, hdl64e::Hdl64eCalibration>,
-                                         encode::Hdl64eTransmitter, encode::Ruby128Transmitter>;
+using EncoderTraitsOf =
+    std::conditional_t<std::is_same_v<Calibration, hdl64e::Hdl64eCalibration>,
+                       encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits>;
 
 }  // namespace
 
@@ -78,10 +79,10 @@ void DumpWriter::work() {
 void DumpWriter::add_table(recorder::DumpReport& dump) const {
   const Status written = std::visit(
       [&]<class Calibration>(const Calibration& unit) {
-        using Transmitter = TransmitterOf<Calibration>;
+        using EncoderTraits = EncoderTraitsOf<Calibration>;
         dump.calibration =
-            recorder::dump_calibration_path(dump.capture, Transmitter::kCalibrationSuffix);
-        return Transmitter::write_calibration(dump.calibration, unit);
+            recorder::dump_calibration_path(dump.capture, EncoderTraits::kCalibrationSuffix);
+        return EncoderTraits::write_calibration(dump.calibration, unit);
       },
       calibration_);
   if (written) return;

@@ -8,17 +8,17 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "pipeline/output/frame_folder.hpp"
-#include "pipeline/run/frame_slots.hpp"
+#include "pipeline/run/frame_pool.hpp"
 #include "rt/error.hpp"
 #include "rt/threads/background_thread.hpp"
 
 namespace terracut::cli {
 
-/// Writes the labels of every turn to a folder, on a thread of its own: however long the disk
-/// takes, nothing waits for it. Turns that are not written are counted by FrameSlots.
+/// Writes the labels of every frame to a folder, on a thread of its own: however long the disk
+/// takes, nothing waits for it. Frames that are not written are counted by FramePool.
 class LabelWriter {
  public:
-  using Slots = run::FrameSlots<frame::Label>;
+  using Slots = run::FramePool<frame::Label>;
 
   /// `slots` must outlive this.
   LabelWriter(const std::filesystem::path& folder, Slots& slots);

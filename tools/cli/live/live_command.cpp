@@ -82,9 +82,9 @@ class Waiting {
     service_.ready(*figures_, measure::monotonic_ns());
   }
 
-  void turn_round(const std::string& what) {
+  void work_round(const std::string& what) {
     show(what);
-    service_.turn_round(*figures_, measure::monotonic_ns());
+    service_.work_round(*figures_, measure::monotonic_ns());
     // What is heard soon need not be said to be waited for; counts in it change all the time.
     const std::int64_t now_ns = measure::monotonic_ns();
     if (now_ns < say_at_ns_ || what == said_) return;
@@ -128,7 +128,7 @@ struct LiveParts {
                 recorder ? &*recorder : nullptr, memory),
         watch(options, profile.mount, threads, motion ? &*motion : nullptr, display, memory) {}
 
-  /// Starts every thread; answers what the system granted and refused them.
+  /// Starts every thread; returns what the system granted and refused them.
   [[nodiscard]] std::vector<threads::Grant> start(const Options& options) {
     std::vector<threads::Grant> grants;
     if (motion) grants = motion->start(options.realtime.can_priority);
@@ -160,7 +160,7 @@ struct LiveParts {
   }
   static run::LiveThreads::Config threads_config(const Options& options,
                                                  const sensor::SensorOnAir& sensor) {
-    constexpr double kSlowest_hz = 5;  // where the sensor has not said how fast it turns
+    constexpr double kSlowest_hz = 5;  // where the sensor has not said how fast it rotates
     const RealtimeOptions& realtime = options.realtime;
     return {
         .deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
@@ -168,9 +168,10 @@ struct LiveParts {
         .keeps_labels = !options.output.labels.empty(),
         .keeps_points = !options.stream.empty(),
         .compares_tables = !options.capture.calibration.empty(),
-        .receive = run::thread_wish("tc-receive", realtime.receive_priority, realtime.receive_core),
+        .receive =
+            run::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
         .segment =
-            run::thread_wish("tc-segment", realtime.segment_priority, realtime.segment_core)};
+            run::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
   }
   static std::optional<recorder::FlightRecorder> recorder_of(const Options& options,
                                                              memory::FixedMemory& memory) {
@@ -184,17 +185,17 @@ struct LiveParts {
 /// What leaves a run, on threads that nothing waits for.
 class Writers {
  public:
-  /// The errors of TurnStreamServer::open().
+  /// The errors of FrameStreamServer::open().
   [[nodiscard]] Status open(const Options& options, const sensor::SensorOnAir& sensor,
                             LiveParts& parts) {
     if (parts.threads.points()) {
       const auto address = stream::parse_stream_address(options.stream);
       if (!address) return tl::unexpected(address.error());
       auto server =
-          stream::TurnStreamServer::open({.address = *address,
-                                          .unix_mode = options.stream_mode,
-                                          .max_points = parts.pipeline.decoder.return_capacity()},
-                                         stream_memory_);
+          stream::FrameStreamServer::open({.address = *address,
+                                           .unix_mode = options.stream_mode,
+                                           .max_points = parts.pipeline.decoder.return_capacity()},
+                                          stream_memory_);
       if (!server) return tl::unexpected(server.error());
       if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
       say("labelled points at " + to_string(server->address()));
@@ -254,8 +255,8 @@ void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor
   };
   while (!stop_wanted() && !is_over()) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
-    const LiveWatch::Round round = watch.turn_round();
-    service.turn_round(watch.figures(), measure::monotonic_ns());
+    const LiveWatch::Round round = watch.work_round();
+    service.work_round(watch.figures(), measure::monotonic_ns());
     const std::string other = parts.threads.told_table().take_warning(sensor.calibration);
     if (!other.empty()) warn(other);
     if (round.missed > 0) writers.want_dump(recorder::DumpReason::kMissedDeadline, watch);
@@ -305,12 +306,12 @@ ExitCode run_live(const Options& options) {
   FiguresDisplay display(options.watch);
   Waiting waiting(source->name(), display, service);
   const auto sensor = listen_for_sensor(*source, options,
-                                        [&](const std::string& what) { waiting.turn_round(what); });
+                                        [&](const std::string& what) { waiting.work_round(what); });
   if (stop_wanted()) return options.capture.duration_s ? kInterrupted : kOk;
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));
-  warn_of_unheeded(options.capture, sensor->model);
+  warn_of_unused(options.capture, sensor->model);
   say(fmt::format("calibration: {}, fingerprint {:016x}", calib::origin_of(sensor->calibration),
                   calib::fingerprint(sensor->calibration)));
   const auto profile = ring_profile_of(sensor->calibration, options.mount);
@@ -346,7 +347,7 @@ ExitCode run_live(const Options& options) {
   run_until_stopped(options, *sensor, parts, writers, dump_wanted, service);
   service.stopping();
   parts.stop();
-  parts.watch.turn_round();
+  parts.watch.work_round();
   const bool disk_answers = writers.finish();
   parts.watch.last_round();
   ExitCode code = conclude(options, parts.watch);

@@ -18,7 +18,7 @@ constexpr std::int64_t kStatusEvery_ns = 5'000'000'000;
 std::string status_of(const status::MonitorSnapshot& figures) {
   std::string link = fmt::format("link {}", to_string(figures.link));
   if (figures.link == status::LinkState::kReceiving) {
-    link = figures.head_stands ? "its head does not turn"
+    link = figures.head_stands ? "its head does not rotate"
                                : fmt::format("{:.1f} frames/s", figures.frames_per_s);
   }
   return fmt::format("{}: {}, {} frames, {} missed their deadline", figures.sensor.view(), link,
@@ -45,7 +45,7 @@ void LiveService::ready(const status::MonitorSnapshot& figures, std::int64_t now
   next_look_ns_ = now_ns + look_every_ns_;
 }
 
-void LiveService::turn_round(const status::MonitorSnapshot& figures, std::int64_t now_ns) {
+void LiveService::work_round(const status::MonitorSnapshot& figures, std::int64_t now_ns) {
   if (!notify_.connected() || now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + look_every_ns_;
   if (rule_.may_feed(figures)) notify_.feed_watchdog();

@@ -24,7 +24,7 @@ class LiveService {
   void ready(const status::MonitorSnapshot& figures, std::int64_t now_ns);
   /// As often as one likes: it looks at the figures four times within the watchdog's time, or
   /// every five seconds where there is none.
-  void turn_round(const status::MonitorSnapshot& figures, std::int64_t now_ns);
+  void work_round(const status::MonitorSnapshot& figures, std::int64_t now_ns);
   /// Once, before the threads end.
   void stopping() const noexcept { notify_.stopping(); }
 

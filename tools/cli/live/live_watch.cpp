@@ -64,7 +64,7 @@ void LiveWatch::open_health() {
   }
 }
 
-LiveWatch::Round LiveWatch::turn_round() {
+LiveWatch::Round LiveWatch::work_round() {
   Round round;
   for (status::FrameTiming timing; threads_.take_timing(timing);) {
     const std::int64_t latency_ns = timing.labels_ns - timing.last_packet_ns;
@@ -81,22 +81,22 @@ LiveWatch::Round LiveWatch::turn_round() {
 
 void LiveWatch::last_round() {
   over_ = true;
-  (void)turn_round();
+  (void)work_round();
 }
 
 void LiveWatch::refresh() {
   status::MonitorSnapshot& figures = monitor_.snapshot();
   figures.taken_ns = measure::realtime_ns();
-  if (stolen_) stolen_->turn_round(figures.taken_ns);
+  if (stolen_) stolen_->work_round(figures.taken_ns);
   refresh_input(figures);
   monitor_.look_at_rate(figures.taken_ns);
   refresh_losses(figures);
   refresh_threads(figures);
-  if (const ground::NearGround* ground = threads_.near_ground()) mount_->add_turn(*ground);
+  if (const ground::NearGround* ground = threads_.near_ground()) mount_->add_frame(*ground);
   figures.mount = mount_->figures();
   if (motion_ != nullptr) motion_->show(figures.motion);
   if (health_) {
-    health_->turn_round(figures, measure::monotonic_ns());
+    health_->work_round(figures, measure::monotonic_ns());
     health_->show(figures.health);
   }
   display_.show(figures);
@@ -119,7 +119,7 @@ void LiveWatch::refresh_input(status::MonitorSnapshot& figures) {
 void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   const net::DatagramAccount& account = threads_.intake().account;
   frame::LossCounters losses = account.losses;
-  losses.skipped_frames = figures.rungs[static_cast<std::size_t>(status::Rung::kSkipped)];
+  losses.skipped_frames = figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
   figures.loss_count = 0;
   status::show_losses(status::causes_of(losses), figures);
   status::show_losses(status::causes_of(account.source), figures);
@@ -133,9 +133,9 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   if (threads_.points()) more.push_back({"unstreamed_frames", lost(threads_.points())});
   if (stream_ != nullptr) {
     const run::StreamWriter::Losses stream = stream_->losses();
-    more.insert(more.end(), {{"stream_turns_missed", stream.missed},
-                             {"stream_turns_cut_short", stream.cut_short},
-                             {"stream_turns_too_large", stream.too_large},
+    more.insert(more.end(), {{"stream_frames_missed", stream.missed},
+                             {"stream_frames_cut_short", stream.cut_short},
+                             {"stream_frames_too_large", stream.too_large},
                              {"stream_readers_refused", stream.refused},
                              {"stream_readers_stalled", stream.stalled}});
   }

@@ -46,7 +46,7 @@ class LiveWatch {
     int missed = 0;  ///< Of them, deadlines.
   };
   /// Takes what has come since the last round.
-  Round turn_round();
+  Round work_round();
   /// It is ended before the time it was asked for is over.
   void note_interruption() { monitor_.snapshot().interrupted = 1; }
   /// After everything that takes results has ended, or will not.

@@ -28,7 +28,7 @@ class ServiceNotify {
   /// Within which time the watchdog has to be fed; none: nobody watches.
   [[nodiscard]] std::optional<std::int64_t> watchdog_ns() const noexcept { return watchdog_ns_; }
 
-  /// Each answers whether the message was taken; one that was not is no reason to stop.
+  /// Each returns whether the message was taken; one that was not is no reason to stop.
   /// Start-up is done: the unit counts as started. `status` is what `systemctl status` shows, cut
   /// after 200 bytes.
   bool ready(std::string_view status) const noexcept;

@@ -92,7 +92,7 @@ std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t of
   if (read.delivered == 0) return where_frames_went(read);
   if (offered == 0) return "it ends before --start; `terracut info` tells how long it is";
   if (losses.rejected_total() == 0) {
-    return fmt::format("{} datagrams were read and none rejected, but they do not make a turn",
+    return fmt::format("{} datagrams were read and none rejected, but they do not make a frame",
                        offered);
   }
   return fmt::format(
@@ -130,7 +130,7 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::Pca
   return choice;
 }
 
-void warn_of_unheeded(const CaptureOptions& options, sensor::SensorModel model) {
+void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model) {
   if (model == sensor::SensorModel::kRuby128) return;
   const auto warn_of = [&](bool given, const char* option) {
     if (!given) return;

@@ -13,11 +13,11 @@
 
 namespace terracut::cli {
 
-/// The sensor of a capture, and how it turns.
+/// The sensor of a capture, and how it rotates.
 struct SensorChoice {
   std::uint32_t address = 0;                                 ///< IPv4 of the unit, as in Datagram.
   sensor::SensorModel model = sensor::SensorModel::kHdl64e;  ///< kHdl64e or kRuby128.
-  int columns = 0;  ///< For the range image: firings a turn.
+  int columns = 0;  ///< For the range image: firings a frame.
   double spin_hz = 0;
   bool dual_return = false;
 };
@@ -35,6 +35,6 @@ struct SensorChoice {
                                            const frame::LossCounters& losses);
 
 /// Says which options have no effect on a sensor of that model.
-void warn_of_unheeded(const CaptureOptions& options, sensor::SensorModel model);
+void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model);
 
 }  // namespace terracut::cli

@@ -48,11 +48,11 @@ Expected<mount::RingProfile> ring_profile_of(const calib::SensorCalibration& cal
   return profile;
 }
 
-Status check_heeded(std::span<const std::string> settings,
-                    std::span<const ground::MethodKind> kinds) {
+Status check_used(std::span<const std::string> settings,
+                  std::span<const ground::MethodKind> kinds) {
   for (const std::string& setting : settings) {
     const std::string key = setting.substr(0, setting.find('='));
-    const ground::MethodKind kind = ground::kind_that_heeds(key);
+    const ground::MethodKind kind = ground::kind_that_uses(key);
     if (std::ranges::find(kinds, kind) != kinds.end()) continue;
     const std::string whose = kind == ground::MethodKind::kSegmenter
                                   ? "our own method"

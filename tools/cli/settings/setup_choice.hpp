@@ -25,8 +25,8 @@ namespace terracut::cli {
 
 /// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
 /// silently without effect. kInvalidArgument, naming it and whose it is.
-[[nodiscard]] Status check_heeded(std::span<const std::string> settings,
-                                  std::span<const ground::MethodKind> kinds);
+[[nodiscard]] Status check_used(std::span<const std::string> settings,
+                                std::span<const ground::MethodKind> kinds);
 
 /// The method for --method, or --profile and --stages, and --set; names and settings must have been
 /// checked.

@@ -42,9 +42,9 @@ inline constexpr std::array kStageWords{Word{"elevation", stage::Stage::kElevati
                                         Word{"mrf", stage::Stage::kMinCut}};
 inline constexpr std::array kViaWords{Word{"socket", ListenVia::kSocket},
                                       Word{"libpcap", ListenVia::kLibpcap}};
-inline constexpr std::array kInstantWords{Word{"start", frame::TurnInstant::kStart},
-                                          Word{"middle", frame::TurnInstant::kMiddle},
-                                          Word{"end", frame::TurnInstant::kEnd}};
+inline constexpr std::array kInstantWords{Word{"start", frame::FrameInstant::kStart},
+                                          Word{"middle", frame::FrameInstant::kMiddle},
+                                          Word{"end", frame::FrameInstant::kEnd}};
 inline constexpr std::array kReturnsWords{Word{"single", drive::ReturnMode::kSingle},
                                           Word{"dual", drive::ReturnMode::kDual}};
 inline constexpr std::array kStreamModeWords{

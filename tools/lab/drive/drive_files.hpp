@@ -13,10 +13,10 @@ namespace terracut::drive {
 
 /// The names a drive's parts have beside "<folder>/<name>.pcap".
 [[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
-template <class Transmitter>
+template <class EncoderTraits>
 [[nodiscard]] std::filesystem::path calibration_path_of(const std::filesystem::path& pcap_path) {
   std::filesystem::path name = pcap_path.stem();
-  name += Transmitter::kCalibrationSuffix;
+  name += EncoderTraits::kCalibrationSuffix;
   return pcap_path.parent_path() / name;
 }
 

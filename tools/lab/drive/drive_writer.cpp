@@ -12,26 +12,26 @@
 
 #include "firing_order.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
-#include "truth_turns.hpp"
+#include "truth_frames.hpp"
 
 namespace terracut::drive {
 namespace fs = std::filesystem;
 
-template <class Transmitter>
-class DriveWriter<Transmitter>::Impl {
+template <class EncoderTraits>
+class DriveWriter<EncoderTraits>::Impl {
  public:
-  using Column = typename Transmitter::Column;
-  using Sender = typename Transmitter::Sender;
+  using Column = typename EncoderTraits::Column;
+  using Sender = typename EncoderTraits::Sender;
 
-  Impl(capture::PcapWriter pcap, DriveFiles files, const typename Transmitter::Offsets& offsets,
+  Impl(capture::PcapWriter pcap, DriveFiles files, const typename EncoderTraits::Offsets& offsets,
        Sender sender, ReturnMode returns)
       : pcap_(std::move(pcap)),
         files_(std::move(files)),
         truth_(offsets, returns),
         sender_(std::move(sender)),
-        order_(Transmitter::limits(returns)),
+        order_(EncoderTraits::limits(returns)),
         returns_(static_cast<std::size_t>(returns_per_firing(returns))),
-        group_(static_cast<std::size_t>(Transmitter::limits(returns).firings_per_group) *
+        group_(static_cast<std::size_t>(EncoderTraits::limits(returns).firings_per_group) *
                returns_) {}
 
   Status add_column(std::int64_t stamp_ns, std::int64_t azimuth_cdeg,
@@ -73,7 +73,7 @@ class DriveWriter<Transmitter>::Impl {
 
   Status write_group() {
     filled_ = 0;
-    constexpr auto kColumns = static_cast<std::size_t>(Transmitter::kColumnsPerPacket);
+    constexpr auto kColumns = static_cast<std::size_t>(EncoderTraits::kColumnsPerPacket);
     for (std::size_t first = 0; first < group_.size(); first += kColumns) {
       const auto columns =
           std::span<const Column>(group_).subspan(first).template first<kColumns>();
@@ -101,12 +101,12 @@ class DriveWriter<Transmitter>::Impl {
   Status put_in_place() {
     if (const Status replaceable = files_.check_replaceable(); !replaceable) return replaceable;
     if (const Status captured = pcap_.finish(); !captured) return captured;
-    return files_.put_in_place(calibration_path_of<Transmitter>(pcap_.path()));
+    return files_.put_in_place(calibration_path_of<EncoderTraits>(pcap_.path()));
   }
 
   capture::PcapWriter pcap_;
   DriveFiles files_;
-  TruthTurns<Transmitter> truth_;
+  TruthFrames<EncoderTraits> truth_;
   Sender sender_;
   FiringOrder order_;
   std::size_t returns_;        ///< Columns of a firing.
@@ -130,12 +130,12 @@ Status check_table(const fs::path& table, const fs::path& truth) {
 
 }  // namespace
 
-template <class Transmitter>
-Expected<DriveWriter<Transmitter>> DriveWriter<Transmitter>::create(
-    const fs::path& pcap_path, const typename Transmitter::Calibration& calibration,
-    const typename Transmitter::Config& config) {
+template <class EncoderTraits>
+Expected<DriveWriter<EncoderTraits>> DriveWriter<EncoderTraits>::create(
+    const fs::path& pcap_path, const typename EncoderTraits::Calibration& calibration,
+    const typename EncoderTraits::Config& config) {
   const Status replaceable =
-      check_table(calibration_path_of<Transmitter>(pcap_path), truth_folder_of(pcap_path));
+      check_table(calibration_path_of<EncoderTraits>(pcap_path), truth_folder_of(pcap_path));
   if (!replaceable) return tl::unexpected(replaceable.error());
   auto pcap = capture::PcapWriter::create(pcap_path);  // first, for it makes missing folders
   if (!pcap) return tl::unexpected(pcap.error());
@@ -143,42 +143,42 @@ Expected<DriveWriter<Transmitter>> DriveWriter<Transmitter>::create(
   if (!files) return tl::unexpected(files.error());
 
   const fs::path table = files->staged_calibration();
-  if (const Status written = Transmitter::write_calibration(table, calibration); !written) {
+  if (const Status written = EncoderTraits::write_calibration(table, calibration); !written) {
     return tl::unexpected(written.error());
   }
-  // The decoder will have what the file says, so turns are cut by that, not by what was meant.
-  const auto as_read = Transmitter::read_calibration(table);
+  // The decoder will have what the file says, so frames are cut by that, not by what was meant.
+  const auto as_read = EncoderTraits::read_calibration(table);
   if (!as_read) return tl::unexpected(as_read.error());
-  const auto sender = Transmitter::sender(calibration, config);
+  const auto sender = EncoderTraits::sender(calibration, config);
   if (!sender) return tl::unexpected(sender.error());
   return DriveWriter(std::make_unique<Impl>(std::move(*pcap), std::move(*files),
-                                            Transmitter::offsets(*as_read, config), *sender,
+                                            EncoderTraits::offsets(*as_read, config), *sender,
                                             config.returns));
 }
 
-template <class Transmitter>
-DriveWriter<Transmitter>::DriveWriter(std::unique_ptr<Impl> impl) noexcept
+template <class EncoderTraits>
+DriveWriter<EncoderTraits>::DriveWriter(std::unique_ptr<Impl> impl) noexcept
     : impl_(std::move(impl)) {}
-template <class Transmitter>
-DriveWriter<Transmitter>::DriveWriter(DriveWriter&&) noexcept = default;
-template <class Transmitter>
-DriveWriter<Transmitter>& DriveWriter<Transmitter>::operator=(DriveWriter&&) noexcept = default;
-template <class Transmitter>
-DriveWriter<Transmitter>::~DriveWriter() = default;
+template <class EncoderTraits>
+DriveWriter<EncoderTraits>::DriveWriter(DriveWriter&&) noexcept = default;
+template <class EncoderTraits>
+DriveWriter<EncoderTraits>& DriveWriter<EncoderTraits>::operator=(DriveWriter&&) noexcept = default;
+template <class EncoderTraits>
+DriveWriter<EncoderTraits>::~DriveWriter() = default;
 
-template <class Transmitter>
-Status DriveWriter<Transmitter>::add_column(
+template <class EncoderTraits>
+Status DriveWriter<EncoderTraits>::add_column(
     std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
     std::span<const frame::LabelledReturn, kLasers> by_laser) {
   return impl_->add_column(stamp_ns, unwrapped_azimuth_cdeg, by_laser);
 }
 
-template <class Transmitter>
-Expected<DriveSummary> DriveWriter<Transmitter>::finish() {
+template <class EncoderTraits>
+Expected<DriveSummary> DriveWriter<EncoderTraits>::finish() {
   return impl_->finish();
 }
 
-template class DriveWriter<encode::Hdl64eTransmitter>;
-template class DriveWriter<encode::Ruby128Transmitter>;
+template class DriveWriter<encode::Hdl64eEncoderTraits>;
+template class DriveWriter<encode::Ruby128EncoderTraits>;
 
 }  // namespace terracut::drive

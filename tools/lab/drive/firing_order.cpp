@@ -35,7 +35,7 @@ Status FiringOrder::check_step(bool in_group, std::int64_t step_ns, std::int64_t
   const std::int64_t least_cdeg = limits_.least_step_cdeg, most_cdeg = limits_.most_step_cdeg;
   if (step_cdeg < least_cdeg || (in_group && step_cdeg > most_cdeg)) {
     return refuse(firings_,
-                  fmt::format("expected the head to turn on by {} to {} hundredths of a degree "
+                  fmt::format("expected the head to rotate on by {} to {} hundredths of a degree "
                               "inside a packet and by {} or more between packets, found {}",
                               least_cdeg, most_cdeg, least_cdeg, step_cdeg));
   }
@@ -55,7 +55,7 @@ Status FiringOrder::check_gap(std::int64_t stamp_ns, std::int64_t azimuth_cdeg) 
   const std::int64_t expected_cdeg = group_cdeg * gap_ns / group_ns;
   if (std::abs(gap_cdeg - expected_cdeg) > kGapSlack_cdeg) {
     return refuse(firings_,
-                  fmt::format("the head's speed and the stamps say it turned by {:.2f} degrees "
+                  fmt::format("the head's speed and the stamps say it rotated by {:.2f} degrees "
                               "since the packet before began, the azimuths say {:.2f}; they may "
                               "differ by {:.0f} degrees",
                               static_cast<double>(expected_cdeg) / 100.0,

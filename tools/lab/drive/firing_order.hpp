@@ -21,7 +21,7 @@ struct FiringLimits {
   std::int64_t usual_step_cdeg = 0;
 };
 
-/// Watches that the firings given to a DriveWriter are those of a turning head that the decoder
+/// Watches that the firings given to a DriveWriter are those of a rotating head that the decoder
 /// will follow: in time and azimuth, inside groups and from group to group.
 class FiringOrder {
  public:

@@ -16,40 +16,40 @@ constexpr double kSpareRunUp_cdeg = 100;
 
 }  // namespace
 
-template <class Transmitter>
-FiringPlan<Transmitter>::FiringPlan(const typename Transmitter::Calibration& calibration,
-                                    ReturnMode returns, double spin_hz, std::int64_t turns)
+template <class EncoderTraits>
+FiringPlan<EncoderTraits>::FiringPlan(const typename EncoderTraits::Calibration& calibration,
+                                      ReturnMode returns, double spin_hz, std::int64_t frames)
     : returns_(returns),
-      turns_(turns),
-      group_(Transmitter::limits(returns).firings_per_group),
-      cdeg_per_s_(spin_hz * beams::kTurn_cdeg),
-      firing_s_(static_cast<double>(Transmitter::firing_ns(returns)) * 1e-9) {
-  const double widest_cdeg = 100 * beams::rad_to_deg(Transmitter::widest_offset_rad(calibration));
+      frames_(frames),
+      group_(EncoderTraits::limits(returns).firings_per_group),
+      cdeg_per_s_(spin_hz * beams::kRevolution_cdeg),
+      firing_s_(static_cast<double>(EncoderTraits::firing_ns(returns)) * 1e-9) {
+  const double widest_cdeg = 100 * beams::rad_to_deg(EncoderTraits::widest_offset_rad(calibration));
   const double run_up_cdeg = std::max(kLeastRunUp_cdeg, widest_cdeg + kSpareRunUp_cdeg);
   start_cdeg_ = -run_up_cdeg;
-  const double way_cdeg = static_cast<double>(turns) * beams::kTurn_cdeg + 2 * run_up_cdeg;
+  const double way_cdeg = static_cast<double>(frames) * beams::kRevolution_cdeg + 2 * run_up_cdeg;
   const double firings = way_cdeg / (cdeg_per_s_ * firing_s_);
   firings_ = static_cast<std::int64_t>(std::ceil(firings / static_cast<double>(group_))) * group_;
 }
 
-template <class Transmitter>
-std::int64_t FiringPlan<Transmitter>::azimuth_cdeg(std::int64_t index) const noexcept {
+template <class EncoderTraits>
+std::int64_t FiringPlan<EncoderTraits>::azimuth_cdeg(std::int64_t index) const noexcept {
   return std::llround(start_cdeg_ + static_cast<double>(index) * firing_s_ * cdeg_per_s_);
 }
 
-template <class Transmitter>
-Firing FiringPlan<Transmitter>::firing(std::int64_t index) const noexcept {
+template <class EncoderTraits>
+Firing FiringPlan<EncoderTraits>::firing(std::int64_t index) const noexcept {
   const std::int64_t place = index % group_;
-  GroupAzimuths head_cdeg{};
+  GroupAzimuths rotor_cdeg{};
   for (std::int64_t i = 0; i < group_; ++i) {
-    head_cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(azimuth_cdeg(index - place + i));
+    rotor_cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(azimuth_cdeg(index - place + i));
   }
   return {index, azimuth_cdeg(index),
-          Transmitter::step_ticks(head_cdeg, static_cast<int>(place), returns_),
+          EncoderTraits::step_ticks(rotor_cdeg, static_cast<int>(place), returns_),
           static_cast<double>(index) * firing_s_ + start_cdeg_ / cdeg_per_s_};
 }
 
-template class FiringPlan<encode::Hdl64eTransmitter>;
-template class FiringPlan<encode::Ruby128Transmitter>;
+template class FiringPlan<encode::Hdl64eEncoderTraits>;
+template class FiringPlan<encode::Ruby128EncoderTraits>;
 
 }  // namespace terracut::drive

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include "encoder_traits.hpp"
 #include "return_mode.hpp"
-#include "transmitter.hpp"
 
 namespace terracut::drive {
 
@@ -17,29 +17,31 @@ struct Firing {
   double time_s = 0;              ///< 0 when the head passes straight ahead for the first time.
 };
 
-/// When and where the head fires during a drive of whole turns, with the run-up and run-out that
+/// When and where the head fires during a drive of whole frames, with the run-up and run-out that
 /// let every laser see them whole. Whole packets.
-template <class Transmitter>
+template <class EncoderTraits>
 class FiringPlan {
  public:
-  FiringPlan(const typename Transmitter::Calibration& calibration, ReturnMode returns,
-             double spin_hz, std::int64_t turns);
+  FiringPlan(const typename EncoderTraits::Calibration& calibration, ReturnMode returns,
+             double spin_hz, std::int64_t frames);
 
-  [[nodiscard]] std::int64_t turns() const noexcept { return turns_; }
+  [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
   [[nodiscard]] std::int64_t firings() const noexcept { return firings_; }
   [[nodiscard]] Firing firing(std::int64_t index) const noexcept;
   /// From the first firing to this one.
   [[nodiscard]] std::int64_t after_ns(std::int64_t index) const noexcept {
-    return index * Transmitter::firing_ns(returns_);
+    return index * EncoderTraits::firing_ns(returns_);
   }
-  /// Turns that are not wanted lie before the first seam or after the last one.
-  [[nodiscard]] bool wants(std::int64_t turn) const noexcept { return turn >= 0 && turn < turns_; }
+  /// Frames that are not wanted lie before the first seam or after the last one.
+  [[nodiscard]] bool wants(std::int64_t frame) const noexcept {
+    return frame >= 0 && frame < frames_;
+  }
 
  private:
   [[nodiscard]] std::int64_t azimuth_cdeg(std::int64_t index) const noexcept;
 
   ReturnMode returns_;
-  std::int64_t turns_;
+  std::int64_t frames_;
   std::int64_t group_;  ///< Firings that fill whole packets.
   double start_cdeg_;   ///< < 0
   double cdeg_per_s_;

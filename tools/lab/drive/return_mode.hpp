@@ -6,7 +6,7 @@
 
 namespace terracut::drive {
 
-/// How many echoes of a pulse a sensor sends.
+/// How many returns of a pulse a sensor sends.
 enum class ReturnMode : std::uint8_t {
   kSingle,  ///< The strongest.
   kDual,    ///< The strongest and the last; twice the same where there is but one.

@@ -18,7 +18,7 @@ namespace terracut::drive {
 /// The same as a DBC file.
 [[nodiscard]] std::string vehicle_dbc();
 /// A line of a candump log, "(seconds.microseconds) can0 1A0#DATA\n", for each sample. Speeds and
-/// turn rates beyond 327.67 km/h or deg/s are written as that.
+/// yaw rates beyond 327.67 km/h or deg/s are written as that.
 [[nodiscard]] std::string vehicle_log(std::span<const vehicle::MotionSample> samples);
 
 /// The names both have beside "<folder>/<name>.pcap": "<name>.can.log", "<name>.can.dbc".

@@ -20,11 +20,11 @@ struct Window {
 };
 
 Window window(const WantedBeam& beam, std::int32_t offset_ticks, std::int32_t tolerance_ticks) {
-  const std::int64_t turn_begin = std::int64_t{beam.turn} * decode::kTurn_ticks;
-  return {
-      std::max(beam.ticks - tolerance_ticks, turn_begin) - offset_ticks,
-      std::min(beam.ticks + tolerance_ticks, turn_begin + decode::kTurn_ticks - 1) - offset_ticks,
-      beam.ticks - offset_ticks};
+  const std::int64_t revolution_begin = std::int64_t{beam.frame} * decode::kRevolution_ticks;
+  return {std::max(beam.ticks - tolerance_ticks, revolution_begin) - offset_ticks,
+          std::min(beam.ticks + tolerance_ticks, revolution_begin + decode::kRevolution_ticks - 1) -
+              offset_ticks,
+          beam.ticks - offset_ticks};
 }
 
 std::int64_t floor_cdeg(std::int64_t ticks) {

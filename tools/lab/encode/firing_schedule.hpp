@@ -18,7 +18,7 @@ namespace terracut::encode {
 struct WantedBeam {
   std::int64_t ticks = 0;            ///< Unwrapped beam azimuth, 1e-5 degrees.
   std::int32_t tolerance_ticks = 0;  ///< The planned firing is at most this far off.
-  std::int32_t turn = 0;             ///< The firing stays in this turn of the beam.
+  std::int32_t frame = 0;            ///< The firing stays in this frame of the beam.
   std::uint32_t point = 0;           ///< The caller's number of it.
 };
 
@@ -61,7 +61,7 @@ class FiringSchedule {
   [[nodiscard]] std::int64_t azimuth_cdeg() const noexcept { return last_cdeg_; }
   [[nodiscard]] std::size_t dropped() const noexcept { return dropped_; }
 
-  /// How many firings these beams take (one turn, one sorted list for each laser) when each may be
+  /// How many firings these beams take (one frame, one sorted list for each laser) when each may be
   /// `tolerance_ticks` off.
   [[nodiscard]] static std::size_t firings_needed(
       std::span<const std::vector<WantedBeam>, hdl64e::kHdl64eLasers> by_laser,

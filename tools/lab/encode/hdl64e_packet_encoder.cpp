@@ -25,9 +25,9 @@ void encode_hdl64e_packet(
     packet.set_azimuth_cdeg(2 * c, azimuth_cdeg);
     packet.set_azimuth_cdeg(2 * c + 1, azimuth_cdeg);
     for (int i = 0; i < hdl64e::kHdl64eLasers; ++i) {
-      const frame::LabelledReturn& echo = column.by_laser[static_cast<std::size_t>(i)];
-      packet.set_return(2 * c + i / hdl64e::kLasersPerBlock, i % hdl64e::kLasersPerBlock, echo.raw,
-                        echo.intensity);
+      const frame::LabelledReturn& beam = column.by_laser[static_cast<std::size_t>(i)];
+      packet.set_return(2 * c + i / hdl64e::kLasersPerBlock, i % hdl64e::kLasersPerBlock, beam.raw,
+                        beam.intensity);
     }
   }
   packet.set_stamp_us(static_cast<std::uint32_t>(end_stamp_ns / 1000 % hdl64e::kDeviceHour_us));

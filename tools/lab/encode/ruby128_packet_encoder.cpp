@@ -22,8 +22,8 @@ void encode_ruby128_packet(
     const int return_of_firing = dual ? (first_column + block) % 2 : 0;
     packet.set_return_id(block, static_cast<std::uint8_t>(1 + return_of_firing));
     for (int channel = 0; channel < ruby128::kRubyChannelsPerBlock; ++channel) {
-      const frame::LabelledReturn& echo = column.by_laser[static_cast<std::size_t>(channel)];
-      packet.set_return(block, channel, echo.raw, echo.intensity);
+      const frame::LabelledReturn& beam = column.by_laser[static_cast<std::size_t>(channel)];
+      packet.set_return(block, channel, beam.raw, beam.intensity);
     }
   }
 }

@@ -42,7 +42,7 @@ ruby128::ruby128_wire::Difop difop_of(const ruby128::Ruby128Calibration& calibra
   info.mac = {0x02, 0x00, kSensor[0], kSensor[1], kSensor[2], kSensor[3]};  // as in the capture
   info.data_port = ruby128::kRubyDataPort;
   info.device_port = ruby128::kRubyDevicePort;
-  info.fov_end_cdeg = beams::kTurn_cdeg;
+  info.fov_end_cdeg = beams::kRevolution_cdeg;
   info.serial = unit.serial;
   info.return_mode_raw = facts.returns == drive::ReturnMode::kDual ? kDualMode : kStrongestMode;
   info.temperatures_raw.fill(ruby128::ruby_temperature_field(unit.temperature_deg_c));

@@ -8,23 +8,23 @@
 #include <span>
 #include <utility>
 
+#include "frame_motion_log.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
-#include "turn_motion_log.hpp"
 
 namespace terracut::encode {
 namespace {
 
-/// Half a turn about the sensor's axis.
-void turn_round(std::span<scan::ScanPoint> points) {
+/// Half a revolution about the sensor's axis.
+void work_round(std::span<scan::ScanPoint> points) {
   for (scan::ScanPoint& point : points) {
     point.x_m = -point.x_m;
     point.y_m = -point.y_m;
   }
 }
-scan::SensorTwist turned_round(scan::SensorTwist twist) {
+scan::SensorTwist reversed(scan::SensorTwist twist) {
   for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
     twist.velocity_m_s[axis] = -twist.velocity_m_s[axis];
-    twist.turning_rad_s[axis] = -twist.turning_rad_s[axis];
+    twist.angular_velocity_rad_s[axis] = -twist.angular_velocity_rad_s[axis];
   }
   return twist;
 }
@@ -57,7 +57,7 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
 
   auto writer = drive::Hdl64eDriveWriter::create(pcap_path, report.calibration);
   if (!writer) return tl::unexpected(std::move(writer.error()));
-  TurnMotionLog log(options.first_stamp_ns);
+  FrameMotionLog log(options.first_stamp_ns);
   ScanEncoder encoder(report.calibration, options.first_stamp_ns, [&](const EncodedFiring& firing) {
     log.note_firing(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg);
     return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
@@ -72,10 +72,10 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
     if (options.can_log) {
       const auto twist = reader->twist(i);
       if (!twist) return tl::unexpected(twist.error());
-      turn_round(scan.points);
-      log.add_turn(turned_round(**twist));
+      work_round(scan.points);
+      log.add_frame(reversed(**twist));
     }
-    const Status status = encoder.add_turn(scan.points, rings.ring_of_point, scan.labels);
+    const Status status = encoder.add_frame(scan.points, rings.ring_of_point, scan.labels);
     if (!status) return tl::unexpected(status.error());
     if (!options.on_scan) continue;
     if (const Status go_on = options.on_scan(i + 1, reader->size()); !go_on) {
@@ -103,7 +103,7 @@ Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folde
   if (auto fitted = reader->fit_rings(); !fitted) {
     return tl::unexpected(std::move(fitted.error()));
   }
-  Ruby128Transmitter::Config config;
+  Ruby128EncoderTraits::Config config;
   config.unit.rpm = static_cast<std::uint16_t>(60 * ScanResampler::kSpin_hz);
   config.unit.serial = {'R', 'E', 'S', 'A', 'M', 'P'};
   auto writer = drive::Ruby128DriveWriter::create(pcap_path, options.calibration, config);
@@ -112,8 +112,8 @@ Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folde
   ScanResampler resampler(options.calibration);
   const auto rays = resampler.run(
       static_cast<std::int64_t>(reader->size()), options.first_stamp_ns,
-      [&](std::int64_t turn, ScanResampler::Turn& into) -> Status {
-        const auto index = static_cast<std::size_t>(turn);
+      [&](std::int64_t frame, ScanResampler::Frame& into) -> Status {
+        const auto index = static_cast<std::size_t>(frame);
         Status status = reader->read(index, into.scan, into.rings);
         if (!status || !options.on_scan) return status;
         return options.on_scan(index + 1, reader->size());

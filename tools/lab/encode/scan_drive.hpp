@@ -25,10 +25,10 @@ struct ScanDriveOptions {
   std::optional<hdl64e::Hdl64eCalibration> calibration;
   scan::PutMotionBack motion = scan::PutMotionBack::kWhereKnown;
   /// Write the motion put back as a CAN log beside the capture (motion/vehicle_log.hpp), too;
-  /// kInvalidArgument where none is. A recorded turn begins behind, a turn of packets straight
-  /// ahead, so the sensor is turned round: it looks backwards, and its vehicle drives backwards.
-  /// Each turn then is one scan, as it was measured; brought to its middle it is the recorded one,
-  /// half a turn round.
+  /// kInvalidArgument where none is. A recorded frame begins behind, a frame of packets straight
+  /// ahead, so the sensor is reversed: it looks backwards, and its vehicle drives backwards.
+  /// Each frame then is one scan, as it was measured; brought to its middle it is the recorded one,
+  /// rotated by 180 degrees.
   bool can_log = false;
   std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;  ///< Capture time of the first firing.
   /// Progress; may be empty. An error ends the work and is passed on; nothing is written then.
@@ -44,7 +44,7 @@ struct ScanDriveReport {
   hdl64e::Hdl64eCalibration calibration;    ///< The one used.
 };
 
-/// Encodes all scans of a folder (scan_folder.hpp), one turn each, as "<name>.pcap" with
+/// Encodes all scans of a folder (scan_folder.hpp), one frame each, as "<name>.pcap" with
 /// "<name>.calibration.xml" and "<name>.truth/" (drive_writer.hpp). Whole or not at all.
 [[nodiscard]] Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                                            const std::filesystem::path& pcap_path,
@@ -65,7 +65,7 @@ struct ResampleReport {
 };
 
 /// Writes what an RS-Ruby128 in the place of the recording HDL-64E might have sent of the scans of
-/// a folder, one turn each: synthetic (scan_resampler.hpp), and said to be by the serial number
+/// a folder, one frame each: synthetic (scan_resampler.hpp), and said to be by the serial number
 /// "RESAMP" of its device packets. Files and errors as encode_scan_folder().
 [[nodiscard]] Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folder,
                                                             const std::filesystem::path& pcap_path,

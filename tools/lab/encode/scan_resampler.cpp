@@ -22,28 +22,29 @@ constexpr int kLooks = 2;
 ScanResampler::ScanResampler(const ruby128::Ruby128Calibration& calibration)
     : calibration_(calibration), geometry_(calibration), offsets_(calibration) {}
 
-Status ScanResampler::read(std::int64_t turn, const Source& source) {
-  for (; turns_read_ <= turn; ++turns_read_) {
-    View& view = views_[static_cast<std::size_t>(turns_read_ % 2)];
-    if (Status status = source(turns_read_, view.turn); !status) return status;
-    view.surface.take(view.turn.scan.points, view.turn.rings.ring_of_point, view.turn.scan.labels);
+Status ScanResampler::read(std::int64_t frame, const Source& source) {
+  for (; frames_read_ <= frame; ++frames_read_) {
+    View& view = views_[static_cast<std::size_t>(frames_read_ % 2)];
+    if (Status status = source(frames_read_, view.frame); !status) return status;
+    view.surface.take(view.frame.scan.points, view.frame.rings.ring_of_point,
+                      view.frame.scan.labels);
   }
   return {};
 }
 
-frame::LabelledReturn ScanResampler::measure(int channel, double head_rad, const View& view) {
+frame::LabelledReturn ScanResampler::measure(int channel, double rotor_rad, const View& view) {
   ++summary_.rays;
   double counts = kFirstGuess_counts;
   std::uint32_t nearest = 0;
   for (int look = 0; look < kLooks; ++look) {
-    const beams::Point at = geometry_.point(channel, head_rad, counts);
+    const beams::Point at = geometry_.point(channel, rotor_rad, counts);
     const double elevation_rad = std::atan2(at.z_m, std::hypot(at.x_m, at.y_m));
     const auto sight = view.surface.look(scan::azimuth_rad(at.x_m, at.y_m), elevation_rad);
     if (!sight) {
       ++(view.surface.covers(elevation_rad) ? summary_.nothing_near : summary_.outside);
       return {};
     }
-    const auto raw = geometry_.raw_for_range(channel, head_rad, sight->range_m);
+    const auto raw = geometry_.raw_for_range(channel, rotor_rad, sight->range_m);
     if (!raw || *raw > beams::kMaxRawCounts - 0.5) {
       ++summary_.out_of_span;
       return {};
@@ -52,37 +53,37 @@ frame::LabelledReturn ScanResampler::measure(int channel, double head_rad, const
     nearest = sight->point;
   }
   ++summary_.returns;
-  const scan::KittiScan& scan = view.turn.scan;
+  const scan::KittiScan& scan = view.frame.scan;
   return {static_cast<std::uint16_t>(std::lround(counts)),
           scan::intensity_of(scan.points[nearest].remission),
           scan.labels.empty() ? 0 : scan.labels[nearest]};
 }
 
 void ScanResampler::fire(const drive::Firing& firing,
-                         const drive::FiringPlan<Ruby128Transmitter>& plan,
+                         const drive::FiringPlan<Ruby128EncoderTraits>& plan,
                          frame::Ruby128Column& column) {
   for (int channel = 0; channel < ruby128::kRuby128Lasers; ++channel) {
     const std::int32_t offset_ticks = offsets_.offset_ticks(firing.step_ticks, channel);
-    const std::int64_t turn = decode::beam_azimuth(firing.azimuth_cdeg, offset_ticks).turn;
-    if (!plan.wants(turn)) continue;
+    const std::int64_t frame = decode::beam_azimuth(firing.azimuth_cdeg, offset_ticks).frame;
+    if (!plan.wants(frame)) continue;
     const std::int32_t advance_ticks =
-        Ruby128Transmitter::advance_ticks(firing.step_ticks, channel, kReturns);
+        Ruby128EncoderTraits::advance_ticks(firing.step_ticks, channel, kReturns);
     column.by_laser[static_cast<std::size_t>(channel)] =
         measure(channel, decode::firing_azimuth_rad(firing.azimuth_cdeg, advance_ticks),
-                views_[static_cast<std::size_t>(turn % 2)]);
+                views_[static_cast<std::size_t>(frame % 2)]);
   }
 }
 
-Expected<ResampleSummary> ScanResampler::run(std::int64_t turns, std::int64_t first_stamp_ns,
+Expected<ResampleSummary> ScanResampler::run(std::int64_t frames, std::int64_t first_stamp_ns,
                                              const Source& source, const Sink& sink) {
   summary_ = {};
-  turns_read_ = 0;
-  const drive::FiringPlan<Ruby128Transmitter> plan(calibration_, kReturns, kSpin_hz, turns);
+  frames_read_ = 0;
+  const drive::FiringPlan<Ruby128EncoderTraits> plan(calibration_, kReturns, kSpin_hz, frames);
   for (std::int64_t i = 0; i < plan.firings(); ++i) {
     const drive::Firing firing = plan.firing(i);
     const std::int32_t foremost_ticks = offsets_.foremost_ticks(firing.step_ticks);
-    const std::int64_t newest = decode::beam_azimuth(firing.azimuth_cdeg, foremost_ticks).turn;
-    const Status ready = read(std::min(newest, turns - 1), source);
+    const std::int64_t newest = decode::beam_azimuth(firing.azimuth_cdeg, foremost_ticks).frame;
+    const Status ready = read(std::min(newest, frames - 1), source);
     if (!ready) return tl::unexpected(ready.error());
     frame::Ruby128Column column;
     column.stamp_ns = first_stamp_ns + plan.after_ns(i);

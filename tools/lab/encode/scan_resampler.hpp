@@ -11,8 +11,8 @@
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "rt/error.hpp"
 #include "scan_surface.hpp"
+#include "tools/lab/drive/encoder_traits.hpp"
 #include "tools/lab/drive/firing_plan.hpp"
-#include "tools/lab/drive/transmitter.hpp"
 
 namespace terracut::encode {
 
@@ -28,7 +28,7 @@ struct ResampleSummary {
 };
 
 /// Sees recorded scans of another sensor through the rays of an RS-Ruby128 that stands in its
-/// place: one scan is one turn at 10 Hz, consecutive scans are consecutive turns. Single return.
+/// place: one scan is one frame at 10 Hz, consecutive scans are consecutive frames. Single return.
 ///
 /// What comes out is synthetic: ranges are interpolated between recorded returns
 /// (scan_surface.hpp), labels and intensities are those of the nearest one, and finer detail than
@@ -37,38 +37,38 @@ class ScanResampler {
  public:
   static constexpr double kSpin_hz = 10;
 
-  struct Turn {
+  struct Frame {
     scan::KittiScan scan;
     scan::RingRecovery rings;
   };
-  /// Reads a turn's scan; called once for each turn, in order.
-  using Source = std::function<Status(std::int64_t turn, Turn& into)>;
+  /// Reads a frame's scan; called once for each frame, in order.
+  using Source = std::function<Status(std::int64_t frame, Frame& into)>;
   /// Takes the columns in firing order, whole packets in all.
   using Sink = std::function<Status(const frame::Ruby128Column&)>;
 
   explicit ScanResampler(const ruby128::Ruby128Calibration& calibration);
 
-  /// Resamples `turns` scans (at least 1). Errors: those of `source` and `sink`.
-  [[nodiscard]] Expected<ResampleSummary> run(std::int64_t turns, std::int64_t first_stamp_ns,
+  /// Resamples `frames` scans (at least 1). Errors: those of `source` and `sink`.
+  [[nodiscard]] Expected<ResampleSummary> run(std::int64_t frames, std::int64_t first_stamp_ns,
                                               const Source& source, const Sink& sink);
 
  private:
-  /// A turn as the rays see it.
+  /// A frame as the rays see it.
   struct View {
-    Turn turn;
+    Frame frame;
     ScanSurface surface;
   };
 
-  [[nodiscard]] Status read(std::int64_t turn, const Source& source);
-  void fire(const drive::Firing& firing, const drive::FiringPlan<Ruby128Transmitter>& plan,
+  [[nodiscard]] Status read(std::int64_t frame, const Source& source);
+  void fire(const drive::Firing& firing, const drive::FiringPlan<Ruby128EncoderTraits>& plan,
             frame::Ruby128Column& column);
-  [[nodiscard]] frame::LabelledReturn measure(int channel, double head_rad, const View& view);
+  [[nodiscard]] frame::LabelledReturn measure(int channel, double rotor_rad, const View& view);
 
   ruby128::Ruby128Calibration calibration_;
   ruby128::Ruby128Geometry geometry_;
   ruby128::Ruby128BeamOffsets offsets_;
-  std::array<View, 2> views_;  ///< Of two successive turns, by parity.
-  std::int64_t turns_read_ = 0;
+  std::array<View, 2> views_;  ///< Of two successive frames, by parity.
+  std::int64_t frames_read_ = 0;
   ResampleSummary summary_;
 };
 

@@ -14,9 +14,9 @@
 namespace terracut::encode {
 namespace {
 
-constexpr double kTurn_rad = 2 * std::numbers::pi;
+constexpr double kRevolution_rad = 2 * std::numbers::pi;
 constexpr int kBins = 3600;
-constexpr double kBin_rad = kTurn_rad / kBins;
+constexpr double kBin_rad = kRevolution_rad / kBins;
 
 // The HDL-64E of the recordings fires every 0.17 to 0.18 degrees, its rings are 0.33 to 0.55 apart.
 constexpr double kJoined_rad = beams::deg_to_rad(0.30);    // successive returns of a ring
@@ -27,14 +27,14 @@ constexpr double kAboveBelow_rad = beams::deg_to_rad(0.28);  // a ring stands fo
 /// one surface to another. Level ground is seen at 1.5 degrees at 66 m.
 const double kLeastSlope = std::tan(beams::deg_to_rad(1.5));
 
-double in_turn(double azimuth_rad) {
-  const double rest = azimuth_rad - kTurn_rad * std::floor(azimuth_rad / kTurn_rad);
-  return rest < kTurn_rad ? rest : 0.0;
+double in_frame(double azimuth_rad) {
+  const double rest = azimuth_rad - kRevolution_rad * std::floor(azimuth_rad / kRevolution_rad);
+  return rest < kRevolution_rad ? rest : 0.0;
 }
 
-/// From `a` forward to `b`, both in a turn.
+/// From `a` forward to `b`, both in a frame.
 double forward(double a, double b) {
-  return b >= a ? b - a : b - a + kTurn_rad;
+  return b >= a ? b - a : b - a + kRevolution_rad;
 }
 
 bool same_thing(std::uint32_t a, std::uint32_t b) {
@@ -150,7 +150,7 @@ auto ScanSurface::cross(int ring, double azimuth_rad) const -> std::optional<Cro
 }
 
 auto ScanSurface::look(double azimuth_rad, double elevation_rad) const -> std::optional<Sight> {
-  const double azimuth = in_turn(azimuth_rad);
+  const double azimuth = in_frame(azimuth_rad);
   const auto bin = std::min(static_cast<std::size_t>(azimuth / kBin_rad), columns_.size() - 1);
   const std::vector<Candidate>& column = columns_[bin];
   const auto above_at = std::ranges::lower_bound(column, static_cast<float>(elevation_rad), {},
@@ -169,7 +169,7 @@ auto ScanSurface::look(double azimuth_rad, double elevation_rad) const -> std::o
     }
   }
   const auto off_rad = [&](const std::optional<Crossing>& crossing) {
-    return crossing ? std::abs(crossing->elevation_rad - elevation_rad) : kTurn_rad;
+    return crossing ? std::abs(crossing->elevation_rad - elevation_rad) : kRevolution_rad;
   };
   const std::optional<Crossing>& nearer = off_rad(below) <= off_rad(above) ? below : above;
   if (off_rad(nearer) > kAboveBelow_rad) return std::nullopt;

@@ -22,7 +22,7 @@ namespace terracut::encode {
 /// no return near by, or had none beside it, there is nothing. Two returns are of one surface when
 /// neither their labels (all ground counts as one) nor a leap in range say otherwise.
 ///
-/// Directions: azimuth clockwise from straight ahead, any turn; elevation up; radians. Allocates.
+/// Directions: azimuth clockwise from straight ahead, any revolution; elevation up; radians. Allocates.
 class ScanSurface {
  public:
   /// What a ray meets.

@@ -60,7 +60,7 @@ class SceneLayout {
   SceneExtent extent_;
 };
 
-/// Half a turn: heading against the direction of the road.
+/// Half a revolution: heading against the direction of the road.
 inline constexpr double kAgainst_rad = std::numbers::pi;
 
 }  // namespace terracut::scenes

@@ -61,7 +61,7 @@ class FaultInjector {
   [[nodiscard]] std::uint64_t fed() const noexcept { return fed_; }
 
  private:
-  /// A datagram that waits for its turn, with its bytes.
+  /// A datagram that waits for its frame, with its bytes.
   struct Held {
     decode::Datagram datagram;
     std::vector<std::uint8_t> bytes;

@@ -21,7 +21,7 @@ namespace terracut::send {
 struct UdpSenderConfig {
   net::Ipv4Endpoint to{};  ///< One address, a broadcast address or a multicast group.
   std::optional<net::Ipv4Endpoint> from{};  ///< Sent from here; else the system chooses.
-  std::string interface{};                  ///< Of multicast and broadcast; empty: by the routes.
+  std::string interface {};                 ///< Of multicast and broadcast; empty: by the routes.
 };
 
 /// failed datagrams were not sent: the system refused them (no route, interface down).
@@ -47,7 +47,7 @@ class UdpSender {
                                                 memory::FixedMemory& memory);
 
   /// Sends the payloads in this order, kBatch to a system call; stamps and addresses of the
-  /// datagrams do not matter. Waits while the system's send buffer is full; answers how many were
+  /// datagrams do not matter. Waits while the system's send buffer is full; returns how many were
   /// sent, the others are counted as failed.
   std::size_t send(std::span<const decode::Datagram> datagrams) noexcept;
 

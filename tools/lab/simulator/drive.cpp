@@ -56,32 +56,33 @@ Status check(const DriveConfig& config) {
 }
 
 /// A drive under way: the world at the current batch of firings.
-template <class Transmitter>
+template <class EncoderTraits>
 class Drive {
  public:
-  using Column = SimulatedColumn<Transmitter>;
+  using Column = SimulatedColumn<EncoderTraits>;
 
-  Drive(const SimulationConfig<Transmitter>& config, const scenes::Scene& scene, std::int64_t turns)
+  Drive(const SimulationConfig<EncoderTraits>& config, const scenes::Scene& scene,
+        std::int64_t frames)
       : config_(config),
         scene_(scene),
         T_vehicle_lidar_(mount_pose(config.mount)),
-        plan_(config.calibration, config.sensor.returns, config.spin_hz, turns),
+        plan_(config.calibration, config.sensor.returns, config.spin_hz, frames),
         head_(config, scene.terrain, plan_),
         objects_{ObjectIndex(scene), ObjectIndex(scene)},
         returns_(static_cast<std::size_t>(drive::returns_per_firing(config.sensor.returns))),
         columns_(static_cast<std::size_t>(kBatch) * returns_) {}
 
-  Expected<SimulationSummary> run(const ColumnSink<Transmitter>& sink) {
+  Expected<SimulationSummary> run(const ColumnSink<EncoderTraits>& sink) {
     SimulationSummary summary;
-    summary.turns = static_cast<std::uint64_t>(plan_.turns());
+    summary.frames = static_cast<std::uint64_t>(plan_.frames());
     for (std::int64_t first = 0; first < plan_.firings(); first += kBatch) {
       const std::int64_t count = std::min(kBatch, plan_.firings() - first);
       move_world(first, count);
       cast(first, count);
       for (const Column& column :
            std::span(columns_).first(static_cast<std::size_t>(count) * returns_)) {
-        for (const frame::LabelledReturn& echo : column.wire.by_laser)
-          summary.returns += echo.raw != 0;
+        for (const frame::LabelledReturn& beam : column.wire.by_laser)
+          summary.returns += beam.raw != 0;
         ++summary.columns;
         if (Status status = sink(column); !status) return tl::unexpected(status.error());
       }
@@ -97,21 +98,21 @@ class Drive {
   void move_world(std::int64_t first, std::int64_t count) {
     const drive::Firing begin = plan_.firing(first);
     const drive::Firing end = plan_.firing(first + count - 1);
-    if (config_.motion_within_turn) {
+    if (config_.motion_within_frame) {
       const double window_s = end.time_s - begin.time_s;
       update(0, begin.time_s, window_s);
       return;
     }
-    const double turn_s = 1 / config_.spin_hz;
+    const double frame_period_s = 1 / config_.spin_hz;
     // Beams lead and trail the head by some degrees.
     for (const std::int64_t cdeg : {begin.azimuth_cdeg - 1500, end.azimuth_cdeg + 1500}) {
-      const std::int64_t turn = (cdeg - beams::wrap_cdeg(cdeg)) / beams::kTurn_cdeg;
-      if (!plan_.wants(turn)) continue;
-      const auto parity = static_cast<std::size_t>(turn % 2);
-      const double time_s = static_cast<double>(turn) * turn_s;
-      if (turn_moments_[parity].objects != nullptr && still_time_s_[parity] == time_s) continue;
+      const std::int64_t frame = (cdeg - beams::wrap_cdeg(cdeg)) / beams::kRevolution_cdeg;
+      if (!plan_.wants(frame)) continue;
+      const auto parity = static_cast<std::size_t>(frame % 2);
+      const double time_s = static_cast<double>(frame) * frame_period_s;
+      if (frame_moments_[parity].objects != nullptr && still_time_s_[parity] == time_s) continue;
       update(parity, time_s, 0);
-      turn_moments_[parity] = {&objects_[parity], 0, T_world_lidar(time_s)};
+      frame_moments_[parity] = {&objects_[parity], 0, T_world_lidar(time_s)};
       still_time_s_[parity] = time_s;
     }
   }
@@ -125,8 +126,8 @@ class Drive {
 
   void cast_one(std::int64_t index, std::span<Column> columns) const {
     const drive::Firing firing = plan_.firing(index);
-    if (!config_.motion_within_turn) {
-      head_.cast(firing, turn_moments_, columns);
+    if (!config_.motion_within_frame) {
+      head_.cast(firing, frame_moments_, columns);
       return;
     }
     const Moment moment{&objects_[0], firing.time_s - batch_time_s_, T_world_lidar(firing.time_s)};
@@ -146,13 +147,13 @@ class Drive {
     share(0);
   }
 
-  const SimulationConfig<Transmitter>& config_;
+  const SimulationConfig<EncoderTraits>& config_;
   const scenes::Scene& scene_;
   Eigen::Isometry3d T_vehicle_lidar_;
-  drive::FiringPlan<Transmitter> plan_;
-  ScanHead<Transmitter> head_;
-  std::array<ObjectIndex, 2> objects_;  ///< By turn; only the first while moving.
-  std::array<Moment, 2> turn_moments_{};
+  drive::FiringPlan<EncoderTraits> plan_;
+  ScanHead<EncoderTraits> head_;
+  std::array<ObjectIndex, 2> objects_;  ///< By frame; only the first while moving.
+  std::array<Moment, 2> frame_moments_{};
   std::array<double, 2> still_time_s_{};
   double batch_time_s_ = 0;
   std::size_t returns_;  ///< Columns of a firing.
@@ -160,57 +161,57 @@ class Drive {
 };
 
 /// What a valid configuration describes.
-template <class Transmitter>
+template <class EncoderTraits>
 struct DrivePlan {
-  std::int64_t turns = 0;
+  std::int64_t frames = 0;
   scenes::Scene scene;
 
-  [[nodiscard]] static Expected<DrivePlan> of(const SimulationConfig<Transmitter>& config) {
+  [[nodiscard]] static Expected<DrivePlan> of(const SimulationConfig<EncoderTraits>& config) {
     for (const Status& status : {validate(config.calibration), check(config)}) {
       if (!status) return tl::unexpected(status.error());
     }
-    const std::int64_t turns =
+    const std::int64_t frames =
         std::max<std::int64_t>(1, std::llround(config.duration_s * config.spin_hz));
-    const double duration_s = static_cast<double>(turns) / config.spin_hz;
+    const double duration_s = static_cast<double>(frames) / config.spin_hz;
     Expected<scenes::Scene> scene =
         scenes::make_scene(config.scene, {config.seed, duration_s, config.speed_mps});
     if (!scene) return tl::unexpected(scene.error());
     if (config.yaw_rate_radps != 0) scene->ego_arc = {config.yaw_rate_radps, duration_s / 2};
-    return DrivePlan{turns, *std::move(scene)};
+    return DrivePlan{frames, *std::move(scene)};
   }
 
-  [[nodiscard]] drive::FiringPlan<Transmitter> firings(
-      const SimulationConfig<Transmitter>& config) const {
-    return {config.calibration, config.sensor.returns, config.spin_hz, turns};
+  [[nodiscard]] drive::FiringPlan<EncoderTraits> firings(
+      const SimulationConfig<EncoderTraits>& config) const {
+    return {config.calibration, config.sensor.returns, config.spin_hz, frames};
   }
 };
 
 /// From a stamp of the drive to the time that its world has.
-template <class Transmitter>
-double world_time_s(const SimulationConfig<Transmitter>& config,
-                    const drive::FiringPlan<Transmitter>& firings, std::int64_t stamp_ns) {
+template <class EncoderTraits>
+double world_time_s(const SimulationConfig<EncoderTraits>& config,
+                    const drive::FiringPlan<EncoderTraits>& firings, std::int64_t stamp_ns) {
   return firings.firing(0).time_s + static_cast<double>(stamp_ns - config.start_ns) * 1e-9;
 }
 
 }  // namespace
 
-template <class Transmitter>
+template <class EncoderTraits>
 Expected<SimulationSummary> simulate_drive(
-    const SimulationConfig<Transmitter>& config,
-    const std::type_identity_t<ColumnSink<Transmitter>>& sink) {
-  const auto plan = DrivePlan<Transmitter>::of(config);
+    const SimulationConfig<EncoderTraits>& config,
+    const std::type_identity_t<ColumnSink<EncoderTraits>>& sink) {
+  const auto plan = DrivePlan<EncoderTraits>::of(config);
   if (!plan) return tl::unexpected(plan.error());
-  return Drive<Transmitter>(config, plan->scene, plan->turns).run(sink);
+  return Drive<EncoderTraits>(config, plan->scene, plan->frames).run(sink);
 }
 
-template <class Transmitter>
+template <class EncoderTraits>
 Expected<std::vector<vehicle::MotionSample>> simulated_motion(
-    const SimulationConfig<Transmitter>& config, std::int64_t period_ns) {
-  const auto plan = DrivePlan<Transmitter>::of(config);
+    const SimulationConfig<EncoderTraits>& config, std::int64_t period_ns) {
+  const auto plan = DrivePlan<EncoderTraits>::of(config);
   if (!plan) return tl::unexpected(plan.error());
   const Status status = in_range("period_ns", static_cast<double>(period_ns), 1e5, 1e9);
   if (!status) return tl::unexpected(status.error());
-  const drive::FiringPlan<Transmitter> firings = plan->firings(config);
+  const drive::FiringPlan<EncoderTraits> firings = plan->firings(config);
   const std::int64_t end_ns = config.start_ns + firings.after_ns(firings.firings()) + period_ns;
   std::vector<vehicle::MotionSample> samples;
   for (std::int64_t stamp_ns = config.start_ns - period_ns; stamp_ns <= end_ns;
@@ -221,12 +222,12 @@ Expected<std::vector<vehicle::MotionSample>> simulated_motion(
   return samples;
 }
 
-template <class Transmitter>
+template <class EncoderTraits>
 Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
-    const SimulationConfig<Transmitter>& config) {
-  auto plan = DrivePlan<Transmitter>::of(config);
+    const SimulationConfig<EncoderTraits>& config) {
+  auto plan = DrivePlan<EncoderTraits>::of(config);
   if (!plan) return tl::unexpected(plan.error());
-  const drive::FiringPlan<Transmitter> firings = plan->firings(config);
+  const drive::FiringPlan<EncoderTraits> firings = plan->firings(config);
   return [config, firings, scene = std::move(plan->scene)](std::int64_t stamp_ns) {
     const Eigen::Isometry3d pose = ego_pose(scene, world_time_s(config, firings, stamp_ns));
     mount::RigidTransform T{};
@@ -236,9 +237,9 @@ Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
 }
 
 template Expected<SimulationSummary> simulate_drive(const Hdl64eSimulation&,
-                                                    const ColumnSink<encode::Hdl64eTransmitter>&);
-template Expected<SimulationSummary> simulate_drive(const Ruby128Simulation&,
-                                                    const ColumnSink<encode::Ruby128Transmitter>&);
+                                                    const ColumnSink<encode::Hdl64eEncoderTraits>&);
+template Expected<SimulationSummary> simulate_drive(
+    const Ruby128Simulation&, const ColumnSink<encode::Ruby128EncoderTraits>&);
 
 template Expected<std::vector<vehicle::MotionSample>> simulated_motion(const Hdl64eSimulation&,
                                                                        std::int64_t);

@@ -16,7 +16,7 @@
 #include "firmware_io/vehicle/motion_sample.hpp"
 #include "rt/error.hpp"
 #include "sensor_effects.hpp"
-#include "tools/lab/drive/transmitter.hpp"
+#include "tools/lab/drive/encoder_traits.hpp"
 
 namespace terracut::simulator {
 
@@ -26,7 +26,7 @@ namespace terracut::simulator {
 struct DriveConfig {
   std::string scene = "street";  ///< One of scene_names().
   std::uint64_t seed = 1;        ///< Of everything random: world, noise, drop-outs.
-  double duration_s = 5.0;       ///< Rounded to whole turns, at least one; (0, 3600].
+  double duration_s = 5.0;       ///< Rounded to whole frames, at least one; (0, 3600].
   double spin_hz = 10.0;         ///< [5, 20]
   double speed_mps = -1;         ///< Of the vehicle; < 0: what is usual in the scene; at most 60.
   /// Not 0: the vehicle turns at this rate all the time, on an arc that follows the road in the
@@ -34,37 +34,38 @@ struct DriveConfig {
   double yaw_rate_radps = 0;
   mount::Mount mount;
   SensorEffects effects;
-  /// The vehicle and everything else move on while the head turns, as in life. When off, they stand
-  /// still during each turn and jump between turns: turns are then as if motion were compensated.
-  bool motion_within_turn = true;
+  /// The vehicle and everything else move on while the head rotates, as in life. When off, they
+  /// stand still during each frame and jump between frames: frames are then as if motion were
+  /// compensated.
+  bool motion_within_frame = true;
   std::int64_t start_ns = 1'767'225'600'000'000'000;  ///< Of the first firing; 2026-01-01 UTC.
   int threads = 1;  ///< Rays are cast on so many threads; results do not depend on it; [1, 64].
 };
 
-/// The same with a sensor: Hdl64eTransmitter or Ruby128Transmitter.
-template <class Transmitter>
+/// The same with a sensor: Hdl64eEncoderTraits or Ruby128EncoderTraits.
+template <class EncoderTraits>
 struct SimulationConfig : DriveConfig {
-  typename Transmitter::Calibration calibration = Transmitter::nominal();
-  typename Transmitter::Config sensor;  ///< Return mode, encodings.
+  typename EncoderTraits::Calibration calibration = EncoderTraits::nominal();
+  typename EncoderTraits::Config sensor;  ///< Return mode, encodings.
 };
 
 /// One column of returns, as on the wire, and what it was made from.
-template <class Transmitter>
+template <class EncoderTraits>
 struct SimulatedColumn {
-  typename Transmitter::Column wire;
+  typename EncoderTraits::Column wire;
   double time_s = 0;  ///< Since the head passed straight ahead for the first time.
   /// Where each return lies in the sensor frame, noise included, before the wire's rounding to
   /// whole counts. Meaningless where by_laser[i].raw == 0.
-  std::array<beams::Point, static_cast<std::size_t>(Transmitter::kLasers)> exact{};
+  std::array<beams::Point, static_cast<std::size_t>(EncoderTraits::kLasers)> exact{};
 };
 
 /// Takes columns in firing order, whole packets in all; in dual return two a firing, in the
 /// sensor's order. An error ends the drive and is handed on.
-template <class Transmitter>
-using ColumnSink = std::function<Status(const SimulatedColumn<Transmitter>&)>;
+template <class EncoderTraits>
+using ColumnSink = std::function<Status(const SimulatedColumn<EncoderTraits>&)>;
 
 struct SimulationSummary {
-  std::uint64_t turns = 0;
+  std::uint64_t frames = 0;
   std::uint64_t columns = 0;
   std::uint64_t returns = 0;
 };
@@ -74,33 +75,34 @@ struct SimulationSummary {
 /// Azimuths are rounded to the wire's 0.01 degrees first and rays cast at the rounded azimuth plus
 /// firing advance, so that decoding the wire values gives `exact` back to within the rounding of
 /// the range. The head starts some 11 degrees before straight ahead and ends as much after the last
-/// turn; beams outside of the whole turns have no return, so every laser sees every turn whole and
-/// there are no others. Firings: HDL-64E every 48 us, in dual return 57.6 us; RS-Ruby128 55.55 us.
+/// frame; beams outside of the whole frames have no return, so every laser sees every frame whole
+/// and there are no others. Firings: HDL-64E every 48 us, in dual return 57.6 us; RS-Ruby128 55.55
+/// us.
 ///
 /// In dual return a beam has a width: what lies behind an edge, a pole or a few leaves gives an
 /// echo of its own. Where there is one echo, both returns are that one.
 ///
 /// Errors: kInvalidArgument naming the setting, its value and the allowed range; those of `sink`.
-/// Not real-time safe; allocates. A turn at 10 Hz takes 0.1 to 0.8 s on one core.
-template <class Transmitter>
+/// Not real-time safe; allocates. A frame at 10 Hz takes 0.1 to 0.8 s on one core.
+template <class EncoderTraits>
 [[nodiscard]] Expected<SimulationSummary> simulate_drive(
-    const SimulationConfig<Transmitter>& config,
-    const std::type_identity_t<ColumnSink<Transmitter>>& sink);
+    const SimulationConfig<EncoderTraits>& config,
+    const std::type_identity_t<ColumnSink<EncoderTraits>>& sink);
 
 /// How the vehicle of a drive moves, every `period_ns` from before its first firing to after its
 /// last, stamped as its firings are. Errors as simulate_drive().
-template <class Transmitter>
+template <class EncoderTraits>
 [[nodiscard]] Expected<std::vector<vehicle::MotionSample>> simulated_motion(
-    const SimulationConfig<Transmitter>& config, std::int64_t period_ns = 10'000'000);
+    const SimulationConfig<EncoderTraits>& config, std::int64_t period_ns = 10'000'000);
 
 /// T_world_vehicle by stamps of the drive. Errors as simulate_drive().
-template <class Transmitter>
+template <class EncoderTraits>
 [[nodiscard]] Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
-    const SimulationConfig<Transmitter>& config);
+    const SimulationConfig<EncoderTraits>& config);
 
-using Hdl64eSimulation = SimulationConfig<encode::Hdl64eTransmitter>;
-using Ruby128Simulation = SimulationConfig<encode::Ruby128Transmitter>;
-using Hdl64eSimulatedColumn = SimulatedColumn<encode::Hdl64eTransmitter>;
-using Ruby128SimulatedColumn = SimulatedColumn<encode::Ruby128Transmitter>;
+using Hdl64eSimulation = SimulationConfig<encode::Hdl64eEncoderTraits>;
+using Ruby128Simulation = SimulationConfig<encode::Ruby128EncoderTraits>;
+using Hdl64eSimulatedColumn = SimulatedColumn<encode::Hdl64eEncoderTraits>;
+using Ruby128SimulatedColumn = SimulatedColumn<encode::Ruby128EncoderTraits>;
 
 }  // namespace terracut::simulator

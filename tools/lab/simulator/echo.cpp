@@ -30,7 +30,7 @@ std::optional<Echo> echo_from(const SensorEffects& effects, const world::Hit& hi
 
   double noise_m = effects.range_noise_m;
   if (effects.rough_surfaces) noise_m = std::hypot(noise_m, surface.roughness_m);
-  // The sensor turns its power up with distance, so intensity tells the surface more than the
+  // The sensor rotates its power up with distance, so intensity tells the surface more than the
   // range.
   const double brightness = share * surface.reflectivity * (0.4 + 0.6 * cos_incidence);
   const double intensity = 255.0 * (0.04 + 0.75 * brightness) + 5.0 * random.normal();

@@ -15,8 +15,8 @@ namespace {
 constexpr double kFarthest_m = 135.0;  // Objects beyond are not looked at.
 
 int sector_of(double azimuth_rad, int sectors) noexcept {
-  const double turns = azimuth_rad / (2 * std::numbers::pi);
-  const int sector = static_cast<int>((turns - std::floor(turns)) * sectors);
+  const double frames = azimuth_rad / (2 * std::numbers::pi);
+  const int sector = static_cast<int>((frames - std::floor(frames)) * sectors);
   return std::min(sector, sectors - 1);
 }
 

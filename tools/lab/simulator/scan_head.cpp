@@ -25,19 +25,20 @@ Eigen::Vector3d to_eigen(const beams::Point& point) {
 
 }  // namespace
 
-template <class Transmitter>
-ScanHead<Transmitter>::ScanHead(const SimulationConfig<Transmitter>& config,
-                                const world::Terrain& terrain,
-                                const drive::FiringPlan<Transmitter>& plan)
+template <class EncoderTraits>
+ScanHead<EncoderTraits>::ScanHead(const SimulationConfig<EncoderTraits>& config,
+                                  const world::Terrain& terrain,
+                                  const drive::FiringPlan<EncoderTraits>& plan)
     : config_(&config),
       terrain_(&terrain),
       plan_(&plan),
-      geometry_(Transmitter::geometry(config.calibration, config.sensor)),
-      offsets_(Transmitter::offsets(config.calibration, config.sensor)) {}
+      geometry_(EncoderTraits::geometry(config.calibration, config.sensor)),
+      offsets_(EncoderTraits::offsets(config.calibration, config.sensor)) {}
 
-template <class Transmitter>
-void ScanHead<Transmitter>::cast(const drive::Firing& firing, const std::array<Moment, 2>& moments,
-                                 std::span<Column> columns) const {
+template <class EncoderTraits>
+void ScanHead<EncoderTraits>::cast(const drive::Firing& firing,
+                                   const std::array<Moment, 2>& moments,
+                                   std::span<Column> columns) const {
   for (Column& column : columns) {
     column = Column{};
     column.time_s = firing.time_s;
@@ -45,22 +46,22 @@ void ScanHead<Transmitter>::cast(const drive::Firing& firing, const std::array<M
     column.wire.unwrapped_azimuth_cdeg = firing.azimuth_cdeg;
   }
   const drive::ReturnMode returns = config_->sensor.returns;
-  for (int laser = 0; laser < Transmitter::kLasers; ++laser) {
+  for (int laser = 0; laser < EncoderTraits::kLasers; ++laser) {
     const std::int32_t offset_ticks =
-        Transmitter::offset_ticks(offsets_, firing.step_ticks, laser, returns);
-    const std::int64_t turn = decode::beam_azimuth(firing.azimuth_cdeg, offset_ticks).turn;
-    if (!plan_->wants(turn)) continue;
+        EncoderTraits::offset_ticks(offsets_, firing.step_ticks, laser, returns);
+    const std::int64_t frame = decode::beam_azimuth(firing.azimuth_cdeg, offset_ticks).frame;
+    if (!plan_->wants(frame)) continue;
     const double azimuth_rad = decode::firing_azimuth_rad(
-        firing.azimuth_cdeg, Transmitter::advance_ticks(firing.step_ticks, laser, returns));
+        firing.azimuth_cdeg, EncoderTraits::advance_ticks(firing.step_ticks, laser, returns));
     const std::uint64_t ray_key = mix_keys(
-        config_->seed, static_cast<std::uint64_t>(firing.index * Transmitter::kLasers + laser));
+        config_->seed, static_cast<std::uint64_t>(firing.index * EncoderTraits::kLasers + laser));
     const beams::Ray ray = geometry_.ray(laser, azimuth_rad);
     const Beam beam{laser,
                     azimuth_rad,
                     ray_key,
                     to_eigen(ray.origin),
                     {ray.direction.x, ray.direction.y, ray.direction.z}};
-    const Moment& moment = moments[static_cast<std::size_t>(turn % 2)];
+    const Moment& moment = moments[static_cast<std::size_t>(frame % 2)];
     if (returns == drive::ReturnMode::kDual) {
       cast_dual(beam, moment, columns);
     } else {
@@ -69,27 +70,27 @@ void ScanHead<Transmitter>::cast(const drive::Firing& firing, const std::array<M
   }
 }
 
-template <class Transmitter>
-void ScanHead<Transmitter>::put(const Measured& measured, int laser, Column& column) {
+template <class EncoderTraits>
+void ScanHead<EncoderTraits>::put(const Measured& measured, int laser, Column& column) {
   const auto i = static_cast<std::size_t>(laser);
   column.wire.by_laser[i] = measured.wire;
   column.exact[i] = measured.exact;
 }
 
-template <class Transmitter>
-std::optional<world::Hit> ScanHead<Transmitter>::look(const world::SightLine& line,
-                                                      const Moment& moment,
-                                                      std::uint64_t ray_key) const {
+template <class EncoderTraits>
+std::optional<world::Hit> ScanHead<EncoderTraits>::look(const world::SightLine& line,
+                                                        const Moment& moment,
+                                                        std::uint64_t ray_key) const {
   const double limit_m = config_->effects.max_range_m + 1;
   std::optional<world::Hit> hit = moment.objects->cast(line, moment.after_s, ray_key, limit_m);
   if (const auto ground = terrain_->cast(line, hit ? hit->way_m : limit_m)) hit = ground;
   return hit;
 }
 
-template <class Transmitter>
-auto ScanHead<Transmitter>::echo_of(const world::SightLine& line,
-                                    const std::optional<world::Hit>& hit, std::uint64_t ray_key,
-                                    double share) const -> std::optional<Sighting> {
+template <class EncoderTraits>
+auto ScanHead<EncoderTraits>::echo_of(const world::SightLine& line,
+                                      const std::optional<world::Hit>& hit, std::uint64_t ray_key,
+                                      double share) const -> std::optional<Sighting> {
   if (!hit) return std::nullopt;
   const double cos_incidence = std::min(1.0, std::abs(hit->normal.dot(line.direction)));
   Random random(ray_key);
@@ -98,9 +99,9 @@ auto ScanHead<Transmitter>::echo_of(const world::SightLine& line,
   return Sighting{*hit, *echo, cos_incidence};
 }
 
-template <class Transmitter>
-auto ScanHead<Transmitter>::measure_along(const Beam& beam, const Sighting& sighting,
-                                          const Eigen::Vector3d& normal) const
+template <class EncoderTraits>
+auto ScanHead<EncoderTraits>::measure_along(const Beam& beam, const Sighting& sighting,
+                                            const Eigen::Vector3d& normal) const
     -> std::optional<Measured> {
   const SensorEffects& effects = config_->effects;
   const Eigen::Vector3d place = beam.origin + sighting.hit.way_m * beam.direction;
@@ -109,7 +110,7 @@ auto ScanHead<Transmitter>::measure_along(const Beam& beam, const Sighting& sigh
                              {normal.x(), normal.y(), normal.z()});
   if (!raw) return std::nullopt;
   const double counts =
-      *raw + sighting.echo.range_error_m / Transmitter::metres_per_count(config_->calibration);
+      *raw + sighting.echo.range_error_m / EncoderTraits::metres_per_count(config_->calibration);
   if (counts < 1 || counts > beams::kMaxRawCounts) return std::nullopt;
   const beams::Point exact = geometry_.point(beam.laser, beam.azimuth_rad, counts);
   const double range_m = to_eigen(exact).norm();
@@ -119,9 +120,9 @@ auto ScanHead<Transmitter>::measure_along(const Beam& beam, const Sighting& sigh
                   exact};
 }
 
-template <class Transmitter>
-auto ScanHead<Transmitter>::measure(const Beam& beam, const Moment& moment,
-                                    const Sighting& sighting) const -> std::optional<Measured> {
+template <class EncoderTraits>
+auto ScanHead<EncoderTraits>::measure(const Beam& beam, const Moment& moment,
+                                      const Sighting& sighting) const -> std::optional<Measured> {
   const bool slanting =
       sighting.cos_incidence < (is_ground(sighting.hit.truth) ? kSlantingGround : kSlantingObject);
   if (slanting) return measure_along(beam, sighting, beam.direction);
@@ -129,9 +130,9 @@ auto ScanHead<Transmitter>::measure(const Beam& beam, const Moment& moment,
                        moment.T_world_lidar.linear().transpose() * sighting.hit.normal);
 }
 
-template <class Transmitter>
-void ScanHead<Transmitter>::cast_single(const Beam& beam, const Moment& moment,
-                                        Column& column) const {
+template <class EncoderTraits>
+void ScanHead<EncoderTraits>::cast_single(const Beam& beam, const Moment& moment,
+                                          Column& column) const {
   const world::SightLine line{moment.T_world_lidar * beam.origin,
                               moment.T_world_lidar.linear() * beam.direction};
   const auto sighting = echo_of(line, look(line, moment, beam.ray_key), beam.ray_key, 1);
@@ -140,12 +141,12 @@ void ScanHead<Transmitter>::cast_single(const Beam& beam, const Moment& moment,
 }
 
 // The axis is measured as in single return, so that a dual-return drive differs by what it adds.
-template <class Transmitter>
-void ScanHead<Transmitter>::cast_dual(const Beam& beam, const Moment& moment,
-                                      std::span<Column> columns) const {
+template <class EncoderTraits>
+void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
+                                        std::span<Column> columns) const {
   const world::SightLine axis{moment.T_world_lidar * beam.origin,
                               moment.T_world_lidar.linear() * beam.direction};
-  const SideLine side = side_line(axis, Transmitter::kBeamHalfWidth_rad, beam.ray_key);
+  const SideLine side = side_line(axis, EncoderTraits::kBeamHalfWidth_rad, beam.ray_key);
   const std::optional<world::Hit> axis_hit = look(axis, moment, beam.ray_key);
   std::optional<world::Hit> side_hit = look(side.line, moment, side.ray_key);
   if (axis_hit && side_hit && one_echo(axis, *axis_hit, side.line, *side_hit)) side_hit.reset();
@@ -162,11 +163,11 @@ void ScanHead<Transmitter>::cast_dual(const Beam& beam, const Moment& moment,
     if (beside->echo.signal > on_axis->echo.signal) std::swap(strongest, last);
     if (strongest->wire.raw > last->wire.raw) last = strongest;  // the weaker one lies before it
   }
-  put(*strongest, beam.laser, columns[Transmitter::kStrongestFirst ? 0 : 1]);
-  put(*last, beam.laser, columns[Transmitter::kStrongestFirst ? 1 : 0]);
+  put(*strongest, beam.laser, columns[EncoderTraits::kStrongestFirst ? 0 : 1]);
+  put(*last, beam.laser, columns[EncoderTraits::kStrongestFirst ? 1 : 0]);
 }
 
-template class ScanHead<encode::Hdl64eTransmitter>;
-template class ScanHead<encode::Ruby128Transmitter>;
+template class ScanHead<encode::Hdl64eEncoderTraits>;
+template class ScanHead<encode::Ruby128EncoderTraits>;
 
 }  // namespace terracut::simulator

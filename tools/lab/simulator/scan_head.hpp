@@ -11,8 +11,8 @@
 #include "drive.hpp"
 #include "echo.hpp"
 #include "object_index.hpp"
+#include "tools/lab/drive/encoder_traits.hpp"
 #include "tools/lab/drive/firing_plan.hpp"
-#include "tools/lab/drive/transmitter.hpp"
 #include "tools/lab/world/terrain.hpp"
 
 namespace terracut::simulator {
@@ -28,17 +28,17 @@ struct Moment {
 /// wire and through the inverse of the unit's calibration.
 ///
 /// Immutable; any thread may cast.
-template <class Transmitter>
+template <class EncoderTraits>
 class ScanHead {
  public:
-  using Column = SimulatedColumn<Transmitter>;
+  using Column = SimulatedColumn<EncoderTraits>;
 
   /// All three must outlive this.
-  ScanHead(const SimulationConfig<Transmitter>& config, const world::Terrain& terrain,
-           const drive::FiringPlan<Transmitter>& plan);
+  ScanHead(const SimulationConfig<EncoderTraits>& config, const world::Terrain& terrain,
+           const drive::FiringPlan<EncoderTraits>& plan);
 
-  /// `moments` by turn of the beam, even and odd: they differ when the world stands still during
-  /// each turn. Fills in everything of `columns`, one for each return of a firing.
+  /// `moments` by frame of the beam, even and odd: they differ when the world stands still during
+  /// each frame. Fills in everything of `columns`, one for each return of a firing.
   void cast(const drive::Firing& firing, const std::array<Moment, 2>& moments,
             std::span<Column> columns) const;
 
@@ -76,11 +76,11 @@ class ScanHead {
   void cast_dual(const Beam& beam, const Moment& moment, std::span<Column> columns) const;
   static void put(const Measured& measured, int laser, Column& column);
 
-  const SimulationConfig<Transmitter>* config_;
+  const SimulationConfig<EncoderTraits>* config_;
   const world::Terrain* terrain_;
-  const drive::FiringPlan<Transmitter>* plan_;
-  typename Transmitter::Geometry geometry_;
-  typename Transmitter::Offsets offsets_;
+  const drive::FiringPlan<EncoderTraits>* plan_;
+  typename EncoderTraits::Geometry geometry_;
+  typename EncoderTraits::Offsets offsets_;
 };
 
 }  // namespace terracut::simulator

@@ -40,7 +40,7 @@ struct Substance {
   return shape;
 }
 
-/// Turns around an axle along y; stands on `bottom`.
+/// Frames around an axle along y; stands on `bottom`.
 [[nodiscard]] inline Shape wheel(const Eigen::Vector3d& bottom, double radius_m, double width_m,
                                  const Substance& substance) {
   Shape shape = box(bottom, {2 * radius_m, width_m, 2 * radius_m}, substance);

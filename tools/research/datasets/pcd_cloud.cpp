@@ -22,7 +22,7 @@ namespace terracut::datasets {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28;  // 256 bytes a point of any turn
+constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28;  // 256 bytes a point of any frame
 
 /// LZF: runs of bytes as they are (their count less one in a byte below 32), and runs that stood
 /// before (length less two in the upper three bits, 7 adds the next byte; how far back less one in
@@ -95,7 +95,8 @@ class PcdReader {
                                              ErrorCode code = ErrorCode::kMalformed) const {
     constexpr std::size_t kMostCharacters = 200;
     if (what.size() > kMostCharacters) what.replace(kMostCharacters, std::string::npos, "...");
-    std::ranges::replace_if(what, [](char c) { return !is_printable(c); }, '?');
+    std::ranges::replace_if(
+        what, [](char c) { return !is_printable(c); }, '?');
     return fail(code, name_ + ": " + what);
   }
 
@@ -199,7 +200,7 @@ class PcdReader {
     if (points_ == 0) return refuse("no points");
     if (points_ > scan::kMaxScanPoints) {
       return refuse(
-          fmt::format("{} points, expected at most {}, one turn", points_, scan::kMaxScanPoints));
+          fmt::format("{} points, expected at most {}, one frame", points_, scan::kMaxScanPoints));
     }
     for (const Field& field : fields_) {
       if (field.bytes == 0 || field.type == '\0') {
@@ -344,7 +345,7 @@ Expected<PcdCloud> PcdCloud::read(const fs::path& path) {
   const std::uintmax_t bytes = fs::file_size(path, error);
   if (error) return fail(ErrorCode::kUnreadable, path.string() + ": " + error.message());
   if (bytes > kMostBytes) {
-    return fail(ErrorCode::kMalformed, fmt::format("{}: {} bytes, expected at most {}, one turn",
+    return fail(ErrorCode::kMalformed, fmt::format("{}: {} bytes, expected at most {}, one frame",
                                                    path.string(), bytes, kMostBytes));
   }
   std::ifstream file(path, std::ios::binary);

@@ -132,7 +132,7 @@ class MethodJson {
   [[nodiscard]] Json json() const {
     Json json{{"about", method_.about}};
     const bool ours = method_.config.kind == ground::MethodKind::kSegmenter;
-    const auto own = ours ? ground::parameters() : ground::rival_parameters();
+    const auto own = ours ? ground::parameters() : ground::baseline_parameters();
     for (const ground::Parameter& parameter : own) {
       if (!ours && !parameter.key.starts_with(method_.base + ".")) continue;
       json["parameters"][std::string(parameter.key)] =

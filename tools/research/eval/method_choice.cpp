@@ -67,7 +67,7 @@ Expected<MethodChoice> method_variant(std::string_view text,
       return refuse(made.error().message);
     }
     const std::string_view key = setting.substr(0, setting.find('='));
-    if (ground::kind_that_heeds(key) != choice->config.kind) {
+    if (ground::kind_that_uses(key) != choice->config.kind) {
       return refuse(fmt::format("'{}' is a parameter of another method", key));
     }
   }

@@ -7,9 +7,9 @@
 namespace terracut::eval {
 
 void pin_this_thread(const std::string& name, const std::vector<int>& cores, std::size_t index) {
-  threads::ThreadWish wish{.name = name, .scheduling = {}, .core = {}};
-  if (!cores.empty()) wish.core = cores[index % cores.size()];
-  (void)threads::set_up_this_thread(wish);
+  threads::ThreadRequest request{.name = name, .scheduling = {}, .core = {}};
+  if (!cores.empty()) request.core = cores[index % cores.size()];
+  (void)threads::set_up_this_thread(request);
 }
 
 }  // namespace terracut::eval

@@ -47,7 +47,7 @@ Status PacketWay::encode(std::span<const scan::ScanPoint> points,
   // Returns are numbered in order of arrival: firing after firing, laser after laser.
   const auto take = [&](const EncodedFiring& firing) -> Status {
     for (const EncodedFiring::Source& source : firing.sources) {
-      if (source.turn == 0) point_of_return_.push_back(source.point);
+      if (source.frame == 0) point_of_return_.push_back(source.point);
     }
     columns.push_back(firing.column);
     if (columns.size() == kColumns) send();
@@ -55,7 +55,7 @@ Status PacketWay::encode(std::span<const scan::ScanPoint> points,
   };
   constexpr std::int64_t kBegin_ns = 1'600'000'000'000'000'000;
   encode::ScanEncoder encoder(calibration_, kBegin_ns, take);
-  if (const Status added = encoder.add_turn(points, ring_of_point, {}); !added) return added;
+  if (const Status added = encoder.add_frame(points, ring_of_point, {}); !added) return added;
   const auto summary = encoder.finish();
   return summary ? Status{} : tl::unexpected(summary.error());
 }

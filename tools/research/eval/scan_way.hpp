@@ -40,7 +40,7 @@ class DirectWay {
   scan::ScanToImage scan_to_image_;
 };
 
-/// As the sensor would have sent it: encoded as one turn's packets, which the decoder takes.
+/// As the sensor would have sent it: encoded as one frame's packets, which the decoder takes.
 class PacketWay {
  public:
   PacketWay(const hdl64e::Hdl64eCalibration& calibration, const mount::Mount& mount,
@@ -48,7 +48,7 @@ class PacketWay {
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return decoder_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return decoder_.return_capacity(); }
-  /// Valid until the next call. kMalformed when the decoder does not make one turn of what was
+  /// Valid until the next call. kMalformed when the decoder does not make one frame of what was
   /// encoded of it.
   [[nodiscard]] Expected<PlacedScan> place(std::span<const scan::ScanPoint> points,
                                            std::span<const std::int16_t> ring_of_point);

@@ -32,13 +32,13 @@ namespace {
 
 namespace fs = std::filesystem;
 using drive::ReturnMode;
-using encode::Hdl64eTransmitter;
-using encode::Ruby128Transmitter;
+using encode::Hdl64eEncoderTraits;
+using encode::Ruby128EncoderTraits;
 using frame::FrameInfo;
 
 constexpr double kSpin_hz = 10;
 
-std::size_t turns_of(const SimulatedDrives& drives) {
+std::size_t frames_of(const SimulatedDrives& drives) {
   return static_cast<std::size_t>(std::max(1L, std::lround(drives.duration_s * kSpin_hz)));
 }
 
@@ -164,7 +164,7 @@ class DriveEvaluation {
              FrameCounts& counts) const {
     frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
       counts.add(scan::semantic_class(truth_[placed.return_index]),
-                 range_band(placed.echo.ground_range_m), labels[placed.return_index]);
+                 range_band(placed.point.ground_range_m), labels[placed.return_index]);
     });
   }
 
@@ -184,7 +184,7 @@ class DriveEvaluation {
 };
 
 /// All drives of one kind of sensor, one after the other.
-template <class Transmitter>
+template <class EncoderTraits>
 class Run {
  public:
   Run(const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,
@@ -193,7 +193,7 @@ class Run {
         progress_(progress),
         stop_wanted_(stop_wanted),
         keeper_(config.methods, config.predictions, journal) {
-    for (std::size_t i = 0; i < turns_of(config.drives); ++i) {
+    for (std::size_t i = 0; i < frames_of(config.drives); ++i) {
       if (!is_wanted(config.frames, i)) continue;
       ++frames_per_drive_;
       for (const std::string& scene : config.drives.scenes) keeper_.expect(scene, name_of(i));
@@ -223,7 +223,7 @@ class Run {
   }
 
   [[nodiscard]] bool is_done(const std::string& scene) const {
-    for (std::size_t i = 0; i < turns_of(config_.drives); ++i) {
+    for (std::size_t i = 0; i < frames_of(config_.drives); ++i) {
       if (is_wanted(config_.frames, i) && !keeper_.methods_left(scene, name_of(i)).empty()) {
         return false;
       }
@@ -237,12 +237,12 @@ class Run {
       return fail(ErrorCode::kWriteFailed, "no temporary folder can be made for the drive");
     }
     const fs::path capture = scratch.path() / "drive.pcap";
-    const auto calibration = Transmitter::nominal();
+    const auto calibration = EncoderTraits::nominal();
     const auto simulated = simulate(scene, capture, calibration);
     if (!simulated) return tl::unexpected(simulated.error());
     if (!*simulated) return {};
 
-    const std::int64_t firing_ns = Transmitter::firing_ns(returns());
+    const std::int64_t firing_ns = EncoderTraits::firing_ns(returns());
     const auto columns =
         static_cast<int>(std::lround(1e9 / (kSpin_hz * static_cast<double>(firing_ns))));
     DriveEvaluation drive(config_, scene, drive::truth_folder_of(capture), calibration, columns,
@@ -263,8 +263,8 @@ class Run {
 
   /// False when it was interrupted.
   Expected<bool> simulate(const std::string& scene, const fs::path& capture,
-                          const typename Transmitter::Calibration& calibration) {
-    simulator::SimulationConfig<Transmitter> config;
+                          const typename EncoderTraits::Calibration& calibration) {
+    simulator::SimulationConfig<EncoderTraits> config;
     config.scene = scene;
     config.seed = config_.drives.seed;
     config.duration_s = config_.drives.duration_s;
@@ -273,13 +273,13 @@ class Run {
     config.threads = static_cast<int>(std::clamp(std::thread::hardware_concurrency(), 1U, 64U));
     config.calibration = calibration;
     config.sensor.returns = returns();
-    auto writer = drive::DriveWriter<Transmitter>::create(capture, calibration, config.sensor);
+    auto writer = drive::DriveWriter<EncoderTraits>::create(capture, calibration, config.sensor);
     if (!writer) return tl::unexpected(writer.error());
     bool stopped = false;
     const double before_s = config.duration_s * static_cast<double>(scenes_begun_);
     const double of_s = config.duration_s * static_cast<double>(config_.drives.scenes.size());
     const auto simulated = simulator::simulate_drive(
-        config, [&](const simulator::SimulatedColumn<Transmitter>& column) -> Status {
+        config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
           stopped = stop_wanted_();
           if (stopped) return fail(ErrorCode::kNothingCameOut, "interrupted");
           progress_.simulated_s(before_s + std::clamp(column.time_s, 0.0, config.duration_s), of_s);
@@ -312,9 +312,9 @@ Expected<EvaluationOutcome> evaluate_simulated(const SimulatedConfig& config, Jo
     return tl::unexpected(checked.error());
   }
   if (config.drives.sensor == "ruby128") {
-    return Run<Ruby128Transmitter>(config, journal, progress, stop_wanted).run();
+    return Run<Ruby128EncoderTraits>(config, journal, progress, stop_wanted).run();
   }
-  return Run<Hdl64eTransmitter>(config, journal, progress, stop_wanted).run();
+  return Run<Hdl64eEncoderTraits>(config, journal, progress, stop_wanted).run();
 }
 
 }  // namespace terracut::eval

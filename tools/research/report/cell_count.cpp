@@ -28,8 +28,8 @@ std::vector<CellTally::Sample> samples_of(const FrameReader& reader) {
     const datasets::Role truth = reader.truth()[placed.return_index];
     if (truth == datasets::Role::kGround) kind = CellTally::Kind::kGround;
     if (truth == datasets::Role::kIgnored) kind = CellTally::Kind::kNeither;
-    const frame::Return& echo = placed.echo;
-    samples.push_back({{echo.x_m, echo.y_m, echo.ground_range_m, placed.column}, kind});
+    const frame::Return& point = placed.point;
+    samples.push_back({{point.x_m, point.y_m, point.ground_range_m, placed.column}, kind});
   });
   return samples;
 }

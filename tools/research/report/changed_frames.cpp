@@ -121,7 +121,7 @@ void ChangedFrames::draw(const LabelledByAll& frame, std::size_t method, Change&
   frame::for_each_return(frame.image, [&](const PlacedReturn& placed) {
     if (level[placed.return_index] == 0) return;
     distances_m.push_back(
-        std::max(std::abs(double{placed.echo.x_m}), std::abs(double{placed.echo.y_m})));
+        std::max(std::abs(double{placed.point.x_m}), std::abs(double{placed.point.y_m})));
   });
   change.side_m = side_around(distances_m);
   const pictures::BirdEyeView view{.side_m = change.side_m, .pixels_per_m = kSide / change.side_m};

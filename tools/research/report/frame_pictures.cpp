@@ -133,7 +133,7 @@ std::vector<frame::Return> FramePictures::missed_key() const {
   frame::for_each_return(reader_.image(), [&](const frame::PlacedReturn& placed) {
     const std::size_t i = placed.return_index;
     if (verdict_of(reader_.truth()[i], labels_[i]) == Verdict::kMissedKey) {
-      missed.push_back(placed.echo);
+      missed.push_back(placed.point);
     }
   });
   return missed;

@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""A min-cut that is too large for the deadline: the ladder must stop it, say so, and lose nothing by it, from
+"""A min-cut that is too large for the deadline: degradation must stop it, say so, and lose nothing by it, from
 the first frame on.
 
 A rural scene, and seeds so strict that nearly every cell is unknown and all of them go into the cut. The
 drive is labelled live under two deadlines: one that leaves time for most of the cut, and one that does not
 even for its weights. Its truth judges these labels and those of the coarse stages alone; and every frame must
-have the labels of one rung, bit for bit.
+have the labels of one level, bit for bit.
 """
 
 from __future__ import annotations
@@ -64,13 +64,13 @@ def live_run(program: Program, report: Report, drive: Drive, deadline_ms: float,
     with Live(program, drive, *SETTINGS, "--labels", folder, deadline_ms=deadline_ms, limit_s=300) as live:
         sent = live.send("--loop", LOOPS).wait()
         summary = live.stop()
-    rungs, frames = summary["frames"]["rungs"], summary["frames"]["count"]
+    levels, frames = summary["frames"]["levels"], summary["frames"]["count"]
     judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
     others = {cause: count for cause, count in losses(summary).items() if cause not in ("skipped_frames", "clock_jumps")}
     report.equal(of + "losses but for skipped frames", others, {})
-    lower = rungs["cut_stopped"] + rungs["coarse"]
-    report.check(of + "most frames are marked as of a lower rung", lower > frames / 2, rungs)
+    lower = levels["cut_stopped"] + levels["coarse"]
+    report.check(of + "most frames are marked as of a lower level", lower > frames / 2, levels)
     own = summary["misses"]["causes"]["own_work"]
     report.equal(of + "misses of its own making, the first frames included", own, 0)
 
@@ -83,8 +83,8 @@ def live_run(program: Program, report: Report, drive: Drive, deadline_ms: float,
     between = [name for name in names
                if (folder / name).read_bytes() not in ((coarse / name).read_bytes(), (full / name).read_bytes())]  # fmt: skip
     report.check(of + "no more labels than cuts were stopped are neither the coarse stages' nor the whole cut's",
-                 len(between) <= rungs["cut_stopped"], f"{len(between)}, {rungs['cut_stopped']} stopped")  # fmt: skip
-    return [f"{deadline_ms:g}", frames, " / ".join(map(str, rungs.values())), times(summary, "cpu_segment"),
+                 len(between) <= levels["cut_stopped"], f"{len(between)}, {levels['cut_stopped']} stopped")  # fmt: skip
+    return [f"{deadline_ms:g}", frames, " / ".join(map(str, levels.values())), times(summary, "cpu_segment"),
             times(summary, "latency"), misses(summary), *(f"{value:.2f} %" for value in iou)]  # fmt: skip
 
 

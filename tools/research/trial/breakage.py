@@ -122,9 +122,9 @@ def full_disk(program: Program, report: Report, drive: Drive, deadline_ms: float
             sent = live.send().wait()
             asked = program.run("dump", live.name)
             summary = live.stop()
-        report.check(of + "every turn was labelled all the same",
+        report.check(of + "every frame was labelled all the same",
                      len(returns) - 2 <= summary["frames"]["count"] <= len(returns)
-                     and summary["frames"]["rungs"]["skipped"] == 0, summary["frames"]["count"])  # fmt: skip
+                     and summary["frames"]["levels"]["skipped"] == 0, summary["frames"]["count"])  # fmt: skip
         report.check(of + "told of labels", "no more labels are written" in live.messages(),
                      line_with(live.messages(), "labels"))  # fmt: skip
         report.check(of + "told who asked for a dump", asked.returncode == 4 and "refused (disk_low)" in asked.stderr,
@@ -201,7 +201,7 @@ def lost_interface(program: Program, report: Report, drive: Drive, deadline_ms: 
     judge_accounting(report, of, summary, before["sent"] + after["sent"])
     report.equal(of + "counted", summary["losses"]["link_losses"], 1)
     report.equal(of + "packets after it came back", summary["link"]["packets"] - before["sent"], after["sent"])
-    turns = len(returns_of(program.replay(drive.pcap, drive.calibration)))
-    report.check(of + "turns labelled before and after", summary["frames"]["count"] >= 2 * turns - 4,
-                 f"{summary['frames']['count']} of {2 * turns}")  # fmt: skip
+    revolutions = len(returns_of(program.replay(drive.pcap, drive.calibration)))
+    report.check(of + "frames labelled before and after", summary["frames"]["count"] >= 2 * revolutions - 4,
+                 f"{summary['frames']['count']} of {2 * revolutions}")  # fmt: skip
     report.equal(of + "misses of its own making", summary["misses"]["causes"]["own_work"], 0)

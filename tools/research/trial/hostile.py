@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
 """A network that is full of others, and a sensor that is not well: the run must stay up, account for every
-datagram, and label the sensor's turns in time, or say of each why not.
+datagram, and label the sensor's frames in time, or say of each why not.
 
 The clock that steps is the sensor's. The computer's own is not set here: it would step for everything that runs
 on this machine; the sequence fuzzers of tests/fuzz step it for the chain that live runs."""
@@ -21,10 +21,10 @@ from .accounting import judge_accounting
 from .capture import Drive, labels_of, payloads
 from .flood import Flood, garbage, write_payloads
 from .live import Live, losses, misses
-from .loopback import DEADLINE_MS, SENSORS, TURNS_A_SECOND
+from .loopback import DEADLINE_MS, SENSORS, FRAMES_A_SECOND
 from .program import Program, TrialError
 from .report import Report
-from .scripted_faults import Turns, unmatched
+from .scripted_faults import UndisturbedFrames, unmatched
 
 FLOOD_A_SECOND = 20_000
 REACHED_A_SECOND = 18_000  # below this a flood was none
@@ -33,7 +33,7 @@ STRANGERS = [f"127.0.0.{number}" for number in range(2, 10)]
 CALM_S = 1.5  # of the drive, after whoever disturbs it has gone
 SHORT_DEADLINE_MS = 2000
 LEAST_S = 3
-IN_TIME = 0.95  # of the turns, where nobody has the sensor's address
+IN_TIME = 0.95  # of the frames, where nobody has the sensor's address
 
 
 @dataclass(frozen=True)
@@ -91,11 +91,11 @@ def hold(program: Program, report: Report, seconds: float, sensors: list[str], s
     for sensor in sensors:
         drive = program.drive(sensor, SENSORS[sensor].returns, "street", seconds + CALM_S)
         folder = fresh(program.scratch / "labels_replay")
-        turns = Turns(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
-        rows = [attacked(program, report, drive, turns, seconds, sensor, attack, deadline_ms, short) for attack in ATTACKS]
+        undisturbed = UndisturbedFrames(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
+        rows = [attacked(program, report, drive, undisturbed, seconds, sensor, attack, deadline_ms, short) for attack in ATTACKS]
         report.table(
             f"{sensor}: {seconds:g} s of each, then {CALM_S:g} s of calm; labels within {deadline_ms} ms",
-            ["", "beside the sensor, a second", "turns", "frames", "in time", "turns with their own labels",
+            ["", "beside the sensor, a second", "revolutions", "frames", "in time", "frames with their own labels",
              "misses", "lost"],
             rows,
         )  # fmt: skip
@@ -106,12 +106,12 @@ def fresh(folder: Path) -> Path:
     return folder
 
 
-def attacked(program: Program, report: Report, drive: Drive, turns: Turns, seconds: float, sensor: str, attack: Attack,
+def attacked(program: Program, report: Report, drive: Drive, undisturbed: UndisturbedFrames, seconds: float, sensor: str, attack: Attack,
              deadline_ms: float, short: bool) -> list:  # fmt: skip
     of = f"{sensor}, {attack.name}: "
     labels = fresh(program.scratch / "labels_live")
     packets = payloads(drive.pcap, for_s=2)
-    a_second = len(turns.stamps_ns) / (seconds + CALM_S)
+    a_second = len(undisturbed.stamps_ns) / (seconds + CALM_S)
     faults = ["--faults", attack.faults(seconds)] if attack.faults(seconds) else []
     with Live(program, drive, "--labels", labels, deadline_ms=deadline_ms, limit_s=seconds + 120) as live:
         flood = None
@@ -130,37 +130,37 @@ def attacked(program: Program, report: Report, drive: Drive, turns: Turns, secon
     if attack.is_flood and not short:
         report.check(of + f"datagrams beside the sensor, at least {REACHED_A_SECOND} a second",
                      others["per_second"] >= REACHED_A_SECOND, f"{others['per_second']:.0f}")  # fmt: skip
-    touched = set().union(*(touched_by(fault, turns) for fault in sent["faults"]))
-    expected = len(turns.labels) - len(touched)
-    lost = unmatched(turns.labels, touched, labels_of(labels))
+    touched = set().union(*(touched_by(fault, undisturbed) for fault in sent["faults"]))
+    expected = len(undisturbed.labels) - len(touched)
+    lost = unmatched(undisturbed.labels, touched, labels_of(labels))
     frames, in_time = summary["frames"]["count"], summary["frames"]["count"] - summary["misses"]["total"]
     judge_causes(report, of, summary, len(lost))
     if not short:
-        judge_turns(report, of, attack, turns, expected, in_time, lost)
+        judge_frames(report, of, attack, undisturbed, expected, in_time, lost)
     return [attack.name, f"{others['per_second']:.0f}", expected, frames, in_time, expected - len(lost), misses(summary),
             ", ".join(f"{cause} {count}" for cause, count in losses(summary).items()) or "-"]  # fmt: skip
 
 
-def judge_turns(report: Report, of: str, attack: Attack, turns: Turns, expected: int, in_time: int,
+def judge_frames(report: Report, of: str, attack: Attack, undisturbed: UndisturbedFrames, expected: int, in_time: int,
                 lost: list[int]) -> None:  # fmt: skip
     if not attack.has_sensors_address:
-        report.equal(of + "turns that have not the labels of a drive that nobody disturbs", lost, [])
-        report.check(of + f"turns labelled within {DEADLINE_MS} ms, of {expected}", in_time >= IN_TIME * expected, in_time)
-    calm = int((CALM_S - 0.5) * TURNS_A_SECOND)
-    last = [turn for turn in lost if turn >= len(turns.labels) - calm]
-    report.equal(of + f"of the last {calm} turns, in the calm, those that have not their own labels", last, [])
+        report.equal(of + "frames that have not the labels of a drive that nobody disturbs", lost, [])
+        report.check(of + f"frames labelled within {DEADLINE_MS} ms, of {expected}", in_time >= IN_TIME * expected, in_time)
+    calm = int((CALM_S - 0.5) * FRAMES_A_SECOND)
+    last = [frame for frame in lost if frame >= len(undisturbed.labels) - calm]
+    report.equal(of + f"of the last {calm} frames, in the calm, those that have not their own labels", last, [])
 
 
-def touched_by(fault: dict, turns: Turns) -> set[int]:
-    """The turns that a script's fault changes; of a clock that steps, the one in which it does."""
+def touched_by(fault: dict, undisturbed: UndisturbedFrames) -> set[int]:
+    """The frames that a script's fault changes; of a clock that steps, the one in which it does."""
     is_step = fault["fault"].startswith("clock")
-    return set().union(*(turns.of(first, 1 if is_step else count) for first, count in fault["runs"]))
+    return set().union(*(undisturbed.of(first, 1 if is_step else count) for first, count in fault["runs"]))
 
 
 def judge_causes(report: Report, of: str, summary: dict, lost: int) -> None:
-    """Every miss has a cause, and no turn is lost or changed without a loss that is named."""
+    """Every miss has a cause, and no frame is lost or changed without a loss that is named."""
     causes = Counter(summary["misses"]["causes"])
     report.equal(of + "misses by all causes together", causes.total(), summary["misses"]["total"])
     named = sum(losses(summary).values())
-    report.check(of + "turns lost or with other labels, and what was lost by cause", lost == 0 or named > 0,
+    report.check(of + "frames lost or with other labels, and what was lost by cause", lost == 0 or named > 0,
                  f"{lost}, {named}")  # fmt: skip

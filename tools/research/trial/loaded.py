@@ -12,7 +12,7 @@ from .accounting import judge_accounting
 from .beside import CyclicTest, Stress
 from .capture import Drive, packet_count
 from .live import Live, faults, misses, times
-from .loopback import DEADLINE_MS, DRIVE_S, SENSORS, TURNS_A_SECOND
+from .loopback import DEADLINE_MS, DRIVE_S, SENSORS, FRAMES_A_SECOND
 from .program import Program
 from .report import Report
 from .stalled import DeafReaders, FrozenDisk, judge_frames
@@ -44,8 +44,8 @@ def hold(program: Program, report: Report, minutes: float, sensors: list[str]) -
 
 
 def row(run: str, summary: dict, cyclic: str) -> list:
-    rungs = " / ".join(str(count) for count in summary["frames"]["rungs"].values())
-    return [run, summary["frames"]["count"], times(summary, "cpu_total"), times(summary, "latency"), rungs,
+    levels = " / ".join(str(count) for count in summary["frames"]["levels"].values())
+    return [run, summary["frames"]["count"], times(summary, "cpu_total"), times(summary, "latency"), levels,
             misses(summary), cyclic]  # fmt: skip
 
 
@@ -82,7 +82,7 @@ def loaded_run(program: Program, report: Report, of: str, drive: Drive, seconds:
     judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
     report.equal(of + "page faults of both real-time threads", faults(summary), 0)
     report.equal(of + "frames skipped by its own making", own_skips(summary), 0)
-    report.check(of + "every turn judged", judged_all(summary, sent, drive), summary["frames"]["count"])
+    report.check(of + "every frame judged", judged_all(summary, sent, drive), summary["frames"]["count"])
     return row(of.rstrip(": "), summary, test.result())
 
 
@@ -101,18 +101,18 @@ def without_rights(program: Program, report: Report, minutes: float, name: str) 
         sent = sending.stop()
         summary = live.stop()
     judge_accounting(report, of, summary, sent["sent"])
-    rungs = summary["frames"]["rungs"]
-    report.equal(of + "frames on all rungs together", sum(rungs.values()), summary["frames"]["count"])
+    levels = summary["frames"]["levels"]
+    report.equal(of + "frames on all levels together", sum(levels.values()), summary["frames"]["count"])
     report.equal(of + "misses by all causes together", sum(summary["misses"]["causes"].values()),
                  summary["misses"]["total"])  # fmt: skip
-    report.check(of + "no skipped frame that is not a miss", summary["misses"]["total"] >= rungs["skipped"],
-                 f"{rungs['skipped']} skipped, {summary['misses']['total']} missed")  # fmt: skip
-    missed_late = summary["ms"]["latency"]["max"] > DEADLINE_MS or rungs["skipped"] > 0
+    report.check(of + "no skipped frame that is not a miss", summary["misses"]["total"] >= levels["skipped"],
+                 f"{levels['skipped']} skipped, {summary['misses']['total']} missed")  # fmt: skip
+    missed_late = summary["ms"]["latency"]["max"] > DEADLINE_MS or levels["skipped"] > 0
     report.equal(of + "misses told when there were some", summary["misses"]["total"] > 0, missed_late)
     report.equal(of + "exit code (6: deadlines were missed)", live.exit_code,
                  6 if summary["misses"]["total"] else 0)  # fmt: skip
     report.check(of + f"recovered {CALM_S} s after the load", calm is not None and
-                 calm["misses"]["consecutive"] == 0 and calm["frames"]["per_second"] > TURNS_A_SECOND * 0.95,
+                 calm["misses"]["consecutive"] == 0 and calm["frames"]["per_second"] > FRAMES_A_SECOND * 0.95,
                  f"{calm['frames']['per_second']:.1f} frames a second, {calm['misses']['consecutive']} missed in a row"
                  if calm else "no status page")  # fmt: skip
     return row(of.rstrip(": "), summary, test.result())
@@ -122,10 +122,10 @@ def own_skips(summary: dict) -> int:
     """Skipped frames that no miss by another cause explains."""
     causes = summary["misses"]["causes"]
     others = sum(count for cause, count in causes.items() if cause != "own_work")
-    return max(0, summary["frames"]["rungs"]["skipped"] - others)
+    return max(0, summary["frames"]["levels"]["skipped"] - others)
 
 
 def judged_all(summary: dict, sent: dict, drive: Drive) -> bool:
-    """Frames counted are the turns sent, but for what lies at the end."""
-    turns = sent["sent"] / packet_count(drive.pcap) * DRIVE_S * TURNS_A_SECOND
-    return turns - 3 <= summary["frames"]["count"] <= turns + 1
+    """Frames counted are the frames sent, but for what lies at the end."""
+    revolutions = sent["sent"] / packet_count(drive.pcap) * DRIVE_S * FRAMES_A_SECOND
+    return revolutions - 3 <= summary["frames"]["count"] <= revolutions + 1

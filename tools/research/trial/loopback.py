@@ -17,7 +17,7 @@ from .report import Report
 
 DEADLINE_MS = 50
 DRIVE_S = 30
-TURNS_A_SECOND = 10
+FRAMES_A_SECOND = 10
 
 
 @dataclass(frozen=True)
@@ -68,16 +68,16 @@ def hold_one(program: Program, report: Report, minutes: float, sensor: Sensor) -
 
 def judge(report: Report, sensor: Sensor, summary: dict, sent: dict, loops: int, packets: int) -> None:
     frames, of = summary["frames"], f"{sensor.name}: "
-    turns = loops * DRIVE_S * TURNS_A_SECOND
+    revolutions = loops * DRIVE_S * FRAMES_A_SECOND
     report.equal(of + "datagrams sent", (sent["sent"], sent["failed"]), (loops * packets, 0))
     judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], sent["sent"])
-    # The drive's clock starts again with every pass; its head turns on. The stamps say so once a pass.
+    # The drive's clock starts again with every pass; its head rotates on. The stamps say so once a pass.
     expected = {"clock_jumps": loops - 1} if loops > 1 else {}
     report.equal(of + "losses by cause, but for the clock of a drive that is repeated", losses(summary), expected)
-    # Of the last turn the end is not seen: no packet follows it.
-    report.check(of + f"frames of {turns} turns sent", turns - 2 <= frames["count"] <= turns, frames["count"])
-    report.equal(of + "frames skipped", frames["rungs"]["skipped"], 0)
+    # The end of the last revolution is not seen: no packet follows it.
+    report.check(of + f"frames of {revolutions} revolutions sent", revolutions - 2 <= frames["count"] <= revolutions, frames["count"])
+    report.equal(of + "frames skipped", frames["levels"]["skipped"], 0)
     report.equal(of + "page faults of both real-time threads", faults(summary), 0)
     cpu_ms = summary["ms"]["cpu_total"]["p99.9"]
     report.check(of + f"processor time end to end, p99.9 <= {sensor.cpu_bar_ms:g} ms", cpu_ms <= sensor.cpu_bar_ms,

@@ -23,7 +23,7 @@ STRANGER = "127.0.0.2"
 # The recorder's room is for the densest sensor; an HDL-64E's packets fill it more than thrice as slowly.
 RECORDER_S = 6
 COLUMNS_A_PACKET = 6  # of an HDL-64E
-# Turns of the drive begin every 100 ms: faults lie in the middle of one, and two turns apart.
+# Frames of the drive begin every 100 ms: faults lie in the middle of one, and two frames apart.
 FIRST_S, APART_S = 0.54, 0.2
 
 
@@ -36,7 +36,7 @@ class Fault:
     amount: str
     counters: dict[str, int] = field(default_factory=dict)
     once: dict[str, int] = field(default_factory=dict)
-    touches: bool = False  # the labels of its turns
+    touches: bool = False  # the labels of its frames
     arriving: int = 0  # packets more, or less, that arrive for each
     foreign_from: str = ""
 
@@ -64,17 +64,17 @@ def hold(program: Program, report: Report, together: bool) -> None:
     drive = program.drive("hdl64e", "single", "street", round(seconds, 1))
     folder = program.scratch / "labels_replay"
     shutil.rmtree(folder, ignore_errors=True)
-    turns = Turns(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
+    undisturbed = UndisturbedFrames(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
     runs = [[fault] for fault in FAULTS]
     if together:
         runs = [[fault for fault in FAULTS if fault.name != "foreign, from the sensor's address"]]
-    rows = [run(program, report, drive, turns, faults) for faults in runs]
-    report.table("Faults of an HDL-64E's stream", ["fault", "packets it had", "counted", "turns touched",
-                 "turns as in the replay of the capture", "frames as in the replay of what was received"], rows)  # fmt: skip
+    rows = [run(program, report, drive, undisturbed, faults) for faults in runs]
+    report.table("Faults of an HDL-64E's stream", ["fault", "packets it had", "counted", "frames touched",
+                 "frames as in the replay of the capture", "frames as in the replay of what was received"], rows)  # fmt: skip
 
 
-class Turns:
-    """The drive's turns, undisturbed: where each begins, and its labels."""
+class UndisturbedFrames:
+    """The drive's frames, undisturbed: where each begins, and its labels."""
 
     def __init__(self, replay: dict, drive: Drive, labels: dict[int, str]):
         self.begin_ns = [frame["first_packet_ns"] for frame in replay["frames"]]
@@ -82,7 +82,7 @@ class Turns:
         # The end of the last two is only known to a replay, which knows that nothing follows.
         self.labels = [labels[number] for number in range(len(self.begin_ns) - 2)]
         if len(set(self.labels)) != len(self.labels):
-            raise TrialError(f"{drive.pcap} has turns with the same labels, which cannot be told apart")
+            raise TrialError(f"{drive.pcap} has frames with the same labels, which cannot be told apart")
 
     def of(self, first_packet: int, count: int) -> set[int]:
         numbers = [bisect_right(self.begin_ns, self.stamps_ns[packet]) - 1
@@ -90,7 +90,7 @@ class Turns:
         return set(range(numbers[0], numbers[1] + 1))
 
 
-def run(program: Program, report: Report, drive: Drive, turns: Turns, faults: list[Fault]) -> list:
+def run(program: Program, report: Report, drive: Drive, undisturbed: UndisturbedFrames, faults: list[Fault]) -> list:
     of = (faults[0].name if len(faults) == 1 else "all at once") + ": "
     script = " ".join(f"{fault.kind}@{FIRST_S + i * APART_S:.2f}s:{fault.amount}" for i, fault in enumerate(faults))
     stranger = next((["--foreign-from", fault.foreign_from] for fault in faults if fault.foreign_from), [])
@@ -106,26 +106,26 @@ def run(program: Program, report: Report, drive: Drive, turns: Turns, faults: li
     touched = set()
     for fault, done in zip(faults, sent["faults"]):
         if fault.touches:
-            touched |= set().union(*(turns.of(first, count) for first, count in done["runs"]))
+            touched |= set().union(*(undisturbed.of(first, count) for first, count in done["runs"]))
 
     report.check(of + "the fault was done whole", all(done["complete"] for done in sent["faults"]), script)
     had = [done["packets"] for done in sent["faults"]]
-    arrived = len(turns.stamps_ns) + sum(fault.arriving * count for fault, count in zip(faults, had))
+    arrived = len(undisturbed.stamps_ns) + sum(fault.arriving * count for fault, count in zip(faults, had))
     judge_accounting(report, of, summary, sent["sent"])
     report.equal(of + "packets taken in", summary["link"]["packets"], arrived)
     expected = expected_losses(faults, had)
     found = losses(summary)
     if "azimuth_hole_columns" in expected:
-        # A turn has no whole number of columns: one may count as the neighbour's.
+        # A frame has no whole number of columns: one may count as the neighbour's.
         holes, columns = found.pop("azimuth_hole_columns", 0), expected.pop("azimuth_hole_columns")
         report.check(of + "columns missing", abs(holes - columns) <= len(touched), f"{holes} of {columns}")
     report.equal(of + "losses by cause", found, expected)
     report.equal(of + "misses", summary["misses"]["total"], 0)
 
     mine = labels_of(labels)
-    lost = unmatched(turns.labels, touched, mine)
-    untouched = len(turns.labels) - len(touched)
-    report.equal(of + "untouched turns not as in the replay of the capture, or not in order", lost, [])
+    lost = unmatched(undisturbed.labels, touched, mine)
+    untouched = len(undisturbed.labels) - len(touched)
+    report.equal(of + "untouched frames not as in the replay of the capture, or not in order", lost, [])
     differing, compared = against_dump(program, report, of, drive, dumps, mine, summary)
     report.equal(of + "frames not as in the replay of what was received", differing, [])
     return [of.rstrip(": "), ", ".join(map(str, had)), ", ".join(f"{k} {v}" for k, v in losses(summary).items()) or "-",
@@ -141,16 +141,16 @@ def expected_losses(faults: list[Fault], had: list[int]) -> dict[str, int]:
     return dict(expected)
 
 
-def unmatched(turns: list[str], touched: set[int], frames: dict[int, str]) -> list[int]:
-    """Untouched turns whose labels are not among the frames', at a later number than those before."""
-    number_of = {labels: number for number, labels in frames.items()}
+def unmatched(sent: list[str], touched: set[int], received: dict[int, str]) -> list[int]:
+    """Untouched frames whose labels are not among the frames', at a later number than those before."""
+    number_of = {labels: number for number, labels in received.items()}
     missing, newest = [], -1
-    for turn, labels in enumerate(turns):
-        if turn in touched:
+    for frame, labels in enumerate(sent):
+        if frame in touched:
             continue
         number = number_of.get(labels, -1)
         if number <= newest:
-            missing.append(turn)
+            missing.append(frame)
         else:
             newest = number
     return missing

@@ -158,8 +158,8 @@ def thawed(program: Program, report: Report, seconds: float) -> list:
         summary = live.stop()
         judge_frames(report, of, summary, sent, {"unwritten_label_frames"})
         files = len(list(folder.glob("*.label")))
-        unwritten, rungs = summary["losses"]["unwritten_label_frames"], summary["frames"]["rungs"]
-        labelled = summary["frames"]["count"] - rungs["skipped"]
+        unwritten, levels = summary["losses"]["unwritten_label_frames"], summary["frames"]["levels"]
+        labelled = summary["frames"]["count"] - levels["skipped"]
         report.check(of + "frames went unwritten", unwritten > 0, unwritten)
         report.equal(of + "files and unwritten frames together", files + unwritten, labelled)
         once = returns_of(program.replay(live.drive.pcap, live.drive.calibration))
@@ -206,4 +206,4 @@ def deaf(program: Program, report: Report, seconds: float) -> None:
         readers.leave()
         summary = live.stop()
     judge_frames(report, of, summary, sent, {name for name in summary["losses"] if "stream" in name})
-    report.equal(of + "frames skipped", summary["frames"]["rungs"]["skipped"], 0)
+    report.equal(of + "frames skipped", summary["frames"]["levels"]["skipped"], 0)

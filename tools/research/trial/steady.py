@@ -12,7 +12,7 @@ from pathlib import Path
 from .accounting import judge_accounting
 from .capture import packet_count
 from .live import Live, losses, misses
-from .loopback import DEADLINE_MS, DRIVE_S, SENSORS, TURNS_A_SECOND
+from .loopback import DEADLINE_MS, DRIVE_S, SENSORS, FRAMES_A_SECOND
 from .program import Program
 from .report import Report
 
@@ -66,10 +66,10 @@ def hold_one(program: Program, report: Report, minutes: float, name: str) -> Non
     judge_accounting(report, of, summary, sent["sent"])
     others = {cause: count for cause, count in losses(summary).items() if cause != "clock_jumps"}
     report.equal(of + "losses by cause, but for the clock of a drive that is repeated", others, {})
-    turns = sent["sent"] / packet_count(drive.pcap) * DRIVE_S * TURNS_A_SECOND
-    report.check(of + f"frames of {turns:.1f} turns sent", summary["frames"]["count"] >= turns - 3,
+    revolutions = sent["sent"] / packet_count(drive.pcap) * DRIVE_S * FRAMES_A_SECOND
+    report.check(of + f"frames of {revolutions:.1f} revolutions sent", summary["frames"]["count"] >= revolutions - 3,
                  summary["frames"]["count"])  # fmt: skip
-    report.equal(of + "frames skipped", summary["frames"]["rungs"]["skipped"], 0)
+    report.equal(of + "frames skipped", summary["frames"]["levels"]["skipped"], 0)
     report.equal(of + "misses of its own making", summary["misses"]["causes"]["own_work"], 0)
     judge_samples(report, of, [sample for sample in samples if sample.at_s >= START_S], minutes)
     report.table(f"{name}, {sensor.returns} return: {minutes:g} minutes at 10 Hz; misses: {misses(summary)}",

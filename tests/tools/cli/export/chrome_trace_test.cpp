@@ -53,13 +53,13 @@ TEST(ChromeTrace, NamesItsTracks) {
 TEST(ChromeTrace, ShowsAFrameOnEveryTrackWhereItWas) {
   status::WatchedRun run;
   const Json trace = chrome_trace(run.figures(), run.frames());
-  const Json turn = event_named(events_of(trace, "X", kReceive), "turn 7");
-  EXPECT_DOUBLE_EQ(end_of(turn), 806'000.0);
-  EXPECT_EQ(turn["args"]["returns"], 100'000);
+  const Json received = event_named(events_of(trace, "X", kReceive), "frame 7");
+  EXPECT_DOUBLE_EQ(end_of(received), 806'000.0);
+  EXPECT_EQ(received["args"]["returns"], 100'000);
   const Json frame = event_named(events_of(trace, "X", kSegment), "frame 7");
   EXPECT_DOUBLE_EQ(frame["ts"], 806'000.0);
   EXPECT_DOUBLE_EQ(frame["dur"], 10'000.0);
-  EXPECT_EQ(frame["args"]["rung"], "full");
+  EXPECT_EQ(frame["args"]["level"], "full");
   EXPECT_DOUBLE_EQ(frame["args"]["latency_ms"], 11.0);
   EXPECT_EQ(frame["args"]["cut_operations"], 1000);
 }
@@ -95,10 +95,10 @@ TEST(ChromeTrace, LeavesOutStagesThatWereOverBeforeTheFrameBegan) {
 TEST(ChromeTrace, NeverLetsTheSlicesOfATrackOverlap) {
   status::WatchedRun run;
   const Json trace = chrome_trace(run.figures(), run.frames());
-  const auto turns = events_of(trace, "X", kReceive);
-  ASSERT_EQ(turns.size(), status::WatchedRun::kFrames);
-  for (std::size_t i = 1; i < turns.size(); ++i) {
-    EXPECT_GE(turns[i]["ts"].get<double>(), end_of(turns[i - 1]));
+  const auto frames = events_of(trace, "X", kReceive);
+  ASSERT_EQ(frames.size(), status::WatchedRun::kFrames);
+  for (std::size_t i = 1; i < frames.size(); ++i) {
+    EXPECT_GE(frames[i]["ts"].get<double>(), end_of(frames[i - 1]));
   }
 }
 
@@ -110,7 +110,7 @@ TEST(ChromeTrace, MarksEveryMissedDeadlineWithItsCause) {
   EXPECT_EQ(misses[0]["name"], "missed: waiting_for_core");
   EXPECT_EQ(misses[0]["args"]["frame"], 40);
   EXPECT_DOUBLE_EQ(misses[0]["ts"], 4'155'000.0);  // 50 ms after its last packet
-  EXPECT_EQ(misses[1]["args"]["rung"], "skipped");
+  EXPECT_EQ(misses[1]["args"]["level"], "skipped");
   EXPECT_DOUBLE_EQ(misses[1]["ts"], 4'206'000.0);  // given up before its deadline
   EXPECT_TRUE(event_named(events_of(trace, "X", kSegment), "frame 41").is_null());
 }

@@ -43,8 +43,8 @@ std::map<std::string, double> samples_of(const std::string& text) {
 TEST(MetricsText, HoldsEveryCount) {
   status::WatchedRun run;
   auto samples = samples_of(metrics_text(run.figures()));
-  EXPECT_EQ(samples["terracut_frames_total{rung=\"full\"}"], 98);
-  EXPECT_EQ(samples["terracut_frames_total{rung=\"skipped\"}"], 1);
+  EXPECT_EQ(samples["terracut_frames_total{level=\"full\"}"], 98);
+  EXPECT_EQ(samples["terracut_frames_total{level=\"skipped\"}"], 1);
   EXPECT_EQ(samples["terracut_deadline_misses_total{cause=\"waiting_for_core\"}"], 1);
   EXPECT_EQ(samples["terracut_losses_total{cause=\"network_gap_packets\"}"], 12);
   EXPECT_EQ(samples["terracut_page_faults_total{thread=\"segment\",kind=\"minor\"}"], 5);
@@ -100,10 +100,10 @@ TEST(MetricsText, HoldsTheVehiclesMotionAndWhatWasSaidOnItsBusWhereTheyAreAskedF
   auto samples = samples_of(metrics_text(run.figures()));
   EXPECT_EQ(samples["terracut_motion_state{bus=\"can0\",state=\"known\"}"], 1);
   EXPECT_EQ(samples["terracut_motion_state{bus=\"can0\",state=\"lost\"}"], 0);
-  EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"taken_out\"}"], 98);
+  EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"deskewed\"}"], 98);
   EXPECT_EQ(samples["terracut_motion_frames_total{motion=\"no_ego_motion\"}"], 2);
   EXPECT_EQ(samples["terracut_motion_samples_total"], 1034);
-  EXPECT_DOUBLE_EQ(samples["terracut_motion_sample_after_turn_seconds"], -0.004);
+  EXPECT_DOUBLE_EQ(samples["terracut_motion_sample_after_frame_seconds"], -0.004);
   EXPECT_EQ(samples["terracut_motion_faults_total{cause=\"kernel_drops\"}"], 7);
   EXPECT_EQ(samples["terracut_health_frames_total{bus=\"can1\",outcome=\"sent\"}"], 190);
   EXPECT_EQ(samples["terracut_health_frames_total{bus=\"can1\",outcome=\"queue_full\"}"], 10);
@@ -168,7 +168,7 @@ TEST(MetricsText, PassesPromtoolsCheck) {
   run.hear_vehicle();
   EXPECT_EQ(check(metrics_text(run.figures())), "");
   EXPECT_EQ(check(metrics_text(*std::make_unique<status::MonitorSnapshot>())), "");
-  EXPECT_NE(check("terracut_frames_total{rung=full} 1\n"), "") << "promtool checks nothing";
+  EXPECT_NE(check("terracut_frames_total{level=full} 1\n"), "") << "promtool checks nothing";
   std::filesystem::remove_all(folder);
 }
 
@@ -308,9 +308,7 @@ TEST_F(MetricsServerOf, StopsThoughAClientKeepsItsConnection) {
   const std::uint16_t port = server->port();
   const Client dawdling(port);
   dawdling.send("GET /metrics HTTP/1.1\r\n");
-  {
-    const MetricsServer stopped = std::move(*server);
-  }
+  { const MetricsServer stopped = std::move(*server); }
   EXPECT_FALSE(Client(port).connected());
 }
 

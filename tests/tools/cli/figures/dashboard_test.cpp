@@ -27,7 +27,7 @@ std::string line_of(const std::string& text, const std::string& begin) {
 
 constexpr std::int64_t kNow_ns = status::WatchedRun::kEnd_ns + 100 * status::WatchedRun::kMs;
 
-TEST(Dashboard, ShowsRateDeadlineRungsLossesAndFaults) {
+TEST(Dashboard, ShowsRateDeadlineLevelsLossesAndFaults) {
   status::WatchedRun run;
   const std::string text = dashboard(run.figures(), kNow_ns, {});
   EXPECT_EQ(line_of(text, "up "), "up        00:00:10");
@@ -36,7 +36,7 @@ TEST(Dashboard, ShowsRateDeadlineRungsLossesAndFaults) {
   EXPECT_EQ(
       line_of(text, "deadline"),
       "deadline  50.0 ms, 2 missed (2.000 %): own_work 1, waiting_for_core 1, 2 in a row at most");
-  EXPECT_EQ(line_of(text, "rungs"), "rungs     full 98, cut_stopped 0, coarse 1, skipped 1");
+  EXPECT_EQ(line_of(text, "levels"), "levels    full 98, cut_stopped 0, coarse 1, skipped 1");
   EXPECT_EQ(line_of(text, "losses"),
             "losses    network_gap_packets 12, rejected_wrong_size 13, skipped_frames 1");
   EXPECT_EQ(line_of(text, "thread    segment"),
@@ -49,11 +49,12 @@ TEST(Dashboard, ShowsWhetherTheVehiclesMotionIsKnownAndWhatWasSaidOnItsBus) {
   EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}), Not(HasSubstr("motion")));
   run.hear_vehicle();
   const std::string text = dashboard(run.figures(), kNow_ns, {.columns = 80});
-  EXPECT_THAT(text,
-              HasSubstr("motion    known on can0: taken out of 98 frames, no ego motion in 2,\n"
-                        "          kernel_drops 7, newest sample -4.0 ms from its frame's end,\n"
-                        "          mean -5.0 ms (-13.0 to +2.0 ms)\n"
-                        "health    190 CAN frames sent on can1, 10 left out: queue full\n"));
+  EXPECT_THAT(
+      text,
+      HasSubstr("motion    known on can0: 98 frames deskewed, no ego motion in 2, kernel_drops 7,\n"
+                "          newest sample -4.0 ms from its frame's end, mean -5.0 ms (-13.0\n"
+                "          to +2.0 ms)\n"
+                "health    190 CAN frames sent on can1, 10 left out: queue full\n"));
   EXPECT_THAT(dashboard(run.figures(), kNow_ns, {.colours = true}),
               Not(HasSubstr("\x1b[31mknown")));
   run.figures().motion.state = status::MotionState::kBusOff;
@@ -68,12 +69,12 @@ TEST(Dashboard, NamesTheBlindSectorWhileItIsKnown) {
             "blind     from 270.1 to 89.9 deg of the head");
 }
 
-TEST(Dashboard, ShowsHowFarOffAClockIsThatFitsNoTurn) {
+TEST(Dashboard, ShowsHowFarOffAClockIsThatFitsNoFrame) {
   status::WatchedRun run;
   run.figures().motion.bus = "can0";
   run.figures().motion.state = status::MotionState::kKnown;
   run.figures().motion.no_ego_motion = 100;
-  run.figures().motion.newest_sample_after_turn_ns = -37'000 * status::WatchedRun::kMs;
+  run.figures().motion.newest_sample_after_frame_ns = -37'000 * status::WatchedRun::kMs;
   EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}),
               HasSubstr("newest sample -37000.0 ms from its frame's end"));
 }
@@ -128,7 +129,7 @@ TEST(Dashboard, SeparatesWhatAThreadWasGrantedFromWhatItDid) {
 TEST(ClosingLines, TellWhatWasCountedAndHowLongItTook) {
   status::WatchedRun run;
   const std::string text = closing_lines(run.figures());
-  EXPECT_EQ(line_of(text, "rungs"), "rungs     full 98, cut_stopped 0, coarse 1, skipped 1");
+  EXPECT_EQ(line_of(text, "levels"), "levels    full 98, cut_stopped 0, coarse 1, skipped 1");
   EXPECT_THAT(line_of(text, "latency"), HasSubstr("81.000"));
   EXPECT_THAT(text, Not(HasSubstr("ended")));
   run.figures().interrupted = 1;

@@ -66,7 +66,7 @@ TEST_F(InputCheck, TakesTheCalibrationOfEitherSensorUntilOneIsNamed) {
 
 TEST_F(InputCheck, NamesAStreamAddressThatAnotherProgramHas) {
   Options options;
-  options.stream = (folder_ / "turns").string();
+  options.stream = (folder_ / "frames").string();
   EXPECT_EQ(refusal_of(options), "");
   const auto taken = stream::ListeningSocket::open({.unix_path = options.stream});
   ASSERT_TRUE(taken) << taken.error().message;

@@ -5,8 +5,8 @@
 
 usage: live_can_drive.py TERRACUT FOLDER
 
-A whole turn is several times too much for an emulated machine. A tenth of each, at the sensor's own
-pace, is not: the device's clock and the host's stay together, without which no motion is taken out.
+A whole frame is several times too much for an emulated machine. A tenth of each, at the sensor's own
+pace, is not: the device's clock and the host's stay together, without which no motion is removed.
 """
 import os
 import struct

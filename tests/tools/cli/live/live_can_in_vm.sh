@@ -40,8 +40,8 @@ motion:
 END
 candump -L vcan1,6D0:7FE >health &
 candump=$!
-# The sensor waits for nobody. Where its packets are late, clocks seem to have been set, and no motion is
-# taken out.
+# The sensor waits for nobody. Where its packets are late, clocks seem to have been set, and frames are
+# not deskewed.
 /app/chrt -f 90 /app/terracut send drive.pcap --to 127.0.0.1:2368 --loop 0 >/dev/null 2>&1 &
 sensor=$!
 /app/terracut live --config slow.yaml --listen 127.0.0.1:2368 --name live --metrics off --no-lock-memory \
@@ -52,7 +52,7 @@ wait_until 'frames before the vehicle is heard' '[ "$(state)" = waiting ] && [ "
 
 drive
 wait_until 'the motion is known' '[ "$(state)" = known ]'
-more_frames taken_out_frames 3
+more_frames deskewed_frames 3
 
 cansend vcan0 20000040#0000000000000000
 wait_until 'the controller left the bus' '[ "$(figure bus_off)" -ge 1 ]'
@@ -68,17 +68,17 @@ ip link set vcan0 mtu 72
 ip link set vcan0 up
 drive
 wait_until 'the motion is known again' '[ "$(state)" = known ]'
-more_frames taken_out_frames 2
+more_frames deskewed_frames 2
 
 before_flood=$(figure samples) spare_before=$(figure spare_samples) without_before=$(figure no_ego_motion_frames)
 cangen vcan0 -g 0 -p 10 -I 1A0 -L 8 -D "${data#*#}" -n 4000 &
 flood=$!
-more_frames taken_out_frames 2
+more_frames deskewed_frames 2
 wait $flood
-more_frames taken_out_frames 2
+more_frames deskewed_frames 2
 say "a flood of 4000 frames: $(($(figure samples) - before_flood)) samples, \
 $(($(figure spare_samples) - spare_before)) spare, $(figure kernel_drops) dropped by the kernel, \
-$(($(figure no_ego_motion_frames) - without_before)) turns without ego motion"
+$(($(figure no_ego_motion_frames) - without_before)) frames without ego motion"
 
 kill -TERM $live
 wait $live || [ $? = 6 ] # frames may be missed on so slow a machine

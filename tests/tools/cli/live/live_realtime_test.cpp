@@ -34,22 +34,22 @@ class LiveRealtime : public Cli, public testing::WithParamInterface<Scan> {
   }
 
   /// What `terracut live` did while a drive was sent to it: first as it is, until the threads label
-  /// turns, then with every fault, then as it is again.
+  /// frames, then with every fault, then as it is again.
   [[nodiscard]] Outcome hear(const std::string& options) const {
     const std::string calibration =
         GetParam().sensor == "hdl64e" ? "drive.calibration.xml" : "drive.calibration.csv";
     LiveRun run(folder_, "--calibration " + calibration +
                              " --labels labels --json live.json --can nosuchcan0 --dbc " +
                              "drive.can.dbc --health-can nosuchcan1 " + options);
-    expect_turns(run);
+    expect_frames(run);
     expect_done("send drive.pcap --to 127.0.0.1:" + std::to_string(run.port()) +
                 " --loop 5 --faults 'loss@0.3s:20 reorder@0.5s:2 duplicate@0.7s:3 " +
                 "burst@0.8s:50ms truncate@1s:3 clock@1.1s:+2s pause@1.3s:0.2s'");
-    expect_turns(run);
+    expect_frames(run);
     return run.interrupted();
   }
-  /// Plays the drive until six turns more were judged.
-  void expect_turns(LiveRun& run) const {
+  /// Plays the drive until six frames more were judged.
+  void expect_frames(LiveRun& run) const {
     const Sensors sensor({Sensors::kLocalhost}, {{Sensors::kAnyPort, run.port()}},
                          folder_ / "drive.pcap");
     std::uint64_t before = UINT64_MAX;
@@ -58,9 +58,9 @@ class LiveRealtime : public Cli, public testing::WithParamInterface<Scan> {
       return figures.frames >= before + 6;
     }));
   }
-  [[nodiscard]] int count(const std::string& rung) const {
+  [[nodiscard]] int count(const std::string& level) const {
     const auto frames = json("live.json").value("frames", nlohmann::json::object());
-    return frames.value("rungs", nlohmann::json::object()).value(rung, 0);
+    return frames.value("levels", nlohmann::json::object()).value(level, 0);
   }
 };
 

@@ -72,7 +72,7 @@ class LiveRun : public BackgroundProgram {
   [[nodiscard]] static std::string name() { return "test-" + std::to_string(::getpid()); }
 
   [[nodiscard]] static std::uint64_t labelled(const status::MonitorSnapshot& figures) {
-    return figures.frames - figures.rungs[static_cast<std::size_t>(status::Rung::kSkipped)];
+    return figures.frames - figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
   }
   [[nodiscard]] static std::uint64_t loss(const status::MonitorSnapshot& figures,
                                           std::string_view name) {
@@ -154,7 +154,7 @@ class Sensors {
     }
   }
 
-  /// Waits while a receiver does not keep up; answers how long.
+  /// Waits while a receiver does not keep up; returns how long.
   [[nodiscard]] std::int64_t hold_back() const {
     const std::int64_t begun_ns = measure::monotonic_ns();
     bool held = false;

@@ -65,7 +65,7 @@ TEST_F(Watchdog, IsFedWhileTheSensorIsOff) {
 TEST_F(Watchdog, IsFedWhileTheHeadStands) {
   EXPECT_TRUE(may_feed(1000, 10));
   figures_->head_stands = true;
-  EXPECT_TRUE(may_feed(2000, 10)) << "a new start would not turn it";
+  EXPECT_TRUE(may_feed(2000, 10)) << "a new start would not frame it";
   figures_->head_stands = false;
   EXPECT_FALSE(may_feed(3000, 10));
 }
@@ -102,7 +102,7 @@ TEST_F(RunAsService, LooksFourTimesWithinTheWatchdogsTime) {
   (void)all_heard();
   int fed = 0;
   for (int tenths = 51; tenths <= 150; ++tenths) {
-    service.turn_round(*figures_, tenths * kSecond_ns / 10);
+    service.work_round(*figures_, tenths * kSecond_ns / 10);
     for (const std::string& message : all_heard()) fed += message == "WATCHDOG=1" ? 1 : 0;
   }
   EXPECT_EQ(fed, 4);
@@ -119,7 +119,7 @@ TEST_F(RunAsService, LeavesTheWatchdogHungryWhileFramesAreLate) {
   figures_->packets = 8700;
   figures_->frames = 25;
   figures_->misses[0] = 20;
-  service.turn_round(*figures_, 3 * kSecond_ns);
+  service.work_round(*figures_, 3 * kSecond_ns);
   EXPECT_THAT(all_heard(),
               testing::ElementsAre("STATUS=: 10.0 frames/s, 25 frames, 20 missed their deadline"));
 }
@@ -131,7 +131,7 @@ TEST_F(RunAsService, SaysThatTheHeadStands) {
   figures_->link = status::LinkState::kReceiving;
   figures_->head_stands = true;
   service.ready(*figures_, 0);
-  EXPECT_THAT(all_heard(), testing::ElementsAre(testing::HasSubstr("its head does not turn")));
+  EXPECT_THAT(all_heard(), testing::ElementsAre(testing::HasSubstr("its head does not rotate")));
 }
 
 TEST_F(RunAsService, GoesOnWithoutAManagerThatCannotBeReached) {
@@ -140,7 +140,7 @@ TEST_F(RunAsService, GoesOnWithoutAManagerThatCannotBeReached) {
   LiveService service = LiveService::from_environment();
   EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("cannot be reached"));
   service.ready(*figures_, 0);
-  service.turn_round(*figures_, 60 * kSecond_ns);
+  service.work_round(*figures_, 60 * kSecond_ns);
   service.stopping();
 }
 

@@ -33,26 +33,26 @@ def main():
     alive = [int(report["Alive"]) for report in reports]
     expect(alive == [i % 256 for i in range(len(alive))], "Alive does not count up: %s" % alive)
     # A frame is known to be skipped while the one before it is still at work.
-    skipped_rung = 3
-    numbers = [report["FrameNumber"] for report in reports if report["Rung"] != skipped_rung]
+    skipped_level = 3
+    numbers = [report["FrameNumber"] for report in reports if report["Level"] != skipped_level]
     expect(numbers == sorted(numbers) and numbers[-1] > 0, "labelled frames out of order: %s" % numbers)
     expect(reports[-1]["Misses"] == summary["misses"]["total"], "misses differ")
-    expect(reports[-1]["Skipped"] == summary["frames"]["rungs"]["skipped"], "skipped frames differ")
+    expect(reports[-1]["Skipped"] == summary["frames"]["levels"]["skipped"], "skipped frames differ")
     for flag in 0, 1:
         expect(any(report["EgoMotion"] == flag for report in reports),
                "EgoMotion never was %d" % flag)
 
-    expect(motion["taken_out_frames"] + motion["no_ego_motion_frames"] == summary["frames"]["count"],
+    expect(motion["deskewed_frames"] + motion["no_ego_motion_frames"] == summary["frames"]["count"],
            "frames are neither freed of the motion nor marked: %s" % motion)
     expect(motion["faults"]["link_losses"] >= 1 and motion["faults"]["interface_changes"] == 1,
            "comings and goings: %s" % motion["faults"])
     expect(motion["faults"]["bus_off"] == 1, "bus-off: %s" % motion["faults"])
     expect(motion["spare_samples"] > 0, "no flood: %s" % motion)
-    after_turn_ms = motion["newest_sample_after_turn_ms"]
-    expect(-1000 <= after_turn_ms["min"] <= after_turn_ms["mean"] <= after_turn_ms["max"],
-           "samples against turns: %s" % after_turn_ms)
-    print("%d reports read as the summary says, %d frames by canmatrix too; motion taken out of %d "
-          "frames of %d" % (len(reports), others, motion["taken_out_frames"],
+    after_frame_ms = motion["newest_sample_after_frame_ms"]
+    expect(-1000 <= after_frame_ms["min"] <= after_frame_ms["mean"] <= after_frame_ms["max"],
+           "samples against frames: %s" % after_frame_ms)
+    print("%d reports read as the summary says, %d frames by canmatrix too; %d "
+          "frames of %d deskewed" % (len(reports), others, motion["deskewed_frames"],
                             summary["frames"]["count"]))
 
 

@@ -27,12 +27,12 @@ namespace fs = std::filesystem;
 using test::RandomColumns;
 
 struct Hdl64e {
-  using Transmitter = encode::Hdl64eTransmitter;
+  using EncoderTraits = encode::Hdl64eEncoderTraits;
   using Decoder = hdl64e::Hdl64eDecoder;
   static constexpr std::uint16_t kPort = hdl64e::kHdl64eDataPort;
 };
 struct Ruby128 {
-  using Transmitter = encode::Ruby128Transmitter;
+  using EncoderTraits = encode::Ruby128EncoderTraits;
   using Decoder = ruby128::Ruby128Decoder;
   static constexpr std::uint16_t kPort = ruby128::kRubyDataPort;
 };
@@ -44,7 +44,7 @@ std::vector<std::uint8_t> arrivals(const frame::RangeImage& image) {
     if (image.has_return(cell)) intensities[image.return_index()[cell]] = image.intensity()[cell];
   }
   for (const auto& extra : image.overflow()) {
-    intensities[extra.return_index] = extra.echo.intensity;
+    intensities[extra.return_index] = extra.point.intensity;
   }
   return intensities;
 }
@@ -52,7 +52,7 @@ std::vector<std::uint8_t> arrivals(const frame::RangeImage& image) {
 template <class Sensor>
 class DriveRoundTrip : public testing::Test {
  protected:
-  using Written = typename Sensor::Transmitter;
+  using Written = typename Sensor::EncoderTraits;
   using Column = typename Written::Column;
 
   void SetUp() override { folder = terracut::test::make_scratch_folder(); }
@@ -103,7 +103,7 @@ class DriveRoundTrip : public testing::Test {
       const auto labels = truth(frames++);
       arrived += seen.size();
       EXPECT_EQ(labels.size(), seen.size()) << "frame " << frames - 1;
-      last_number = -1;  // turns overlap around the seam; order holds inside of each
+      last_number = -1;  // frames overlap around the seam; order holds inside of each
       for (std::size_t i = 0; i < std::min(labels.size(), seen.size()); ++i) {
         out_of_place += (labels[i] & 0xFFU) != seen[i] ? 1 : 0;
         out_of_order += static_cast<std::int64_t>(labels[i] >> 8) <= last_number ? 1 : 0;
@@ -137,63 +137,63 @@ using Sensors = testing::Types<Hdl64e, Ruby128>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 
 TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEverySpin) {
-  using Transmitter = typename TypeParam::Transmitter;
+  using EncoderTraits = typename TypeParam::EncoderTraits;
   for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
     for (const double spin_hz : {5.0, 10.0, 20.0}) {
       SCOPED_TRACE(std::to_string(returns_per_firing(returns)) + " returns at " +
                    std::to_string(spin_hz) + " Hz");
-      const auto columns = test::random_columns<Transmitter>(
+      const auto columns = test::random_columns<EncoderTraits>(
           {.returns = returns, .spin_hz = spin_hz, .share_of_returns = 0.3});
       const auto written = this->write(columns, {.returns = returns});
       EXPECT_EQ(written.frames, 4U);
       EXPECT_EQ(written.columns, columns.size());
-      EXPECT_EQ(written.packets * Transmitter::kColumnsPerPacket, columns.size());
+      EXPECT_EQ(written.packets * EncoderTraits::kColumnsPerPacket, columns.size());
       this->expect_truth_fits(written, returns, spin_hz);
     }
   }
 }
 
 TYPED_TEST(DriveRoundTrip, SeamsFallOnAnyPlaceOfAGroup) {
-  using Transmitter = typename TypeParam::Transmitter;
+  using EncoderTraits = typename TypeParam::EncoderTraits;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
-    const auto columns = test::random_columns<Transmitter>({.returns = ReturnMode::kDual,
-                                                            .spin_hz = 9.7 + 0.13 * seed,
-                                                            .first_cdeg = 34'900 + 7.0 * seed,
-                                                            .last_cdeg = 37'100,
-                                                            .share_of_returns = 0.9,
-                                                            .seed = seed});
+    const auto columns = test::random_columns<EncoderTraits>({.returns = ReturnMode::kDual,
+                                                              .spin_hz = 9.7 + 0.13 * seed,
+                                                              .first_cdeg = 34'900 + 7.0 * seed,
+                                                              .last_cdeg = 37'100,
+                                                              .share_of_returns = 0.9,
+                                                              .seed = seed});
     const auto written = this->write(columns, {.returns = ReturnMode::kDual});
     this->expect_truth_fits(written, ReturnMode::kDual, 10);
   }
 }
 
 TYPED_TEST(DriveRoundTrip, FillsUpTheLastPacketsWhereverTheDriveEnds) {
-  using Transmitter = typename TypeParam::Transmitter;
+  using EncoderTraits = typename TypeParam::EncoderTraits;
   for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
-    const auto all = test::random_columns<Transmitter>({.returns = returns, .last_cdeg = 36'000});
+    const auto all = test::random_columns<EncoderTraits>({.returns = returns, .last_cdeg = 36'000});
     for (std::size_t missing = 1; missing <= 5; ++missing) {
       SCOPED_TRACE(missing);
       auto columns = all;
       columns.resize(columns.size() - missing);
       const auto written = this->write(columns, {.returns = returns});
       EXPECT_LE(written.columns, all.size());
-      EXPECT_EQ(written.packets * Transmitter::kColumnsPerPacket, written.columns);
+      EXPECT_EQ(written.packets * EncoderTraits::kColumnsPerPacket, written.columns);
       this->expect_truth_fits(written, returns, 10);
     }
   }
 }
 
 TYPED_TEST(DriveRoundTrip, ASecondReturnMustBelongToTheFirst) {
-  using Transmitter = typename TypeParam::Transmitter;
-  const typename Transmitter::Column nothing;
-  for (const auto& [late_ns, turned_cdeg] : {std::pair{1'000, 0}, std::pair{0, 20}}) {
-    auto writer = DriveWriter<Transmitter>::create(this->pcap(), Transmitter::nominal(),
-                                                   {.returns = ReturnMode::kDual});
+  using EncoderTraits = typename TypeParam::EncoderTraits;
+  const typename EncoderTraits::Column nothing;
+  for (const auto& [late_ns, rotated_cdeg] : {std::pair{1'000, 0}, std::pair{0, 20}}) {
+    auto writer = DriveWriter<EncoderTraits>::create(this->pcap(), EncoderTraits::nominal(),
+                                                     {.returns = ReturnMode::kDual});
     ASSERT_TRUE(writer);
     ASSERT_TRUE(writer->add_column(1'000'000'000, 100, nothing.by_laser));
     const Status added =
-        writer->add_column(1'000'000'000 + late_ns, 100 + turned_cdeg, nothing.by_laser);
+        writer->add_column(1'000'000'000 + late_ns, 100 + rotated_cdeg, nothing.by_laser);
     ASSERT_FALSE(added);
     EXPECT_EQ(added.error().code, ErrorCode::kInvalidArgument);
     EXPECT_NE(added.error().message.find("second return"), std::string::npos);
@@ -202,11 +202,11 @@ TYPED_TEST(DriveRoundTrip, ASecondReturnMustBelongToTheFirst) {
 }
 
 TYPED_TEST(DriveRoundTrip, AnUnfinishedDriveLeavesNothingBehind) {
-  using Transmitter = typename TypeParam::Transmitter;
+  using EncoderTraits = typename TypeParam::EncoderTraits;
   {
-    auto writer = DriveWriter<Transmitter>::create(this->pcap(), Transmitter::nominal());
+    auto writer = DriveWriter<EncoderTraits>::create(this->pcap(), EncoderTraits::nominal());
     ASSERT_TRUE(writer);
-    for (const auto& c : test::random_columns<Transmitter>({.last_cdeg = 38'000})) {
+    for (const auto& c : test::random_columns<EncoderTraits>({.last_cdeg = 38'000})) {
       ASSERT_TRUE(writer->add_column(c.stamp_ns, c.unwrapped_azimuth_cdeg, c.by_laser));
     }
   }
@@ -216,9 +216,9 @@ TYPED_TEST(DriveRoundTrip, AnUnfinishedDriveLeavesNothingBehind) {
 using Ruby128Drive = DriveRoundTrip<Ruby128>;
 
 TEST_F(Ruby128Drive, SendsADevicePacketFirstAndThenOnceASecond) {
-  const auto columns = test::random_columns<encode::Ruby128Transmitter>(
+  const auto columns = test::random_columns<encode::Ruby128EncoderTraits>(
       {.first_cdeg = 0, .last_cdeg = 36'000.0 * 21, .share_of_returns = 0});
-  encode::Ruby128Transmitter::Config config;
+  encode::Ruby128EncoderTraits::Config config;
   config.unit = {.rpm = 601, .serial = {1, 2, 3, 4, 5, 6}};
   write(columns, config);
   auto source = capture::PcapSource::open(pcap());
@@ -265,7 +265,7 @@ TEST_F(Ruby128Drive, AnyEncodingOfTheStampsIsUnderstoodFromTheFirstPacketOn) {
         ruby128::RubyTimestamp::kUtcNanoseconds}) {
     for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
       SCOPED_TRACE(to_string(timestamp));
-      const auto columns = test::random_columns<encode::Ruby128Transmitter>(
+      const auto columns = test::random_columns<encode::Ruby128EncoderTraits>(
           {.returns = returns, .last_cdeg = 37'100});
       const auto written = write(columns, {.returns = returns, .timestamp = timestamp});
       expect_truth_fits(written, returns, 10);

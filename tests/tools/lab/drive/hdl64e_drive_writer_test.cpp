@@ -39,8 +39,8 @@ class DriveWriterTest : public testing::Test {
     EXPECT_TRUE(writer) << writer.error().message;
     std::uint32_t number = 0;
     for (FiringColumn& firing : firings) {
-      for (auto& echo : firing.by_laser) {
-        if (echo.raw != 0) echo.truth = number++ << 8 | echo.intensity;
+      for (auto& beam : firing.by_laser) {
+        if (beam.raw != 0) beam.truth = number++ << 8 | beam.intensity;
       }
       const Status added =
           writer->add_column(firing.stamp_ns, firing.unwrapped_azimuth_cdeg, firing.by_laser);
@@ -84,9 +84,9 @@ class DriveWriterTest : public testing::Test {
     EXPECT_EQ(recorder.returns(), returns);
     for (std::size_t n = 0; n < frames; ++n) {
       const std::vector<std::uint32_t> labels = truth(n);
-      ASSERT_EQ(labels.size(), recorder.frames[n].echoes.size()) << "frame " << n;
+      ASSERT_EQ(labels.size(), recorder.frames[n].returns.size()) << "frame " << n;
       for (std::size_t i = 0; i < labels.size(); ++i) {
-        ASSERT_EQ(labels[i] & 0xFFU, recorder.frames[n].echoes[i].point.intensity);
+        ASSERT_EQ(labels[i] & 0xFFU, recorder.frames[n].returns[i].point.intensity);
         ASSERT_TRUE(i == 0 || labels[i] > labels[i - 1]) << "not in order of arrival";
       }
     }
@@ -111,7 +111,7 @@ TEST_F(DriveWriterTest, TheNthTruthEntryIsTheNthReturnDecoded) {
   EXPECT_EQ(files_in_folder(), 3U);
 }
 
-TEST_F(DriveWriterTest, WideRotationalCorrectionsKeepTheirTurns) {
+TEST_F(DriveWriterTest, WideRotationalCorrectionsKeepTheirFrames) {
   hdl64e::Hdl64eCalibration calibration = hdl64e::nominal_hdl64e();
   std::mt19937 random(6);
   std::uniform_real_distribution<double> any_deg(-10, 10);
@@ -128,7 +128,7 @@ TEST_F(DriveWriterTest, WideRotationalCorrectionsKeepTheirTurns) {
   }
 }
 
-TEST_F(DriveWriterTest, OneWholeTurnIsOneFrame) {
+TEST_F(DriveWriterTest, OneRevolutionIsOneFrame) {
   auto firings = random_firings({.first_cdeg = 35'000, .last_cdeg = 73'000, .seed = 3});
   const hdl64e::BeamOffsets offsets(hdl64e::nominal_hdl64e());
   for (std::size_t n = 0; n < firings.size(); ++n) {
@@ -139,7 +139,7 @@ TEST_F(DriveWriterTest, OneWholeTurnIsOneFrame) {
     for (int i = 0; i < 64; ++i) {
       if (decode::beam_azimuth(firings[n].unwrapped_azimuth_cdeg,
                                offsets.offset_ticks(step_ticks, i))
-              .turn != 1) {
+              .frame != 1) {
         firings[n].by_laser[static_cast<std::size_t>(i)] = {};
       }
     }
@@ -225,8 +225,9 @@ TEST_F(DriveWriterTest, RefusesFiringsNoHeadCouldMake) {
     std::int64_t ns, cdeg;
     const char* says;
   };
-  for (const Step& step : {Step{0, 17, "stamp"}, Step{-5, 17, "stamp"}, Step{48'000, 1, "turn on"},
-                           Step{48'000, -17, "turn on"}, Step{48'000, 101, "turn on"}}) {
+  for (const Step& step :
+       {Step{0, 17, "stamp"}, Step{-5, 17, "stamp"}, Step{48'000, 1, "rotate on"},
+        Step{48'000, -17, "rotate on"}, Step{48'000, 101, "rotate on"}}) {
     auto writer = DriveWriter::create(pcap, hdl64e::nominal_hdl64e());
     ASSERT_TRUE(writer);
     ASSERT_TRUE(writer->add_column(1'000'000'000, 100, nothing));

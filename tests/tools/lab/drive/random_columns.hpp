@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-#include "tools/lab/drive/transmitter.hpp"
+#include "tools/lab/drive/encoder_traits.hpp"
 
 namespace terracut::test {
 
@@ -21,31 +21,32 @@ struct RandomColumns {
   std::uint32_t seed = 1;
 };
 
-/// Columns of a steadily turning head that measures noise; whole packets. Every return's truth says
-/// which return it is: its number in order of arrival, and its intensity in the low eight bits.
-template <class Transmitter>
-std::vector<typename Transmitter::Column> random_columns(const RandomColumns& settings) {
+/// Columns of a steadily rotating head that measures noise; whole packets. Every return's truth
+/// says which return it is: its number in order of arrival, and its intensity in the low eight
+/// bits.
+template <class EncoderTraits>
+std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& settings) {
   std::mt19937 random(settings.seed);
   std::uniform_real_distribution<double> chance(0, 1);
   std::uniform_int_distribution<unsigned> distance(1, 65'535), byte(0, 255);
-  const std::int64_t firing_ns = Transmitter::firing_ns(settings.returns);
+  const std::int64_t firing_ns = EncoderTraits::firing_ns(settings.returns);
   const double step_cdeg =
-      settings.spin_hz * beams::kTurn_cdeg * 1e-9 * static_cast<double>(firing_ns);
-  const int group = Transmitter::limits(settings.returns).firings_per_group;
-  std::vector<typename Transmitter::Column> columns;
+      settings.spin_hz * beams::kRevolution_cdeg * 1e-9 * static_cast<double>(firing_ns);
+  const int group = EncoderTraits::limits(settings.returns).firings_per_group;
+  std::vector<typename EncoderTraits::Column> columns;
   std::uint32_t number = 0;
   for (std::int64_t firing = 0;; ++firing) {
-    const double head_cdeg = settings.first_cdeg + static_cast<double>(firing) * step_cdeg;
-    if (head_cdeg > settings.last_cdeg && firing % group == 0) return columns;
+    const double rotor_cdeg = settings.first_cdeg + static_cast<double>(firing) * step_cdeg;
+    if (rotor_cdeg > settings.last_cdeg && firing % group == 0) return columns;
     for (int i = 0; i < drive::returns_per_firing(settings.returns); ++i) {
       auto& column = columns.emplace_back();
       column.stamp_ns = settings.first_stamp_ns + firing * firing_ns;
-      column.unwrapped_azimuth_cdeg = std::llround(head_cdeg);
-      for (frame::LabelledReturn& echo : column.by_laser) {
+      column.unwrapped_azimuth_cdeg = std::llround(rotor_cdeg);
+      for (frame::LabelledReturn& beam : column.by_laser) {
         if (chance(random) >= settings.share_of_returns) continue;
-        echo.raw = static_cast<std::uint16_t>(distance(random));
-        echo.intensity = static_cast<std::uint8_t>(byte(random));
-        echo.truth = number++ << 8 | echo.intensity;
+        beam.raw = static_cast<std::uint16_t>(distance(random));
+        beam.intensity = static_cast<std::uint8_t>(byte(random));
+        beam.truth = number++ << 8 | beam.intensity;
       }
     }
   }

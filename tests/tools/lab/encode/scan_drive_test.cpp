@@ -28,7 +28,7 @@ void write_sequence(const scan::ScratchFolder& folder, int scans) {
   }
 }
 
-/// Poses of a drive straight ahead (the camera's z) at `speed_mps`, a turn each 0.1 s.
+/// Poses of a drive straight ahead (the camera's z) at `speed_mps`, a frame each 0.1 s.
 void write_poses(const scan::ScratchFolder& folder, int frames, double speed_mps) {
   std::string poses, times;
   for (int i = 0; i < frames; ++i) {
@@ -95,14 +95,14 @@ TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
   EXPECT_GT(std::filesystem::file_size(pcap), report->drive.packets * 1206);
 
   const auto calibration =
-      hdl64e::read_hdl64e_xml(drive::calibration_path_of<Hdl64eTransmitter>(pcap));
+      hdl64e::read_hdl64e_xml(drive::calibration_path_of<Hdl64eEncoderTraits>(pcap));
   ASSERT_TRUE(calibration) << calibration.error().message;
   EXPECT_EQ(fingerprint(*calibration), fingerprint(report->calibration));
-  for (std::uint32_t turn = 0; turn < 2; ++turn) {
+  for (std::uint32_t frame = 0; frame < 2; ++frame) {
     std::vector<std::uint32_t> truth;
-    const auto path = drive::truth_folder_of(pcap) / ("00000" + std::to_string(turn) + ".label");
-    ASSERT_TRUE(scan::read_label_file(path, report->encoded.turns[turn].encoded, truth));
-    EXPECT_THAT(truth, testing::Each(40 + turn));
+    const auto path = drive::truth_folder_of(pcap) / ("00000" + std::to_string(frame) + ".label");
+    ASSERT_TRUE(scan::read_label_file(path, report->encoded.frames[frame].encoded, truth));
+    EXPECT_THAT(truth, testing::Each(40 + frame));
   }
 }
 
@@ -213,7 +213,7 @@ TEST(ScanReader, TellsRingsWhereNoScanOfTheFolderHasAll) {
   ASSERT_TRUE(reader);
   const auto fitted = reader->fit_rings();
   ASSERT_TRUE(fitted) << fitted.error().message;
-  EXPECT_TRUE(fitted->told_by_nominal_table);
+  EXPECT_TRUE(fitted->from_nominal_table);
   scan::KittiScan scan;
   scan::RingRecovery rings;
   ASSERT_TRUE(reader->read(2, scan, rings));

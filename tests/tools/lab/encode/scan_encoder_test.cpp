@@ -32,7 +32,7 @@ class RoundTrip {
       EXPECT_TRUE(scan::recover_rings(scan, &table, rings));
       std::vector<std::uint32_t> labels(scan.size());
       std::iota(labels.begin(), labels.end(), 0U);
-      EXPECT_TRUE(encoder.add_turn(scan, rings.ring_of_point, labels));
+      EXPECT_TRUE(encoder.add_frame(scan, rings.ring_of_point, labels));
       seen_.emplace_back(scan.size());
     }
     auto finished = encoder.finish();
@@ -45,14 +45,14 @@ class RoundTrip {
   std::size_t returns = 0;
   double max_range_error_m = 0;
   double max_height_error_m = 0;
-  std::vector<double> max_azimuth_error_deg;  ///< Of each turn.
+  std::vector<double> max_azimuth_error_deg;  ///< Of each frame.
 
   [[nodiscard]] const std::vector<EncodedFiring>& firings() const { return firings_; }
   [[nodiscard]] std::size_t not_encoded(NotEncoded reason) const {
     return summary.not_encoded[static_cast<std::size_t>(reason)];
   }
-  [[nodiscard]] double azimuth_bound_deg(std::size_t turn) const {
-    return 180.0 / static_cast<double>(summary.turns[turn].firings) + 0.01;
+  [[nodiscard]] double azimuth_bound_deg(std::size_t frame) const {
+    return 180.0 / static_cast<double>(summary.frames[frame].firings) + 0.01;
   }
 
  private:
@@ -72,23 +72,23 @@ class RoundTrip {
 
   void check(const EncodedFiring& firing, int laser, std::int32_t step,
              const hdl64e::BeamOffsets& offsets) {
-    const auto& echo = firing.column.by_laser[static_cast<std::size_t>(laser)];
+    const auto& labelled = firing.column.by_laser[static_cast<std::size_t>(laser)];
     const auto& source = firing.sources[static_cast<std::size_t>(laser)];
-    if (echo.raw == 0) {
-      EXPECT_EQ(source.turn, -1);
+    if (labelled.raw == 0) {
+      EXPECT_EQ(source.frame, -1);
       return;
     }
     ++returns;
-    const auto turn = static_cast<std::size_t>(source.turn);
-    EXPECT_EQ(echo.truth, source.point);
-    EXPECT_EQ(seen_[turn][source.point]++, 0) << "a point encoded twice";
+    const auto frame = static_cast<std::size_t>(source.frame);
+    EXPECT_EQ(labelled.truth, source.point);
+    EXPECT_EQ(seen_[frame][source.point]++, 0) << "a point encoded twice";
     const auto column = firing.column.unwrapped_azimuth_cdeg;
     const auto beam = decode::beam_azimuth(column, offsets.offset_ticks(step, laser));
-    EXPECT_EQ(beam.turn, source.turn + 1) << "a return in another turn than its scan's";
+    EXPECT_EQ(beam.frame, source.frame + 1) << "a return in another frame than its scan's";
     const double head =
         decode::firing_azimuth_rad(column, hdl64e::firing_advance_ticks(step, laser));
-    const beams::Point hit = geometry_.point(laser, head, echo.raw);
-    const scan::ScanPoint& p = scans_[turn][source.point];
+    const beams::Point hit = geometry_.point(laser, head, labelled.raw);
+    const scan::ScanPoint& p = scans_[frame][source.point];
     const double range =
         std::sqrt(double{p.x_m} * p.x_m + double{p.y_m} * p.y_m + double{p.z_m} * p.z_m);
     const double decoded = std::sqrt(hit.x_m * hit.x_m + hit.y_m * hit.y_m + hit.z_m * hit.z_m);
@@ -97,7 +97,7 @@ class RoundTrip {
     const double off = std::abs(
         std::remainder(scan::azimuth_rad(hit.x_m, hit.y_m) - scan::azimuth_rad(p.x_m, p.y_m),
                        2 * std::numbers::pi));
-    max_azimuth_error_deg[turn] = std::max(max_azimuth_error_deg[turn], beams::rad_to_deg(off));
+    max_azimuth_error_deg[frame] = std::max(max_azimuth_error_deg[frame], beams::rad_to_deg(off));
   }
 
   hdl64e::Hdl64eCalibration calibration_;
@@ -121,10 +121,10 @@ TEST(ScanEncoder, GivesEveryPointAReturnWithItsRangeAndHeight) {
 TEST(ScanEncoder, TakesNoMoreFiringsThanARegularScanHas) {
   const scan::RingTable table = synthetic::table();
   const RoundTrip trip(scan::hdl64e_calibration(table), {synthetic::scan(table)});
-  EXPECT_LE(trip.summary.turns[0].firings, 2100U);  // 2000 points a ring
+  EXPECT_LE(trip.summary.frames[0].firings, 2100U);  // 2000 points a ring
 }
 
-TEST(ScanEncoder, MakesConsecutiveScansConsecutiveTurns) {
+TEST(ScanEncoder, MakesConsecutiveScansConsecutiveFrames) {
   const scan::RingTable table = synthetic::table();
   synthetic::World other;
   other.ground_m = -1.6;
@@ -133,11 +133,11 @@ TEST(ScanEncoder, MakesConsecutiveScansConsecutiveTurns) {
   const RoundTrip trip(
       scan::hdl64e_calibration(table),
       {synthetic::scan(table), synthetic::scan(table, other), synthetic::scan(table)});
-  ASSERT_EQ(trip.summary.turns.size(), 3U);
+  ASSERT_EQ(trip.summary.frames.size(), 3U);
   EXPECT_EQ(trip.summary.points, 2U * 128000U + 64U * 1900U);
   EXPECT_GE(trip.summary.encoded + 10, trip.summary.points);  // few can collide at the seams
-  for (std::size_t turn = 0; turn < 3; ++turn) {
-    EXPECT_LE(trip.max_azimuth_error_deg[turn], trip.azimuth_bound_deg(turn));
+  for (std::size_t frame = 0; frame < 3; ++frame) {
+    EXPECT_LE(trip.max_azimuth_error_deg[frame], trip.azimuth_bound_deg(frame));
   }
 }
 
@@ -147,8 +147,8 @@ TEST(ScanEncoder, ObeysAnyCalibrationWithWideRotationsAndTwoPointCorrections) {
   EXPECT_EQ(trip.returns, trip.summary.encoded);
   EXPECT_GE(trip.summary.encoded, trip.summary.points * 998 / 1000);
   EXPECT_LE(trip.max_range_error_m, 0.003);
-  for (std::size_t turn = 0; turn < 2; ++turn) {
-    EXPECT_LE(trip.max_azimuth_error_deg[turn], trip.azimuth_bound_deg(turn));
+  for (std::size_t frame = 0; frame < 2; ++frame) {
+    EXPECT_LE(trip.max_azimuth_error_deg[frame], trip.azimuth_bound_deg(frame));
   }
 }
 
@@ -156,7 +156,7 @@ TEST(ScanEncoder, TellsTheSameErrorsAsAnIndependentDecoding) {
   const scan::RingTable table = synthetic::table();
   const RoundTrip trip(hdl64e::nominal_hdl64e(), {synthetic::scan(table)});
   EXPECT_NEAR(trip.summary.max_range_error_m, trip.max_range_error_m, 1e-9);
-  EXPECT_NEAR(trip.summary.turns[0].max_azimuth_error_deg, trip.max_azimuth_error_deg[0], 1e-9);
+  EXPECT_NEAR(trip.summary.frames[0].max_azimuth_error_deg, trip.max_azimuth_error_deg[0], 1e-9);
   EXPECT_GT(trip.summary.height.p95_m, 0.01);  // another unit's table bends the scan
   EXPECT_LE(trip.summary.height.rms_m, trip.max_height_error_m);
 }
@@ -184,7 +184,7 @@ TEST(ScanEncoder, CountsPointsWithoutARing) {
   std::vector<std::int16_t> rings(points.size(), scan::kNoRing);
   ScanEncoder encoder(scan::hdl64e_calibration(table), 0,
                       [](const EncodedFiring&) -> Status { return {}; });
-  ASSERT_TRUE(encoder.add_turn(points, rings, {}));
+  ASSERT_TRUE(encoder.add_frame(points, rings, {}));
   const auto summary = encoder.finish();
   ASSERT_TRUE(summary);
   EXPECT_EQ(summary->encoded, 0U);
@@ -192,7 +192,7 @@ TEST(ScanEncoder, CountsPointsWithoutARing) {
             points.size());
 }
 
-TEST(ScanEncoder, TurnsTheHeadSteadilyFromBeforeTheFirstSeamToBehindTheLast) {
+TEST(ScanEncoder, RotatesTheHeadSteadilyFromBeforeTheFirstSeamToBehindTheLast) {
   const scan::RingTable table = synthetic::table();
   const RoundTrip trip(hdl64e::nominal_hdl64e(), {synthetic::scan(table)});
   const auto& firings = trip.firings();
@@ -215,7 +215,7 @@ TEST(ScanEncoder, HandsOnTheErrorOfItsSink) {
   const auto points = synthetic::scan(table);
   scan::RingRecovery rings;
   ASSERT_TRUE(scan::recover_rings(points, nullptr, rings));
-  const Status first = encoder.add_turn(points, rings.ring_of_point, {});
+  const Status first = encoder.add_frame(points, rings.ring_of_point, {});
   const auto last = encoder.finish();
   ASSERT_FALSE(last);
   EXPECT_EQ(last.error().message, "disk full");

@@ -22,7 +22,7 @@ namespace {
 
 constexpr double kSensorHeight_m = 1.73;
 
-/// A drive and, for every turn, the points in the order in which their returns arrive.
+/// A drive and, for every frame, the points in the order in which their returns arrive.
 struct Drive {
   std::filesystem::path pcap;
   hdl64e::Hdl64eCalibration calibration;
@@ -44,10 +44,10 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
   drive.labels.resize(scans.size());
   ScanEncoder encoder(drive.calibration, 0, [&](const EncodedFiring& firing) -> Status {
     for (const auto& source : firing.sources) {
-      if (source.turn < 0) continue;
-      const auto turn = static_cast<std::size_t>(source.turn);
-      drive.arriving[turn].push_back(scans[turn].points[source.point]);
-      drive.labels[turn].push_back(scans[turn].labels[source.point]);
+      if (source.frame < 0) continue;
+      const auto frame = static_cast<std::size_t>(source.frame);
+      drive.arriving[frame].push_back(scans[frame].points[source.point]);
+      drive.labels[frame].push_back(scans[frame].labels[source.point]);
     }
     return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
                               firing.column.by_laser);
@@ -55,7 +55,7 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
   scan::RingRecovery rings;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     ASSERT_TRUE(reader->read(i, scans[i], rings));
-    ASSERT_TRUE(encoder.add_turn(scans[i].points, rings.ring_of_point, scans[i].labels));
+    ASSERT_TRUE(encoder.add_frame(scans[i].points, rings.ring_of_point, scans[i].labels));
   }
   const auto summary = encoder.finish();
   ASSERT_TRUE(summary);
@@ -70,30 +70,30 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
 void compare(const Drive& drive, const frame::FrameInfo& info, const frame::RangeImage& image) {
   ASSERT_LT(info.number, drive.arriving.size()) << "more frames than scans";
   const auto& points = drive.arriving[info.number];
-  const EncodedTurn& turn = drive.summary.turns[info.number];
+  const EncodedFrame& frame = drive.summary.frames[info.number];
   EXPECT_TRUE(info.complete);
-  EXPECT_EQ(info.returns, turn.encoded);
+  EXPECT_EQ(info.returns, frame.encoded);
   ASSERT_EQ(image.returns(), points.size());
   const double azimuth_bound_rad =
-      beams::deg_to_rad(180.0 / static_cast<double>(turn.firings) + 0.01 + 1e-4);
+      beams::deg_to_rad(180.0 / static_cast<double>(frame.firings) + 0.01 + 1e-4);
   std::size_t far_off = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& r) {
     const scan::ScanPoint& p = points[r.return_index];
-    const double z = double{r.echo.z_m} - kSensorHeight_m;
+    const double z = double{r.point.z_m} - kSensorHeight_m;
     const double decoded =
-        std::sqrt(double{r.echo.x_m} * r.echo.x_m + double{r.echo.y_m} * r.echo.y_m + z * z);
+        std::sqrt(double{r.point.x_m} * r.point.x_m + double{r.point.y_m} * r.point.y_m + z * z);
     const double recorded =
         std::sqrt(double{p.x_m} * p.x_m + double{p.y_m} * p.y_m + double{p.z_m} * p.z_m);
-    const double turned =
-        std::remainder(scan::azimuth_rad(r.echo.x_m, r.echo.y_m) - scan::azimuth_rad(p.x_m, p.y_m),
-                       2 * std::numbers::pi);
+    const double rotated = std::remainder(
+        scan::azimuth_rad(r.point.x_m, r.point.y_m) - scan::azimuth_rad(p.x_m, p.y_m),
+        2 * std::numbers::pi);
     far_off += std::abs(decoded - recorded) > 0.003 ? 1U : 0U;
-    far_off += std::abs(turned) > azimuth_bound_rad ? 1U : 0U;
+    far_off += std::abs(rotated) > azimuth_bound_rad ? 1U : 0U;
   });
   EXPECT_EQ(far_off, 0U) << "frame " << info.number;
 }
 
-TEST(ScanPackets, BringBackEveryEncodedReturnInItsTurnAtItsPlace) {
+TEST(ScanPackets, BringBackEveryEncodedReturnInItsFrameAtItsPlace) {
   TERRACUT_RECORDED_SEQUENCES(sequences);
   for (const auto& sequence : sequences) {
     SCOPED_TRACE(sequence);
@@ -128,11 +128,11 @@ TEST(ScanPackets, BringBackEveryEncodedReturnInItsTurnAtItsPlace) {
     EXPECT_EQ(losses.clock_jumps, 0U);
 
     std::vector<std::uint32_t> truth;
-    for (std::size_t turn = 0; turn < drive.labels.size(); ++turn) {
-      const std::string digits = std::to_string(1000000 + turn).substr(1);
+    for (std::size_t frame = 0; frame < drive.labels.size(); ++frame) {
+      const std::string digits = std::to_string(1000000 + frame).substr(1);
       ASSERT_TRUE(scan::read_label_file(drive::truth_folder_of(drive.pcap) / (digits + ".label"), 0,
                                         truth));
-      EXPECT_EQ(truth, drive.labels[turn]);
+      EXPECT_EQ(truth, drive.labels[frame]);
     }
   }
 }

@@ -46,7 +46,7 @@ void write_ground(const scan::ScratchFolder& folder, int scans) {
   }
 }
 
-TEST(ScanResampler, AFolderBecomesADriveOfOneTurnAScan) {
+TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
   const scan::ScratchFolder folder;
   write_ground(folder, 2);
   const auto pcap = folder.path() / "drive.pcap";
@@ -138,7 +138,7 @@ TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
     std::vector<frame::Ruby128Column> columns;
     const auto rays = resampler.run(
         1, 0,
-        [&](std::int64_t, ScanResampler::Turn& into) {
+        [&](std::int64_t, ScanResampler::Frame& into) {
           const Status status = reader->read(0, into.scan, into.rings);
           scan = into.scan;
           return status;
@@ -170,17 +170,17 @@ TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
     const ruby128::Ruby128Geometry geometry(unit);
     std::size_t beside = 0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      drive::GroupAzimuths head_cdeg{};
+      drive::GroupAzimuths rotor_cdeg{};
       for (std::size_t k = 0; k < 3; ++k) {
-        head_cdeg[k] = beams::wrap_cdeg(columns[i - i % 3 + k].unwrapped_azimuth_cdeg);
+        rotor_cdeg[k] = beams::wrap_cdeg(columns[i - i % 3 + k].unwrapped_azimuth_cdeg);
       }
-      const auto step = Ruby128Transmitter::step_ticks(head_cdeg, 0, drive::ReturnMode::kSingle);
+      const auto step = Ruby128EncoderTraits::step_ticks(rotor_cdeg, 0, drive::ReturnMode::kSingle);
       for (int c = 0; c < ruby128::kRuby128Lasers; ++c) {
         const auto raw = columns[i].by_laser[static_cast<std::size_t>(c)].raw;
         if (raw == 0) continue;
-        const double head_rad = decode::firing_azimuth_rad(columns[i].unwrapped_azimuth_cdeg,
-                                                           ruby128::ruby_advance_ticks(step, c));
-        const beams::Point at = geometry.point(c, head_rad, raw);
+        const double rotor_rad = decode::firing_azimuth_rad(columns[i].unwrapped_azimuth_cdeg,
+                                                            ruby128::ruby_advance_ticks(step, c));
+        const beams::Point at = geometry.point(c, rotor_rad, raw);
         beside += held.contains(cell(at.x_m, at.y_m, at.z_m)) ? 1 : 0;
       }
     }

@@ -29,7 +29,8 @@ struct Scene {
   using Label = std::function<std::uint32_t(double azimuth_rad, double elevation_rad)>;
 
   /// No return where the range is 0.
-  explicit Scene(const Range& range_m, const Label& label = [](double, double) { return 50U; }) {
+  explicit Scene(
+      const Range& range_m, const Label& label = [](double, double) { return 50U; }) {
     for (int ring = 0; ring < 64; ++ring) {
       const double elevation = beams::deg_to_rad(elevation_deg_of(ring));
       for (int i = 0; i < 2000; ++i) {
@@ -167,7 +168,7 @@ TEST(ScanSurface, SeesAcrossTheSeam) {
   }
 }
 
-TEST(ScanSurface, ForgetsTheScanBefore) {
+TEST(ScanSurface, ResetsTheScanBefore) {
   ScanSurface surface = Scene(wall_m).surface();
   const Scene behind([](double azimuth, double) { return std::cos(azimuth) < -0.5 ? 7.0 : 0.0; });
   surface.take(behind.points, behind.rings, behind.labels);

@@ -27,7 +27,7 @@ class FaultsToDecoder : public LiveTest {
     std::uint64_t frames = 0;
   };
 
-  /// Four turns in 0.4 s, at the sensor's own speed; foreign packets come from another address.
+  /// Four frames in 0.4 s, at the sensor's own speed; foreign packets come from another address.
   Result play(const std::string& script) {
     auto source = open({.source_address = kLocalhost});
     auto sensor = sender_to(source);

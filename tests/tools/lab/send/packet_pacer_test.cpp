@@ -15,7 +15,7 @@ using send::PacketPacer;
 
 class PacketPacerTest : public LiveTest {
  protected:
-  /// Plays datagrams stamped `step_ns` apart and answers how long that took.
+  /// Plays datagrams stamped `step_ns` apart and returns how long that took.
   std::int64_t play(PacketPacer& pacer, Numbered& numbered, std::int64_t step_ns) {
     const std::int64_t begun_ns = measure::monotonic_ns();
     std::int64_t stamp_ns = 1'700'000'000'000'000'000;

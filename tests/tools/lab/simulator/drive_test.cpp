@@ -30,7 +30,7 @@ std::vector<Hdl64eSimulatedColumn> drive(const Hdl64eSimulation& config) {
   return columns;
 }
 
-Hdl64eSimulation one_turn(const std::string& scene) {
+Hdl64eSimulation one_frame(const std::string& scene) {
   Hdl64eSimulation config;
   config.scene = scene;
   config.duration_s = 0.1;
@@ -62,7 +62,7 @@ std::uint64_t digest(const std::vector<Hdl64eSimulatedColumn>& columns) {
 }
 
 TEST(DriveOnThreads, SameSeedGivesTheSameReturnsOnAnyNumberOfThreads) {
-  Hdl64eSimulation config = one_turn("street");
+  Hdl64eSimulation config = one_frame("street");
   config.threads = 1;
   const std::uint64_t alone = digest(drive(config));
   config.threads = 3;
@@ -72,19 +72,19 @@ TEST(DriveOnThreads, SameSeedGivesTheSameReturnsOnAnyNumberOfThreads) {
 }
 
 TEST(LongDrive, LongerDriveStartsLikeAShorterOne) {
-  Hdl64eSimulation config = one_turn("street");
+  Hdl64eSimulation config = one_frame("street");
   auto brief = drive(config);
   config.duration_s = 0.2;
   auto longer = drive(config);
-  const std::size_t first_turn = 2000;  // Columns before the run-out of the shorter one.
-  ASSERT_GT(brief.size(), first_turn);
-  brief.resize(first_turn);
-  longer.resize(first_turn);
+  const std::size_t first_frame = 2000;  // Columns before the run-out of the shorter one.
+  ASSERT_GT(brief.size(), first_frame);
+  brief.resize(first_frame);
+  longer.resize(first_frame);
   EXPECT_EQ(digest(brief), digest(longer));
 }
 
 TEST(Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
-  Hdl64eSimulation config = one_turn("flat");
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   config.mount.height_m = 2.1;
   std::size_t ground = 0;
@@ -98,7 +98,7 @@ TEST(Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
 }
 
 TEST(Drive, GroundIsLevelInTheVehicleFrameOfATiltedMount) {
-  Hdl64eSimulation config = one_turn("flat");
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   config.mount = {.height_m = 1.8, .roll_rad = 0.03, .pitch_rad = 0.06};
   const mount::RigidTransform T = mount::T_vehicle_lidar(config.mount);
@@ -110,7 +110,7 @@ TEST(Drive, GroundIsLevelInTheVehicleFrameOfATiltedMount) {
 }
 
 TEST(Drive, RangeNoiseOnTheGroundIsThatOfTheConfiguration) {
-  Hdl64eSimulation config = one_turn("flat");
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   config.effects.range_noise_m = 0.02;
   double squares = 0;
@@ -128,7 +128,7 @@ TEST(Drive, RangeNoiseOnTheGroundIsThatOfTheConfiguration) {
 }
 
 TEST(Drive, WireValuesDecodeToTheExactPointsWithinTheirRounding) {
-  Hdl64eSimulation config = one_turn("street");
+  Hdl64eSimulation config = one_frame("street");
   const hdl64e::Hdl64eGeometry geometry(config.calibration);
   const auto columns = drive(config);
   double worst_m = 0;
@@ -157,7 +157,7 @@ TEST(Drive, WireValuesDecodeToTheExactPointsWithinTheirRounding) {
 }
 
 TEST(Drive, BoxesOfTheFlatSceneAreSeenWithTheirClassAndNowhereElse) {
-  Hdl64eSimulation config = one_turn("flat");
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   config.speed_mps = 0;
   for (const scenes::FlatSceneBox& known : scenes::flat_scene_boxes()) {
@@ -186,15 +186,15 @@ TEST(Drive, BoxesOfTheFlatSceneAreSeenWithTheirClassAndNowhereElse) {
   }
 }
 
-TEST(Drive, EveryLaserSeesWholeTurnsAndNothingOutsideOfThem) {
-  Hdl64eSimulation config = one_turn("flat");
+TEST(Drive, EveryLaserSeesWholeFramesAndNothingOutsideOfThem) {
+  Hdl64eSimulation config = one_frame("flat");
   config.duration_s = 0.2;
   config.effects = SensorEffects::none();
   const hdl64e::BeamOffsets offsets(config.calibration);
   const auto columns = drive(config);
   ASSERT_EQ(columns.size() % 6, 0U);
   EXPECT_LT(columns.front().wire.unwrapped_azimuth_cdeg, -1000);
-  EXPECT_GT(columns.back().wire.unwrapped_azimuth_cdeg, 2 * beams::kTurn_cdeg + 1000);
+  EXPECT_GT(columns.back().wire.unwrapped_azimuth_cdeg, 2 * beams::kRevolution_cdeg + 1000);
   std::array<std::array<int, hdl64e::kHdl64eLasers>, 2> returns{};
   for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int laser,
                                const frame::LabelledReturn&, const beams::Point&) {
@@ -205,9 +205,9 @@ TEST(Drive, EveryLaserSeesWholeTurnsAndNothingOutsideOfThem) {
                                   beams::wrap_cdeg(columns[first + 5].wire.unwrapped_azimuth_cdeg));
     const auto beam = decode::beam_azimuth(column.wire.unwrapped_azimuth_cdeg,
                                            offsets.offset_ticks(step_ticks, laser));
-    ASSERT_GE(beam.turn, 0);
-    ASSERT_LT(beam.turn, 2);
-    ++returns[static_cast<std::size_t>(beam.turn)][static_cast<std::size_t>(laser)];
+    ASSERT_GE(beam.frame, 0);
+    ASSERT_LT(beam.frame, 2);
+    ++returns[static_cast<std::size_t>(beam.frame)][static_cast<std::size_t>(laser)];
   });
   // The lowest lasers always meet the ground.
   const auto& lasers = config.calibration.lasers;
@@ -218,9 +218,9 @@ TEST(Drive, EveryLaserSeesWholeTurnsAndNothingOutsideOfThem) {
   }
 }
 
-TEST(Drive, AzimuthsAndStampsAdvanceLikeATurningHead) {
+TEST(Drive, AzimuthsAndStampsAdvanceLikeARotatingHead) {
   for (const double spin_hz : {5.0, 10.0, 20.0}) {
-    Hdl64eSimulation config = one_turn("flat");
+    Hdl64eSimulation config = one_frame("flat");
     config.spin_hz = spin_hz;
     const auto columns = drive(config);
     const double step_cdeg = 360e2 * spin_hz * 48e-6;
@@ -234,36 +234,36 @@ TEST(Drive, AzimuthsAndStampsAdvanceLikeATurningHead) {
 }
 
 TEST(LongDrive, WorldComesNearerAsTheVehicleMoves) {
-  Hdl64eSimulation config = one_turn("flat");
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   config.duration_s = 0.3;
   config.speed_mps = 10;
   const auto truck_face_m = [&](const std::vector<Hdl64eSimulatedColumn>& columns,
-                                std::int64_t turn) {
+                                std::int64_t frame) {
     double nearest_m = 1e9;
     for_each_return(columns, [&](const Hdl64eSimulatedColumn& column, int,
                                  const frame::LabelledReturn& wire, const beams::Point& exact) {
-      const std::int64_t head_turn = column.wire.unwrapped_azimuth_cdeg / beams::kTurn_cdeg;
-      if (head_turn != turn || wire.truth != static_cast<std::uint32_t>(world::Truth::kTruck))
+      const std::int64_t revolution = column.wire.unwrapped_azimuth_cdeg / beams::kRevolution_cdeg;
+      if (revolution != frame || wire.truth != static_cast<std::uint32_t>(world::Truth::kTruck))
         return;
       nearest_m = std::min(nearest_m, exact.x_m);
     });
     return nearest_m;
   };
   const auto moving = drive(config);
-  // The rear stands at x = 19; straight ahead is seen at the start of each turn.
+  // The rear stands at x = 19; straight ahead is seen at the start of each frame.
   EXPECT_NEAR(truck_face_m(moving, 0), 19.0, 0.15);
   EXPECT_NEAR(truck_face_m(moving, 2), 17.0, 0.15);
 
-  config.motion_within_turn = false;
+  config.motion_within_frame = false;
   const auto stepping = drive(config);
   // What is left is the bend of the beams that pass just beside the edge.
   EXPECT_NEAR(truck_face_m(stepping, 0), 19.0, 0.03);
   EXPECT_NEAR(truck_face_m(stepping, 1), 18.0, 0.03);
 }
 
-TEST(Drive, TurnsAreOnePictureWhenTheWorldStandsStillDuringThem) {
-  Hdl64eSimulation config = one_turn("flat");
+TEST(Drive, FramesAreOnePictureWhenTheWorldStandsStillDuringThem) {
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   config.speed_mps = 20;
   const auto spread_m = [&] {
@@ -279,17 +279,17 @@ TEST(Drive, TurnsAreOnePictureWhenTheWorldStandsStillDuringThem) {
         });
     return most_m - least_m;
   };
-  config.motion_within_turn = false;
+  config.motion_within_frame = false;
   const double still_m = spread_m();
   EXPECT_LT(still_m, 0.01);
-  config.motion_within_turn = true;
+  config.motion_within_frame = true;
   EXPECT_GT(spread_m(), still_m + 0.01);
 }
 
 class EveryScene : public ::testing::TestWithParam<std::string_view> {};
 
 TEST_P(EveryScene, HasOnlyKnownLabelsAndRangesWithinTheLimits) {
-  Hdl64eSimulation config = one_turn(std::string(GetParam()));
+  Hdl64eSimulation config = one_frame(std::string(GetParam()));
   const std::set<std::uint32_t> known = {10, 18, 30, 31, 40, 44, 48, 49, 50, 51, 70, 71, 72, 80};
   const hdl64e::Hdl64eGeometry geometry(config.calibration);
   const auto begin = std::chrono::steady_clock::now();
@@ -311,7 +311,7 @@ TEST_P(EveryScene, HasOnlyKnownLabelsAndRangesWithinTheLimits) {
   EXPECT_GT(returns, 90000U);
   EXPECT_GT(ground_share, 0.35);
   EXPECT_LT(ground_share, 0.97);
-  std::cout << fmt::format("{}: {} returns, {:.0f} % ground, {:.2f} s a turn on {} threads\n",
+  std::cout << fmt::format("{}: {} returns, {:.0f} % ground, {:.2f} s a frame on {} threads\n",
                            GetParam(), returns, 100 * ground_share, took.count(), config.threads);
 }
 
@@ -321,7 +321,7 @@ INSTANTIATE_TEST_SUITE_P(Drive, EveryScene,
                          [](const auto& each) { return std::string(each.param); });
 
 TEST(Drive, DropOutsAreTheAskedShareOfReturns) {
-  Hdl64eSimulation config = one_turn("flat");
+  Hdl64eSimulation config = one_frame("flat");
   config.effects = SensorEffects::none();
   double all = 0, kept = 0;
   const auto count = [&](double& sum) {
@@ -336,7 +336,7 @@ TEST(Drive, DropOutsAreTheAskedShareOfReturns) {
 TEST(Drive, ErrorOfTheSinkEndsTheDrive) {
   int taken = 0;
   const auto summary =
-      simulate_drive(one_turn("flat"), [&](const Hdl64eSimulatedColumn&) -> Status {
+      simulate_drive(one_frame("flat"), [&](const Hdl64eSimulatedColumn&) -> Status {
         return ++taken < 10 ? Status{} : fail(ErrorCode::kWriteFailed, "disk full");
       });
   ASSERT_FALSE(summary);
@@ -346,7 +346,7 @@ TEST(Drive, ErrorOfTheSinkEndsTheDrive) {
 
 TEST(Drive, SettingsOutOfRangeAreRefusedByName) {
   const auto message = [](auto&& change) {
-    Hdl64eSimulation config = one_turn("flat");
+    Hdl64eSimulation config = one_frame("flat");
     change(config);
     const auto summary =
         simulate_drive(config, [](const Hdl64eSimulatedColumn&) -> Status { return {}; });

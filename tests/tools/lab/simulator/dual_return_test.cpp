@@ -18,11 +18,11 @@
 namespace terracut::simulator {
 namespace {
 
-template <class Transmitter>
-std::vector<SimulatedColumn<Transmitter>> drive(const SimulationConfig<Transmitter>& config) {
-  std::vector<SimulatedColumn<Transmitter>> columns;
+template <class EncoderTraits>
+std::vector<SimulatedColumn<EncoderTraits>> drive(const SimulationConfig<EncoderTraits>& config) {
+  std::vector<SimulatedColumn<EncoderTraits>> columns;
   const auto summary =
-      simulate_drive(config, [&](const SimulatedColumn<Transmitter>& column) -> Status {
+      simulate_drive(config, [&](const SimulatedColumn<EncoderTraits>& column) -> Status {
         columns.push_back(column);
         return {};
       });
@@ -31,9 +31,9 @@ std::vector<SimulatedColumn<Transmitter>> drive(const SimulationConfig<Transmitt
   return columns;
 }
 
-template <class Transmitter>
-SimulationConfig<Transmitter> one_turn(const std::string& scene, drive::ReturnMode returns) {
-  SimulationConfig<Transmitter> config;
+template <class EncoderTraits>
+SimulationConfig<EncoderTraits> one_frame(const std::string& scene, drive::ReturnMode returns) {
+  SimulationConfig<EncoderTraits> config;
   config.scene = scene;
   config.duration_s = 0.1;
   config.threads = 2;
@@ -41,17 +41,17 @@ SimulationConfig<Transmitter> one_turn(const std::string& scene, drive::ReturnMo
   return config;
 }
 
-template <class Transmitter>
+template <class EncoderTraits>
 class DualReturn : public testing::Test {};
-using Sensors = testing::Types<encode::Hdl64eTransmitter, encode::Ruby128Transmitter>;
+using Sensors = testing::Types<encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits>;
 TYPED_TEST_SUITE(DualReturn, Sensors);
 
 /// Calls visit(strongest, last) for each laser of each firing, with raw == 0 for none.
-template <class Transmitter, class Visit>
-void for_each_pair(const std::vector<SimulatedColumn<Transmitter>>& columns, Visit&& visit) {
-  constexpr std::size_t kStrongest = Transmitter::kStrongestFirst ? 0 : 1;
+template <class EncoderTraits, class Visit>
+void for_each_pair(const std::vector<SimulatedColumn<EncoderTraits>>& columns, Visit&& visit) {
+  constexpr std::size_t kStrongest = EncoderTraits::kStrongestFirst ? 0 : 1;
   for (std::size_t i = 0; i + 1 < columns.size(); i += 2) {
-    for (std::size_t laser = 0; laser < std::size_t{Transmitter::kLasers}; ++laser) {
+    for (std::size_t laser = 0; laser < std::size_t{EncoderTraits::kLasers}; ++laser) {
       visit(columns[i + kStrongest].wire.by_laser[laser],
             columns[i + 1 - kStrongest].wire.by_laser[laser]);
     }
@@ -59,7 +59,7 @@ void for_each_pair(const std::vector<SimulatedColumn<Transmitter>>& columns, Vis
 }
 
 TYPED_TEST(DualReturn, PairsShareStampAndAzimuthAndFillWholePackets) {
-  const auto columns = drive(one_turn<TypeParam>("flat", drive::ReturnMode::kDual));
+  const auto columns = drive(one_frame<TypeParam>("flat", drive::ReturnMode::kDual));
   ASSERT_EQ(columns.size() % 6, 0U);
   for (std::size_t i = 0; i < columns.size(); i += 2) {
     ASSERT_EQ(columns[i].wire.stamp_ns, columns[i + 1].wire.stamp_ns);
@@ -73,7 +73,7 @@ TYPED_TEST(DualReturn, PairsShareStampAndAzimuthAndFillWholePackets) {
 
 TYPED_TEST(DualReturn, BothReturnsAreThereOrNoneAndTheLastIsNeverNearer) {
   std::size_t pairs = 0, nearer = 0, halves = 0, same = 0, told_apart = 0;
-  for_each_pair(drive(one_turn<TypeParam>("street", drive::ReturnMode::kDual)),
+  for_each_pair(drive(one_frame<TypeParam>("street", drive::ReturnMode::kDual)),
                 [&](const frame::LabelledReturn& strongest, const frame::LabelledReturn& last) {
                   halves += (strongest.raw == 0) != (last.raw == 0) ? 1 : 0;
                   if (strongest.raw == 0) return;
@@ -92,7 +92,7 @@ TYPED_TEST(DualReturn, BothReturnsAreThereOrNoneAndTheLastIsNeverNearer) {
 }
 
 TYPED_TEST(DualReturn, EchoesOfABeamAreFarEnoughApartToBeTold) {
-  auto config = one_turn<TypeParam>("street", drive::ReturnMode::kDual);
+  auto config = one_frame<TypeParam>("street", drive::ReturnMode::kDual);
   config.effects = SensorEffects::none();
   const double metres = TypeParam::metres_per_count(config.calibration);
   double nearest_m = 1e9;
@@ -106,7 +106,7 @@ TYPED_TEST(DualReturn, EchoesOfABeamAreFarEnoughApartToBeTold) {
 }
 
 TYPED_TEST(DualReturn, TwoEchoesComeFromEdgesAndLeavesNotFromTheOpenGround) {
-  auto config = one_turn<TypeParam>("street", drive::ReturnMode::kDual);
+  auto config = one_frame<TypeParam>("street", drive::ReturnMode::kDual);
   config.effects = SensorEffects::none();
   std::map<std::uint32_t, std::size_t> split, all;
   for_each_pair(drive(config),
@@ -129,12 +129,12 @@ TYPED_TEST(DualReturn, TwoEchoesComeFromEdgesAndLeavesNotFromTheOpenGround) {
 }
 
 TYPED_TEST(DualReturn, IsTheSameOnAnyNumberOfThreads) {
-  auto config = one_turn<TypeParam>("street", drive::ReturnMode::kDual);
+  auto config = one_frame<TypeParam>("street", drive::ReturnMode::kDual);
   const auto digest = [](const auto& columns) {
     std::uint64_t sum = 0;
     for (const auto& column : columns) {
-      for (const frame::LabelledReturn& echo : column.wire.by_laser) {
-        sum = sum * 0x9E3779B97F4A7C15U + echo.raw * 3U + echo.intensity * 5U + echo.truth;
+      for (const frame::LabelledReturn& beam : column.wire.by_laser) {
+        sum = sum * 0x9E3779B97F4A7C15U + beam.raw * 3U + beam.intensity * 5U + beam.truth;
       }
     }
     return sum;
@@ -147,8 +147,9 @@ TYPED_TEST(DualReturn, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Ruby128Drive, TheAxisOfABeamMeasuresInDualReturnWhatItDoesInSingle) {
   const auto single =
-      drive(one_turn<encode::Ruby128Transmitter>("street", drive::ReturnMode::kSingle));
-  const auto dual = drive(one_turn<encode::Ruby128Transmitter>("street", drive::ReturnMode::kDual));
+      drive(one_frame<encode::Ruby128EncoderTraits>("street", drive::ReturnMode::kSingle));
+  const auto dual =
+      drive(one_frame<encode::Ruby128EncoderTraits>("street", drive::ReturnMode::kDual));
   std::size_t returns = 0, among_the_two = 0, strongest = 0;
   for (std::size_t i = 0; i < std::min(single.size(), dual.size() / 2); ++i) {
     ASSERT_EQ(single[i].wire.unwrapped_azimuth_cdeg, dual[2 * i].wire.unwrapped_azimuth_cdeg);
@@ -170,7 +171,7 @@ TEST(Ruby128Drive, TheAxisOfABeamMeasuresInDualReturnWhatItDoesInSingle) {
 }
 
 TEST(Ruby128Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
-  auto config = one_turn<encode::Ruby128Transmitter>("flat", drive::ReturnMode::kSingle);
+  auto config = one_frame<encode::Ruby128EncoderTraits>("flat", drive::ReturnMode::kSingle);
   config.effects = SensorEffects::none();
   config.mount.height_m = 2.1;
   std::size_t ground = 0;
@@ -185,16 +186,16 @@ TEST(Ruby128Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
   EXPECT_GT(ground, 80'000U);
 }
 
-TEST(Ruby128Drive, FiresEvery55MicrosecondsAtAnySpinAndSeesWholeTurns) {
+TEST(Ruby128Drive, FiresEvery55MicrosecondsAtAnySpinAndSeesWholeFrames) {
   for (const double spin_hz : {5.0, 10.0, 20.0}) {
-    auto config = one_turn<encode::Ruby128Transmitter>("flat", drive::ReturnMode::kSingle);
+    auto config = one_frame<encode::Ruby128EncoderTraits>("flat", drive::ReturnMode::kSingle);
     config.spin_hz = spin_hz;
     config.duration_s = 1 / spin_hz;
     config.effects = SensorEffects::none();
     const auto columns = drive(config);
     EXPECT_EQ(columns.size() % 3, 0U);
     EXPECT_LT(columns.front().wire.unwrapped_azimuth_cdeg, -1'000);
-    EXPECT_GT(columns.back().wire.unwrapped_azimuth_cdeg, beams::kTurn_cdeg + 1'000);
+    EXPECT_GT(columns.back().wire.unwrapped_azimuth_cdeg, beams::kRevolution_cdeg + 1'000);
     std::size_t lowest = 0;  // channel 36 points 25 degrees down and always meets the ground
     for (std::size_t i = 0; i < columns.size(); ++i) {
       lowest += columns[i].wire.by_laser[35].raw != 0 ? 1 : 0;

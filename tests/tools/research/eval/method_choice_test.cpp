@@ -38,7 +38,7 @@ TEST(MethodVariant, ItsOwnSettingsWinOverThoseOfAll) {
   EXPECT_FLOAT_EQ(variant->config.segmenter.elevation_map.grid.min_band_m, 0.3F);
 }
 
-TEST(MethodVariant, OfARivalTakesItsParametersAlone) {
+TEST(MethodVariant, OfABaselineTakesItsParametersAlone) {
   EXPECT_TRUE(method_variant("fine=pfaff,pfaff.cell_m=0.25", {}));
   for (const char* const text :
        {"fine=pfaff,grid.max_band_m=3", "fine=terracut,pfaff.cell_m=0.25"}) {

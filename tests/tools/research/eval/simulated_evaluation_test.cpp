@@ -51,7 +51,7 @@ class SimulatedEvaluationTest : public testing::Test {
   std::size_t of_ = 0;
 };
 
-TEST_F(SimulatedEvaluationTest, LabelsEveryTurnOfEitherSensorInEitherReturnMode) {
+TEST_F(SimulatedEvaluationTest, LabelsEveryFrameOfEitherSensorInEitherReturnMode) {
   const auto classes = datasets::built_in_table("semantickitti");
   for (const std::string sensor : {"hdl64e", "ruby128"}) {
     std::uint64_t points_in_single = 0;

@@ -24,10 +24,10 @@ class ChangedFramesTest : public testing::Test {
  protected:
   ChangedFramesTest() {
     for (int i = 0; i < 4; ++i) {
-      frame::Return echo;
-      echo.x_m = static_cast<float>(5 + i);
-      echo.ground_range_m = echo.x_m;
-      image_.place(0, i, echo);
+      frame::Return point;
+      point.x_m = static_cast<float>(5 + i);
+      point.ground_range_m = point.x_m;
+      image_.place(0, i, point);
     }
   }
   void look(const std::string& frame, const std::vector<Label>& first,
@@ -86,8 +86,8 @@ TEST_F(ChangedFramesTest, AreDrawnForEveryMethodOfADatasetAndOfADriveButTheFirst
   scans.methods = methods_;
   scans.jobs = 2;
   scans.changed_frames = &of_scans;
-  ASSERT_TRUE(
-      eval::evaluate(scans, nullptr, [](std::size_t, std::size_t) {}, [] { return false; }));
+  ASSERT_TRUE(eval::evaluate(
+      scans, nullptr, [](std::size_t, std::size_t) {}, [] { return false; }));
   eval::SimulatedConfig drive;
   drive.drives = {.scenes = {"street"}, .duration_s = 0.1};
   drive.methods = methods_;

@@ -1,0 +1,314 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/stream/frame_stream_server.hpp"
+
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "pipeline/stream/send_buffer.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+
+namespace terracut::stream {
+namespace {
+
+constexpr std::size_t kMostPeers = 64;
+constexpr std::uint64_t kListenerEvent = kMostPeers;
+/// So that a flood of connections does not keep frames waiting.
+constexpr int kAcceptsAtOnce = 32;
+constexpr std::int64_t kPauseAfterFailure_ns = 1'000'000'000;
+
+/// A machine that is gone without a word is noticed after 25 s even when no frames come.
+void set_tcp_options(int socket) noexcept {
+  const auto set = [socket](int level, int option, int value) {
+    ::setsockopt(socket, level, option, &value, sizeof value);
+  };
+  set(IPPROTO_TCP, TCP_NODELAY,
+      1);  // a frame's last bytes shall not wait for the first ones' answer
+  set(SOL_SOCKET, SO_KEEPALIVE, 1);
+  set(IPPROTO_TCP, TCP_KEEPIDLE, 10);
+  set(IPPROTO_TCP, TCP_KEEPINTVL, 5);
+  set(IPPROTO_TCP, TCP_KEEPCNT, 3);
+}
+
+Status check(const FrameStreamConfig& config) {
+  if (config.max_points < 1 || config.max_points > kMostFramePoints) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("frames of up to {} points cannot be streamed; expected 1 to {}",
+                            config.max_points, kMostFramePoints));
+  }
+  if (config.max_peers < 1 || config.max_peers > kMostPeers) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("a stream for {} readers; expected 1 to {}", config.max_peers, kMostPeers));
+  }
+  if (config.stall_limit_ns <= 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("a stall limit of {} ns; expected more than 0", config.stall_limit_ns));
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<FrameStreamServer> FrameStreamServer::open(const FrameStreamConfig& config,
+                                                    memory::FixedMemory& memory) {
+  if (const Status status = check(config); !status) return tl::unexpected(status.error());
+  auto listener = ListeningSocket::open(config.address, config.unix_mode);
+  if (!listener) return tl::unexpected(listener.error());
+  files::OwnedDescriptor events(::epoll_create1(EPOLL_CLOEXEC));
+  ::epoll_event event{};
+  event.events = EPOLLIN;
+  event.data.u64 = kListenerEvent;
+  if (!events || ::epoll_ctl(events.get(), EPOLL_CTL_ADD, listener->descriptor(), &event) != 0) {
+    return fail(ErrorCode::kUnreadable, fmt::format("epoll: {}", std::strerror(errno)));
+  }
+  return FrameStreamServer(config, *std::move(listener), std::move(events), memory);
+}
+
+FrameStreamServer::FrameStreamServer(const FrameStreamConfig& config, ListeningSocket listener,
+                                     files::OwnedDescriptor events, memory::FixedMemory& memory)
+    : config_(config),
+      listener_(std::move(listener)),
+      events_(std::move(events)),
+      peers_(config.max_peers),
+      slots_(memory.take<Slot>("stream of frames", config.max_peers)) {
+  for (Slot& slot : slots_) {
+    slot = {memory.take<LabelledPoint>("stream of frames", config.max_points), 0, 0};
+  }
+  const bool is_unix = config.address.is_unix();
+  const std::size_t wanted =
+      config.send_buffer_bytes > 0
+          ? config.send_buffer_bytes
+          : sizeof(FrameWireHeader) + config.max_points * sizeof(LabelledPoint);
+  const files::OwnedDescriptor trial(
+      ::socket(is_unix ? AF_UNIX : AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  send_buffer_ = send_buffer_grant(wanted, request_send_buffer(trial.get(), wanted));
+  // TCP finds a size of its own, up to net.ipv4.tcp_wmem, unless it is given one.
+  if (is_unix || send_buffer_.granted) send_buffer_bytes_ = wanted;
+}
+
+bool FrameStreamServer::serve(const LabelledFrame& frame) noexcept {
+  work_round();
+  if (frame.points.size() > config_.max_points) {
+    ++figures_.frames_too_large;
+    return false;
+  }
+  ++figures_.frames;
+  std::size_t slot = kNoSlot;
+  for (Peer& peer : peers_) {
+    if (!peer.socket) continue;
+    if (peer.backlog_bytes > 0) {
+      ++peer.figures.missed;
+      ++figures_.missed;
+      continue;
+    }
+    if (slot == kNoSlot) {
+      slot = free_slot();
+      std::copy(frame.points.begin(), frame.points.end(), slots_[slot].room.begin());
+      slots_[slot].points = frame.points.size();
+      ++slots_[slot].holders;  // until the last reader has been looked at
+    }
+    begin(peer, slot, frame);
+  }
+  if (slot != kNoSlot) --slots_[slot].holders;
+  return true;
+}
+
+void FrameStreamServer::work_round() noexcept {
+  handle_events();
+  const std::int64_t now_ns = measure::monotonic_ns();
+  for (Peer& peer : peers_) {
+    if (peer.socket) look_after(peer, now_ns);
+  }
+  if (listen_again_ns_ != 0 && now_ns >= listen_again_ns_) watch_listener(true);
+}
+
+std::size_t FrameStreamServer::peers() const noexcept {
+  return static_cast<std::size_t>(std::count_if(
+      peers_.begin(), peers_.end(), [](const Peer& peer) { return bool(peer.socket); }));
+}
+
+void FrameStreamServer::handle_events() noexcept {
+  std::array<::epoll_event, kMostPeers + 1> events;
+  const int count = ::epoll_wait(events_.get(), events.data(), static_cast<int>(events.size()), 0);
+  bool somebody_knocks = false;
+  for (int n = 0; n < count; ++n) {
+    const ::epoll_event& event = events[static_cast<std::size_t>(n)];
+    if (event.data.u64 == kListenerEvent) {
+      somebody_knocks = true;
+      continue;
+    }
+    Peer& peer = peers_[event.data.u64];
+    if ((event.events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) {
+      part_with(peer, figures_.left);
+    } else {
+      give(peer);
+    }
+  }
+  // Last, so that no event above can mean a reader that has just got the place of another.
+  if (somebody_knocks) let_in();
+}
+
+void FrameStreamServer::let_in() noexcept {
+  for (int n = 0; n < kAcceptsAtOnce; ++n) {
+    files::OwnedDescriptor socket(
+        ::accept4(listener_.descriptor(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    if (socket) {
+      take_in(std::move(socket));
+      continue;
+    }
+    if (errno == EAGAIN || errno == EWOULDBLOCK) return;
+    if (errno == EINTR || errno == ECONNABORTED || errno == EPROTO) continue;
+    // No descriptor or memory left: who knocks goes on knocking, and would keep the caller awake.
+    figures_.accept_error = errno;
+    ++figures_.accept_failures;
+    watch_listener(false);
+    return;
+  }
+}
+
+void FrameStreamServer::take_in(files::OwnedDescriptor socket) noexcept {
+  const auto place =
+      std::find_if(peers_.begin(), peers_.end(), [](const Peer& peer) { return !peer.socket; });
+  if (place == peers_.end()) {
+    ++figures_.refused;
+    return;
+  }
+  if (send_buffer_bytes_ > 0) request_send_buffer(socket.get(), send_buffer_bytes_);
+  if (!config_.address.is_unix()) set_tcp_options(socket.get());
+  Peer& peer = *place;
+  peer.socket = std::move(socket);
+  peer.backlog_bytes = 0;
+  peer.figures = {.connected = true, .connection = ++figures_.connected};
+  watch(peer, EPOLL_CTL_ADD, false);
+}
+
+void FrameStreamServer::watch_listener(bool watch) noexcept {
+  ::epoll_event event{};
+  event.events = watch ? EPOLLIN : 0U;
+  event.data.u64 = kListenerEvent;
+  ::epoll_ctl(events_.get(), EPOLL_CTL_MOD, listener_.descriptor(), &event);
+  listen_again_ns_ = watch ? 0 : measure::monotonic_ns() + kPauseAfterFailure_ns;
+}
+
+void FrameStreamServer::look_after(Peer& peer, std::int64_t now_ns) noexcept {
+  if (peer.backlog_bytes == 0) return;
+  const std::size_t now_bytes = backlog(peer);
+  if (now_bytes < peer.backlog_bytes) {
+    peer.progress_ns = now_ns;
+  } else if (now_ns - peer.progress_ns > config_.stall_limit_ns) {
+    part_with(peer, figures_.stalled);
+    return;
+  }
+  peer.backlog_bytes = now_bytes;
+}
+
+std::size_t FrameStreamServer::free_slot() const noexcept {
+  const auto slot = std::find_if(slots_.begin(), slots_.end(),
+                                 [](const Slot& each) { return each.holders == 0; });
+  return static_cast<std::size_t>(slot - slots_.begin());
+}
+
+void FrameStreamServer::begin(Peer& peer, std::size_t slot, const LabelledFrame& frame) noexcept {
+  peer.header = {
+      .number = frame.number,
+      .points = static_cast<std::uint32_t>(frame.points.size()),
+      .first_packet_ns = frame.first_packet_ns,
+      .last_packet_ns = frame.last_packet_ns,
+      .labels_ns = frame.labels_ns,
+      .sensor = static_cast<std::uint8_t>(frame.sensor),
+      .level = static_cast<std::uint8_t>(frame.level),
+      .flags = (frame.complete ? kFrameComplete : 0U) | (frame.late ? kFrameLate : 0U) |
+               (frame.motion == status::FrameMotion::kDeskewed ? kFrameDeskewed : 0U) |
+               (frame.motion == status::FrameMotion::kNoEgoMotion ? kFrameNoEgoMotion : 0U),
+      .missed = static_cast<std::uint32_t>(peer.figures.missed),
+  };
+  peer.slot = slot;
+  ++slots_[slot].holders;
+  peer.given_bytes = 0;
+  peer.progress_ns = measure::monotonic_ns();
+  give(peer);
+  if (!peer.socket) return;
+  peer.backlog_bytes = backlog(peer);
+  if (peer.slot != kNoSlot) watch(peer, EPOLL_CTL_MOD, true);
+}
+
+void FrameStreamServer::give(Peer& peer) noexcept {
+  if (!peer.socket || peer.slot == kNoSlot) return;
+  const std::size_t all_bytes = frame_bytes(peer);
+  while (peer.given_bytes < all_bytes) {
+    const std::span header = std::as_writable_bytes(std::span(&peer.header, 1));
+    const Slot& slot = slots_[peer.slot];
+    const std::span points = std::as_writable_bytes(slot.room.first(slot.points));
+    const std::size_t of_header = std::min(peer.given_bytes, header.size());
+    const std::size_t of_points = peer.given_bytes - of_header;
+    std::array<::iovec, 2> parts{{{header.data() + of_header, header.size() - of_header},
+                                  {points.data() + of_points, points.size() - of_points}}};
+    ::msghdr message{};
+    message.msg_iov = parts.data();
+    message.msg_iovlen = parts.size();
+    // MSG_NOSIGNAL: that a reader has gone is no reason for SIGPIPE to end the process.
+    const ::ssize_t given = ::sendmsg(peer.socket.get(), &message, MSG_NOSIGNAL | MSG_DONTWAIT);
+    if (given < 0) {
+      if (errno == EINTR) continue;
+      if (errno == EAGAIN || errno == EWOULDBLOCK) return;
+      part_with(peer, figures_.left);
+      return;
+    }
+    peer.given_bytes += static_cast<std::size_t>(given);
+    figures_.bytes += static_cast<std::uint64_t>(given);
+  }
+  release(peer);
+  ++peer.figures.sent;
+  ++figures_.sent;
+  watch(peer, EPOLL_CTL_MOD, false);
+}
+
+void FrameStreamServer::release(Peer& peer) noexcept {
+  --slots_[peer.slot].holders;
+  peer.slot = kNoSlot;
+}
+
+void FrameStreamServer::part_with(Peer& peer, std::uint64_t& counter) noexcept {
+  if (!peer.socket) return;
+  ++counter;
+  if (peer.slot != kNoSlot) {
+    ++figures_.cut_short;
+    release(peer);
+  }
+  // By name, and with an end to the connection: a child process may hold copies of the descriptor.
+  watch(peer, EPOLL_CTL_DEL, false);
+  ::shutdown(peer.socket.get(), SHUT_RDWR);
+  peer.socket.close();
+  peer.backlog_bytes = 0;
+  peer.figures.connected = false;
+}
+
+/// What a reader sends is never read; that it ends its sending is an event all the same.
+void FrameStreamServer::watch(Peer& peer, int operation, bool for_room) noexcept {
+  ::epoll_event event{};
+  event.events = EPOLLRDHUP | (for_room ? EPOLLOUT : 0U);
+  event.data.u64 = static_cast<std::uint64_t>(&peer - peers_.data());
+  ::epoll_ctl(events_.get(), operation, peer.socket.get(), &event);
+}
+
+std::size_t FrameStreamServer::backlog(const Peer& peer) const noexcept {
+  const std::size_t ours = peer.slot == kNoSlot ? 0 : frame_bytes(peer) - peer.given_bytes;
+  return ours + bytes_waiting_in(peer.socket.get(), config_.address.is_unix());
+}
+
+std::size_t FrameStreamServer::frame_bytes(const Peer& peer) const noexcept {
+  return sizeof(FrameWireHeader) + slots_[peer.slot].points * sizeof(LabelledPoint);
+}
+
+}  // namespace terracut::stream

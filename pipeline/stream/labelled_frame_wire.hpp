@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "firmware_io/sensor/sensor_model.hpp"
+#include "pipeline/status/frame_timing.hpp"
+#include "rt/error.hpp"
+
+/// A labelled frame as it goes over a socket (docs/reference/labelled_stream.md): one header, then
+/// the points, then the next frame's header. Little-endian, without padding, used as it lies.
+namespace terracut::stream {
+
+static_assert(std::endian::native == std::endian::little, "the records below are sent as they lie");
+
+/// One return. `label` is the SemanticKITTI class as in the .label files (label_sink.hpp); `row`
+/// that of the range image, 0 is the lowest laser.
+struct LabelledPoint {
+  float x_m = 0, y_m = 0, z_m = 0;  ///< Vehicle frame (calib/mount/mount.hpp).
+  std::uint8_t intensity = 0;
+  std::uint8_t label = 0;
+  std::uint16_t row = 0;
+
+  bool operator==(const LabelledPoint&) const = default;
+};
+static_assert(sizeof(LabelledPoint) == 16 && std::is_trivially_copyable_v<LabelledPoint>);
+static_assert(offsetof(LabelledPoint, intensity) == 12 && offsetof(LabelledPoint, label) == 13 &&
+              offsetof(LabelledPoint, row) == 14);
+
+/// Numbers of FrameWireHeader::sensor; they never change their meaning.
+enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 = 2 };
+
+[[nodiscard]] constexpr StreamedSensor streamed_sensor(sensor::SensorModel model) noexcept {
+  switch (model) {
+    case sensor::SensorModel::kHdl64e:
+      return StreamedSensor::kHdl64e;
+    case sensor::SensorModel::kRuby128:
+      return StreamedSensor::kRuby128;
+    default:
+      return StreamedSensor::kUnknown;
+  }
+}
+
+/// Bits of FrameWireHeader::flags. Readers ignore bits they do not know.
+inline constexpr std::uint32_t kFrameComplete = 1U << 0;  ///< Every firing was seen, seam to seam.
+inline constexpr std::uint32_t kFrameLate = 1U << 1;      ///< Labelled after its deadline.
+/// Deskewed: points lie where they were at one instant of the frame.
+inline constexpr std::uint32_t kFrameDeskewed = 1U << 2;
+/// It was to be deskewed but the motion is not known: points lie where the sensor saw them.
+inline constexpr std::uint32_t kFrameNoEgoMotion = 1U << 3;
+
+inline constexpr std::array<char, 4> kFrameMagic{'T', 'C', 'L', 'T'};
+/// Grows only when readers of the version before could no longer read. New fields go to the end of
+/// the header or of the point, and readers skip what header_bytes and point_bytes say is there.
+inline constexpr std::uint16_t kFrameWireVersion = 1;
+/// What a reader need not fear to be exceeded: six times a Ruby128's dual-return frame.
+inline constexpr std::uint32_t kMostFramePoints = 4'194'304;
+
+struct FrameWireHeader {
+  std::array<char, 4> magic = kFrameMagic;
+  std::uint16_t version = kFrameWireVersion;
+  std::uint16_t header_bytes = 56;
+  std::uint32_t number =
+      0;  ///< Of the frame, 0.. since the sender's start; gaps are frames without.
+  std::uint32_t points = 0;
+  std::int64_t first_packet_ns = 0;  ///< CLOCK_REALTIME, kernel's stamps.
+  std::int64_t last_packet_ns = 0;
+  std::int64_t labels_ns = 0;  ///< CLOCK_REALTIME; when the labels were there. 0: not known.
+  std::uint16_t point_bytes = sizeof(LabelledPoint);
+  std::uint8_t sensor = 0;   ///< StreamedSensor.
+  std::uint8_t level = 0;    ///< status::Level: 0 full, 1 cut stopped, 2 coarse, 3 skipped.
+  std::uint32_t flags = 0;   ///< kFrameComplete, ...
+  std::uint32_t missed = 0;  ///< Turns this reader was too slow for, since it connected.
+  std::uint32_t reserved = 0;
+
+  bool operator==(const FrameWireHeader&) const = default;
+};
+static_assert(sizeof(FrameWireHeader) == 56 && std::is_trivially_copyable_v<FrameWireHeader>);
+static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
+              offsetof(FrameWireHeader, number) == 8 && offsetof(FrameWireHeader, points) == 12 &&
+              offsetof(FrameWireHeader, first_packet_ns) == 16 &&
+              offsetof(FrameWireHeader, last_packet_ns) == 24 &&
+              offsetof(FrameWireHeader, labels_ns) == 32 &&
+              offsetof(FrameWireHeader, point_bytes) == 40 &&
+              offsetof(FrameWireHeader, sensor) == 42 && offsetof(FrameWireHeader, level) == 43 &&
+              offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48);
+static_assert(static_cast<int>(status::Level::kFull) == 0 &&
+                  static_cast<int>(status::Level::kSkipped) == 3,
+              "the wire's numbers are the enumeration's");
+
+/// The first bytes of every header of any version: as much as tells how long it is.
+inline constexpr std::size_t kFramePreambleBytes = 8;
+
+/// How many bytes the whole header has, from its first kFramePreambleBytes. kMalformed: not a
+/// labelled frame, or a header shorter than version 1's. kUnsupported: another version.
+[[nodiscard]] Expected<std::size_t> frame_header_bytes(std::span<const std::byte> preamble);
+
+/// A whole header, checked: `bytes` has at least frame_header_bytes() of itself. Errors as there,
+/// and kMalformed for points shorter than version 1's, kCapacityExceeded for more than
+/// kMostFramePoints.
+[[nodiscard]] Expected<FrameWireHeader> parse_frame_header(std::span<const std::byte> bytes);
+
+}  // namespace terracut::stream

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// tools/examples/read_frames.py, a second reader of the format, written without this one's code.
+#include <gmock/gmock.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <future>
+#include <iterator>
+
+#include "stream_test_support.hpp"
+#include "tests/support/places.hpp"
+
+namespace terracut::stream {
+namespace {
+
+class ReadFramesScript : public StreamTest {
+ protected:
+  struct Outcome {
+    int status = -1;
+    std::string text;  ///< Both of its outputs.
+  };
+
+  void SetUp() override {
+    if (std::system("python3 -c 'import sys; sys.exit(sys.version_info < (3, 8))' 2>/dev/null") !=
+        0)
+      GTEST_SKIP() << "no python3 of version 3.8 or newer";
+    StreamTest::SetUp();
+    open({.max_points = 200'000});
+  }
+  void TearDown() override {
+    if (!folder_.empty()) StreamTest::TearDown();
+  }
+  [[nodiscard]] std::future<Outcome> run(const std::string& arguments) const {
+    return run_at(to_string(server_->address()), arguments);
+  }
+  [[nodiscard]] static std::future<Outcome> run_at(const std::string& address,
+                                                   const std::string& arguments) {
+    const std::string command = "python3 " +
+                                (test::source_folder() / "tools/examples/read_frames.py").string() +
+                                " " + address + " " + arguments + " 2>&1";
+    return std::async(std::launch::async, [command] {
+      Outcome outcome;
+      std::FILE* pipe = ::popen(command.c_str(), "re");
+      char buffer[1024];
+      while (std::fgets(buffer, sizeof buffer, pipe) != nullptr) outcome.text += buffer;
+      outcome.status = ::pclose(pipe);
+      return outcome;
+    });
+  }
+  [[nodiscard]] bool reader_came() {
+    return step_until([this] { step(); }, [this] { return figures().connected == 1; });
+  }
+  [[nodiscard]] Outcome end_of(std::future<Outcome>& script) {
+    while (script.wait_for(std::chrono::seconds(0)) != std::future_status::ready) step();
+    return script.get();
+  }
+};
+
+TEST_P(ReadFramesScript, PrintsWhatWasServed) {
+  auto script = run("--count 1");
+  ASSERT_TRUE(reader_came());
+  const auto points = points_of_frame(41, 150'000);
+  LabelledFrame frame = frame_of(41, points);
+  frame.level = status::Level::kCutStopped;
+  frame.late = true;
+  ASSERT_TRUE(server().serve(frame));
+  const Outcome outcome = end_of(script);
+  EXPECT_EQ(outcome.status, 0);
+  EXPECT_EQ(outcome.text,
+            "frame 41  hdl64e  cut_stopped  150000 points  50000 ground  100000 obstacle  labelled "
+            "after 6.0 ms  late\n");
+}
+
+TEST_P(ReadFramesScript, WritesPcdFilesWithThePointsAsTheyWere) {
+  auto script = run("--count 1 --pcd " + folder_.string());
+  ASSERT_TRUE(reader_came());
+  const auto points = points_of_frame(3, 1000);
+  ASSERT_TRUE(server().serve(frame_of(3, points)));
+  const Outcome outcome = end_of(script);
+  ASSERT_EQ(outcome.status, 0) << outcome.text;
+  std::ifstream file(folder_ / "000003.pcd", std::ios::binary);
+  const std::string content{std::istreambuf_iterator<char>(file), {}};
+  const std::string_view bytes(reinterpret_cast<const char*>(points.data()),
+                               points.size() * sizeof(LabelledPoint));
+  EXPECT_THAT(content, testing::HasSubstr("\nSIZE 4 4 4 1 1 2\n"));
+  ASSERT_GT(content.size(), bytes.size());
+  EXPECT_EQ(content.substr(content.size() - bytes.size()), bytes);
+}
+
+TEST_P(ReadFramesScript, EndsWithoutComplaintWhenTheServerEnds) {
+  auto script = run("");
+  ASSERT_TRUE(reader_came());
+  ASSERT_TRUE(server().serve(frame_of(0, {})));
+  server_.reset();
+  const Outcome outcome = script.get();
+  EXPECT_EQ(outcome.status, 0) << outcome.text;
+  EXPECT_THAT(outcome.text, testing::HasSubstr("0 points"));
+}
+
+TEST_P(ReadFramesScript, SaysWhereNobodyServes) {
+  const std::string address = to_string(server().address());
+  server_.reset();
+  const Outcome outcome = run_at(address, "").get();
+  EXPECT_NE(outcome.status, 0);
+  EXPECT_THAT(outcome.text, testing::StartsWith("read_frames: " + address + ": "));
+  EXPECT_THAT(outcome.text, testing::Not(testing::HasSubstr("Traceback")));
+}
+
+INSTANTIATE_TEST_SUITE_P(Over, ReadFramesScript, testing::Values(Transport::kTcp, Transport::kUnix),
+                         transport_name);
+
+}  // namespace
+}  // namespace terracut::stream

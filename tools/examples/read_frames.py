@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Reads labelled frames from a running `terracut live --stream ADDRESS` (docs/reference/labelled_stream.md).
+
+Prints a line a frame; with --pcd also writes each as a binary PCD file. Needs nothing but Python 3.8:
+copy decode_header() and receive_frames() into a program of your own. With numpy, the points are
+numpy.frombuffer(points, POINT_DTYPE).
+"""
+import argparse
+import os
+import socket
+import struct
+import sys
+
+HEADER = struct.Struct("<4sHHIIqqqHBBIII")
+POINT = struct.Struct("<fffBBH")
+POINT_DTYPE = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"),
+               ("intensity", "u1"), ("label", "u1"), ("row", "<u2")]
+HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_packet_ns",
+                 "last_packet_ns", "labels_ns", "point_bytes", "sensor", "level", "flags",
+                 "missed", "reserved")
+MOST_POINTS = 4194304
+SENSORS = {1: "hdl64e", 2: "ruby128"}
+RUNGS = {0: "full", 1: "cut_stopped", 2: "coarse", 3: "skipped"}
+COMPLETE, LATE, NO_EGO_MOTION = 1, 2, 8
+GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99
+
+
+class StreamError(Exception):
+    """What came is no stream of labelled frames, or it ended within one."""
+
+
+def connect(address):
+    """A connected socket. ADDRESS:PORT, a port on this machine, or the path of a Unix socket."""
+    if "/" in address:
+        connection = socket.socket(socket.AF_UNIX)
+        connection.connect(address)
+        return connection
+    host, _, port = address.rpartition(":")
+    return socket.create_connection((host or "127.0.0.1", int(port)))
+
+
+def receive(connection, count):
+    """`count` bytes, or fewer where the stream ends."""
+    buffer = bytearray(count)
+    view, got = memoryview(buffer), 0
+    while got < count:
+        step = connection.recv_into(view[got:])
+        if step == 0:
+            break
+        got += step
+    return bytes(view[:got])
+
+
+def receive_all(connection, count):
+    data = receive(connection, count)
+    if len(data) < count:
+        raise StreamError("the stream ended within a frame")
+    return data
+
+
+def decode_header(data):
+    """The header as a dictionary; `data` is at least as long as it says itself."""
+    header = dict(zip(HEADER_FIELDS, HEADER.unpack_from(data)))
+    if header["point_bytes"] < POINT.size or header["points"] > MOST_POINTS:
+        raise StreamError("a header that cannot be: %s" % header)
+    return header
+
+
+def receive_frames(connection):
+    """Yields (header, points): points as bytes, POINT.size a point, until the sender ends."""
+    while True:
+        preamble = receive(connection, 8)
+        if not preamble:
+            return
+        if len(preamble) < 8 or preamble[:4] != b"TCLT":
+            raise StreamError("no stream of labelled frames")
+        version, header_bytes = struct.unpack_from("<HH", preamble, 4)
+        if version != 1:
+            raise StreamError("labelled frames of version %d; this reader knows version 1" % version)
+        if header_bytes < HEADER.size:
+            raise StreamError("a header of %d bytes; expected at least %d"
+                              % (header_bytes, HEADER.size))
+        header = decode_header(preamble + receive_all(connection, header_bytes - 8))
+        stride = header["point_bytes"]
+        points = receive_all(connection, header["points"] * stride)
+        if stride > POINT.size:  # a later sender's: what this reader does not know is left out
+            points = b"".join(points[n:n + POINT.size] for n in range(0, len(points), stride))
+        yield header, points
+
+
+def describe(header, points):
+    """One line for people."""
+    labels = points[13::POINT.size]
+    obstacles = labels.count(OBSTACLE)
+    ground = labels.count(GROUND) + labels.count(OTHER_GROUND)
+    line = "frame %d  %s  %s  %d points  %d ground  %d obstacle" % (
+        header["number"], SENSORS.get(header["sensor"], "unknown"),
+        RUNGS.get(header["level"], "unknown"), header["points"], ground, obstacles)
+    if header["labels_ns"]:
+        line += "  labelled after %.1f ms" % (
+            (header["labels_ns"] - header["last_packet_ns"]) / 1e6)
+    if not header["flags"] & COMPLETE:
+        line += "  incomplete"
+    if header["flags"] & LATE:
+        line += "  late"
+    if header["flags"] & NO_EGO_MOTION:
+        line += "  no ego motion"
+    if header["missed"]:
+        line += "  %d missed" % header["missed"]
+    return line
+
+
+def write_pcd(path, points):
+    """Binary PCD v0.7 with the fields x y z intensity label ring; whole or not at all."""
+    count = len(points) // POINT.size
+    header = ("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
+              "FIELDS x y z intensity label ring\nSIZE 4 4 4 1 1 2\nTYPE F F F U U U\n"
+              "COUNT 1 1 1 1 1 1\nWIDTH %d\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
+              "POINTS %d\nDATA binary\n" % (count, count))
+    with open(path + ".part", "wb") as file:
+        file.write(header.encode("ascii"))
+        file.write(points)
+    os.replace(path + ".part", path)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Labelled frames of a running terracut live.")
+    parser.add_argument("address", help="as given to `terracut live --stream`: ADDRESS:PORT, a "
+                        "port of this machine, or the path of a Unix socket")
+    parser.add_argument("--count", type=int, default=0, help="stop after so many frames")
+    parser.add_argument("--pcd", metavar="FOLDER", help="write each frame there as NUMBER.pcd")
+    arguments = parser.parse_args()
+    try:
+        if arguments.pcd:
+            os.makedirs(arguments.pcd, exist_ok=True)
+        with connect(arguments.address) as connection:
+            for frames, (header, points) in enumerate(receive_frames(connection), 1):
+                print(describe(header, points), flush=True)
+                if arguments.pcd:
+                    write_pcd(os.path.join(arguments.pcd, "%06d.pcd" % header["number"]), points)
+                if frames == arguments.count:
+                    break
+    except (OSError, ValueError, StreamError) as error:
+        print("read_frames: %s: %s" % (arguments.address, error), file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        pass
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

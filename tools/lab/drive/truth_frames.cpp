@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "truth_frames.hpp"
+
+#include <cstddef>
+#include <utility>
+
+#include "calib/beams/angle.hpp"
+#include "encoder_traits.hpp"
+#include "firmware_io/decode/beam_azimuth.hpp"
+
+namespace terracut::drive {
+
+template <class EncoderTraits>
+void TruthFrames<EncoderTraits>::add(std::span<const Column> columns) {
+  const auto returns = static_cast<std::size_t>(returns_per_firing(returns_));
+  GroupAzimuths rotor_cdeg{};
+  for (std::size_t i = 0; i < columns.size(); i += returns) {
+    rotor_cdeg[i / returns] = beams::wrap_cdeg(columns[i].unwrapped_azimuth_cdeg);
+  }
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    const std::int32_t step_ticks =
+        EncoderTraits::step_ticks(rotor_cdeg, static_cast<int>(i / returns), returns_);
+    for (int laser = 0; laser < EncoderTraits::kLasers; ++laser) {
+      const frame::LabelledReturn& labelled = columns[i].by_laser[static_cast<std::size_t>(laser)];
+      if (labelled.raw == 0) continue;
+      const std::int32_t offset_ticks =
+          EncoderTraits::offset_ticks(offsets_, step_ticks, laser, returns_);
+      const decode::BeamAzimuth beam =
+          decode::beam_azimuth(columns[i].unwrapped_azimuth_cdeg, offset_ticks);
+      by_frame_[beam.frame].push_back(labelled.truth);
+    }
+  }
+  oldest_reachable_ =
+      decode::beam_azimuth(columns.back().unwrapped_azimuth_cdeg, offsets_.hindmost_ticks()).frame;
+}
+
+template <class EncoderTraits>
+bool TruthFrames<EncoderTraits>::take_finished(std::vector<std::uint32_t>& labels) {
+  if (by_frame_.empty() || by_frame_.begin()->first >= oldest_reachable_) return false;
+  return take_any(labels);
+}
+
+template <class EncoderTraits>
+bool TruthFrames<EncoderTraits>::take_any(std::vector<std::uint32_t>& labels) {
+  if (by_frame_.empty()) return false;
+  labels = std::move(by_frame_.begin()->second);
+  by_frame_.erase(by_frame_.begin());
+  return true;
+}
+
+template class TruthFrames<encode::Hdl64eEncoderTraits>;
+template class TruthFrames<encode::Ruby128EncoderTraits>;
+
+}  // namespace terracut::drive

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "return_mode.hpp"
+
+namespace terracut::drive {
+
+/// Sorts the truth of a drive's returns into frames as the decoder sorts the returns: by each
+/// beam's own azimuth, in order of arrival. `EncoderTraits`: see encoder_traits.hpp. Not real-time
+/// safe (allocates).
+template <class EncoderTraits>
+class TruthFrames {
+ public:
+  using Column = typename EncoderTraits::Column;
+
+  TruthFrames(const typename EncoderTraits::Offsets& offsets, ReturnMode returns)
+      : offsets_(offsets), returns_(returns) {}
+
+  /// The columns of one group of firings.
+  void add(std::span<const Column> columns);
+
+  /// The oldest frame that no further beam can reach, if any; its labels move to `labels`, which
+  /// has at least one. Empty frames are dropped.
+  [[nodiscard]] bool take_finished(std::vector<std::uint32_t>& labels);
+  /// The same for the oldest frame of all, at the end of the drive.
+  [[nodiscard]] bool take_any(std::vector<std::uint32_t>& labels);
+
+ private:
+  typename EncoderTraits::Offsets offsets_;
+  ReturnMode returns_;
+  std::map<std::int64_t, std::vector<std::uint32_t>> by_frame_;
+  std::int64_t oldest_reachable_ = 0;
+};
+
+}  // namespace terracut::drive

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string_view>
 
 namespace terracut::frame {
 
@@ -17,6 +18,19 @@ enum class DeskewState : std::uint8_t {
   /// as kOff.
   kNoEgoMotion,
 };
+
+/// Stable lower_snake_case name, as in reports.
+[[nodiscard]] constexpr std::string_view to_string(DeskewState state) noexcept {
+  switch (state) {
+    case DeskewState::kOff:
+      return "not_asked";
+    case DeskewState::kDone:
+      return "deskewed";
+    case DeskewState::kNoEgoMotion:
+      return "no_ego_motion";
+  }
+  return "unknown";
+}
 
 /// Whether and how a frame was freed of the vehicle's motion.
 struct DeskewInfo {

@@ -39,6 +39,10 @@ struct CutReport {
   /// budget. 0 where the cut was discarded.
   std::int64_t flow = 0;
 
+  /// All of them: what the cut cost, whatever machine it ran on.
+  [[nodiscard]] constexpr std::int64_t operations() const noexcept {
+    return persistency_ops + greedy_push_ops + boykov_kolmogorov_ops + push_relabel_ops;
+  }
   /// Every unknown cell carries the label of one global optimum.
   [[nodiscard]] constexpr bool exact() const noexcept {
     return coarse_by_cap == 0 && coarse_by_budget == 0;

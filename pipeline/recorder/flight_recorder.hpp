@@ -11,7 +11,7 @@
 #include "firmware_io/net/packet_ring.hpp"
 #include "pipeline/recorder/dump_policy.hpp"
 #include "pipeline/recorder/dump_record.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "rt/error.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -20,8 +20,8 @@ namespace terracut::recorder {
 
 /// The times of the last frames, to lie beside a dump.
 struct DumpFrames {
-  std::span<const status::FrameTiming> times;
-  std::span<const std::string_view> stages;  ///< Names for FrameTiming::stage_cpu_ns.
+  std::span<const status::FrameRecord> times;
+  std::span<const std::string_view> stages;  ///< Names for FrameRecord::stage_cpu_ns.
 };
 
 /// Keeps the last seconds of datagrams in fixed memory and writes them to disk when something went

@@ -10,7 +10,7 @@
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/run/stage_clock.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -77,7 +77,7 @@ class DegradationPolicyOf {
     return !is_trial_ || clock_.realtime_ns() <= due_ns_;
   }
   /// The frame is done: learns from it. `handing_on_ns`: of processor time, for its labels.
-  void end(const StageTimes& times, const stage::SegmentationReport& report,
+  void end(const stage::StageTimes& times, const stage::SegmentationReport& report,
            std::int64_t handing_on_ns) noexcept TERRACUT_NONBLOCKING {
     using stage::Stage;
     const auto cost_ns = [&](Stage stage) {

@@ -6,9 +6,8 @@
 #include <cstddef>
 #include <span>
 
-#include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/run/frame.hpp"
 #include "rt/queues/latest_value.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -23,20 +22,13 @@ class FrameExchange {
  public:
   static constexpr std::size_t kImages = 2 + queues::LatestSlot::kSlots;
 
-  struct Frame {
-    frame::RangeImage* image = nullptr;
-    frame::FrameInfo info;
-    status::FrameTiming timing;
-    bool has_coarse_stages = false;  ///< Else they are still to be done.
-  };
-
   /// `images`: the decoder's, kImages of them, of which the first two are open.
   explicit FrameExchange(std::span<frame::RangeImage> images) noexcept {
     for (std::size_t i = 0; i < frames_.size(); ++i) frames_[i].image = &images[2 + i];
   }
 
   /// Receiving thread: hands `frame` over and returns the image to go on with. Where the frame
-  /// before it was never taken, on_skipped(const Frame&) is told.
+  /// before it was never taken, on_skipped(Frame&) is told.
   template <class OnSkipped>
   frame::RangeImage* hand_over(const Frame& frame, OnSkipped&& on_skipped) noexcept {
     Frame& slot = frames_[slots_.writer_slot()];

@@ -9,8 +9,7 @@
 #include <span>
 #include <string_view>
 
-#include "firmware_io/frame/frame_info.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/queues/spsc_queue.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -27,8 +26,7 @@ template <class T>
 class FramePool {
  public:
   struct Frame {
-    frame::FrameInfo info;
-    status::FrameTiming timing;  ///< As far as it was known: up to the labels.
+    status::FrameRecord record;  ///< As far as it was known: up to the labels.
     std::span<const T> items;
   };
 
@@ -43,11 +41,10 @@ class FramePool {
     }
   }
 
-  /// Segmenting thread: `fill(std::span<T>)` puts the frame's items, info.returns of them, to the
-  /// beginning of its argument. Real-time safe if `fill` is.
+  /// Segmenting thread: `fill(std::span<T>)` puts the frame's items, record.info.returns of them,
+  /// to the beginning of its argument. Real-time safe if `fill` is.
   template <class Fill>
-  void pass_on(const frame::FrameInfo& info, const status::FrameTiming& timing,
-               Fill&& fill) noexcept {
+  void pass_on(const status::FrameRecord& record, Fill&& fill) noexcept {
     std::uint32_t i = 0;
     if (!free_.try_pop(i)) {
       unused_.fetch_add(1, std::memory_order_relaxed);
@@ -55,8 +52,7 @@ class FramePool {
     }
     waiting_.fetch_add(1, std::memory_order_relaxed);
     Slot& slot = slots_[i];
-    slot.info = info;
-    slot.timing = timing;
+    slot.record = record;
     fill(slot.room);
     (void)full_.try_push(i);  // as many places as slots
   }
@@ -65,7 +61,7 @@ class FramePool {
   [[nodiscard]] bool take(Frame& frame) noexcept {
     if (!full_.try_pop(taken_)) return false;
     const Slot& slot = slots_[taken_];
-    frame = {slot.info, slot.timing, slot.room.first(slot.info.returns)};
+    frame = {slot.record, slot.room.first(slot.record.info.returns)};
     return true;
   }
   /// `used`: the frame got where it was to go.
@@ -82,8 +78,7 @@ class FramePool {
 
  private:
   struct Slot {
-    frame::FrameInfo info;
-    status::FrameTiming timing;
+    status::FrameRecord record;
     std::span<T> room;
   };
 

@@ -13,7 +13,7 @@
 #include "firmware_io/sensor/told_table.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
 #include "pipeline/run/frame_exchange.hpp"
-#include "pipeline/run/frame_timings.hpp"
+#include "pipeline/run/frame_records.hpp"
 #include "pipeline/run/live_pipeline.hpp"
 #include "pipeline/run/packet_gate.hpp"
 #include "pipeline/run/stage_clock.hpp"
@@ -53,7 +53,7 @@ class FrameReceiver {
   struct Outlets {
     FrameExchange* frames;
     const threads::WakeEvent* frame_ready;
-    FrameTimings* skipped;
+    FrameRecords* skipped;
     queues::LatestValue<Intake>* intake;
     recorder::FlightRecorder* recorder;
     sensor::ToldTable* told_table = nullptr;
@@ -147,47 +147,36 @@ class FrameReceiver {
 
   frame::RangeImage* hand_over(const frame::FrameInfo& info,
                                frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
-    FrameExchange::Frame frame{&image, info, {}, false};
-    if (pipeline_.coarse.share_ahead(image) >= kEnoughAhead) {
+    const bool has_coarse_stages = pipeline_.coarse.share_ahead(image) >= kEnoughAhead;
+    if (has_coarse_stages) {
       pipeline_.coarse.finish(image, pipeline_.planes_of(image), &coarse_clock_);
-      frame.has_coarse_stages = true;
     }
-    frame.timing = timing_of(info);
-    frame.timing.stages_ahead = frame.has_coarse_stages ? kCoarseStages : std::uint8_t{0};
-    if (!lets_go_) gate_.note_frame(info.last_packet_ns, frame.timing.handed_over_ns);
-    frame::RangeImage* next =
-        to_.frames->hand_over(frame, [this](const FrameExchange::Frame& skipped) noexcept {
-          status::FrameTiming timing = skipped.timing;
-          timing.level = status::Level::kSkipped;
-          timing.labels_ns = clock_.realtime_ns();
-          to_.skipped->pass_on(timing);
-        });
+    Frame frame{&image, record_of(info)};
+    frame.record.stages_ahead = has_coarse_stages ? kCoarseStages : std::uint8_t{0};
+    if (!lets_go_) gate_.note_frame(info.last_packet_ns, frame.record.handed_over_ns);
+    frame::RangeImage* next = to_.frames->hand_over(frame, [this](Frame& skipped) noexcept {
+      skipped.record.level = status::Level::kSkipped;
+      skipped.record.labels_ns = clock_.realtime_ns();
+      to_.skipped->pass_on(skipped.record);
+    });
     to_.frame_ready->wake();
     ++frames_;
     return next;
   }
 
-  [[nodiscard]] status::FrameTiming timing_of(const frame::FrameInfo& info) noexcept
+  [[nodiscard]] status::FrameRecord record_of(const frame::FrameInfo& info) noexcept
       TERRACUT_NONBLOCKING {
-    status::FrameTiming timing;
-    const StageTimes coarse_times = coarse_clock_.take();
+    status::FrameRecord record;
+    record.info = info;
+    record.closing_packet_ns = newest_packet_ns_;
+    record.stages = coarse_clock_.take();
+    record.segment_cpu_ns = record.ahead_cpu_ns = record.stages.sum_ns();
     const std::int64_t now_ns = clock_.thread_cpu_ns();
-    timing.number = info.number;
-    timing.returns = info.returns;
-    timing.first_packet_ns = info.first_packet_ns;
-    timing.last_packet_ns = info.last_packet_ns;
-    timing.closing_packet_ns = newest_packet_ns_;
-    timing.motion = motion_of(info.deskew.state);
-    timing.newest_motion_ns = info.deskew.newest_motion_ns;
-    std::copy(coarse_times.stage_ns.begin(), coarse_times.stage_ns.end(),
-              timing.stage_cpu_ns.begin());
-    timing.segment_cpu_ns = coarse_times.sum_ns();
-    timing.decode_cpu_ns = now_ns - spent_ns_ - timing.segment_cpu_ns;
+    record.decode_cpu_ns = now_ns - std::exchange(spent_ns_, now_ns) - record.segment_cpu_ns;
     // The frame's last packet came with this fetch or the one before.
-    timing.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
-    timing.handed_over_ns = clock_.realtime_ns();
-    spent_ns_ = now_ns;
-    return timing;
+    record.run_queue_wait_ns = wait_.read_ns() - waited_before_last_fetch_ns_;
+    record.handed_over_ns = clock_.realtime_ns();
+    return record;
   }
 
   void publish() noexcept {
@@ -207,18 +196,6 @@ class FrameReceiver {
   }
 
   static constexpr auto kCoarseStages = static_cast<std::uint8_t>(stage::Stage::kSeeds);
-
-  [[nodiscard]] static status::FrameMotion motion_of(frame::DeskewState state) noexcept {
-    switch (state) {
-      case frame::DeskewState::kDone:
-        return status::FrameMotion::kDeskewed;
-      case frame::DeskewState::kNoEgoMotion:
-        return status::FrameMotion::kNoEgoMotion;
-      case frame::DeskewState::kOff:
-        break;
-    }
-    return status::FrameMotion::kNotAsked;
-  }
 
   LivePipeline& pipeline_;
   Source& source_;

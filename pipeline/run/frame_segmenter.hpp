@@ -10,7 +10,7 @@
 #include "pipeline/run/degradation_policy.hpp"
 #include "pipeline/run/frame_exchange.hpp"
 #include "pipeline/run/frame_pool.hpp"
-#include "pipeline/run/frame_timings.hpp"
+#include "pipeline/run/frame_records.hpp"
 #include "pipeline/run/latest_near_ground.hpp"
 #include "pipeline/run/live_pipeline.hpp"
 #include "pipeline/run/stage_clock.hpp"
@@ -29,7 +29,7 @@ class FrameSegmenter {
  public:
   /// Where things go; all must outlive this. Slots and `near_ground` may be null.
   struct Outlets {
-    FrameTimings* timings;
+    FrameRecords* records;
     FramePool<frame::Label>* labels;
     FramePool<stream::LabelledPoint>* points;
     const threads::WakeEvent* points_ready;
@@ -50,62 +50,56 @@ class FrameSegmenter {
 
   /// Segments the newest frame; false where there is none that it has not had.
   bool work_round() noexcept TERRACUT_NONBLOCKING {
-    FrameExchange::Frame* frame = frames_.take_if_new();
+    Frame* frame = frames_.take_if_new();
     if (frame == nullptr) return false;
     segment(*frame);
     const std::int64_t waited_ns = wait_.read_ns();
-    frame->timing.run_queue_wait_ns += waited_ns - std::exchange(waited_before_ns_, waited_ns);
-    to_.timings->pass_on(frame->timing);
+    frame->record.run_queue_wait_ns += waited_ns - std::exchange(waited_before_ns_, waited_ns);
+    to_.records->pass_on(frame->record);
     return true;
   }
 
  private:
-  void segment(FrameExchange::Frame& frame) noexcept {
-    status::FrameTiming& timing = frame.timing;
-    timing.segment_begin_ns = clock_.realtime_ns();
-    if (!degradation_.begin(frame.info.last_packet_ns)) {
-      timing.level = status::Level::kSkipped;
-      timing.labels_ns = clock_.realtime_ns();
+  void segment(Frame& frame) noexcept {
+    status::FrameRecord& record = frame.record;
+    record.segment_begin_ns = clock_.realtime_ns();
+    if (!degradation_.begin(record.info.last_packet_ns)) {
+      record.level = status::Level::kSkipped;
+      record.labels_ns = clock_.realtime_ns();
       return;
     }
     const std::int64_t begun_cpu_ns = clock_.thread_cpu_ns();
     stage::CellPlanes& planes = pipeline_.planes_of(*frame.image);
-    if (!frame.has_coarse_stages) pipeline_.late_coarse.finish(*frame.image, planes, &stage_clock_);
-    const stage::SegmentationReport report =
+    if (record.stages_ahead == 0) pipeline_.late_coarse.finish(*frame.image, planes, &stage_clock_);
+    record.segmentation =
         pipeline_.fine.refine(*frame.image, planes, degradation_.budget(), &stage_clock_);
-    timing.level =
-        degradation_.may_hand_on() ? DegradationPolicy::level_of(report) : status::Level::kSkipped;
-    timing.labels_ns = clock_.realtime_ns();
+    record.level = degradation_.may_hand_on() ? DegradationPolicy::level_of(record.segmentation)
+                                              : status::Level::kSkipped;
+    record.labels_ns = clock_.realtime_ns();
     const std::int64_t labelled_cpu_ns = clock_.thread_cpu_ns();
-    if (timing.level != status::Level::kSkipped) hand_on(frame);
-    timing.labels_ns = clock_.realtime_ns();  // judged by when they were handed on
+    if (record.level != status::Level::kSkipped) hand_on(frame);
+    record.labels_ns = clock_.realtime_ns();  // judged by when they were handed on
     const std::int64_t handed_on_cpu_ns = clock_.thread_cpu_ns();
-    timing.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
-    const StageTimes times = stage_clock_.take();
-    degradation_.end(times, report, handed_on_cpu_ns - labelled_cpu_ns);
-    if (to_.near_ground != nullptr && frame.info.number % LatestNearGround::kFramesApart == 0) {
+    record.segment_cpu_ns += handed_on_cpu_ns - begun_cpu_ns;
+    const stage::StageTimes times = stage_clock_.take();
+    degradation_.end(times, record.segmentation, handed_on_cpu_ns - labelled_cpu_ns);
+    if (to_.near_ground != nullptr && record.info.number % LatestNearGround::kFramesApart == 0) {
       to_.near_ground->take(*frame.image);
     }
-    for (std::size_t i = 0; i < times.stage_ns.size(); ++i) {
-      timing.stage_cpu_ns[i] += times.stage_ns[i];
-    }
-    timing.cut_operations =
-        static_cast<std::uint64_t>(report.cut.persistency_ops + report.cut.greedy_push_ops +
-                                   report.cut.boykov_kolmogorov_ops + report.cut.push_relabel_ops);
+    record.stages += times;
   }
 
-  void hand_on(const FrameExchange::Frame& frame) noexcept {
+  void hand_on(const Frame& frame) noexcept {
     const auto labels = pipeline_.fine.labels();
     if (to_.labels != nullptr) {
-      to_.labels->pass_on(frame.info, frame.timing, [&](std::span<frame::Label> room) noexcept {
+      to_.labels->pass_on(frame.record, [&](std::span<frame::Label> room) noexcept {
         std::copy(labels.begin(), labels.end(), room.begin());
       });
     }
     if (to_.points != nullptr) {
-      to_.points->pass_on(frame.info, frame.timing,
-                          [&](std::span<stream::LabelledPoint> room) noexcept {
-                            (void)stream::pack_labelled_points(*frame.image, labels, room);
-                          });
+      to_.points->pass_on(frame.record, [&](std::span<stream::LabelledPoint> room) noexcept {
+        (void)stream::pack_labelled_points(*frame.image, labels, room);
+      });
       to_.points_ready->wake();
     }
   }

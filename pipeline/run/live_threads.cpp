@@ -98,7 +98,7 @@ void LiveThreads::receive_frames(Receiver& receiver) noexcept {
 
 void LiveThreads::segment() noexcept {
   Segmenter segmenter(config_.deadline_ns, pipeline_, exchange_,
-                      {.timings = &segmented_,
+                      {.records = &segmented_,
                        .labels = labels(),
                        .points = points(),
                        .points_ready = &events_.points_ready,

@@ -14,8 +14,8 @@
 #include "pipeline/run/frame_exchange.hpp"
 #include "pipeline/run/frame_pool.hpp"
 #include "pipeline/run/frame_receiver.hpp"
+#include "pipeline/run/frame_records.hpp"
 #include "pipeline/run/frame_segmenter.hpp"
-#include "pipeline/run/frame_timings.hpp"
 #include "pipeline/run/latest_near_ground.hpp"
 #include "pipeline/run/live_pipeline.hpp"
 #include "pipeline/run/live_thread_state.hpp"
@@ -35,10 +35,10 @@ namespace terracut::run {
 ///
 ///   FrameReceiver  datagrams -> recorder,  --FrameExchange-->  FrameSegmenter  frames -> labels
 ///      |          decoder, coarse stages                         |                      |
-///      '-- timings of skipped frames --.      .---- timings ------'                      |
+///      '-- records of skipped frames --.      .---- records ------'                      |
 ///      FramePool
 ///                                     v      v                                          v
-///                              whoever calls take_timing()            label files, stream of
+///                              whoever calls take_record()            label files, stream of
 ///                              points
 class LiveThreads {
  public:
@@ -67,9 +67,9 @@ class LiveThreads {
   [[nodiscard]] std::vector<threads::Grant> start();
   void stop();
 
-  /// The next judged-to-be frame's times, in no strict order between skipped ones and others.
-  [[nodiscard]] bool take_timing(status::FrameTiming& timing) noexcept {
-    return segmented_.take(timing) || skipped_.take(timing);
+  /// The record of the next frame to be judged; skipped ones and others in no strict order.
+  [[nodiscard]] bool take_record(status::FrameRecord& record) noexcept {
+    return segmented_.take(record) || skipped_.take(record);
   }
   /// The labels of every frame, by return index; null without Config::keeps_labels.
   [[nodiscard]] FramePool<frame::Label>* labels() noexcept { return labels_ ? &*labels_ : nullptr; }
@@ -91,8 +91,8 @@ class LiveThreads {
 
   /// From one thread.
   [[nodiscard]] const Intake& intake() noexcept;
-  /// Frames that nobody judged because the one who takes timings was too slow.
-  [[nodiscard]] std::uint64_t timings_dropped() const noexcept {
+  /// Frames that nobody judged because the one who takes records was too slow.
+  [[nodiscard]] std::uint64_t records_dropped() const noexcept {
     return segmented_.dropped() + skipped_.dropped();
   }
   [[nodiscard]] const LiveThreadState& receive_state() const noexcept { return receive_state_; }
@@ -118,7 +118,7 @@ class LiveThreads {
   sensor::ToldTable told_table_;
 
   FrameExchange exchange_;
-  FrameTimings segmented_, skipped_;
+  FrameRecords segmented_, skipped_;
 
   LatestNearGround near_ground_;
 

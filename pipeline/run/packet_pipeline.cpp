@@ -29,7 +29,7 @@ void PacketPipeline::pause() noexcept {
   decode_ns_ += measure::thread_cpu_ns() - resumed_ns_;
 }
 
-TimedFrame* PacketPipeline::next() noexcept {
+Frame* PacketPipeline::next() noexcept {
   if (frame_.image != nullptr) {
     frame_.image = nullptr;
     resume();
@@ -43,18 +43,19 @@ TimedFrame* PacketPipeline::next() noexcept {
     }
     return nullptr;
   }
-  static_cast<frame::Frame&>(frame_) = *frame;
-  frame_.times = {
-      .decode_ns = std::exchange(decode_ns_, 0), .ahead_ns = 0, .stages = clock_.take()};
-  frame_.times.ahead_ns = frame_.times.stages.sum_ns();
-  if (timing_ == Timing::kFrames) frame_.times.decode_ns -= frame_.times.ahead_ns;
+  frame_ = {.image = frame->image, .record = {}};
+  status::FrameRecord& record = frame_.record;
+  record.info = frame->info;
+  record.decode_cpu_ns = std::exchange(decode_ns_, 0);
+  record.stages = clock_.take();
+  record.ahead_cpu_ns = record.stages.sum_ns();
+  if (timing_ == Timing::kFrames) record.decode_cpu_ns -= record.ahead_cpu_ns;
   return &frame_;
 }
 
-stage::SegmentationReport PacketPipeline::label(TimedFrame& frame) noexcept {
-  const stage::SegmentationReport report = method_.segment(*frame.image, &clock_);
-  frame.times.stages += clock_.take();
-  return report;
+void PacketPipeline::label(Frame& frame) noexcept {
+  frame.record.segmentation = method_.segment(*frame.image, &clock_);
+  frame.record.stages += clock_.take();
 }
 
 }  // namespace terracut::run

@@ -12,29 +12,18 @@
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/sensor/sensor_decoder.hpp"
 #include "pipeline/ground/ground_method.hpp"
+#include "pipeline/run/frame.hpp"
 #include "pipeline/run/stage_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::run {
 
-/// Processor time of one frame, nanoseconds of the thread that worked on it.
-struct FrameTimes {
-  std::int64_t decode_ns = 0;  ///< Of the packets since the frame before.
-  std::int64_t ahead_ns = 0;   ///< Of the stages, what was done while the frame was still arriving.
-  StageTimes stages;           ///< Complete when the frame has been labelled.
-};
-
-/// A frame and what it has cost so far.
-struct TimedFrame : frame::Frame {
-  FrameTimes times;
-};
-
 /// The way from packets to labels on one thread: packets are pushed in, frames come out, and
 /// whoever takes a frame may have it labelled.
 ///
-///   for (run::TimedFrame& frame : pipeline.push(datagram)) {
-///     const auto report = pipeline.label(frame);
-///     write(frame.info, *frame.image, pipeline.labels());
+///   for (Frame& frame : pipeline.push(datagram)) {
+///     pipeline.label(frame);
+///     write(frame.record.info, *frame.image, pipeline.labels());
 ///   }
 ///
 /// Coarse stages are done ahead, while a frame arrives. One thread. The constructor takes all
@@ -62,15 +51,16 @@ class PacketPipeline {
   /// The frames that are left when the stream ends or its source will jump (a replay loop).
   Frames end_stream() noexcept;
   /// The same one by one, for who does not use the range: null at its end.
-  [[nodiscard]] TimedFrame* next() noexcept;
+  [[nodiscard]] Frame* next() noexcept;
   /// Why the datagram pushed last was rejected, if it was.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {
     return decoder_.rejected();
   }
 
-  /// Labels the frame handed out last; labels() has one a return, by return index, until the next
-  /// call. Frames that are not labelled cost no more than what was done ahead.
-  stage::SegmentationReport label(TimedFrame& frame) noexcept;
+  /// Labels the frame handed out last, and completes its record; labels() has one a return, by
+  /// return index, until the next call. Frames that are not labelled cost no more than what was
+  /// done ahead.
+  void label(Frame& frame) noexcept;
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_.labels(); }
 
   [[nodiscard]] const sensor::SensorDecoder& decoder() const noexcept { return decoder_; }
@@ -87,18 +77,18 @@ class PacketPipeline {
   std::int64_t decode_ns_ = 0;  ///< Since the frame before.
   std::int64_t resumed_ns_ = 0;
   bool begins_ = true;  ///< The next packet is a stream's first.
-  TimedFrame frame_;
+  Frame frame_;
 };
 
 class PacketPipeline::Frames {
  public:
   class Iterator {
    public:
-    using value_type = TimedFrame;
+    using value_type = Frame;
     using difference_type = std::ptrdiff_t;
 
-    TimedFrame& operator*() const noexcept { return *frame_; }
-    TimedFrame* operator->() const noexcept { return frame_; }
+    Frame& operator*() const noexcept { return *frame_; }
+    Frame* operator->() const noexcept { return frame_; }
     Iterator& operator++() noexcept {
       frame_ = pipeline_->next();
       return *this;
@@ -114,7 +104,7 @@ class PacketPipeline::Frames {
         : pipeline_(&pipeline), frame_(pipeline.next()) {}
 
     PacketPipeline* pipeline_;
-    TimedFrame* frame_;
+    Frame* frame_;
   };
 
   /// Once.

@@ -2,33 +2,16 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
 #include "pipeline/stage/stage.hpp"
+#include "pipeline/stage/stage_times.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::run {
-
-/// Processor time of one frame by stage, nanoseconds of the segmenting thread.
-struct StageTimes {
-  std::array<std::int64_t, stage::kStages> stage_ns{};
-  std::int64_t segment_wall_ns = 0;  ///< While at work on the frame, by the wall clock.
-
-  StageTimes& operator+=(const StageTimes& more) noexcept {
-    for (std::size_t i = 0; i < stage_ns.size(); ++i) stage_ns[i] += more.stage_ns[i];
-    segment_wall_ns += more.segment_wall_ns;
-    return *this;
-  }
-  [[nodiscard]] std::int64_t sum_ns() const noexcept TERRACUT_NONBLOCKING {
-    std::int64_t sum = 0;
-    for (const std::int64_t one_ns : stage_ns) sum += one_ns;
-    return sum;
-  }
-};
 
 /// Times the stages of the pipeline, which has no clock of its own: those of a frame, however often
 /// it was left and gone on with, until its times are taken.
@@ -47,9 +30,11 @@ class StageClockOf final : public stage::StageObserver {
     last_ = now;
   }
   /// Of the frame so far.
-  [[nodiscard]] const StageTimes& times() const noexcept { return times_; }
+  [[nodiscard]] const stage::StageTimes& times() const noexcept { return times_; }
   /// Its times; the next frame begins.
-  StageTimes take() noexcept TERRACUT_NONBLOCKING { return std::exchange(times_, StageTimes{}); }
+  stage::StageTimes take() noexcept TERRACUT_NONBLOCKING {
+    return std::exchange(times_, stage::StageTimes{});
+  }
 
  private:
   [[nodiscard]] measure::ClockPair now() const noexcept TERRACUT_NONBLOCKING {
@@ -57,7 +42,7 @@ class StageClockOf final : public stage::StageObserver {
   }
 
   Clock clock_;
-  StageTimes times_;
+  stage::StageTimes times_;
   measure::ClockPair last_;
 };
 

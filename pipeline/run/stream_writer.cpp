@@ -37,15 +37,10 @@ void StreamWriter::work() {
 }
 
 bool StreamWriter::serve(const Slots::Frame& frame) {
-  return server_.serve({.number = frame.info.number,
-                        .first_packet_ns = frame.info.first_packet_ns,
-                        .last_packet_ns = frame.info.last_packet_ns,
-                        .labels_ns = frame.timing.labels_ns,
+  const std::int64_t latency_ns = frame.record.labels_ns - frame.record.info.last_packet_ns;
+  return server_.serve({.record = frame.record,
                         .sensor = sensor_,
-                        .level = frame.timing.level,
-                        .complete = frame.info.complete,
-                        .late = frame.timing.labels_ns - frame.info.last_packet_ns > deadline_ns_,
-                        .motion = frame.timing.motion,
+                        .late = latency_ns > deadline_ns_,
                         .points = frame.items});
 }
 

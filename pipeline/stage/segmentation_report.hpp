@@ -21,6 +21,7 @@ struct SegmentationReport {
   Stage last_stage = Stage::kMinCut;  ///< How far the labels were refined.
   min_cut::CutReport cut;             ///< All zero where none was tried.
 
+  [[nodiscard]] constexpr std::uint32_t labelled() const noexcept { return ground + obstacles; }
   /// Fills the four counts from one label a return.
   void count(std::span<const frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 };

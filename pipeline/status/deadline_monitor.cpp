@@ -22,16 +22,16 @@ std::int64_t take_share(std::int64_t wanted_ns,
   return share_ns;
 }
 
-FrameMissCause largest_share(const FrameTiming& frame,
+FrameMissCause largest_share(const FrameRecord& frame,
                              std::int64_t latency_ns) noexcept TERRACUT_NONBLOCKING {
   std::int64_t rest_ns = latency_ns;
   const std::int64_t closed_ns =
-      frame.closing_packet_ns == 0 ? frame.last_packet_ns : frame.closing_packet_ns;
+      frame.closing_packet_ns == 0 ? frame.info.last_packet_ns : frame.closing_packet_ns;
   std::array<std::int64_t, kMissCauses> share_ns{};
   const auto share_of = [&](FrameMissCause cause) -> std::int64_t& {
     return share_ns[static_cast<std::size_t>(cause)];
   };
-  share_of(FrameMissCause::kLateInput) = take_share(closed_ns - frame.last_packet_ns, rest_ns);
+  share_of(FrameMissCause::kLateInput) = take_share(closed_ns - frame.info.last_packet_ns, rest_ns);
   share_of(FrameMissCause::kStolenTime) = take_share(frame.steal_ns, rest_ns);
   share_of(FrameMissCause::kWaitingForCore) =
       take_share(frame.run_queue_wait_ns - std::max<std::int64_t>(frame.steal_ns, 0), rest_ns);
@@ -46,19 +46,19 @@ FrameMissCause largest_share(const FrameTiming& frame,
 DeadlineMonitor::DeadlineMonitor(const Config& config, memory::FixedMemory& memory)
     : snapshot_(
           std::construct_at(memory.take<MonitorSnapshot>("deadline monitor: figures", 1).data())),
-      kept_(memory.take<FrameTiming>("deadline monitor: newest frames",
+      kept_(memory.take<FrameRecord>("deadline monitor: newest frames",
                                      std::max<std::size_t>(config.kept_frames, 2))) {
   snapshot_->deadline_ns = config.deadline_ns;
   const auto names =
-      config.stage_names.first(std::min(config.stage_names.size(), FrameTiming::kMaxStages));
+      config.stage_names.first(std::min(config.stage_names.size(), MonitorSnapshot::kMaxStages));
   snapshot_->stage_count = static_cast<std::uint32_t>(names.size());
   std::copy(names.begin(), names.end(), snapshot_->stage_names.begin());
 }
 
-void DeadlineMonitor::judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
+void DeadlineMonitor::judge(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
   ++figures.frames;
-  figures.returns += frame.returns;
+  figures.returns += frame.info.returns;
   if (frame.level < Level::kCount) ++figures.levels[static_cast<std::size_t>(frame.level)];
 
   judge_latency(frame);
@@ -73,21 +73,20 @@ void DeadlineMonitor::judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
   record_motion(frame);
   record_costs(frame);
   keep(frame);
-  figures.newest = frame;
   figures.frames_per_s = frames_per_s();
 }
 
-void DeadlineMonitor::judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
+void DeadlineMonitor::judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
   const bool skipped = frame.level == Level::kSkipped;
   frame.missed = skipped;
   frame.cause = FrameMissCause::kOwnWork;
   // A clock that was set back between packet and labels, or a packet without a stamp.
-  if (frame.last_packet_ns <= 0 || frame.labels_ns < frame.last_packet_ns) {
+  if (frame.info.last_packet_ns <= 0 || frame.labels_ns < frame.info.last_packet_ns) {
     ++figures.unjudged;
     return;
   }
-  const std::int64_t latency_ns = frame.labels_ns - frame.last_packet_ns;
+  const std::int64_t latency_ns = frame.labels_ns - frame.info.last_packet_ns;
   frame.missed = skipped || latency_ns > figures.deadline_ns;
   if (frame.missed) frame.cause = largest_share(frame, latency_ns);
   if (skipped) return;  // no labels, hence no latency: it would only look like a quick frame
@@ -95,12 +94,13 @@ void DeadlineMonitor::judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLO
   if (frame.handed_over_ns > 0) figures.wall.record(frame.labels_ns - frame.handed_over_ns);
 }
 
-void DeadlineMonitor::record_motion(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
+void DeadlineMonitor::record_motion(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   MotionFigures& motion = snapshot_->motion;
-  if (frame.motion == FrameMotion::kNotAsked) return;
-  const std::int64_t after_frame_ns = frame.newest_motion_ns;
+  const frame::DeskewInfo& deskew = frame.info.deskew;
+  if (deskew.state == frame::DeskewState::kOff) return;
+  const std::int64_t after_frame_ns = deskew.newest_motion_ns;
   motion.newest_sample_after_frame_ns = after_frame_ns;
-  if (frame.motion == FrameMotion::kNoEgoMotion) {
+  if (deskew.state == frame::DeskewState::kNoEgoMotion) {
     ++motion.no_ego_motion;
     return;
   }
@@ -112,7 +112,7 @@ void DeadlineMonitor::record_motion(const FrameTiming& frame) noexcept TERRACUT_
   motion.sum_sample_after_frame_ns += static_cast<double>(after_frame_ns);
 }
 
-void DeadlineMonitor::record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
+void DeadlineMonitor::record_costs(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   MonitorSnapshot& figures = *snapshot_;
   figures.decode_cpu.record(frame.decode_cpu_ns);
   if (frame.level == Level::kSkipped) return;
@@ -120,28 +120,28 @@ void DeadlineMonitor::record_costs(const FrameTiming& frame) noexcept TERRACUT_N
   figures.segment_cpu.record(frame.segment_cpu_ns);
   for (std::size_t i = 0; i < figures.stages(); ++i) {
     // A stage left out on a lower level must not make that stage look cheap.
-    if (frame.stage_cpu_ns[i] > 0) figures.stage_cpu[i].record(frame.stage_cpu_ns[i]);
+    if (frame.stages.stage_ns[i] > 0) figures.stage_cpu[i].record(frame.stages.stage_ns[i]);
   }
 }
 
-void DeadlineMonitor::keep(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING {
+void DeadlineMonitor::keep(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING {
   kept_[next_] = frame;
   next_ = next_ + 1 == kept_.size() ? 0 : next_ + 1;
   count_ = std::min(count_ + 1, kept_.size());
 }
 
 /// The frame judged `age` frames before the newest one; age < count_.
-const FrameTiming& DeadlineMonitor::kept_before(std::size_t age) const noexcept
+const FrameRecord& DeadlineMonitor::kept_before(std::size_t age) const noexcept
     TERRACUT_NONBLOCKING {
   return kept_[(next_ + kept_.size() - 1 - age) % kept_.size()];
 }
 
 double DeadlineMonitor::frames_per_s() const noexcept TERRACUT_NONBLOCKING {
-  const auto newest_ns = static_cast<std::uint64_t>(kept_before(0).last_packet_ns);
+  const auto newest_ns = static_cast<std::uint64_t>(newest().info.last_packet_ns);
   std::int64_t least_ns = 0, most_ns = 0;  // before the newest one; skipped frames may come earlier
   std::size_t age = 0;
   while (age < std::min(count_ - 1, kRateFrames)) {
-    const auto stamp_ns = static_cast<std::uint64_t>(kept_before(age + 1).last_packet_ns);
+    const auto stamp_ns = static_cast<std::uint64_t>(kept_before(age + 1).info.last_packet_ns);
     const auto before_ns = static_cast<std::int64_t>(newest_ns - stamp_ns);  // whatever stamps say
     if (before_ns < -kRateWindow_ns || before_ns > kRateWindow_ns) break;
     least_ns = std::min(least_ns, before_ns);
@@ -153,11 +153,11 @@ double DeadlineMonitor::frames_per_s() const noexcept TERRACUT_NONBLOCKING {
 }
 
 void DeadlineMonitor::look_at_rate(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING {
-  const bool stopped = now_ns - snapshot_->newest.last_packet_ns > kStopped_ns;
+  const bool stopped = now_ns - newest().info.last_packet_ns > kStopped_ns;
   if (stopped) snapshot_->frames_per_s = 0;
 }
 
-std::size_t DeadlineMonitor::copy_newest(std::span<FrameTiming> into) const noexcept
+std::size_t DeadlineMonitor::copy_newest(std::span<FrameRecord> into) const noexcept
     TERRACUT_NONBLOCKING {
   const std::size_t copied = std::min(into.size(), count_);
   for (std::size_t i = 0; i < copied; ++i) into[i] = kept_before(copied - 1 - i);

@@ -7,7 +7,7 @@
 #include <span>
 #include <string_view>
 
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -34,22 +34,26 @@ class DeadlineMonitor {
  public:
   struct Config {
     std::int64_t deadline_ns = 50'000'000;            ///< > 0
-    std::span<const std::string_view> stage_names{};  ///< At most FrameTiming::kMaxStages.
+    std::span<const std::string_view> stage_names{};  ///< At most MonitorSnapshot::kMaxStages.
     std::size_t kept_frames = 128;                    ///< For traces, >= 2.
   };
 
   DeadlineMonitor(const Config& config, memory::FixedMemory& memory);
 
   /// Sets frame.missed and frame.cause, counts the frame and keeps it.
-  void judge(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void judge(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
 
   /// Lets the rate of frames be 0 where the newest one is more than a second old. `now_ns`: time of
   /// day.
   void look_at_rate(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING;
 
+  /// The frame judged last; a value without stamps before the first.
+  [[nodiscard]] const FrameRecord& newest() const noexcept TERRACUT_NONBLOCKING {
+    return kept_before(0);
+  }
   /// Copies the newest frames judged, oldest first; returns how many. At most into.size() and
   /// kept_frames.
-  std::size_t copy_newest(std::span<FrameTiming> into) const noexcept TERRACUT_NONBLOCKING;
+  std::size_t copy_newest(std::span<FrameRecord> into) const noexcept TERRACUT_NONBLOCKING;
 
   /// The figures. judge() keeps everything that comes from frames, deadline_ns and the names of
   /// the stages; the other fields (version, sensor, input, link, losses, threads, times, and what
@@ -58,15 +62,15 @@ class DeadlineMonitor {
   [[nodiscard]] const MonitorSnapshot& snapshot() const noexcept { return *snapshot_; }
 
  private:
-  void judge_latency(FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
-  void record_motion(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
-  void record_costs(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
-  void keep(const FrameTiming& frame) noexcept TERRACUT_NONBLOCKING;
+  void judge_latency(FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_motion(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
+  void record_costs(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
+  void keep(const FrameRecord& frame) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] double frames_per_s() const noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] const FrameTiming& kept_before(std::size_t age) const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] const FrameRecord& kept_before(std::size_t age) const noexcept TERRACUT_NONBLOCKING;
 
   MonitorSnapshot* snapshot_;
-  std::span<FrameTiming> kept_;  ///< Ring.
+  std::span<FrameRecord> kept_;  ///< Ring.
   std::size_t next_ = 0;         ///< Where in kept_ the next frame goes.
   std::size_t count_ = 0;        ///< Frames in kept_.
 };

@@ -184,7 +184,7 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
 void add_motion(const MotionFigures& f, Table& table) {
   if (f.bus.empty()) return;
   const std::string bus(f.bus.view());
-  const auto frames = [](FrameMotion motion) {
+  const auto frames = [](frame::DeskewState motion) {
     return Metric{"terracut_motion_frames_total",
                   "Frames that were deskewed, and those whose motion was not known.",
                   {{"motion", std::string(to_string(motion))}}};
@@ -195,9 +195,9 @@ void add_motion(const MotionFigures& f, Table& table) {
       {{"bus", bus}}},
      {"motion", "{}", alarm_unless(f.state == MotionState::kKnown)}},
     {"bus", bus, {}, {"motion", " on {}"}},
-    {"deskewed_frames", f.deskewed, frames(FrameMotion::kDeskewed),
+    {"deskewed_frames", f.deskewed, frames(frame::DeskewState::kDone),
      {"motion", ": {} frames deskewed"}},
-    {"no_ego_motion_frames", f.no_ego_motion, frames(FrameMotion::kNoEgoMotion),
+    {"no_ego_motion_frames", f.no_ego_motion, frames(frame::DeskewState::kNoEgoMotion),
      {"motion", "no ego motion in {}"}},
     {"samples", f.samples,
      {"terracut_motion_samples_total", "Speeds with yaw rates, whole and fresh."}},

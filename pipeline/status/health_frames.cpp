@@ -41,17 +41,17 @@ std::uint64_t latency_of(const HealthReport& report) noexcept {
 
 }  // namespace
 
-HealthReport health_report_of(const MonitorSnapshot& figures) noexcept {
-  const FrameTiming& newest = figures.newest;
+HealthReport health_report_of(const MonitorSnapshot& figures, const FrameRecord& newest) noexcept {
   HealthReport report;
-  report.frame_number = newest.number;
-  report.returns = newest.returns;
+  report.frame_number = newest.info.number;
+  report.returns = newest.info.returns;
   report.level = newest.level;
   report.missed = newest.missed;
   report.cause = newest.cause;
-  report.ego_motion = newest.motion == FrameMotion::kDeskewed;
-  const bool known = newest.last_packet_ns > 0 && newest.labels_ns >= newest.last_packet_ns;
-  if (known) report.latency_ns = newest.labels_ns - newest.last_packet_ns;
+  report.ego_motion = newest.info.deskew.state == frame::DeskewState::kDone;
+  const bool known =
+      newest.info.last_packet_ns > 0 && newest.labels_ns >= newest.info.last_packet_ns;
+  if (known) report.latency_ns = newest.labels_ns - newest.info.last_packet_ns;
   report.link = figures.link;
   report.misses = figures.all_misses();
   report.skipped = figures.levels[static_cast<std::size_t>(Level::kSkipped)];

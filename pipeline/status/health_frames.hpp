@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "firmware_io/can/can_frame.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 
 namespace terracut::status {
@@ -32,7 +32,8 @@ struct HealthReport {
 inline constexpr can::CanId kHealthId{1744, false};
 
 /// What the figures of a live process say. `alive` they do not know.
-[[nodiscard]] HealthReport health_report_of(const MonitorSnapshot& figures) noexcept;
+[[nodiscard]] HealthReport health_report_of(const MonitorSnapshot& figures,
+                                            const FrameRecord& newest) noexcept;
 
 /// TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. Numbers that do not fit: a latency
 /// and returns stay at the most there is, counts begin again at 0. `first` is the id of the one,

@@ -11,11 +11,12 @@ namespace terracut::status {
 HealthReporter::HealthReporter(std::string bus, can::CanSender sender)
     : bus_(std::move(bus)), sender_(std::move(sender)) {}
 
-void HealthReporter::work_round(const MonitorSnapshot& figures, std::int64_t now_ns) noexcept {
+void HealthReporter::work_round(const MonitorSnapshot& figures, const FrameRecord& newest,
+                                std::int64_t now_ns) noexcept {
   if (figures.frames == reported_frames_ && now_ns < next_report_ns_) return;
   reported_frames_ = figures.frames;
   next_report_ns_ = now_ns + kLongestSilence_ns;
-  HealthReport report = health_report_of(figures);
+  HealthReport report = health_report_of(figures, newest);
   report.alive = alive_++;
   sender_.send(health_frames(report));
 }

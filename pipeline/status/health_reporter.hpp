@@ -20,7 +20,8 @@ class HealthReporter {
   HealthReporter(std::string bus, can::CanSender sender);
 
   /// As often as one likes. `now_ns`: measure::monotonic_ns().
-  void work_round(const MonitorSnapshot& figures, std::int64_t now_ns) noexcept;
+  void work_round(const MonitorSnapshot& figures, const FrameRecord& newest,
+                  std::int64_t now_ns) noexcept;
 
   void show(HealthFigures& figures) const noexcept;
 

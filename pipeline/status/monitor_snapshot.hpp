@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "pipeline/status/bus_figures.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "pipeline/status/named_count.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
@@ -46,16 +46,17 @@ struct ThreadStatus {
 /// Everything a watcher can know of a running process, in one piece without pointers: it is copied
 /// whole into the status page, and everything that shows figures (terracut top, /metrics, the
 /// summary at exit) reads this alone. It carries the names of what it counts, so that it can be
-/// read by another build. About 460 KiB, nearly all of it histogram buckets.
+/// read by another build. About 350 KiB, nearly all of it histogram buckets.
 ///
 /// A plain value. A reader must expect any bytes in it where it came from another process; the
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
   /// To be raised with every change of what lies where.
-  static constexpr std::uint32_t kLayout = 4;
+  static constexpr std::uint32_t kLayout = 5;
   static constexpr std::size_t kMaxLosses = 40;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
+  static constexpr std::size_t kMaxStages = stage::kStages;
 
   memory::FixedText<24> version;  ///< Of the program.
   memory::FixedText<96> sensor;   ///< Model, spin rate, return mode.
@@ -83,7 +84,6 @@ struct MonitorSnapshot {
   std::array<std::uint64_t, kMissCauses> misses{};  ///< By cause.
   std::uint64_t consecutive_misses = 0;             ///< Up to the newest frame.
   std::uint64_t longest_run_of_misses = 0;
-  FrameTiming newest;
 
   MountFigures mount;
   MotionFigures motion;
@@ -105,8 +105,8 @@ struct MonitorSnapshot {
   measure::LogLinearHistogram decode_cpu;   ///< Processor time.
   measure::LogLinearHistogram segment_cpu;  ///< Processor time.
   std::uint32_t stage_count = 0;
-  std::array<memory::FixedText<24>, FrameTiming::kMaxStages> stage_names{};
-  std::array<measure::LogLinearHistogram, FrameTiming::kMaxStages> stage_cpu{};
+  std::array<memory::FixedText<24>, kMaxStages> stage_names{};
+  std::array<measure::LogLinearHistogram, kMaxStages> stage_cpu{};
 
   [[nodiscard]] std::size_t stages() const noexcept TERRACUT_NONBLOCKING {
     return std::min<std::size_t>(stage_count, stage_names.size());

@@ -220,17 +220,19 @@ std::size_t FrameStreamServer::free_slot() const noexcept {
 }
 
 void FrameStreamServer::begin(Peer& peer, std::size_t slot, const LabelledFrame& frame) noexcept {
+  const status::FrameRecord& record = frame.record;
+  const frame::DeskewState deskew = record.info.deskew.state;
   peer.header = {
-      .number = frame.number,
+      .number = record.info.number,
       .points = static_cast<std::uint32_t>(frame.points.size()),
-      .first_packet_ns = frame.first_packet_ns,
-      .last_packet_ns = frame.last_packet_ns,
-      .labels_ns = frame.labels_ns,
+      .first_packet_ns = record.info.first_packet_ns,
+      .last_packet_ns = record.info.last_packet_ns,
+      .labels_ns = record.labels_ns,
       .sensor = static_cast<std::uint8_t>(frame.sensor),
-      .level = static_cast<std::uint8_t>(frame.level),
-      .flags = (frame.complete ? kFrameComplete : 0U) | (frame.late ? kFrameLate : 0U) |
-               (frame.motion == status::FrameMotion::kDeskewed ? kFrameDeskewed : 0U) |
-               (frame.motion == status::FrameMotion::kNoEgoMotion ? kFrameNoEgoMotion : 0U),
+      .level = static_cast<std::uint8_t>(record.level),
+      .flags = (record.info.complete ? kFrameComplete : 0U) | (frame.late ? kFrameLate : 0U) |
+               (deskew == frame::DeskewState::kDone ? kFrameDeskewed : 0U) |
+               (deskew == frame::DeskewState::kNoEgoMotion ? kFrameNoEgoMotion : 0U),
       .missed = static_cast<std::uint32_t>(peer.figures.missed),
   };
   peer.slot = slot;

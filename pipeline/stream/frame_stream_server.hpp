@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
 #include "pipeline/stream/listening_socket.hpp"
 #include "pipeline/stream/stream_address.hpp"
@@ -29,17 +29,11 @@ struct FrameStreamConfig {
   std::size_t send_buffer_bytes = 0;  ///< The kernel's, for each reader. 0: takes a frame at once.
 };
 
-/// A frame as it is given to the stream. Stamps as in FrameWireHeader.
+/// A frame as it is given to the stream.
 struct LabelledFrame {
-  std::uint32_t number = 0;
-  std::int64_t first_packet_ns = 0;
-  std::int64_t last_packet_ns = 0;
-  std::int64_t labels_ns = 0;
+  status::FrameRecord record;
   StreamedSensor sensor = StreamedSensor::kUnknown;
-  status::Level level = status::Level::kFull;
-  bool complete = false;  ///< Every firing was seen, from seam to seam.
-  bool late = false;      ///< Labelled after its deadline.
-  status::FrameMotion motion = status::FrameMotion::kNotAsked;
+  bool late = false;  ///< Labelled after its deadline.
   std::span<const LabelledPoint> points{};
 };
 

@@ -10,7 +10,7 @@
 #include <type_traits>
 
 #include "firmware_io/sensor/sensor_model.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "rt/error.hpp"
 
 /// A labelled frame as it goes over a socket (docs/reference/labelled_stream.md): one header, then

@@ -102,12 +102,12 @@ struct LiveRun::Engine {
         points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
         labels[i] = label_of(point.label);
       }
-      Frame frame{.number = taken.info.number,
-                  .first_packet_ns = taken.info.first_packet_ns,
-                  .last_packet_ns = taken.info.last_packet_ns,
-                  .complete = taken.info.complete,
-                  .deskewed = taken.info.deskew.state == frame::DeskewState::kDone,
-                  .packets_lost = taken.info.losses.network_gap_packets,
+      Frame frame{.number = taken.record.info.number,
+                  .first_packet_ns = taken.record.info.first_packet_ns,
+                  .last_packet_ns = taken.record.info.last_packet_ns,
+                  .complete = taken.record.info.complete,
+                  .deskewed = taken.record.info.deskew.state == frame::DeskewState::kDone,
+                  .packets_lost = taken.record.info.losses.network_gap_packets,
                   .points = std::span<const Point>(points).first(taken.items.size()),
                   .labels = std::span<const Label>(labels).first(taken.items.size())};
       on_frame(frame);
@@ -116,11 +116,11 @@ struct LiveRun::Engine {
     }
   }
   void judge() {
-    for (status::FrameTiming timing; threads.take_timing(timing);) {
-      const bool is_skipped = timing.level == status::Level::kSkipped;
+    for (status::FrameRecord frame; threads.take_record(frame);) {
+      const bool is_skipped = frame.level == status::Level::kSkipped;
       figures.frames_skipped += is_skipped ? 1 : 0;
       figures.deadlines_missed +=
-          is_skipped || timing.labels_ns - timing.last_packet_ns > deadline_ns ? 1 : 0;
+          is_skipped || frame.labels_ns - frame.info.last_packet_ns > deadline_ns ? 1 : 0;
     }
   }
 

@@ -49,10 +49,10 @@ void PacketPipeline::end_stream() noexcept {
 }
 
 const Frame* PacketPipeline::next() noexcept {
-  run::TimedFrame* frame = engine_->pipeline.next();
+  run::Frame* frame = engine_->pipeline.next();
   if (frame == nullptr) return nullptr;
-  (void)engine_->pipeline.label(*frame);
-  engine_->frame = public_frame(*frame, engine_->room);
+  engine_->pipeline.label(*frame);
+  engine_->frame = public_frame({frame->record.info, frame->image}, engine_->room);
   engine_->frame.labels = engine_->pipeline.labels();
   return &engine_->frame;
 }

@@ -157,22 +157,24 @@ class LiveChainRun {
       handed_over_[number_of(image)] = {sum_of(image), info.number};
       coarse_.finish(image, planes_of(image));
       if (segmenter_away_ > 0) --segmenter_away_;
-      return exchange_.hand_over({&image, info, {}, true}, [](const Exchange::Frame&) noexcept {});
+      status::FrameRecord record;
+      record.info = info;
+      return exchange_.hand_over({&image, record}, [](const run::Frame&) noexcept {});
     };
   }
 
   void segment() {
-    const Exchange::Frame* frame = exchange_.take_if_new();
+    const run::Frame* frame = exchange_.take_if_new();
     if (frame == nullptr) return;
     const frame::RangeImage& image = *frame->image;
     const HandedOver& expected = handed_over_[number_of(image)];
-    require(frame->info.number == expected.number && sum_of(image) == expected.sum,
+    require(frame->record.info.number == expected.number && sum_of(image) == expected.sum,
             "a frame changed after it was handed over");
-    require(frame->info.number + 1 > segmented_, "a frame is segmented after a newer one");
-    segmented_ = frame->info.number + 1;
+    require(frame->record.info.number + 1 > segmented_, "a frame is segmented after a newer one");
+    segmented_ = frame->record.info.number + 1;
     (void)fine_.refine(image, planes_of(image));
     const auto labels = fine_.labels();
-    require(labels.size() == frame->info.returns, "not every return has a label");
+    require(labels.size() == frame->record.info.returns, "not every return has a label");
     require(std::ranges::count(labels, frame::Label::kNone) == 0, "a return has no label");
   }
 

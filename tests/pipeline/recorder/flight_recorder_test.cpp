@@ -126,12 +126,10 @@ class FlightRecorderTest : public testing::Test {
     std::size_t rejected = 0;
     const auto live = frames_of<Decoder>(datagrams, calibration, rejected);
 
-    std::vector<status::FrameTiming> times;
+    std::vector<status::FrameRecord> times;
     for (const Frame& frame : live) {
-      status::FrameTiming& timing = times.emplace_back();
-      timing.number = frame.info.number;
-      timing.first_packet_ns = frame.info.first_packet_ns;
-      timing.last_packet_ns = frame.info.last_packet_ns;
+      status::FrameRecord& timing = times.emplace_back();
+      timing.info = frame.info;
     }
     const auto report =
         recorder.dump(folder_ / "dump.pcap", DumpReason::kMissedDeadline, {times, {}});
@@ -206,19 +204,19 @@ TEST_F(FlightRecorderTest, KeepsAddressesPortsStampsAndBytes) {
 TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   FlightRecorder recorder({100, 120800}, memory_);
   add(recorder, 1000, 100);  // 1.000 s to 1.099 s
-  std::array<status::FrameTiming, 3> times{};
+  std::array<status::FrameRecord, 3> times{};
   for (std::size_t i = 0; i < times.size(); ++i) {
-    times[i].number = static_cast<std::uint32_t>(40 + i);
-    times[i].first_packet_ns = 950'000'000 + static_cast<std::int64_t>(i) * 60'000'000;
-    times[i].last_packet_ns = times[i].first_packet_ns + 60'000'000;
+    times[i].info.number = static_cast<std::uint32_t>(40 + i);
+    times[i].info.first_packet_ns = 950'000'000 + static_cast<std::int64_t>(i) * 60'000'000;
+    times[i].info.last_packet_ns = times[i].info.first_packet_ns + 60'000'000;
   }
   times[1].labels_ns = 1'155'000'000;
   times[1].missed = true;
   times[1].cause = status::FrameMissCause::kStolenTime;
-  times[1].motion = status::FrameMotion::kNoEgoMotion;
+  times[1].info.deskew.state = frame::DeskewState::kNoEgoMotion;
   times[1].level = status::Level::kCoarse;
-  times[1].stage_cpu_ns = {11, 22, 33};
-  times[1].cut_operations = 18'446'744'073'709'551'615ULL;
+  times[1].stages.stage_ns = {11, 22, 33};
+  times[1].segmentation.cut.persistency_ops = 9'223'372'036'854'775'807;
   constexpr std::array<std::string_view, 2> kStages{"elevation_map", "adjacent_points"};
   const auto report =
       recorder.dump(folder_ / "dump.pcap", DumpReason::kMissedDeadline, {times, kStages});
@@ -243,7 +241,7 @@ TEST_F(FlightRecorderTest, WritesTheTimesOfTheCapturesFramesBesideIt) {
   EXPECT_EQ(frame["motion"], "no_ego_motion");
   EXPECT_EQ(frame["level"], "coarse");
   EXPECT_EQ(frame["labels_ns"], 1'155'000'000);
-  EXPECT_EQ(frame["cut_operations"], 18'446'744'073'709'551'615ULL);
+  EXPECT_EQ(frame["cut_operations"], 9'223'372'036'854'775'807);
   EXPECT_EQ(frame["stage_cpu_ns"],
             nlohmann::json({{"elevation_map", 11}, {"adjacent_points", 22}}));
 }

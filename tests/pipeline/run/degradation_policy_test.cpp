@@ -57,7 +57,7 @@ class Machine {
     if (now_ns_ >= last_packet_ns + kFramePeriod_ns) return {Level::kSkipped};  // not taken
     now_ns_ = std::max(now_ns_, last_packet_ns + work.late_hand_over_ns);
     if (!degradation_.begin(last_packet_ns)) return {Level::kSkipped};
-    StageTimes times;
+    stage::StageTimes times;
     const auto spend = [&](Stage stage, std::int64_t time_ns) {
       times.stage_ns[static_cast<std::size_t>(stage)] += time_ns;
       now_ns_ += time_ns;

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-#include "pipeline/run/frame_timings.hpp"
+#include "pipeline/run/frame_records.hpp"
 
 namespace terracut::run {
 namespace {
@@ -24,12 +24,12 @@ class FrameExchangeTest : public testing::Test {
 
   /// The frame goes over in the older of the two open images; the numbers of those skipped.
   void hand_over(std::uint32_t number) {
-    FrameExchange::Frame frame;
+    Frame frame;
     frame.image = open_[0];
-    frame.timing.number = number;
+    frame.record.info.number = number;
     open_[0] = open_[1];
-    open_[1] = exchange_->hand_over(frame, [this](const FrameExchange::Frame& skipped) noexcept {
-      skipped_.push_back(skipped.timing.number);
+    open_[1] = exchange_->hand_over(frame, [this](const Frame& skipped) noexcept {
+      skipped_.push_back(skipped.record.info.number);
     });
   }
 
@@ -46,9 +46,9 @@ TEST_F(FrameExchangeTest, GivesTheNewestFrameAndTellsOfThoseThatWereNeverTaken) 
   EXPECT_TRUE(skipped_.empty()) << "it may still be taken";
   hand_over(2);
   EXPECT_EQ(skipped_, (std::vector<std::uint32_t>{1}));
-  FrameExchange::Frame* frame = exchange_->take_if_new();
+  Frame* frame = exchange_->take_if_new();
   ASSERT_NE(frame, nullptr);
-  EXPECT_EQ(frame->timing.number, 2U);
+  EXPECT_EQ(frame->record.info.number, 2U);
   EXPECT_EQ(exchange_->take_if_new(), nullptr) << "it was had";
   hand_over(3);
   EXPECT_EQ(skipped_, (std::vector<std::uint32_t>{1})) << "the one before it was taken";
@@ -58,9 +58,9 @@ TEST_F(FrameExchangeTest, LeavesEveryFrameEitherTakenOrSkipped) {
   std::vector<std::uint32_t> taken;
   for (std::uint32_t number = 0; number < 100; ++number) {
     hand_over(number);
-    if (number % 7 < 3) taken.push_back(exchange_->take_if_new()->timing.number);
+    if (number % 7 < 3) taken.push_back(exchange_->take_if_new()->record.info.number);
   }
-  if (FrameExchange::Frame* last = exchange_->take_if_new()) taken.push_back(last->timing.number);
+  if (Frame* last = exchange_->take_if_new()) taken.push_back(last->record.info.number);
   EXPECT_EQ(taken.size() + skipped_.size(), 100U);
   std::set<std::uint32_t> all(taken.begin(), taken.end());
   all.insert(skipped_.begin(), skipped_.end());
@@ -79,21 +79,21 @@ TEST_F(FrameExchangeTest, NeverGivesBackAnImageThatSomebodyHas) {
   }
 }
 
-TEST(FrameTimingsTest, CountsTimesThatNobodyTookInTime) {
+TEST(FrameRecordsTest, CountsRecordsThatNobodyTookInTime) {
   memory::FixedMemory memory;
-  FrameTimings timings(memory);
-  for (std::uint32_t number = 0; number < FrameTimings::kRoom + 6; ++number) {
-    status::FrameTiming timing;
-    timing.number = number;
-    timings.pass_on(timing);
+  FrameRecords records(memory);
+  for (std::uint32_t number = 0; number < FrameRecords::kRoom + 6; ++number) {
+    status::FrameRecord record;
+    record.info.number = number;
+    records.pass_on(record);
   }
-  EXPECT_EQ(timings.dropped(), 6U);
-  status::FrameTiming timing;
-  for (std::uint32_t number = 0; number < FrameTimings::kRoom; ++number) {
-    ASSERT_TRUE(timings.take(timing));
-    EXPECT_EQ(timing.number, number);
+  EXPECT_EQ(records.dropped(), 6U);
+  status::FrameRecord record;
+  for (std::uint32_t number = 0; number < FrameRecords::kRoom; ++number) {
+    ASSERT_TRUE(records.take(record));
+    EXPECT_EQ(record.info.number, number);
   }
-  EXPECT_FALSE(timings.take(timing));
+  EXPECT_FALSE(records.take(record));
 }
 
 }  // namespace

@@ -15,12 +15,11 @@ using Slots = FramePool<int>;
 
 /// Passes on a frame of `number` returns, all of them `number`.
 void pass_on(Slots& slots, std::uint32_t number) {
-  frame::FrameInfo info;
-  info.number = number;
-  info.returns = number;
-  status::FrameTiming timing;
-  timing.labels_ns = number;
-  slots.pass_on(info, timing, [&](std::span<int> room) noexcept {
+  status::FrameRecord record;
+  record.info.number = number;
+  record.info.returns = number;
+  record.labels_ns = number;
+  slots.pass_on(record, [&](std::span<int> room) noexcept {
     std::fill_n(room.begin(), number, static_cast<int>(number));
   });
 }
@@ -34,8 +33,8 @@ TEST(FramePoolTest, BringFramesInOrderWithTheirItems) {
   pass_on(slots, 10);
   for (const std::uint32_t number : {3U, 10U}) {
     ASSERT_TRUE(slots.take(frame));
-    EXPECT_EQ(frame.info.number, number);
-    EXPECT_EQ(frame.timing.labels_ns, number);
+    EXPECT_EQ(frame.record.info.number, number);
+    EXPECT_EQ(frame.record.labels_ns, number);
     EXPECT_EQ(frame.items.size(), number);
     EXPECT_TRUE(
         std::ranges::all_of(frame.items, [&](int i) { return i == static_cast<int>(number); }));
@@ -54,15 +53,15 @@ TEST(FramePoolTest, CountWhatFoundNoRoomAndKeepWhatHadRoom) {
   EXPECT_EQ(slots.waiting(), 2U);
   Slots::Frame frame;
   ASSERT_TRUE(slots.take(frame));
-  EXPECT_EQ(frame.info.number, 1U);
+  EXPECT_EQ(frame.record.info.number, 1U);
   EXPECT_EQ(slots.waiting(), 2U) << "until it is given back";
   slots.give_back(true);
   pass_on(slots, 6);
   ASSERT_TRUE(slots.take(frame));
-  EXPECT_EQ(frame.info.number, 2U);
+  EXPECT_EQ(frame.record.info.number, 2U);
   slots.give_back(true);
   ASSERT_TRUE(slots.take(frame));
-  EXPECT_EQ(frame.info.number, 6U);
+  EXPECT_EQ(frame.record.info.number, 6U);
 }
 
 TEST(FramePoolTest, CountWhatIsGivenBackUnused) {
@@ -88,18 +87,18 @@ TEST(FramePoolTest, LoseNoFrameUncountedBetweenTwoThreads) {
     while (true) {
       const bool last_round = over;
       for (Slots::Frame frame; slots.take(frame); slots.give_back(true), ++taken) {
-        EXPECT_GT(frame.info.number, newest);
-        newest = frame.info.number;
+        EXPECT_GT(frame.record.info.number, newest);
+        newest = frame.record.info.number;
         EXPECT_EQ(frame.items.back(), static_cast<int>(newest));
       }
       if (last_round) return;
     }
   });
   for (std::uint32_t number = 1; number <= kFrames; ++number) {
-    frame::FrameInfo info;
-    info.number = number;
-    info.returns = 4;
-    slots.pass_on(info, {}, [&](std::span<int> room) noexcept {
+    status::FrameRecord record;
+    record.info.number = number;
+    record.info.returns = 4;
+    slots.pass_on(record, [&](std::span<int> room) noexcept {
       std::fill_n(room.begin(), 4, static_cast<int>(number));
     });
   }

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -15,6 +16,7 @@
 #include "pipeline/run/frame_segmenter.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
+#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::run {
 namespace {
@@ -62,6 +64,7 @@ class MadeSource {
   void add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
     waiting_.push_back({.payload = payload, .stamp_ns = stamp_ns});
   }
+  [[nodiscard]] std::int64_t next_ns() const { return waiting_[next_].stamp_ns; }
   [[nodiscard]] bool has_more() const { return next_ < waiting_.size(); }
   /// Of these kinds, as a real source would have counted them.
   void leave_out(std::uint64_t foreign, std::uint64_t truncated) {
@@ -109,7 +112,7 @@ class LiveFrames : public testing::Test {
     segmenter_.emplace(
         kDeadline_ns, chain_, frames_,
         Segmenter::Outlets{
-            .timings = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
+            .records = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
         HeldClock{&time_}, HeldWait{&time_});
   }
 
@@ -121,7 +124,7 @@ class LiveFrames : public testing::Test {
                           .frame_ready = &*frame_ready_,
                           .skipped = &skipped_,
                           .intake = &intake_,
-                          .recorder = nullptr},
+                          .recorder = &recorder_},
         HeldClock{&time_}, HeldWait{&time_});
   }
 
@@ -143,13 +146,21 @@ class LiveFrames : public testing::Test {
       (void)receiver_->work_round(100 * kMs);
       expect_balance();
       (void)segmenter_->work_round();
-      take_timings();
+      take_records();
     }
     (void)receiver_->work_round(0);
   }
-  void take_timings() {
-    for (status::FrameTiming timing; skipped_.take(timing) || segmented_.take(timing);) {
-      timings_.push_back(timing);
+  /// The same up to a time of day; what comes then is left waiting.
+  void run_until(std::int64_t end_ns) {
+    while (source_.has_more() && source_.next_ns() < end_ns) {
+      (void)receiver_->work_round(100 * kMs);
+      (void)segmenter_->work_round();
+      take_records();
+    }
+  }
+  void take_records() {
+    for (status::FrameRecord record; skipped_.take(record) || segmented_.take(record);) {
+      records_.push_back(record);
     }
   }
   const Intake& intake() {
@@ -167,8 +178,8 @@ class LiveFrames : public testing::Test {
     return intake().account.losses.rejected[static_cast<std::size_t>(reason)];
   }
   /// From a frame's last packet to where it was handed over.
-  static std::int64_t lag_ns(const status::FrameTiming& timing) {
-    return timing.handed_over_ns - timing.last_packet_ns;
+  static std::int64_t lag_ns(const status::FrameRecord& record) {
+    return record.handed_over_ns - record.info.last_packet_ns;
   }
 
   HeldTime time_;
@@ -186,12 +197,13 @@ class LiveFrames : public testing::Test {
   MadeSource source_{time_, chain_.decoder};
   FrameExchange frames_{chain_.decoder.images()};
   Expected<threads::WakeEvent> frame_ready_ = threads::WakeEvent::make();
-  FrameTimings skipped_{memory_}, segmented_{memory_};
+  FrameRecords skipped_{memory_}, segmented_{memory_};
   queues::LatestValue<Intake> intake_;
+  recorder::FlightRecorder recorder_{{.datagrams = 8192, .payload_bytes = 8192 * 1208}, memory_};
   FramePool<frame::Label> labels_{"labels", 4, chain_.decoder.return_capacity(), memory_};
   std::optional<Receiver> receiver_;
   std::optional<Segmenter> segmenter_;
-  std::vector<status::FrameTiming> timings_;
+  std::vector<status::FrameRecord> records_;
 };
 
 TEST_F(LiveFrames, EachDatagramIsInExactlyOnePlaceWithOrWithoutFrames) {
@@ -219,7 +231,7 @@ TEST_F(LiveFrames, AHeadThatStandsShowsInTheCountsAlthoughNoFrameComes) {
   }
   send(standing);
   run();
-  EXPECT_TRUE(timings_.empty());
+  EXPECT_TRUE(records_.empty());
   EXPECT_GT(rejected(Reject::kStationary), standing.size() * 9 / 10);
   expect_balance();
 }
@@ -235,11 +247,11 @@ TEST_F(LiveFrames, ALimitedFieldOfViewIsNamedAndCostsNoDeadline) {
   EXPECT_NEAR(intake().blind.from_cdeg, 27'000, 105) << "a packet";
   EXPECT_NEAR(intake().blind.to_cdeg, 9'000, 105);
   EXPECT_EQ(intake().account.losses.network_gap_packets, 0U);
-  EXPECT_GE(timings_.size(), 19U);
-  for (const status::FrameTiming& timing : timings_) {
+  EXPECT_GE(records_.size(), 19U);
+  for (const status::FrameRecord& record : records_) {
     // The sector is known after three frames, after five more how packets come to lie beside it.
-    if (timing.number < 9) continue;
-    EXPECT_NE(timing.level, status::Level::kSkipped) << timing.number;
+    if (record.info.number < 9) continue;
+    EXPECT_NE(record.level, status::Level::kSkipped) << record.info.number;
   }
 }
 
@@ -264,6 +276,40 @@ TEST_F(LiveFrames, WhatCameBeforeTheRunIsNotInItsAccount) {
   expect_balance();
 }
 
+TEST_F(LiveFrames, TheRecorderHasEveryDatagramWhateverBecameOfIt) {
+  const std::vector<std::uint8_t> too_short(100);
+  source_.add(too_short, kStart_ns);
+  const auto packets = drive(10);
+  send(packets);
+  run_until(kStart_ns + 300 * kMs);
+  time_.now_ns += 400 * kMs;  // some of what comes now is let go
+  run();
+  EXPECT_GT(intake().account.let_go, 0U);
+  const auto folder = test::make_scratch_folder();
+  const auto dump = recorder_.dump(folder / "all.pcap", recorder::DumpReason::kAsked, {});
+  std::filesystem::remove_all(folder);
+  ASSERT_TRUE(dump) << dump.error().message;
+  EXPECT_EQ(dump->datagrams, packets.size() + 1);
+}
+
+TEST_F(LiveFrames, FramesThatBreakOffWhereABacklogIsLetGoDoNotCountAsLate) {
+  send(drive(8));
+  // Labels of a frame whose last packet comes 5 ms after that are 55 ms late.
+  const auto stand_still_at_the_end_of = [&](int frame) {
+    run_until(kStart_ns + frame * kFramePeriod_ns - 5 * kMs);
+    time_.now_ns += 60 * kMs;
+    run_until(kStart_ns + frame * kFramePeriod_ns + 70 * kMs);
+    return intake().account.let_go;
+  };
+  stand_still_at_the_end_of(1);
+  EXPECT_EQ(stand_still_at_the_end_of(2), 0U);
+  const std::uint64_t let_go = stand_still_at_the_end_of(3);
+  EXPECT_GT(let_go, 0U) << "three in a row were late";
+  EXPECT_EQ(stand_still_at_the_end_of(4), let_go);
+  EXPECT_EQ(stand_still_at_the_end_of(5), let_go) << "two since then";
+  EXPECT_GT(stand_still_at_the_end_of(6), let_go);
+}
+
 TEST_F(LiveFrames, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
   const auto packets = drive(60);
   send(packets);
@@ -271,30 +317,30 @@ TEST_F(LiveFrames, NothingGetsOlderWithTimeUnderAnOverloadThatLasts) {
   source_.cost_ns = period_ns * 13 / 10;
   run();
   std::int64_t longest_lag_ns = 0;
-  for (const status::FrameTiming& timing : timings_) {
-    longest_lag_ns = std::max(longest_lag_ns, lag_ns(timing));
+  for (const status::FrameRecord& record : records_) {
+    longest_lag_ns = std::max(longest_lag_ns, lag_ns(record));
   }
   EXPECT_LE(longest_lag_ns, kDeadline_ns + kFramePeriod_ns + 64 * source_.cost_ns) << "and a batch";
   EXPECT_GT(intake().account.let_go, packets.size() / 10);
   EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
-  const auto in_time = std::ranges::count_if(timings_, [](const status::FrameTiming& timing) {
-    return timing.level != status::Level::kSkipped &&
-           timing.labels_ns - timing.last_packet_ns <= kDeadline_ns;
+  const auto in_time = std::ranges::count_if(records_, [](const status::FrameRecord& record) {
+    return record.level != status::Level::kSkipped &&
+           record.labels_ns - record.info.last_packet_ns <= kDeadline_ns;
   });
   EXPECT_GE(in_time, 10) << "and labels are still made, all through it";
-  for (const status::FrameTiming& timing : timings_) {
-    if (timing.level == status::Level::kSkipped) continue;
-    EXPECT_LE(timing.labels_ns - timing.last_packet_ns, kDeadline_ns) << timing.number;
+  for (const status::FrameRecord& record : records_) {
+    if (record.level == status::Level::kSkipped) continue;
+    EXPECT_LE(record.labels_ns - record.info.last_packet_ns, kDeadline_ns) << record.info.number;
   }
 }
 
 TEST_F(LiveFrames, LetsNothingGoThatMayStillBeLabelledInTimeAfterAStandstill) {
   send(drive(10));
   source_.cost_ns = 10'000;
-  while (timings_.size() < 3) {
+  while (records_.size() < 3) {
     (void)receiver_->work_round(100 * kMs);
     (void)segmenter_->work_round();
-    take_timings();
+    take_records();
   }
   time_.now_ns += 140 * kMs;  // less than a frame and the deadline
   run();
@@ -305,20 +351,20 @@ TEST_F(LiveFrames, IsBackWithTheNextWholeFrameAfterAStandstillOfASecond) {
   const auto packets = drive(20);
   send(packets);
   source_.cost_ns = 10'000;
-  while (timings_.size() < 3) {
+  while (records_.size() < 3) {
     (void)receiver_->work_round(100 * kMs);
     (void)segmenter_->work_round();
-    take_timings();
+    take_records();
   }
-  const std::size_t before = timings_.size();
+  const std::size_t before = records_.size();
   const std::int64_t back_ns = time_.now_ns += 1000 * kMs;
   run();
   EXPECT_NEAR(static_cast<double>(intake().account.let_go), 850.0 / 1000 * 3472, 30)
       << "what was older than a frame and the deadline";
   EXPECT_EQ(intake().account.losses.network_gap_packets, 0U) << "nothing was lost on the network";
-  for (std::size_t i = before; i < timings_.size(); ++i) {
-    if (timings_[i].first_packet_ns < back_ns) continue;
-    EXPECT_NE(timings_[i].level, status::Level::kSkipped) << timings_[i].number;
+  for (std::size_t i = before; i < records_.size(); ++i) {
+    if (records_[i].info.first_packet_ns < back_ns) continue;
+    EXPECT_NE(records_[i].level, status::Level::kSkipped) << records_[i].info.number;
   }
   expect_balance();
 }
@@ -342,8 +388,8 @@ TEST_F(LiveFrames, FramesThatBreakOffCostNoCoarsePassEach) {
   int frames = 0, with_coarse_stages = 0;
   while (source_.has_more()) {
     frames += receiver_->work_round(100 * kMs).frames;
-    if (const FrameExchange::Frame* frame = frames_.take_if_new()) {
-      with_coarse_stages += frame->has_coarse_stages ? 1 : 0;
+    if (const Frame* frame = frames_.take_if_new()) {
+      with_coarse_stages += frame->record.stages_ahead > 0 ? 1 : 0;
     }
   }
   EXPECT_GE(frames, static_cast<int>(kStreams) - 1) << "the stream breaks off again and again";
@@ -372,14 +418,14 @@ TEST_F(LiveFrames, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
     ASSERT_TRUE(segmenter_->work_round());
     FramePool<frame::Label>::Frame frame;
     ASSERT_TRUE(labels_.take(frame));
-    (frame.timing.stages_ahead > 0 ? ahead : late) += 1;
+    (frame.record.stages_ahead > 0 ? ahead : late) += 1;
     const auto image =
         std::ranges::find_if(chain_.decoder.images(), [&](const frame::RangeImage& candidate) {
-          return candidate.returns() == frame.info.returns;
+          return candidate.returns() == frame.record.info.returns;
         });
     ASSERT_NE(image, chain_.decoder.images().end());
     (void)at_once.segment(*image);
-    EXPECT_TRUE(std::ranges::equal(frame.items, at_once.labels())) << frame.info.number;
+    EXPECT_TRUE(std::ranges::equal(frame.items, at_once.labels())) << frame.record.info.number;
     labels_.give_back(true);
   }
   EXPECT_GT(ahead, 0);
@@ -389,11 +435,11 @@ TEST_F(LiveFrames, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
 TEST_F(LiveFrames, AFrameIsJudgedByWhenItsLabelsWereHandedOn) {
   send(drive(2));
   run();
-  ASSERT_FALSE(timings_.empty());
+  ASSERT_FALSE(records_.empty());
   FramePool<frame::Label>::Frame frame;
   ASSERT_TRUE(labels_.take(frame));
-  EXPECT_EQ(frame.info.number, timings_.front().number);
-  EXPECT_GT(timings_.front().labels_ns, frame.timing.labels_ns);
+  EXPECT_EQ(frame.record.info.number, records_.front().info.number);
+  EXPECT_GT(records_.front().labels_ns, frame.record.labels_ns);
 }
 
 TEST_F(LiveFrames, AFrameThatIsTakenLateEndsOnALowerLevel) {
@@ -407,13 +453,13 @@ TEST_F(LiveFrames, AFrameThatIsTakenLateEndsOnALowerLevel) {
                            {-kMs, status::Level::kSkipped}}) {
     while (receiver_->work_round(100 * kMs).frames == 0) {
     }
-    take_timings();
+    take_records();
     time_.now_ns += kDeadline_ns - late.left_ns;
     ASSERT_TRUE(segmenter_->work_round());
-    timings_.clear();
-    for (status::FrameTiming timing; segmented_.take(timing);) timings_.push_back(timing);
-    ASSERT_EQ(timings_.size(), 1U);
-    EXPECT_EQ(timings_[0].level, late.level) << late.left_ns / kMs << " ms left";
+    records_.clear();
+    for (status::FrameRecord record; segmented_.take(record);) records_.push_back(record);
+    ASSERT_EQ(records_.size(), 1U);
+    EXPECT_EQ(records_[0].level, late.level) << late.left_ns / kMs << " ms left";
   }
 }
 
@@ -427,12 +473,12 @@ TEST_F(LiveFrames, LabelsOfAFrameThatWasTriedAndCameLateAreHandedToNobody) {
     (void)segmenter_->work_round();
     time_.work_ns = 0;
     for (FramePool<frame::Label>::Frame frame; labels_.take(frame); labels_.give_back(true)) {
-      handed_on.push_back(frame.info.number);
+      handed_on.push_back(frame.record.info.number);
     }
-    for (status::FrameTiming timing; segmented_.take(timing);) {
-      if (timing.level != status::Level::kSkipped) labelled.push_back(timing.number);
-      const bool was_tried = timing.segment_cpu_ns > kDeadline_ns;
-      if (timing.level == status::Level::kSkipped && was_tried) ++tried_and_late;
+    for (status::FrameRecord record; segmented_.take(record);) {
+      if (record.level != status::Level::kSkipped) labelled.push_back(record.info.number);
+      const bool was_tried = record.segment_cpu_ns > kDeadline_ns;
+      if (record.level == status::Level::kSkipped && was_tried) ++tried_and_late;
     }
   }
   EXPECT_EQ(handed_on, labelled);
@@ -445,10 +491,22 @@ TEST_F(LiveFrames, WaitingForACoreIsCountedSinceTheFetchBefore) {
   while (source_.has_more()) {
     time_.waited_ns += 1000;
     (void)receiver_->work_round(100 * kMs);
-    take_timings();  // of frames that nobody segments
+    take_records();  // of frames that nobody segments
   }
-  ASSERT_GT(timings_.size(), 3U);
-  for (const status::FrameTiming& timing : timings_) EXPECT_EQ(timing.run_queue_wait_ns, 1000);
+  ASSERT_GT(records_.size(), 3U);
+  for (const status::FrameRecord& record : records_) EXPECT_EQ(record.run_queue_wait_ns, 1000);
+}
+
+TEST_F(LiveFrames, AFrameThatNobodyTookIsGivenUpWhenTheNextOneComes) {
+  send(drive(6));
+  while (source_.has_more()) (void)receiver_->work_round(100 * kMs);
+  take_records();
+  ASSERT_GT(records_.size(), 3U);
+  for (std::size_t i = 1; i < records_.size(); ++i) {
+    EXPECT_EQ(records_[i].level, status::Level::kSkipped);
+    EXPECT_GT(records_[i - 1].labels_ns, records_[i].handed_over_ns);
+    EXPECT_LT(records_[i - 1].labels_ns, records_[i].handed_over_ns + kMs);
+  }
 }
 
 TEST_F(LiveFrames, TimesOfAFrameAreItsOwnAndNoOthers) {
@@ -459,16 +517,16 @@ TEST_F(LiveFrames, TimesOfAFrameAreItsOwnAndNoOthers) {
     (void)receiver_->work_round(100 * kMs);
     time_.waited_ns += 50;
     (void)segmenter_->work_round();
-    take_timings();
+    take_records();
   }
-  ASSERT_GT(timings_.size(), 20U);
+  ASSERT_GT(records_.size(), 20U);
   for (const std::size_t i : {std::size_t{2}, std::size_t{20}}) {
-    const status::FrameTiming& timing = timings_[i];
-    EXPECT_NEAR(static_cast<double>(timing.decode_cpu_ns), 347 * 10'000, 20'000) << i;
-    EXPECT_GE(timing.run_queue_wait_ns, 1000) << i;
-    EXPECT_LE(timing.run_queue_wait_ns, 1'000'000) << i;
-    EXPECT_GE(timing.closing_packet_ns, timing.last_packet_ns) << i;
-    EXPECT_LT(timing.closing_packet_ns, timing.last_packet_ns + 2 * kMs) << i;
+    const status::FrameRecord& record = records_[i];
+    EXPECT_NEAR(static_cast<double>(record.decode_cpu_ns), 347 * 10'000, 20'000) << i;
+    EXPECT_GE(record.run_queue_wait_ns, 1000) << i;
+    EXPECT_LE(record.run_queue_wait_ns, 1'000'000) << i;
+    EXPECT_GE(record.closing_packet_ns, record.info.last_packet_ns) << i;
+    EXPECT_LT(record.closing_packet_ns, record.info.last_packet_ns + 2 * kMs) << i;
   }
 }
 

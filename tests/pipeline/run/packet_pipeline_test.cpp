@@ -37,16 +37,16 @@ TEST_F(PacketPipelineTest, HandsOutEveryFrameOnceInOrderWithAllItsReturns) {
   const auto way = pipeline();
   std::vector<std::uint32_t> numbers;
   std::uint64_t returns = 0;
-  const auto take = [&](const TimedFrame& frame) {
-    numbers.push_back(frame.info.number);
-    EXPECT_EQ(frame.image->returns(), frame.info.returns);
-    returns += frame.info.returns;
+  const auto take = [&](const Frame& frame) {
+    numbers.push_back(frame.record.info.number);
+    EXPECT_EQ(frame.image->returns(), frame.record.info.returns);
+    returns += frame.record.info.returns;
   };
   for (const test::Packet& packet : packets_) {
-    for (const TimedFrame& frame : way->push(packet.datagram())) take(frame);
+    for (const Frame& frame : way->push(packet.datagram())) take(frame);
     EXPECT_FALSE(way->rejected());
   }
-  for (const TimedFrame& frame : way->end_stream()) take(frame);
+  for (const Frame& frame : way->end_stream()) take(frame);
   ASSERT_GE(numbers.size(), static_cast<std::size_t>(kFrames));
   for (std::uint32_t i = 0; i < numbers.size(); ++i) EXPECT_EQ(numbers[i], i);
   test::Recorder decoder_alone;
@@ -61,23 +61,23 @@ TEST_F(PacketPipelineTest, LabelsAreThoseOfASegmenterThatSawTheWholeFrameAtOnce)
   ground::GroundMethod at_once({}, profile_, way->decoder().shape(),
                                way->decoder().return_capacity(), memory);
   int compared = 0;
-  const auto compare = [&](TimedFrame& frame) {
+  const auto compare = [&](Frame& frame) {
     (void)at_once.segment(*frame.image);
     (void)way->label(frame);
-    EXPECT_TRUE(std::ranges::equal(way->labels(), at_once.labels())) << frame.info.number;
+    EXPECT_TRUE(std::ranges::equal(way->labels(), at_once.labels())) << frame.record.info.number;
     ++compared;
   };
   for (const test::Packet& packet : packets_) {
-    for (TimedFrame& frame : way->push(packet.datagram())) compare(frame);
+    for (Frame& frame : way->push(packet.datagram())) compare(frame);
   }
-  for (TimedFrame& frame : way->end_stream()) compare(frame);
+  for (Frame& frame : way->end_stream()) compare(frame);
   EXPECT_GE(compared, kFrames);
 }
 
 TEST_F(PacketPipelineTest, SaysWhyADatagramWasRejected) {
   const auto way = pipeline();
   const std::vector<std::uint8_t> too_short(100);
-  for (const TimedFrame& frame : way->push({.payload = too_short})) FAIL() << frame.info.number;
+  for (const Frame& frame : way->push({.payload = too_short})) FAIL() << frame.record.info.number;
   EXPECT_EQ(way->rejected(), frame::Reject::kWrongSize);
 }
 
@@ -85,11 +85,12 @@ TEST_F(PacketPipelineTest, TimesOfAFrameAreItsOwn) {
   for (const Timing timing : {Timing::kPackets, Timing::kFrames}) {
     const auto way = pipeline(timing);
     for (const test::Packet& packet : packets_) {
-      for (TimedFrame& frame : way->push(packet.datagram())) {
-        EXPECT_GT(frame.times.decode_ns, 0);
-        EXPECT_EQ(frame.times.ahead_ns, frame.times.stages.sum_ns()) << "before it is labelled";
+      for (Frame& frame : way->push(packet.datagram())) {
+        EXPECT_GT(frame.record.decode_cpu_ns, 0);
+        EXPECT_EQ(frame.record.ahead_cpu_ns, frame.record.stages.sum_ns())
+            << "before it is labelled";
         (void)way->label(frame);
-        EXPECT_GT(frame.times.stages.sum_ns(), frame.times.ahead_ns);
+        EXPECT_GT(frame.record.stages.sum_ns(), frame.record.ahead_cpu_ns);
       }
     }
   }
@@ -99,17 +100,17 @@ TEST_F(PacketPipelineTest, TimesHoldNothingThatIsDoneBetweenTwoStreams) {
   for (const Timing timing : {Timing::kPackets, Timing::kFrames}) {
     const auto way = pipeline(timing);
     std::int64_t told_ns = 0, spent_ns = 0;
-    const auto take = [&](const TimedFrame& frame) {
-      told_ns += frame.times.decode_ns + frame.times.ahead_ns;
+    const auto take = [&](const Frame& frame) {
+      told_ns += frame.record.decode_cpu_ns + frame.record.ahead_cpu_ns;
     };
     for (int stream = 0; stream < 3; ++stream) {
       test::Recorder something_else;
       something_else.decode_all(packets_);
       const std::int64_t begin_ns = measure::thread_cpu_ns();
       for (const test::Packet& packet : packets_) {
-        for (const TimedFrame& frame : way->push(packet.datagram())) take(frame);
+        for (const Frame& frame : way->push(packet.datagram())) take(frame);
       }
-      for (const TimedFrame& frame : way->end_stream()) take(frame);
+      for (const Frame& frame : way->end_stream()) take(frame);
       spent_ns += measure::thread_cpu_ns() - begin_ns;
     }
     EXPECT_LE(told_ns, spent_ns);

@@ -19,18 +19,18 @@ constexpr std::int64_t kStart_ns = 1'700'000'000'000 * kMs;
 constexpr std::array<std::string_view, 2> kStages{"elevation_map", "min_cut"};
 
 /// Frame `number` of a sensor at 10 Hz, whose labels came `latency_ms` after its last packet.
-FrameTiming frame_of(std::uint32_t number, std::int64_t latency_ms) {
-  FrameTiming frame;
-  frame.number = number;
-  frame.returns = 1000;
-  frame.last_packet_ns = kStart_ns + number * 100 * kMs;
-  frame.closing_packet_ns = frame.last_packet_ns;
-  frame.handed_over_ns = frame.last_packet_ns + 1 * kMs;
+FrameRecord frame_of(std::uint32_t number, std::int64_t latency_ms) {
+  FrameRecord frame;
+  frame.info.number = number;
+  frame.info.returns = 1000;
+  frame.info.last_packet_ns = kStart_ns + number * 100 * kMs;
+  frame.closing_packet_ns = frame.info.last_packet_ns;
+  frame.handed_over_ns = frame.info.last_packet_ns + 1 * kMs;
   frame.segment_begin_ns = frame.handed_over_ns;
-  frame.labels_ns = frame.last_packet_ns + latency_ms * kMs;
+  frame.labels_ns = frame.info.last_packet_ns + latency_ms * kMs;
   frame.decode_cpu_ns = 3 * kMs;
   frame.segment_cpu_ns = 6 * kMs;
-  frame.stage_cpu_ns = {2 * kMs, 4 * kMs};
+  frame.stages.stage_ns = {2 * kMs, 4 * kMs};
   return frame;
 }
 
@@ -40,7 +40,7 @@ class DeadlineMonitorOf50Ms : public testing::Test {
   DeadlineMonitor monitor_{{.deadline_ns = 50 * kMs, .stage_names = kStages, .kept_frames = 8},
                            memory_};
 
-  FrameTiming judged(FrameTiming frame) {
+  FrameRecord judged(FrameRecord frame) {
     monitor_.judge(frame);
     return frame;
   }
@@ -54,7 +54,7 @@ class DeadlineMonitorOf50Ms : public testing::Test {
 
 TEST_F(DeadlineMonitorOf50Ms, MissesOnlyWhatIsLaterThanTheDeadline) {
   EXPECT_FALSE(judged(frame_of(0, 50)).missed);
-  FrameTiming late = frame_of(1, 50);
+  FrameRecord late = frame_of(1, 50);
   ++late.labels_ns;
   EXPECT_TRUE(judged(late).missed);
   EXPECT_EQ(monitor_.snapshot().frames, 2U);
@@ -64,14 +64,14 @@ TEST_F(DeadlineMonitorOf50Ms, MissesOnlyWhatIsLaterThanTheDeadline) {
 TEST_F(DeadlineMonitorOf50Ms, CountsWhetherTheVehiclesMotionWasKnownAndHowOldItWas) {
   judged(frame_of(0, 10));
   EXPECT_EQ(monitor_.snapshot().motion.deskewed + monitor_.snapshot().motion.no_ego_motion, 0U);
-  FrameTiming frame = frame_of(1, 10);
-  frame.motion = FrameMotion::kDeskewed;
+  FrameRecord frame = frame_of(1, 10);
+  frame.info.deskew.state = frame::DeskewState::kDone;
   for (const std::int64_t after_frame_ms : {-12, 3, -6}) {
-    frame.newest_motion_ns = after_frame_ms * kMs;
+    frame.info.deskew.newest_motion_ns = after_frame_ms * kMs;
     judged(frame);
   }
-  frame.motion = FrameMotion::kNoEgoMotion;
-  frame.newest_motion_ns = -900 * kMs;
+  frame.info.deskew.state = frame::DeskewState::kNoEgoMotion;
+  frame.info.deskew.newest_motion_ns = -900 * kMs;
   judged(frame);
   const MotionFigures& motion = monitor_.snapshot().motion;
   EXPECT_EQ(motion.deskewed, 3U);
@@ -88,7 +88,7 @@ TEST_F(DeadlineMonitorOf50Ms, BlamesOwnWorkForWhatNothingElseExplains) {
 }
 
 TEST_F(DeadlineMonitorOf50Ms, BlamesTheLargestShareOfTheLatency) {
-  FrameTiming frame = frame_of(0, 100);
+  FrameRecord frame = frame_of(0, 100);
   frame.run_queue_wait_ns = 60 * kMs;
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kWaitingForCore);
   frame.run_queue_wait_ns = 40 * kMs;
@@ -98,7 +98,7 @@ TEST_F(DeadlineMonitorOf50Ms, BlamesTheLargestShareOfTheLatency) {
 }
 
 TEST_F(DeadlineMonitorOf50Ms, TakesAWaitThatTheHypervisorCausedForStolenTimeOnce) {
-  FrameTiming frame = frame_of(0, 100);
+  FrameRecord frame = frame_of(0, 100);
   frame.steal_ns = 55 * kMs;
   frame.run_queue_wait_ns = 60 * kMs;  // 55 of them are the same
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kStolenTime);
@@ -108,7 +108,7 @@ TEST_F(DeadlineMonitorOf50Ms, TakesAWaitThatTheHypervisorCausedForStolenTimeOnce
 }
 
 TEST_F(DeadlineMonitorOf50Ms, GivesOwnWorkTheBlameWhenSharesAreEqual) {
-  FrameTiming frame = frame_of(0, 100);
+  FrameRecord frame = frame_of(0, 100);
   frame.steal_ns = 50 * kMs;
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kOwnWork);
   frame.steal_ns += 1;
@@ -116,21 +116,21 @@ TEST_F(DeadlineMonitorOf50Ms, GivesOwnWorkTheBlameWhenSharesAreEqual) {
 }
 
 TEST_F(DeadlineMonitorOf50Ms, SharesOutNoMoreThanTheLatency) {
-  FrameTiming frame = frame_of(0, 60);
+  FrameRecord frame = frame_of(0, 60);
   frame.closing_packet_ns += 40 * kMs;
   frame.steal_ns = 1000 * kMs;  // of all cores, say: at most the 20 ms that are left count
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kLateInput);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, TakesAStolenTimeThatWentBackwardsForNone) {
-  FrameTiming frame = frame_of(0, 100);
+  FrameRecord frame = frame_of(0, 100);
   frame.run_queue_wait_ns = 40 * kMs;
   frame.steal_ns = -30 * kMs;
   EXPECT_EQ(judged(frame).cause, FrameMissCause::kOwnWork);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, CountsASkippedFrameAsMissedButNotAsQuick) {
-  FrameTiming skipped = frame_of(0, 2);
+  FrameRecord skipped = frame_of(0, 2);
   skipped.level = Level::kSkipped;
   skipped.segment_cpu_ns = 0;
   EXPECT_TRUE(judged(skipped).missed);
@@ -142,11 +142,11 @@ TEST_F(DeadlineMonitorOf50Ms, CountsASkippedFrameAsMissedButNotAsQuick) {
 }
 
 TEST_F(DeadlineMonitorOf50Ms, CountsFramesWhoseStampsGiveNoLatency) {
-  FrameTiming set_back = frame_of(0, 10);
-  set_back.labels_ns = set_back.last_packet_ns - 1;
+  FrameRecord set_back = frame_of(0, 10);
+  set_back.labels_ns = set_back.info.last_packet_ns - 1;
   EXPECT_FALSE(judged(set_back).missed);
-  FrameTiming without_stamp = frame_of(1, 10);
-  without_stamp.last_packet_ns = 0;
+  FrameRecord without_stamp = frame_of(1, 10);
+  without_stamp.info.last_packet_ns = 0;
   EXPECT_FALSE(judged(without_stamp).missed);
   EXPECT_EQ(monitor_.snapshot().unjudged, 2U);
   EXPECT_EQ(monitor_.snapshot().frames, 2U);
@@ -182,16 +182,16 @@ TEST_F(DeadlineMonitorOf50Ms, RecordsEveryTimeUnderItsOwnHistogram) {
 
 TEST_F(DeadlineMonitorOf50Ms, AddsUpReturnsOverFrames) {
   judged(frame_of(0, 20));
-  FrameTiming skipped = frame_of(1, 20);
+  FrameRecord skipped = frame_of(1, 20);
   skipped.level = Level::kSkipped;
   judged(skipped);
   EXPECT_EQ(monitor_.snapshot().returns, 2000U);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, LeavesAStageThatDidNotRunOutOfItsHistogram) {
-  FrameTiming coarse = frame_of(0, 20);
+  FrameRecord coarse = frame_of(0, 20);
   coarse.level = Level::kCoarse;
-  coarse.stage_cpu_ns[1] = 0;
+  coarse.stages.stage_ns[1] = 0;
   judged(coarse);
   EXPECT_EQ(levels(Level::kCoarse), 1U);
   EXPECT_EQ(monitor_.snapshot().stage_cpu[0].count(), 1U);
@@ -225,22 +225,22 @@ TEST_F(DeadlineMonitorOf50Ms, TellsTheSameRateWhereASkippedFrameIsJudgedEarly) {
 }
 
 TEST_F(DeadlineMonitorOf50Ms, KeepsTheNewestFramesInTheirOrder) {
-  std::array<FrameTiming, 20> newest;
+  std::array<FrameRecord, 20> newest;
   EXPECT_EQ(monitor_.copy_newest(newest), 0U);
   for (std::uint32_t number = 0; number < 21; ++number) judged(frame_of(number, 60));
   ASSERT_EQ(monitor_.copy_newest(newest), 8U);
   for (std::uint32_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(newest[i].number, 13 + i);
+    EXPECT_EQ(newest[i].info.number, 13 + i);
     EXPECT_TRUE(newest[i].missed);
   }
   ASSERT_EQ(monitor_.copy_newest(std::span(newest).first(3)), 3U);
-  EXPECT_EQ(newest[0].number, 18U);
-  EXPECT_EQ(newest[2].number, 20U);
+  EXPECT_EQ(newest[0].info.number, 18U);
+  EXPECT_EQ(newest[2].info.number, 20U);
 }
 
 TEST_F(DeadlineMonitorOf50Ms, SurvivesAnyNumbersInAFrame) {
-  FrameTiming wild = frame_of(0, 10);
-  wild.last_packet_ns = 1;
+  FrameRecord wild = frame_of(0, 10);
+  wild.info.last_packet_ns = 1;
   wild.labels_ns = std::numeric_limits<std::int64_t>::max();
   wild.closing_packet_ns = -5;
   wild.steal_ns = -7;
@@ -256,17 +256,17 @@ TEST(DeadlineMonitor, TakesNoMoreStagesThanAFrameHas) {
   memory::FixedMemory memory;
   const std::vector<std::string_view> names(20, "stage");
   const DeadlineMonitor monitor({.stage_names = names}, memory);
-  EXPECT_EQ(monitor.snapshot().stages(), FrameTiming::kMaxStages);
+  EXPECT_EQ(monitor.snapshot().stages(), MonitorSnapshot::kMaxStages);
 }
 
 TEST(DeadlineMonitor, AllocatesNothingAfterItsConstruction) {
   if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer has its own allocator";
   memory::FixedMemory memory;
   DeadlineMonitor monitor({.stage_names = kStages, .kept_frames = 16}, memory);
-  std::array<FrameTiming, 16> newest;
+  std::array<FrameRecord, 16> newest;
   const std::uint64_t before = test::allocations_of_this_thread();
   for (std::uint32_t number = 0; number < 100; ++number) {
-    FrameTiming frame = frame_of(number, number);
+    FrameRecord frame = frame_of(number, number);
     monitor.judge(frame);
     monitor.copy_newest(newest);
   }
@@ -280,13 +280,13 @@ TEST(MonitorSnapshot, IsSafeToReadWhateverItsCountsSay) {
   garbage.stage_count = garbage.loss_count = garbage.thread_count = 0xFFFFFFFF;
   garbage.link = static_cast<LinkState>(77);
   garbage.motion.state = static_cast<MotionState>(77);
-  EXPECT_EQ(garbage.stages(), FrameTiming::kMaxStages);
+  EXPECT_EQ(garbage.stages(), MonitorSnapshot::kMaxStages);
   EXPECT_EQ(garbage.losses_in_use().size(), MonitorSnapshot::kMaxLosses);
   EXPECT_EQ(garbage.threads_in_use().size(), MonitorSnapshot::kMaxThreads);
   EXPECT_EQ(garbage.motion.faults_in_use().size(), MotionFigures::kMaxFaults);
   EXPECT_EQ(to_string(garbage.link), "unknown");
   EXPECT_EQ(to_string(garbage.motion.state), "unknown");
-  EXPECT_EQ(to_string(static_cast<FrameMotion>(77)), "unknown");
+  EXPECT_EQ(to_string(static_cast<frame::DeskewState>(77)), "unknown");
 }
 
 TEST(FixedText, CutsOffWhatIsTooLong) {

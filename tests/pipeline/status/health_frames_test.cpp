@@ -123,11 +123,12 @@ TEST_F(HealthFrames, GoByOtherIdsWhereTheseAreTaken) {
 
 TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   auto figures = std::make_unique<status::MonitorSnapshot>();
-  figures->newest.number = 17;
-  figures->newest.returns = 1000;
-  figures->newest.level = status::Level::kCutStopped;
-  figures->newest.missed = true;
-  figures->newest.cause = status::FrameMissCause::kWaitingForCore;
+  status::FrameRecord newest;
+  newest.info.number = 17;
+  newest.info.returns = 1000;
+  newest.level = status::Level::kCutStopped;
+  newest.missed = true;
+  newest.cause = status::FrameMissCause::kWaitingForCore;
   figures->link = status::LinkState::kReceiving;
   figures->misses = {1, 2, 3, 4};
   figures->levels[static_cast<std::size_t>(status::Level::kSkipped)] = 5;
@@ -135,7 +136,7 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   figures->losses[0].count = 6;
   figures->losses[1].count = 7;
   figures->losses[2].count = 100;  // not in use
-  HealthReport report = status::health_report_of(*figures);
+  HealthReport report = status::health_report_of(*figures, newest);
   EXPECT_EQ(report.frame_number, 17U);
   EXPECT_EQ(report.returns, 1000U);
   EXPECT_EQ(report.level, status::Level::kCutStopped);
@@ -147,11 +148,11 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   EXPECT_EQ(report.losses, 13U);
   EXPECT_LT(report.latency_ns, 0) << "no stamps";
 
-  figures->newest.last_packet_ns = 1'000;
-  figures->newest.labels_ns = 43'001'000;
-  EXPECT_EQ(status::health_report_of(*figures).latency_ns, 43'000'000);
-  figures->newest.labels_ns = 999;  // the clock was set back meanwhile
-  EXPECT_LT(status::health_report_of(*figures).latency_ns, 0);
+  newest.info.last_packet_ns = 1'000;
+  newest.labels_ns = 43'001'000;
+  EXPECT_EQ(status::health_report_of(*figures, newest).latency_ns, 43'000'000);
+  newest.labels_ns = 999;  // the clock was set back meanwhile
+  EXPECT_LT(status::health_report_of(*figures, newest).latency_ns, 0);
 }
 
 }  // namespace

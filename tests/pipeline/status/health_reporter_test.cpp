@@ -45,21 +45,22 @@ class HealthReporterTest : public testing::Test {
 };
 
 TEST_F(HealthReporterTest, ReportsEveryNewFrameOnce) {
-  run_.figures().newest.motion = FrameMotion::kDeskewed;
-  reporter_.work_round(run_.figures(), 0);
-  HealthReport report = health_report_of(run_.figures());
+  FrameRecord newest = run_.newest();
+  newest.info.deskew.state = frame::DeskewState::kDone;
+  reporter_.work_round(run_.figures(), newest, 0);
+  HealthReport report = health_report_of(run_.figures(), newest);
   EXPECT_TRUE(report.ego_motion);
   const auto expected = health_frames(report);
   EXPECT_EQ(heard(), std::vector(expected.begin(), expected.end()));
 
-  reporter_.work_round(run_.figures(), 50 * kMs);
+  reporter_.work_round(run_.figures(), newest, 50 * kMs);
   EXPECT_TRUE(heard().empty()) << "no frame since";
   ++run_.figures().frames;
-  ++run_.figures().newest.number;
-  reporter_.work_round(run_.figures(), 100 * kMs);
+  ++newest.info.number;
+  reporter_.work_round(run_.figures(), newest, 100 * kMs);
   const auto next = heard();
   ASSERT_EQ(next.size(), 2U);
-  EXPECT_EQ(next[0].data[0], run_.figures().newest.number);
+  EXPECT_EQ(next[0].data[0], newest.info.number);
   EXPECT_EQ(alive(next[1]), 1U);
 }
 
@@ -67,7 +68,7 @@ TEST_F(HealthReporterTest, GoesOnReportingWhereNoFramesCome) {
   run_.figures().link = LinkState::kSilent;
   std::uint32_t reports = 0;
   for (std::int64_t now_ms = 0; now_ms < 10'000; now_ms += 50) {
-    reporter_.work_round(run_.figures(), now_ms * kMs);
+    reporter_.work_round(run_.figures(), run_.newest(), now_ms * kMs);
     for (const CanFrame& frame : heard()) {
       if (frame.id != kHealthId) {
         EXPECT_EQ(alive(frame), reports++ % 256);
@@ -80,7 +81,7 @@ TEST_F(HealthReporterTest, GoesOnReportingWhereNoFramesCome) {
 TEST_F(HealthReporterTest, LeavesOutAndCountsWhatABusyBusDoesNotTake) {
   for (int i = 0; i < 10'000; ++i) {
     ++run_.figures().frames;
-    reporter_.work_round(run_.figures(), 0);
+    reporter_.work_round(run_.figures(), run_.newest(), 0);
   }
   HealthFigures figures;
   reporter_.show(figures);
@@ -97,7 +98,7 @@ TEST(HealthReporter, CountsWhatItCouldNotSayWhileItsInterfaceIsNotThere) {
   EXPECT_FALSE(sender->has_interface());
   HealthReporter reporter("nosuchcan0", *std::move(sender));
   WatchedRun run;
-  reporter.work_round(run.figures(), 0);
+  reporter.work_round(run.figures(), run.newest(), 0);
   HealthFigures figures;
   reporter.show(figures);
   EXPECT_EQ(figures.link_down, 2U);

@@ -32,7 +32,7 @@ class WatchedRun {
     figures.taken_ns = kEnd_ns;
     figures.link = LinkState::kReceiving;
     for (std::uint32_t number = 0; number < kFrames; ++number) judge(number);
-    figures.last_packet_ns = figures.newest.last_packet_ns;
+    figures.last_packet_ns = newest().info.last_packet_ns;
     net::DatagramAccount account;
     account.source.received = 34'802;
     account.source.delivered = 34'800;
@@ -50,8 +50,9 @@ class WatchedRun {
   }
 
   [[nodiscard]] MonitorSnapshot& figures() { return monitor_->snapshot(); }
-  [[nodiscard]] std::vector<FrameTiming> frames() const {
-    std::vector<FrameTiming> frames(kFrames);
+  [[nodiscard]] const FrameRecord& newest() const { return monitor_->newest(); }
+  [[nodiscard]] std::vector<FrameRecord> frames() const {
+    std::vector<FrameRecord> frames(kFrames);
     frames.resize(monitor_->copy_newest(frames));
     return frames;
   }
@@ -85,30 +86,31 @@ class WatchedRun {
                                                            "min_cut"};
 
   void judge(std::uint32_t number) {
-    FrameTiming frame;
-    frame.number = number;
-    frame.returns = 100'000;
-    frame.first_packet_ns = kStart_ns + number * 100 * kMs;
-    frame.last_packet_ns = frame.first_packet_ns + 105 * kMs;  // two frames are open at the seam
-    frame.closing_packet_ns = frame.last_packet_ns;
-    frame.handed_over_ns = frame.last_packet_ns + 1 * kMs;
+    FrameRecord frame;
+    frame.info.number = number;
+    frame.info.returns = 100'000;
+    frame.info.first_packet_ns = kStart_ns + number * 100 * kMs;
+    frame.info.last_packet_ns =
+        frame.info.first_packet_ns + 105 * kMs;  // two frames are open at the seam
+    frame.closing_packet_ns = frame.info.last_packet_ns;
+    frame.handed_over_ns = frame.info.last_packet_ns + 1 * kMs;
     frame.segment_begin_ns = frame.handed_over_ns;
     frame.labels_ns = frame.segment_begin_ns + 10 * kMs;
     frame.decode_cpu_ns = 4 * kMs;
-    frame.stage_cpu_ns = {2 * kMs, 1 * kMs, 5 * kMs};
+    frame.stages.stage_ns = {2 * kMs, 1 * kMs, 5 * kMs};
     frame.segment_cpu_ns = 8 * kMs;
-    frame.cut_operations = 1000;
+    frame.segmentation.cut.persistency_ops = 1000;
     if (number == 40) {
       frame.run_queue_wait_ns = 70 * kMs;
       frame.labels_ns += 70 * kMs;
     } else if (number == 41) {
       frame.level = Level::kSkipped;
-      frame.stage_cpu_ns = {};
+      frame.stages = {};
       frame.segment_cpu_ns = 0;
       frame.labels_ns = frame.segment_begin_ns;
     } else if (number == 42) {
       frame.level = Level::kCoarse;
-      frame.stage_cpu_ns[2] = 0;
+      frame.stages.stage_ns[2] = 0;
       frame.segment_cpu_ns = 3 * kMs;
     }
     monitor_->judge(frame);

@@ -60,22 +60,22 @@ TEST_P(FrameStream, HandsOverHeaderAndPointsAsTheyWereGiven) {
   FrameStreamReader first = reader();
   const auto points = points_of_frame(7, 1000);
   LabelledFrame given = frame_of(7, points);
-  given.level = status::Level::kCoarse;
+  given.record.level = status::Level::kCoarse;
   given.late = true;
-  given.motion = status::FrameMotion::kDeskewed;
+  given.record.info.deskew.state = frame::DeskewState::kDone;
   ASSERT_TRUE(server().serve(given));
   ReceivedFrame frame;
   ASSERT_TRUE(receive(first, frame).value_or(false));
   EXPECT_EQ(frame.header, (FrameWireHeader{.number = 7,
                                            .points = 1000,
-                                           .first_packet_ns = given.first_packet_ns,
-                                           .last_packet_ns = given.last_packet_ns,
-                                           .labels_ns = given.labels_ns,
+                                           .first_packet_ns = given.record.info.first_packet_ns,
+                                           .last_packet_ns = given.record.info.last_packet_ns,
+                                           .labels_ns = given.record.labels_ns,
                                            .sensor = 1,
                                            .level = 2,
                                            .flags = kFrameComplete | kFrameLate | kFrameDeskewed}));
   EXPECT_EQ(frame.points, points);
-  given.motion = status::FrameMotion::kNoEgoMotion;
+  given.record.info.deskew.state = frame::DeskewState::kNoEgoMotion;
   ASSERT_TRUE(server().serve(given));
   ASSERT_TRUE(receive(first, frame).value_or(false));
   EXPECT_EQ(frame.header.flags, kFrameComplete | kFrameLate | kFrameNoEgoMotion);

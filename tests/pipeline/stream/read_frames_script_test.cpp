@@ -64,7 +64,7 @@ TEST_P(ReadFramesScript, PrintsWhatWasServed) {
   ASSERT_TRUE(reader_came());
   const auto points = points_of_frame(41, 150'000);
   LabelledFrame frame = frame_of(41, points);
-  frame.level = status::Level::kCutStopped;
+  frame.record.level = status::Level::kCutStopped;
   frame.late = true;
   ASSERT_TRUE(server().serve(frame));
   const Outcome outcome = end_of(script);

@@ -40,13 +40,13 @@ inline std::vector<LabelledPoint> points_of_frame(std::uint32_t number, std::siz
 }
 
 inline LabelledFrame frame_of(std::uint32_t number, const std::vector<LabelledPoint>& points) {
-  return {.number = number,
-          .first_packet_ns = 1'000'000'000LL * number,
-          .last_packet_ns = 1'000'000'000LL * number + 99'000'000,
-          .labels_ns = 1'000'000'000LL * number + 105'000'000,
-          .sensor = StreamedSensor::kHdl64e,
-          .complete = true,
-          .points = points};
+  LabelledFrame frame{.record = {}, .sensor = StreamedSensor::kHdl64e, .points = points};
+  frame.record.info.number = number;
+  frame.record.info.first_packet_ns = 1'000'000'000LL * number;
+  frame.record.info.last_packet_ns = 1'000'000'000LL * number + 99'000'000;
+  frame.record.info.complete = true;
+  frame.record.labels_ns = 1'000'000'000LL * number + 105'000'000;
+  return frame;
 }
 
 /// Until `done()` says so, in vain after kTestPatience_ns.

@@ -71,25 +71,25 @@ struct BenchResult {
   TimeSummary times;                             ///< Of whole frames.
   measure::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
   std::uint64_t frames = 0, returns = 0, unlabelled = 0;
-  std::vector<FrameRecord> each;  ///< In order, pass after pass.
+  std::vector<status::FrameRecord> each;  ///< In order, pass after pass.
 };
 
 /// One pass over the packets: decoding and labelling, timed frame by frame.
 void run_frames(run::PacketPipeline& pipeline, const PacketStore& packets, BenchResult* result) {
-  const auto take = [&](run::TimedFrame& frame) {
-    const stage::SegmentationReport segmented = pipeline.label(frame);
-    if (result == nullptr || !frame.info.complete) return;
-    const FrameRecord record = record_of(frame, segmented);
+  const auto take = [&](run::Frame& frame) {
+    pipeline.label(frame);
+    const status::FrameRecord& record = frame.record;
+    if (result == nullptr || !record.info.complete) return;
     result->times.add(record);
     result->each.push_back(record);
     ++result->frames;
-    result->returns += record.returns_in;
-    result->unlabelled += record.returns_in - record.returns_labelled;
+    result->returns += record.info.returns;
+    result->unlabelled += record.info.returns - record.segmentation.labelled();
   };
   for (std::size_t i = 0; i < packets.size(); ++i) {
-    for (run::TimedFrame& frame : pipeline.push(packets.at(i))) take(frame);
+    for (run::Frame& frame : pipeline.push(packets.at(i))) take(frame);
   }
-  for (run::TimedFrame& frame : pipeline.end_stream()) take(frame);
+  for (run::Frame& frame : pipeline.end_stream()) take(frame);
 }
 
 /// One pass of decoding alone: nanoseconds a column of 64 lasers.
@@ -110,12 +110,12 @@ double run_decoding(sensor::SensorDecoder& decoder, const PacketStore& packets) 
 }
 
 /// [{"decode", "segment", "after_frame"}, ..]: what the summary is made of.
-nlohmann::ordered_json frames_json(const std::vector<FrameRecord>& frames) {
+nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frames) {
   auto list = nlohmann::ordered_json::array();
-  for (const FrameRecord& frame : frames) {
-    list.push_back({{"decode", milliseconds(frame.decode_ns)},
-                    {"segment", milliseconds(frame.times.sum_ns())},
-                    {"after_frame", milliseconds(after_frame_ns(frame))}});
+  for (const status::FrameRecord& frame : frames) {
+    list.push_back({{"decode", milliseconds(frame.decode_cpu_ns)},
+                    {"segment", milliseconds(frame.stages.sum_ns())},
+                    {"after_frame", milliseconds(frame.after_frame_cpu_ns())}});
   }
   return list;
 }

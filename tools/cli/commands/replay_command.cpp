@@ -124,7 +124,7 @@ class Replay {
       pace.restart();
       const std::uint64_t offered_before = offered_;
       const bool go_on = play_once(pace);
-      for (run::TimedFrame& frame : pipeline_.end_stream()) take(frame);
+      for (run::Frame& frame : pipeline_.end_stream()) take(frame);
       if (!go_on || offered_ == offered_before) break;  // a pass without packets will stay without
     }
     return conclude();
@@ -169,7 +169,7 @@ class Replay {
 
   void decode(const decode::Datagram& datagram) {
     ++offered_;
-    for (run::TimedFrame& frame : pipeline_.push(datagram)) take(frame);
+    for (run::Frame& frame : pipeline_.push(datagram)) take(frame);
     if (pipeline_.rejected()) return;
     if (const auto* ruby128 = pipeline_.decoder().ruby128())
       clock_of_device_.note(*ruby128, datagram.stamp_ns);
@@ -180,11 +180,11 @@ class Replay {
 
   /// Labels a frame and hands the labels to the sinks. A sink that fails is remembered, and
   /// play_once() ends the replay.
-  void take(run::TimedFrame& frame) {
-    const FrameInfo& info = frame.info;
+  void take(run::Frame& frame) {
+    const FrameInfo& info = frame.record.info;
     const frame::RangeImage& image = *frame.image;
-    const stage::SegmentationReport segmented = pipeline_.label(frame);
-    report_.add(record_of(frame, segmented));
+    pipeline_.label(frame);
+    report_.add(frame.record);
     deskewed_ += info.deskew.state == frame::DeskewState::kDone ? 1 : 0;
     if (info.number % run::LatestNearGround::kFramesApart == 0) mount_.add_frame(image);
 

@@ -9,6 +9,7 @@
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
+#include "pipeline/run/stage_clock.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/mount_watch.hpp"
@@ -45,17 +46,15 @@ struct ScanLabeller {
         mount(profile.mount) {}
 
   /// Labels the scan and the rings that were just read.
-  void label(FrameRecord& record) {
+  void label(status::FrameRecord& record) {
     const auto placed = scan_to_image.place(scan.points, rings.ring_of_point, image);
     mount.add_frame(image);
-    record.cut = segmenter.segment(image, &clock).cut;
-    record.times = clock.take();
+    record.segmentation = segmenter.segment(image, &clock);
+    record.stages = clock.take();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
-    record.returns_in = static_cast<std::uint32_t>(scan.points.size() - placed.no_place);
-    record.returns_labelled = static_cast<std::uint32_t>(
-        std::count_if(point_labels.begin(), point_labels.end(),
-                      [](frame::Label label) { return label != frame::Label::kNone; }));
-    record.losses.overflow_full_returns = placed.overflow_full;
+    record.segmentation.count(point_labels);
+    record.info.returns = static_cast<std::uint32_t>(scan.points.size() - placed.no_place);
+    record.info.losses.overflow_full_returns = placed.overflow_full;
     no_place += placed.no_place;
     no_ring += placed.no_ring;
     if (scan.labels.empty()) return;
@@ -123,8 +122,9 @@ ExitCode run_segment(const Options& options) {
     const scan::ScanFile& file = reader->file(i);
     const Status read = reader->read(i, labeller.scan, labeller.rings);
     if (!read) return refuse(read.error());
-    FrameRecord record;
-    record.number = file.frame.value_or(static_cast<std::uint32_t>(i));
+    status::FrameRecord record;
+    record.info.complete = true;
+    record.info.number = file.frame.value_or(static_cast<std::uint32_t>(i));
     labeller.label(record);
     report.add(record);
     Status written = outputs.write_labels(file.name, labeller.point_labels);

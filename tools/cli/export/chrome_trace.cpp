@@ -23,12 +23,12 @@ using measure::milliseconds;
 enum Track : int { kReceive = 1, kSegment = 2 };
 constexpr int kProcess = 1;
 
-std::int64_t origin_of(std::span<const status::FrameTiming> frames) {
+std::int64_t origin_of(std::span<const status::FrameRecord> frames) {
   std::int64_t origin_ns = INT64_MAX;
-  for (const status::FrameTiming& frame : frames) {
+  for (const status::FrameRecord& frame : frames) {
     for (const std::int64_t stamp_ns :
-         {frame.first_packet_ns, frame.last_packet_ns, frame.handed_over_ns, frame.segment_begin_ns,
-          frame.labels_ns}) {
+         {frame.info.first_packet_ns, frame.info.last_packet_ns, frame.handed_over_ns,
+          frame.segment_begin_ns, frame.labels_ns}) {
       if (stamp_ns > 0) origin_ns = std::min(origin_ns, stamp_ns);
     }
   }
@@ -44,7 +44,7 @@ class Trace {
     track(kSegment, "segment");
   }
 
-  void add(const status::FrameTiming& frame) {
+  void add(const status::FrameRecord& frame) {
     add_receive(frame);
     add_segment(frame);
     if (frame.missed) add_miss(frame);
@@ -61,47 +61,48 @@ class Trace {
   }
 
  private:
-  void add_receive(const status::FrameTiming& frame) {
+  void add_receive(const status::FrameRecord& frame) {
     const std::int64_t first_ns =
-        frame.first_packet_ns > 0 ? frame.first_packet_ns : frame.last_packet_ns;
-    slice(kReceive, fmt::format("frame {}", frame.number),
+        frame.info.first_packet_ns > 0 ? frame.info.first_packet_ns : frame.info.last_packet_ns;
+    slice(kReceive, fmt::format("frame {}", frame.info.number),
           first_ns > 0 ? std::max(first_ns, handed_over_before_ns_) : 0, frame.handed_over_ns,
-          {{"returns", frame.returns}, {"cpu_ms", milliseconds(frame.decode_cpu_ns)}});
+          {{"returns", frame.info.returns}, {"cpu_ms", milliseconds(frame.decode_cpu_ns)}});
     if (frame.handed_over_ns > 0) handed_over_before_ns_ = frame.handed_over_ns;
   }
 
-  void add_segment(const status::FrameTiming& frame) {
+  void add_segment(const status::FrameRecord& frame) {
     if (frame.level == status::Level::kSkipped) return;
-    slice(kSegment, fmt::format("frame {}", frame.number), frame.segment_begin_ns, frame.labels_ns,
+    slice(kSegment, fmt::format("frame {}", frame.info.number), frame.segment_begin_ns,
+          frame.labels_ns,
           {{"level", to_string(frame.level)},
-           {"latency_ms", milliseconds(frame.labels_ns - frame.last_packet_ns)},
+           {"latency_ms", milliseconds(frame.labels_ns - frame.info.last_packet_ns)},
            {"cpu_ms", milliseconds(frame.segment_cpu_ns)},
            {"run_queue_wait_ms", milliseconds(frame.run_queue_wait_ns)},
            {"steal_ms", milliseconds(frame.steal_ns)},
-           {"cut_operations", frame.cut_operations},
-           {"motion", to_string(frame.motion)}});
+           {"cut_operations", frame.segmentation.cut.operations()},
+           {"motion", to_string(frame.info.deskew.state)}});
     if (frame.segment_begin_ns <= 0) return;
     std::int64_t begin_ns = frame.segment_begin_ns;
     for (std::size_t i = frame.stages_ahead; i < figures_.stages(); ++i) {
-      if (frame.stage_cpu_ns[i] <= 0) continue;  // did not run on this level
-      const std::int64_t end_ns = std::min(begin_ns + frame.stage_cpu_ns[i], frame.labels_ns);
+      if (frame.stages.stage_ns[i] <= 0) continue;  // did not run on this level
+      const std::int64_t end_ns = std::min(begin_ns + frame.stages.stage_ns[i], frame.labels_ns);
       slice(kSegment, std::string(figures_.stage_names[i].view()), begin_ns, end_ns,
-            {{"cpu_ms", milliseconds(frame.stage_cpu_ns[i])}});
+            {{"cpu_ms", milliseconds(frame.stages.stage_ns[i])}});
       begin_ns = end_ns;
     }
   }
 
   /// Where the deadline ran out; for a frame that was given up before, where that was.
-  void add_miss(const status::FrameTiming& frame) {
+  void add_miss(const status::FrameRecord& frame) {
     if (frame.labels_ns <= 0) return;
     const std::int64_t when_ns =
-        frame.last_packet_ns > 0
-            ? std::min(frame.labels_ns, frame.last_packet_ns + figures_.deadline_ns)
+        frame.info.last_packet_ns > 0
+            ? std::min(frame.labels_ns, frame.info.last_packet_ns + figures_.deadline_ns)
             : frame.labels_ns;
     Json event = event_of("i", kSegment, fmt::format("missed: {}", to_string(frame.cause)));
     event["ts"] = microseconds(when_ns);
     event["s"] = "p";
-    event["args"] = {{"frame", frame.number}, {"level", to_string(frame.level)}};
+    event["args"] = {{"frame", frame.info.number}, {"level", to_string(frame.level)}};
     events_.push_back(std::move(event));
   }
 
@@ -139,14 +140,14 @@ class Trace {
 }  // namespace
 
 Json chrome_trace(const status::MonitorSnapshot& figures,
-                  std::span<const status::FrameTiming> frames) {
+                  std::span<const status::FrameRecord> frames) {
   Trace trace(figures, origin_of(frames));
-  for (const status::FrameTiming& frame : frames) trace.add(frame);
+  for (const status::FrameRecord& frame : frames) trace.add(frame);
   return std::move(trace).take();
 }
 
 Status write_chrome_trace(const std::filesystem::path& path, const status::MonitorSnapshot& figures,
-                          std::span<const status::FrameTiming> frames) {
+                          std::span<const status::FrameRecord> frames) {
   return files::write_whole_file(path, json_text(chrome_trace(figures, frames)));
 }
 

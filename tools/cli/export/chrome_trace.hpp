@@ -23,11 +23,11 @@ namespace terracut::cli {
 ///
 /// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,
-                                                  std::span<const status::FrameTiming> frames);
+                                                  std::span<const status::FrameRecord> frames);
 
 /// The same as a file, whole or not at all.
 [[nodiscard]] Status write_chrome_trace(const std::filesystem::path& path,
                                         const status::MonitorSnapshot& figures,
-                                        std::span<const status::FrameTiming> frames);
+                                        std::span<const status::FrameRecord> frames);
 
 }  // namespace terracut::cli

@@ -24,6 +24,7 @@ using Json = nlohmann::ordered_json;
 
 using measure::milliseconds;
 using status::Figure;
+using status::FrameRecord;
 using status::Shown;
 
 Json losses_json(const frame::LossCounters& losses) {
@@ -36,13 +37,13 @@ Json losses_json(const frame::LossCounters& losses) {
 
 Json milliseconds_json(const FrameRecord& frame) {
   Json json;
-  json["decode"] = milliseconds(frame.decode_ns);
-  for (std::size_t i = 0; i < frame.times.stage_ns.size(); ++i) {
+  json["decode"] = milliseconds(frame.decode_cpu_ns);
+  for (std::size_t i = 0; i < frame.stages.stage_ns.size(); ++i) {
     json[std::string(to_string(static_cast<stage::Stage>(i)))] =
-        milliseconds(frame.times.stage_ns[i]);
+        milliseconds(frame.stages.stage_ns[i]);
   }
-  json["total"] = milliseconds(frame.decode_ns + frame.times.sum_ns());
-  json["after_frame"] = milliseconds(after_frame_ns(frame));
+  json["total"] = milliseconds(frame.decode_cpu_ns + frame.stages.sum_ns());
+  json["after_frame"] = milliseconds(frame.after_frame_cpu_ns());
   return json;
 }
 
@@ -51,8 +52,7 @@ Json milliseconds_json(const FrameRecord& frame) {
 Json min_cut_json(const min_cut::CutReport& cut) {
   return {{"unknown", cut.unknown},
           {"coarse", cut.coarse_by_cap + cut.coarse_by_budget},
-          {"ops", cut.persistency_ops + cut.greedy_push_ops + cut.boykov_kolmogorov_ops +
-                      cut.push_relabel_ops}};
+          {"ops", cut.operations()}};
 }
 
 /// How the vehicle's motion and the frames fit together in time.
@@ -60,8 +60,8 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const std::vector<Fram
   std::uint64_t deskewed = 0;
   std::vector<std::int64_t> newest_ns;
   for (const FrameRecord& frame : records) {
-    deskewed += frame.deskew.state == frame::DeskewState::kDone ? 1 : 0;
-    newest_ns.push_back(frame.deskew.newest_motion_ns);
+    deskewed += frame.info.deskew.state == frame::DeskewState::kDone ? 1 : 0;
+    newest_ns.push_back(frame.info.deskew.newest_motion_ns);
   }
   if (newest_ns.empty()) newest_ns.push_back(0);
   std::ranges::sort(newest_ns);
@@ -82,29 +82,12 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const std::vector<Fram
 
 }  // namespace
 
-FrameRecord record_of(const run::TimedFrame& frame,
-                      const stage::SegmentationReport& segmented) noexcept {
-  FrameRecord record;
-  record.number = frame.info.number;
-  record.first_packet_ns = frame.info.first_packet_ns;
-  record.complete = frame.info.complete;
-  record.returns_in = frame.info.returns;
-  record.returns_labelled = segmented.ground + segmented.obstacles;
-  record.decode_ns = frame.times.decode_ns;
-  record.times = frame.times.stages;
-  record.ahead_ns = frame.times.ahead_ns;
-  record.cut = segmented.cut;
-  record.deskew = frame.info.deskew;
-  record.losses = frame.info.losses;
-  return record;
-}
-
 void TimeSummary::add(const FrameRecord& frame) noexcept {
-  for (std::size_t i = 0; i < stages.size(); ++i) stages[i].record(frame.times.stage_ns[i]);
-  decode.record(frame.decode_ns);
-  total.record(frame.decode_ns + frame.times.sum_ns());
-  after_frame.record(after_frame_ns(frame));
-  wall.record(frame.times.segment_wall_ns);
+  for (std::size_t i = 0; i < stages.size(); ++i) stages[i].record(frame.stages.stage_ns[i]);
+  decode.record(frame.decode_cpu_ns);
+  total.record(frame.decode_cpu_ns + frame.stages.sum_ns());
+  after_frame.record(frame.after_frame_cpu_ns());
+  wall.record(frame.stages.segment_wall_ns);
 }
 
 std::vector<Figure> TimeSummary::figures() const {
@@ -129,7 +112,7 @@ void Report::add(const FrameRecord& frame) {
 frame::LossCounters Report::losses() const {
   if (losses_) return *losses_;
   frame::LossCounters losses;
-  for (const FrameRecord& frame : records_) losses += frame.losses;
+  for (const FrameRecord& frame : records_) losses += frame.info.losses;
   return losses;
 }
 
@@ -159,9 +142,9 @@ std::vector<Figure> Report::run_figures() const {
 std::vector<Figure> Report::summary_figures() const {
   std::uint64_t complete = 0, returns_in = 0, returns_labelled = 0;
   for (const FrameRecord& frame : records_) {
-    complete += frame.complete ? 1 : 0;
-    returns_in += frame.returns_in;
-    returns_labelled += frame.returns_labelled;
+    complete += frame.info.complete ? 1 : 0;
+    returns_in += frame.info.returns;
+    returns_labelled += frame.segmentation.labelled();
   }
   std::vector<Figure> figures{
       {"frames", records_.size(), {}, {"frames"}},
@@ -220,17 +203,17 @@ Status Report::write_json(const std::filesystem::path& path) const {
   add_figures(run_figures(), json);
   Json& frames = json["frames"] = Json::array();
   for (const FrameRecord& frame : records_) {
-    frames.push_back({{"frame", frame.number},
-                      {"first_packet_ns", frame.first_packet_ns},
-                      {"complete", frame.complete},
-                      {"returns_in", frame.returns_in},
-                      {"returns_labelled", frame.returns_labelled},
-                      {"losses", losses_json(frame.losses)},
+    frames.push_back({{"frame", frame.info.number},
+                      {"first_packet_ns", frame.info.first_packet_ns},
+                      {"complete", frame.info.complete},
+                      {"returns_in", frame.info.returns},
+                      {"returns_labelled", frame.segmentation.labelled()},
+                      {"losses", losses_json(frame.info.losses)},
                       {"ms", milliseconds_json(frame)},
-                      {"segment_wall_ms", milliseconds(frame.times.segment_wall_ns)},
-                      {"min_cut", min_cut_json(frame.cut)}});
+                      {"segment_wall_ms", milliseconds(frame.stages.segment_wall_ns)},
+                      {"min_cut", min_cut_json(frame.segmentation.cut)}});
     if (motion_samples_) {
-      frames.back()["deskewed"] = frame.deskew.state == frame::DeskewState::kDone;
+      frames.back()["deskewed"] = frame.info.deskew.state == frame::DeskewState::kDone;
     }
   }
   add_figures(summary_figures(), json["summary"]);

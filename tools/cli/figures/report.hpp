@@ -11,10 +11,8 @@
 
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
-#include "pipeline/ground/segmenter.hpp"
-#include "pipeline/run/packet_pipeline.hpp"
-#include "pipeline/run/stage_clock.hpp"
 #include "pipeline/status/figure.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/mount_figures.hpp"
 #include "rt/error.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
@@ -23,37 +21,13 @@
 
 namespace terracut::cli {
 
-/// What is reported of one frame.
-struct FrameRecord {
-  std::uint32_t number = 0;
-  std::int64_t first_packet_ns = 0;  ///< 0 for scans, which have no packets.
-  bool complete = true;
-  std::uint32_t returns_in = 0;
-  std::uint32_t returns_labelled = 0;
-  std::int64_t decode_ns = 0;  ///< Processor time of decoding the packets since the frame before.
-  run::StageTimes times;
-  std::int64_t ahead_ns = 0;  ///< Of these, spent while the frame was still arriving.
-  min_cut::CutReport cut;
-  frame::DeskewInfo deskew;
-  frame::LossCounters losses;
-};
-
-/// Processor time of its stages after the last packet of the frame.
-[[nodiscard]] inline std::int64_t after_frame_ns(const FrameRecord& frame) noexcept {
-  return frame.times.sum_ns() - frame.ahead_ns;
-}
-
-/// The record of a frame that came out of packets.
-[[nodiscard]] FrameRecord record_of(const run::TimedFrame& frame,
-                                    const stage::SegmentationReport& segmented) noexcept;
-
 /// Times of all frames: per stage, decoding and the sum of both; of it what came after the frame's
 /// end; and by the wall clock.
 struct TimeSummary {
   std::array<measure::LogLinearHistogram, stage::kStages> stages;
   measure::LogLinearHistogram decode, total, after_frame, wall;
 
-  void add(const FrameRecord& frame) noexcept;
+  void add(const status::FrameRecord& frame) noexcept;
   /// They refer to this.
   [[nodiscard]] std::vector<status::Figure> figures() const;
 };
@@ -72,7 +46,7 @@ class Report {
 
   explicit Report(Run run) : run_(std::move(run)) {}
 
-  void add(const FrameRecord& frame);
+  void add(const status::FrameRecord& frame);
   /// `unscored`: frames for which no fitting truth was found.
   void set_quality(const quality::Quality& quality, std::uint64_t unscored = 0) {
     quality_ = quality;
@@ -128,7 +102,7 @@ class Report {
   [[nodiscard]] std::vector<status::Figure> summary_figures() const;
 
   Run run_;
-  std::vector<FrameRecord> records_;
+  std::vector<status::FrameRecord> records_;
   TimeSummary times_;
   std::optional<frame::LossCounters> losses_;
   std::optional<quality::Quality> quality_;

@@ -42,7 +42,7 @@ DumpWriter::DumpWriter(const Options& options, calib::SensorCalibration calibrat
       answers_(status::status_page_folder(), options.watch.name),
       thread_([this] { work(); }) {}
 
-void DumpWriter::want(DumpReason reason, std::vector<status::FrameTiming> frames) {
+void DumpWriter::want(DumpReason reason, std::vector<status::FrameRecord> frames) {
   {
     const std::scoped_lock lock(mutex_);
     wanted_[static_cast<std::size_t>(reason)] = true;
@@ -90,7 +90,7 @@ void DumpWriter::add_table(recorder::DumpReport& dump) const {
   dump.calibration.clear();
 }
 
-void DumpWriter::dump(DumpReason reason, const std::vector<status::FrameTiming>& frames) {
+void DumpWriter::dump(DumpReason reason, const std::vector<status::FrameRecord>& frames) {
   auto outcome = recorder_.dump(policy_, reason, {frames, stage_names_});
   if (outcome) {
     add_table(*outcome);

@@ -13,7 +13,7 @@
 #include "calib/sensor_calibration.hpp"
 #include "pipeline/recorder/dump_policy.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "rt/threads/background_thread.hpp"
 #include "tools/cli/commands/dump_answer.hpp"
 #include "tools/cli/options.hpp"
@@ -32,14 +32,14 @@ class DumpWriter {
              recorder::FlightRecorder& recorder, std::span<const std::string_view> stage_names);
 
   /// `frames`: the times of the newest frames.
-  void want(recorder::DumpReason reason, std::vector<status::FrameTiming> frames);
+  void want(recorder::DumpReason reason, std::vector<status::FrameRecord> frames);
 
   /// False when the disk does not answer; then the process must end without destroying this.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
  private:
   void work();
-  void dump(recorder::DumpReason reason, const std::vector<status::FrameTiming>& frames);
+  void dump(recorder::DumpReason reason, const std::vector<status::FrameRecord>& frames);
   void add_table(recorder::DumpReport& dump) const;
 
   calib::SensorCalibration calibration_;
@@ -51,7 +51,7 @@ class DumpWriter {
   std::mutex mutex_;  ///< Between threads without a deadline.
   std::condition_variable changed_;
   std::array<bool, recorder::kDumpReasons> wanted_{};
-  std::vector<status::FrameTiming> frames_;
+  std::vector<status::FrameRecord> frames_;
   bool finish_ = false;
 
   threads::BackgroundThread thread_;  ///< Last: it uses all of the above.

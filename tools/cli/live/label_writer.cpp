@@ -28,7 +28,7 @@ void LabelWriter::work() {
 
 bool LabelWriter::write(const Slots::Frame& frame) {
   if (!outcome_) return false;
-  outcome_ = folder_.place(fmt::format("{:06}.label", frame.info.number))
+  outcome_ = folder_.place(fmt::format("{:06}.label", frame.record.info.number))
                  .and_then([&](const std::filesystem::path& path) {
                    return output::write_label_file(path, frame.items);
                  });

@@ -66,14 +66,14 @@ void LiveWatch::open_health() {
 
 LiveWatch::Round LiveWatch::work_round() {
   Round round;
-  for (status::FrameTiming timing; threads_.take_timing(timing);) {
-    const std::int64_t latency_ns = timing.labels_ns - timing.last_packet_ns;
+  for (status::FrameRecord frame; threads_.take_record(frame);) {
+    const std::int64_t latency_ns = frame.labels_ns - frame.info.last_packet_ns;
     if (stolen_ && latency_ns > monitor_.snapshot().deadline_ns) {
-      timing.steal_ns = stolen_->since(timing.last_packet_ns, measure::realtime_ns());
+      frame.steal_ns = stolen_->since(frame.info.last_packet_ns, measure::realtime_ns());
     }
-    monitor_.judge(timing);
+    monitor_.judge(frame);
     ++round.frames;
-    if (timing.missed) ++round.missed;
+    if (frame.missed) ++round.missed;
   }
   refresh();
   return round;
@@ -96,7 +96,7 @@ void LiveWatch::refresh() {
   figures.mount = mount_->figures();
   if (motion_ != nullptr) motion_->show(figures.motion);
   if (health_) {
-    health_->work_round(figures, measure::monotonic_ns());
+    health_->work_round(figures, monitor_.newest(), measure::monotonic_ns());
     health_->show(figures.health);
   }
   display_.show(figures);
@@ -124,7 +124,7 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   status::show_losses(status::causes_of(losses), figures);
   status::show_losses(status::causes_of(account.source), figures);
   std::vector<status::NamedCount> more{{"let_go_packets", account.let_go},
-                                       {"untimed_frames", threads_.timings_dropped()}};
+                                       {"untimed_frames", threads_.records_dropped()}};
   // At the end nothing waits any more that was not held up for good.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
@@ -142,8 +142,8 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   status::show_losses(more, figures);
 }
 
-std::vector<status::FrameTiming> LiveWatch::newest() const {
-  std::vector<status::FrameTiming> frames(kKeptFrames);
+std::vector<status::FrameRecord> LiveWatch::newest() const {
+  std::vector<status::FrameRecord> frames(kKeptFrames);
   frames.resize(monitor_.copy_newest(frames));
   return frames;
 }

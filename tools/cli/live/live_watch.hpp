@@ -56,7 +56,7 @@ class LiveWatch {
     return monitor_.snapshot();
   }
   /// The times of the newest frames, oldest first.
-  [[nodiscard]] std::vector<status::FrameTiming> newest() const;
+  [[nodiscard]] std::vector<status::FrameRecord> newest() const;
 
  private:
   static constexpr std::size_t kKeptFrames = 256;

@@ -117,7 +117,7 @@ TEST(ChromeTrace, MarksEveryMissedDeadlineWithItsCause) {
 
 TEST(ChromeTrace, LeavesOutWhatIsNotKnown) {
   status::WatchedRun run;
-  const std::vector<status::FrameTiming> nothing_known(1);
+  const std::vector<status::FrameRecord> nothing_known(1);
   const Json trace = chrome_trace(run.figures(), nothing_known);
   for (const Json& event : trace["traceEvents"]) EXPECT_EQ(event["ph"], "M");
   EXPECT_TRUE(chrome_trace(run.figures(), {})["traceEvents"].is_array());

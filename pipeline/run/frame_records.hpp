@@ -5,32 +5,32 @@
 #include <atomic>
 #include <cstdint>
 
-#include "pipeline/status/frame_timing.hpp"
+#include "pipeline/status/frame_record.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/queues/spsc_queue.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::run {
 
-/// Carries frames' times from one thread with a deadline to the one that judges them. Where that
-/// one is too slow, times are dropped and counted.
-class FrameTimings {
+/// Carries frames' records from one thread with a deadline to the one that judges them. Where that
+/// one is too slow, records are dropped and counted.
+class FrameRecords {
  public:
   static constexpr std::size_t kRoom = 64;
 
-  explicit FrameTimings(memory::FixedMemory& memory) : queue_("frame timings", kRoom, memory) {}
+  explicit FrameRecords(memory::FixedMemory& memory) : queue_("frame records", kRoom, memory) {}
 
   /// Thread with a deadline.
-  void pass_on(const status::FrameTiming& timing) noexcept TERRACUT_NONBLOCKING {
-    if (!queue_.try_push(timing)) dropped_.fetch_add(1, std::memory_order_relaxed);
+  void pass_on(const status::FrameRecord& record) noexcept TERRACUT_NONBLOCKING {
+    if (!queue_.try_push(record)) dropped_.fetch_add(1, std::memory_order_relaxed);
   }
   /// The thread that judges: the oldest ones not taken yet.
-  [[nodiscard]] bool take(status::FrameTiming& timing) noexcept { return queue_.try_pop(timing); }
+  [[nodiscard]] bool take(status::FrameRecord& record) noexcept { return queue_.try_pop(record); }
   /// Frames that nobody can judge. From any thread.
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(); }
 
  private:
-  queues::SpscQueue<status::FrameTiming> queue_;
+  queues::SpscQueue<status::FrameRecord> queue_;
   std::atomic<std::uint64_t> dropped_{0};
 };
 

@@ -7,6 +7,10 @@
 #include <cstdint>
 #include <string_view>
 
+#include "firmware_io/frame/frame_info.hpp"
+#include "pipeline/stage/segmentation_report.hpp"
+#include "pipeline/stage/stage_times.hpp"
+
 namespace terracut::status {
 
 /// How much of the method a frame got before its deadline, best first.
@@ -30,14 +34,6 @@ enum class FrameMissCause : std::uint8_t {
 };
 inline constexpr std::size_t kMissCauses = static_cast<std::size_t>(FrameMissCause::kCount);
 
-/// Whether a frame was freed of the vehicle's motion.
-enum class FrameMotion : std::uint8_t {
-  kNotAsked,
-  kDeskewed,
-  kNoEgoMotion,  ///< Asked for but not known: the frame is as the sensor saw it.
-  kCount,
-};
-
 /// Stable lower_snake_case names, as in reports; "unknown" for anything else.
 [[nodiscard]] constexpr std::string_view to_string(Level level) noexcept {
   constexpr std::array<std::string_view, kLevels> kNames{"full", "cut_stopped", "coarse",
@@ -50,32 +46,22 @@ enum class FrameMotion : std::uint8_t {
   return cause < FrameMissCause::kCount ? kNames[static_cast<std::size_t>(cause)] : "unknown";
 }
 
-[[nodiscard]] constexpr std::string_view to_string(FrameMotion motion) noexcept {
-  constexpr std::array<std::string_view, static_cast<std::size_t>(FrameMotion::kCount)> kNames{
-      "not_asked", "deskewed", "no_ego_motion"};
-  return motion < FrameMotion::kCount ? kNames[static_cast<std::size_t>(motion)] : "unknown";
-}
+/// All that is known of one frame: filled on its way, from the first packet to the last report, by
+/// the threads it passes; judged at the end (pipeline/status/deadline_monitor.hpp). Times of day
+/// are CLOCK_REALTIME like the kernel's stamps of packets; 0 means "not known". Trivially copyable,
+/// no thread contract of its own.
+struct FrameRecord {
+  frame::FrameInfo info;  ///< What the decoder knows: number, packets' stamps, returns, losses.
 
-/// When one frame was where, and what it cost: filled on its way by the threads it passes, judged
-/// at the end (pipeline/status/deadline_monitor.hpp). Times of day are CLOCK_REALTIME like the
-/// kernel's stamps of packets; 0 means "not known". Trivially copyable, no thread contract of its
-/// own.
-struct FrameTiming {
-  static constexpr std::size_t kMaxStages = 8;
-
-  std::uint32_t number = 0;
-  std::uint32_t returns = 0;
-
-  std::int64_t first_packet_ns = 0;    ///< Kernel's stamp of the frame's first packet.
-  std::int64_t last_packet_ns = 0;     ///< Kernel's stamp of the frame's last packet.
   std::int64_t closing_packet_ns = 0;  ///< Of the packet that showed that the frame is over.
   std::int64_t handed_over_ns = 0;     ///< Decoded, and given to the segmenting thread.
   std::int64_t segment_begin_ns = 0;
   std::int64_t labels_ns = 0;  ///< Labels handed out; when it was given up if skipped.
 
   /// Processor time of the threads that did it.
-  std::int64_t decode_cpu_ns = 0;  ///< All packets of the frame.
-  std::array<std::int64_t, kMaxStages> stage_cpu_ns{};
+  std::int64_t decode_cpu_ns = 0;   ///< All packets of the frame.
+  stage::StageTimes stages;         ///< By stage.
+  std::int64_t ahead_cpu_ns = 0;    ///< Of the stages, while the frame was still arriving.
   std::int64_t segment_cpu_ns = 0;  ///< All stages and what lies between them.
 
   /// From the last packet to the labels, of the frame's threads.
@@ -83,18 +69,18 @@ struct FrameTiming {
   /// Stolen from the machine around that, where the deadline was missed; else 0.
   std::int64_t steal_ns = 0;
 
-  std::uint64_t cut_operations = 0;
+  stage::SegmentationReport segmentation;
   Level level = Level::kFull;
   std::uint8_t stages_ahead = 0;  ///< So many of the first stages were over at hand-over.
-
-  FrameMotion motion = FrameMotion::kNotAsked;
-  /// Stamp of the vehicle's newest motion known at hand-over, less the instant of the frame's last
-  /// firing; 0 without any.
-  std::int64_t newest_motion_ns = 0;
 
   bool missed = false;  ///< Set by DeadlineMonitor::judge.
   FrameMissCause cause =
       FrameMissCause::kOwnWork;  ///< Set by judge; means something only if missed.
+
+  /// Processor time of the stages after the last packet of the frame.
+  [[nodiscard]] std::int64_t after_frame_cpu_ns() const noexcept {
+    return stages.sum_ns() - ahead_cpu_ns;
+  }
 };
 
 }  // namespace terracut::status

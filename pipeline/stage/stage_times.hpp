@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "pipeline/stage/stage.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::stage {
+
+/// Processor time of one frame by stage, nanoseconds of the threads that worked on it.
+struct StageTimes {
+  std::array<std::int64_t, kStages> stage_ns{};
+  std::int64_t segment_wall_ns = 0;  ///< While at work on the frame, by the wall clock.
+
+  StageTimes& operator+=(const StageTimes& more) noexcept {
+    for (std::size_t i = 0; i < stage_ns.size(); ++i) stage_ns[i] += more.stage_ns[i];
+    segment_wall_ns += more.segment_wall_ns;
+    return *this;
+  }
+  [[nodiscard]] std::int64_t sum_ns() const noexcept TERRACUT_NONBLOCKING {
+    std::int64_t sum = 0;
+    for (const std::int64_t one_ns : stage_ns) sum += one_ns;
+    return sum;
+  }
+};
+
+}  // namespace terracut::stage

@@ -13,14 +13,9 @@
 namespace terracut::run {
 namespace {
 
-using net::LinkState;
-using status::MotionState;
-
 /// The motion's age is looked at that often when the bus is silent.
 constexpr std::int64_t kPatience_ns = 50'000'000;
 constexpr std::chrono::milliseconds kRest{1};
-/// No car's speed or yaw rate changes faster than a sample in this time shows.
-constexpr std::int64_t kClosest_ns = 2'000'000;
 
 /// Waits on purpose.
 void rest() noexcept {
@@ -56,49 +51,17 @@ void VehicleMotion::stop() {
 
 void VehicleMotion::hear() noexcept {
   const measure::PageFaults at_start = measure::PageFaults::of_this_thread();
-  Heard heard;
+  MotionReceiver receiver(signals_, motion_, source_, heard_, measure::SystemClock{});
   while (!stop_.load(std::memory_order_relaxed)) {
-    const auto frames = source_.receive(kPatience_ns);
-    for (const can::CanFrame& frame : frames) take(frame, heard);
-    publish(heard);
+    const bool came = receiver.work_round(kPatience_ns);
     thread_state_.note_faults(at_start);
-    if (!frames.empty()) rest();
+    if (came) rest();
   }
-}
-
-void VehicleMotion::take(const can::CanFrame& frame, Heard& heard) noexcept {
-  const auto sample = signals_.take(frame);
-  if (!sample) return;
-  const std::int64_t since_last_ns = sample->stamp_ns - heard.last_sample_ns;
-  if (since_last_ns >= 0 && since_last_ns < kClosest_ns) {
-    ++heard.spare_samples;
-    return;
-  }
-  (void)motion_.add(*sample);
-  heard.last_sample_ns = sample->stamp_ns;
-}
-
-void VehicleMotion::publish(Heard heard) noexcept {
-  const bool known = signals_.alive(measure::realtime_ns());
-  heard.bus = source_.counters();
-  heard.signals = signals_.counters();
-  if (source_.link() == LinkState::kGone) {
-    heard.state = MotionState::kInterfaceGone;
-  } else if (source_.link() == LinkState::kDown) {
-    heard.state = MotionState::kInterfaceDown;
-  } else if (source_.bus_off()) {
-    heard.state = MotionState::kBusOff;
-  } else if (known) {
-    heard.state = MotionState::kKnown;
-  } else if (heard.last_sample_ns != 0) {
-    heard.state = MotionState::kLost;
-  }
-  heard_.publish(heard);
 }
 
 void VehicleMotion::show(status::MotionFigures& figures) noexcept {
   (void)heard_.take_if_new();
-  const Heard& heard = heard_.newest_taken();
+  const HeardMotion& heard = heard_.newest_taken();
   const vehicle::EgoMotionCounters motion = motion_.counters();
   figures.state = heard.state;
   figures.samples = motion.accepted;

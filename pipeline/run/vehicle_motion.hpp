@@ -10,7 +10,8 @@
 #include "firmware_io/can/socketcan_source.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
-#include "live_thread_state.hpp"
+#include "pipeline/run/live_thread_state.hpp"
+#include "pipeline/run/motion_receiver.hpp"
 #include "pipeline/status/bus_figures.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/queues/latest_value.hpp"
@@ -21,16 +22,14 @@ namespace terracut::run {
 
 /// Hears the vehicle's CAN bus on a thread of its own and makes motion of it for the decoder:
 ///
-///   bus --SocketCanSource--> MotionSignals --EgoMotion (lock-free)--> the decoder, on its thread
+///   bus --SocketCanSource--> MotionReceiver --EgoMotion (lock-free)--> the decoder, on its thread
 ///                                 |
 ///                                 '-- LatestValue --> whoever calls show()
 ///
 /// The bus cannot hold up a frame: the decoder takes what motion there is and never waits for any,
 /// and after every batch (64 frames) the thread rests for a millisecond, so that a flood costs no
 /// more than reading three times what a bus of 1 Mbit/s can carry; what is beyond it the kernel
-/// drops, and counts. Frames bear the kernel's stamps, so resting makes nothing less exact. A flood
-/// of the motion itself is thinned to a sample every two milliseconds, so that it does not push
-/// the motion of the frame's end out of the decoder's queue.
+/// drops, and counts. Frames bear the kernel's stamps, so resting makes nothing less exact.
 ///
 /// The thread allocates, locks and writes nothing.
 class VehicleMotion {
@@ -56,24 +55,13 @@ class VehicleMotion {
   [[nodiscard]] const LiveThreadState& thread_state() const noexcept { return thread_state_; }
 
  private:
-  /// As of the thread's last look.
-  struct Heard {
-    can::CanReceiveCounters bus;
-    vehicle::MotionCounters signals;
-    status::MotionState state = status::MotionState::kWaiting;
-    std::uint64_t spare_samples = 0;
-    std::int64_t last_sample_ns = 0;  ///< Of those that were not spare.
-  };
-
   void hear() noexcept TERRACUT_NONBLOCKING;
-  void take(const can::CanFrame& frame, Heard& heard) noexcept TERRACUT_NONBLOCKING;
-  void publish(Heard heard) noexcept TERRACUT_NONBLOCKING;
 
   vehicle::MotionSignals signals_;
   vehicle::EgoMotion motion_;
   can::SocketCanSource& source_;
 
-  queues::LatestValue<Heard> heard_;
+  queues::LatestValue<HeardMotion> heard_;
   LiveThreadState thread_state_;
   std::atomic<bool> stop_{false};
   std::jthread thread_;

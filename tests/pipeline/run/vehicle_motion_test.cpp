@@ -4,7 +4,7 @@
 // On a real CAN interface: CanBus (tests/firmware_io/can).
 #include "pipeline/run/vehicle_motion.hpp"
 
-#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 #include <linux/can/error.h>
 
 #include <array>
@@ -15,11 +15,9 @@
 #include <string>
 #include <thread>
 
-#include "firmware_io/vehicle/dbc_file.hpp"
-#include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/firmware_io/can/frames.hpp"
 #include "tests/firmware_io/can/socket_pair.hpp"
-#include "tools/lab/drive/vehicle_log.hpp"
+#include "tests/pipeline/run/vehicle_at_20_mps.hpp"
 
 namespace terracut::run {
 namespace {
@@ -27,27 +25,7 @@ namespace {
 using can::CanFrame;
 using can::SocketCanSource;
 using status::MotionState;
-using vehicle::MotionSignals;
 using vehicle::PlanarPose;
-
-constexpr can::CanId kMotion{0x1A0, false};
-
-MotionSignals signals(double timeout_s) {
-  const auto dbc = vehicle::parse_dbc(drive::vehicle_dbc(), "vehicle.dbc");
-  EXPECT_TRUE(dbc);
-  vehicle::MotionSignalsConfig config;
-  config.speed.signals = {"SPEED"};
-  config.yaw_rate.signals = {"YAW_RATE"};
-  config.timeout_s = timeout_s;
-  auto made = MotionSignals::make(*dbc, config);
-  EXPECT_TRUE(made) << made.error().message;
-  return *std::move(made);
-}
-
-/// 72 km/h straight on.
-CanFrame at_20_mps() {
-  return test::data_frame(kMotion, {0x1C, 0x20, 0, 0, 0, 0, 0, 0});
-}
 
 CanFrame error_frame(std::uint32_t kind) {
   CanFrame frame = test::data_frame({kind, false}, {0, 0, 0, 0, 0, 0, 0, 0});
@@ -57,18 +35,15 @@ CanFrame error_frame(std::uint32_t kind) {
 
 class VehicleMotionTest : public testing::Test {
  protected:
-  /// Hears the bus, whose motion is lost without a sample for so long.
-  void hear(double timeout_s) {
-    auto source = SocketCanSource::adopt(std::move(bus_.here), {.ids = {kMotion}}, memory_);
+  void hear() {
+    auto source = SocketCanSource::adopt(std::move(bus_.here), {.ids = {test::kMotionId}}, memory_);
     ASSERT_TRUE(source) << source.error().message;
     source_.emplace(*std::move(source));
-    start(timeout_s);
-  }
-  void start(double timeout_s) {
     // The longest age there is, so that a machine that is busy loses no motion.
-    vehicle_.emplace(signals(timeout_s), vehicle::EgoMotion::Config{.max_age_ns = kSecond_ns},
-                     *source_, memory_);
+    vehicle_.emplace(test::signals_of_the_vehicle(60),
+                     vehicle::EgoMotion::Config{.max_age_ns = kSecond_ns}, *source_, memory_);
     for (const threads::Grant& grant : vehicle_->start(0)) EXPECT_TRUE(grant.granted);
+    EXPECT_FALSE(vehicle_->thread_state().scheduling.empty());
   }
   status::MotionFigures figures() {
     status::MotionFigures figures;
@@ -83,15 +58,15 @@ class VehicleMotionTest : public testing::Test {
     }
     return faults;
   }
-  /// Waits for what has to come; `meanwhile` is called now and then.
-  static bool wait_until(
-      const std::function<bool()>& comes, const std::function<void()>& meanwhile = [] {}) {
-    for (int i = 0; i < 12'000; ++i) {
-      if (comes()) return true;
-      meanwhile();
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  /// Looks again and again until what has to come is there.
+  template <class Comes>
+  static bool wait_until(const Comes& comes) {
+    const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    while (!comes()) {
+      if (std::chrono::steady_clock::now() > give_up) return false;
+      std::this_thread::yield();
     }
-    return false;
+    return true;
   }
   /// Whether the decoder's thread, which this one stands for, gets the motion of the last 0.1 s.
   bool motion_of_last_frame(std::array<PlanarPose, 2>& poses) {
@@ -110,37 +85,8 @@ class VehicleMotionTest : public testing::Test {
   std::optional<VehicleMotion> vehicle_;
 };
 
-TEST_F(VehicleMotionTest, HandsTheMotionOnTheBusToTheDecoder) {
-  hear(60);
-  EXPECT_EQ(figures().state, MotionState::kWaiting);
-  std::array<PlanarPose, 2> poses;
-  ASSERT_TRUE(wait_until([&] { return figures().samples > 30 && motion_of_last_frame(poses); },
-                         [&] { bus_.put(at_20_mps()); }));
-  EXPECT_NEAR(poses[0].x_m, -2, 1e-3);
-  EXPECT_NEAR(poses[1].x_m, 0, 1e-9);
-  const status::MotionFigures shown = figures();
-  EXPECT_EQ(shown.state, MotionState::kKnown);
-  EXPECT_NEAR(static_cast<double>(measure::realtime_ns() - shown.last_sample_ns), 0, 60e9);
-  EXPECT_EQ(faults()["samples_not_taken"], 0U);
-  EXPECT_FALSE(vehicle_->thread_state().scheduling.empty());
-}
-
-TEST_F(VehicleMotionTest, ThatIsNotRenewedIsLostAndNotGuessed) {
-  hear(0.1);
-  ASSERT_TRUE(wait_until([&] { return figures().samples > 0; }, [&] { bus_.put(at_20_mps()); }));
-  ASSERT_TRUE(wait_until([&] { return figures().state == MotionState::kLost; }));
-  EXPECT_GE(faults()["timeouts"], 1U);
-  vehicle_->motion().take_new();
-  const std::int64_t later_ns = *vehicle_->motion().newest_ns() + 2 * kSecond_ns;
-  std::array<PlanarPose, 1> poses;
-  EXPECT_FALSE(vehicle_->motion().poses(std::array{later_ns}, later_ns, poses));
-  ASSERT_TRUE(wait_until([&] { return figures().state == MotionState::kKnown; },
-                         [&] { bus_.put(at_20_mps()); }))
-      << "and comes back";
-}
-
 TEST_F(VehicleMotionTest, SaysThatTheControllerLeftTheBusAndCameBack) {
-  hear(60);
+  hear();
   ASSERT_TRUE(bus_.put(error_frame(CAN_ERR_BUSOFF)));
   ASSERT_TRUE(wait_until([&] { return figures().state == MotionState::kBusOff; }));
   EXPECT_EQ(faults()["bus_off"], 1U);
@@ -150,28 +96,16 @@ TEST_F(VehicleMotionTest, SaysThatTheControllerLeftTheBusAndCameBack) {
   EXPECT_EQ(faults()["error_frames"], 2U);
 }
 
-TEST_F(VehicleMotionTest, WaitsForAnInterfaceThatIsNotThere) {
-  auto source = SocketCanSource::open(
-      {.interface = "nosuchcan0", .ids = {kMotion}, .wait_for_interface = true}, memory_);
-  ASSERT_TRUE(source) << source.error().message;
-  source_.emplace(*std::move(source));
-  start(60);
-  ASSERT_TRUE(wait_until([&] { return figures().state == MotionState::kInterfaceGone; }));
-  EXPECT_EQ(faults()["link_losses"], 0U) << "it never was there";
-  vehicle_->motion().take_new();
-  EXPECT_FALSE(vehicle_->motion().newest_ns());
-}
-
 // With ThreadSanitizer this is the test of who may touch what.
 TEST_F(VehicleMotionTest, AFloodIsTakenInWholeWhileTheDecoderAndTheWatchGoOn) {
-  hear(60);
+  hear();
   constexpr std::uint64_t kSent = 20'000;
   const auto give_up = std::chrono::steady_clock::now() + std::chrono::seconds(120);
   const auto in_time = [&] { return std::chrono::steady_clock::now() < give_up; };
   std::atomic<std::uint64_t> put = 0;
   std::jthread car([&] {
     while (put < kSent && in_time()) {
-      if (bus_.put(at_20_mps())) {
+      if (bus_.put(test::at_20_mps())) {
         ++put;
       } else {
         std::this_thread::yield();  // the socket is full: so floods a bus
@@ -196,11 +130,11 @@ TEST_F(VehicleMotionTest, AFloodIsTakenInWholeWhileTheDecoderAndTheWatchGoOn) {
 }
 
 TEST_F(VehicleMotionTest, EndsThoughItsThreadNeverBegan) {
-  auto source = SocketCanSource::adopt(std::move(bus_.here), {.ids = {kMotion}}, memory_);
+  auto source = SocketCanSource::adopt(std::move(bus_.here), {.ids = {test::kMotionId}}, memory_);
   ASSERT_TRUE(source);
-  VehicleMotion vehicle(signals(1), {}, *source, memory_);
+  VehicleMotion vehicle(test::signals_of_the_vehicle(1), {}, *source, memory_);
   vehicle.stop();
-  EXPECT_TRUE(bus_.put(at_20_mps()));
+  EXPECT_TRUE(bus_.put(test::at_20_mps()));
   EXPECT_EQ(source->receive(0).size(), 1U) << "and woke nobody";
 }
 

@@ -20,7 +20,7 @@ ALONE = {
 }
 # One program each, and so one namespace each, however many folders it has.
 PROGRAMS = {"tools/cli": "cli", "tools/doctor": "doctor"}
-MOST_FILES = 40
+MOST_FILES = 25
 # What rt knows nothing of: it would serve any program with deadlines.
 PRODUCT_WORDS = re.compile(r"\b(lidar|azimuth|ground|obstacle|calibration|hdl64e|ruby128)\b", re.IGNORECASE)
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/scan/record_file.hpp"
+#include "rt/files/record_file.hpp"
 
 namespace terracut::scan {
 
@@ -18,11 +18,12 @@ std::uint8_t intensity_of(float remission) noexcept {
 
 Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan) {
   static_assert(sizeof(ScanPoint) == 16);
-  const RecordLayout layout{"point of 4 float32 (x y z remission)", sizeof(ScanPoint),
-                            kMaxScanPoints};
+  const files::RecordLayout layout{"point of 4 float32 (x y z remission)", sizeof(ScanPoint),
+                                   kMaxScanPoints};
   scan.labels.clear();
   scan.no_place = 0;
-  if (const Status status = read_records(bin_file, layout, scan.points); !status) return status;
+  if (const Status status = files::read_records(bin_file, layout, scan.points); !status)
+    return status;
   scan.no_place = static_cast<std::size_t>(std::count_if(
       scan.points.begin(), scan.points.end(), [](const ScanPoint& p) { return !is_place(p); }));
   if (scan.no_place == scan.points.size()) {

@@ -5,15 +5,15 @@
 #include <fmt/format.h>
 
 #include "firmware_io/scan/kitti_scan.hpp"
-#include "firmware_io/scan/record_file.hpp"
+#include "rt/files/record_file.hpp"
 #include "rt/files/whole_file.hpp"
 
 namespace terracut::scan {
 
 Status read_label_file(const std::filesystem::path& path, std::size_t points,
                        std::vector<std::uint32_t>& labels) {
-  const RecordLayout layout{"label of one uint32", sizeof(std::uint32_t), kMaxScanPoints};
-  if (const Status status = read_records(path, layout, labels); !status) return status;
+  const files::RecordLayout layout{"label of one uint32", sizeof(std::uint32_t), kMaxScanPoints};
+  if (const Status status = files::read_records(path, layout, labels); !status) return status;
   if (points != 0 && labels.size() != points) {
     return fail(
         ErrorCode::kMalformed,

@@ -13,7 +13,7 @@
 #include "firmware_io/can/socketcan_source.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "frames.hpp"
-#include "pipeline/status/health_frames.hpp"
+#include "pipeline/health/health_frames.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::test {
@@ -278,7 +278,7 @@ TEST_F(CanBus, BringsTheMotionOfTheVehicle) {
 TEST_F(CanBus, TellsHealthToOtherReaders) {
   auto terracut = sender();
   for (std::uint32_t i = 0; i < 5; ++i) {
-    const status::HealthReport report{
+    const health::HealthReport report{
         .frame_number = 1000 + i,
         .returns = 120'000 + 7 * i,
         .level = static_cast<status::Level>(i % 4),

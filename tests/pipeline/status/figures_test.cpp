@@ -12,8 +12,8 @@
 #include <string>
 #include <variant>
 
+#include "pipeline/page/status_page.hpp"
 #include "pipeline/status/figure_lines.hpp"
-#include "pipeline/status/status_page.hpp"
 #include "tests/pipeline/status/watched_run.hpp"
 
 namespace terracut::status {

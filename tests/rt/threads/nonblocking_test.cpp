@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "pipeline/status/status_page.hpp"
+#include "pipeline/page/status_page.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
 #include "rt/measure/page_faults.hpp"
 #include "rt/measure/run_queue_wait.hpp"
@@ -41,8 +41,8 @@ struct Tools {
   measure::LogLinearHistogram histogram;
   measure::RunQueueWait wait = measure::RunQueueWait::of_this_thread();
   std::optional<measure::StolenTime> stolen;
-  std::optional<status::StatusPagePublisher<Health>> page;
-  std::optional<status::StatusPageReader<Health>> reader;
+  std::optional<page::StatusPagePublisher<Health>> page;
+  std::optional<page::StatusPageReader<Health>> reader;
 };
 
 /// Returns how many of its steps went wrong.
@@ -81,10 +81,10 @@ TEST(NonBlocking, HoldsForEverythingThatRealTimeThreadsCall) {
   if (auto stolen = measure::StolenTime::open()) tools.stolen.emplace(std::move(*stolen));
   if (std::filesystem::is_directory("/dev/shm")) {
     const std::string name = "terracut-test-" + std::to_string(::getpid());
-    auto page = status::StatusPagePublisher<Health>::create(name, 1, "/dev/shm");
+    auto page = page::StatusPagePublisher<Health>::create(name, 1, "/dev/shm");
     ASSERT_TRUE(page.has_value()) << page.error().message;
     tools.page.emplace(std::move(*page));
-    auto reader = status::StatusPageReader<Health>::open(name, 1, "/dev/shm");
+    auto reader = page::StatusPageReader<Health>::open(name, 1, "/dev/shm");
     ASSERT_TRUE(reader.has_value()) << reader.error().message;
     tools.reader.emplace(std::move(*reader));
   }

@@ -10,8 +10,8 @@
 
 #include "cli_fixture.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "pipeline/page/status_page.hpp"
 #include "pipeline/recorder/flight_recorder.hpp"
-#include "pipeline/status/status_page.hpp"
 #include "tools/cli/commands/dump_answer.hpp"
 #include "tools/cli/live/dump_signal.hpp"
 
@@ -22,7 +22,7 @@ using recorder::DumpLimits;
 using recorder::DumpPolicy;
 using recorder::FlightRecorder;
 using testing::HasSubstr;
-using Page = status::StatusPagePublisher<std::uint64_t>;
+using Page = page::StatusPagePublisher<std::uint64_t>;
 
 /// A child process that stands for a running `terracut live`. It ends with this object.
 class Child {
@@ -87,7 +87,7 @@ class CliDump : public Cli {
     return [=, this](const std::function<void()>& ready) {
       DumpSignal signal;
       const auto page = Page::create(name, 1);
-      DumpAnswers answers(status::status_page_folder(), name);
+      DumpAnswers answers(page::status_page_folder(), name);
       memory::FixedMemory memory;
       FlightRecorder recorder({100, 120'800}, memory);
       const std::vector<std::uint8_t> payload(1206);
@@ -183,7 +183,7 @@ TEST_F(CliDump, ASignalFromAnywhereElseDumpsAsWell) {
   std::optional<DumpAnswer> answer;
   for (int i = 0; i < 2000 && !answer; ++i) {
     ::usleep(10'000);
-    answer = read_dump_answer(status::status_page_folder(), "front");
+    answer = read_dump_answer(page::status_page_folder(), "front");
   }
   ASSERT_TRUE(answer.has_value());
   EXPECT_EQ(answer->serial, 1U);
@@ -207,7 +207,7 @@ TEST_F(CliDump, PrintsNothingThatATerminalWouldObey) {
   Child live([](const std::function<void()>& ready) {
     DumpSignal signal;
     const auto page = Page::create("front", 1);
-    DumpAnswers answers(status::status_page_folder(), "front");
+    DumpAnswers answers(page::status_page_folder(), "front");
     ready();
     for (pollfd listening{signal.descriptor(), POLLIN, 0}; ::poll(&listening, 1, 20'000) > 0;) {
       if (!signal.take()) continue;
@@ -226,19 +226,19 @@ TEST_F(CliDump, PrintsNothingThatATerminalWouldObey) {
 
 TEST_F(CliDump, AnAnswerIsTakenAwayWithItsProcess) {
   {
-    DumpAnswers answers(status::status_page_folder(), "front");
+    DumpAnswers answers(page::status_page_folder(), "front");
     ASSERT_TRUE(answers.publish(
         tl::unexpected(recorder::RefusedDump{recorder::DumpRefusal::kDiskLow, "no room"})));
-    const auto answer = read_dump_answer(status::status_page_folder(), "front");
+    const auto answer = read_dump_answer(page::status_page_folder(), "front");
     ASSERT_TRUE(answer.has_value());
     EXPECT_EQ(answer->refusal, "disk_low");
     EXPECT_EQ(answer->message, "no room");
   }
-  EXPECT_FALSE(read_dump_answer(status::status_page_folder(), "front").has_value());
+  EXPECT_FALSE(read_dump_answer(page::status_page_folder(), "front").has_value());
   std::ofstream(pages_ / "front.terracut-dump") << "[1, 2]";
-  EXPECT_FALSE(read_dump_answer(status::status_page_folder(), "front").has_value());
+  EXPECT_FALSE(read_dump_answer(page::status_page_folder(), "front").has_value());
   std::ofstream(pages_ / "front.terracut-dump") << R"({"pid": "x", "serial": 1})";
-  EXPECT_FALSE(read_dump_answer(status::status_page_folder(), "front").has_value());
+  EXPECT_FALSE(read_dump_answer(page::status_page_folder(), "front").has_value());
 }
 
 }  // namespace

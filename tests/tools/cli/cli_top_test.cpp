@@ -8,7 +8,7 @@
 #include <stdexcept>
 
 #include "cli_fixture.hpp"
-#include "pipeline/status/status_page.hpp"
+#include "pipeline/page/status_page.hpp"
 #include "tests/pipeline/status/watched_run.hpp"
 #include "tests/support/child_process.hpp"
 #include "tests/support/places.hpp"
@@ -24,7 +24,7 @@ constexpr int kUsage = 2, kInputRefused = 3;
 
 class CliTop : public Cli {
  protected:
-  using Page = status::StatusPagePublisher<status::MonitorSnapshot>;
+  using Page = page::StatusPagePublisher<status::MonitorSnapshot>;
 
   void SetUp() override {
     Cli::SetUp();

@@ -17,7 +17,7 @@ terracut_install(drivers terracut_firmware_io)
 terracut_install(live terracut_pipeline)
 
 install(TARGETS terracut_cli RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(FILES ${PROJECT_SOURCE_DIR}/pipeline/status/terracut_health.dbc
+install(FILES ${PROJECT_SOURCE_DIR}/pipeline/health/terracut_health.dbc
   DESTINATION ${CMAKE_INSTALL_DATADIR}/terracut)
 
 configure_package_config_file(

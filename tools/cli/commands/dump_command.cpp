@@ -6,8 +6,8 @@
 #include <thread>
 
 #include "dump_answer.hpp"
+#include "pipeline/page/status_page_file.hpp"
 #include "pipeline/status/figure_lines.hpp"
-#include "pipeline/status/status_page_file.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
@@ -16,7 +16,7 @@
 namespace terracut::cli {
 
 ExitCode run_dump(const Options& options) {
-  const std::filesystem::path folder = status::status_page_folder();
+  const std::filesystem::path folder = page::status_page_folder();
   const auto process = find_live_process(folder, options.watched);
   if (!process) return refuse(process.error());
   const auto before = read_dump_answer(folder, process->name);

@@ -10,8 +10,8 @@
 #include <thread>
 #include <utility>
 
+#include "pipeline/page/status_page.hpp"
 #include "pipeline/status/figures.hpp"
-#include "pipeline/status/status_page.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
@@ -22,7 +22,7 @@
 namespace terracut::cli {
 namespace {
 
-using Reader = status::StatusPageReader<status::MonitorSnapshot>;
+using Reader = page::StatusPageReader<status::MonitorSnapshot>;
 
 status::LineStyle style_of_stdout() {
   status::LineStyle style{.columns = 80};
@@ -95,7 +95,7 @@ ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
 ExitCode run_top(const Options& options) {
   std::string name = options.watched;
   if (name.empty()) {
-    auto only_one = find_live_process(status::status_page_folder(), name);
+    auto only_one = find_live_process(page::status_page_folder(), name);
     if (!only_one) return refuse(only_one.error());
     name = std::move(only_one->name);
   }

@@ -16,7 +16,7 @@
 #include <system_error>
 #include <vector>
 
-#include "pipeline/status/status_page_list.hpp"
+#include "pipeline/page/status_page_list.hpp"
 #include "rt/files/owned_descriptor.hpp"
 
 namespace terracut::cli {
@@ -29,7 +29,7 @@ struct Pages {
 
 Pages pages_in(const std::filesystem::path& folder) {
   Pages pages;
-  for (const status::StatusPageEntry& page : status::list_status_pages(folder)) {
+  for (const page::StatusPageEntry& page : page::list_status_pages(folder)) {
     if (page.publisher_lives) {
       pages.running.push_back({page.name, page.pid, page.owner});
     } else {

@@ -11,7 +11,7 @@
 
 namespace terracut::cli {
 
-/// A running `terracut live`, as its status page tells (pipeline/status/status_page_list.hpp).
+/// A running `terracut live`, as its status page tells (pipeline/page/status_page_list.hpp).
 struct LiveProcess {
   std::string name;
   ::pid_t pid = 0;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <variant>
 
-#include "pipeline/status/status_page.hpp"
+#include "pipeline/page/status_page.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/lab/encode/hdl64e_encoder_traits.hpp"
 #include "tools/lab/encode/ruby128_encoder_traits.hpp"
@@ -39,7 +39,7 @@ DumpWriter::DumpWriter(const Options& options, calib::SensorCalibration calibrat
       recorder_(recorder),
       stage_names_(stage_names),
       policy_({.folder = dump_folder_of(options)}),
-      answers_(status::status_page_folder(), options.watch.name),
+      answers_(page::status_page_folder(), options.watch.name),
       thread_([this] { work(); }) {}
 
 void DumpWriter::want(DumpReason reason, std::vector<status::FrameRecord> frames) {

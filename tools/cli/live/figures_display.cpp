@@ -24,7 +24,7 @@ void FiguresDisplay::show(const status::MonitorSnapshot& figures) {
 }
 
 void FiguresDisplay::open_page(const WatchOptions& options) {
-  auto page = status::StatusPagePublisher<status::MonitorSnapshot>::create(
+  auto page = page::StatusPagePublisher<status::MonitorSnapshot>::create(
       options.name, status::MonitorSnapshot::kLayout);
   if (page) {
     page_.emplace(*std::move(page));

@@ -6,8 +6,8 @@
 #include <mutex>
 #include <optional>
 
+#include "pipeline/page/status_page.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
-#include "pipeline/status/status_page.hpp"
 #include "tools/cli/export/metrics_server.hpp"
 #include "tools/cli/options.hpp"
 
@@ -26,7 +26,7 @@ class FiguresDisplay {
   void open_page(const WatchOptions& options);
   void open_metrics(const WatchOptions& options);
 
-  std::optional<status::StatusPagePublisher<status::MonitorSnapshot>> page_;
+  std::optional<page::StatusPagePublisher<status::MonitorSnapshot>> page_;
   std::mutex
       shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
   std::unique_ptr<status::MonitorSnapshot> shown_ = std::make_unique<status::MonitorSnapshot>();

@@ -207,7 +207,7 @@ class Writers {
     if (parts.recorder) {
       dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames);
     } else {
-      refusals_.emplace(status::status_page_folder(), options.watch.name);
+      refusals_.emplace(page::status_page_folder(), options.watch.name);
     }
     return {};
   }

@@ -10,11 +10,11 @@
 
 #include "figures_display.hpp"
 #include "pipeline/ground/segmenter.hpp"
+#include "pipeline/health/health_reporter.hpp"
 #include "pipeline/run/live_threads.hpp"
 #include "pipeline/run/stream_writer.hpp"
 #include "pipeline/run/vehicle_motion.hpp"
 #include "pipeline/status/deadline_monitor.hpp"
-#include "pipeline/status/health_reporter.hpp"
 #include "pipeline/status/input_status.hpp"
 #include "pipeline/status/stolen_time_share.hpp"
 #include "rt/measure/stolen_time.hpp"
@@ -77,7 +77,7 @@ class LiveWatch {
   std::optional<status::StolenTimeShare<measure::StolenTime>> stolen_;
   bool over_ = false;
   status::DeadlineMonitor monitor_;
-  std::optional<status::HealthReporter> health_;
+  std::optional<health::HealthReporter> health_;
 };
 
 }  // namespace terracut::cli

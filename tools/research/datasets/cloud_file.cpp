@@ -13,8 +13,8 @@
 #include <string_view>
 
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/scan/record_file.hpp"
 #include "pcd_cloud.hpp"
+#include "rt/files/record_file.hpp"
 
 namespace terracut::datasets {
 namespace {
@@ -87,7 +87,7 @@ Status read_nuscenes_bin(const CloudLayout& layout, const fs::path& path, Labell
     float x_m, y_m, z_m, intensity, ring;
   };
   std::vector<Record> records;
-  const Status read = scan::read_records(
+  const Status read = files::read_records(
       path, {"point of 5 float32 (x y z intensity ring)", sizeof(Record), scan::kMaxScanPoints},
       records);
   if (!read) return read;
@@ -136,7 +136,7 @@ Status read_labels(LabelFormat format, const fs::path& file, scan::KittiScan& to
   }
   std::vector<std::uint8_t> bytes;
   const Status read =
-      scan::read_records(file, {"label of one uint8", 1, scan::kMaxScanPoints}, bytes);
+      files::read_records(file, {"label of one uint8", 1, scan::kMaxScanPoints}, bytes);
   if (!read) return read;
   to.labels.assign(bytes.begin(), bytes.end());
   if (bytes.size() == to.points.size()) return {};

@@ -19,8 +19,8 @@
 #include <vector>
 
 #include "firmware_io/capture/pcap_source.hpp"
+#include "pipeline/page/status_page.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
-#include "pipeline/status/status_page.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/tools/cli/background_program.hpp"
 #include "tools/lab/send/packet_pacer.hpp"
@@ -83,7 +83,7 @@ class LiveRun : public BackgroundProgram {
   }
 
  private:
-  using Page = status::StatusPageReader<status::MonitorSnapshot>;
+  using Page = page::StatusPageReader<status::MonitorSnapshot>;
 
   [[nodiscard]] static std::string unless_said(const std::string& options) {
     std::string rest = " --no-lock-memory --name " + name();

@@ -9,19 +9,20 @@
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 
-namespace terracut::status {
+namespace terracut::health {
 
 /// How terracut is, in as much as fits two CAN frames. terracut_health.dbc is the description of
 /// those for readers.
 struct HealthReport {
   std::uint32_t frame_number = 0;
   std::uint32_t returns = 0;
-  Level level = Level::kFull;
+  status::Level level = status::Level::kFull;
   bool missed = false;
-  FrameMissCause cause = FrameMissCause::kOwnWork;  ///< Means something only if missed.
+  status::FrameMissCause cause =
+      status::FrameMissCause::kOwnWork;  ///< Means something only if missed.
   std::int64_t latency_ns = -1;  ///< From the last packet to the labels; negative: not known.
   bool ego_motion = false;       ///< The frame was deskewed.
-  LinkState link = LinkState::kWaiting;
+  status::LinkState link = status::LinkState::kWaiting;
   std::uint64_t misses = 0;  ///< Since the start, as the next two.
   std::uint64_t skipped = 0;
   std::uint64_t losses = 0;
@@ -32,8 +33,8 @@ struct HealthReport {
 inline constexpr can::CanId kHealthId{1744, false};
 
 /// What the figures of a live process say. `alive` they do not know.
-[[nodiscard]] HealthReport health_report_of(const MonitorSnapshot& figures,
-                                            const FrameRecord& newest) noexcept;
+[[nodiscard]] HealthReport health_report_of(const status::MonitorSnapshot& figures,
+                                            const status::FrameRecord& newest) noexcept;
 
 /// TERRACUT_FRAME and TERRACUT_TOTALS, to be sent in this order. Numbers that do not fit: a latency
 /// and returns stay at the most there is, counts begin again at 0. `first` is the id of the one,
@@ -41,4 +42,4 @@ inline constexpr can::CanId kHealthId{1744, false};
 [[nodiscard]] std::array<can::CanFrame, 2> health_frames(const HealthReport& report,
                                                          can::CanId first = kHealthId) noexcept;
 
-}  // namespace terracut::status
+}  // namespace terracut::health

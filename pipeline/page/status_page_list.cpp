@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/status_page_list.hpp"
+#include "pipeline/page/status_page_list.hpp"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -16,7 +16,7 @@
 
 #include "rt/files/trusted_file.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 namespace {
 
 constexpr std::string_view kSuffix = ".terracut";  // as StatusPageFile names its files
@@ -34,7 +34,7 @@ std::optional<std::int32_t> publisher_of(int file) {
 }
 
 bool is_locked(int file) {
-  struct flock lock{};
+  struct flock lock {};
   lock.l_type = F_RDLCK;
   lock.l_whence = SEEK_SET;
   return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
@@ -52,7 +52,7 @@ std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& fold
     if (name.starts_with('.') || !name.ends_with(kSuffix)) continue;
     const int file = ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) continue;
-    struct stat status{};
+    struct stat status {};
     const bool trusted = ::fstat(file, &status) == 0 && files::check_trusted(status, it->path());
     if (const auto pid = trusted ? publisher_of(file) : std::nullopt) {
       name.resize(name.size() - kSuffix.size());
@@ -65,4 +65,4 @@ std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& fold
   return entries;
 }
 
-}  // namespace terracut::status
+}  // namespace terracut::page

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/scan/record_file.hpp"
+#include "rt/files/record_file.hpp"
 
 #include <fmt/format.h>
 
 #include <fstream>
 #include <system_error>
 
-namespace terracut::scan {
+namespace terracut::files {
 
 Expected<std::size_t> count_records(const std::filesystem::path& path, const RecordLayout& layout) {
   std::error_code error;
@@ -59,4 +59,4 @@ Status read_bytes(const std::filesystem::path& path, void* to, std::size_t bytes
   return {};
 }
 
-}  // namespace terracut::scan
+}  // namespace terracut::files

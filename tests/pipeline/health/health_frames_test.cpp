@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // The frames as a reader with nothing but terracut_health.dbc sees them.
-#include "pipeline/status/health_frames.hpp"
+#include "pipeline/health/health_frames.hpp"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -19,12 +19,12 @@ namespace terracut::test {
 namespace {
 
 using can::CanFrame;
-using status::health_frames;
-using status::HealthReport;
+using health::health_frames;
+using health::HealthReport;
 using testing::HasSubstr;
 using vehicle::SignalPlan;
 
-const std::filesystem::path kDbc = test::source_folder() / "pipeline/status/terracut_health.dbc";
+const std::filesystem::path kDbc = test::source_folder() / "pipeline/health/terracut_health.dbc";
 
 class HealthFrames : public testing::Test {
  protected:
@@ -136,7 +136,7 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   figures->losses[0].count = 6;
   figures->losses[1].count = 7;
   figures->losses[2].count = 100;  // not in use
-  HealthReport report = status::health_report_of(*figures, newest);
+  HealthReport report = health::health_report_of(*figures, newest);
   EXPECT_EQ(report.frame_number, 17U);
   EXPECT_EQ(report.returns, 1000U);
   EXPECT_EQ(report.level, status::Level::kCutStopped);
@@ -150,9 +150,9 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
 
   newest.info.last_packet_ns = 1'000;
   newest.labels_ns = 43'001'000;
-  EXPECT_EQ(status::health_report_of(*figures, newest).latency_ns, 43'000'000);
+  EXPECT_EQ(health::health_report_of(*figures, newest).latency_ns, 43'000'000);
   newest.labels_ns = 999;  // the clock was set back meanwhile
-  EXPECT_LT(status::health_report_of(*figures, newest).latency_ns, 0);
+  EXPECT_LT(health::health_report_of(*figures, newest).latency_ns, 0);
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include "pipeline/status/bus_figures.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 
-namespace terracut::status {
+namespace terracut::health {
 
-/// Says on a CAN bus how a live run is (pipeline/status/terracut_health.dbc): a report for the
+/// Says on a CAN bus how a live run is (pipeline/health/terracut_health.dbc): a report for the
 /// newest frame whenever frames were judged, and four a second where none come, so that a counter
 /// that stands still means that nobody is there. Never waits. One thread, without a deadline.
 class HealthReporter {
@@ -20,10 +20,10 @@ class HealthReporter {
   HealthReporter(std::string bus, can::CanSender sender);
 
   /// As often as one likes. `now_ns`: measure::monotonic_ns().
-  void work_round(const MonitorSnapshot& figures, const FrameRecord& newest,
+  void work_round(const status::MonitorSnapshot& figures, const status::FrameRecord& newest,
                   std::int64_t now_ns) noexcept;
 
-  void show(HealthFigures& figures) const noexcept;
+  void show(status::HealthFigures& figures) const noexcept;
 
  private:
   static constexpr std::int64_t kLongestSilence_ns = 250'000'000;
@@ -35,4 +35,4 @@ class HealthReporter {
   std::int64_t next_report_ns_ = 0;
 };
 
-}  // namespace terracut::status
+}  // namespace terracut::health

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/status_page.hpp"
+#include "pipeline/page/status_page.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,11 +18,11 @@
 #include <string>
 #include <thread>
 
-#include "pipeline/status/status_page_list.hpp"
+#include "pipeline/page/status_page_list.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/child_process.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 namespace {
 
 /// Words that belong together, and an end that fills no word.
@@ -114,7 +114,7 @@ TEST_F(StatusPage, IsReadableForOthersAndWritableForNone) {
   const auto page = publisher();
   ::umask(before);
   ASSERT_TRUE(page);
-  struct stat status{};
+  struct stat status {};
   ASSERT_EQ(::stat(page->path().c_str(), &status), 0);
   EXPECT_EQ(status.st_mode & 0777, 0644U);
 }
@@ -124,9 +124,7 @@ TEST_F(StatusPage, GoesWithItsPublisherWhileReadersKeepTheLastValue) {
   const auto view = reader();
   ASSERT_TRUE(page && view);
   page->publish(Health::of(5));
-  {
-    const auto gone = std::move(*page);
-  }
+  { const auto gone = std::move(*page); }
   EXPECT_EQ(files(), 0U);
   EXPECT_FALSE(view->publisher_lives());
   EXPECT_EQ(view->read(), Health::of(5));
@@ -160,9 +158,7 @@ TEST_F(StatusPage, TakesAwayNoPageButItsOwnWhenItGoes) {
   auto successor = publisher();
   ASSERT_TRUE(successor.has_value()) << successor.error().message;
   successor->publish(Health::of(4));
-  {
-    const auto gone = std::move(*page);
-  }
+  { const auto gone = std::move(*page); }
   const auto view = reader();
   ASSERT_TRUE(view.has_value()) << view.error().message;
   EXPECT_EQ(view->read(), Health::of(4));
@@ -353,4 +349,4 @@ TEST_F(StatusPage, IsMadeOnlyInMemoryAndUnderASoundName) {
 }
 
 }  // namespace
-}  // namespace terracut::status
+}  // namespace terracut::page

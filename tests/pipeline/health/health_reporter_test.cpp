@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/health_reporter.hpp"
+#include "pipeline/health/health_reporter.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,18 +8,18 @@
 #include <vector>
 
 #include "firmware_io/can/socketcan_source.hpp"
-#include "pipeline/status/health_frames.hpp"
+#include "pipeline/health/health_frames.hpp"
 #include "tests/firmware_io/can/frames.hpp"
 #include "tests/firmware_io/can/socket_pair.hpp"
-#include "watched_run.hpp"
+#include "tests/pipeline/status/watched_run.hpp"
 
-namespace terracut::status {
+namespace terracut::health {
 namespace {
 
 using can::CanFrame;
 using can::CanId;
 
-constexpr std::int64_t kMs = WatchedRun::kMs;
+constexpr std::int64_t kMs = status::WatchedRun::kMs;
 
 class HealthReporterTest : public testing::Test {
  protected:
@@ -40,12 +40,12 @@ class HealthReporterTest : public testing::Test {
   test::SocketPair bus_;
   memory::FixedMemory memory_;
   std::optional<can::SocketCanSource> vehicle_;
-  WatchedRun run_;
+  status::WatchedRun run_;
   HealthReporter reporter_{"can1", can::CanSender::adopt(std::move(bus_.here))};
 };
 
 TEST_F(HealthReporterTest, ReportsEveryNewFrameOnce) {
-  FrameRecord newest = run_.newest();
+  status::FrameRecord newest = run_.newest();
   newest.info.deskew.state = frame::DeskewState::kDone;
   reporter_.work_round(run_.figures(), newest, 0);
   HealthReport report = health_report_of(run_.figures(), newest);
@@ -65,7 +65,7 @@ TEST_F(HealthReporterTest, ReportsEveryNewFrameOnce) {
 }
 
 TEST_F(HealthReporterTest, GoesOnReportingWhereNoFramesCome) {
-  run_.figures().link = LinkState::kSilent;
+  run_.figures().link = status::LinkState::kSilent;
   std::uint32_t reports = 0;
   for (std::int64_t now_ms = 0; now_ms < 10'000; now_ms += 50) {
     reporter_.work_round(run_.figures(), run_.newest(), now_ms * kMs);
@@ -83,7 +83,7 @@ TEST_F(HealthReporterTest, LeavesOutAndCountsWhatABusyBusDoesNotTake) {
     ++run_.figures().frames;
     reporter_.work_round(run_.figures(), run_.newest(), 0);
   }
-  HealthFigures figures;
+  status::HealthFigures figures;
   reporter_.show(figures);
   EXPECT_EQ(figures.bus.view(), "can1");
   EXPECT_GT(figures.sent, 0U);
@@ -97,9 +97,9 @@ TEST(HealthReporter, CountsWhatItCouldNotSayWhileItsInterfaceIsNotThere) {
   ASSERT_TRUE(sender) << sender.error().message;
   EXPECT_FALSE(sender->has_interface());
   HealthReporter reporter("nosuchcan0", *std::move(sender));
-  WatchedRun run;
+  status::WatchedRun run;
   reporter.work_round(run.figures(), run.newest(), 0);
-  HealthFigures figures;
+  status::HealthFigures figures;
   reporter.show(figures);
   EXPECT_EQ(figures.link_down, 2U);
   EXPECT_EQ(figures.sent, 0U);
@@ -107,4 +107,4 @@ TEST(HealthReporter, CountsWhatItCouldNotSayWhileItsInterfaceIsNotThere) {
 }
 
 }  // namespace
-}  // namespace terracut::status
+}  // namespace terracut::health

@@ -10,12 +10,12 @@
 #include <type_traits>
 #include <utility>
 
-#include "pipeline/status/status_page_file.hpp"
+#include "pipeline/page/status_page_file.hpp"
 #include "rt/error.hpp"
 #include "rt/queues/sequence_lock.hpp"
 #include "rt/threads/nonblocking.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 
 /// A value that one process publishes and any others read, without the publisher ever noticing
 /// them: a page of shared memory with a sequence lock (sequence_lock.hpp).
@@ -97,4 +97,4 @@ class StatusPageReader {
   StatusPageFile file_;
 };
 
-}  // namespace terracut::status
+}  // namespace terracut::page

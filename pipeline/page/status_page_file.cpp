@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/status_page_file.hpp"
+#include "pipeline/page/status_page_file.hpp"
 
 #include <fcntl.h>
 #include <linux/magic.h>
@@ -22,7 +22,7 @@
 
 #include "rt/files/trusted_file.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 namespace {
 
 std::string reason(int error_number) {
@@ -60,7 +60,7 @@ std::size_t file_bytes(std::size_t value_bytes) {
 /// A lock of this open file, not of the process: two objects in one process exclude each other
 /// like two processes.
 struct flock whole_file(short type) {
-  struct flock lock{};
+  struct flock lock {};
   lock.l_type = type;
   lock.l_whence = SEEK_SET;
   return lock;
@@ -90,8 +90,8 @@ class OpenFile {
 };
 
 bool is_file_at(int file, const std::filesystem::path& path) {
-  struct stat of_file{};
-  struct stat at_path{};
+  struct stat of_file {};
+  struct stat at_path {};
   return ::fstat(file, &of_file) == 0 && ::lstat(path.c_str(), &at_path) == 0 &&
          of_file.st_dev == at_path.st_dev && of_file.st_ino == at_path.st_ino;
 }
@@ -116,7 +116,7 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
     if (old.number() < 0 && errno == ENOENT) continue;
     if (old.number() < 0) {
       const int error_number = errno;
-      struct stat there{};
+      struct stat there {};
       const bool known = ::lstat(path.c_str(), &there) == 0;
       return not_written(path,
                          known ? "there is one of user " + std::to_string(there.st_uid) + " already"
@@ -175,7 +175,7 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
                                                 std::size_t value_bytes) {
   if (!is_sound(name)) return bad_name(name);
   const std::filesystem::path path = path_of(folder, name);
-  struct statfs system{};
+  struct statfs system {};
   if (::statfs(folder.c_str(), &system) != 0) return not_written(path, "its folder", errno);
   if (system.f_type != TMPFS_MAGIC && system.f_type != RAMFS_MAGIC) {
     return fail(ErrorCode::kUnsupported,
@@ -230,7 +230,7 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
   // O_NONBLOCK: who has put a named pipe there shall not make us wait.
   OpenFile file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   if (file.number() < 0) return unreadable(errno);
-  struct stat status{};
+  struct stat status {};
   if (::fstat(file.number(), &status) != 0) return unreadable(errno);
 
   struct Fields {  // the header without its atomic
@@ -278,4 +278,4 @@ bool StatusPageFile::publisher_lives() const noexcept {
   return ::fcntl(file_, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
-}  // namespace terracut::status
+}  // namespace terracut::page

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "pipeline/status/status_page_file.hpp"
+#include "pipeline/page/status_page_file.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 
 /// A status page that was found.
 struct StatusPageEntry {
@@ -25,4 +25,4 @@ struct StatusPageEntry {
 [[nodiscard]] std::vector<StatusPageEntry> list_status_pages(
     const std::filesystem::path& folder = status_page_folder());
 
-}  // namespace terracut::status
+}  // namespace terracut::page

@@ -4,15 +4,15 @@
 
 #include <utility>
 
-#include "pipeline/status/health_frames.hpp"
+#include "pipeline/health/health_frames.hpp"
 
-namespace terracut::status {
+namespace terracut::health {
 
 HealthReporter::HealthReporter(std::string bus, can::CanSender sender)
     : bus_(std::move(bus)), sender_(std::move(sender)) {}
 
-void HealthReporter::work_round(const MonitorSnapshot& figures, const FrameRecord& newest,
-                                std::int64_t now_ns) noexcept {
+void HealthReporter::work_round(const status::MonitorSnapshot& figures,
+                                const status::FrameRecord& newest, std::int64_t now_ns) noexcept {
   if (figures.frames == reported_frames_ && now_ns < next_report_ns_) return;
   reported_frames_ = figures.frames;
   next_report_ns_ = now_ns + kLongestSilence_ns;
@@ -21,7 +21,7 @@ void HealthReporter::work_round(const MonitorSnapshot& figures, const FrameRecor
   sender_.send(health_frames(report));
 }
 
-void HealthReporter::show(HealthFigures& figures) const noexcept {
+void HealthReporter::show(status::HealthFigures& figures) const noexcept {
   const can::CanSendCounters& counters = sender_.counters();
   figures = {.bus = bus_,
              .sent = counters.sent,
@@ -30,4 +30,4 @@ void HealthReporter::show(HealthFigures& figures) const noexcept {
              .failed = counters.failed};
 }
 
-}  // namespace terracut::status
+}  // namespace terracut::health

@@ -10,7 +10,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::scan {
+namespace terracut::files {
 
 /// What a file of equal records without a header is made of, for the checks and their messages.
 struct RecordLayout {
@@ -41,4 +41,4 @@ template <class T>
   return read_bytes(path, records.data(), *count * sizeof(T));
 }
 
-}  // namespace terracut::scan
+}  // namespace terracut::files

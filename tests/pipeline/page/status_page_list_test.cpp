@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/status_page_list.hpp"
+#include "pipeline/page/status_page_list.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -10,10 +10,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "pipeline/status/status_page.hpp"
+#include "pipeline/page/status_page.hpp"
 #include "tests/support/child_process.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ TEST_F(StatusPageList, LeavesOutWhatIsNoPage) {
 }
 
 }  // namespace
-}  // namespace terracut::status
+}  // namespace terracut::page

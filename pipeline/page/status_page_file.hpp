@@ -11,7 +11,7 @@
 
 #include "rt/error.hpp"
 
-namespace terracut::status {
+namespace terracut::page {
 
 /// The beginning of a status page, as it lies in the file; numbers in the machine's own byte order.
 /// Behind it, from the next cache line on, the words of the value.
@@ -82,4 +82,4 @@ class StatusPageFile {
   std::atomic<std::uint64_t>* words_ = nullptr;
 };
 
-}  // namespace terracut::status
+}  // namespace terracut::page

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/health_frames.hpp"
+#include "pipeline/health/health_frames.hpp"
 
 #include <algorithm>
 
-namespace terracut::status {
+namespace terracut::health {
 namespace {
 
 constexpr std::int64_t kLatencyStep_ns = 10'000;
@@ -35,13 +35,14 @@ can::CanFrame empty_frame(can::CanId id) noexcept {
 }
 
 std::uint64_t latency_of(const HealthReport& report) noexcept {
-  if (report.latency_ns < 0 || report.level == Level::kSkipped) return kNoLatency;
+  if (report.latency_ns < 0 || report.level == status::Level::kSkipped) return kNoLatency;
   return static_cast<std::uint64_t>(std::min(report.latency_ns / kLatencyStep_ns, kMostLatency));
 }
 
 }  // namespace
 
-HealthReport health_report_of(const MonitorSnapshot& figures, const FrameRecord& newest) noexcept {
+HealthReport health_report_of(const status::MonitorSnapshot& figures,
+                              const status::FrameRecord& newest) noexcept {
   HealthReport report;
   report.frame_number = newest.info.number;
   report.returns = newest.info.returns;
@@ -54,8 +55,8 @@ HealthReport health_report_of(const MonitorSnapshot& figures, const FrameRecord&
   if (known) report.latency_ns = newest.labels_ns - newest.info.last_packet_ns;
   report.link = figures.link;
   report.misses = figures.all_misses();
-  report.skipped = figures.levels[static_cast<std::size_t>(Level::kSkipped)];
-  for (const NamedCount& loss : figures.losses_in_use()) report.losses += loss.count;
+  report.skipped = figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
+  for (const status::NamedCount& loss : figures.losses_in_use()) report.losses += loss.count;
   return report;
 }
 
@@ -78,4 +79,4 @@ std::array<can::CanFrame, 2> health_frames(const HealthReport& report, can::CanI
   return frames;
 }
 
-}  // namespace terracut::status
+}  // namespace terracut::health

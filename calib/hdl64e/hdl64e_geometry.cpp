@@ -62,10 +62,6 @@ Hdl64eGeometry::Hdl64eGeometry(const Hdl64eCalibration& calibration, GeometryMod
     beam.horiz_m = laser.horiz_offset_m;
     beam.xy_start_m = across_beam ? -laser.vert_offset_m * beam.sin_vert : 0.0;
     beam.z_start_m = across_beam ? laser.vert_offset_m * beam.cos_vert : laser.vert_offset_m;
-    beam.focal_offset = 256.0 * square(1.0 - laser.focal_distance_m / 131.0);
-    beam.focal_slope = laser.focal_slope;
-    beam.min_intensity = laser.min_intensity;
-    beam.max_intensity = laser.max_intensity;
   }
 }
 
@@ -129,14 +125,6 @@ std::optional<double> Hdl64eGeometry::raw_on_plane(int laser, double azimuth_rad
            length;
   };
   return solve(off_plane_m, (norm(hit) - b.far_m) / resolution_m_);
-}
-
-double Hdl64eGeometry::corrected_intensity(int laser, double raw_counts,
-                                           double raw_intensity) const noexcept {
-  const Beam& b = beam(laser);
-  const double distance_term = 256.0 * square(1.0 - raw_counts / beams::kMaxRawCounts);
-  const double corrected = raw_intensity + b.focal_slope * std::abs(b.focal_offset - distance_term);
-  return std::clamp(corrected, b.min_intensity, b.max_intensity);
 }
 
 }  // namespace terracut::hdl64e

@@ -74,11 +74,6 @@ class Hdl64eGeometry {
                                                    const beams::Point& hit,
                                                    const beams::Direction& normal) const noexcept;
 
-  /// Intensity corrected for distance (S2.1 manual p. 32): I + slope |fo - 256 (1 - raw / 65535)^2|
-  /// with fo = 256 (1 - focal_distance / 131 m)^2, clamped to the laser's [min, max] intensity.
-  [[nodiscard]] double corrected_intensity(int laser, double raw_counts,
-                                           double raw_intensity) const noexcept;
-
  private:
   /// What is left of one laser once its constant angles are resolved.
   struct Beam {
@@ -86,7 +81,6 @@ class Hdl64eGeometry {
     double far_m, near_x_m, near_y_m;
     double slope_x, slope_y;                ///< (D - DX) / (25.04 - 2.40) and its like in y.
     double horiz_m, xy_start_m, z_start_m;  ///< Where the beam starts: sideways, along it, up.
-    double focal_offset, focal_slope, min_intensity, max_intensity;
     bool two_point;
   };
 

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <string_view>
 
-#include "calib/text/bounded_file.hpp"
 #include "calib/text/number_text.hpp"
 #include "calib/text/yaml_document.hpp"
 
@@ -196,12 +195,6 @@ Expected<Hdl64eCalibration> parse_hdl64e_yaml(std::span<const char> text, const 
   } catch (const YAML::Exception& error) {
     return malformed(fmt::format("{}: line {}: {}", name, error.mark.line + 1, error.msg));
   }
-}
-
-Expected<Hdl64eCalibration> read_hdl64e_yaml(const std::filesystem::path& path) {
-  const auto text = text::read_bounded_file(path, "an HDL-64E calibration");
-  if (!text) return tl::unexpected(text.error());
-  return parse_hdl64e_yaml(*text, path.string());
 }
 
 }  // namespace terracut::hdl64e

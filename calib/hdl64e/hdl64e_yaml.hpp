@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <filesystem>
 #include <span>
 #include <string>
 
@@ -17,11 +16,8 @@ namespace terracut::hdl64e {
 /// and differs from dist_correction, unless two_pt_correction_available says false: converters left
 /// the key out of files that hold the values. Missing: min_intensity 0, max_intensity 255,
 /// distance_resolution 0.002 m, offsets and focal values 0. The result is validated.
-/// Errors (kNotFound, kUnreadable, kMalformed, kUnsupported) name the file, the laser or line and
-/// the field; files above 4 MiB, aliases and deep nesting are refused.
-[[nodiscard]] Expected<Hdl64eCalibration> read_hdl64e_yaml(const std::filesystem::path& path);
-
-/// The same from memory; `name` stands for the file in errors and becomes the origin.
+/// `name` stands for the file in errors (kMalformed, kUnsupported), which name the laser or line
+/// and the field, and becomes the origin. Aliases and deep nesting are refused.
 [[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_yaml(std::span<const char> text,
                                                             const std::string& name);
 

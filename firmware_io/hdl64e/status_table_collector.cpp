@@ -98,7 +98,6 @@ void StatusTableCollector::add(std::int64_t cycle, int place, std::uint8_t value
   const bool lost = row == anchor_ && !begins;
   if (moved || lost) {
     // Cycles were miscounted (a gap longer than the stamps tell), so older bytes are misplaced.
-    ++slips_;
     clear();
     return;
   }

@@ -45,9 +45,6 @@ class StatusTableCollector {
   [[nodiscard]] const Table& table() const noexcept { return accepted_; }
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
 
-  /// Times the beginning turned up elsewhere than it was, so that all bytes were dropped.
-  [[nodiscard]] std::uint64_t slips() const noexcept { return slips_; }
-
  private:
   static constexpr int kNoAnchor = -1;
 
@@ -65,7 +62,6 @@ class StatusTableCollector {
 
   Table accepted_{};
   std::uint32_t generation_ = 0;
-  std::uint64_t slips_ = 0;
 };
 
 }  // namespace terracut::hdl64e

@@ -143,11 +143,6 @@ class Hdl64ePacketView {
   [[nodiscard]] constexpr bool is_hdl64e() const noexcept {
     return block_id(1) == kLowerBlockId && block_id(2) == kUpperBlockId;
   }
-  /// Blocks 0 and 2 carry the same azimuth: dual return, or a head that stands still. Only several
-  /// packets of a rotating head, or the packet period, tell which.
-  [[nodiscard]] constexpr bool repeats_azimuth() const noexcept {
-    return azimuth_cdeg(2) == azimuth_cdeg(0);
-  }
 
  private:
   explicit constexpr Hdl64ePacketView(const std::uint8_t* bytes) noexcept : bytes_(bytes) {}

@@ -103,12 +103,6 @@ class Ruby128PacketView {
     return Ruby128PacketView(payload.data());
   }
 
-  [[nodiscard]] constexpr bool has_magic() const noexcept {
-    for (std::size_t i = 0; i < kRubyMagic.size(); ++i) {
-      if (bytes_[i] != kRubyMagic[i]) return false;
-    }
-    return true;
-  }
   [[nodiscard]] constexpr std::uint16_t protocol_version() const noexcept {
     return u16(offsetof(ruby128_wire::Packet, protocol_version));
   }
@@ -121,11 +115,6 @@ class Ruby128PacketView {
   }
   [[nodiscard]] constexpr std::span<const std::uint8_t, 10> stamp() const noexcept {
     return std::span<const std::uint8_t, 10>(bytes_ + offsetof(ruby128_wire::Packet, stamp), 10);
-  }
-  /// The bytes by which relatives are told apart. Sources disagree whether type and model are bytes
-  /// 30 and 31 or 31 and 32.
-  [[nodiscard]] constexpr std::span<const std::uint8_t, 3> type_bytes() const noexcept {
-    return std::span<const std::uint8_t, 3>(bytes_ + offsetof(ruby128_wire::Packet, lidar_type), 3);
   }
   [[nodiscard]] constexpr std::uint8_t block_id(int block) const noexcept {
     return bytes_[block_offset(block)];
@@ -193,10 +182,6 @@ class Ruby128PacketBuffer {
     packet_.temperature = decode::Be16::of(ruby_temperature_field(temperature_deg_c));
   }
   void set_stamp(const std::array<std::uint8_t, 10>& stamp) noexcept { packet_.stamp = stamp; }
-  void set_type_bytes(std::uint8_t type, std::uint8_t model) noexcept {
-    packet_.lidar_type = type;
-    packet_.lidar_model = model;
-  }
   void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
     at(block).azimuth_cdeg = decode::Be16::of(azimuth_cdeg);
   }

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "pipeline/baselines/each_return.hpp"
+#include "firmware_io/frame/each_return.hpp"
 
 namespace terracut::baselines {
 namespace {
@@ -62,16 +62,19 @@ stage::SegmentationReport FixedGridElevationMap::segment(const frame::RangeImage
 /// Counting sort: how many in each square, where each square ends, then every return to its place.
 void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& image) noexcept {
   std::fill(end_.begin(), end_.end(), 0U);
-  each_return(image, [this](const Place& place) { ++end_[square_of(place.x_m, place.y_m)]; });
+  frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {
+    ++end_[square_of(placed.point.x_m, placed.point.y_m)];
+  });
   std::uint32_t sum = 0;
   for (std::uint32_t& end : end_) {
     const std::uint32_t count = end;
     end = sum;  // where the square begins; moved on to its end while it is filled
     sum += count;
   }
-  each_return(image, [this](const Place& place) {
-    const float sigma_m = config_.sigma_m + config_.sigma_per_metre * place.ground_range_m;
-    samples_[end_[square_of(place.x_m, place.y_m)]++] = {place.z_m, 1.0F / (sigma_m * sigma_m)};
+  frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {
+    const frame::Return& point = placed.point;
+    const float sigma_m = config_.sigma_m + config_.sigma_per_metre * point.ground_range_m;
+    samples_[end_[square_of(point.x_m, point.y_m)]++] = {point.z_m, 1.0F / (sigma_m * sigma_m)};
   });
 }
 

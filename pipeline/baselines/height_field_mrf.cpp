@@ -7,7 +7,7 @@
 #include <limits>
 #include <numbers>
 
-#include "pipeline/baselines/each_return.hpp"
+#include "firmware_io/frame/each_return.hpp"
 
 namespace terracut::baselines {
 namespace {
@@ -81,12 +81,13 @@ void HeightFieldMrf::count_returns(const frame::RangeImage& image) noexcept {
   std::fill(returns_at_.begin(), returns_at_.end(), std::uint16_t{0});
   std::fill(least_slope_.begin(), least_slope_.end(), std::numeric_limits<float>::infinity());
   const auto labels = static_cast<std::size_t>(config_.height_labels);
-  each_return(image, [&](const Place& place) {
-    const std::size_t cell = map_cell(band_of(place.ground_range_m), sector_of(place.column));
+  frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+    const frame::Return& point = placed.point;
+    const std::size_t cell = map_cell(band_of(point.ground_range_m), sector_of(placed.column));
     std::uint16_t& count =
-        returns_at_[cell * labels + static_cast<std::size_t>(label_of(place.z_m))];
+        returns_at_[cell * labels + static_cast<std::size_t>(label_of(point.z_m))];
     if (count < std::numeric_limits<std::uint16_t>::max()) ++count;
-    const float slope = (place.z_m - sensor_height_m_) / place.ground_range_m;
+    const float slope = (point.z_m - sensor_height_m_) / point.ground_range_m;
     if (slope < least_slope_[cell]) least_slope_[cell] = slope;
   });
 }

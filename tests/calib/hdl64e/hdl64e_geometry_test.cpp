@@ -281,18 +281,6 @@ TEST(Hdl64eGeometry, ABeamAlongThePlaneHasNoRaw) {
   EXPECT_FALSE(geometry.raw_on_plane(0, 0.3, beside, {0, 0, 0}));
 }
 
-TEST(Hdl64eGeometry, CorrectsIntensityByTheManualsFormula) {
-  Hdl64eCalibration calibration;
-  calibration.lasers[2].focal_distance_m = 15.0;  // fo = 256 (1 - 1500 / 13100)^2 = 200.7307
-  calibration.lasers[2].focal_slope = 1.2;
-  calibration.lasers[2].min_intensity = 20;
-  const Hdl64eGeometry geometry(calibration);
-  // raw 20000: 256 (1 - 0.305180)^2 = 123.5891, so 40 + 1.2 * 77.1417
-  EXPECT_NEAR(geometry.corrected_intensity(2, 20000, 40), 132.57, 0.01);
-  EXPECT_DOUBLE_EQ(geometry.corrected_intensity(2, 7504, 0), 20);
-  EXPECT_DOUBLE_EQ(geometry.corrected_intensity(2, 60000, 255), 255);
-}
-
 TEST(Hdl64eGeometry, InverseHoldsOnRealCalibrations) {
   for (const char* file : {"64e_s2.1-sztaki.xml", "64e_s3-xiesc.yaml", "64e_utexas.yaml"}) {
     const auto path = test::shared_data(std::string("calib/") + file);

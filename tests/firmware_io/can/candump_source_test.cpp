@@ -11,7 +11,6 @@
 #include "firmware_io/can/can_recording.hpp"
 #include "frames.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/lab/send/candump_writer.hpp"
 
 namespace terracut::test {
 namespace {
@@ -19,7 +18,6 @@ namespace {
 using can::CandumpSource;
 using can::CanFrame;
 using can::CanLogCounters;
-using send::CandumpWriter;
 using testing::HasSubstr;
 
 CandumpSource source_of(const std::string& text, std::string interface = {}) {
@@ -115,51 +113,6 @@ TEST(CandumpSource, NamesFilesThatCannotBeRead) {
   EXPECT_EQ(CandumpSource::open(folder / "none.log").error().code, ErrorCode::kNotFound);
   EXPECT_EQ(CandumpSource::open(folder).error().code, ErrorCode::kUnreadable);
   std::filesystem::remove_all(folder);
-}
-
-TEST(CandumpWriter, WritesALogThatIsReadBackTheSame) {
-  const auto folder = make_scratch_folder();
-  CandumpWriter writer(folder / "drive.log", "can0");
-  std::mt19937 random(3);
-  std::vector<CanFrame> written;
-  for (int i = 0; i < 500; ++i) {
-    written.push_back(random_frame(random));
-    ASSERT_TRUE(writer.write(written.back()));
-  }
-  EXPECT_EQ(writer.frames(), 500U);
-  ASSERT_TRUE(writer.finish());
-
-  auto recording = can::CanRecording::open(folder / "drive.log", "can0");
-  ASSERT_TRUE(recording) << recording.error().message;
-  const auto [frames, error] = read_all(*recording);
-  EXPECT_FALSE(error);
-  EXPECT_EQ(frames, written);
-  EXPECT_EQ(recording->counters().delivered, 500U);
-  EXPECT_EQ(recording->first_fault(), "");
-  std::filesystem::remove_all(folder);
-}
-
-TEST(CandumpWriter, RefusesWhatNoLogCanHold) {
-  CandumpWriter writer("unwritten.log", "can0");
-  const auto refused = [&](CanFrame frame) {
-    const auto status = writer.write(frame);
-    return !status && status.error().code == ErrorCode::kInvalidArgument;
-  };
-  CanFrame frame = data_frame({0x123, false}, {1, 2});
-  ASSERT_TRUE(writer.write(frame));
-  frame.stamp_ns = -1;
-  EXPECT_TRUE(refused(frame));
-  frame = data_frame({0x800, false}, {1});
-  EXPECT_TRUE(refused(frame));
-  frame = data_frame({0x123, false}, {1, 2, 3, 4, 5, 6, 7, 8, 9});
-  EXPECT_TRUE(refused(frame)) << "no FD frame has 9 bytes";
-  frame = data_frame({0x123, false}, {1});
-  frame.length = 12;
-  EXPECT_TRUE(refused(frame));
-  frame = data_frame({0x123, false}, {1});
-  frame.fd = frame.remote = true;
-  EXPECT_TRUE(refused(frame));
-  EXPECT_EQ(writer.frames(), 1U);
 }
 
 }  // namespace

@@ -52,7 +52,6 @@ TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
   const auto view = Hdl64ePacketView::of(packet.payload());
   ASSERT_TRUE(view);
   EXPECT_TRUE(view->is_hdl64e());
-  EXPECT_FALSE(view->repeats_azimuth());
   for (int block = 0; block < kBlocksPerPacket; ++block) {
     EXPECT_EQ(view->block_id(block), block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
     EXPECT_EQ(view->azimuth_cdeg(block), 35'000 + block);

@@ -30,8 +30,6 @@ class StatusStreamWriter {
   /// taken over at the start of a cycle, so that the six bytes belong together. Years 2000..2255.
   [[nodiscard]] hdl64e::StatusPair next(std::int64_t stamp_ns) noexcept;
 
-  void set_values(const StatusValues& values) noexcept { values_ = values; }
-
  private:
   [[nodiscard]] hdl64e::StatusPair table_pair(std::size_t group, std::size_t place) const noexcept;
 

@@ -109,11 +109,13 @@ class LiveFrames : public testing::Test {
 
   LiveFrames() {
     begin_receiving();
-    segmenter_.emplace(
-        kDeadline_ns, chain_, frames_,
-        Segmenter::Outlets{
-            .records = &segmented_, .labels = &labels_, .points = nullptr, .points_ready = nullptr},
-        HeldClock{&time_}, HeldWait{&time_});
+    segmenter_.emplace(kDeadline_ns, chain_, frames_,
+                       Segmenter::Outlets{.records = &segmented_,
+                                          .labels = &labels_,
+                                          .points = nullptr,
+                                          .points_ready = nullptr,
+                                          .near_ground = &near_ground_},
+                       HeldClock{&time_}, HeldWait{&time_});
   }
 
   void begin_receiving() {
@@ -201,6 +203,7 @@ class LiveFrames : public testing::Test {
   queues::LatestValue<Intake> intake_;
   recorder::FlightRecorder recorder_{{.datagrams = 8192, .payload_bytes = 8192 * 1208}, memory_};
   FramePool<frame::Label> labels_{"labels", 4, chain_.decoder.return_capacity(), memory_};
+  LatestNearGround near_ground_{memory_};
   std::optional<Receiver> receiver_;
   std::optional<Segmenter> segmenter_;
   std::vector<status::FrameRecord> records_;
@@ -495,6 +498,77 @@ TEST_F(LiveFrames, WaitingForACoreIsCountedSinceTheFetchBefore) {
   }
   ASSERT_GT(records_.size(), 3U);
   for (const status::FrameRecord& record : records_) EXPECT_EQ(record.run_queue_wait_ns, 1000);
+}
+
+TEST_F(LiveFrames, SegmentingAFrameCostsAllItsStagesThoseDoneAheadIncluded) {
+  send(drive(6));
+  time_.work_ns = 1000;  // each look at the processor time
+  int frames = 0;
+  while (source_.has_more()) {
+    (void)receiver_->work_round(100 * kMs);
+    const std::int64_t before_ns = time_.cpu_ns;
+    if (!segmenter_->work_round()) continue;
+    const std::int64_t spent_ns = time_.cpu_ns - before_ns;
+    status::FrameRecord record;
+    ASSERT_TRUE(segmented_.take(record));
+    EXPECT_GT(record.ahead_cpu_ns, 0);
+    EXPECT_GT(record.stages.sum_ns(), record.ahead_cpu_ns);
+    EXPECT_GE(record.segment_cpu_ns, record.stages.sum_ns());
+    EXPECT_EQ(record.segment_cpu_ns, record.ahead_cpu_ns + spent_ns - 1000)
+        << "from the first look";
+    ++frames;
+  }
+  EXPECT_GT(frames, 3);
+}
+
+TEST_F(LiveFrames, WaitingOfBothThreadsCounts) {
+  send(drive(6));
+  std::int64_t waited_at_last_frame_ns = 0;
+  int frames = 0;
+  while (source_.has_more()) {
+    time_.waited_ns += 1000;
+    (void)receiver_->work_round(100 * kMs);
+    if (!segmenter_->work_round()) continue;
+    status::FrameRecord record;
+    ASSERT_TRUE(segmented_.take(record));
+    const std::int64_t of_segmenter_ns = time_.waited_ns - waited_at_last_frame_ns;
+    EXPECT_EQ(record.run_queue_wait_ns, 1000 + of_segmenter_ns) << frames;
+    waited_at_last_frame_ns = time_.waited_ns;
+    ++frames;
+  }
+  EXPECT_GT(frames, 3);
+}
+
+TEST_F(LiveFrames, TheNearGroundOfEveryFifthFrameIsPassedOn) {
+  send(drive(12));
+  int passed_on = 0;
+  while (source_.has_more()) {
+    (void)receiver_->work_round(100 * kMs);
+    if (!segmenter_->work_round()) continue;
+    status::FrameRecord record;
+    ASSERT_TRUE(segmented_.take(record));
+    const bool is_there = near_ground_.newest() != nullptr;
+    EXPECT_EQ(is_there, record.info.number % 5 == 0) << record.info.number;
+    passed_on += is_there ? 1 : 0;
+  }
+  EXPECT_GE(passed_on, 2);
+}
+
+TEST_F(LiveFrames, PacketsMayGatherExceptWhereAFrameIsAboutToEnd) {
+  send(drive(6));
+  int gathered = 0, frames = 0;
+  bool may_gather = false;
+  while (source_.has_more()) {
+    const Receiver::Round round = receiver_->work_round(100 * kMs);
+    if (round.frames > 0) {
+      EXPECT_FALSE(may_gather) << "frame " << frames;
+      ++frames;
+    }
+    may_gather = round.may_gather;
+    gathered += may_gather ? 1 : 0;
+  }
+  EXPECT_GT(frames, 3);
+  EXPECT_GT(gathered, 1000) << "of some 2,000 packets that came one by one";
 }
 
 TEST_F(LiveFrames, AFrameThatNobodyTookIsGivenUpWhenTheNextOneComes) {

@@ -31,8 +31,8 @@ struct BeamSpread {
 /// frame without a single return is no frame; one that misses firings is, with complete = false.
 ///
 ///   head rotates on -->        seam k             seam k+1
-///   foremost beam     .......|------- frame k ---|=== frame k+1 ===
-///   hindmost beam     ............|------- frame k ---|=== frame k+1
+///   foremost beam     .......|------ frame k ---|=== frame k+1 ===
+///   hindmost beam     ............|------ frame k ---|=== frame k+1
 ///
 /// Frames are pulled: roll_to() and flush() say which frames are over, next() hands them out one by
 /// one. The image handed out stays untouched until the (n - 2)th frame after it, with n images. Or

@@ -23,9 +23,9 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 /// into `azimuths`, all but the device stamp; otherwise the reason to reject it. The checks, in
 /// this order:
 ///
-///   kWrongModel         another sensor's data packet: any Velodyne's, a Ruby Lite's (four blocks
-///   of
-///                       80 channels), a Ruby Plus's (the same layout; told by its type bytes)
+///   kWrongModel         another sensor's data packet: any Velodyne's, a Ruby Lite's (four
+///                       blocks of 80 channels), a Ruby Plus's (the same layout; told by its type
+///                       bytes)
 ///   kWrongSize          not 1248 bytes
 ///   kDeviceInfo         a DIFOP packet
 ///   kWrongMagic         other leading bytes or block ids

@@ -33,13 +33,13 @@ namespace terracut::run {
 /// The two threads of a live run that have a deadline, and the queues through which a third
 /// one hears of them. They allocate nothing, lock nothing and write nothing:
 ///
-///   FrameReceiver  datagrams -> recorder,  --FrameExchange-->  FrameSegmenter  frames -> labels
-///      |          decoder, coarse stages                         |                      |
-///      '-- records of skipped frames --.      .---- records ------'                      |
-///      FramePool
-///                                     v      v                                          v
-///                              whoever calls take_record()            label files, stream of
-///                              points
+///   FrameReceiver     --FrameExchange-->     FrameSegmenter
+///   datagrams -> recorder, decoder,          frames -> labels
+///   coarse stages                               |          |
+///      |                                     records   FramePool
+///      '-- records of skipped frames --.        |          |
+///                                      v        v          v
+///                            whoever calls take_record()   label files, stream of points
 class LiveThreads {
  public:
   struct Events {

@@ -5,11 +5,10 @@
 #include "tools/lab/encode/hdl64e_encoder_traits.hpp"
 #include "tools/lab/encode/ruby128_encoder_traits.hpp"
 
-/// A `EncoderTraits` is a trait: all that makers of packets (DriveWriter, the simulator,
+/// An `EncoderTraits` is a trait: all that makers of packets (DriveWriter, the simulator,
 /// ScanResampler) need to know of a sensor, the counterpart of a decoder's `Sensor`. Those
 /// templates are instantiated for the two that this header brings in. It has
-/// - `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and `Column`,
-/// the
+/// - `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and `Column`, a
 ///   LabelledColumn of its `kLasers`;
 /// - `kColumnsPerPacket`; `limits(returns)`; `firing_ns(returns)`, from firing to firing;
 /// - `step_ticks(rotor_cdeg, place, returns)`: the step by which the decoder computes the beams of

@@ -35,8 +35,7 @@ class HeardSenders {
   [[nodiscard]] std::vector<Sensor> rotating() const;
   /// Those that send data packets steadily, whether their head rotates or not.
   [[nodiscard]] std::vector<Sensor> steady() const;
-  /// Since the first of turning() was known, by the newest datagram: 0 without one. Another sensor
-  /// at the port would have shown within half a second.
+  /// Since the first of rotating() was known, by the newest datagram; 0 without one.
   [[nodiscard]] std::int64_t known_for_ns() const {
     return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
   }

@@ -113,6 +113,41 @@ TEST(FirstSeconds, SeveralSensorsAreNamedAndNoneIsChosen) {
               AllOf(HasSubstr("192.168.1.201"), HasSubstr("192.168.1.7"), HasSubstr("--from")));
 }
 
+TEST(FirstSeconds, SeveralSensorsEndTheWaitForACalibration) {
+  FirstSeconds first(anything());
+  const auto packets = seconds(1);
+  hear(first, packets);
+  EXPECT_FALSE(first.is_enough()) << "one sensor may still tell its calibration";
+  hear(first, packets, kOtherAddress);
+  EXPECT_TRUE(first.is_enough()) << "no calibration makes it one sensor";
+}
+
+TEST(FirstSeconds, AHeadThatDoesNotRotateIsTakenWhenThePatienceEnds) {
+  FirstSeconds first(with_table());
+  const auto rotating = seconds(1);
+  std::vector<test::Packet> standing(rotating.size(), rotating.front());
+  for (std::size_t n = 0; n < standing.size(); ++n) standing[n].stamp_ns = rotating[n].stamp_ns;
+  hear(first, standing);
+  EXPECT_FALSE(first.is_enough());
+  const auto found = first.conclude();
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->address, kSensorAddress);
+  EXPECT_EQ(found->spin_hz, 0);
+}
+
+TEST(FirstSeconds, TakeTheColumnsAskedForBeforeThoseOfTheSpinRate) {
+  const auto packets = seconds(1);
+  FirstSeconds by_rate(with_table());
+  hear(by_rate, packets);
+  ASSERT_TRUE(by_rate.conclude());
+  FirstSeconds::Config config = with_table();
+  config.columns = by_rate.conclude()->columns / 2;
+  FirstSeconds asked(config);
+  hear(asked, packets);
+  ASSERT_TRUE(asked.conclude());
+  EXPECT_EQ(asked.conclude()->columns, config.columns);
+}
+
 TEST(FirstSeconds, NameWhatCameInsteadOfASensor) {
   FirstSeconds first(anything());
   const std::vector<std::uint8_t> noise(100);

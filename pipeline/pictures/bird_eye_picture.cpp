@@ -2,18 +2,21 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/pictures/bird_eye_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include "firmware_io/frame/each_return.hpp"
+#include "pipeline/pictures/pixel_text.hpp"
 
 namespace terracut::pictures {
 namespace {
 
 constexpr Colour kRingColour{120, 135, 155};
-constexpr Colour kMarkColour{240, 244, 248};
 constexpr int kOversampling = 2;  // Picture::halved() brings it back
 
 /// Where metres of the vehicle frame lie in the oversampled picture: x up, y to the left.
@@ -74,20 +77,25 @@ void draw_vehicle(Canvas& canvas) {
     for (double y_m = inner_m; y_m <= outer_m; y_m += 0.5 / canvas.pixels_per_m) {
       for (const double side : {-1.0, 1.0}) {
         canvas.picture.set(static_cast<int>(canvas.column(side * y_m)),
-                           static_cast<int>(canvas.line(x_m)), kMarkColour);
+                           static_cast<int>(canvas.line(x_m)), kTextColour);
       }
     }
   }
 }
 
+/// One ring spacing, with its length written above.
 void draw_scale_bar(Canvas& canvas, const BirdEyeView& view) {
   const int length = static_cast<int>(view.ring_spacing_m * canvas.pixels_per_m);
   const int margin = canvas.picture.width() / 40;
   const int line = canvas.picture.height() - margin;
   constexpr int kThick = 2 * kOversampling, kTick = 8 * kOversampling;
-  canvas.picture.rectangle(margin, line - kThick, length, kThick, kMarkColour);
-  canvas.picture.rectangle(margin, line - kTick, kThick, kTick, kMarkColour);
-  canvas.picture.rectangle(margin + length - kThick, line - kTick, kThick, kTick, kMarkColour);
+  canvas.picture.rectangle(margin, line - kThick, length, kThick, kTextColour);
+  canvas.picture.rectangle(margin, line - kTick, kThick, kTick, kTextColour);
+  canvas.picture.rectangle(margin + length - kThick, line - kTick, kThick, kTick, kTextColour);
+  const std::string text = fmt::format("{:g} m", view.ring_spacing_m);
+  constexpr int kTextScale = 2 * kOversampling;
+  draw_text(canvas.picture, margin + (length - text_width(text, kTextScale)) / 2,
+            line - kThick - (kGlyphHeight + 2) * kTextScale, text, kTextScale, kTextColour);
 }
 
 }  // namespace

@@ -18,8 +18,8 @@ struct BirdEyeView {
 };
 
 /// The frame from above, x (forward) up: colours of frame_colours.hpp, range rings, the vehicle as
-/// an arrow, and at the lower left a scale bar of one ring spacing. Higher returns lie over lower
-/// ones.
+/// an arrow, and at the lower left a scale bar of one ring spacing with its length. Higher returns
+/// lie over lower ones.
 [[nodiscard]] Picture bird_eye_picture(const LabelledFrame& frame, const BirdEyeView& view = {});
 
 /// The same in colours of one's own, one a return.

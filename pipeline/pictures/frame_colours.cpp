@@ -2,8 +2,10 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/pictures/frame_colours.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace terracut::pictures {
 namespace {
@@ -53,6 +55,26 @@ Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
     return mix(kDarkMoss, kBrightMoss, std::sqrt(point.intensity / 255.0));
   }
   return truth_known ? kSlate : by_height(static_cast<double>(point.z_m));
+}
+
+std::vector<LegendEntry> legend_of(const LabelledFrame& frame) {
+  std::vector<LegendEntry> legend{{"ground", {mix(kDarkSand, kBrightSand, 0.5)}}};
+  if (std::ranges::find(frame.labels, frame::Label::kOtherGround) != frame.labels.end()) {
+    legend.push_back({"ground beside the road", {mix(kDarkMoss, kBrightMoss, 0.5)}});
+  }
+  if (!frame.mistakes.empty()) {
+    legend.push_back({"obstacle", {kSlate}});
+    legend.push_back({"missed obstacle", {kMissedObstacleColour}});
+    legend.push_back({"false obstacle", {kFalseObstacleColour}});
+    return legend;
+  }
+  LegendEntry obstacle{"obstacle, 0 to 4 m high", {}};
+  constexpr double kStep_m = 0.1;
+  for (double height_m = 0; height_m <= kHeightStops.back().height_m; height_m += kStep_m) {
+    obstacle.colours.push_back(by_height(height_m));
+  }
+  legend.push_back(std::move(obstacle));
+  return legend;
 }
 
 }  // namespace terracut::pictures

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/pictures/caption.hpp"
 #include "pipeline/pictures/png_picture.hpp"
 
 namespace terracut::pictures {
@@ -26,6 +28,7 @@ struct LabelledFrame {
 };
 
 inline constexpr Colour kPictureBackground{14, 17, 23};
+inline constexpr Colour kTextColour{240, 244, 248};
 inline constexpr Colour kMissedObstacleColour{255, 30, 30};
 inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 
@@ -34,5 +37,7 @@ inline constexpr Colour kFalseObstacleColour{255, 221, 0};
 /// out.
 [[nodiscard]] Colour colour_of_return(const LabelledFrame& frame, std::uint32_t return_index,
                                       const frame::Return& point) noexcept;
+/// What the colours of such a frame mean, in the order of the labels.
+[[nodiscard]] std::vector<LegendEntry> legend_of(const LabelledFrame& frame);
 
 }  // namespace terracut::pictures

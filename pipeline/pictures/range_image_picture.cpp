@@ -2,9 +2,14 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/pictures/range_image_picture.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <cstdlib>
+#include <string>
 
 #include "firmware_io/frame/each_return.hpp"
+#include "pipeline/pictures/pixel_text.hpp"
 
 namespace terracut::pictures {
 namespace {
@@ -13,6 +18,22 @@ namespace {
 Colour dimmed(Colour colour, double range_m) noexcept {
   constexpr double kFar_m = 80, kMostDimming = 0.55;
   return mix(colour, kPictureBackground, kMostDimming * std::min(range_m / kFar_m, 1.0));
+}
+
+/// Ticks every 45 degrees from straight ahead, with numbers.
+void draw_azimuth_scale(Picture& picture) {
+  constexpr int kTick = 6, kScale = 2;
+  const int top = picture.height() - kAzimuthScaleHeight;
+  picture.rectangle(0, top, picture.width(), kAzimuthScaleHeight, kPictureBackground);
+  for (int azimuth_deg = -135; azimuth_deg <= 135; azimuth_deg += 45) {
+    const int x = picture.width() / 2 + picture.width() * azimuth_deg / 360;
+    const std::string text = azimuth_deg == 0 ? "ahead"
+                                              : fmt::format("{} deg {}", std::abs(azimuth_deg),
+                                                            azimuth_deg < 0 ? "left" : "right");
+    picture.rectangle(x, top, kScale, kTick, kTextColour);
+    draw_text(picture, x - text_width(text, kScale) / 2, top + kTick + kScale, text, kScale,
+              kTextColour);
+  }
 }
 
 /// A lone empty column between two returns is a gap of the sampling, not of the scene.
@@ -31,7 +52,8 @@ void close_lone_gaps(Picture& picture) noexcept {
 
 Picture range_image_picture(const LabelledFrame& frame) {
   const frame::ImageShape& shape = frame.image.shape();
-  Picture picture(shape.columns, shape.rows * kPixelsPerRow, kPictureBackground);
+  Picture picture(shape.columns, shape.rows * kPixelsPerRow + kAzimuthScaleHeight,
+                  kPictureBackground);
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
     // Column 0 is straight ahead and columns go clockwise, so half a revolution further is the
     // middle.
@@ -44,6 +66,7 @@ Picture range_image_picture(const LabelledFrame& frame) {
     picture.rectangle(x, y, 1, kPixelsPerRow, colour);
   });
   close_lone_gaps(picture);
+  draw_azimuth_scale(picture);
   return picture;
 }
 

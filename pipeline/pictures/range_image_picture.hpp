@@ -10,10 +10,12 @@ namespace terracut::pictures {
 inline constexpr int kPixelsPerRow =
     6;  ///< Rows are far fewer than columns: each is drawn this high.
 
-/// The range image as a panorama, columns x (rows * kPixelsPerRow) pixels: straight ahead in the
-/// middle, left of the vehicle on the left, sky up (row 0, the lowest laser, at the bottom).
+/// The range image as a panorama, columns x (rows * kPixelsPerRow) pixels and below them
+/// kAzimuthScaleHeight with the azimuth: straight ahead in the middle, left of the vehicle on the
+/// left, sky up (row 0, the lowest laser, at the bottom).
 /// Colours of frame_colours.hpp, dimmed with distance. Cells without a return stay background,
 /// except a single one between two returns, which is drawn like its left neighbour.
+inline constexpr int kAzimuthScaleHeight = 28;
 [[nodiscard]] Picture range_image_picture(const LabelledFrame& frame);
 
 }  // namespace terracut::pictures

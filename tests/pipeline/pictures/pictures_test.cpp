@@ -59,7 +59,7 @@ TEST_F(Pictures, RangeImageShowsTheSkyUpAndStraightAheadInTheMiddle) {
   small.add(0, 8, 0, -5, 0.0F, Label::kGround);    // lowest laser, 90 degrees to the right
   const Picture picture = range_image_picture(small.frame());
   ASSERT_EQ(picture.width(), 32);
-  ASSERT_EQ(picture.height(), 4 * kPixelsPerRow);
+  ASSERT_EQ(picture.height(), 4 * kPixelsPerRow + kAzimuthScaleHeight);
   EXPECT_NE(picture.at(16, 0), kPictureBackground);
   EXPECT_NE(picture.at(24, 4 * kPixelsPerRow - 1), kPictureBackground);
   EXPECT_EQ(picture.at(16, 4 * kPixelsPerRow - 1), kPictureBackground);
@@ -70,7 +70,7 @@ TEST_F(Pictures, RangeImageClosesOnlyGapsOfOneColumn) {
   output::SmallFrame small;
   for (const int column : {20, 22, 25}) small.add(0, column, 10, 0, 0, Label::kGround);
   const Picture picture = range_image_picture(small.frame());
-  const int bottom = picture.height() - 1;
+  const int bottom = picture.height() - kAzimuthScaleHeight - 1;
   EXPECT_EQ(picture.at((21 + 16) % 32, bottom), picture.at((20 + 16) % 32, bottom));
   EXPECT_EQ(picture.at((23 + 16) % 32, bottom), kPictureBackground);
   EXPECT_EQ(picture.at((24 + 16) % 32, bottom), kPictureBackground);
@@ -121,10 +121,55 @@ TEST_F(Pictures, MistakesHaveTheirOwnColours) {
   small.add(0, 16, 10, 0, 0, Label::kGround);
   small.mistakes = {Mistake::kMissedObstacle, Mistake::kFalseObstacle, Mistake::kNone};
   const Picture picture = range_image_picture(small.frame());
-  const int bottom = picture.height() - 1;
+  const int bottom = picture.height() - kAzimuthScaleHeight - 1;
   EXPECT_EQ(picture.at(16, bottom), kMissedObstacleColour);
   EXPECT_EQ(picture.at(24, bottom), kFalseObstacleColour);
   EXPECT_NE(picture.at(0, bottom), kMissedObstacleColour);
+}
+
+TEST_F(Pictures, ACaptionStandsBelowThePictureAndNamesEveryColour) {
+  const Picture picture(300, 20, {1, 2, 3});
+  const Colour one{200, 0, 0}, other{0, 200, 0};
+  const std::vector<LegendEntry> legend{{"one", {one}}, {"two that vary", {one, other}}};
+  const Picture captioned = with_caption(picture, "A title", legend);
+  ASSERT_EQ(captioned.width(), 300);
+  ASSERT_GT(captioned.height(), 20);
+  int ones = 0, others = 0, written = 0;
+  for (int y = 0; y < captioned.height(); ++y) {
+    for (int x = 0; x < captioned.width(); ++x) {
+      if (y < 20) {
+        EXPECT_EQ(captioned.at(x, y), (Colour{1, 2, 3}));
+      }
+      ones += captioned.at(x, y) == one;
+      others += captioned.at(x, y) == other;
+      written += captioned.at(x, y) == kTextColour;
+    }
+  }
+  EXPECT_EQ(ones, 3 * others) << "a whole swatch and a half, and a half of the other colour";
+  EXPECT_GT(others, 0);
+  EXPECT_GT(written, 0);
+}
+
+TEST_F(Pictures, ALegendThatIsWiderThanThePictureGoesOnBelow) {
+  const Picture picture(300, 20, {});
+  const std::vector<LegendEntry> two(2, {"a text of some length", {Colour{200, 0, 0}}});
+  EXPECT_GT(with_caption(picture, "", two).height(),
+            with_caption(picture, "", std::span(two).first(1)).height());
+}
+
+TEST_F(Pictures, TheLegendSpeaksOfWhatThePictureShows) {
+  output::SmallFrame small;
+  small.add(0, 0, 10, 0, 0, Label::kGround);
+  const auto texts = [&] {
+    std::vector<std::string> found;
+    for (const LegendEntry& entry : legend_of(small.frame())) found.push_back(entry.text);
+    return found;
+  };
+  EXPECT_THAT(texts(), testing::ElementsAre("ground", "obstacle, 0 to 4 m high"));
+  small.add(0, 8, 10, 0, 0, Label::kOtherGround);
+  EXPECT_THAT(texts(), testing::Contains("ground beside the road"));
+  small.mistakes = {Mistake::kNone, Mistake::kNone};
+  EXPECT_THAT(texts(), testing::IsSupersetOf({"missed obstacle", "false obstacle"}));
 }
 
 TEST_F(Pictures, ReturnsOfAnyCoordinateAreSafeToDraw) {

@@ -2,11 +2,14 @@
 // Copyright 2026 The terracut authors
 #include "frame_outputs.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "pipeline/output/label_sink.hpp"
 #include "pipeline/output/pcd_writer.hpp"
 #include "pipeline/pictures/bird_eye_picture.hpp"
+#include "pipeline/pictures/caption.hpp"
 #include "pipeline/pictures/range_image_picture.hpp"
 #include "tools/lab/quality/quality.hpp"
 
@@ -51,15 +54,32 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
   }
   if (options_.png.empty()) return {};
   const pictures::LabelledFrame plain{image, labels, {}};
-  const Status from_above = draw(name + ".birdseye.png", bird_eye_picture(plain));
+  const auto legend = legend_of(plain);
+  const Status from_above =
+      draw(name + ".birdseye.png",
+           with_caption(
+               bird_eye_picture(plain),
+               fmt::format("frame {} from above, forward is up: {} returns", name, labels.size()),
+               legend));
   if (!from_above) return from_above;
-  const Status panorama = draw(name + ".range.png", range_image_picture(plain));
+  const Status panorama =
+      draw(name + ".range.png",
+           with_caption(range_image_picture(plain),
+                        fmt::format("frame {} as the sensor sees it: {} lasers, darker is farther",
+                                    name, image.shape().rows),
+                        legend));
   if (!panorama || truth.size() != labels.size()) return panorama;
 
   mistakes_.resize(labels.size());
   std::transform(labels.begin(), labels.end(), truth.begin(), mistakes_.begin(), mistake_of);
-  return draw(name + ".mistakes.png",
-              bird_eye_picture(pictures::LabelledFrame{image, labels, mistakes_}));
+  const pictures::LabelledFrame judged{image, labels, mistakes_};
+  const auto count = [&](Mistake mistake) { return std::ranges::count(mistakes_, mistake); };
+  return draw(
+      name + ".mistakes.png",
+      with_caption(bird_eye_picture(judged),
+                   fmt::format("frame {} against the truth: {} returns missed, {} false", name,
+                               count(Mistake::kMissedObstacle), count(Mistake::kFalseObstacle)),
+                   legend_of(judged)));
 }
 
 Status FrameOutputs::draw(const std::string& name, const pictures::Picture& picture) {

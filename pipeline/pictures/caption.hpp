@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/pictures/png_picture.hpp"
+
+namespace terracut::pictures {
+
+/// What a colour, or a range of colours, stands for.
+struct LegendEntry {
+  std::string text;
+  std::vector<Colour> colours;  ///< From left to right over its swatch; at least one.
+};
+
+/// `picture` with a band below it that holds the title and, under it, the legend; what is wider
+/// than the picture goes on in a further line.
+[[nodiscard]] Picture with_caption(const Picture& picture, std::string_view title,
+                                   std::span<const LegendEntry> legend);
+
+}  // namespace terracut::pictures

@@ -102,6 +102,22 @@ class CliDump : public Cli {
       }
     };
   }
+  /// Says that it wrote these files whenever it is asked.
+  [[nodiscard]] static auto answering(const fs::path& capture, const fs::path& calibration) {
+    return [=](const std::function<void()>& ready) {
+      DumpSignal signal;
+      const auto page = Page::create("front", 1);
+      DumpAnswers answers(page::status_page_folder(), "front");
+      ready();
+      for (pollfd listening{signal.descriptor(), POLLIN, 0}; ::poll(&listening, 1, 20'000) > 0;) {
+        if (!signal.take()) continue;
+        recorder::DumpReport report;
+        report.capture = capture;
+        report.calibration = calibration;
+        static_cast<void>(answers.publish(report));
+      }
+    };
+  }
 
   const fs::path pages_ = "/dev/shm/terracut_cli_dump_test_" + std::to_string(::getpid());
 };
@@ -204,24 +220,21 @@ TEST_F(CliDump, HearsNoAnswerThatAnybodyCouldHaveWritten) {
 }
 
 TEST_F(CliDump, PrintsNothingThatATerminalWouldObey) {
-  Child live([](const std::function<void()>& ready) {
-    DumpSignal signal;
-    const auto page = Page::create("front", 1);
-    DumpAnswers answers(page::status_page_folder(), "front");
-    ready();
-    for (pollfd listening{signal.descriptor(), POLLIN, 0}; ::poll(&listening, 1, 20'000) > 0;) {
-      if (!signal.take()) continue;
-      recorder::DumpReport report;
-      report.capture = "/dumps/\x1b[2J.pcap";
-      report.calibration = "/dumps/\x1b[2J.xml";
-      static_cast<void>(answers.publish(report));
-    }
-  });
+  Child live(answering("/dumps/\x1b[2J.pcap", "/dumps/\x1b[2J.xml"));
   const Outcome outcome = run("dump");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.out, "/dumps/?[2J.pcap\n");
   EXPECT_THAT(outcome.err,
               HasSubstr("terracut replay /dumps/?[2J.pcap --calibration /dumps/?[2J.xml"));
+}
+
+TEST_F(CliDump, PrintsPlacesThatAreRightInEveryFolder) {
+  const fs::path here = fs::current_path();  // of the process that dumps; `dump` runs elsewhere
+  Child live(answering("dumps/a.pcap", "dumps/a.xml"));
+  const Outcome outcome = run("dump");
+  EXPECT_EQ(outcome.out, (here / "dumps/a.pcap").string() + "\n");
+  EXPECT_THAT(outcome.err, HasSubstr("terracut replay " + (here / "dumps/a.pcap").string() +
+                                     " --calibration " + (here / "dumps/a.xml").string() + "\n"));
 }
 
 TEST_F(CliDump, AnAnswerIsTakenAwayWithItsProcess) {

@@ -14,7 +14,9 @@
 namespace terracut::cli {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 
 const fs::path kSourceDir = test::source_folder();
 const std::string kAllMethods =
@@ -96,6 +98,8 @@ TEST_F(CliEval, IsDrawnAsAPageThatShowsItsNumbers) {
                                           " --method terracut,terracut_road,ring_map");
   if (!drawn) GTEST_SKIP() << kNoPackages;
   EXPECT_EQ(drawn->exit_code, kOk) << drawn->out << drawn->err;
+  EXPECT_THAT(drawn->out, AllOf(HasSubstr("ring_map"), HasSubstr("page      page/index.html"),
+                                Not(HasSubstr("draws the page"))));
   expect_page_shows_its_numbers();
 }
 

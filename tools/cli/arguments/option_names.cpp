@@ -47,6 +47,14 @@ Expected<Command> command_named(std::string_view name) {
                            did_you_mean(name, names), all));
 }
 
+/// Why the command does not have it, where that is to be said.
+std::string_view denial_of(Command command, std::string_view option) {
+  for (const Setting& setting : settings()) {
+    if (setting.name() == option && setting.denied_to.contains(command)) return setting.denial;
+  }
+  return {};
+}
+
 /// Those commands that have it.
 CommandSet commands_with(std::string_view option) {
   CommandSet commands;
@@ -64,8 +72,9 @@ tl::unexpected<Error> unknown(std::optional<Command> command, std::string_view o
                              did_you_mean(option, {kConfig, "--help"sv, "--version"sv})));
   }
   if (!others.empty()) {
-    return wrong(
-        fmt::format("{0} has no option {1}; {1} is of: {2}", name_of(*command), option, others));
+    const std::string_view denial = denial_of(*command, option);
+    return wrong(fmt::format("{0} has no option {1}{2}{3}; {1} is of: {4}", name_of(*command),
+                             option, denial.empty() ? "" : ": ", denial, others));
   }
   std::vector<std::string_view> names{kConfig, "--help"sv};
   for (const Setting& setting : settings()) {

@@ -20,6 +20,13 @@ std::filesystem::path answer_path(const std::filesystem::path& folder, const std
   return folder / (name + ".terracut-dump");
 }
 
+/// Who asks stands in another folder than this process.
+std::string place_for_others(const std::filesystem::path& path) {
+  std::error_code unknown;
+  const auto absolute = std::filesystem::absolute(path, unknown);
+  return unknown ? path.string() : absolute.string();
+}
+
 /// What a file holds that only the reader, root or a service can have written; else nothing.
 std::string trusted_content(const std::filesystem::path& path) {
   constexpr std::size_t kMost = 65536;
@@ -47,11 +54,9 @@ Status DumpAnswers::publish(
     const tl::expected<recorder::DumpReport, recorder::RefusedDump>& outcome) {
   nlohmann::json json{{"pid", ::getpid()}, {"serial", ++serial_}};
   if (outcome) {
-    std::error_code unknown;
-    const auto absolute = std::filesystem::absolute(outcome->capture, unknown);
-    json["capture"] = unknown ? outcome->capture.string() : absolute.string();
+    json["capture"] = place_for_others(outcome->capture);
     json["datagrams"] = outcome->datagrams;
-    if (!outcome->calibration.empty()) json["calibration"] = outcome->calibration.string();
+    if (!outcome->calibration.empty()) json["calibration"] = place_for_others(outcome->calibration);
     json["seconds"] = static_cast<double>(outcome->last_stamp_ns - outcome->first_stamp_ns) * 1e-9;
   } else {
     json["refusal"] = to_string(outcome.error().refusal);

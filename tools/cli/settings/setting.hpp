@@ -31,7 +31,7 @@ using SettingField =
                  std::uint16_t*, std::optional<std::uint16_t>*, bool*, std::string*,
                  std::filesystem::path*, std::vector<std::string>*, ChoiceField>;
 
-/// What a text has to look like.
+/// What a text has to look like; setting_text.cpp says how.
 enum class TextForm : std::uint8_t {
   kAny,
   kAddress,
@@ -62,13 +62,14 @@ struct Setting {
   std::string_view reads{};     ///< Of a path: that it is read, and as what, "the calibration".
   std::optional<RunFiles::Kind> writes{};  ///< Of a path: that it is written.
   std::string_view ending{};               ///< Of the files in a folder of frames.
+  CommandSet denied_to{};                  ///< Where it is looked for, and is not to be had.
+  std::string_view denial{};               ///< Why, and what there is instead.
   SettingField (*field)(Options&) = nullptr;
 
   /// Its option, as people name it: "--output", "FILE".
   [[nodiscard]] std::string_view name() const noexcept {
     return option.substr(option.find(',') + 1);
   }
-  [[nodiscard]] bool is_argument() const noexcept { return !option.starts_with('-'); }
 };
 
 /// Every setting; those of the file by section in the file's order.

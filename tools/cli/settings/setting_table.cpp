@@ -135,7 +135,7 @@ constexpr std::array kSettings{
     Setting{.option = "--set", .commands = kMethods | C::kEval, .help = "Any parameter of the method (`terracut parameters` lists them); repeatable",
             .form = TextForm::kParameter, .field = [](O& o) -> F { return &o.method.settings; }},
     Setting{.option = "--method", .commands = C::kReplay | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
-            .field = [](O& o) -> F { return method_choice(o.method.method); }},
+            .denied_to = C::kLive | C::kCalibrate, .denial = "it runs our own method, as --profile, --stages and --set choose it", .field = [](O& o) -> F { return method_choice(o.method.method); }},
     Setting{.option = "--keep-mount", .commands = C::kCalibrate, .help = "Take the mount as given; only measure the rings' ground distances",
             .bare = "yes", .field = [](O& o) -> F { return &o.keep_mount; }},
 

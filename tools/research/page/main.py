@@ -58,13 +58,15 @@ def age(path):
 
 
 def evaluate(folder, arguments):
-    """Runs `terracut eval`; its exit code, and whether it wrote a report."""
+    """Runs `terracut eval` and prints what it does, without its hint to draw the page; its exit code, and whether it wrote a
+    report."""
     program = os.environ.get("TERRACUT", str(REPOSITORY / "build/release/terracut"))
     before = age(folder / "evaluation.json")
     try:
-        ran = subprocess.run([program, "eval", *arguments, "--report", str(folder)])
+        ran = subprocess.run([program, "eval", *arguments, "--report", str(folder)], stdout=subprocess.PIPE, text=True)
     except OSError as error:
         raise Refused(f"{program}: {error.strerror}; `./tools/test` builds it, or set TERRACUT", INPUT_REFUSED) from error
+    print("".join(line for line in ran.stdout.splitlines(keepends=True) if not line.startswith("report ")), end="")
     return ran.returncode, age(folder / "evaluation.json") != before
 
 

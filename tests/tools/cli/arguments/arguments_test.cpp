@@ -103,9 +103,20 @@ TEST(Arguments, AMistypedOptionIsRefusedWithTheOneMeant) {
 }
 
 TEST(Arguments, AnOptionOfOtherCommandsIsRefusedWithTheirNames) {
-  EXPECT_EQ(refusal_of("live --method pfaff"),
-            "live has no option --method; --method is of: replay, segment, plan, bench, eval");
+  EXPECT_EQ(refusal_of("info d.pcap --method pfaff"),
+            "info has no option --method; --method is of: replay, segment, plan, bench, eval");
+  EXPECT_EQ(refusal_of("top --labels l"),
+            "top has no option --labels; --labels is of: replay, segment, live");
   EXPECT_EQ(refusal_of("--json r.json info d.pcap"), "--json goes behind the command");
+}
+
+TEST(Arguments, AnOptionThatIsNotToBeHadIsRefusedWithWhatThereIsInstead) {
+  for (const std::string command : {"live", "calibrate"}) {
+    EXPECT_EQ(refusal_of(command + " --method pfaff"),
+              command +
+                  " has no option --method: it runs our own method, as --profile, --stages "
+                  "and --set choose it; --method is of: replay, segment, plan, bench, eval");
+  }
 }
 
 TEST(Arguments, AMistypedCommandIsRefusedWithTheOneMeant) {

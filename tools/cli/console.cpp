@@ -40,6 +40,10 @@ ExitCode refuse(ExitCode code, std::string_view message) {
   return code;
 }
 
+ExitCode done_or_refused(const Status& status) {
+  return status ? kOk : refuse(status.error());
+}
+
 Progress::Progress(std::string task, std::string unit, double total)
     : task_(std::move(task)),
       unit_(std::move(unit)),

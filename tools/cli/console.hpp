@@ -19,6 +19,8 @@ void warn(std::string_view line);
 /// Prints "error: <message>" and returns the exit code it leads to.
 [[nodiscard]] ExitCode refuse(const Error& error);
 [[nodiscard]] ExitCode refuse(ExitCode code, std::string_view message);
+/// kOk, or the error as above.
+[[nodiscard]] ExitCode done_or_refused(const Status& status);
 
 /// Shows how far long work has come: on a terminal one line that is redrawn, else a line every few
 /// seconds. Nothing is shown for work that ends at once.

@@ -49,25 +49,7 @@ std::string value_name(const Setting& setting) {
   if (std::holds_alternative<std::filesystem::path*>(field)) return "PATH";
   if (!setting.bare.empty()) return fmt::format("[{}]", setting.unit);
   if (!setting.unit.empty()) return std::string(setting.unit);
-  switch (setting.form) {
-    case TextForm::kAddress:
-      return "ADDRESS";
-    case TextForm::kEndpoint:
-      return "[ADDRESS:]PORT";
-    case TextForm::kServingOrOff:
-      return "[ADDRESS:]PORT|off";
-    case TextForm::kStream:
-      return "[ADDRESS:]PORT|PATH";
-    case TextForm::kName:
-      return "NAME";
-    case TextForm::kList:
-      return "TEXT,TEXT";
-    case TextForm::kParameter:
-      return "KEY=VALUE";
-    case TextForm::kAny:
-      break;
-  }
-  return setting.least < setting.most ? "NUMBER" : "TEXT";
+  return std::string(setting.least < setting.most ? "NUMBER" : form_name(setting));
 }
 
 /// What it is, its range, and what holds where it is left out.

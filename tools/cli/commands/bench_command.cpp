@@ -6,13 +6,13 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "pipeline/run/packet_pipeline.hpp"
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/times_table.hpp"
-#include "rt/files/whole_file.hpp"
 #include "rt/measure/milliseconds.hpp"
 #include "rt/threads/thread_setup.hpp"
 #include "tools/cli/commands.hpp"
@@ -20,11 +20,9 @@
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/figures/report.hpp"
 #include "tools/cli/input/open_capture.hpp"
-#include "tools/cli/input/packet_store.hpp"
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
-#include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -50,21 +48,27 @@ std::string processor_name() {
   return "unknown";
 }
 
-Expected<PacketStore> load(OpenCapture& capture, const CaptureOptions& options) {
-  PacketStore packets;
-  CaptureWindow window(options);
-  while (true) {
-    if (const Status status = go_on(); !status) return tl::unexpected(status.error());
-    const auto next = capture.source.next();
-    if (!next) {
-      warn(next.error().message);
-      return packets;
-    }
-    if (!*next) return packets;
-    const CaptureWindow::Place place = window.place((*next)->stamp_ns);
-    if (place == CaptureWindow::Place::kAfter) return packets;
-    if (place == CaptureWindow::Place::kInside) packets.add(**next);
+/// Datagrams kept in memory, so that reading a file does not disturb what is measured.
+struct Packets {
+  std::vector<std::uint8_t> payloads;
+  std::vector<decode::Datagram> datagrams;
+};
+
+Expected<Packets> load(OpenCapture& capture, const CaptureOptions& options) {
+  Packets packets;
+  CapturePart part(capture.source, options);
+  while (const decode::Datagram* datagram = part.next()) {
+    packets.datagrams.push_back(*datagram);
+    packets.payloads.insert(packets.payloads.end(), datagram->payload.begin(),
+                            datagram->payload.end());
   }
+  if (const Status whole = go_on(); !whole) return tl::unexpected(whole.error());
+  std::span<const std::uint8_t> rest(packets.payloads);
+  for (decode::Datagram& datagram : packets.datagrams) {
+    datagram.payload = rest.first(datagram.payload.size());
+    rest = rest.subspan(datagram.payload.size());
+  }
+  return packets;
 }
 
 struct BenchResult {
@@ -75,7 +79,7 @@ struct BenchResult {
 };
 
 /// One pass over the packets: decoding and labelling, timed frame by frame.
-void run_frames(run::PacketPipeline& pipeline, const PacketStore& packets, BenchResult* result) {
+void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResult* result) {
   const auto take = [&](run::Frame& frame) {
     pipeline.label(frame);
     const status::FrameRecord& record = frame.record;
@@ -86,18 +90,18 @@ void run_frames(run::PacketPipeline& pipeline, const PacketStore& packets, Bench
     result->returns += record.info.returns;
     result->unlabelled += record.info.returns - record.segmentation.labelled();
   };
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    for (run::Frame& frame : pipeline.push(packets.at(i))) take(frame);
+  for (const decode::Datagram& datagram : packets.datagrams) {
+    for (run::Frame& frame : pipeline.push(datagram)) take(frame);
   }
   for (run::Frame& frame : pipeline.end_stream()) take(frame);
 }
 
 /// One pass of decoding alone: nanoseconds a column of 64 lasers.
-double run_decoding(sensor::SensorDecoder& decoder, const PacketStore& packets) {
+double run_decoding(sensor::SensorDecoder& decoder, const Packets& packets) {
   const std::uint64_t columns_before = decoder.columns_decoded();
   const std::int64_t start_ns = measure::thread_cpu_ns();
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    decoder.push(packets.at(i));
+  for (const decode::Datagram& datagram : packets.datagrams) {
+    decoder.push(datagram);
     while (decoder.next() != nullptr) {
     }
   }
@@ -147,12 +151,7 @@ std::vector<status::Figure> figures_of(const Options& options, const BenchResult
       {"p99", column_ns(99), {}, {}, "decode_ns_per_column"},
       {"max", column_ns(100), {}, {}, "decode_ns_per_column"}};
   // clang-format on
-  if (options.method.method.empty()) {
-    figures.push_back({"profile", std::string(word_of(kProfileWords, options.method.profile))});
-    figures.push_back({"stages", std::string(word_of(kStageWords, options.method.last_stage))});
-  } else {
-    figures.push_back({"method", options.method.method});
-  }
+  std::ranges::copy(method_figures(options.method), std::back_inserter(figures));
   std::ranges::copy(result.times.figures(), std::back_inserter(figures));
   return figures;
 }
@@ -160,14 +159,11 @@ std::vector<status::Figure> figures_of(const Options& options, const BenchResult
 ExitCode conclude(const Options& options, const BenchResult& result, int core) {
   const auto figures = figures_of(options, result, core);
   fmt::print("{}{}", figure_lines(figures, {}), times_table(figures, {}));
-  if (options.output.json.empty()) return kOk;
-
   nlohmann::ordered_json json;
   add_figures(figures, json);
   json["core"] = core;
   json["frames_ms"] = frames_json(result.each);
-  const Status written = files::write_whole_file(options.output.json, json_text(json));
-  return written ? kOk : refuse(written.error());
+  return done_or_refused(write_json(options.output.json, json));
 }
 
 }  // namespace
@@ -202,7 +198,7 @@ ExitCode run_bench(const Options& options) {
     progress.update(pass + 1);
   }
   if (result.frames == 0) {
-    return refuse(nothing_came_out(capture->source, packets->size(), first_pass_losses));
+    return refuse(nothing_came_out(capture->source, packets->datagrams.size(), first_pass_losses));
   }
   return conclude(options, result, core);
 }

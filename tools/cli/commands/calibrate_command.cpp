@@ -40,20 +40,13 @@ Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
   const auto hand_out = [&] {
     while (const frame::Frame* frame = decoder.next()) more = more && on_frame(*frame->image);
   };
-  CaptureWindow window(options);
   if (Status status = capture.source.rewind(); !status) return status;
-  while (more) {
-    if (Status status = go_on(); !status) return status;
-    const auto next = capture.source.next();
-    if (!next) warn(next.error().message);
-    if (!next || !*next) break;
-    const CaptureWindow::Place place = window.place((*next)->stamp_ns);
-    if (place == CaptureWindow::Place::kAfter) break;
-    if (place == CaptureWindow::Place::kBefore) continue;
-    decoder.push(**next);
+  CapturePart part(capture.source, options);
+  for (const decode::Datagram* datagram; more && (datagram = part.next()) != nullptr; ++offered) {
+    decoder.push(*datagram);
     hand_out();
-    ++offered;
   }
+  if (Status status = go_on(); !status) return status;
   decoder.end_stream();
   hand_out();
   if (decoder.frames() > 0) return {};
@@ -154,10 +147,9 @@ ExitCode run_calibrate(const Options& options) {
   for (const mount::Ring& ring : rings->profile().rings) {
     setup.ring_ground_distance_m.push_back(ring.ground_distance_m);
   }
-  const Status written = mount::write_sensor_setup(options.written, setup);
-  if (!written) return refuse(written.error());
-  fmt::print("wrote     {}\n", options.written.string());
-  return kOk;
+  const ExitCode written = done_or_refused(mount::write_sensor_setup(options.written, setup));
+  if (written == kOk) fmt::print("wrote     {}\n", options.written.string());
+  return written;
 }
 
 }  // namespace terracut::cli

@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <utility>
 
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/input/command_files.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 #include "tools/lab/encode/scan_drive.hpp"
@@ -49,16 +51,10 @@ std::string cure_of_heights(const Options& options, const encode::ScanDriveRepor
          "compensated for the sensor's motion, give --keep-compensation";
 }
 
-void print(const Options& options, const encode::ScanDriveReport& report) {
+void print(const Options& options, const encode::ScanDriveReport& report,
+           const encode::ScanDriveOptions&) {
   const encode::EncodeSummary& encoded = report.encoded;
-  fmt::print("wrote     {}\n          {}\n          {}/\n", options.written.string(),
-             drive::calibration_path_of<encode::Hdl64eEncoderTraits>(options.written).string(),
-             drive::truth_folder_of(options.written).string());
-  if (options.can_log) {
-    fmt::print("          {}\n          {}\n", drive::can_log_path_of(options.written).string(),
-               drive::can_dbc_path_of(options.written).string());
-  }
-  fmt::print("table     {}, fingerprint {:016x}\n",
+  fmt::print("{}table     {}, fingerprint {:016x}\n", wrote_drive(options),
              report.fitted ? "fitted to the scans" : report.calibration.origin,
              fingerprint(report.calibration));
   fmt::print(
@@ -81,18 +77,17 @@ void print(const Options& options, const encode::ScanDriveReport& report) {
   }
 }
 
-void print(const Options& options, const encode::ResampleReport& report, const std::string& table) {
+void print(const Options& options, const encode::ResampleReport& report,
+           const encode::ResampleOptions& drive) {
   const encode::ResampleSummary& rays = report.rays;
   const auto share = [&](std::uint64_t count) {
     return rays.rays == 0 ? 0.0
                           : 100.0 * static_cast<double>(count) / static_cast<double>(rays.rays);
   };
   fmt::print("synthetic RS-Ruby128, resampled from an HDL-64E's recording, not recorded\n");
-  fmt::print("wrote     {}\n          {}\n          {}/\n", options.written.string(),
-             drive::calibration_path_of<encode::Ruby128EncoderTraits>(options.written).string(),
-             drive::truth_folder_of(options.written).string());
-  fmt::print("table     {}\n{}\nframes    {}\nrays      {}\n", table,
-             motion_line(report.why_as_recorded), report.drive.frames, rays.rays);
+  fmt::print("{}table     {}\n{}\nframes    {}\nrays      {}\n", wrote_drive(options),
+             drive.calibration.origin, motion_line(report.why_as_recorded), report.drive.frames,
+             rays.rays);
   fmt::print("returns   {} ({:.2f} %)\n", rays.returns, share(rays.returns));
   fmt::print("          {} ({:.2f} %) left out: above or below what was recorded\n", rays.outside,
              share(rays.outside));
@@ -101,22 +96,24 @@ void print(const Options& options, const encode::ResampleReport& report, const s
   fmt::print("          {} left out: beyond the wire's span\n", rays.out_of_span);
 }
 
-ExitCode resample(const Options& options) {
-  encode::ResampleOptions drive;
+/// With what both sensors' drives are made of scans: how a table is loaded, and the work itself.
+template <class DriveOptions, class Load, class Make>
+ExitCode encode_by(const Options& options, DriveOptions drive, const char* task, const Load& load,
+                   const Make& make) {
   drive.motion = motion_of(options);
   if (!options.capture.calibration.empty()) {
-    auto calibration = ruby128::read_ruby128_csv(options.capture.calibration);
+    auto calibration = load(options.capture.calibration);
     if (!calibration) return refuse(calibration.error());
     drive.calibration = *std::move(calibration);
   }
-  Progress progress("resampling", "scans", 0);
+  Progress progress(task, "scans", 0);
   drive.on_scan = [&](std::size_t done, std::size_t) {
     progress.update(static_cast<double>(done));
     return go_on();
   };
-  const auto report = encode::resample_scan_folder(options.scans, options.written, drive);
+  const auto report = make(options.scans, options.written, drive);
   if (!report) return refuse_work(report.error());
-  print(options, *report, drive.calibration.origin);
+  print(options, *report, drive);
   return kOk;
 }
 
@@ -124,29 +121,17 @@ ExitCode resample(const Options& options) {
 
 ExitCode run_encode(const Options& options) {
   catch_stop_signals();
-  if (options.capture.sensor == sensor::SensorModel::kRuby128) {
-    if (options.can_log) {
-      return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled frames begin ahead");
-    }
-    return resample(options);
+  if (options.capture.sensor != sensor::SensorModel::kRuby128) {
+    encode::ScanDriveOptions drive;
+    drive.can_log = options.can_log;
+    return encode_by(options, drive, "encoding", hdl64e::load_hdl64e_calibration,
+                     encode::encode_scan_folder);
   }
-  encode::ScanDriveOptions drive;
-  drive.motion = motion_of(options);
-  drive.can_log = options.can_log;
-  if (!options.capture.calibration.empty()) {
-    auto calibration = hdl64e::load_hdl64e_calibration(options.capture.calibration);
-    if (!calibration) return refuse(calibration.error());
-    drive.calibration = *std::move(calibration);
+  if (options.can_log) {
+    return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled frames begin ahead");
   }
-  Progress progress("encoding", "scans", 0);
-  drive.on_scan = [&](std::size_t done, std::size_t) {
-    progress.update(static_cast<double>(done));
-    return go_on();
-  };
-  const auto report = encode::encode_scan_folder(options.scans, options.written, drive);
-  if (!report) return refuse_work(report.error());
-  print(options, *report);
-  return kOk;
+  return encode_by(options, encode::ResampleOptions(), "resampling", ruby128::read_ruby128_csv,
+                   encode::resample_scan_folder);
 }
 
 }  // namespace terracut::cli

@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "pipeline/ground/parameter_table.hpp"
-#include "rt/files/whole_file.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
@@ -318,9 +317,8 @@ ExitCode run_eval(const Options& options) {
   if (outcome->interrupted) {
     warn(journal ? "interrupted; the same command goes on from here" : "interrupted");
   }
-  if (!options.output.json.empty()) {
-    const Status written = files::write_whole_file(options.output.json, json_text(json));
-    if (!written) return refuse(written.error());
+  if (const Status saved = write_json(options.output.json, json); !saved) {
+    return refuse(saved.error());
   }
   if (outcome->results.empty() && outcome->interrupted) {
     return refuse(kInterrupted, "interrupted before the first frame was evaluated");

@@ -11,10 +11,10 @@
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/sensor/capture_survey.hpp"
 #include "pipeline/status/figures.hpp"
-#include "rt/files/whole_file.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/figures_json.hpp"
+#include "tools/cli/json_text.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -260,10 +260,7 @@ ExitCode run_info(const Options& options) {
   if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
   fmt::print("{}", text_of(survey));
   if (survey.broke_off) warn(survey.broke_off->message);
-  if (options.output.json.empty()) return kOk;
-  const Status written =
-      files::write_whole_file(options.output.json, json_of(survey).dump(1) + "\n");
-  return written ? kOk : refuse(written.error());
+  return done_or_refused(write_json(options.output.json, json_of(survey)));
 }
 
 }  // namespace terracut::cli

@@ -7,9 +7,9 @@
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
-#include "rt/files/whole_file.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
@@ -35,9 +35,7 @@ ExitCode run_plan(const Options& options) {
   fmt::print("{:<24}{:>14}  ({:.1f} MiB)\n", "total", memory.total_bytes(),
              static_cast<double>(memory.total_bytes()) / 1048576.0);
   json["total_bytes"] = memory.total_bytes();
-  if (options.output.json.empty()) return kOk;
-  const Status written = files::write_whole_file(options.output.json, json.dump(1) + "\n");
-  return written ? kOk : refuse(written.error());
+  return done_or_refused(write_json(options.output.json, json));
 }
 
 }  // namespace terracut::cli

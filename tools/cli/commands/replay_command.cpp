@@ -27,7 +27,6 @@
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/motion_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
-#include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -106,10 +105,8 @@ class Replay {
         outputs_(options.output),
         mount_(profile.mount),
         truth_(options.output.truth),
-        report_(
-            {"replay", options.capture.file.string(), capture.sensor_line, capture.calibration_line,
-             std::string(word_of(kProfileWords, options.method.profile)),
-             std::string(word_of(kStageWords, options.method.last_stage)), options.method.method}),
+        report_{"replay", options.capture.file.string(), capture.sensor_line,
+                capture.calibration_line, options.method},
         progress_("replaying", "frames", 0) {}
 
   ExitCode run() {
@@ -142,29 +139,16 @@ class Replay {
 
   /// False when the replay is over: a sink failed, Ctrl-C, or the capture broke off.
   bool play_once(Pace& pace) {
-    CaptureWindow window(options_.capture);
-    while (sinks_) {
-      if (stop_wanted()) {
-        // A replay without an end is not cut short by it.
-        report_.set_interrupted(options_.replay.loops != 0);
-        return false;
-      }
-      const auto next = capture_.source.next();
-      if (!next) {
-        warn(next.error().message);
-        report_.set_input_warning(next.error().message);
-        return false;
-      }
-      if (!*next) return true;
-      const decode::Datagram& datagram = **next;
-      const CaptureWindow::Place place = window.place(datagram.stamp_ns);
-      if (place == CaptureWindow::Place::kBefore) continue;
-      if (place == CaptureWindow::Place::kAfter) return true;
-      pace.wait_for(datagram.stamp_ns);
-      if (motion_ != nullptr) motion_->hear_until(datagram.stamp_ns);
-      decode(datagram);
+    CapturePart part(capture_.source, options_.capture);
+    while (const decode::Datagram* datagram = sinks_ ? part.next() : nullptr) {
+      pace.wait_for(datagram->stamp_ns);
+      if (motion_ != nullptr) motion_->hear_until(datagram->stamp_ns);
+      decode(*datagram);
     }
-    return false;
+    // A replay without an end is not cut short by Ctrl-C.
+    report_.interrupted = part.stopped() && options_.replay.loops != 0;
+    report_.input_warning = part.fault();
+    return sinks_ && !part.stopped() && part.fault().empty();
   }
 
   void decode(const decode::Datagram& datagram) {
@@ -185,27 +169,23 @@ class Replay {
     const frame::RangeImage& image = *frame.image;
     pipeline_.label(frame);
     report_.add(frame.record);
-    deskewed_ += info.deskew.state == frame::DeskewState::kDone ? 1 : 0;
     if (info.number % run::LatestNearGround::kFramesApart == 0) mount_.add_frame(image);
 
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
-    if (!truth.empty()) {
-      quality_ += quality::measure(pipeline_.labels(), truth);
-      ++scored_;
-    }
+    if (!truth.empty()) report_.score(pipeline_.labels(), truth);
     if (sinks_) sinks_ = outputs_.write_labels(name, pipeline_.labels());
     if (sinks_) sinks_ = outputs_.write_frame(name, image, pipeline_.labels(), truth);
-    progress_.update(static_cast<double>(report_.frames()));
+    progress_.update(static_cast<double>(report_.records.size()));
   }
 
   ExitCode conclude() {
     if (!sinks_) return refuse(sinks_.error());
     const frame::LossCounters losses = pipeline_.decoder().losses();
-    if (report_.frames() == 0 && report_.interrupted()) {
+    if (report_.records.empty() && report_.interrupted) {
       return refuse(kInterrupted, "interrupted before the first frame came out");
     }
-    if (report_.frames() == 0) {
+    if (report_.records.empty()) {
       return refuse(nothing_came_out(capture_.source, offered_, losses));
     }
     if (const std::string other = sensor::other_table_warning(status_, capture_.calibration);
@@ -213,24 +193,23 @@ class Replay {
       warn(other);
     }
     warn_of_other_senders(capture_, options_.capture);
-    report_.set_losses(losses);
-    report_.set_blind(pipeline_.decoder().blind());
-    report_.set_mount(mount_.figures());
+    report_.losses = losses;
+    report_.blind = pipeline_.decoder().blind();
+    report_.mount = mount_.figures();
     if (clock_of_device_.noted()) {
-      report_.set_device_clock(clock_of_device_.text());
+      report_.device_clock = clock_of_device_.text();
       if (const std::string warning = clock_of_device_.warning(); !warning.empty()) warn(warning);
     }
     if (motion_ != nullptr) {
-      report_.set_motion_samples(motion_->samples());
+      report_.motion_samples = motion_->samples();
       if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
     }
-    if (scored_ > 0) report_.set_quality(quality_, report_.frames() - scored_);
     const ExitCode concluded = conclude_with(report_, options_.output.json);
-    if (concluded != kOk || motion_ == nullptr || deskewed_ > 0) return concluded;
+    if (concluded != kOk || motion_ == nullptr || report_.deskewed_frames() > 0) return concluded;
     return refuse(kInputRefused,
                   fmt::format("{}: none of the {} frames could be deskewed; is it of "
                               "this drive, its stamps on the clock of the capture's?",
-                              options_.can_recording.string(), report_.frames()));
+                              options_.can_recording.string(), report_.records.size()));
   }
 
   const Options& options_;
@@ -245,9 +224,6 @@ class Replay {
   FrameTruth truth_;
   Report report_;
   Progress progress_;
-  quality::Quality quality_;
-  std::uint64_t scored_ = 0;    ///< Frames with truth.
-  std::uint64_t deskewed_ = 0;  ///< Frames.
   Status sinks_;
   std::uint64_t offered_ = 0;  ///< Datagrams given to the decoder.
 };

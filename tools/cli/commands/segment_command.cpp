@@ -16,7 +16,6 @@
 #include "tools/cli/figures/report.hpp"
 #include "tools/cli/input/frame_outputs.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
-#include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -35,9 +34,7 @@ struct ScanLabeller {
   std::vector<frame::Label> point_labels;
   std::vector<std::uint32_t> return_truth;
   MountWatch mount;
-  quality::Quality quality;
-  std::uint64_t scored = 0;
-  std::uint64_t no_place = 0, no_ring = 0;  ///< Points of all scans.
+  Report::ScanPoints points;  ///< Of all scans.
 
   ScanLabeller(const ground::MethodConfig& config, const mount::RingProfile& profile)
       : image(shape, shape.cells(), memory),
@@ -55,11 +52,8 @@ struct ScanLabeller {
     record.segmentation.count(point_labels);
     record.info.returns = static_cast<std::uint32_t>(scan.points.size() - placed.no_place);
     record.info.losses.overflow_full_returns = placed.overflow_full;
-    no_place += placed.no_place;
-    no_ring += placed.no_ring;
-    if (scan.labels.empty()) return;
-    quality += quality::measure(point_labels, scan.labels);
-    ++scored;
+    points.no_place += placed.no_place;
+    points.no_ring += placed.no_ring;
   }
 
   /// The scan's truth in the order of the image's returns; empty without labels.
@@ -109,14 +103,11 @@ ExitCode run_segment(const Options& options) {
 
   ScanLabeller labeller(method_config_of(options.method), *profile);
   FrameOutputs outputs(options.output);
-  Report report({"segment", options.scans.string(), "", calibration_line,
-                 std::string(word_of(kProfileWords, options.method.profile)),
-                 std::string(word_of(kStageWords, options.method.last_stage)),
-                 options.method.method});
+  Report report{"segment", options.scans.string(), "", calibration_line, options.method};
   Progress progress("labelling", "scans", static_cast<double>(reader->size()));
   for (std::size_t i = 0; i < reader->size(); ++i) {
     if (stop_wanted()) {
-      report.set_interrupted(true);
+      report.interrupted = true;
       break;
     }
     const scan::ScanFile& file = reader->file(i);
@@ -127,6 +118,7 @@ ExitCode run_segment(const Options& options) {
     record.info.number = file.frame.value_or(static_cast<std::uint32_t>(i));
     labeller.label(record);
     report.add(record);
+    if (!labeller.scan.labels.empty()) report.score(labeller.point_labels, labeller.scan.labels);
     Status written = outputs.write_labels(file.name, labeller.point_labels);
     if (written) {
       written = outputs.write_frame(file.name, labeller.image, labeller.segmenter.labels(),
@@ -135,9 +127,8 @@ ExitCode run_segment(const Options& options) {
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));
   }
-  if (labeller.scored > 0) report.set_quality(labeller.quality, report.frames() - labeller.scored);
-  report.set_mount(labeller.mount.figures());
-  report.set_scan_points(labeller.no_place, labeller.no_ring);
+  report.mount = labeller.mount.figures();
+  report.scan_points = labeller.points;
   return conclude_with(report, options.output.json);
 }
 

@@ -9,11 +9,11 @@
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/net/device_stamp_shift.hpp"
-#include "rt/files/whole_file.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/json_text.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/send/fault_injector.hpp"
 #include "tools/lab/send/packet_pacer.hpp"
@@ -221,10 +221,8 @@ class Send {
     }
     warn_of_shortfalls(counters);
     fmt::print("{}", text());
-    if (!options_.output.json.empty()) {
-      const Status written = files::write_whole_file(options_.output.json, json().dump(1) + "\n");
-      if (!written) return refuse(written.error());
-    }
+    const Status written = write_json(options_.output.json, json());
+    if (!written) return refuse(written.error());
     if (interrupted()) return kInterrupted;
     return counters.failed > 0 && counters.sent == 0 ? kOutputFailed : kOk;
   }

@@ -15,6 +15,7 @@
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/input/command_files.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/cli/temporary_folder.hpp"
@@ -99,15 +100,7 @@ ExitCode simulate(const Options& options, const std::filesystem::path& output) {
   }
 
   fmt::print("scene     {}, seed {}\n", options.simulate.scene, options.simulate.seed);
-  if (!options.written.empty()) {
-    fmt::print("wrote     {}\n          {}\n          {}/\n", output.string(),
-               drive::calibration_path_of<EncoderTraits>(output).string(),
-               drive::truth_folder_of(output).string());
-    if (options.can_log) {
-      fmt::print("          {}\n          {}\n", drive::can_log_path_of(output).string(),
-                 drive::can_dbc_path_of(output).string());
-    }
-  }
+  if (!options.written.empty()) fmt::print("{}", wrote_drive(options));
   fmt::print("frames    {}\nreturns   {}\npackets   {}\n", written->frames, written->returns,
              written->packets);
   std::fflush(stdout);

@@ -49,12 +49,12 @@ struct MetricsServer::State {
 
   void answer(httplib::Response& response) {
     const std::lock_guard lock(mutex);
-    if (source && source(figures)) {
-      response.set_content(metrics_text(figures), kMetricsType);
-    } else {
+    if (!source) {
       response.status = 503;
-      response.set_content("no figures yet\n", "text/plain");
+      return;
     }
+    source(figures);
+    response.set_content(metrics_text(figures), kMetricsType);
   }
   void serve() {
     server.listen_after_bind();
@@ -117,23 +117,11 @@ Expected<MetricsServer> MetricsServer::start(const std::string& address, std::ui
 MetricsServer::MetricsServer(std::shared_ptr<State> state) : state_(std::move(state)) {}
 MetricsServer::MetricsServer(MetricsServer&&) noexcept = default;
 
-MetricsServer& MetricsServer::operator=(MetricsServer&& other) noexcept {
-  if (this != &other) {
-    stop();
-    state_ = std::move(other.state_);
-  }
-  return *this;
-}
-
-MetricsServer::~MetricsServer() {
-  stop();
-}
-
 std::uint16_t MetricsServer::port() const noexcept {
   return state_->port;
 }
 
-void MetricsServer::stop() noexcept {
+MetricsServer::~MetricsServer() {
   if (!state_) return;
   std::unique_lock lock(state_->mutex);
   state_->source = nullptr;
@@ -141,8 +129,6 @@ void MetricsServer::stop() noexcept {
   state_->server.stop();
   lock.lock();
   state_->done_changed.wait_for(lock, std::chrono::seconds(2), [this] { return state_->done; });
-  lock.unlock();
-  state_.reset();
 }
 
 }  // namespace terracut::cli

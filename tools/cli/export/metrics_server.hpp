@@ -22,9 +22,9 @@ namespace terracut::cli {
 /// shows it.
 class MetricsServer {
  public:
-  /// Copies the newest figures; false when there are none (answered with status 503). Called on the
-  /// server's thread, never after the MetricsServer is gone.
-  using Source = std::function<bool(status::MonitorSnapshot&)>;
+  /// Copies the newest figures. Called on the server's thread, never after the MetricsServer is
+  /// gone.
+  using Source = std::function<void(status::MonitorSnapshot&)>;
 
   /// Listens on `address` (numeric) : `port`, 0 for any free one. Errors: kInvalidArgument with the
   /// system's reason, such as a port in use.
@@ -32,7 +32,6 @@ class MetricsServer {
                                                      Source source);
 
   MetricsServer(MetricsServer&&) noexcept;
-  MetricsServer& operator=(MetricsServer&&) noexcept;
   /// Stops listening. Waits for a request being answered, but no longer than two seconds.
   ~MetricsServer();
 
@@ -41,7 +40,6 @@ class MetricsServer {
  private:
   struct State;
   explicit MetricsServer(std::shared_ptr<State> state);
-  void stop() noexcept;
 
   std::shared_ptr<State> state_;
 };

@@ -12,10 +12,10 @@
 #include "pipeline/status/figures.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "pipeline/status/times_table.hpp"
-#include "rt/files/whole_file.hpp"
 #include "rt/measure/milliseconds.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/words.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -55,12 +55,15 @@ Json min_cut_json(const min_cut::CutReport& cut) {
           {"ops", cut.operations()}};
 }
 
+bool is_deskewed(const FrameRecord& frame) {
+  return frame.info.deskew.state == frame::DeskewState::kDone;
+}
+
 /// How the vehicle's motion and the frames fit together in time.
-std::vector<Figure> motion_figures(std::uint64_t samples, const std::vector<FrameRecord>& records) {
-  std::uint64_t deskewed = 0;
+std::vector<Figure> motion_figures(std::uint64_t samples, const Report& report) {
+  const std::uint64_t deskewed = report.deskewed_frames();
   std::vector<std::int64_t> newest_ns;
-  for (const FrameRecord& frame : records) {
-    deskewed += frame.info.deskew.state == frame::DeskewState::kDone ? 1 : 0;
+  for (const FrameRecord& frame : report.records) {
     newest_ns.push_back(frame.info.deskew.newest_motion_ns);
   }
   if (newest_ns.empty()) newest_ns.push_back(0);
@@ -72,7 +75,7 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const std::vector<Fram
   // clang-format off: a table reads better with an entry on two lines than one word a line.
   return {{"samples", samples, {}, {"motion", "{} samples"}, "motion"},
           {"deskewed_frames", deskewed, {}, {"motion", ": {} frames deskewed"}, "motion"},
-          {{}, records.size() - deskewed, {}, {"motion", "{} without ego motion"}},
+          {{}, report.records.size() - deskewed, {}, {"motion", "{} without ego motion"}},
           of("median", newest_ns[newest_ns.size() / 2],
              {line, "newest sample {ms:+.1f} ms from a frame's end (median"}),
           of("min", newest_ns.front(), {line, ": {ms:+.1f}"}),
@@ -104,88 +107,94 @@ std::vector<Figure> TimeSummary::figures() const {
   return figures;
 }
 
-void Report::add(const FrameRecord& frame) {
-  records_.push_back(frame);
-  times_.add(frame);
+std::vector<Figure> method_figures(const MethodOptions& options) {
+  if (!options.method.empty()) return {{"method", options.method}};
+  return {{"profile", std::string(word_of(kProfileWords, options.profile))},
+          {"stages", std::string(word_of(kStageWords, options.last_stage))}};
 }
 
-frame::LossCounters Report::losses() const {
-  if (losses_) return *losses_;
-  frame::LossCounters losses;
-  for (const FrameRecord& frame : records_) losses += frame.info.losses;
-  return losses;
+void Report::add(const FrameRecord& frame) {
+  records.push_back(frame);
+  times.add(frame);
+}
+
+void Report::score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth) {
+  scores += quality::measure(labels, truth);
+  ++scored;
+}
+
+std::uint64_t Report::deskewed_frames() const {
+  return static_cast<std::uint64_t>(std::ranges::count_if(records, is_deskewed));
 }
 
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 
 std::vector<Figure> Report::run_figures() const {
   std::vector<Figure> figures{{"terracut", TERRACUT_VERSION},
-                              {"command", run_.command},
-                              {"input", run_.input},
-                              {"interrupted", interrupted_},
-                              {"calibration", run_.calibration}};
+                              {"command", command},
+                              {"input", input},
+                              {"interrupted", interrupted},
+                              {"calibration", calibration}};
   const auto add_any = [&](std::string_view key, const std::string& text, std::string_view line) {
     if (!text.empty()) figures.push_back({key, text, {}, {line}});
   };
-  add_any("input_warning", input_warning_, {});
-  add_any("sensor", run_.sensor, "sensor");
-  add_any({}, run_.calibration, "table");
-  add_any("device_clock", device_clock_, "clock");
-  add_any("method", run_.method, {});
-  if (run_.method.empty()) {
-    figures.push_back({"profile", run_.profile});
-    figures.push_back({"stages", run_.stages});
-  }
+  add_any("input_warning", input_warning, {});
+  add_any("sensor", sensor, "sensor");
+  add_any({}, calibration, "table");
+  add_any("device_clock", device_clock, "clock");
+  std::ranges::copy(method_figures(method), std::back_inserter(figures));
   return figures;
 }
 
 std::vector<Figure> Report::summary_figures() const {
   std::uint64_t complete = 0, returns_in = 0, returns_labelled = 0;
-  for (const FrameRecord& frame : records_) {
+  frame::LossCounters of_frames;
+  for (const FrameRecord& frame : records) {
+    of_frames += frame.info.losses;
     complete += frame.info.complete ? 1 : 0;
     returns_in += frame.info.returns;
     returns_labelled += frame.segmentation.labelled();
   }
   std::vector<Figure> figures{
-      {"frames", records_.size(), {}, {"frames"}},
+      {"frames", records.size(), {}, {"frames"}},
       {"complete_frames", complete, {}, {"frames", " ({} complete)"}},
       {"returns_in", returns_in, {}, {"returns", "{} in"}},
       {"returns_labelled", returns_labelled, {}, {"returns", "{} labelled"}},
-      {"segment_wall_ms", &times_.wall}};
+      {"segment_wall_ms", &times.wall}};
   const auto add = [&](std::initializer_list<Figure> more) { figures.insert(figures.end(), more); };
-  std::ranges::copy(times_.figures(), std::back_inserter(figures));
-  if (scan_points_) {
+  std::ranges::copy(times.figures(), std::back_inserter(figures));
+  if (scan_points) {
     add({{"points_no_place",
-          scan_points_->no_place,
+          scan_points->no_place,
           {},
           {"returns", "{} points null or not finite, labelled 0", Shown::kIfAny}},
          {"points_no_ring",
-          scan_points_->no_ring,
+          scan_points->no_ring,
           {},
           {"returns", "{} points of no ring, labelled obstacle", Shown::kIfAny}}});
   }
-  if (quality_) {
-    const double iou_g = quality_->iou_ground(), recall_o = quality_->recall_key_obstacles();
+  if (scored > 0) {
+    const double iou_g = scores.iou_ground(), recall_o = scores.recall_key_obstacles();
     add({{"iou_g", status::Number{iou_g, 0, 1}},
          {"recall_o", status::Number{recall_o, 0, 1}},
          {{}, status::Number{100 * iou_g, 0, 100}, {}, {"quality", "IoU_g {:.2f} %"}},
          {{}, status::Number{100 * recall_o, 0, 100}, {}, {"quality", "Recall_o {:.2f} %"}},
          {"unscored_frames",
-          unscored_,
+          records.size() - scored,
           {},
           {"quality", " ({} frames not scored)", Shown::kIfAny}}});
   }
-  std::ranges::copy(status::figures_of(mount_), std::back_inserter(figures));
-  std::ranges::copy(status::figures_of(blind_), std::back_inserter(figures));
-  if (motion_samples_) {
-    std::ranges::copy(motion_figures(*motion_samples_, records_), std::back_inserter(figures));
+  std::ranges::copy(status::figures_of(mount), std::back_inserter(figures));
+  std::ranges::copy(status::figures_of(blind), std::back_inserter(figures));
+  if (motion_samples) {
+    std::ranges::copy(motion_figures(*motion_samples, *this), std::back_inserter(figures));
   }
   add({{"losses",
-        status::counts_of("cause", status::causes_of(losses())),
+        status::counts_of("cause", status::causes_of(losses.value_or(of_frames))),
         {},
         {"losses", "{}", Shown::kAlarmOrNone}},
        {{},
-        interrupted_,
+        interrupted,
         {},
         {"ended", "interrupted: the rest of the input was not read", Shown::kAlarm}}});
   return figures;
@@ -202,7 +211,7 @@ Status Report::write_json(const std::filesystem::path& path) const {
   Json json;
   add_figures(run_figures(), json);
   Json& frames = json["frames"] = Json::array();
-  for (const FrameRecord& frame : records_) {
+  for (const FrameRecord& frame : records) {
     frames.push_back({{"frame", frame.info.number},
                       {"first_packet_ns", frame.info.first_packet_ns},
                       {"complete", frame.info.complete},
@@ -212,21 +221,16 @@ Status Report::write_json(const std::filesystem::path& path) const {
                       {"ms", milliseconds_json(frame)},
                       {"segment_wall_ms", milliseconds(frame.stages.segment_wall_ns)},
                       {"min_cut", min_cut_json(frame.segmentation.cut)}});
-    if (motion_samples_) {
-      frames.back()["deskewed"] = frame.info.deskew.state == frame::DeskewState::kDone;
-    }
+    if (motion_samples) frames.back()["deskewed"] = is_deskewed(frame);
   }
   add_figures(summary_figures(), json["summary"]);
-  return files::write_whole_file(path, json_text(json));
+  return cli::write_json(path, json);
 }
 
 ExitCode conclude_with(const Report& report, const std::filesystem::path& json) {
   fmt::print("{}", report.text());
-  if (!json.empty()) {
-    const Status written = report.write_json(json);
-    if (!written) return refuse(written.error());
-  }
-  return report.interrupted() ? kInterrupted : kOk;
+  const ExitCode written = json.empty() ? kOk : done_or_refused(report.write_json(json));
+  return written == kOk && report.interrupted ? kInterrupted : written;
 }
 
 }  // namespace terracut::cli

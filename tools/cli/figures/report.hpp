@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 #include "rt/error.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
 #include "tools/cli/exit_codes.hpp"
+#include "tools/cli/options.hpp"
 #include "tools/lab/quality/quality.hpp"
 
 namespace terracut::cli {
@@ -32,49 +34,42 @@ struct TimeSummary {
   [[nodiscard]] std::vector<status::Figure> figures() const;
 };
 
+/// The method that ran: its name, or profile and stages.
+[[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
+
 /// The report of a run: what the frames' records say, and the same summarised.
-class Report {
- public:
-  struct Run {
-    std::string command;  ///< "replay"
-    std::string input;
-    std::string sensor;       ///< Model, spin rate and return mode; empty for scans.
-    std::string calibration;  ///< Origin and fingerprint of the table in use.
-    std::string profile, stages;
-    std::string method;  ///< Named by --method: instead of profile and stages.
-  };
+struct Report {
+  std::string command;  ///< "replay"
+  std::string input;
+  std::string sensor;       ///< Model, spin rate and return mode; empty for scans.
+  std::string calibration;  ///< Origin and fingerprint of the table in use.
+  MethodOptions method;
 
-  explicit Report(Run run) : run_(std::move(run)) {}
+  std::vector<status::FrameRecord> records{};  ///< By add().
+  TimeSummary times{};
+  quality::Quality scores{};  ///< By score().
+  std::uint64_t scored = 0;   ///< Frames with fitting truth.
 
-  void add(const status::FrameRecord& frame);
-  /// `unscored`: frames for which no fitting truth was found.
-  void set_quality(const quality::Quality& quality, std::uint64_t unscored = 0) {
-    quality_ = quality;
-    unscored_ = unscored;
-  }
   /// Everything lost in the run, where that is more than the frames' sum (losses after the last
   /// one).
-  void set_losses(const frame::LossCounters& losses) { losses_ = losses; }
-  /// Where the sensor sends nothing, as known at the end of the run.
-  void set_blind(const frame::BlindAzimuths& blind) { blind_ = blind; }
-  /// Samples of the vehicle's motion there were; set where frames were to be deskewed.
-  void set_motion_samples(std::uint64_t samples) { motion_samples_ = samples; }
+  std::optional<frame::LossCounters> losses{};
+  frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
+  status::MountFigures mount{};
+  /// Samples of the vehicle's motion there were; of runs whose frames were to be deskewed.
+  std::optional<std::uint64_t> motion_samples{};
   /// Points of scan files that got no return: null or not finite, labelled 0; and of no ring,
   /// labelled as obstacles.
-  void set_scan_points(std::uint64_t no_place, std::uint64_t no_ring) {
-    scan_points_ = {no_place, no_ring};
-  }
-  void set_mount(const status::MountFigures& mount) { mount_ = mount; }
-  /// What is known of the sensor's clock, for people.
-  void set_device_clock(std::string text) { device_clock_ = std::move(text); }
-  /// The run was ended before its work was done: what it reports is not of all its input.
-  void set_interrupted(bool interrupted) { interrupted_ = interrupted; }
-  [[nodiscard]] bool interrupted() const noexcept { return interrupted_; }
-  /// The input broke off, and where.
-  void set_input_warning(std::string warning) { input_warning_ = std::move(warning); }
+  struct ScanPoints {
+    std::uint64_t no_place = 0, no_ring = 0;
+  };
+  std::optional<ScanPoints> scan_points{};
+  std::string device_clock{};   ///< What is known of the sensor's clock, for people.
+  std::string input_warning{};  ///< The input broke off, and where.
+  bool interrupted = false;     ///< Ended before its work was done: not of all its input.
 
-  [[nodiscard]] std::size_t frames() const noexcept { return records_.size(); }
-  [[nodiscard]] frame::LossCounters losses() const;
+  void add(const status::FrameRecord& frame);
+  void score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth);
+  [[nodiscard]] std::uint64_t deskewed_frames() const;
 
   /// The summary for people, several lines, as printed on stdout.
   [[nodiscard]] std::string text() const;
@@ -100,23 +95,6 @@ class Report {
  private:
   [[nodiscard]] std::vector<status::Figure> run_figures() const;
   [[nodiscard]] std::vector<status::Figure> summary_figures() const;
-
-  Run run_;
-  std::vector<status::FrameRecord> records_;
-  TimeSummary times_;
-  std::optional<frame::LossCounters> losses_;
-  std::optional<quality::Quality> quality_;
-  std::uint64_t unscored_ = 0;
-  struct ScanPoints {
-    std::uint64_t no_place, no_ring;
-  };
-  std::optional<ScanPoints> scan_points_;
-  status::MountFigures mount_;
-  frame::BlindAzimuths blind_;
-  std::optional<std::uint64_t> motion_samples_;
-  std::string device_clock_;
-  std::string input_warning_;
-  bool interrupted_ = false;
 };
 
 /// Prints the report, writes it to `json` too unless that is empty, and returns the exit code.

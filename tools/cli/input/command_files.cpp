@@ -2,6 +2,10 @@
 // Copyright 2026 The terracut authors
 #include "command_files.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
 #include <system_error>
 #include <variant>
 
@@ -44,13 +48,14 @@ void add_drive_of(RunFiles& files, const Options& options) {
   files.write("--can-log", drive::can_dbc_path_of(capture));
 }
 
-void add_drive(RunFiles& files, const Options& options) {
-  if (options.written.empty()) return;
+RunFiles drive_of(const Options& options) {
+  RunFiles files;
   if (options.capture.sensor == sensor::SensorModel::kRuby128) {
     add_drive_of<encode::Ruby128EncoderTraits>(files, options);
   } else {
     add_drive_of<encode::Hdl64eEncoderTraits>(files, options);
   }
+  return files;
 }
 
 void add_evaluation(RunFiles& files, const Options& options) {
@@ -81,7 +86,10 @@ RunFiles files_of(Command command, const Options& options) {
   if (command == Command::kSegment || command == Command::kEncode) {
     add_scans(files, options.scans);
   }
-  if (command == Command::kSimulate || command == Command::kEncode) add_drive(files, options);
+  const bool makes_drive = command == Command::kSimulate || command == Command::kEncode;
+  if (makes_drive && !options.written.empty()) {
+    std::ranges::move(drive_of(options).outputs, std::back_inserter(files.outputs));
+  }
   if (command == Command::kEval) add_evaluation(files, options);
   return files;
 }
@@ -90,6 +98,15 @@ RunFiles files_of(const Arguments& arguments) {
   RunFiles files = files_of(*arguments.command, arguments.options);
   files.read("--config", arguments.configuration, "the configuration");
   return files;
+}
+
+std::string wrote_drive(const Options& options) {
+  std::string text;
+  for (const RunFiles::Output& output : drive_of(options).outputs) {
+    text += fmt::format("{:<10}{}{}\n", text.empty() ? "wrote" : "", output.path.string(),
+                        output.kind == Kind::kReplacedFolder ? "/" : "");
+  }
+  return text;
 }
 
 }  // namespace terracut::cli

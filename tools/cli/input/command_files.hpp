@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <string>
+
 #include "run_files.hpp"
 #include "tools/cli/arguments/arguments.hpp"
 
@@ -13,5 +15,8 @@ namespace terracut::cli {
 
 /// The same with the configuration file.
 [[nodiscard]] RunFiles files_of(const Arguments& arguments);
+
+/// "wrote     d.pcap", and in the lines below it what lies beside it: of `simulate` and `encode`.
+[[nodiscard]] std::string wrote_drive(const Options& options);
 
 }  // namespace terracut::cli

@@ -12,6 +12,7 @@
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
+#include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -81,16 +82,28 @@ void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& opt
                   others, net::ipv4_text(capture.sensor.address)));
 }
 
-CaptureWindow::CaptureWindow(const CaptureOptions& options)
-    : start_ns_(nanoseconds(options.start_s)),
+CapturePart::CapturePart(PcapSource& source, const CaptureOptions& options)
+    : source_(source),
+      start_ns_(nanoseconds(options.start_s)),
       end_ns_(options.duration_s ? start_ns_ + nanoseconds(*options.duration_s)
                                  : std::numeric_limits<std::int64_t>::max()) {}
 
-CaptureWindow::Place CaptureWindow::place(std::int64_t stamp_ns) noexcept {
-  if (!first_ns_) first_ns_ = stamp_ns;
-  const std::int64_t since_ns = stamp_ns - *first_ns_;
-  if (since_ns < start_ns_) return Place::kBefore;
-  return since_ns < end_ns_ ? Place::kInside : Place::kAfter;
+const decode::Datagram* CapturePart::next() {
+  while (!(stopped_ = stop_wanted())) {
+    auto read = source_.next();
+    if (!read) {
+      fault_ = read.error().message;
+      warn(fault_);
+      return nullptr;
+    }
+    datagram_ = *read;
+    if (!datagram_) return nullptr;
+    if (!first_ns_) first_ns_ = datagram_->stamp_ns;
+    const std::int64_t since_ns = datagram_->stamp_ns - *first_ns_;
+    if (since_ns >= end_ns_) return nullptr;
+    if (since_ns >= start_ns_) return &*datagram_;
+  }
+  return nullptr;
 }
 
 Error nothing_came_out(const PcapSource& source, std::uint64_t offered,

@@ -32,18 +32,28 @@ struct OpenCapture {
 /// that. Once the capture was read.
 void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& options);
 
-/// --start and --duration, by the stamps of the capture.
-class CaptureWindow {
+/// The datagrams of a capture between --start and --duration, which go by its stamps.
+class CapturePart {
  public:
-  enum class Place : std::uint8_t { kBefore, kInside, kAfter };
+  /// `source` must outlive this; it is read from where it stands, its beginning.
+  CapturePart(capture::PcapSource& source, const CaptureOptions& options);
 
-  explicit CaptureWindow(const CaptureOptions& options);
+  /// The next one, valid until the next call. Null at the end, where the capture breaks off, which
+  /// is warned of, and when stop_wanted().
+  [[nodiscard]] const decode::Datagram* next();
 
-  [[nodiscard]] Place place(std::int64_t stamp_ns) noexcept;
+  /// Where it broke off; empty: it did not.
+  [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
+  /// Whether it was left because of stop_wanted().
+  [[nodiscard]] bool stopped() const noexcept { return stopped_; }
 
  private:
+  capture::PcapSource& source_;
   std::int64_t start_ns_, end_ns_;
   std::optional<std::int64_t> first_ns_;
+  std::optional<decode::Datagram> datagram_;
+  std::string fault_;
+  bool stopped_ = false;
 };
 
 /// kNothingCameOut for a capture that gave no frame, naming the checks its packets failed.

@@ -43,7 +43,6 @@ void FiguresDisplay::open_metrics(const WatchOptions& options) {
                                      [this](status::MonitorSnapshot& figures) {
                                        const std::scoped_lock lock(shown_mutex_);
                                        figures = *shown_;
-                                       return true;
                                      });
   if (server) {
     metrics_.emplace(*std::move(server));

@@ -78,32 +78,19 @@ Expected<ServiceNotify> ServiceNotify::from_environment() {
   // The terminating zero belongs to a path, but would be part of an abstract name.
   const auto length =
       static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size() + (abstract ? 0 : 1));
-  notify.descriptor_ = ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  if (notify.descriptor_ < 0 ||
-      ::connect(notify.descriptor_, reinterpret_cast<const sockaddr*>(&address), length) != 0) {
+  files::OwnedDescriptor socket(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!socket ||
+      ::connect(socket.get(), reinterpret_cast<const sockaddr*>(&address), length) != 0) {
     return fail(ErrorCode::kNotFound, fmt::format("NOTIFY_SOCKET '{}' cannot be reached: {}", name,
                                                   std::generic_category().message(errno)));
   }
+  notify.socket_ = std::move(socket);
   notify.watchdog_ns_ = watchdog_of_environment();
   return notify;
 }
 
-ServiceNotify::ServiceNotify(ServiceNotify&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)),
-      watchdog_ns_(std::exchange(other.watchdog_ns_, std::nullopt)) {}
-
-ServiceNotify& ServiceNotify::operator=(ServiceNotify&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(watchdog_ns_, other.watchdog_ns_);
-  return *this;
-}
-
-ServiceNotify::~ServiceNotify() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
 bool ServiceNotify::send(std::string_view message) const noexcept {
-  return connected() && ::send(descriptor_, message.data(), message.size(), MSG_NOSIGNAL) ==
+  return connected() && ::send(socket_.get(), message.data(), message.size(), MSG_NOSIGNAL) ==
                             static_cast<ssize_t>(message.size());
 }
 

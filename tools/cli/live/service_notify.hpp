@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
 
 namespace terracut::cli {
 
@@ -19,12 +20,7 @@ class ServiceNotify {
   /// listens.
   [[nodiscard]] static Expected<ServiceNotify> from_environment();
 
-  ServiceNotify() noexcept = default;
-  ServiceNotify(ServiceNotify&& other) noexcept;
-  ServiceNotify& operator=(ServiceNotify&& other) noexcept;
-  ~ServiceNotify();
-
-  [[nodiscard]] bool connected() const noexcept { return descriptor_ >= 0; }
+  [[nodiscard]] bool connected() const noexcept { return static_cast<bool>(socket_); }
   /// Within which time the watchdog has to be fed; none: nobody watches.
   [[nodiscard]] std::optional<std::int64_t> watchdog_ns() const noexcept { return watchdog_ns_; }
 
@@ -39,7 +35,7 @@ class ServiceNotify {
  private:
   [[nodiscard]] bool send(std::string_view message) const noexcept;
 
-  int descriptor_ = -1;
+  files::OwnedDescriptor socket_;
   std::optional<std::int64_t> watchdog_ns_;
 };
 

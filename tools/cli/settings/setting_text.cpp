@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 
@@ -53,46 +54,35 @@ bool is_name(std::string_view text) {
          text.find_first_not_of(kAllowed) == std::string_view::npos;
 }
 
-std::string_view description(TextForm form) {
-  switch (form) {
-    case TextForm::kAddress:
-      return "an IPv4 address";
-    case TextForm::kEndpoint:
-      return "an IPv4 ADDRESS:PORT or a PORT";
-    case TextForm::kServingOrOff:
-      return "an IPv4 ADDRESS:PORT, a PORT or off";
-    case TextForm::kStream:
-      return "an IPv4 ADDRESS:PORT, a PORT or the path of a socket";
-    case TextForm::kName:
-      return "a name of letters, digits, '-', '_' and '.'";
-    case TextForm::kList:
-      return "texts with commas between";
-    case TextForm::kParameter:
-      return "KEY=VALUE";
-    case TextForm::kAny:
-      break;
-  }
-  return "text";
+struct Form {
+  std::string_view name;         ///< In help.
+  std::string_view description;  ///< In messages.
+  bool (*fits)(std::string_view text);
+};
+
+bool is_text(std::string_view text) {
+  return !text.empty();
 }
 
-bool fits(TextForm form, std::string_view text) {
-  switch (form) {
-    case TextForm::kAddress:
-      return net::parse_ipv4_address(text).has_value();
-    case TextForm::kEndpoint:
-      return net::parse_ipv4_endpoint(text).has_value();
-    case TextForm::kServingOrOff:
-      return text == "off" || stream::parse_serving_endpoint(text).has_value();
-    case TextForm::kStream:
-      return stream::parse_stream_address(text).has_value();
-    case TextForm::kName:
-      return is_name(text);
-    case TextForm::kList:
-    case TextForm::kParameter:
-    case TextForm::kAny:
-      break;
-  }
-  return !text.empty();
+/// By TextForm.
+constexpr std::array kForms{
+    Form{"TEXT", "text", is_text},
+    Form{"ADDRESS", "an IPv4 address",
+         [](std::string_view text) { return net::parse_ipv4_address(text).has_value(); }},
+    Form{"[ADDRESS:]PORT", "an IPv4 ADDRESS:PORT or a PORT",
+         [](std::string_view text) { return net::parse_ipv4_endpoint(text).has_value(); }},
+    Form{"[ADDRESS:]PORT|off", "an IPv4 ADDRESS:PORT, a PORT or off",
+         [](std::string_view text) {
+           return text == "off" || stream::parse_serving_endpoint(text).has_value();
+         }},
+    Form{"[ADDRESS:]PORT|PATH", "an IPv4 ADDRESS:PORT, a PORT or the path of a socket",
+         [](std::string_view text) { return stream::parse_stream_address(text).has_value(); }},
+    Form{"NAME", "a name of letters, digits, '-', '_' and '.'", is_name},
+    Form{"TEXT,TEXT", "texts with commas between", is_text},
+    Form{"KEY=VALUE", "KEY=VALUE", is_text}};
+
+const Form& form_of(const Setting& setting) {
+  return kForms[static_cast<std::size_t>(setting.form)];
 }
 
 Status check_text(const Setting& setting, std::string_view text) {
@@ -100,8 +90,8 @@ Status check_text(const Setting& setting, std::string_view text) {
     ground::MethodConfig scratch;
     return ground::apply_setting(scratch, text);
   }
-  if (!fits(setting.form, text)) return wrong(description(setting.form), text);
-  return {};
+  const Form& form = form_of(setting);
+  return form.fits(text) ? Status{} : wrong(form.description, text);
 }
 
 Status add_texts(const Setting& setting, std::string_view text, std::vector<std::string>& texts) {
@@ -118,14 +108,20 @@ Status add_texts(const Setting& setting, std::string_view text, std::vector<std:
 
 }  // namespace
 
+std::string_view form_name(const Setting& setting) {
+  return form_of(setting).name;
+}
+
 std::string allowed_text(const Setting& setting) {
   Options scratch;
   return std::visit(
       Overloaded{
           [](const bool*) { return std::string("yes, no"); },
           [](const std::filesystem::path*) { return std::string("file or folder"); },
-          [&](const std::string*) { return std::string(description(setting.form)); },
-          [&](const std::vector<std::string>*) { return std::string(description(setting.form)); },
+          [&](const std::string*) { return std::string(form_of(setting).description); },
+          [&](const std::vector<std::string>*) {
+            return std::string(form_of(setting).description);
+          },
           [](const ChoiceField& field) { return fmt::format("{}", fmt::join(field.words, ", ")); },
           [&](const auto*) { return fmt::format("{} .. {}", setting.least, setting.most); }},
       setting.field(scratch));

@@ -11,6 +11,9 @@
 
 namespace terracut::cli {
 
+/// What stands for a text of its form in help: "ADDRESS", "TEXT".
+[[nodiscard]] std::string_view form_name(const Setting& setting);
+
 /// What is valid for a setting: "0.2 .. 6", "auto, hdl64e, ruby128", "file or folder".
 [[nodiscard]] std::string allowed_text(const Setting& setting);
 

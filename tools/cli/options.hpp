@@ -15,6 +15,7 @@
 #include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/vehicle/motion_signals.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "tools/lab/drive/return_mode.hpp"
 
@@ -65,21 +66,12 @@ struct OutputOptions {
   std::filesystem::path truth;             ///< Folder of NNNNNN.label: scores the labels.
 };
 
-/// One figure of the vehicle's motion: which signals of the DBC file it is made of.
-struct MotionFigureOptions {
-  std::string signals{};   ///< MESSAGE.SIGNAL or SIGNAL; several, with commas between: the mean.
-  std::string unit{};      ///< Empty: as the DBC file says.
-  double scale = 1;        ///< On top; -1 turns the sign round.
-  std::string sign{};      ///< Signal: negative when not 0. Empty: none.
-  std::string valid{};     ///< Signal that says whether it is valid. Empty: none.
-  double valid_value = 1;  ///< What that has to be.
-};
-
 /// The vehicle's motion on its CAN bus. The signals are named as in the DBC file that simulated
 /// drives have beside them.
 struct MotionOptions {
-  std::filesystem::path dbc;  ///< What the frames mean.
-  MotionFigureOptions speed{.signals = "SPEED"}, yaw_rate{.signals = "YAW_RATE"};
+  std::filesystem::path dbc;              ///< What the frames mean.
+  vehicle::MotionFigure speed, yaw_rate;  ///< Their signals stand below, with commas between.
+  std::string speed_signals = "SPEED", yaw_rate_signals = "YAW_RATE";
   double max_age_ms = 100, timeout_ms = 500;
   double sensor_ahead_m = 0, sensor_left_m = 0;  ///< From the middle of the rear axle.
   frame::FrameInstant deskew_to = frame::FrameInstant::kEnd;

@@ -55,20 +55,21 @@ Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
 
 /// The mount by the ground itself. A sensor at height 0 without tilt: the decoder's vehicle frame
 /// is then the sensor's.
-Expected<mount::MountEstimate> estimate(OpenCapture& capture, const CaptureOptions& options) {
+Expected<mount::MountEstimate> estimate(OpenCapture& capture, const Options& options) {
   std::vector<std::array<float, 3>> points;
   std::uint32_t frames = 0;
   const mount::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
   memory::FixedMemory memory;
   sensor::SensorDecoder decoder(capture.calibration, at_the_sensor,
                                 decoder_config_of(options, capture.sensor.columns), memory);
-  const Status decoded = decode_frames(capture, options, decoder, [&](const RangeImage& image) {
-    frame::for_each_return(image, [&](const PlacedReturn& placed) {
-      if (!ground::is_near_ground_place(placed.point.x_m, placed.point.y_m)) return;
-      points.push_back({placed.point.x_m, placed.point.y_m, placed.point.z_m});
-    });
-    return ++frames < kMountFrames;
-  });
+  const Status decoded =
+      decode_frames(capture, options.capture, decoder, [&](const RangeImage& image) {
+        frame::for_each_return(image, [&](const PlacedReturn& placed) {
+          if (!ground::is_near_ground_place(placed.point.x_m, placed.point.y_m)) return;
+          points.push_back({placed.point.x_m, placed.point.y_m, placed.point.z_m});
+        });
+        return ++frames < kMountFrames;
+      });
   if (!decoded) return tl::unexpected(decoded.error());
   return mount::estimate_mount(points);
 }
@@ -78,7 +79,7 @@ Expected<mount::RingProfileEstimate> measure_rings(OpenCapture& capture, const O
                                                    const mount::RingProfile& geometry) {
   memory::FixedMemory memory;
   sensor::SensorDecoder decoder(capture.calibration, geometry.mount,
-                                decoder_config_of(options.capture, capture.sensor.columns), memory);
+                                decoder_config_of(options, capture.sensor.columns), memory);
   ground::Segmenter segmenter(segmenter_config_of(options.method), geometry, decoder.shape(),
                               decoder.return_capacity(), memory);
   mount::RingProfileEstimate rings(geometry);
@@ -120,7 +121,7 @@ ExitCode run_calibrate(const Options& options) {
   auto mount = mount_of(options.mount);
   if (!mount) return refuse(mount.error());
   if (!options.keep_mount) {
-    const auto estimated = estimate(*capture, options.capture);
+    const auto estimated = estimate(*capture, options);
     if (!estimated) return refuse_work(estimated.error());
     mount = estimated->mount;
     warn_of_poor_fit(*estimated);

@@ -4,19 +4,17 @@
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "tools/cli/commands.hpp"
-#include "tools/cli/console.hpp"
 #include "tools/doctor/checks.hpp"
 #include "tools/doctor/report.hpp"
 
 namespace terracut::cli {
 
 ExitCode run_doctor(const Options& options) {
-  const auto at = net::parse_ipv4_endpoint(options.listen.address);
-  if (!at) return refuse(at.error());
-  const doctor::Requests requests{.interface = options.listen.interface,
-                                  .port = at->port,
-                                  .receive_core = options.realtime.receive_core,
-                                  .segment_core = options.realtime.segment_core};
+  const doctor::Requests requests{
+      .interface = options.listen.interface,
+      .port = net::parse_ipv4_endpoint(options.listen.address).value().port,
+      .receive_core = options.realtime.receive_core,
+      .segment_core = options.realtime.segment_core};
   const doctor::Findings findings = examine(doctor::SystemView::of_this_machine(), requests);
   fmt::print("{}", options.print_json ? json_of(findings) : text_of(findings));
   return count_of(findings, doctor::Verdict::kProblem) == 0 ? kOk : kNotReady;

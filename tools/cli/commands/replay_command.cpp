@@ -99,7 +99,9 @@ class Replay {
       : options_(options),
         capture_(capture),
         motion_(motion),
-        pipeline_(capture.calibration, profile, decoder_config(options, capture, motion),
+        pipeline_(capture.calibration, profile,
+                  decoder_config_of(options, capture.sensor.columns,
+                                    motion != nullptr ? &motion->motion() : nullptr),
                   method_config_of(options.method), memory_),
         clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
@@ -128,15 +130,6 @@ class Replay {
   }
 
  private:
-  [[nodiscard]] static sensor::SensorDecoder::Config decoder_config(const Options& options,
-                                                                    const OpenCapture& capture,
-                                                                    RecordedMotion* motion) {
-    auto config = decoder_config_of(options.capture, capture.sensor.columns);
-    if (motion != nullptr) config.motion = &motion->motion();
-    config.deskew_at = options.motion.deskew_to;
-    return config;
-  }
-
   /// False when the replay is over: a sink failed, Ctrl-C, or the capture broke off.
   bool play_once(Pace& pace) {
     CapturePart part(capture_.source, options_.capture);

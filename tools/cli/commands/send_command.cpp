@@ -13,6 +13,7 @@
 #include "rt/memory/fixed_memory.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/input/open_capture.hpp"
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/send/fault_injector.hpp"
@@ -46,13 +47,7 @@ struct Parts {
 Expected<Parts> open_parts(const Options& options, memory::FixedMemory& memory) {
   auto faults = send::parse_fault_script(options.send.faults);
   if (!faults) return tl::unexpected(faults.error());
-  capture::PcapFilter filter{.port = options.capture.port};
-  if (!options.capture.from.empty()) {
-    const auto from = net::parse_ipv4_address(options.capture.from);
-    if (!from) return tl::unexpected(from.error());
-    filter.source_address = *from;
-  }
-  auto source = PcapSource::open(options.capture.file, filter);
+  auto source = PcapSource::open(options.capture.file, filter_of(options.capture));
   if (!source) return tl::unexpected(source.error());
   send::UdpSenderConfig sender{.interface = options.send.interface};
   auto sensor = send::PortSenders::open(options.send.to, sender, memory);
@@ -60,9 +55,7 @@ Expected<Parts> open_parts(const Options& options, memory::FixedMemory& memory) 
 
   std::optional<send::PortSenders> stranger;
   if (!options.send.foreign_from.empty()) {
-    const auto address = net::parse_ipv4_address(options.send.foreign_from);
-    if (!address) return tl::unexpected(address.error());
-    sender.from = Ipv4Endpoint{*address, 0};
+    sender.from = Ipv4Endpoint{net::parse_ipv4_address(options.send.foreign_from).value(), 0};
     auto opened = send::PortSenders::open(options.send.to, sender, memory);
     if (!opened) return tl::unexpected(opened.error());
     stranger = *std::move(opened);

@@ -18,6 +18,7 @@
 #include "tools/cli/export/live_process.hpp"
 #include "tools/cli/figures/dashboard.hpp"
 #include "tools/cli/figures/figures_json.hpp"
+#include "tools/cli/json_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -60,7 +61,7 @@ ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
                                              page.publisher_pid()));
   }
   if (!status::are_possible(*figures)) return refuse_figures(page, name);
-  fmt::print("{}", as_json ? live_summary(*figures)
+  fmt::print("{}", as_json ? json_text(live_summary(*figures))
                            : dashboard(*figures, measure::realtime_ns(), style_of_stdout()));
   if (!page.publisher_lives()) {
     return refuse(kInputRefused, fmt::format("process {} of '{}' is gone; these were its last "

@@ -10,9 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "rt/files/whole_file.hpp"
 #include "rt/measure/milliseconds.hpp"
-#include "tools/cli/json_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -144,11 +142,6 @@ Json chrome_trace(const status::MonitorSnapshot& figures,
   Trace trace(figures, origin_of(frames));
   for (const status::FrameRecord& frame : frames) trace.add(frame);
   return std::move(trace).take();
-}
-
-Status write_chrome_trace(const std::filesystem::path& path, const status::MonitorSnapshot& figures,
-                          std::span<const status::FrameRecord> frames) {
-  return files::write_whole_file(path, json_text(chrome_trace(figures, frames)));
 }
 
 }  // namespace terracut::cli

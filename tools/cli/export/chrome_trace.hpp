@@ -2,12 +2,10 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
 
 #include "pipeline/status/monitor_snapshot.hpp"
-#include "rt/error.hpp"
 
 namespace terracut::cli {
 
@@ -24,10 +22,5 @@ namespace terracut::cli {
 /// `figures` gives the stages' names and the deadline; `frames` in the order they were judged.
 [[nodiscard]] nlohmann::ordered_json chrome_trace(const status::MonitorSnapshot& figures,
                                                   std::span<const status::FrameRecord> frames);
-
-/// The same as a file, whole or not at all.
-[[nodiscard]] Status write_chrome_trace(const std::filesystem::path& path,
-                                        const status::MonitorSnapshot& figures,
-                                        std::span<const status::FrameRecord> frames);
 
 }  // namespace terracut::cli

@@ -16,22 +16,23 @@
 #include <system_error>
 #include <vector>
 
-#include "pipeline/page/status_page_list.hpp"
 #include "rt/files/owned_descriptor.hpp"
 
 namespace terracut::cli {
 namespace {
 
+using page::StatusPageEntry;
+
 struct Pages {
-  std::vector<LiveProcess> running;
+  std::vector<StatusPageEntry> running;
   std::string left_over;  ///< For people: those of processes that are gone.
 };
 
 Pages pages_in(const std::filesystem::path& folder) {
   Pages pages;
-  for (const page::StatusPageEntry& page : page::list_status_pages(folder)) {
+  for (const StatusPageEntry& page : page::list_status_pages(folder)) {
     if (page.publisher_lives) {
-      pages.running.push_back({page.name, page.pid, page.owner});
+      pages.running.push_back(page);
     } else {
       pages.left_over +=
           fmt::format("; the page '{}' was left by process {}, which is gone", page.name, page.pid);
@@ -40,15 +41,15 @@ Pages pages_in(const std::filesystem::path& folder) {
   return pages;
 }
 
-bool still_runs(const std::filesystem::path& folder, const LiveProcess& process) {
-  return std::ranges::any_of(pages_in(folder).running, [&](const LiveProcess& each) {
+bool still_runs(const std::filesystem::path& folder, const StatusPageEntry& process) {
+  return std::ranges::any_of(pages_in(folder).running, [&](const StatusPageEntry& each) {
     return each.name == process.name && each.pid == process.pid;
   });
 }
 
 /// Is of the user whose page names it, and blocks or catches SIGUSR1, as /proc/PID/status tells in
 /// hexadecimal masks. What cannot be read does not listen: a signal is not sent on a guess.
-bool listens_for_dumps(const LiveProcess& process) {
+bool listens_for_dumps(const StatusPageEntry& process) {
   constexpr std::uint64_t kSignal = std::uint64_t{1} << (SIGUSR1 - 1);
   std::ifstream status(fmt::format("/proc/{}/status", process.pid));
   bool is_owners = false;
@@ -66,7 +67,7 @@ bool listens_for_dumps(const LiveProcess& process) {
   return false;
 }
 
-Error system_refusal(const LiveProcess& process, int error_number) {
+Error system_refusal(const StatusPageEntry& process, int error_number) {
   if (error_number == ESRCH) {
     return {ErrorCode::kNotFound, fmt::format("'{}' has just ended", process.name)};
   }
@@ -78,11 +79,11 @@ Error system_refusal(const LiveProcess& process, int error_number) {
 
 }  // namespace
 
-Expected<LiveProcess> find_live_process(const std::filesystem::path& folder,
-                                        const std::string& name) {
+Expected<StatusPageEntry> find_live_process(const std::filesystem::path& folder,
+                                            const std::string& name) {
   const auto [processes, left_over] = pages_in(folder);
   std::string names;
-  for (const LiveProcess& process : processes) {
+  for (const StatusPageEntry& process : processes) {
     if (!name.empty() && process.name == name) return process;
     names += (names.empty() ? "" : ", ") + process.name;
   }
@@ -101,7 +102,7 @@ Expected<LiveProcess> find_live_process(const std::filesystem::path& folder,
       fmt::format("no `terracut live` is running under the name '{}'; running: {}", name, names));
 }
 
-Status ask_for_dump(const std::filesystem::path& folder, const LiveProcess& process) {
+Status ask_for_dump(const std::filesystem::path& folder, const StatusPageEntry& process) {
   // The descriptor stands for this very process: once it is seen to be the right one, the signal
   // cannot reach another that was given its number later.
   const files::OwnedDescriptor held(static_cast<int>(::syscall(SYS_pidfd_open, process.pid, 0)));

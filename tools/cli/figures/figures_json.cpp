@@ -10,7 +10,6 @@
 
 #include "pipeline/status/figures.hpp"
 #include "rt/measure/milliseconds.hpp"
-#include "tools/cli/json_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -66,11 +65,11 @@ void add_figures(std::span<const status::Figure> figures, Json& json) {
   }
 }
 
-std::string live_summary(const status::MonitorSnapshot& figures) {
+Json live_summary(const status::MonitorSnapshot& figures) {
   Json json;
   add_figures(status::figures_of(figures), json);
   if (!json.contains("threads")) json["threads"] = Json::array();  // none runs yet
-  return json_text(json);
+  return json;
 }
 
 }  // namespace terracut::cli

@@ -2,14 +2,11 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <filesystem>
 #include <nlohmann/json_fwd.hpp>
 #include <span>
-#include <string>
 
 #include "pipeline/status/figure.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
-#include "rt/error.hpp"
 
 namespace terracut::cli {
 
@@ -17,10 +14,9 @@ namespace terracut::cli {
 /// times of day nanoseconds, histograms {count, mean, p50, p90, p99, p99.9, max} of milliseconds.
 void add_figures(std::span<const status::Figure> figures, nlohmann::ordered_json& json);
 
-/// All figures of a live run for programs, as `terracut top --json` prints them and a run writes
-/// them at its end: those of status::figures_of(), under their keys. `motion` and `health` are
-/// there where they are asked for; `blind` is null where no blind sector is known. Texts that are
-/// no UTF-8 (a status page is written by others) come out with U+FFFD.
-[[nodiscard]] std::string live_summary(const status::MonitorSnapshot& figures);
+/// All figures of a live run for programs, as `terracut top --print-json` prints them and a run
+/// writes them at its end: those of status::figures_of(), under their keys. `motion` and `health`
+/// are there where they are asked for; `blind` is null where no blind sector is known.
+[[nodiscard]] nlohmann::ordered_json live_summary(const status::MonitorSnapshot& figures);
 
 }  // namespace terracut::cli

@@ -12,7 +12,6 @@
 #include "pipeline/status/figures.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "pipeline/status/times_table.hpp"
-#include "rt/measure/milliseconds.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/words.hpp"
@@ -22,41 +21,41 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-using measure::milliseconds;
 using status::Figure;
 using status::FrameRecord;
 using status::Shown;
 
-Json losses_json(const frame::LossCounters& losses) {
-  Json json = Json::object();
-  for (const status::NamedCount& cause : status::causes_of(losses)) {
-    json[std::string(cause.name.view())] = cause.count;
-  }
-  return json;
-}
-
-Json milliseconds_json(const FrameRecord& frame) {
-  Json json;
-  json["decode"] = milliseconds(frame.decode_cpu_ns);
-  for (std::size_t i = 0; i < frame.stages.stage_ns.size(); ++i) {
-    json[std::string(to_string(static_cast<stage::Stage>(i)))] =
-        milliseconds(frame.stages.stage_ns[i]);
-  }
-  json["total"] = milliseconds(frame.decode_cpu_ns + frame.stages.sum_ns());
-  json["after_frame"] = milliseconds(frame.after_frame_cpu_ns());
-  return json;
-}
-
-/// How many cells the cut had to decide, how many kept their coarse label for want of budget, and
-/// the operations it took.
-Json min_cut_json(const min_cut::CutReport& cut) {
-  return {{"unknown", cut.unknown},
-          {"coarse", cut.coarse_by_cap + cut.coarse_by_budget},
-          {"ops", cut.operations()}};
-}
-
 bool is_deskewed(const FrameRecord& frame) {
   return frame.info.deskew.state == frame::DeskewState::kDone;
+}
+
+/// What the report has of every frame: of its cut, how many cells it had to decide, how many kept
+/// their coarse label for want of budget, and the operations it took.
+std::vector<Figure> frame_figures(const FrameRecord& frame) {
+  const min_cut::CutReport& cut = frame.segmentation.cut;
+  const auto count = [](std::uint64_t of) { return status::Value(of); };
+  std::vector<Figure> figures{
+      {"frame", count(frame.info.number)},
+      {"first_packet_ns", status::TimeOfDay{frame.info.first_packet_ns}},
+      {"complete", frame.info.complete},
+      {"returns_in", count(frame.info.returns)},
+      {"returns_labelled", count(frame.segmentation.labelled())},
+      {"losses", status::counts_of("cause", status::causes_of(frame.info.losses))}};
+  const auto add_ms = [&](std::string_view key, std::int64_t ns) {
+    figures.push_back({key, status::Duration{ns}, {}, {}, "ms"});
+  };
+  add_ms("decode", frame.decode_cpu_ns);
+  for (std::size_t i = 0; i < frame.stages.stage_ns.size(); ++i) {
+    add_ms(to_string(static_cast<stage::Stage>(i)), frame.stages.stage_ns[i]);
+  }
+  add_ms("total", frame.decode_cpu_ns + frame.stages.sum_ns());
+  add_ms("after_frame", frame.after_frame_cpu_ns());
+  figures.insert(figures.end(),
+                 {{"segment_wall_ms", status::Duration{frame.stages.segment_wall_ns}},
+                  {"unknown", count(cut.unknown), {}, {}, "min_cut"},
+                  {"coarse", count(cut.coarse_by_cap + cut.coarse_by_budget), {}, {}, "min_cut"},
+                  {"ops", count(cut.operations()), {}, {}, "min_cut"}});
+  return figures;
 }
 
 /// How the vehicle's motion and the frames fit together in time.
@@ -212,15 +211,7 @@ Status Report::write_json(const std::filesystem::path& path) const {
   add_figures(run_figures(), json);
   Json& frames = json["frames"] = Json::array();
   for (const FrameRecord& frame : records) {
-    frames.push_back({{"frame", frame.info.number},
-                      {"first_packet_ns", frame.info.first_packet_ns},
-                      {"complete", frame.info.complete},
-                      {"returns_in", frame.info.returns},
-                      {"returns_labelled", frame.segmentation.labelled()},
-                      {"losses", losses_json(frame.info.losses)},
-                      {"ms", milliseconds_json(frame)},
-                      {"segment_wall_ms", milliseconds(frame.stages.segment_wall_ns)},
-                      {"min_cut", min_cut_json(frame.segmentation.cut)}});
+    add_figures(frame_figures(frame), frames.emplace_back());
     if (motion_samples) frames.back()["deskewed"] = is_deskewed(frame);
   }
   add_figures(summary_figures(), json["summary"]);

@@ -42,9 +42,8 @@ Status check_inputs(const Options& options) {
 
 Status check_before_listening(const Options& options) {
   if (Status inputs = check_inputs(options); !inputs || options.stream.empty()) return inputs;
-  const auto address = stream::parse_stream_address(options.stream);
-  if (!address) return tl::unexpected(address.error());
-  return status_of(stream::ListeningSocket::open(*address));
+  const auto address = stream::parse_stream_address(options.stream).value();
+  return status_of(stream::ListeningSocket::open(address));
 }
 
 }  // namespace terracut::cli

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "open_capture.hpp"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <limits>
@@ -18,16 +17,6 @@ namespace terracut::cli {
 namespace {
 
 using capture::PcapSource;
-
-capture::PcapFilter filter_of(const CaptureOptions& options) {
-  capture::PcapFilter filter;
-  filter.port = options.port;
-  in_addr address{};
-  if (!options.from.empty() && ::inet_pton(AF_INET, options.from.c_str(), &address) == 1) {
-    filter.source_address = ntohl(address.s_addr);
-  }
-  return filter;
-}
 
 std::int64_t nanoseconds(double seconds) {
   return static_cast<std::int64_t>(seconds * 1e9);
@@ -50,6 +39,12 @@ std::string describe(const calib::SensorCalibration& calibration) {
 }
 
 }  // namespace
+
+capture::PcapFilter filter_of(const CaptureOptions& options) {
+  capture::PcapFilter filter{.port = options.port};
+  if (const auto from = net::parse_ipv4_address(options.from)) filter.source_address = *from;
+  return filter;
+}
 
 Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   auto source = PcapSource::open(options.file, filter_of(options));

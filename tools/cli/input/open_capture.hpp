@@ -24,6 +24,9 @@ struct OpenCapture {
   std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
 };
 
+/// --port and --from.
+[[nodiscard]] capture::PcapFilter filter_of(const CaptureOptions& options);
+
 /// Opens the capture, of which one unit's datagrams alone are read, and chooses sensor and
 /// calibration (sensor_choice.hpp, unit_calibration.hpp). Says on stderr which they are.
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);

@@ -34,19 +34,15 @@ void FiguresDisplay::open_page(const WatchOptions& options) {
 }
 
 void FiguresDisplay::open_metrics(const WatchOptions& options) {
-  const auto at = stream::parse_serving_endpoint(options.metrics);
-  if (!at) {
-    warn("no /metrics: " + at.error().message);
-    return;
-  }
-  auto server = MetricsServer::start(net::ipv4_text(at->address), at->port,
+  const net::Ipv4Endpoint at = stream::parse_serving_endpoint(options.metrics).value();
+  auto server = MetricsServer::start(net::ipv4_text(at.address), at.port,
                                      [this](status::MonitorSnapshot& figures) {
                                        const std::scoped_lock lock(shown_mutex_);
                                        figures = *shown_;
                                      });
   if (server) {
     metrics_.emplace(*std::move(server));
-    say(fmt::format("figures at http://{}:{}/metrics", net::ipv4_text(at->address),
+    say(fmt::format("figures at http://{}:{}/metrics", net::ipv4_text(at.address),
                     metrics_->port()));
   } else {
     warn("no /metrics: " + server.error().message);

@@ -18,12 +18,11 @@ using Seconds = std::chrono::duration<double>;
 /// Who else listens at the device port shall go on doing so.
 std::optional<net::LiveSource> open_device_port(const Options& options,
                                                 memory::FixedMemory& memory) {
-  auto listen = listen_config_of(options);
-  if (!listen) return std::nullopt;
-  listen->at.port = options.listen.device_port;
-  listen->share_port = true;
-  listen->sender.reset();
-  auto opened = net::LiveSource::open(*listen, memory);
+  net::ListenConfig listen = listen_config_of(options);
+  listen.at.port = options.listen.device_port;
+  listen.share_port = true;
+  listen.sender.reset();
+  auto opened = net::LiveSource::open(listen, memory);
   if (opened) return *std::move(opened);
   if (options.capture.sensor == sensor::SensorModel::kRuby128) {
     warn("the sensor's device information is not heard: " + opened.error().message);
@@ -33,25 +32,19 @@ std::optional<net::LiveSource> open_device_port(const Options& options,
 
 }  // namespace
 
-Expected<net::ListenConfig> listen_config_of(const Options& options) {
+net::ListenConfig listen_config_of(const Options& options) {
   const ListenOptions& listen = options.listen;
-  net::ListenConfig config{.by_libpcap = listen.via == ListenVia::kLibpcap,
+  net::ListenConfig config{.at = net::parse_ipv4_endpoint(listen.address).value(),
+                           .by_libpcap = listen.via == ListenVia::kLibpcap,
                            .interface = listen.interface,
                            .multicast_group = {},
                            .share_port = listen.share_port,
                            .sender = {}};
-  const auto at = net::parse_ipv4_endpoint(listen.address);
-  if (!at) return tl::unexpected(at.error());
-  config.at = *at;
   if (!listen.multicast.empty()) {
-    const auto group = net::parse_ipv4_address(listen.multicast);
-    if (!group) return tl::unexpected(group.error());
-    config.multicast_group = *group;
+    config.multicast_group = net::parse_ipv4_address(listen.multicast).value();
   }
   if (!options.capture.from.empty()) {
-    const auto sender = net::parse_ipv4_address(options.capture.from);
-    if (!sender) return tl::unexpected(sender.error());
-    config.sender = *sender;
+    config.sender = net::parse_ipv4_address(options.capture.from).value();
   }
   return config;
 }

@@ -12,8 +12,8 @@
 
 namespace terracut::cli {
 
-/// What the options ask for; the errors of parse_ipv4_endpoint() and parse_ipv4_address().
-[[nodiscard]] Expected<net::ListenConfig> listen_config_of(const Options& options);
+/// What the options ask for.
+[[nodiscard]] net::ListenConfig listen_config_of(const Options& options);
 
 /// Listens until a sensor is known and its calibration, too: as long as it takes, at most
 /// `options.patience_s` where there is such, or until stop_wanted(). `on_waiting` is told many

@@ -23,7 +23,6 @@
 #include "pipeline/run/live_threads.hpp"
 #include "pipeline/run/stream_writer.hpp"
 #include "pipeline/run/vehicle_motion.hpp"
-#include "rt/files/whole_file.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/locked_memory.hpp"
 #include "tools/cli/commands.hpp"
@@ -32,6 +31,7 @@
 #include "tools/cli/figures/dashboard.hpp"
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/input/input_check.hpp"
+#include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/motion_choice.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
@@ -55,9 +55,7 @@ void say_refusals(const std::vector<threads::Grant>& grants) {
 }
 
 Expected<net::LiveSource> open_source(const Options& options, memory::FixedMemory& memory) {
-  const auto config = listen_config_of(options);
-  if (!config) return tl::unexpected(config.error());
-  auto source = net::LiveSource::open(*config, memory);
+  auto source = net::LiveSource::open(listen_config_of(options), memory);
   if (!source) return source;
   for (const std::string& warning : source->warnings()) warn(warning);
   say("listening at " + source->name());
@@ -152,10 +150,8 @@ struct LiveParts {
   static sensor::SensorDecoder::Config decoder_config(const Options& options,
                                                       const sensor::SensorOnAir& sensor,
                                                       std::optional<run::VehicleMotion>& motion) {
-    auto config = decoder_config_of(options.capture, sensor.columns);
+    auto config = decoder_config_of(options, sensor.columns, motion ? &motion->motion() : nullptr);
     config.reorder_packets = options.capture.reorder_packets.value_or(0);
-    if (motion) config.motion = &motion->motion();
-    config.deskew_at = options.motion.deskew_to;
     return config;
   }
   static run::LiveThreads::Config threads_config(const Options& options,
@@ -189,13 +185,11 @@ class Writers {
   [[nodiscard]] Status open(const Options& options, const sensor::SensorOnAir& sensor,
                             LiveParts& parts) {
     if (parts.threads.points()) {
-      const auto address = stream::parse_stream_address(options.stream);
-      if (!address) return tl::unexpected(address.error());
-      auto server =
-          stream::FrameStreamServer::open({.address = *address,
-                                           .unix_mode = options.stream_mode,
-                                           .max_points = parts.pipeline.decoder.return_capacity()},
-                                          stream_memory_);
+      auto server = stream::FrameStreamServer::open(
+          {.address = stream::parse_stream_address(options.stream).value(),
+           .unix_mode = options.stream_mode,
+           .max_points = parts.pipeline.decoder.return_capacity()},
+          stream_memory_);
       if (!server) return tl::unexpected(server.error());
       if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
       say("labelled points at " + to_string(server->address()));
@@ -268,14 +262,9 @@ void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor
 ExitCode conclude(const Options& options, const LiveWatch& watch) {
   const status::MonitorSnapshot& figures = watch.figures();
   fmt::print("{}", closing_lines(figures));
-  if (!options.output.json.empty()) {
-    const Status written = files::write_whole_file(options.output.json, live_summary(figures));
-    if (!written) return refuse(written.error());
-  }
-  if (!options.trace.empty()) {
-    const Status written = write_chrome_trace(options.trace, figures, watch.newest());
-    if (!written) return refuse(written.error());
-  }
+  Status written = write_json(options.output.json, live_summary(figures));
+  if (written) written = write_json(options.trace, chrome_trace(figures, watch.newest()));
+  if (!written) return refuse(written.error());
   if (figures.interrupted != 0) return kInterrupted;
   if (figures.frames == 0) return refuse(kNothingCameOut, why_no_frames(figures));
   return figures.all_misses() > 0 ? kDeadlinesMissed : kOk;

@@ -4,13 +4,17 @@
 
 namespace terracut::cli {
 
-sensor::SensorDecoder::Config decoder_config_of(const CaptureOptions& options, int columns) {
+sensor::SensorDecoder::Config decoder_config_of(const Options& options, int columns,
+                                                vehicle::EgoMotion* motion) {
+  const CaptureOptions& capture = options.capture;
   sensor::SensorDecoder::Config config;
   config.columns = columns;
-  config.reorder_packets = options.reorder_packets.value_or(config.reorder_packets);
-  config.dual_owner = options.cell_owner;
-  config.hdl64e.geometry = options.geometry;
-  config.ruby128.timestamp = options.timestamp;
+  config.reorder_packets = capture.reorder_packets.value_or(config.reorder_packets);
+  config.dual_owner = capture.cell_owner;
+  config.hdl64e.geometry = capture.geometry;
+  config.ruby128.timestamp = capture.timestamp;
+  config.motion = motion;
+  config.deskew_at = options.motion.deskew_to;
   return config;
 }
 

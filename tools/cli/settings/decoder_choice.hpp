@@ -7,9 +7,9 @@
 
 namespace terracut::cli {
 
-/// The decoder that the options ask for, without the vehicle's motion.
-/// `columns`: of the range image, 0 for the sensor's default.
-[[nodiscard]] sensor::SensorDecoder::Config decoder_config_of(const CaptureOptions& options,
-                                                              int columns);
+/// The decoder that the options ask for. `columns`: of the range image, 0 for the sensor's default.
+/// `motion`: the vehicle's, by which frames are deskewed; null: they are not.
+[[nodiscard]] sensor::SensorDecoder::Config decoder_config_of(const Options& options, int columns,
+                                                              vehicle::EgoMotion* motion = nullptr);
 
 }  // namespace terracut::cli

@@ -28,15 +28,6 @@ std::vector<std::string> names_in(std::string_view text) {
   return names;
 }
 
-vehicle::MotionFigure figure_of(const MotionFigureOptions& options) {
-  return {.signals = names_in(options.signals),
-          .unit = options.unit,
-          .scale = options.scale,
-          .sign = options.sign,
-          .valid = options.valid,
-          .valid_value = options.valid_value};
-}
-
 }  // namespace
 
 Expected<vehicle::MotionSignals> motion_signals_of(const MotionOptions& options) {
@@ -47,10 +38,13 @@ Expected<vehicle::MotionSignals> motion_signals_of(const MotionOptions& options)
   }
   const auto file = vehicle::read_dbc(options.dbc);
   if (!file) return tl::unexpected(file.error());
-  auto motion = vehicle::MotionSignals::make(*file, {.speed = figure_of(options.speed),
-                                                     .yaw_rate = figure_of(options.yaw_rate),
-                                                     .max_age_s = options.max_age_ms / 1000,
-                                                     .timeout_s = options.timeout_ms / 1000});
+  vehicle::MotionSignalsConfig config{.speed = options.speed,
+                                      .yaw_rate = options.yaw_rate,
+                                      .max_age_s = options.max_age_ms / 1000,
+                                      .timeout_s = options.timeout_ms / 1000};
+  config.speed.signals = names_in(options.speed_signals);
+  config.yaw_rate.signals = names_in(options.yaw_rate_signals);
+  auto motion = vehicle::MotionSignals::make(*file, config);
   if (!motion) {
     return fail(motion.error().code,
                 fmt::format("{}; the keys below motion of the configuration say which signals are "

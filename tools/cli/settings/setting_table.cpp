@@ -6,6 +6,7 @@
 
 #include "pipeline/ground/ground_method.hpp"
 #include "setting.hpp"
+#include "tools/lab/scenes/scene_names.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "words.hpp"
 
@@ -146,7 +147,7 @@ constexpr std::array kSettings{
     Setting{.key = "motion.dbc", .option = "--dbc", .commands = kDriven, .help = "DBC file that says what the vehicle's CAN frames mean",
             .needs = "--can", .reads = "the DBC file", .field = [](O& o) -> F { return &o.motion.dbc; }},
     Setting{.key = "motion.speed", .commands = kDriven, .help = "Speed: its signal in the DBC file, SIGNAL or MESSAGE.SIGNAL; several, with commas between: their mean",
-            .field = [](O& o) -> F { return &o.motion.speed.signals; }},
+            .field = [](O& o) -> F { return &o.motion.speed_signals; }},
     Setting{.key = "motion.speed_unit", .commands = kDriven, .help = "Unit of these signals; file: as the DBC file says",
             .field = [](O& o) -> F { return choice(o.motion.speed.unit, kSpeedUnitWords); }},
     Setting{.key = "motion.speed_scale", .commands = kDriven, .help = "Factor on top; -1 turns the sign round",
@@ -158,7 +159,7 @@ constexpr std::array kSettings{
     Setting{.key = "motion.speed_valid_value", .commands = kDriven, .help = "What that signal has to be",
             .least = -1e9, .most = 1e9, .field = [](O& o) -> F { return &o.motion.speed.valid_value; }},
     Setting{.key = "motion.yaw_rate", .commands = kDriven, .help = "Yaw rate, to the left positive: its signal in the DBC file, SIGNAL or MESSAGE.SIGNAL; several, with commas between: their mean",
-            .field = [](O& o) -> F { return &o.motion.yaw_rate.signals; }},
+            .field = [](O& o) -> F { return &o.motion.yaw_rate_signals; }},
     Setting{.key = "motion.yaw_rate_unit", .commands = kDriven, .help = "Unit of these signals; file: as the DBC file says",
             .field = [](O& o) -> F { return choice(o.motion.yaw_rate.unit, kYawRateUnitWords); }},
     Setting{.key = "motion.yaw_rate_scale", .commands = kDriven, .help = "Factor on top; -1 turns the sign round",
@@ -237,7 +238,7 @@ constexpr std::array kSettings{
             .least = 0, .most = kMostLoops, .bare = "0", .field = [](O& o) -> F { return &o.replay.loops; }},
 
     Setting{.key = "simulate.scene", .option = "--scene", .commands = C::kSimulate, .help = "What is driven through",
-            .field = [](O& o) -> F { return choice(o.simulate.scene, kSceneWords); }},
+            .field = [](O& o) -> F { return name_choice(o.simulate.scene, {scenes::scene_names().begin(), scenes::scene_names().end()}); }},
     Setting{.key = "simulate.seed", .option = "--seed", .commands = kDrives, .help = "The same seed gives the same drive",
             .least = 0, .most = kMostSeed, .field = [](O& o) -> F { return &o.simulate.seed; }},
     Setting{.key = "simulate.duration_s", .option = "--duration", .commands = kDrives, .unit = "s", .help = "How long to drive",

@@ -54,9 +54,6 @@ inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", fal
 
 // Words that stay words below, too.
 using TextWord = Word<std::string_view>;
-inline constexpr std::array kSceneWords{TextWord{"street", "street"},
-                                        TextWord{"highway", "highway"}, TextWord{"rural", "rural"},
-                                        TextWord{"flat", "flat"}, TextWord{"hill", "hill"}};
 inline constexpr std::array kSpeedUnitWords{TextWord{"file", ""}, TextWord{"m/s", "m/s"},
                                             TextWord{"km/h", "km/h"}, TextWord{"mph", "mph"}};
 inline constexpr std::array kYawRateUnitWords{TextWord{"file", ""}, TextWord{"rad/s", "rad/s"},

@@ -4,14 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "tests/pipeline/status/watched_run.hpp"
-#include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -121,15 +119,6 @@ TEST(ChromeTrace, LeavesOutWhatIsNotKnown) {
   const Json trace = chrome_trace(run.figures(), nothing_known);
   for (const Json& event : trace["traceEvents"]) EXPECT_EQ(event["ph"], "M");
   EXPECT_TRUE(chrome_trace(run.figures(), {})["traceEvents"].is_array());
-}
-
-TEST(ChromeTrace, IsWrittenAsAFileThatParses) {
-  status::WatchedRun run;
-  const auto folder = test::make_scratch_folder();
-  ASSERT_TRUE(write_chrome_trace(folder / "trace.json", run.figures(), run.frames()));
-  std::ifstream file(folder / "trace.json");
-  EXPECT_EQ(nlohmann::json::parse(file)["displayTimeUnit"], "ms");
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

@@ -7,12 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/pipeline/status/watched_run.hpp"
+#include "tools/cli/json_text.hpp"
 
 namespace terracut::cli {
 namespace {
 
 nlohmann::json summary_of(status::WatchedRun& run) {
-  return nlohmann::json::parse(live_summary(run.figures()));
+  return nlohmann::json::parse(json_text(live_summary(run.figures())));
 }
 
 TEST(LiveSummary, HoldsWhatWasCounted) {

@@ -56,12 +56,9 @@ TEST_F(MotionChoice, TakesTheSignalsOfSimulatedDrivesByDefault) {
 }
 
 TEST_F(MotionChoice, TakesEverythingThatTheConfigurationCanSay) {
-  options_.speed = {.signals = "FL, WHEELS.FR",
-                    .unit = "m/s",
-                    .scale = 2,
-                    .sign = "BACK",
-                    .valid = "OK",
-                    .valid_value = 2};
+  options_.speed_signals = "FL, WHEELS.FR";
+  options_.speed = {
+      .signals = {}, .unit = "m/s", .scale = 2, .sign = "BACK", .valid = "OK", .valid_value = 2};
   options_.yaw_rate.unit = "rad/s";
   auto motion = motion_signals_of(options_);
   ASSERT_TRUE(motion) << motion.error().message;
@@ -76,14 +73,14 @@ TEST_F(MotionChoice, TakesEverythingThatTheConfigurationCanSay) {
 }
 
 TEST_F(MotionChoice, SaysWhatIsMissingAndWhereItIsSaid) {
-  options_.speed.signals = ",FL";
+  options_.speed_signals = ",FL";
   EXPECT_THAT(refusal(ErrorCode::kInvalidArgument), HasSubstr("no signal ''"));
-  options_.speed.signals = "V";
+  options_.speed_signals = "V";
   EXPECT_THAT(refusal(ErrorCode::kInvalidArgument),
               AllOf(HasSubstr("speed: "), HasSubstr("no signal 'V'"), HasSubstr("below motion")));
-  options_.speed.signals = "FL";
+  options_.speed_signals = "FL";
   EXPECT_THAT(refusal(ErrorCode::kInvalidArgument), HasSubstr("FL has no unit"));
-  options_.speed.signals = "SPEED";
+  options_.speed_signals = "SPEED";
   options_.timeout_ms = 50;
   EXPECT_THAT(refusal(ErrorCode::kInvalidArgument), HasSubstr("timeout 0.05 s"));
   options_.dbc = folder_ / "none.dbc";

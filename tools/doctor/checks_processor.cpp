@@ -26,6 +26,11 @@ std::set<int> missing_of(const Requests& requests, const std::set<int>& cores) {
   return missing;
 }
 
+std::string cores_text(const std::set<int>& cores, const std::set<int>& missing) {
+  if (cores.empty()) return "none";
+  return fmt::format("{}, but not {}", fmt::join(cores, ","), fmt::join(missing, ","));
+}
+
 /// The cores to set apart: those asked for, else the last two.
 std::string cores_to_free(const SystemView& system, const Requests& requests) {
   std::set<int> cores = missing_of(requests, {});
@@ -77,10 +82,7 @@ Finding check_isolated_cores(const SystemView& system, const Requests& requests)
             "everything on the machine shares it with the frames",
             "use a machine with two or more"};
   }
-  return {"isolated cores", Verdict::kWarning,
-          isolated.empty()
-              ? std::string("none")
-              : fmt::format("{}, but not {}", fmt::join(isolated, ","), fmt::join(missing, ",")),
+  return {"isolated cores", Verdict::kWarning, cores_text(isolated, missing),
           "other programs, and the kernel's own work for them, run on the cores of the frames",
           fmt::format("add isolcpus=managed_irq,domain,{}{}; and name these cores as "
                       "realtime.receive_core and segment_core",
@@ -95,10 +97,7 @@ Finding check_tickless_cores(const SystemView& system, const Requests& requests)
   }
   // Only worth a word where cores are set apart at all; the check before asks for that.
   if (list_in(system, "isolated").empty()) return ok("tickless cores", "none");
-  return {"tickless cores", Verdict::kWarning,
-          tickless.empty()
-              ? std::string("none")
-              : fmt::format("{}, but not {}", fmt::join(tickless, ","), fmt::join(missing, ",")),
+  return {"tickless cores", Verdict::kWarning, cores_text(tickless, missing),
           "the kernel's tick and RCU interrupt the isolated cores up to a thousand times a second",
           fmt::format("add nohz_full={0} rcu_nocbs={0}{1}", cores_to_free(system, requests),
                       kThenGrub)};

@@ -29,6 +29,13 @@ std::optional<std::int64_t> soft_limit(const SystemView& system, std::string_vie
   return std::strtoll(words.front().c_str(), nullptr, 10);
 }
 
+std::string mend_of_limit(std::string_view limit) {
+  return fmt::format(
+      "setcap cap_sys_nice,cap_ipc_lock,cap_net_raw+ep $(command -v terracut); or a line '$USER - "
+      "{}' in /etc/security/limits.d/terracut.conf; the service has the right already",
+      limit);
+}
+
 }  // namespace
 
 bool has_capability(const SystemView& system, int capability) {
@@ -48,9 +55,7 @@ Finding check_priority(const SystemView& system) {
           limit == 0 ? std::string("real-time priorities are not allowed")
                      : fmt::format("up to {} only (rtprio)", limit),
           "without them every other program's threads can make frames late",
-          "setcap cap_sys_nice,cap_ipc_lock,cap_net_raw+ep $(command -v terracut); or a line "
-          "'$USER - rtprio 95' in "
-          "/etc/security/limits.d/terracut.conf; the service has the right already"};
+          mend_of_limit("rtprio 95")};
 }
 
 Finding check_locked_memory(const SystemView& system) {
@@ -61,9 +66,7 @@ Finding check_locked_memory(const SystemView& system) {
   if (limit >= kMemoryToLock) return ok("locked memory", found);
   return {"locked memory", Verdict::kProblem, found,
           "memory that is not locked can be taken away, and a frame then waits for the disk",
-          "setcap cap_sys_nice,cap_ipc_lock,cap_net_raw+ep $(command -v terracut); or a line "
-          "'$USER - memlock unlimited' in "
-          "/etc/security/limits.d/terracut.conf; the service has the right already"};
+          mend_of_limit("memlock unlimited")};
 }
 
 Finding check_raw_capture(const SystemView& system) {

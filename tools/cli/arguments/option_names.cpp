@@ -3,6 +3,7 @@
 #include "option_names.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <optional>
 #include <string_view>
@@ -37,14 +38,12 @@ std::string did_you_mean(std::string_view word, const std::vector<std::string_vi
 
 Expected<Command> command_named(std::string_view name) {
   std::vector<std::string_view> names;
-  std::string all;
   for (std::size_t i = 0; i < kCommands.size(); ++i) {
     if (kCommands[i].name == name) return static_cast<Command>(i);
     names.push_back(kCommands[i].name);
-    all += (i == 0 ? "" : ", ") + std::string(kCommands[i].name);
   }
   return wrong(fmt::format("there is no command '{}'{}; expected one of {}", name,
-                           did_you_mean(name, names), all));
+                           did_you_mean(name, names), fmt::join(names, ", ")));
 }
 
 /// Why the command does not have it, where that is to be said.

@@ -74,7 +74,7 @@ Expected<Packets> load(OpenCapture& capture, const CaptureOptions& options) {
 struct BenchResult {
   TimeSummary times;                             ///< Of whole frames.
   measure::LogLinearHistogram decode_column_ns;  ///< Mean of each pass.
-  std::uint64_t frames = 0, returns = 0, unlabelled = 0;
+  std::uint64_t returns = 0, unlabelled = 0;
   std::vector<status::FrameRecord> each;  ///< In order, pass after pass.
 };
 
@@ -86,7 +86,6 @@ void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResu
     if (result == nullptr || !record.info.complete) return;
     result->times.add(record);
     result->each.push_back(record);
-    ++result->frames;
     result->returns += record.info.returns;
     result->unlabelled += record.info.returns - record.segmentation.labelled();
   };
@@ -128,7 +127,7 @@ nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frame
 std::vector<status::Figure> figures_of(const Options& options, const BenchResult& result,
                                        int core) {
   const double returns_per_frame =
-      static_cast<double>(result.returns) / static_cast<double>(result.frames);
+      static_cast<double>(result.returns) / static_cast<double>(result.each.size());
   const auto column_ns = [&](double percent) {
     return static_cast<std::uint64_t>(result.decode_column_ns.percentile_ns(percent));
   };
@@ -139,7 +138,7 @@ std::vector<status::Figure> figures_of(const Options& options, const BenchResult
       {"input", options.capture.file.string()},
       {"processor", processor_name(), {}, {"processor"}},
       {{}, core < 0 ? "not pinned" : fmt::format("core {}", core), {}, {"processor"}},
-      {"frames", result.frames, {}, {"frames"}},
+      {"frames", result.each.size(), {}, {"frames"}},
       {{}, static_cast<std::uint64_t>(options.bench_repeat), {}, {"frames", " ({} passes)"}},
       {"returns_per_frame",
        status::Number{returns_per_frame, 0, 1e9},
@@ -197,7 +196,7 @@ ExitCode run_bench(const Options& options) {
     result.decode_column_ns.record(static_cast<std::int64_t>(run_decoding(decoder, *packets)));
     progress.update(pass + 1);
   }
-  if (result.frames == 0) {
+  if (result.each.empty()) {
     return refuse(nothing_came_out(capture->source, packets->datagrams.size(), first_pass_losses));
   }
   return conclude(options, result, core);

@@ -80,7 +80,7 @@ Expected<mount::RingProfileEstimate> measure_rings(OpenCapture& capture, const O
   memory::FixedMemory memory;
   sensor::SensorDecoder decoder(capture.calibration, geometry.mount,
                                 decoder_config_of(options, capture.sensor.columns), memory);
-  ground::Segmenter segmenter(segmenter_config_of(options.method), geometry, decoder.shape(),
+  ground::Segmenter segmenter(method_config_of(options.method).segmenter, geometry, decoder.shape(),
                               decoder.return_capacity(), memory);
   mount::RingProfileEstimate rings(geometry);
   std::vector<mount::RingObservation> observations;

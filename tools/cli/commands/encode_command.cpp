@@ -11,7 +11,6 @@
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/command_files.hpp"
 #include "tools/cli/stop_signal.hpp"
-#include "tools/lab/drive/vehicle_log.hpp"
 #include "tools/lab/encode/scan_drive.hpp"
 
 namespace terracut::cli {

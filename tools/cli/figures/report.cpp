@@ -54,7 +54,7 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
                  {{"segment_wall_ms", status::Duration{frame.stages.segment_wall_ns}},
                   {"unknown", count(cut.unknown), {}, {}, "min_cut"},
                   {"coarse", count(cut.coarse_by_cap + cut.coarse_by_budget), {}, {}, "min_cut"},
-                  {"ops", count(cut.operations()), {}, {}, "min_cut"}});
+                  {"ops", count(static_cast<std::uint64_t>(cut.operations())), {}, {}, "min_cut"}});
   return figures;
 }
 

@@ -120,7 +120,7 @@ struct LiveParts {
             run::LiveThreads::Events events, FiguresDisplay& display, memory::FixedMemory& memory)
       : motion(motion_of(options, bus, memory)),
         pipeline(sensor.calibration, profile, decoder_config(options, sensor, motion),
-                 segmenter_config_of(options.method), memory),
+                 method_config_of(options.method).segmenter, memory),
         recorder(recorder_of(options, memory)),
         threads(threads_config(options, sensor), pipeline, source, std::move(events),
                 recorder ? &*recorder : nullptr, memory),

@@ -56,8 +56,8 @@ std::string_view section_of(std::string_view key) {
 void add_parameters(std::string& text, const Options& options) {
   MethodOptions without = options.method;
   without.settings.clear();
-  const ground::MethodConfig defaults = segmenter_config_of(without);
-  const ground::MethodConfig current = segmenter_config_of(options.method);
+  const ground::MethodConfig defaults = method_config_of(without);
+  const ground::MethodConfig current = method_config_of(options.method);
   text += fmt::format(
       "  # The parameters of the method hold in either profile; defaults are those of '{}'.\n",
       word_of(kProfileWords, without.profile));

@@ -74,8 +74,4 @@ ground::MethodConfig method_config_of(const MethodOptions& options) {
   return config;
 }
 
-ground::SegmenterConfig segmenter_config_of(const MethodOptions& options) {
-  return method_config_of(options).segmenter;
-}
-
 }  // namespace terracut::cli

@@ -32,7 +32,4 @@ namespace terracut::cli {
 /// checked.
 [[nodiscard]] ground::MethodConfig method_config_of(const MethodOptions& options);
 
-/// The same for commands without --method.
-[[nodiscard]] ground::SegmenterConfig segmenter_config_of(const MethodOptions& options);
-
 }  // namespace terracut::cli

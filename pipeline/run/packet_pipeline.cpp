@@ -8,17 +8,15 @@
 
 namespace terracut::run {
 
-PacketPipeline::Frames PacketPipeline::push(const decode::Datagram& datagram) noexcept {
+void PacketPipeline::push(const decode::Datagram& datagram) noexcept {
   if (timing_ == Timing::kPackets || std::exchange(begins_, false)) resume();
   decoder_.push(datagram);
-  return Frames(*this);
 }
 
-PacketPipeline::Frames PacketPipeline::end_stream() noexcept {
+void PacketPipeline::end_stream() noexcept {
   if (timing_ == Timing::kPackets) resume();
   begins_ = true;
   decoder_.end_stream();
-  return Frames(*this);
 }
 
 void PacketPipeline::resume() noexcept {

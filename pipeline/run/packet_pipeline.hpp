@@ -2,9 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <optional>
 #include <span>
 
@@ -21,9 +19,10 @@ namespace terracut::run {
 /// The way from packets to labels on one thread: packets are pushed in, frames come out, and
 /// whoever takes a frame may have it labelled.
 ///
-///   for (Frame& frame : pipeline.push(datagram)) {
-///     pipeline.label(frame);
-///     write(frame.record.info, *frame.image, pipeline.labels());
+///   pipeline.push(datagram);
+///   while (Frame* frame = pipeline.next()) {
+///     pipeline.label(*frame);
+///     write(frame->record.info, *frame->image, pipeline.labels());
 ///   }
 ///
 /// Coarse stages are done ahead, while a frame arrives. One thread. The constructor takes all
@@ -43,14 +42,11 @@ class PacketPipeline {
         method_(method, profile, decoder_.shape(), decoder_.return_capacity(), memory),
         timing_(timing) {}
 
-  /// The frames that a datagram completed, one after the other; a frame is valid until the next one
-  /// is asked for. They must be gone through to the end before anything else is asked of the
-  /// pipeline.
-  class Frames;
-  Frames push(const decode::Datagram& datagram) noexcept;
-  /// The frames that are left when the stream ends or its source will jump (a replay loop).
-  Frames end_stream() noexcept;
-  /// The same one by one, for who does not use the range: null at its end.
+  void push(const decode::Datagram& datagram) noexcept;
+  /// The stream ends or its source will jump (a replay loop).
+  void end_stream() noexcept;
+  /// After either: the frames that it completed, one after the other, then null; a frame is valid
+  /// until the next call. To be called until null before anything else is asked of the pipeline.
   [[nodiscard]] Frame* next() noexcept;
   /// Why the datagram pushed last was rejected, if it was.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept {
@@ -78,43 +74,6 @@ class PacketPipeline {
   std::int64_t resumed_ns_ = 0;
   bool begins_ = true;  ///< The next packet is a stream's first.
   Frame frame_;
-};
-
-class PacketPipeline::Frames {
- public:
-  class Iterator {
-   public:
-    using value_type = Frame;
-    using difference_type = std::ptrdiff_t;
-
-    Frame& operator*() const noexcept { return *frame_; }
-    Frame* operator->() const noexcept { return frame_; }
-    Iterator& operator++() noexcept {
-      frame_ = pipeline_->next();
-      return *this;
-    }
-    void operator++(int) noexcept { ++*this; }
-    [[nodiscard]] bool operator==(std::default_sentinel_t) const noexcept {
-      return frame_ == nullptr;
-    }
-
-   private:
-    friend class Frames;
-    explicit Iterator(PacketPipeline& pipeline) noexcept
-        : pipeline_(&pipeline), frame_(pipeline.next()) {}
-
-    PacketPipeline* pipeline_;
-    Frame* frame_;
-  };
-
-  /// Once.
-  [[nodiscard]] Iterator begin() const noexcept { return Iterator(*pipeline_); }
-  [[nodiscard]] std::default_sentinel_t end() const noexcept { return {}; }
-
- private:
-  friend class PacketPipeline;
-  explicit Frames(PacketPipeline& pipeline) noexcept : pipeline_(&pipeline) {}
-  PacketPipeline* pipeline_;
 };
 
 }  // namespace terracut::run

@@ -80,19 +80,23 @@ struct BenchResult {
 
 /// One pass over the packets: decoding and labelling, timed frame by frame.
 void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResult* result) {
-  const auto take = [&](run::Frame& frame) {
-    pipeline.label(frame);
-    const status::FrameRecord& record = frame.record;
-    if (result == nullptr || !record.info.complete) return;
-    result->times.add(record);
-    result->each.push_back(record);
-    result->returns += record.info.returns;
-    result->unlabelled += record.info.returns - record.segmentation.labelled();
+  const auto take_frames = [&] {
+    while (run::Frame* frame = pipeline.next()) {
+      pipeline.label(*frame);
+      const status::FrameRecord& record = frame->record;
+      if (result == nullptr || !record.info.complete) continue;
+      result->times.add(record);
+      result->each.push_back(record);
+      result->returns += record.info.returns;
+      result->unlabelled += record.info.returns - record.segmentation.labelled();
+    }
   };
   for (const decode::Datagram& datagram : packets.datagrams) {
-    for (run::Frame& frame : pipeline.push(datagram)) take(frame);
+    pipeline.push(datagram);
+    take_frames();
   }
-  for (run::Frame& frame : pipeline.end_stream()) take(frame);
+  pipeline.end_stream();
+  take_frames();
 }
 
 /// One pass of decoding alone: nanoseconds a column of 64 lasers.

@@ -123,7 +123,8 @@ class Replay {
       pace.restart();
       const std::uint64_t offered_before = offered_;
       const bool go_on = play_once(pace);
-      for (run::Frame& frame : pipeline_.end_stream()) take(frame);
+      pipeline_.end_stream();
+      take_frames();
       if (!go_on || offered_ == offered_before) break;  // a pass without packets will stay without
     }
     return conclude();
@@ -146,13 +147,18 @@ class Replay {
 
   void decode(const decode::Datagram& datagram) {
     ++offered_;
-    for (run::Frame& frame : pipeline_.push(datagram)) take(frame);
+    pipeline_.push(datagram);
+    take_frames();
     if (pipeline_.rejected()) return;
     if (const auto* ruby128 = pipeline_.decoder().ruby128())
       clock_of_device_.note(*ruby128, datagram.stamp_ns);
     if (const auto packet = hdl64e::Hdl64ePacketView::of(datagram.payload)) {
       status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
     }
+  }
+
+  void take_frames() {
+    while (run::Frame* frame = pipeline_.next()) take(*frame);
   }
 
   /// Labels a frame and hands the labels to the sinks. A sink that fails is remembered, and

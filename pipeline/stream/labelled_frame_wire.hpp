@@ -6,12 +6,10 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <type_traits>
 
 #include "firmware_io/sensor/sensor_model.hpp"
 #include "pipeline/status/frame_record.hpp"
-#include "rt/error.hpp"
 
 /// A labelled frame as it goes over a socket (docs/reference/labelled_stream.md): one header, then
 /// the points, then the next frame's header. Little-endian, without padding, used as it lies.
@@ -93,17 +91,5 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
 static_assert(static_cast<int>(status::Level::kFull) == 0 &&
                   static_cast<int>(status::Level::kSkipped) == 3,
               "the wire's numbers are the enumeration's");
-
-/// The first bytes of every header of any version: as much as tells how long it is.
-inline constexpr std::size_t kFramePreambleBytes = 8;
-
-/// How many bytes the whole header has, from its first kFramePreambleBytes. kMalformed: not a
-/// labelled frame, or a header shorter than version 1's. kUnsupported: another version.
-[[nodiscard]] Expected<std::size_t> frame_header_bytes(std::span<const std::byte> preamble);
-
-/// A whole header, checked: `bytes` has at least frame_header_bytes() of itself. Errors as there,
-/// and kMalformed for points shorter than version 1's, kCapacityExceeded for more than
-/// kMostFramePoints.
-[[nodiscard]] Expected<FrameWireHeader> parse_frame_header(std::span<const std::byte> bytes);
 
 }  // namespace terracut::stream

@@ -10,9 +10,9 @@
 
 #include "firmware_io/frame/each_return.hpp"
 #include "pipeline/output/label_sink.hpp"
-#include "pipeline/stream/frame_stream_reader.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
 #include "pipeline/stream/labelled_points.hpp"
+#include "tests/support/frame_stream_reader.hpp"
 
 namespace terracut {
 namespace {
@@ -101,8 +101,8 @@ void serve_frame(benchmark::State& state) {
   std::atomic<std::uint64_t> received{0};
   for (std::size_t n = 0; n < readers; ++n) {
     threads.emplace_back([&received, address = server->address()] {
-      auto reader = stream::FrameStreamReader::connect(address);
-      stream::ReceivedFrame got;
+      auto reader = test::FrameStreamReader::connect(address);
+      test::ReceivedFrame got;
       while (reader && reader->next(got, -1).value_or(false)) ++received;
     });
   }

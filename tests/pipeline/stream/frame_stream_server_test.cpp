@@ -31,7 +31,7 @@ class FrameStream : public StreamTest {
   /// Reads a frame while the server goes on; so large ones come through.
   Expected<bool> receive(FrameStreamReader& reader, ReceivedFrame& frame) {
     auto result =
-        std::async(std::launch::async, [&] { return reader.next(frame, kTestPatience_ns); });
+        std::async(std::launch::async, [&] { return reader.next(frame, kTestPatience_ms); });
     while (result.wait_for(std::chrono::seconds(0)) != std::future_status::ready) step();
     return result.get();
   }
@@ -178,7 +178,7 @@ TEST_P(FrameStream, AReaderThatIsFreeIsNeverStalled) {
   for (std::uint32_t number = 0; number < 2; ++number) {
     serve(number, 100);
     ReceivedFrame frame;  // so little is there without another step
-    ASSERT_TRUE(only.next(frame, kTestPatience_ns).value_or(false));
+    ASSERT_TRUE(only.next(frame, kTestPatience_ms).value_or(false));
     const std::int64_t end_ns = measure::monotonic_ns() + 3 * kLimit_ns;
     ASSERT_TRUE(steps_until([&] { return measure::monotonic_ns() > end_ns; }));
   }
@@ -317,7 +317,7 @@ TEST_P(FrameStream, ACallThatHasNothingToDoIsNotAskedFor) {
   expect_frame(only, 0, kManyPoints);
   EXPECT_EQ(::poll(&polled, 1, 0), 0) << "nor one that has its frame";
   const files::OwnedDescriptor another = dial();
-  EXPECT_EQ(::poll(&polled, 1, static_cast<int>(kTestPatience_ns / 1'000'000)), 1);
+  EXPECT_EQ(::poll(&polled, 1, kTestPatience_ms), 1);
 }
 
 /// The limit of descriptors of this process, lowered until the end of the test.
@@ -392,7 +392,7 @@ Seen read_all(FrameStreamReader reader, std::chrono::microseconds pause) {
   Seen seen;
   ReceivedFrame frame;
   for (;;) {
-    const auto result = reader.next(frame, kTestPatience_ns);
+    const auto result = reader.next(frame, kTestPatience_ms);
     if (!result) ++seen.wrong;
     if (!result || !*result) return seen;
     const std::uint32_t number = frame.header.number;

@@ -15,15 +15,18 @@
 #include <utility>
 #include <vector>
 
-#include "pipeline/stream/frame_stream_reader.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
+#include "tests/support/frame_stream_reader.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace terracut::stream {
 
-inline constexpr std::int64_t kTestPatience_ns = 200'000'000'000;
+using test::FrameStreamReader;
+using test::ReceivedFrame;
+
+inline constexpr int kTestPatience_ms = 200'000;
 
 /// Points of which each tells its frame and its place in it.
 inline std::vector<LabelledPoint> points_of_frame(std::uint32_t number, std::size_t count) {
@@ -49,10 +52,10 @@ inline LabelledFrame frame_of(std::uint32_t number, const std::vector<LabelledPo
   return frame;
 }
 
-/// Until `done()` says so, in vain after kTestPatience_ns.
+/// Until `done()` says so, in vain after kTestPatience_ms.
 template <class Step, class Done>
 [[nodiscard]] bool step_until(const Step& step, const Done& done) {
-  const std::int64_t end_ns = measure::monotonic_ns() + kTestPatience_ns;
+  const std::int64_t end_ns = measure::monotonic_ns() + kTestPatience_ms * std::int64_t{1'000'000};
   while (!done()) {
     if (measure::monotonic_ns() > end_ns) return false;
     step();

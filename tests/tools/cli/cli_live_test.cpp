@@ -10,7 +10,8 @@
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/net/live_pcap_source.hpp"
 #include "firmware_io/net/udp_source.hpp"
-#include "pipeline/stream/frame_stream_reader.hpp"
+#include "pipeline/stream/stream_address.hpp"
+#include "tests/support/frame_stream_reader.hpp"
 #include "tests/tools/cli/live/live_run.hpp"
 #include "tools/cli/exit_codes.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
@@ -234,18 +235,18 @@ TEST_F(CliLive, GivesLabelledPointsToOtherProcesses) {
   ASSERT_TRUE(run.says("labelled points at "));
   const auto address = stream::parse_stream_address(socket.string());
   ASSERT_TRUE(address) << address.error().message;
-  auto reader = stream::FrameStreamReader::connect(*address);
+  auto reader = test::FrameStreamReader::connect(*address);
   ASSERT_TRUE(reader) << reader.error().message;
-  constexpr std::int64_t kHour_ns = 3'600'000'000'000;
-  std::vector<stream::ReceivedFrame> frames(3);
-  for (stream::ReceivedFrame& frame : frames) {
-    const auto read = reader->next(frame, kHour_ns);
+  constexpr int kHour_ms = 3'600'000;
+  std::vector<test::ReceivedFrame> frames(3);
+  for (test::ReceivedFrame& frame : frames) {
+    const auto read = reader->next(frame, kHour_ms);
     EXPECT_TRUE(read) << read.error().message;
   }
   expect_good_end(run.interrupted());
   // The points are the label files' returns, in their order.
   std::uint64_t missing = 0;
-  for (const stream::ReceivedFrame& frame : frames) {
+  for (const test::ReceivedFrame& frame : frames) {
     EXPECT_EQ(frame.header.sensor, 1);
     const fs::path file = folder_ / "labels" / fmt::format("{:06}.label", frame.header.number);
     if (!fs::exists(file)) {
@@ -265,7 +266,7 @@ TEST_F(CliLive, SaysWhereItsFiguresAre) {
   const Sensors sender = sensor(run);
   const std::string at = run.said_after("figures at http://");
   const auto served =
-      stream::FrameStreamReader::connect(*stream::parse_stream_address(at.substr(0, at.find('/'))));
+      test::FrameStreamReader::connect(*stream::parse_stream_address(at.substr(0, at.find('/'))));
   EXPECT_TRUE(served) << served.error().message;
   EXPECT_THAT(at, testing::EndsWith("/metrics"));
   const std::string port = at.substr(at.find(':') + 1, at.find('/') - at.find(':') - 1);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cstdlib>
 #include <utility>
 
 namespace terracut::baselines {
@@ -134,29 +133,6 @@ int BeliefPropagation::least_label(std::span<const float> belief) const noexcept
   auto first = least;
   while (first != belief.begin() && *(first - 1) <= *least + kEqual) --first;
   return static_cast<int>(((first - belief.begin()) + (last - belief.begin())) / 2);
-}
-
-double BeliefPropagation::energy() const noexcept {
-  const auto step = [](const StepCost& cost, int from, int to) noexcept {
-    const int paid = std::max(0, std::abs(to - from) - cost.free_labels);
-    return std::min(cost.limit, cost.per_label * static_cast<float>(paid));
-  };
-  double sum = 0;
-  for (int row = 0; row < shape_.rows; ++row) {
-    for (int column = 0; column < shape_.columns; ++column) {
-      const int here = label(row, column);
-      sum += data_cost_[node(row, column) * labels() + static_cast<std::size_t>(here)];
-      if (row + 1 < shape_.rows) {
-        sum += step(between_rows_[static_cast<std::size_t>(row)], here, label(row + 1, column));
-      }
-      const bool last = column + 1 == shape_.columns;
-      if (!last || shape_.cyclic) {
-        sum += step(within_row_[static_cast<std::size_t>(row)], here,
-                    label(row, last ? 0 : column + 1));
-      }
-    }
-  }
-  return sum;
 }
 
 }  // namespace terracut::baselines

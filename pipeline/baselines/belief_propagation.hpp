@@ -62,8 +62,6 @@ class BeliefPropagation {
 
   /// The label of least belief, the middle one of several side by side.
   [[nodiscard]] int label(int row, int column) const noexcept { return label_[node(row, column)]; }
-  /// Value of the sum above for the labels found.
-  [[nodiscard]] double energy() const noexcept;
 
  private:
   /// Where a message comes from, seen by the node that gets it; and so the neighbour itself.

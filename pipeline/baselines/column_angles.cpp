@@ -24,34 +24,27 @@ int mirrored(int row, int rows) noexcept {
 
 ColumnAngles::ColumnAngles(const Config& config, const mount::RingProfile&, frame::ImageShape shape,
                            std::size_t return_capacity, memory::FixedMemory& memory)
-    : config_(config),
+    : Baseline(stage::Stage::kAdjacentPoints, stage::ReturnLabels::Config().obstacle_height_m,
+               shape, return_capacity, memory),
+      config_(config),
       shape_(shape),
       filter_(config.smoothing_window),
-      planes_(shape, memory),
       range_m_(memory.take<float>("column angles", shape.cells())),
       z_m_(memory.take<float>("column angles", shape.cells())),
       raw_deg_(memory.take<float>("column angles", shape.cells())),
       angle_deg_(memory.take<float>("column angles", shape.cells())),
       ground_(memory.take<std::uint8_t>("column angles", shape.cells())),
-      queue_(memory.take<std::uint32_t>("column angles", shape.cells())),
-      return_labels_({}, return_capacity, memory) {}
+      queue_(memory.take<std::uint32_t>("column angles", shape.cells())) {}
 
-stage::SegmentationReport ColumnAngles::segment(const frame::RangeImage& image,
-                                                stage::StageObserver* observer) noexcept {
+void ColumnAngles::label_cells(const frame::RangeImage& image,
+                               stage::StageObserver* observer) noexcept {
   repair_columns(image);
   measure_angles();
   smooth_angles();
   spread_ground();
   grow_ground();
-  label_cells(image);
+  put_labels(image);
   if (observer != nullptr) observer->stage_done(stage::Stage::kAdjacentPoints);
-
-  return_labels_.assign(image, planes_);
-  if (observer != nullptr) observer->stage_done(stage::Stage::kLabels);
-  stage::SegmentationReport report;
-  report.last_stage = stage::Stage::kAdjacentPoints;
-  report.count(return_labels_.labels());
-  return report;
 }
 
 void ColumnAngles::repair_columns(const frame::RangeImage& image) noexcept {
@@ -182,7 +175,7 @@ void ColumnAngles::grow_ground() noexcept {
   }
 }
 
-void ColumnAngles::label_cells(const frame::RangeImage& image) noexcept {
+void ColumnAngles::put_labels(const frame::RangeImage& image) noexcept {
   for (std::size_t i = 0; i < planes_.label.size(); ++i) {
     const bool seen = image.has_return(i);
     const bool ground = ground_[i] != 0;

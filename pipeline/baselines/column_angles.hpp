@@ -7,11 +7,8 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/baselines/baseline.hpp"
 #include "pipeline/baselines/savitzky_golay.hpp"
-#include "pipeline/stage/cell_planes.hpp"
-#include "pipeline/stage/return_labels.hpp"
-#include "pipeline/stage/segmentation_report.hpp"
-#include "pipeline/stage/stage.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::baselines {
@@ -19,8 +16,10 @@ namespace terracut::baselines {
 /// The range image method of Bogoslavskyi and Stachniss ("Efficient online segmentation for sparse
 /// 3D laser scans", PFG 85, 2017): the inclination of the line from each return to the one above it
 /// in its column, smoothed along the column; ground is what can be reached from the lowest returns
-/// by steps to one of four neighbours over which that angle changes little.
-class ColumnAngles {
+/// by steps to one of four neighbours over which that angle changes little. It knows no height of
+/// the ground: heights are 0 where the label is ground and above the mount's ground plane
+/// elsewhere. Reports kAdjacentPoints and kLabels.
+class ColumnAngles final : public Baseline {
  public:
   struct Config {
     float start_deg = 45.0F;       ///< Ground starts at no steeper angle, (0, 90].
@@ -35,22 +34,14 @@ class ColumnAngles {
   ColumnAngles(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Labels one frame of the shape given. Reports kAdjacentPoints and kLabels. Real-time safe.
-  [[nodiscard]] stage::SegmentationReport segment(
-      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
-
-  /// As Segmenter::labels() and planes(). The method knows no height of the ground: heights are 0
-  /// where the label is ground and above the mount's ground plane elsewhere.
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
-    return return_labels_.labels();
-  }
-  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
-
   /// Smoothed angle by cell, degrees in [0, 90] but for what smoothing overshoots; NaN where
   /// neither a return nor a repaired hole is.
   [[nodiscard]] std::span<const float> angle_deg() const noexcept { return angle_deg_; }
 
  private:
+  void label_cells(const frame::RangeImage& image,
+                   stage::StageObserver* observer) noexcept override;
+  void put_labels(const frame::RangeImage& image) noexcept;
   void repair_columns(const frame::RangeImage& image) noexcept;
   void bridge_hole(const frame::RangeImage& image, int row, int column) noexcept;
   void measure_angles() noexcept;
@@ -58,7 +49,6 @@ class ColumnAngles {
   void spread_ground() noexcept;
   void spread_from(std::uint32_t start) noexcept;
   void grow_ground() noexcept;
-  void label_cells(const frame::RangeImage& image) noexcept;
   [[nodiscard]] std::size_t cell(int row, int column) const noexcept {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride()) +
            static_cast<std::size_t>(column);
@@ -67,12 +57,10 @@ class ColumnAngles {
   Config config_;
   frame::ImageShape shape_;
   SavitzkyGolay filter_;
-  stage::CellPlanes planes_;
   std::span<float> range_m_, z_m_;  // of the repaired image, NaN where nothing is
   std::span<float> raw_deg_, angle_deg_;
   std::span<std::uint8_t> ground_;  // by cell: reached from the lowest returns
   std::span<std::uint32_t> queue_;  // of the breadth-first search
-  stage::ReturnLabels return_labels_;
 };
 
 }  // namespace terracut::baselines

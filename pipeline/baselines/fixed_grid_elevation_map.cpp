@@ -8,27 +8,17 @@
 #include "firmware_io/frame/each_return.hpp"
 
 namespace terracut::baselines {
-namespace {
-
-stage::ReturnLabels::Config second_returns(const FixedGridElevationMap::Config& config) noexcept {
-  stage::ReturnLabels::Config result;
-  result.obstacle_height_m = config.obstacle_height_m;
-  return result;
-}
-
-}  // namespace
-
 FixedGridElevationMap::FixedGridElevationMap(const Config& config, const mount::RingProfile&,
                                              frame::ImageShape shape, std::size_t return_capacity,
                                              memory::FixedMemory& memory)
-    : config_(config),
+    : Baseline(stage::Stage::kElevationMap, config.obstacle_height_m, shape, return_capacity,
+               memory),
+      config_(config),
       side_(static_cast<int>(std::ceil(2.0F * config.extent_m / config.cell_m))),
-      planes_(shape, memory),
       end_(memory.take<std::uint32_t>(
           "fixed grid", static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_))),
       samples_(memory.take<Sample>("fixed grid", return_capacity)),
-      squares_(memory.take<Square>("fixed grid", end_.size())),
-      return_labels_(second_returns(config), return_capacity, memory) {}
+      squares_(memory.take<Square>("fixed grid", end_.size())) {}
 
 std::uint32_t FixedGridElevationMap::square_of(float x_m, float y_m) const noexcept {
   const float squares_per_metre = 1.0F / config_.cell_m;
@@ -40,26 +30,20 @@ std::uint32_t FixedGridElevationMap::square_of(float x_m, float y_m) const noexc
   return step(y_m) * static_cast<std::uint32_t>(side_) + step(x_m);
 }
 
-stage::SegmentationReport FixedGridElevationMap::segment(const frame::RangeImage& image,
-                                                         stage::StageObserver* observer) noexcept {
+void FixedGridElevationMap::label_cells(const frame::RangeImage& image,
+                                        stage::StageObserver* observer) noexcept {
   sort_returns_into_squares(image);
   std::uint32_t begin = 0;
   for (std::size_t square = 0; square < squares_.size(); ++square) {
     squares_[square] = fit(samples_.subspan(begin, end_[square] - begin));
     begin = end_[square];
   }
-  label_cells(image);
+  put_labels(image);
   if (observer != nullptr) observer->stage_done(stage::Stage::kElevationMap);
-
-  return_labels_.assign(image, planes_);
-  if (observer != nullptr) observer->stage_done(stage::Stage::kLabels);
-  stage::SegmentationReport report;
-  report.last_stage = stage::Stage::kElevationMap;
-  report.count(return_labels_.labels());
-  return report;
 }
 
-/// Counting sort: how many in each square, where each square ends, then every return to its place.
+/// Counting sort: how many in each square, where each square ends, then every return to its
+/// place.
 void FixedGridElevationMap::sort_returns_into_squares(const frame::RangeImage& image) noexcept {
   std::fill(end_.begin(), end_.end(), 0U);
   frame::for_each_return(image, [this](const frame::PlacedReturn& placed) {
@@ -119,7 +103,7 @@ FixedGridElevationMap::Square FixedGridElevationMap::fit(std::span<Sample> sampl
   return square;
 }
 
-void FixedGridElevationMap::label_cells(const frame::RangeImage& image) noexcept {
+void FixedGridElevationMap::put_labels(const frame::RangeImage& image) noexcept {
   for (std::size_t cell = 0; cell < planes_.label.size(); ++cell) {
     if (!image.has_return(cell)) {
       planes_.height_m[cell] = std::numeric_limits<float>::quiet_NaN();

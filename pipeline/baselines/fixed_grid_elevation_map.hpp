@@ -8,10 +8,7 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "pipeline/stage/cell_planes.hpp"
-#include "pipeline/stage/return_labels.hpp"
-#include "pipeline/stage/segmentation_report.hpp"
-#include "pipeline/stage/stage.hpp"
+#include "pipeline/baselines/baseline.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::baselines {
@@ -22,8 +19,8 @@ namespace terracut::baselines {
 /// fits through; what is above the gap hangs over, and the elevation is that of the lowest
 /// interval. A lowest interval whose heights still vary much is a vertical object standing on its
 /// lowest return. Which sources say what, and what they leave open, is in
-/// docs/reference/evaluation.md.
-class FixedGridElevationMap {
+/// docs/reference/evaluation.md. Reports kElevationMap and kLabels.
+class FixedGridElevationMap final : public Baseline {
  public:
   struct Config {
     float cell_m = 0.5F;             ///< Side of a square, [0.05, 10].
@@ -55,22 +52,15 @@ class FixedGridElevationMap {
                         frame::ImageShape shape, std::size_t return_capacity,
                         memory::FixedMemory& memory);
 
-  /// Labels one frame of the shape given. Reports kElevationMap and kLabels. Real-time safe.
-  [[nodiscard]] stage::SegmentationReport segment(
-      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
-
-  /// As Segmenter::labels() and planes().
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
-    return return_labels_.labels();
-  }
-  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
-
   /// The square a place on the ground belongs to. Real-time safe, any floats.
   [[nodiscard]] const Square& square_at(float x_m, float y_m) const noexcept {
     return squares_[square_of(x_m, y_m)];
   }
 
  private:
+  void label_cells(const frame::RangeImage& image,
+                   stage::StageObserver* observer) noexcept override;
+  void put_labels(const frame::RangeImage& image) noexcept;
   struct Sample {
     float height_m;
     float weight;  // 1 / variance
@@ -80,15 +70,12 @@ class FixedGridElevationMap {
   void sort_returns_into_squares(const frame::RangeImage& image) noexcept;
   [[nodiscard]] Square fit(std::span<Sample> samples) const noexcept;
   [[nodiscard]] bool is_level(std::span<const Sample> samples) const noexcept;
-  void label_cells(const frame::RangeImage& image) noexcept;
 
   Config config_;
-  int side_;  // squares
-  stage::CellPlanes planes_;
+  int side_;                      // squares
   std::span<std::uint32_t> end_;  // by square: one past its last sample
   std::span<Sample> samples_;     // of all returns, square by square
   std::span<Square> squares_;
-  stage::ReturnLabels return_labels_;
 };
 
 }  // namespace terracut::baselines

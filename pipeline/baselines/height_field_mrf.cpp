@@ -10,31 +10,20 @@
 #include "firmware_io/frame/each_return.hpp"
 
 namespace terracut::baselines {
-namespace {
-
-stage::ReturnLabels::Config second_returns(const HeightFieldMrf::Config& config) noexcept {
-  stage::ReturnLabels::Config result;
-  result.obstacle_height_m = config.obstacle_height_m;
-  return result;
-}
-
-}  // namespace
-
 HeightFieldMrf::HeightFieldMrf(const Config& config, const mount::RingProfile& profile,
                                frame::ImageShape shape, std::size_t return_capacity,
                                memory::FixedMemory& memory)
-    : config_(config),
+    : Baseline(stage::Stage::kMinCut, config.obstacle_height_m, shape, return_capacity, memory),
+      config_(config),
       shape_(shape),
       sensor_height_m_(static_cast<float>(profile.mount.height_m)),
       bands_(static_cast<int>(std::ceil(config.range_limit_m / config.band_m))),
-      planes_(shape, memory),
       field_({bands_, config.sectors, config.height_labels, true}, memory),
       returns_at_(memory.take<std::uint16_t>(
           "height field", map_cell(bands_, 0) * static_cast<std::size_t>(config.height_labels))),
       least_slope_(memory.take<float>("height field", map_cell(bands_, 0))),
       sector_of_column_(
-          memory.take<std::uint16_t>("height field", static_cast<std::size_t>(shape.stride()))),
-      return_labels_(second_returns(config), return_capacity, memory) {
+          memory.take<std::uint16_t>("height field", static_cast<std::size_t>(shape.stride()))) {
   for (int column = 0; column < shape.columns; ++column) {
     sector_of_column_[static_cast<std::size_t>(column)] =
         static_cast<std::uint16_t>(column * config.sectors / shape.columns);
@@ -59,22 +48,14 @@ float HeightFieldMrf::height_of(int label) const noexcept {
   return static_cast<float>(label - config_.height_labels / 2) * config_.height_step_m;
 }
 
-stage::SegmentationReport HeightFieldMrf::segment(const frame::RangeImage& image,
-                                                  stage::StageObserver* observer) noexcept {
-  const auto done = [observer](stage::Stage stage) noexcept {
-    if (observer != nullptr) observer->stage_done(stage);
-  };
+void HeightFieldMrf::label_cells(const frame::RangeImage& image,
+                                 stage::StageObserver* observer) noexcept {
   count_returns(image);
   put_costs();
-  done(stage::Stage::kElevationMap);
+  if (observer != nullptr) observer->stage_done(stage::Stage::kElevationMap);
   field_.run(config_.iterations);
-  done(stage::Stage::kMinCut);
-  label_cells(image);
-  return_labels_.assign(image, planes_);
-  done(stage::Stage::kLabels);
-  stage::SegmentationReport report;
-  report.count(return_labels_.labels());
-  return report;
+  if (observer != nullptr) observer->stage_done(stage::Stage::kMinCut);
+  put_labels(image);
 }
 
 void HeightFieldMrf::count_returns(const frame::RangeImage& image) noexcept {
@@ -158,7 +139,7 @@ void HeightFieldMrf::put_slopes() noexcept {
   }
 }
 
-void HeightFieldMrf::label_cells(const frame::RangeImage& image) noexcept {
+void HeightFieldMrf::put_labels(const frame::RangeImage& image) noexcept {
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t first =
         static_cast<std::size_t>(row) * static_cast<std::size_t>(shape_.stride());

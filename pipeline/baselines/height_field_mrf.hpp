@@ -7,11 +7,8 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "pipeline/baselines/baseline.hpp"
 #include "pipeline/baselines/belief_propagation.hpp"
-#include "pipeline/stage/cell_planes.hpp"
-#include "pipeline/stage/return_labels.hpp"
-#include "pipeline/stage/segmentation_report.hpp"
-#include "pipeline/stage/stage.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::baselines {
@@ -22,8 +19,9 @@ namespace terracut::baselines {
 /// returns says of a height is a cost, without any assumed distribution; neighbours ask for a slope
 /// the ground can have, and for not more than a limit where it has a step. Belief propagation
 /// settles it, and a return is ground when it is not far above its cell's height. Which sources say
-/// what, and what they leave open, is in docs/reference/evaluation.md.
-class HeightFieldMrf {
+/// what, and what they leave open, is in docs/reference/evaluation.md. Reports kElevationMap when
+/// the costs are there, kMinCut when the field is solved, and kLabels.
+class HeightFieldMrf final : public Baseline {
  public:
   struct Config {
     int sectors = 180;            ///< Of the polar map, [3, 2000].
@@ -50,23 +48,15 @@ class HeightFieldMrf {
   HeightFieldMrf(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                  std::size_t return_capacity, memory::FixedMemory& memory);
 
-  /// Labels one frame of the shape given. Reports kElevationMap when the costs are there, kMinCut
-  /// when the field is solved, and kLabels. Real-time safe.
-  [[nodiscard]] stage::SegmentationReport segment(
-      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept;
-
-  /// As Segmenter::labels() and planes().
-  [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
-    return return_labels_.labels();
-  }
-  [[nodiscard]] const stage::CellPlanes& planes() const noexcept { return planes_; }
-
   /// Height of the ground where an image column passes a range, metres above the mount's plane.
   [[nodiscard]] float ground_m(int column, float ground_range_m) const noexcept {
     return height_of(field_.label(band_of(ground_range_m), sector_of(column)));
   }
 
  private:
+  void label_cells(const frame::RangeImage& image,
+                   stage::StageObserver* observer) noexcept override;
+  void put_labels(const frame::RangeImage& image) noexcept;
   [[nodiscard]] int band_of(float ground_range_m) const noexcept;
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
@@ -81,18 +71,15 @@ class HeightFieldMrf {
   void put_costs() noexcept;
   void put_cost(int band, int sector, float free_above_m) noexcept;
   void put_slopes() noexcept;
-  void label_cells(const frame::RangeImage& image) noexcept;
 
   Config config_;
   frame::ImageShape shape_;
   float sensor_height_m_;
   int bands_;
-  stage::CellPlanes planes_;
   BeliefPropagation field_;              // rows: bands, columns: sectors
   std::span<std::uint16_t> returns_at_;  // [map cell][height label]
   std::span<float> least_slope_;         // by map cell: of the beams that end in it
   std::span<std::uint16_t> sector_of_column_;
-  stage::ReturnLabels return_labels_;
 };
 
 }  // namespace terracut::baselines

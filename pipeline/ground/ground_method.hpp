@@ -4,9 +4,10 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
-#include <variant>
 
 #include "pipeline/baselines/column_angles.hpp"
 #include "pipeline/baselines/fixed_grid_elevation_map.hpp"
@@ -48,35 +49,24 @@ struct MethodName {
 /// Segmenter or a baseline, chosen at run time. Has Segmenter's interface and contracts, and costs
 /// one switch a frame.
 class GroundMethod {
- private:
-  /// std::visit without its exception: after the constructor there is always a method.
-  template <class Self, class Function>
-  static decltype(auto) visit_baseline(Self& self, Function&& function) noexcept {
-    if (auto* pfaff = std::get_if<baselines::FixedGridElevationMap>(&self.method_))
-      return function(*pfaff);
-    if (auto* angles = std::get_if<baselines::ColumnAngles>(&self.method_))
-      return function(*angles);
-    return function(*std::get_if<baselines::HeightFieldMrf>(&self.method_));
-  }
-
  public:
   GroundMethod(const MethodConfig& config, const mount::RingProfile& profile,
                frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory) {
     switch (config.kind) {
       case MethodKind::kSegmenter:
-        method_.emplace<Segmenter>(config.segmenter, profile, shape, return_capacity, memory);
+        segmenter_.emplace(config.segmenter, profile, shape, return_capacity, memory);
         return;
       case MethodKind::kPfaff:
-        method_.emplace<baselines::FixedGridElevationMap>(config.pfaff, profile, shape,
-                                                          return_capacity, memory);
+        baseline_ = std::make_unique<baselines::FixedGridElevationMap>(config.pfaff, profile, shape,
+                                                                       return_capacity, memory);
         return;
       case MethodKind::kBogoslavskyi:
-        method_.emplace<baselines::ColumnAngles>(config.bogoslavskyi, profile, shape,
-                                                 return_capacity, memory);
+        baseline_ = std::make_unique<baselines::ColumnAngles>(config.bogoslavskyi, profile, shape,
+                                                              return_capacity, memory);
         return;
       case MethodKind::kZhang:
-        method_.emplace<baselines::HeightFieldMrf>(config.zhang, profile, shape, return_capacity,
-                                                   memory);
+        baseline_ = std::make_unique<baselines::HeightFieldMrf>(config.zhang, profile, shape,
+                                                                return_capacity, memory);
         return;
     }
   }
@@ -84,35 +74,27 @@ class GroundMethod {
   /// As Segmenter::advance(); baselines do nothing ahead.
   void advance(const frame::RangeImage& image, int complete_columns,
                stage::StageObserver* observer = nullptr) noexcept {
-    if (auto* segmenter = std::get_if<Segmenter>(&method_)) {
-      segmenter->advance(image, complete_columns, observer);
-    }
+    if (segmenter_) segmenter_->advance(image, complete_columns, observer);
   }
 
   /// Baselines report the stage that is most like theirs (their headers say which).
   [[nodiscard]] stage::SegmentationReport segment(
       const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept {
-    if (auto* segmenter = std::get_if<Segmenter>(&method_)) {
-      return segmenter->segment(image, {}, observer);
-    }
+    if (segmenter_) return segmenter_->segment(image, {}, observer);
     if (observer != nullptr) observer->resumed();
-    return visit_baseline(*this, [&](auto& baseline) { return baseline.segment(image, observer); });
+    return baseline_->segment(image, observer);
   }
 
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {
-    if (const auto* segmenter = std::get_if<Segmenter>(&method_)) return segmenter->labels();
-    return visit_baseline(*this, [](const auto& baseline) { return baseline.labels(); });
+    return segmenter_ ? segmenter_->labels() : baseline_->labels();
   }
   [[nodiscard]] const stage::CellPlanes& planes() const noexcept {
-    if (const auto* segmenter = std::get_if<Segmenter>(&method_)) return segmenter->planes();
-    return visit_baseline(
-        *this, [](const auto& baseline) -> const stage::CellPlanes& { return baseline.planes(); });
+    return segmenter_ ? segmenter_->planes() : baseline_->planes();
   }
 
  private:
-  std::variant<std::monostate, Segmenter, baselines::FixedGridElevationMap, baselines::ColumnAngles,
-               baselines::HeightFieldMrf>
-      method_;
+  std::optional<Segmenter> segmenter_;
+  std::unique_ptr<baselines::Baseline> baseline_;  // where there is no segmenter
 };
 
 }  // namespace terracut::ground

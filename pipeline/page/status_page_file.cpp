@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstdlib>
-#include <ctime>
 #include <memory>
 #include <new>
 #include <optional>
@@ -21,6 +20,7 @@
 #include <utility>
 
 #include "rt/files/trusted_file.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::page {
 namespace {
@@ -49,7 +49,7 @@ tl::unexpected<Error> not_written(const std::filesystem::path& path, const std::
 }
 
 std::filesystem::path path_of(const std::filesystem::path& folder, const std::string& name) {
-  return folder / (name + ".terracut");
+  return folder / (name + std::string(kStatusPageEnding));
 }
 
 std::size_t file_bytes(std::size_t value_bytes) {
@@ -72,22 +72,6 @@ int try_lock(int file) {
   if (::fcntl(file, F_OFD_SETLK, &lock) == 0) return 0;
   return errno == EACCES ? EAGAIN : errno;
 }
-
-/// Closes on scope exit, or not at all.
-class OpenFile {
- public:
-  explicit OpenFile(int file) : file_(file) {}
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-  ~OpenFile() {
-    if (file_ >= 0) ::close(file_);
-  }
-  [[nodiscard]] int number() const { return file_; }
-  [[nodiscard]] int release() { return std::exchange(file_, -1); }
-
- private:
-  int file_;
-};
 
 bool is_file_at(int file, const std::filesystem::path& path) {
   struct stat of_file {};
@@ -112,9 +96,10 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
     if (errno != EEXIST) return not_written(path, "naming it", errno);
     // Whoever holds the lock of the file that is there may replace it: not two processes at once,
     // and nobody while its publisher lives.
-    const OpenFile old(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-    if (old.number() < 0 && errno == ENOENT) continue;
-    if (old.number() < 0) {
+    const files::OwnedDescriptor old(
+        ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (!old && errno == ENOENT) continue;
+    if (!old) {
       const int error_number = errno;
       struct stat there {};
       const bool known = ::lstat(path.c_str(), &there) == 0;
@@ -123,24 +108,18 @@ Status put_in_place(const std::filesystem::path& made, const std::filesystem::pa
                                : std::string("opening the one that is there"),
                          error_number);
     }
-    const int error_number = try_lock(old.number());
+    const int error_number = try_lock(old.get());
     if (error_number == EAGAIN) {
       return fail(ErrorCode::kInvalidArgument,
                   "the status page " + path.string() + " is in use by process " +
-                      std::to_string(pid_in(old.number())) + "; choose another name");
+                      std::to_string(pid_in(old.get())) + "; choose another name");
     }
     if (error_number != 0) return not_written(path, "locking the one that is there", error_number);
-    if (!is_file_at(old.number(), path)) continue;  // replaced meanwhile: look again
+    if (!is_file_at(old.get(), path)) continue;  // replaced meanwhile: look again
     if (::rename(made.c_str(), path.c_str()) == 0) return {};
     return not_written(path, "replacing the one that is there", errno);
   }
   return not_written(path, "others keep replacing it", EBUSY);
-}
-
-std::int64_t now_ns() {
-  timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
 }  // namespace
@@ -165,9 +144,8 @@ StatusPageFile& StatusPageFile::operator=(StatusPageFile&& other) noexcept {
 }
 
 StatusPageFile::~StatusPageFile() {
-  if (publishes_ && is_file_at(file_, path_)) ::unlink(path_.c_str());
+  if (publishes_ && is_file_at(file_.get(), path_)) ::unlink(path_.c_str());
   if (header_ != nullptr) ::munmap(header_, mapped_bytes_);
-  if (file_ >= 0) ::close(file_);  // and with it the lock
 }
 
 Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& folder,
@@ -186,20 +164,21 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
 
   // Made under another name, so that readers never find half a page.
   const std::filesystem::path made = folder / ("." + name + ".part-" + std::to_string(::getpid()) +
-                                               "-" + std::to_string(now_ns()));
-  OpenFile file(::open(made.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644));
-  if (file.number() < 0) return not_written(path, "creating it", errno);
+                                               "-" + std::to_string(measure::realtime_ns()));
+  files::OwnedDescriptor file(
+      ::open(made.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644));
+  if (!file) return not_written(path, "creating it", errno);
   const auto remove = [](const std::filesystem::path* part) { ::unlink(part->c_str()); };
   const std::unique_ptr<const std::filesystem::path, decltype(remove)> tidy(&made, remove);
 
   const std::size_t bytes = file_bytes(value_bytes);
   // Taken now: a folder that is full later would kill the process in the midst of a publication.
-  if (const int error = ::posix_fallocate(file.number(), 0, static_cast<::off_t>(bytes))) {
+  if (const int error = ::posix_fallocate(file.get(), 0, static_cast<::off_t>(bytes))) {
     return not_written(path, "taking its memory", error);
   }
-  if (const int error = try_lock(file.number())) return not_written(path, "locking it", error);
+  if (const int error = try_lock(file.get())) return not_written(path, "locking it", error);
   void* base =
-      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file.number(), 0);
+      ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file.get(), 0);
   if (base == MAP_FAILED) return not_written(path, "mapping it", errno);
 
   StatusPageFile page;
@@ -207,11 +186,11 @@ Expected<StatusPageFile> StatusPageFile::create(const std::filesystem::path& fol
   page.header_ = ::new (base) StatusPageHeader{};
   page.header_->layout = layout;
   page.header_->value_bytes = value_bytes;
-  page.header_->started_ns = now_ns();
+  page.header_->started_ns = measure::realtime_ns();
   page.header_->pid = ::getpid();
   page.words_ = reinterpret_cast<std::atomic<std::uint64_t>*>(page.header_ + 1);  // zeros so far
   page.path_ = path;
-  page.file_ = file.release();
+  page.file_ = std::move(file);
   page.publishes_ = true;
   if (Status status = put_in_place(made, path); !status) return tl::unexpected(status.error());
   return page;
@@ -228,10 +207,10 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
                     (error_number == ENOENT ? "; nobody publishes under this name" : ""));
   };
   // O_NONBLOCK: who has put a named pipe there shall not make us wait.
-  OpenFile file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  if (file.number() < 0) return unreadable(errno);
+  files::OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  if (!file) return unreadable(errno);
   struct stat status {};
-  if (::fstat(file.number(), &status) != 0) return unreadable(errno);
+  if (::fstat(file.get(), &status) != 0) return unreadable(errno);
 
   struct Fields {  // the header without its atomic
     std::uint64_t magic;
@@ -240,9 +219,8 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
     std::uint64_t value_bytes;
   } found{};
   static_assert(offsetof(StatusPageHeader, value_bytes) == offsetof(Fields, value_bytes));
-  const bool has_header =
-      S_ISREG(status.st_mode) &&
-      ::pread(file.number(), &found, sizeof found, 0) == static_cast<::ssize_t>(sizeof found);
+  const bool has_header = S_ISREG(status.st_mode) && ::pread(file.get(), &found, sizeof found, 0) ==
+                                                         static_cast<::ssize_t>(sizeof found);
   if (!has_header || found.magic != StatusPageHeader::kMagic) {
     return fail(ErrorCode::kMalformed, path.string() + " is not a status page of terracut");
   }
@@ -261,7 +239,7 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
   if (static_cast<std::size_t>(status.st_size) < bytes) {
     return fail(ErrorCode::kMalformed, "the status page " + path.string() + " is cut off");
   }
-  void* base = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED | MAP_POPULATE, file.number(), 0);
+  void* base = ::mmap(nullptr, bytes, PROT_READ, MAP_SHARED | MAP_POPULATE, file.get(), 0);
   if (base == MAP_FAILED) return unreadable(errno);
 
   StatusPageFile page;
@@ -269,13 +247,13 @@ Expected<StatusPageFile> StatusPageFile::open(const std::filesystem::path& folde
   page.header_ = static_cast<StatusPageHeader*>(base);
   page.words_ = reinterpret_cast<std::atomic<std::uint64_t>*>(page.header_ + 1);
   page.path_ = path;
-  page.file_ = file.release();
+  page.file_ = std::move(file);
   return page;
 }
 
-bool StatusPageFile::publisher_lives() const noexcept {
+bool has_publisher(int file) noexcept {
   struct flock lock = whole_file(F_RDLCK);
-  return ::fcntl(file_, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
+  return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
 }
 
 }  // namespace terracut::page

@@ -8,8 +8,10 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
 
 namespace terracut::page {
 
@@ -35,6 +37,12 @@ static_assert(std::atomic<std::uint64_t>::is_always_lock_free,
 /// The folder of status pages: $TERRACUT_STATUS_FOLDER if set, else /dev/shm, which every user of
 /// the machine can look into.
 [[nodiscard]] std::filesystem::path status_page_folder();
+
+/// Page `name` is the file `name` and this.
+inline constexpr std::string_view kStatusPageEnding = ".terracut";
+
+/// Whether a living process holds the lock of a page's file, opened here.
+[[nodiscard]] bool has_publisher(int file) noexcept;
 
 /// The file of one status page, mapped into memory. The publisher holds a lock on it as long as it
 /// lives, which the kernel takes away however it ends; by this a page left behind is told from one
@@ -68,14 +76,14 @@ class StatusPageFile {
   [[nodiscard]] StatusPageHeader* header() const noexcept { return header_; }
   /// Behind the header; the value in words of eight bytes, the last filled up with zeros.
   [[nodiscard]] std::atomic<std::uint64_t>* words() const noexcept { return words_; }
-  [[nodiscard]] bool publisher_lives() const noexcept;
+  [[nodiscard]] bool publisher_lives() const noexcept { return has_publisher(file_.get()); }
   [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
 
  private:
   StatusPageFile() = default;
 
   std::filesystem::path path_;
-  int file_ = -1;
+  files::OwnedDescriptor file_;  ///< The lock goes with it.
   bool publishes_ = false;
   std::size_t mapped_bytes_ = 0;
   StatusPageHeader* header_ = nullptr;

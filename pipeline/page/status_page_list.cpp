@@ -19,8 +19,6 @@
 namespace terracut::page {
 namespace {
 
-constexpr std::string_view kSuffix = ".terracut";  // as StatusPageFile names its files
-
 /// The header without its mapping; none if `file` does not begin with one.
 std::optional<std::int32_t> publisher_of(int file) {
   std::byte header[sizeof(StatusPageHeader)];
@@ -33,13 +31,6 @@ std::optional<std::int32_t> publisher_of(int file) {
   return pid;
 }
 
-bool is_locked(int file) {
-  struct flock lock {};
-  lock.l_type = F_RDLCK;
-  lock.l_whence = SEEK_SET;
-  return ::fcntl(file, F_OFD_GETLK, &lock) == 0 && lock.l_type != F_UNLCK;
-}
-
 }  // namespace
 
 std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& folder) {
@@ -49,16 +40,17 @@ std::vector<StatusPageEntry> list_status_pages(const std::filesystem::path& fold
   for (fs::directory_iterator it(folder, unreadable), end; it != end; it.increment(unreadable)) {
     std::string name = it->path().filename().string();
     // One that begins with a dot is being made.
-    if (name.starts_with('.') || !name.ends_with(kSuffix)) continue;
-    const int file = ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-    if (file < 0) continue;
+    if (name.starts_with('.') || !name.ends_with(kStatusPageEnding)) continue;
+    const files::OwnedDescriptor file(
+        ::open(it->path().c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+    if (!file) continue;
     struct stat status {};
-    const bool trusted = ::fstat(file, &status) == 0 && files::check_trusted(status, it->path());
-    if (const auto pid = trusted ? publisher_of(file) : std::nullopt) {
-      name.resize(name.size() - kSuffix.size());
-      entries.push_back({std::move(name), *pid, status.st_uid, is_locked(file)});
+    const bool trusted =
+        ::fstat(file.get(), &status) == 0 && files::check_trusted(status, it->path());
+    if (const auto pid = trusted ? publisher_of(file.get()) : std::nullopt) {
+      name.resize(name.size() - kStatusPageEnding.size());
+      entries.push_back({std::move(name), *pid, status.st_uid, has_publisher(file.get())});
     }
-    ::close(file);
   }
   std::sort(entries.begin(), entries.end(),
             [](const auto& a, const auto& b) { return a.name < b.name; });

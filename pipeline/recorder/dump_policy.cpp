@@ -22,26 +22,6 @@ void check(const DumpRate& rate) {
 
 }  // namespace
 
-std::string_view to_string(DumpRefusal refusal) noexcept {
-  switch (refusal) {
-    case DumpRefusal::kTooSoon:
-      return "too_soon";
-    case DumpRefusal::kNothingHeld:
-      return "nothing_held";
-    case DumpRefusal::kOverQuota:
-      return "over_quota";
-    case DumpRefusal::kDiskLow:
-      return "disk_low";
-    case DumpRefusal::kFolderUnusable:
-      return "folder_unusable";
-    case DumpRefusal::kWriteFailed:
-      return "write_failed";
-    case DumpRefusal::kNoRecorder:
-      return "no_recorder";
-  }
-  return "unknown";
-}
-
 DumpPolicy::DumpPolicy(const DumpLimits& limits) : folder_(limits.folder) {
   check(limits.missed_deadline);
   check(limits.asked);

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -35,7 +36,13 @@ enum class DumpRefusal : std::uint8_t {
 inline constexpr std::size_t kDumpRefusals = 7;
 
 /// "too_soon" and so on: in metrics and JSON.
-[[nodiscard]] std::string_view to_string(DumpRefusal refusal) noexcept;
+[[nodiscard]] constexpr std::string_view to_string(DumpRefusal refusal) noexcept {
+  constexpr std::array<std::string_view, kDumpRefusals> kNames{
+      "too_soon",        "nothing_held", "over_quota", "disk_low",
+      "folder_unusable", "write_failed", "no_recorder"};
+  const auto index = static_cast<std::size_t>(refusal);
+  return index < kNames.size() ? kNames[index] : "unknown";
+}
 
 /// A refusal with what a person needs to know of it.
 struct RefusedDump {

@@ -3,7 +3,6 @@
 #include "pipeline/recorder/flight_recorder.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -18,12 +17,6 @@ namespace {
 
 constexpr const char* kNothingHeld =
     "no datagram is held: none came, or more came than the recorder holds while they were copied";
-
-std::int64_t realtime_ns() noexcept {
-  timespec now{};
-  ::clock_gettime(CLOCK_REALTIME, &now);
-  return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
-}
 
 }  // namespace
 
@@ -86,7 +79,8 @@ tl::expected<DumpReport, RefusedDump> FlightRecorder::dump(DumpPolicy& policy, D
   DumpReport report = copy();
   if (report.datagrams == 0) return policy.refuse({DumpRefusal::kNothingHeld, kNothingHeld});
   const std::string times = frame_times_json(report, reason, frames.times, frames.stages);
-  const auto capture = policy.make_room(capture_bytes() + times.size(), reason, realtime_ns());
+  const auto capture =
+      policy.make_room(capture_bytes() + times.size(), reason, measure::realtime_ns());
   if (!capture) return tl::unexpected(capture.error());
   report.capture = *capture;
   report.frame_times = frame_times_path(*capture);

@@ -17,19 +17,12 @@
 #include "pipeline/run/live_pipeline.hpp"
 #include "pipeline/run/packet_gate.hpp"
 #include "pipeline/run/stage_clock.hpp"
+#include "pipeline/status/input_status.hpp"
 #include "rt/queues/latest_value.hpp"
 #include "rt/threads/nonblocking.hpp"
 #include "rt/threads/wake_event.hpp"
 
 namespace terracut::run {
-
-/// What came in, as of the newest look of the receiving thread.
-struct Intake {
-  net::DatagramAccount account;  ///< Since it began.
-  net::LinkState link = net::LinkState::kUnknown;
-  std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
-  frame::BlindAzimuths blind;
-};
 
 /// The receiving half of a live run: datagrams in, frames handed over, and most of their coarse
 /// stages done by then. One thread with a deadline, which calls work_round() again and again.
@@ -54,7 +47,7 @@ class FrameReceiver {
     FrameExchange* frames;
     const threads::WakeEvent* frame_ready;
     FrameRecords* skipped;
-    queues::LatestValue<Intake>* intake;
+    queues::LatestValue<status::InputState>* intake;
     recorder::FlightRecorder* recorder;
     sensor::ToldTable* told_table = nullptr;
   };
@@ -180,7 +173,7 @@ class FrameReceiver {
   }
 
   void publish() noexcept {
-    Intake& intake = to_.intake->draft();
+    status::InputState& intake = to_.intake->draft();
     intake.account = {.source = source_.counters(),
                       .let_go = let_go_,
                       .device_info = device_info_,

@@ -115,7 +115,7 @@ void LiveThreads::segment_frames(Segmenter& segmenter) noexcept {
   }
 }
 
-const Intake& LiveThreads::intake() noexcept {
+const status::InputState& LiveThreads::intake() noexcept {
   (void)intake_.take_if_new();
   return intake_.newest_taken();
 }

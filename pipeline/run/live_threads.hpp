@@ -90,7 +90,7 @@ class LiveThreads {
   [[nodiscard]] sensor::ToldTable& told_table() noexcept { return told_table_; }
 
   /// From one thread.
-  [[nodiscard]] const Intake& intake() noexcept;
+  [[nodiscard]] const status::InputState& intake() noexcept;
   /// Frames that nobody judged because the one who takes records was too slow.
   [[nodiscard]] std::uint64_t records_dropped() const noexcept {
     return segmented_.dropped() + skipped_.dropped();
@@ -126,7 +126,7 @@ class LiveThreads {
   std::optional<FramePool<stream::LabelledPoint>> points_;
 
   std::atomic<bool> stop_{false};
-  queues::LatestValue<Intake> intake_;
+  queues::LatestValue<status::InputState> intake_;
   LiveThreadState receive_state_, segment_state_;
   std::jthread receive_thread_, segment_thread_;
 };

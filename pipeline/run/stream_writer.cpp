@@ -27,12 +27,7 @@ void StreamWriter::work() {
     (void)ready_.wait(server_.descriptor(), kSecond_ns);
     for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(serve(frame));
     server_.work_round();
-    const stream::FrameStreamFigures& figures = server_.figures();
-    losses_.publish({.missed = figures.missed,
-                     .cut_short = figures.cut_short,
-                     .too_large = figures.frames_too_large,
-                     .refused = figures.refused,
-                     .stalled = figures.stalled});
+    figures_.publish(server_.figures());
   }
 }
 

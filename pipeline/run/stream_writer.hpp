@@ -25,14 +25,10 @@ class StreamWriter {
   /// After LiveThreads::stop(). False when it does not end in time, which no peer can bring about.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
-  /// Frames times readers that did not get them, and readers that got none: FrameStreamFigures.
-  struct Losses {
-    std::uint64_t missed = 0, cut_short = 0, too_large = 0, refused = 0, stalled = 0;
-  };
   /// As of the last frame or second. From one other thread.
-  [[nodiscard]] const Losses& losses() const noexcept {
-    (void)losses_.take_if_new();
-    return losses_.newest_taken();
+  [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
+    (void)figures_.take_if_new();
+    return figures_.newest_taken();
   }
 
  private:
@@ -45,7 +41,7 @@ class StreamWriter {
   Slots& slots_;
   const threads::WakeEvent& ready_;
   std::atomic<bool> finish_{false};
-  mutable queues::LatestValue<Losses> losses_;
+  mutable queues::LatestValue<stream::FrameStreamFigures> figures_;
   threads::BackgroundThread thread_;  ///< Last: it uses all of the above.
 };
 

@@ -14,9 +14,9 @@
 
 namespace terracut::status {
 
-/// What comes in, as of one look at it.
+/// What came in, as of the newest look of the receiving thread.
 struct InputState {
-  const net::DatagramAccount& account;  ///< Since the start.
+  net::DatagramAccount account;  ///< Since the start.
   net::LinkState link = net::LinkState::kUnknown;
   std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
   frame::BlindAzimuths blind;

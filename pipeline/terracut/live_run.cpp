@@ -194,7 +194,7 @@ void LiveRun::run(const StopWanted& stop_wanted, const OnFrame& on_frame) {
 
 LiveRun::Figures LiveRun::figures() const noexcept {
   Figures figures = engine_->figures;
-  const run::Intake& intake = engine_->threads.intake();
+  const status::InputState& intake = engine_->threads.intake();
   figures.datagrams = intake.account.source.received;
   figures.decoded = intake.account.decoded;
   figures.frames_left_out = engine_->threads.points()->unused();

@@ -165,7 +165,7 @@ class LiveFrames : public testing::Test {
       records_.push_back(record);
     }
   }
-  const Intake& intake() {
+  const status::InputState& intake() {
     (void)intake_.take_if_new();
     return intake_.newest_taken();
   }
@@ -200,7 +200,7 @@ class LiveFrames : public testing::Test {
   FrameExchange frames_{chain_.decoder.images()};
   Expected<threads::WakeEvent> frame_ready_ = threads::WakeEvent::make();
   FrameRecords skipped_{memory_}, segmented_{memory_};
-  queues::LatestValue<Intake> intake_;
+  queues::LatestValue<status::InputState> intake_;
   recorder::FlightRecorder recorder_{{.datagrams = 8192, .payload_bytes = 8192 * 1208}, memory_};
   FramePool<frame::Label> labels_{"labels", 4, chain_.decoder.return_capacity(), memory_};
   LatestNearGround near_ground_{memory_};

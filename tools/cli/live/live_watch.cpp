@@ -110,9 +110,7 @@ void LiveWatch::refresh_threads(status::MonitorSnapshot& figures) {
 }
 
 void LiveWatch::refresh_input(status::MonitorSnapshot& figures) {
-  const run::Intake& intake = threads_.intake();
-  const std::string news =
-      input_.show({intake.account, intake.link, intake.newest_packet_ns, intake.blind}, figures);
+  const std::string news = input_.show(threads_.intake(), figures);
   if (!news.empty()) say(news);
 }
 
@@ -132,10 +130,10 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   if (threads_.labels()) more.push_back({"unwritten_label_frames", lost(threads_.labels())});
   if (threads_.points()) more.push_back({"unstreamed_frames", lost(threads_.points())});
   if (stream_ != nullptr) {
-    const run::StreamWriter::Losses stream = stream_->losses();
+    const stream::FrameStreamFigures& stream = stream_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},
                              {"stream_frames_cut_short", stream.cut_short},
-                             {"stream_frames_too_large", stream.too_large},
+                             {"stream_frames_too_large", stream.frames_too_large},
                              {"stream_readers_refused", stream.refused},
                              {"stream_readers_stalled", stream.stalled}});
   }

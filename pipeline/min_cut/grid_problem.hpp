@@ -2,9 +2,11 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <bit>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 #include <type_traits>
 
@@ -20,6 +22,25 @@ enum class Seed : std::uint8_t {
   kObstacle = 2,  ///< High-confidence obstacle: the "object" terminal.
   kUnknown = 4,   ///< To be labelled. A bit of its own, so that the scan can test 8 cells at once.
 };
+
+/// Calls `visit(index)` for each unknown cell, in order. Few cells are, and those lie together:
+/// eight are looked at at once.
+template <class Visit>
+inline void for_each_unknown(std::span<const Seed> seeds, Visit visit) noexcept {
+  static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");
+  constexpr std::uint64_t kAnyUnknown =
+      0x0101'0101'0101'0101 * static_cast<std::uint64_t>(Seed::kUnknown);
+  const auto look_at = [&](std::size_t first, std::size_t count) noexcept {
+    std::uint64_t eight = 0;
+    std::memcpy(&eight, &seeds[first], count);
+    for (std::uint64_t left = eight & kAnyUnknown; left != 0; left &= left - 1) {
+      visit(first + static_cast<std::size_t>(std::countr_zero(left)) / 8);
+    }
+  };
+  const std::size_t whole = seeds.size() / 8 * 8;
+  for (std::size_t first = 0; first < whole; first += 8) look_at(first, 8);
+  if (whole < seeds.size()) look_at(whole, seeds.size() - whole);
+}
 
 /// Integer capacity of an energy of 1.0. With 1024 the labels equal those of a solution in double
 /// precision (measured on two scenes; 256 already changes some).

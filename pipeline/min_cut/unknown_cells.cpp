@@ -3,7 +3,6 @@
 #include "pipeline/min_cut/unknown_cells.hpp"
 
 #include <algorithm>
-#include <cstring>
 
 namespace terracut::min_cut {
 
@@ -21,30 +20,14 @@ void UnknownCells::find(const GridProblem& problem, std::span<const frame::Label
   const auto columns = static_cast<std::size_t>(problem.shape.columns);
   for (std::size_t row = 0; row < static_cast<std::size_t>(problem.shape.rows); ++row) {
     const std::size_t first = row * stride;
-    scan_row(problem.seeds.subspan(first, columns), static_cast<std::uint32_t>(first));
+    for_each_unknown(problem.seeds.subspan(first, columns), [&](std::size_t column) noexcept {
+      found_.push_back(static_cast<std::uint32_t>(first + column));
+    });
   }
   if (found_.size > max_unknown_) keep_nearest(problem, labels, dropped);
   for (std::uint32_t node = 0; node < found_.size; ++node) {
     node_of_cell_[found_.storage[node]] = node;
   }
-}
-
-void UnknownCells::scan_row(std::span<const Seed> row, std::uint32_t first_cell) noexcept {
-  constexpr std::uint64_t kUnknownBits =
-      0x0101010101010101ULL * static_cast<std::uint8_t>(Seed::kUnknown);
-  constexpr std::size_t kBlock = sizeof(kUnknownBits);
-  std::uint32_t* end = found_.storage.data() + found_.size;
-  for (std::size_t begin = 0; begin < row.size(); begin += kBlock) {
-    const std::size_t size = std::min(kBlock, row.size() - begin);
-    std::uint64_t block = 0;
-    std::memcpy(&block, row.data() + begin, size);
-    if ((block & kUnknownBits) == 0) continue;
-    for (std::size_t column = begin; column < begin + size; ++column) {
-      *end = first_cell + static_cast<std::uint32_t>(column);  // overwritten unless unknown
-      end += row[column] == Seed::kUnknown ? 1 : 0;
-    }
-  }
-  found_.size = static_cast<std::uint32_t>(end - found_.storage.data());
 }
 
 std::size_t UnknownCells::range_step(float ground_range_m) noexcept {

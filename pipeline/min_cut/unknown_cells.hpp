@@ -50,7 +50,6 @@ class UnknownCells {
   static constexpr std::size_t kRangeSteps = 1024;
   static constexpr float kStepsPerMetre = 4.0F;
 
-  void scan_row(std::span<const Seed> row, std::uint32_t first_cell) noexcept;
   void keep_nearest(const GridProblem& problem, std::span<const frame::Label> labels,
                     CellList& dropped) noexcept;
   [[nodiscard]] static std::size_t range_step(float ground_range_m) noexcept;

@@ -3,33 +3,11 @@
 #include "pipeline/random_field/region_term.hpp"
 
 #include <algorithm>
-#include <bit>
-#include <cstring>
 #include <limits>
 
 #include "pipeline/stage/portable_math.hpp"
 
 namespace terracut::random_field {
-namespace {
-
-/// Calls `visit(cell)` for each unknown cell. Few cells are, and those lie together: eight are
-/// looked at at once.
-template <class Visit>
-void for_each_unknown(std::span<const min_cut::Seed> seeds, Visit visit) noexcept {
-  constexpr std::uint64_t kAnyUnknown =
-      0x0101'0101'0101'0101 * static_cast<std::uint64_t>(min_cut::Seed::kUnknown);
-  static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");
-  for (std::size_t first = 0; first < seeds.size(); first += sizeof(std::uint64_t)) {
-    std::uint64_t eight = 0;  // rows are padded to whole words
-    std::memcpy(&eight, &seeds[first], sizeof(eight));
-    for (std::uint64_t left = eight & kAnyUnknown; left != 0; left &= left - 1) {
-      visit(first + static_cast<std::size_t>(std::countr_zero(left)) / 8);
-    }
-  }
-}
-
-}  // namespace
-
 RegionTerm::RegionTerm(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory)
     : config_(config),
       cost_ground_(memory.take<std::int32_t>("energy", shape.cells())),
@@ -47,7 +25,7 @@ void RegionTerm::evaluate(const frame::RangeImage& image, const stage::CellPlane
 void RegionTerm::evaluate_ramp(const stage::CellPlanes& planes,
                                std::span<const min_cut::Seed> seeds) noexcept {
   const float full = config_.lambda * static_cast<float>(min_cut::kCapacityScale);
-  for_each_unknown(seeds, [&](std::size_t cell) noexcept {
+  min_cut::for_each_unknown(seeds, [&](std::size_t cell) noexcept {
     const float lean =
         std::clamp((planes.height_m[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
     const auto cost = static_cast<std::int32_t>(lean * full);
@@ -77,7 +55,7 @@ void RegionTerm::evaluate_histogram(const frame::RangeImage& image,
     if (seeds[cell] == min_cut::Seed::kObstacle) ++obstacle[bin_of(cell)];
   }
   const BinCosts ground_costs = costs_of(ground), obstacle_costs = costs_of(obstacle);
-  for_each_unknown(seeds, [&](std::size_t cell) noexcept {
+  min_cut::for_each_unknown(seeds, [&](std::size_t cell) noexcept {
     const std::size_t bin = bin_of(cell);
     cost_ground_[cell] = ground_costs[bin];
     cost_obstacle_[cell] = obstacle_costs[bin];

@@ -76,7 +76,6 @@ class RingGrid {
   struct Sectors {
     int begin, end;
   };
-  [[nodiscard]] Sectors all_sectors() const noexcept { return {0, sectors_}; }
   /// A sector's number less than one frame beyond either end, brought back onto the circle.
   [[nodiscard]] int wrapped(int sector) const noexcept {
     return sector < 0 ? sector + sectors_ : sector >= sectors_ ? sector - sectors_ : sector;

@@ -21,7 +21,8 @@ enum class BoundaryRule : std::uint8_t {
 };
 
 /// Stage 3b, the boundary term B(A) of the energy (paper, Eq. 8, 9, 14, 15): the weight of an edge
-/// between neighbouring returns. A value type that looks at one frame; satisfies EdgeWeights.
+/// between neighbouring returns, in [0, kCapacityScale] and the same both ways. A value type that
+/// looks at one frame; satisfies EdgeWeights.
 class BoundaryTerm {
  public:
   struct Config {
@@ -68,18 +69,6 @@ class BoundaryTerm {
       out[d] = static_cast<std::uint16_t>((*exp_)(exponent[d]) *
                                           static_cast<float>(min_cut::kCapacityScale));
     }
-  }
-
-  /// Weight of the edge between two cells that hold returns, [0, 1]; the same both ways, bit for
-  /// bit.
-  [[nodiscard]] float weight(std::size_t p, std::size_t q) const noexcept {
-    const float dx = x_m_[p] - x_m_[q];
-    const float dy = y_m_[p] - y_m_[q];
-    const float dz = z_m_[p] - z_m_[q];
-    const float along = dx * dx + dy * dy;
-    return (*exp_)(config_->rule == BoundaryRule::kHeightGradient
-                       ? by_gradient(along, dz)
-                       : by_nearness(along, dz, ground_range_m_[p] + ground_range_m_[q]));
   }
 
  private:

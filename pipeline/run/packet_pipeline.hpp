@@ -60,7 +60,6 @@ class PacketPipeline {
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_.labels(); }
 
   [[nodiscard]] const sensor::SensorDecoder& decoder() const noexcept { return decoder_; }
-  [[nodiscard]] const ground::GroundMethod& method() const noexcept { return method_; }
 
  private:
   void resume() noexcept;

@@ -29,9 +29,7 @@ class StageClockOf final : public stage::StageObserver {
     times_.segment_wall_ns += spent.wall_ns;
     last_ = now;
   }
-  /// Of the frame so far.
-  [[nodiscard]] const stage::StageTimes& times() const noexcept { return times_; }
-  /// Its times; the next frame begins.
+  /// The times of the frame so far; the next frame begins.
   stage::StageTimes take() noexcept TERRACUT_NONBLOCKING {
     return std::exchange(times_, stage::StageTimes{});
   }

@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -23,21 +25,9 @@ inline constexpr int kStages = static_cast<int>(Stage::kCount);
 
 /// lower_snake_case name, as in reports.
 [[nodiscard]] constexpr std::string_view to_string(Stage stage) noexcept {
-  switch (stage) {
-    case Stage::kElevationMap:
-      return "elevation_map";
-    case Stage::kAdjacentPoints:
-      return "adjacent_points";
-    case Stage::kSeeds:
-      return "seeds";
-    case Stage::kMinCut:
-      return "min_cut";
-    case Stage::kLabels:
-      return "labels";
-    case Stage::kCount:
-      break;
-  }
-  return "unknown";
+  constexpr std::array<std::string_view, kStages> kNames{"elevation_map", "adjacent_points",
+                                                         "seeds", "min_cut", "labels"};
+  return stage < Stage::kCount ? kNames[static_cast<std::size_t>(stage)] : "unknown";
 }
 
 /// Told when a stage is over. The pipeline has no clock of its own; whoever wants times brings one.

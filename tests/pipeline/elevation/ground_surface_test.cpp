@@ -35,8 +35,8 @@ struct SurfaceOverGrid : testing::Test {
   }
   void estimate() {
     surface.reset();
-    surface.trace(grid, grid.all_sectors(), lowest);
-    surface.finalize(grid, grid.all_sectors(), lowest);
+    surface.trace(grid, {0, grid.sectors()}, lowest);
+    surface.finalize(grid, {0, grid.sectors()}, lowest);
   }
   float at(int sector, float range_m) {
     return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];

@@ -118,7 +118,7 @@ TEST(RingGrid, TheColumnsOfASectorAreThoseThatNameIt) {
     next = end;
   }
   EXPECT_EQ(next, kShape.columns);
-  const frame::ColumnRange all = grid.columns_of(grid.all_sectors());
+  const frame::ColumnRange all = grid.columns_of({0, grid.sectors()});
   EXPECT_EQ(all.begin, 0);
   EXPECT_EQ(all.end, kShape.columns);
 }

@@ -22,7 +22,7 @@ FrameTimes MethodBench::segment(std::size_t index, const frame::RangeImage& imag
   const std::int64_t begun_ns = measure::thread_cpu_ns();
   (void)methods_[index]->segment(image, &clock);
   times.segment_ns = measure::thread_cpu_ns() - begun_ns;
-  times.stage_ns = clock.times().stage_ns;
+  times.stage_ns = clock.take().stage_ns;
   return times;
 }
 

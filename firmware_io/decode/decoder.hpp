@@ -127,7 +127,8 @@ class Decoder {
         complete_ticks_ + completes_behind_ticks_,
         (frames_.oldest() + 1) * kRevolution_ticks + completes_behind_ticks_};
     return {&frames_.image(frames_.oldest()), deskewer_ ? 0 : complete_columns(),
-            blind_.sector().outside_ticks(to_come) <= kRevolution_ticks / 50};
+            static_cast<float>(blind_.sector().outside_ticks(to_come)) /
+                static_cast<float>(kRevolution_ticks)};
   }
 
   /// Since construction. Packets still expected out of order become losses a few packets later.

@@ -50,7 +50,8 @@ struct ArrivingFrame {
   /// Columns [0, complete_columns) are complete but for packets that come late by more than the
   /// decoder waits for; these may still change any of them.
   int complete_columns = 0;
-  bool is_ending = false;  ///< It will be handed over within a fiftieth of a frame.
+  /// Of a revolution, until its last packet; what a blind sector leaves out does not count.
+  float share_to_come = 0;
 };
 
 }  // namespace terracut::frame

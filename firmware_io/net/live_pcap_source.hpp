@@ -29,7 +29,7 @@ struct LivePcapConfig {
   bool promiscuous = false;  ///< Also what is meant for other machines: a mirror port.
 
   std::size_t buffer_bytes = 8U << 20;  ///< Of the kernel's ring.
-  std::size_t batch = 64;               ///< Datagrams a receive() returns at most, [1, 1024].
+  std::size_t batch = kBatchDatagrams;               ///< Datagrams a receive() returns at most, [1, 1024].
   std::size_t slot_bytes = 1536;        ///< The longest payload taken, [1, 65536].
 };
 

@@ -43,7 +43,7 @@ struct UdpSourceConfig {
 
   std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
   int busy_poll_us = 0;    ///< Look again and again for so long before sleeping, [0, 100000].
-  std::size_t batch = 64;  ///< Datagrams a receive() returns at most, [1, 1024].
+  std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, [1, 1024].
   std::size_t slot_bytes = 1536;  ///< The longest payload taken, [1, 65536]; all of one Ethernet
                                   ///< frame by default.
 };

@@ -40,7 +40,10 @@ class FrameReceiver {
  public:
   struct Config {
     std::int64_t deadline_ns = 0;      ///< From a frame's last packet to its labels.
-    std::int64_t frame_period_ns = 0;  ///< Of one frame of the head.
+    std::int64_t frame_period_ns = 0;  ///< Of one revolution of the head.
+    /// How long packets may gather in the kernel's buffer before they are fetched; 0: each is
+    /// fetched as it comes.
+    std::int64_t longest_gathering_ns = 0;
   };
   /// Where things go; all must outlive this. `recorder` and `told_table` may be null.
   struct Outlets {
@@ -55,7 +58,9 @@ class FrameReceiver {
   /// What waits in `source` is too old for a label and no loss of the run: it is thrown away.
   FrameReceiver(const Config& config, LivePipeline& pipeline, Source& source,
                 const Outlets& outlets, Clock clock, Wait wait) noexcept
-      : pipeline_(pipeline),
+      : config_(config),
+        frame_period_ns_(config.frame_period_ns),
+        pipeline_(pipeline),
         source_(source),
         to_(outlets),
         clock_(clock),
@@ -73,22 +78,22 @@ class FrameReceiver {
 
   struct Round {
     int frames = 0;  ///< Handed over.
-    /// It pays to let the next packets gather before they are fetched, because none is expected
+    /// The next packets may gather for so long before they are fetched: none is expected by then
     /// that ends a frame.
-    bool may_gather = false;
+    std::int64_t gathering_ns = 0;
   };
   /// Waits for datagrams, at most so long, and takes them in.
   Round work_round(std::int64_t timeout_ns) noexcept TERRACUT_NONBLOCKING {
     waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
     waited_before_fetch_ns_ = wait_.read_ns();
     const std::span<const decode::Datagram> datagrams = source_.receive(timeout_ns);
-    const bool is_worthwhile = datagrams.size() >= kWorthwhileBatch;
+    const bool more_may_wait = datagrams.size() >= net::kBatchDatagrams;
     const std::int64_t now_ns = clock_.realtime_ns();
-    gate_.begin_batch(is_worthwhile);
+    gate_.begin_batch(more_may_wait);
     frames_ = 0;
     for (std::size_t i = 0; i < datagrams.size(); ++i) take(datagrams[i], now_ns);
     publish();
-    return {frames_, !is_worthwhile && !is_ending_};
+    return {frames_, more_may_wait ? 0 : gathering_ns()};
   }
   /// The run is over: counts what the kernel dropped last.
   void finish() noexcept TERRACUT_NONBLOCKING {
@@ -97,15 +102,24 @@ class FrameReceiver {
   }
 
  private:
-  /// Waking up for every packet costs more than decoding it. After a small batch the next one is
-  /// left to gather in the kernel's buffer, which stamps packets and holds a thousand times as
-  /// many; but not where the packet may come that ends the frame.
-  static constexpr std::size_t kWorthwhileBatch = 32;
+  /// Packets are fetched as they come in the last fiftieth of a frame: that much sooner than its
+  /// last packet a gathering ends, however late the thread wakes up.
+  static constexpr float kFetchedAsTheyCome = 0.02F;
+  static constexpr std::int64_t kWorthwhileGathering_ns = 300'000;
   /// More than any buffer holds: who sends without end holds up nothing.
   static constexpr int kMostBatches = 10'000;
   /// At least eight times what a packet brings, so that the coarse stages catch up.
   static constexpr int kBlocksAPacket = 1;
   static constexpr float kEnoughAhead = 0.75F;
+
+  /// Waking up for every packet costs more than decoding it. The kernel's buffer stamps packets and
+  /// holds a thousand times as many as gather here.
+  [[nodiscard]] std::int64_t gathering_ns() const noexcept {
+    const auto left_ns = static_cast<std::int64_t>((share_to_come_ - kFetchedAsTheyCome) *
+                                                   static_cast<float>(frame_period_ns_));
+    const std::int64_t time_ns = std::min(left_ns, config_.longest_gathering_ns);
+    return time_ns < kWorthwhileGathering_ns ? 0 : time_ns;
+  }
 
   void take(const decode::Datagram& datagram, std::int64_t now_ns) noexcept {
     newest_packet_ns_ = datagram.stamp_ns;
@@ -125,7 +139,7 @@ class FrameReceiver {
     hand_over_frames();
     if (pipeline_.decoder.rejected() == frame::Reject::kDeviceInfo) ++device_info_;
     const frame::ArrivingFrame arriving = pipeline_.decoder.arriving();
-    is_ending_ = arriving.is_ending;
+    share_to_come_ = arriving.image == nullptr ? 1 : arriving.share_to_come;
     if (arriving.image == nullptr) return;
     pipeline_.coarse.advance(*arriving.image, arriving.complete_columns,
                              pipeline_.planes_of(*arriving.image), &coarse_clock_, kBlocksAPacket);
@@ -146,6 +160,7 @@ class FrameReceiver {
     }
     Frame frame{&image, record_of(info)};
     frame.record.stages_ahead = has_coarse_stages ? kCoarseStages : std::uint8_t{0};
+    note_period(info.last_packet_ns);
     if (!lets_go_) gate_.note_frame(info.last_packet_ns, frame.record.handed_over_ns);
     frame::RangeImage* next = to_.frames->hand_over(frame, [this](Frame& skipped) noexcept {
       skipped.record.level = status::Level::kSkipped;
@@ -155,6 +170,13 @@ class FrameReceiver {
     to_.frame_ready->wake();
     ++frames_;
     return next;
+  }
+
+  /// A head that was set to rotate faster must not be waited for too long; a frame that was lost
+  /// looks as if it rotated slower.
+  void note_period(std::int64_t last_packet_ns) noexcept {
+    const std::int64_t period_ns = last_packet_ns - std::exchange(last_packet_ns_, last_packet_ns);
+    frame_period_ns_ = std::clamp<std::int64_t>(period_ns, 0, config_.frame_period_ns);
   }
 
   [[nodiscard]] status::FrameRecord record_of(const frame::FrameInfo& info) noexcept
@@ -190,6 +212,8 @@ class FrameReceiver {
 
   static constexpr auto kCoarseStages = static_cast<std::uint8_t>(stage::Stage::kSeeds);
 
+  Config config_;
+  std::int64_t frame_period_ns_;  ///< The newest frame's, or less.
   LivePipeline& pipeline_;
   Source& source_;
   Outlets to_;
@@ -202,8 +226,9 @@ class FrameReceiver {
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;
-  int frames_ = 0;          ///< Handed over in this round.
-  bool is_ending_ = false;  ///< The frame that is arriving.
+  int frames_ = 0;                   ///< Handed over in this round.
+  float share_to_come_ = 1;          ///< Of the frame that is arriving, or of none yet.
+  std::int64_t last_packet_ns_ = 0;  ///< Of the newest frame handed over.
 
   std::int64_t spent_ns_;  ///< Processor time, up to the last hand-over.
   std::int64_t waited_before_fetch_ns_, waited_before_last_fetch_ns_;

@@ -12,11 +12,11 @@ namespace terracut::run {
 namespace {
 
 constexpr std::int64_t kLongestWait_ns = 100'000'000;
-constexpr std::chrono::microseconds kGathering{1000};
 
 /// Waits on purpose.
-void gather() noexcept {
-  threads::trusted_call([]() noexcept { std::this_thread::sleep_for(kGathering); });
+void gather(std::int64_t time_ns) noexcept {
+  threads::trusted_call(
+      [&]() noexcept { std::this_thread::sleep_for(std::chrono::nanoseconds(time_ns)); });
 }
 
 }  // namespace
@@ -73,16 +73,17 @@ void LiveThreads::stop() {
 }
 
 void LiveThreads::receive() noexcept {
-  Receiver receiver(
-      {.deadline_ns = config_.deadline_ns, .frame_period_ns = config_.frame_period_ns}, pipeline_,
-      source_,
-      {.frames = &exchange_,
-       .frame_ready = &events_.frame_ready,
-       .skipped = &skipped_,
-       .intake = &intake_,
-       .recorder = recorder_,
-       .told_table = config_.compares_tables ? &told_table_ : nullptr},
-      {}, measure::RunQueueWait::of_this_thread());
+  Receiver receiver({.deadline_ns = config_.deadline_ns,
+                     .frame_period_ns = config_.frame_period_ns,
+                     .longest_gathering_ns = config_.longest_gathering_ns},
+                    pipeline_, source_,
+                    {.frames = &exchange_,
+                     .frame_ready = &events_.frame_ready,
+                     .skipped = &skipped_,
+                     .intake = &intake_,
+                     .recorder = recorder_,
+                     .told_table = config_.compares_tables ? &told_table_ : nullptr},
+                    {}, measure::RunQueueWait::of_this_thread());
   receive_frames(receiver);
 }
 
@@ -91,7 +92,7 @@ void LiveThreads::receive_frames(Receiver& receiver) noexcept {
   while (!stop_.load(std::memory_order_relaxed)) {
     const Receiver::Round round = receiver.work_round(kLongestWait_ns);
     if (round.frames > 0) receive_state_.note_faults(at_start);
-    if (round.may_gather) gather();
+    if (round.gathering_ns > 0) gather(round.gathering_ns);
   }
   receiver.finish();
 }

@@ -83,6 +83,7 @@ struct LiveRun::Engine {
     if (sensor.spin_hz > 0) {
       of_threads.frame_period_ns = static_cast<std::int64_t>(1e9 / sensor.spin_hz);
     }
+    of_threads.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
     of_threads.keeps_points = true;
     of_threads.receive = run::thread_request("tc-receive", config.receive_priority, std::nullopt);
     of_threads.segment = run::thread_request("tc-segment", config.segment_priority, std::nullopt);

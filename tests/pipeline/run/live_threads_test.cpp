@@ -79,7 +79,9 @@ class MadeSource {
     if (timeout_ns == 0 || !has_more()) return {};
     time_.now_ns = std::max(time_.now_ns, waiting_[next_].stamp_ns);
     const std::size_t first = next_;
-    while (has_more() && next_ - first < 64 && waiting_[next_].stamp_ns <= time_.now_ns) ++next_;
+    while (has_more() && next_ - first < net::kBatchDatagrams &&
+           waiting_[next_].stamp_ns <= time_.now_ns)
+      ++next_;
     counters_.received += next_ - first;
     counters_.delivered += next_ - first;
     return std::span(waiting_).subspan(first, next_ - first);
@@ -118,16 +120,18 @@ class LiveFrames : public testing::Test {
                        HeldClock{&time_}, HeldWait{&time_});
   }
 
-  void begin_receiving() {
-    receiver_.emplace(
-        Receiver::Config{.deadline_ns = kDeadline_ns, .frame_period_ns = kFramePeriod_ns}, chain_,
-        source_,
-        Receiver::Outlets{.frames = &frames_,
-                          .frame_ready = &*frame_ready_,
-                          .skipped = &skipped_,
-                          .intake = &intake_,
-                          .recorder = &recorder_},
-        HeldClock{&time_}, HeldWait{&time_});
+  void begin_receiving() { receive_gathering(0); }
+  void receive_gathering(std::int64_t longest_gathering_ns) {
+    receiver_.emplace(Receiver::Config{.deadline_ns = kDeadline_ns,
+                                       .frame_period_ns = kFramePeriod_ns,
+                                       .longest_gathering_ns = longest_gathering_ns},
+                      chain_, source_,
+                      Receiver::Outlets{.frames = &frames_,
+                                        .frame_ready = &*frame_ready_,
+                                        .skipped = &skipped_,
+                                        .intake = &intake_,
+                                        .recorder = &recorder_},
+                      HeldClock{&time_}, HeldWait{&time_});
   }
 
   /// A head that rotates `frames` times, beginning at 0 degrees now.
@@ -554,21 +558,56 @@ TEST_F(LiveFrames, TheNearGroundOfEveryFifthFrameIsPassedOn) {
   EXPECT_GE(passed_on, 2);
 }
 
-TEST_F(LiveFrames, PacketsMayGatherExceptWhereAFrameIsAboutToEnd) {
-  send(drive(6));
-  int gathered = 0, frames = 0;
-  bool may_gather = false;
+TEST_F(LiveFrames, PacketsGatherAsLongAsToldButNeverPastAFramesEnd) {
+  receive_gathering(10 * kMs);
+  send(drive(12));
+  int fetches = 0;
   while (source_.has_more()) {
     const Receiver::Round round = receiver_->work_round(100 * kMs);
-    if (round.frames > 0) {
-      EXPECT_FALSE(may_gather) << "frame " << frames;
-      ++frames;
-    }
-    may_gather = round.may_gather;
-    gathered += may_gather ? 1 : 0;
+    EXPECT_LE(round.gathering_ns, 10 * kMs);
+    time_.now_ns += round.gathering_ns;
+    ++fetches;
+    (void)segmenter_->work_round();
+    take_records();
   }
-  EXPECT_GT(frames, 3);
-  EXPECT_GT(gathered, 1000) << "of some 2,000 packets that came one by one";
+  ASSERT_GT(records_.size(), 9U);
+  EXPECT_LE(fetches, 12 * 20) << "of some 4,200 packets";
+  for (const status::FrameRecord& record : records_) {
+    EXPECT_LT(lag_ns(record), kMs) << record.info.number;
+  }
+}
+
+TEST_F(LiveFrames, NothingGathersWhereEachPacketIsWantedAsItComes) {
+  receive_gathering(0);
+  send(drive(3));
+  while (source_.has_more()) EXPECT_EQ(receiver_->work_round(100 * kMs).gathering_ns, 0);
+}
+
+TEST_F(LiveFrames, AFullBatchIsFollowedByTheNextAtOnce) {
+  receive_gathering(10 * kMs);
+  send(drive(3));
+  time_.now_ns += 40 * kMs;
+  EXPECT_EQ(receiver_->work_round(100 * kMs).gathering_ns, 0);
+  EXPECT_EQ(receiver_->work_round(100 * kMs).gathering_ns, 0);
+  EXPECT_GT(receiver_->work_round(100 * kMs).gathering_ns, 0) << "none was left waiting";
+}
+
+TEST_F(LiveFrames, AHeadThatIsSetToRotateFasterIsNotWaitedForTooLong) {
+  receive_gathering(20 * kMs);
+  send(test::random_packets({.first_cdeg = 0,
+                             .last_cdeg = 36'000 * 12,
+                             .step_deg = 4 * 0.1728,
+                             .first_stamp_ns = kStart_ns,
+                             .share_of_returns = 0.05}));
+  while (source_.has_more()) {
+    time_.now_ns += receiver_->work_round(100 * kMs).gathering_ns;
+    (void)segmenter_->work_round();
+    take_records();
+  }
+  ASSERT_GT(records_.size(), 9U);
+  for (std::size_t i = 2; i < records_.size(); ++i) {
+    EXPECT_LT(lag_ns(records_[i]), kMs) << records_[i].info.number;
+  }
 }
 
 TEST_F(LiveFrames, AFrameThatNobodyTookIsGivenUpWhenTheNextOneComes) {

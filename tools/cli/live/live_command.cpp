@@ -161,6 +161,7 @@ struct LiveParts {
     return {
         .deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
         .frame_period_ns = static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz)),
+        .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
         .keeps_labels = !options.output.labels.empty(),
         .keeps_points = !options.stream.empty(),
         .compares_tables = !options.capture.calibration.empty(),

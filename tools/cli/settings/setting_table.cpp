@@ -117,6 +117,8 @@ constexpr std::array kSettings{
             .bare = "yes", .field = [](O& o) -> F { return &o.listen.share_port; }},
     Setting{.key = "input.device_port", .option = "--device-port", .commands = C::kLive, .help = "Ruby128: port of its device information, heard at the start for its angles; 0: do not",
             .least = 0, .most = 65535, .field = [](O& o) -> F { return &o.listen.device_port; }},
+    Setting{.key = "input.gather_ms", .option = "--gather", .commands = C::kLive, .unit = "ms", .help = "How long packets may wait to be fetched together, though never past a frame's end; 0: each as it comes, which costs more wake-ups",
+            .least = 0, .most = 20, .field = [](O& o) -> F { return &o.listen.gather_ms; }},
     Setting{.key = "input.patience_s", .option = "--patience", .commands = C::kLive, .unit = "s", .help = "How long to wait for the sensor at the start (default: as long as it takes)",
             .least = 0.1, .most = kLongest_s, .field = [](O& o) -> F { return &o.patience_s; }},
 

@@ -115,7 +115,7 @@ Expected<calib::SensorCalibration> FirstSeconds::from_packets(SensorModel model,
   }
   auto table = hdl64e::parse_stream_table(status.table());
   if (!table) return tl::unexpected(table.error());
-  return std::move(table->calibration);
+  return *std::move(table);
 }
 
 }  // namespace terracut::sensor

@@ -12,11 +12,11 @@ std::string other_table_warning(const hdl64e::StatusStreamReader& told,
                                 const calib::SensorCalibration& in_use) {
   if (!told.has_table()) return {};
   const auto table = hdl64e::parse_stream_table(told.table());
-  if (!table || hdl64e::fingerprint(table->calibration) == calib::fingerprint(in_use)) return {};
+  if (!table || hdl64e::fingerprint(*table) == calib::fingerprint(in_use)) return {};
   return fmt::format(
       "the packets carry another calibration (fingerprint {:016x}) than the one in use ({:016x}); "
       "leave --calibration away to use theirs",
-      hdl64e::fingerprint(table->calibration), calib::fingerprint(in_use));
+      hdl64e::fingerprint(*table), calib::fingerprint(in_use));
 }
 
 std::string ToldTable::take_warning(const calib::SensorCalibration& in_use) {

@@ -60,7 +60,7 @@ StreamSearch search_status_stream(PcapSource& source) {
   if (!status.has_table()) return search;
   auto table = hdl64e::parse_stream_table(status.table());
   if (table) {
-    search.found = std::move(table->calibration);
+    search.found = *std::move(table);
   } else {
     search.table_error = table.error().message;
   }

@@ -60,7 +60,7 @@ std::string calibration_in(const Hdl64eFacts& facts) {
   }
   const auto table = hdl64e::parse_stream_table(*facts.table);
   if (!table) return "unusable: " + table.error().message;
-  return fmt::format("complete, fingerprint {:016x}", fingerprint(table->calibration));
+  return fmt::format("complete, fingerprint {:016x}", fingerprint(*table));
 }
 
 std::string text_of(const StreamFacts& facts) {

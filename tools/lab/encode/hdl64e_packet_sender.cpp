@@ -16,11 +16,9 @@ constexpr std::uint32_t kBroadcastAddress = 0xC0A803FF;  // 192.168.3.255
 
 Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
     const hdl64e::Hdl64eCalibration& calibration, drive::ReturnMode returns) {
-  hdl64e::UnitInfo unit;
-  if (returns == drive::ReturnMode::kDual) {
-    unit.return_setting = static_cast<std::uint8_t>(hdl64e::ReturnSetting::kBoth);
-  }
-  const auto table = hdl64e::make_stream_table(calibration, unit);
+  const bool both = returns == drive::ReturnMode::kDual;
+  const auto table = hdl64e::make_stream_table(
+      calibration, both ? hdl64e::ReturnSetting::kBoth : hdl64e::ReturnSetting::kStrongest);
   if (!table) return tl::unexpected(table.error());
   return Hdl64ePacketSender(StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
 }

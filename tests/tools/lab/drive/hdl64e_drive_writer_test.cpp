@@ -175,7 +175,7 @@ TEST_F(DriveWriterTest, TheCaptureCarriesTheCalibration) {
   }
   const auto parsed = hdl64e::parse_stream_table(table);
   ASSERT_TRUE(parsed) << parsed.error().message;
-  EXPECT_EQ(fingerprint(parsed->calibration), fingerprint(hdl64e::nominal_hdl64e()));
+  EXPECT_EQ(fingerprint(*parsed), fingerprint(hdl64e::nominal_hdl64e()));
 }
 
 TEST_F(DriveWriterTest, AnUnfinishedDriveLeavesNothingBehind) {

@@ -57,23 +57,4 @@ inline constexpr std::uint8_t kWarningType = 'W';
 /// Which generation a status stream is of; the S3 is known by its 'W'.
 enum class StatusFlavour : std::uint8_t { kS2, kS3 };
 
-/// How the unit's clock is fed. Values as sent.
-enum class GpsState : std::uint8_t {
-  kNone = 0,
-  kPpsAndNmea = 'A',
-  kNmeaOnly = 'V',
-  kPpsOnly = 'P',
-};
-
-/// UTC, as the unit believes it.
-struct DateTime {
-  int year = 2000;  ///< 2000..2255
-  int month = 1;    ///< 1..12
-  int day = 1;      ///< 1..31
-  int hour = 0;     ///< 0..23
-  int minute = 0;   ///< 0..59
-  int second = 0;   ///< 0..60
-  bool operator==(const DateTime&) const = default;
-};
-
 }  // namespace terracut::hdl64e

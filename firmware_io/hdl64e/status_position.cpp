@@ -33,12 +33,6 @@ std::int64_t place_difference(int place, std::int64_t packet) noexcept {
 
 }  // namespace
 
-double StatusPosition::period_us() const noexcept {
-  return period_count_ == 0
-             ? 0.0
-             : static_cast<double>(period_sum_us_) / static_cast<double>(period_count_);
-}
-
 std::int64_t StatusPosition::periods_in(std::int64_t step_us) const noexcept {
   const std::int64_t half = period_sum_us_ / 2;
   const std::int64_t scaled = step_us * period_count_;

@@ -27,9 +27,6 @@ class StatusPosition {
 
   void reset() noexcept { *this = StatusPosition{}; }
 
-  /// Mean device time between packets; 0 while unknown.
-  [[nodiscard]] double period_us() const noexcept;
-
  private:
   [[nodiscard]] std::optional<Located> restart(std::optional<int> place,
                                                std::uint32_t stamp_us) noexcept;

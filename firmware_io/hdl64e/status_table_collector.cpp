@@ -113,20 +113,17 @@ bool StatusTableCollector::every_laser_byte_came_twice(const Table& table) const
   return last_word(table) == kStreamTableBytes;
 }
 
-StatusTableCollector::Refusal StatusTableCollector::try_accept(bool has_crc) noexcept {
-  if (!changed_ || holes() != 0) return Refusal::kNone;
+void StatusTableCollector::try_accept(bool has_crc) noexcept {
+  if (!changed_ || holes() != 0) return;
   changed_ = false;
   Table table;
   std::rotate_copy(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(at(0)),
                    bytes_.end(), table.begin());
-  if (!laser_numbers_in_place(table)) return Refusal::kLaserNumbers;
-  if (stream_table_crc(table) != last_word(table)) {
-    if (has_crc) return Refusal::kCrc;
-    if (!every_laser_byte_came_twice(table)) return Refusal::kNone;
-  }
+  if (!laser_numbers_in_place(table)) return;
+  const bool crc_fits = stream_table_crc(table) == last_word(table);
+  if (!crc_fits && (has_crc || !every_laser_byte_came_twice(table))) return;
   if (generation_ == 0 || !same_lasers(table, accepted_)) ++generation_;
   accepted_ = table;
-  return Refusal::kNone;
 }
 
 }  // namespace terracut::hdl64e

@@ -22,8 +22,6 @@ class StatusTableCollector {
  public:
   using Table = std::array<std::uint8_t, kStreamTableBytes>;
 
-  enum class Refusal : std::uint8_t { kNone, kCrc, kLaserNumbers };
-
   /// Places one byte: `cycle` counts cycles since any start, `place` is 0..6.
   void add(std::int64_t cycle, int place, std::uint8_t value) noexcept;
 
@@ -38,7 +36,7 @@ class StatusTableCollector {
 
   /// Tests the bytes present and takes the table over if it is to be believed; `has_crc` as the S3.
   /// Without effect while holes remain. Costs a few microseconds, and only when bytes have changed.
-  [[nodiscard]] Refusal try_accept(bool has_crc) noexcept;
+  void try_accept(bool has_crc) noexcept;
 
   /// Whether a table was accepted, the table, and how many different ones were.
   [[nodiscard]] bool accepted() const noexcept { return generation_ != 0; }

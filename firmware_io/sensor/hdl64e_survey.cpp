@@ -23,8 +23,7 @@ void Hdl64eSurvey::add(std::span<const std::uint8_t> payload) {
 }
 
 Hdl64eFacts Hdl64eSurvey::facts() const {
-  Hdl64eFacts facts{stream_.facts(), status_.latest(), status_.counters().rounds, status_.holes(),
-                    std::nullopt};
+  Hdl64eFacts facts{stream_.facts(), status_.latest(), status_.holes(), std::nullopt};
   if (status_.has_table()) {
     facts.table.emplace();
     std::copy(status_.table().begin(), status_.table().end(), facts.table->begin());

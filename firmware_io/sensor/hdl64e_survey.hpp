@@ -16,7 +16,6 @@ namespace terracut::sensor {
 /// What the packets of one HDL-64E tell about it.
 struct Hdl64eFacts : StreamFacts {
   hdl64e::StatusSnapshot status;
-  std::uint64_t status_rounds = 0;
   std::size_t status_holes = 0;  ///< Bytes of the table that never came.
   std::optional<hdl64e::StatusTableCollector::Table> table;  ///< For hdl64e::parse_stream_table().
 };

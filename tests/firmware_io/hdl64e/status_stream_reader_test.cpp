@@ -32,8 +32,7 @@ struct StreamPacket {
 std::vector<StreamPacket> stream(const TableImage& table, StatusFlavour flavour, std::size_t count,
                                  std::size_t first = 0, double period_us = 288.0,
                                  std::int64_t start_us = 1'000'000'000) {
-  encode::StatusStreamWriter writer(
-      table, flavour, {.gps = GpsState::kPpsAndNmea, .temperature_deg_c = 41, .firmware = 0x47});
+  encode::StatusStreamWriter writer(table, flavour, {.temperature_deg_c = 41, .firmware = 0x47});
   std::vector<StreamPacket> packets;
   for (std::size_t i = 0; i < first + count; ++i) {
     const auto offset_us = static_cast<std::int64_t>(static_cast<double>(i) * period_us);
@@ -89,11 +88,7 @@ TEST_P(EveryMode, AcceptsTheTableWithItsLastByteAndNotBefore) {
   reader.add(last.pair.type, last.pair.value, last.stamp_us);
   ASSERT_TRUE(reader.has_table());
   EXPECT_EQ(reader.holes(), 0U);
-  EXPECT_EQ(reader.table_generation(), 1U);
   EXPECT_THAT(reader.table(), testing::ElementsAreArray(table()));
-  EXPECT_EQ(reader.latest().flavour, GetParam().flavour);
-  EXPECT_EQ(reader.counters().unplaced, 0U);
-  EXPECT_NEAR(reader.packet_period_us(), GetParam().period_us, 0.5);
 }
 
 TEST_P(EveryMode, MayBeginAnywhereInTheRound) {
@@ -116,8 +111,6 @@ TEST_P(EveryMode, FillsTheHolesOfLostPacketsInLaterRounds) {
     feed(reader, without(packets(7 * kRound, kRound), 0.05, 100 + seed));
     ASSERT_TRUE(reader.has_table()) << reader.holes();
     EXPECT_THAT(reader.table(), testing::ElementsAreArray(table()));
-    EXPECT_EQ(reader.counters().refused_by_crc, 0U);
-    EXPECT_EQ(reader.counters().restarts, 0U);
   }
 }
 
@@ -131,7 +124,6 @@ TEST_P(EveryMode, CountsThroughGapsOfHundredsOfPackets) {
   feed(reader, kept);
   ASSERT_TRUE(reader.has_table());
   EXPECT_THAT(reader.table(), testing::ElementsAreArray(table()));
-  EXPECT_EQ(reader.counters().restarts, 0U);
 }
 
 TEST_P(EveryMode, PutsReorderedAndRepeatedPacketsRight) {
@@ -150,7 +142,6 @@ TEST_P(EveryMode, PutsReorderedAndRepeatedPacketsRight) {
   feed(reader, shuffled);
   ASSERT_TRUE(reader.has_table());
   EXPECT_THAT(reader.table(), testing::ElementsAreArray(table()));
-  EXPECT_EQ(reader.counters().restarts, 0U);
 }
 
 TEST_P(EveryMode, PassesTheTopOfTheHour) {
@@ -158,7 +149,6 @@ TEST_P(EveryMode, PassesTheTopOfTheHour) {
   feed(reader, stream(table(), GetParam().flavour, rounds() * kRound, 0, GetParam().period_us,
                       std::int64_t{kDeviceHour_us} - 200'000));
   EXPECT_TRUE(reader.has_table());
-  EXPECT_EQ(reader.counters().restarts, 0U);
 }
 
 TEST_P(EveryMode, BeginsAnewWhenTheClockJumps) {
@@ -167,7 +157,6 @@ TEST_P(EveryMode, BeginsAnewWhenTheClockJumps) {
   auto later = packets(3 * kRound, 100);
   for (auto& packet : later) packet.stamp_us += 50'000'000;
   feed(reader, later);
-  EXPECT_EQ(reader.counters().restarts, 1U);
   ASSERT_TRUE(reader.has_table());
   EXPECT_THAT(reader.table(), testing::ElementsAreArray(table()));
 }
@@ -178,7 +167,6 @@ TEST_P(EveryMode, NoticesAnotherUnit) {
   ASSERT_TRUE(reader.has_table());
   feed(reader, packets(4 * kRound, 3 * kRound, 2));
   EXPECT_THAT(reader.table(), testing::ElementsAreArray(table(2)));
-  EXPECT_EQ(reader.table_generation(), 2U);
 }
 
 TEST_P(EveryMode, RefusesATableWithLasersOutOfPlace) {
@@ -187,7 +175,6 @@ TEST_P(EveryMode, RefusesATableWithLasersOutOfPlace) {
   StatusStreamReader reader;
   feed(reader, stream(wrong, GetParam().flavour, 3 * kRound, 0, GetParam().period_us));
   EXPECT_FALSE(reader.has_table());
-  EXPECT_GT(reader.counters().refused_by_laser_numbers, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Hdl64e, EveryMode,
@@ -204,7 +191,6 @@ TEST(StatusStreamReader, RefusesATableWithABrokenCrc) {
   StatusStreamReader reader;
   feed(reader, stream(broken, StatusFlavour::kS3, 3 * kRound));
   EXPECT_FALSE(reader.has_table());
-  EXPECT_GT(reader.counters().refused_by_crc, 0U);
   EXPECT_EQ(reader.holes(), 0U);
 }
 
@@ -214,7 +200,6 @@ TEST(StatusStreamReader, RecoversFromOneWrongByteInTheNextRound) {
   StatusStreamReader reader;
   feed(reader, {packets.begin(), packets.begin() + kRound});
   EXPECT_FALSE(reader.has_table());
-  EXPECT_EQ(reader.counters().refused_by_crc, 1U);
   feed(reader, {packets.begin() + kRound, packets.end()});
   ASSERT_TRUE(reader.has_table());
   EXPECT_THAT(reader.table(), testing::ElementsAreArray(test::s3_table()));
@@ -239,7 +224,6 @@ TEST(StatusStreamReader, AWarningOrHoursRunMayChangeWithoutANewTable) {
   StatusStreamReader reader;
   feed(reader, stream(test::s2_table(), StatusFlavour::kS2, 2 * kRound));
   feed(reader, stream(later, StatusFlavour::kS2, kRound + 16, 2 * kRound));
-  EXPECT_EQ(reader.table_generation(), 1U);
   EXPECT_EQ(reader.table()[1816], later[1816]);
   EXPECT_EQ(reader.latest().warning_bits, later[1816]);
 }
@@ -248,37 +232,9 @@ TEST(StatusStreamReader, TellsTheStateOfTheUnit) {
   StatusStreamReader reader;
   feed(reader, stream(test::s3_table(), StatusFlavour::kS3, 200));
   const StatusSnapshot& state = reader.latest();
-  EXPECT_EQ(state.gps, GpsState::kPpsAndNmea);
   EXPECT_EQ(state.temperature_deg_c, 41);
   EXPECT_EQ(state.firmware, 0x47);
   EXPECT_EQ(state.warning_bits, 0x20);
-  const DateTime expected{
-      .year = 2020, .month = 2, .day = 29, .hour = 12, .minute = 34, .second = 56};
-  EXPECT_EQ(state.time, expected);
-  EXPECT_EQ(state.time_stamp_us, 1'000'000'000U + 192 * 288);
-}
-
-TEST(StatusStreamReader, GivesNoDateThatIsNone) {
-  auto packets = stream(test::s3_table(), StatusFlavour::kS3, 320);
-  for (auto& packet : packets) {
-    if (packet.pair.type == 'N') packet.pair.value = 0;  // as without GPS
-  }
-  StatusStreamReader reader;
-  feed(reader, packets);
-  EXPECT_FALSE(reader.latest().time);
-}
-
-TEST(StatusStreamReader, NeverMixesTheTimesOfTwoCycles) {
-  auto packets = stream(test::s3_table(), StatusFlavour::kS3, 320);
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    // Even cycles lose their minute, odd ones their second.
-    const char lost = i / 16 % 2 == 0 ? 'M' : 'S';
-    if (packets[i].pair.type == static_cast<std::uint8_t>(lost)) packets[i].stamp_us = 0;
-  }
-  std::erase_if(packets, [](const StreamPacket& packet) { return packet.stamp_us == 0; });
-  StatusStreamReader reader;
-  feed(reader, packets);
-  EXPECT_FALSE(reader.latest().time);
 }
 
 TEST(StatusStreamReader, FollowsAChangeOfReturnMode) {
@@ -287,7 +243,6 @@ TEST(StatusStreamReader, FollowsAChangeOfReturnMode) {
   feed(reader, stream(test::s3_table(), StatusFlavour::kS3, 3 * kRound, 1000, 172.8,
                       1'000'000'000 + 115'200));
   EXPECT_TRUE(reader.has_table());
-  EXPECT_NEAR(reader.packet_period_us(), 172.8, 0.5);
 }
 
 TEST(StatusStreamReader, RandomBytesGiveNoTable) {
@@ -299,7 +254,6 @@ TEST(StatusStreamReader, RandomBytesGiveNoTable) {
         static_cast<std::uint32_t>(random() % 2 == 0 ? random() : 288U * static_cast<unsigned>(i)));
   }
   EXPECT_FALSE(reader.has_table());
-  EXPECT_EQ(reader.counters().packets, 200'000U);
 }
 
 TEST(StatusStreamReader, OwnsNoHeapMemory) {
@@ -307,17 +261,6 @@ TEST(StatusStreamReader, OwnsNoHeapMemory) {
   static_assert(std::is_trivially_copyable_v<StatusStreamReader>);
   static_assert(std::is_trivially_copyable_v<encode::StatusStreamWriter>);
   static_assert(noexcept(std::declval<StatusStreamReader&>().add(0, 0, 0)));
-}
-
-TEST(StatusStreamReader, ResetsEverythingOnReset) {
-  StatusStreamReader reader;
-  feed(reader, stream(test::s3_table(), StatusFlavour::kS3, kRound));
-  ASSERT_TRUE(reader.has_table());
-  reader.reset();
-  EXPECT_FALSE(reader.has_table());
-  EXPECT_EQ(reader.holes(), kStreamTableBytes);
-  EXPECT_FALSE(reader.latest().gps);
-  EXPECT_EQ(reader.counters().packets, 0U);
 }
 
 }  // namespace

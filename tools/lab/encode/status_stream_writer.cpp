@@ -8,18 +8,19 @@
 namespace terracut::encode {
 namespace {
 
-hdl64e::DateTime date_time_of(std::int64_t stamp_ns) noexcept {
+std::array<std::uint8_t, 6> time_bytes_of(std::int64_t stamp_ns) noexcept {
   using namespace std::chrono;
   const sys_seconds time{floor<seconds>(nanoseconds{stamp_ns})};
   const sys_days midnight = floor<days>(time);
   const year_month_day date{midnight};
   const hh_mm_ss clock{time - midnight};
-  return {.year = static_cast<int>(date.year()),
-          .month = static_cast<int>(static_cast<unsigned>(date.month())),
-          .day = static_cast<int>(static_cast<unsigned>(date.day())),
-          .hour = static_cast<int>(clock.hours().count()),
-          .minute = static_cast<int>(clock.minutes().count()),
-          .second = static_cast<int>(clock.seconds().count())};
+  const auto byte = [](auto value) { return static_cast<std::uint8_t>(value); };
+  return {byte(clock.hours().count()),
+          byte(clock.minutes().count()),
+          byte(clock.seconds().count()),
+          byte(static_cast<unsigned>(date.day())),
+          byte(static_cast<unsigned>(date.month())),
+          byte(static_cast<int>(date.year()) - 2000)};
 }
 
 /// The type byte of a table byte (HDL-64E S3 manual Rev K pp. 36-38 for the ones that are no
@@ -51,20 +52,13 @@ hdl64e::StatusPair StatusStreamWriter::next(std::int64_t stamp_ns) noexcept {
   const std::uint32_t place = packet_ % hdl64e::kStatusCyclePackets;
   const std::size_t group = packet_ / hdl64e::kStatusCyclePackets;
   packet_ = (packet_ + 1) % hdl64e::kStatusRoundPackets;
-  if (place == 0) time_ = date_time_of(stamp_ns);
+  if (place == 0) time_ = time_bytes_of(stamp_ns);
   if (place >= hdl64e::kFirstTablePlace) return table_pair(group, place - hdl64e::kFirstTablePlace);
 
-  const std::array<int, hdl64e::kFirstTablePlace> values{time_.hour,
-                                                         time_.minute,
-                                                         time_.second,
-                                                         time_.day,
-                                                         time_.month,
-                                                         time_.year - 2000,
-                                                         static_cast<int>(values_.gps),
-                                                         values_.temperature_deg_c,
-                                                         values_.firmware};
+  const std::array<std::uint8_t, 3> state{
+      values_.gps, static_cast<std::uint8_t>(values_.temperature_deg_c), values_.firmware};
   return {static_cast<std::uint8_t>(hdl64e::kStatusLetters[place]),
-          static_cast<std::uint8_t>(values[place] & 0xFF)};
+          place < time_.size() ? time_[place] : state[place - time_.size()]};
 }
 
 hdl64e::StatusPair StatusStreamWriter::table_pair(std::size_t group,

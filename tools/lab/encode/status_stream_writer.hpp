@@ -13,7 +13,7 @@ namespace terracut::encode {
 
 /// What a unit says of itself beside its table.
 struct StatusValues {
-  hdl64e::GpsState gps = hdl64e::GpsState::kNone;
+  std::uint8_t gps = 0;  ///< 'A' PPS and NMEA, 'V' NMEA only, 'P' PPS only, 0 none.
   std::int8_t temperature_deg_c = 35;
   std::uint8_t firmware = 0x40;
 };
@@ -36,8 +36,8 @@ class StatusStreamWriter {
   std::array<std::uint8_t, hdl64e::kStreamTableBytes> table_;
   hdl64e::StatusFlavour flavour_;
   StatusValues values_;
-  std::uint32_t packet_ = 0;  ///< 0 .. kStatusRoundPackets - 1
-  hdl64e::DateTime time_;
+  std::uint32_t packet_ = 0;            ///< 0 .. kStatusRoundPackets - 1
+  std::array<std::uint8_t, 6> time_{};  ///< Hour, minute, second, day, month, year since 2000.
 };
 
 }  // namespace terracut::encode

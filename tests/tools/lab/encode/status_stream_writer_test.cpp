@@ -22,9 +22,8 @@ TEST(StatusStreamWriter, SendsSixteenTypesInTurn) {
 }
 
 TEST(StatusStreamWriter, TellsDateTimeAndState) {
-  StatusStreamWriter writer(
-      test::s2_table(), hdl64e::StatusFlavour::kS2,
-      {.gps = hdl64e::GpsState::kPpsOnly, .temperature_deg_c = -7, .firmware = 0x45});
+  StatusStreamWriter writer(test::s2_table(), hdl64e::StatusFlavour::kS2,
+                            {.gps = 'P', .temperature_deg_c = -7, .firmware = 0x45});
   std::array<int, 9> values{};
   // The clock moves on inside the cycle; its six bytes must not.
   for (std::size_t i = 0; i < values.size(); ++i) {

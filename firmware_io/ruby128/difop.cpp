@@ -35,4 +35,9 @@ std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
       reinterpret_cast<const std::uint8_t*>(&difop), kRubyPacketBytes);
 }
 
+std::string_view sync_mode_name(std::uint8_t sync_mode) noexcept {
+  constexpr std::array<std::string_view, 4> kNames{"GPS", "PTP E2E", "PTP P2P", "gPTP"};
+  return sync_mode < kNames.size() ? kNames[sync_mode] : "unknown";
+}
+
 }  // namespace terracut::ruby128

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <type_traits>
 
 #include "calib/ruby128/ruby128_calibration.hpp"
@@ -33,7 +34,8 @@ struct Angle {
   decode::Be16 magnitude_cdeg;
 };
 
-/// Fields that sources describe differently, or in unknown units, are reserved here.
+/// Fields that sources describe differently are reserved here; of those that terracut does not
+/// read, units and meanings are partly open, too.
 struct Difop {
   std::array<std::uint8_t, 8> magic;
   decode::Be16 rpm_set;
@@ -49,8 +51,8 @@ struct Difop {
   std::array<std::uint8_t, 229> reserved4;
   std::array<std::uint8_t, 6> serial;
   decode::Be16 zero_angle;
-  std::uint8_t return_mode;
-  std::uint8_t sync_mode;
+  std::uint8_t return_mode;  ///< 3 is dual; sources disagree which of the others is which single.
+  std::uint8_t sync_mode;    ///< See sync_mode_name().
   std::uint8_t sync_status;
   std::array<std::uint8_t, 10> stamp;  ///< As in the data packet (timestamp.hpp).
   std::array<std::uint8_t, 24> currents_and_voltages;
@@ -103,5 +105,8 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 [[nodiscard]] std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Difop& difop) noexcept;
 std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Difop&&) = delete;
+
+/// "GPS", "PTP E2E", "PTP P2P", "gPTP", or "unknown".
+[[nodiscard]] std::string_view sync_mode_name(std::uint8_t sync_mode) noexcept;
 
 }  // namespace terracut::ruby128

@@ -62,7 +62,7 @@ Angle angle_of(double rad) noexcept {
           decode::Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
 }
 
-/// kNoCalibration as judge_angles() means it, then kMalformed for other odd signs.
+/// kNoCalibration for angles that were never written, then kMalformed for other odd signs.
 Status check_signs(const ruby128_wire::Difop& difop) {
   struct Table {
     const Angles& angles;
@@ -95,15 +95,10 @@ Status check_signs(const ruby128_wire::Difop& difop) {
 
 }  // namespace
 
-DifopAngles judge_angles(const ruby128_wire::Difop& difop) noexcept {
-  if (first_unset(difop.elevations) || first_unset(difop.azimuth_offsets) ||
-      all_zero(difop.elevations)) {
-    return DifopAngles::kUnset;
-  }
-  const bool odd =
-      first_with_odd_sign(difop.elevations) || first_with_odd_sign(difop.azimuth_offsets);
-  return !odd && is_plausible(channels_of(difop)) ? DifopAngles::kPlausible
-                                                  : DifopAngles::kImplausible;
+bool has_plausible_angles(const ruby128_wire::Difop& difop) noexcept {
+  // An unset sign is an odd one, and elevations that are all zero do not make a plausible table.
+  return !first_with_odd_sign(difop.elevations) && !first_with_odd_sign(difop.azimuth_offsets) &&
+         is_plausible(channels_of(difop));
 }
 
 Expected<Ruby128Calibration> calibration_of(const ruby128_wire::Difop& difop) {

@@ -17,35 +17,16 @@ bool same_angles(const ruby128::ruby128_wire::Difop& a,
 
 bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) noexcept {
   const std::optional<ruby128::ruby128_wire::Difop> difop = ruby128::read_difop(payload);
-  if (!difop) {
-    ++counters_.not_difop;
-    return false;
-  }
+  if (!difop) return false;
   ++counters_.packets;
   const bool new_angles = !newest_ || !same_angles(*newest_, *difop);
-  if (new_angles) newest_angles_ = ruby128::judge_angles(*difop);
   if (newest_) {
     if (new_angles) ++counters_.angle_changes;
     if (newest_->serial != difop->serial) ++counters_.serial_changes;
   }
   newest_ = difop;
-  switch (newest_angles_) {
-    case ruby128::DifopAngles::kPlausible:
-      if (!calibrated_) calibrated_ = difop;
-      break;
-    case ruby128::DifopAngles::kUnset:
-      ++counters_.unset_angles;
-      break;
-    case ruby128::DifopAngles::kImplausible:
-      ++counters_.implausible_angles;
-      break;
-  }
+  if (!calibrated_ && new_angles && ruby128::has_plausible_angles(*difop)) calibrated_ = difop;
   return true;
-}
-
-std::optional<ruby128::Ruby128DeviceInfo> Ruby128DeviceReader::newest() const {
-  if (!newest_) return std::nullopt;
-  return ruby128::device_info_of(*newest_);
 }
 
 Expected<ruby128::Ruby128Calibration> Ruby128DeviceReader::calibration() const {
@@ -54,11 +35,6 @@ Expected<ruby128::Ruby128Calibration> Ruby128DeviceReader::calibration() const {
   return fail(ErrorCode::kNoCalibration,
               "no DIFOP packet has come; they come about once a second, by factory setting to UDP "
               "port 7788");
-}
-
-std::optional<ruby128::Ruby128DeviceInfo> Ruby128DeviceReader::calibrated_unit() const {
-  if (!calibrated_) return std::nullopt;
-  return ruby128::device_info_of(*calibrated_);
 }
 
 }  // namespace terracut::sensor

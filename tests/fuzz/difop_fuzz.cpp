@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // A good DIFOP with any bytes over it: first where to write (two bytes) and how much (one), then
-// what, over and over. What is read from it is the same after writing, judgement and error agree,
+// what, over and over. Angles read from it are the same after writing, judgement and error agree,
 // and the reader believes no angles that do not validate.
 #include <algorithm>
 #include <array>
@@ -21,28 +21,15 @@ void check(bool holds) {
 }
 
 void check_packet(const ruby128::ruby128_wire::Difop& difop) {
-  const ruby128::Ruby128DeviceInfo info = ruby128::device_info_of(difop);
-  check(std::all_of(info.gprmc.begin(), info.gprmc.end(),
-                    [](char c) { return c >= ' ' && c <= '~'; }));
   const auto calibration = ruby128::calibration_of(difop);
-  const ruby128::DifopAngles judgement = ruby128::judge_angles(difop);
-  check(calibration.has_value() == (judgement == ruby128::DifopAngles::kPlausible));
-
+  check(calibration.has_value() == ruby128::has_plausible_angles(difop));
+  if (!calibration) return;
+  check(validate(*calibration).has_value());
   ruby128::ruby128_wire::Difop written = ruby128::blank_difop();
-  ruby128::set_device_info(written, info);
-  if (calibration) {
-    check(validate(*calibration).has_value());
-    ruby128::set_calibration(written, *calibration);
-  } else {
-    check((calibration.error().code == ErrorCode::kNoCalibration) ==
-          (judgement == ruby128::DifopAngles::kUnset));
-  }
+  ruby128::set_calibration(written, *calibration);
   const auto again = ruby128::read_difop(ruby128::payload_of(written));
-  check(again.has_value() && ruby128::device_info_of(*again) == info);
-  if (calibration) {
-    const auto angles = ruby128::calibration_of(*again);
-    check(angles.has_value() && angles->channels == calibration->channels);
-  }
+  const auto angles = ruby128::calibration_of(*again);
+  check(angles.has_value() && angles->channels == calibration->channels);
 }
 
 }  // namespace
@@ -63,9 +50,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check(reader.add(bytes) == ruby128::is_difop(bytes));
     if (const auto difop = ruby128::read_difop(bytes)) check_packet(*difop);
   }
-  const sensor::Ruby128DeviceCounters& counters = reader.counters();
   check(reader.has_calibration() == reader.calibration().has_value());
-  check(reader.has_calibration() ==
-        (counters.packets > counters.unset_angles + counters.implausible_angles));
   return 0;
 }

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -118,20 +119,25 @@ std::string calibration_in(const Ruby128DeviceReader& device) {
   return fmt::format("complete, fingerprint {:016x}", fingerprint(*calibration));
 }
 
+/// Two digits a byte: "00:1c:23".
+std::string hex_text(const std::array<std::uint8_t, 6>& bytes, std::string_view separator) {
+  return fmt::format("{:02x}", fmt::join(bytes, separator));
+}
+
 std::string text_of(const Ruby128DeviceReader& device) {
-  const auto info = device.newest();
+  const auto& info = device.newest();
   if (!info) return {};
   return fmt::format(
       "  serial       {}\n  set to       {} rpm, frames at {}; return mode {} ({})\n"
       "  network      {} to {}, data port {}, device port {}, MAC {}\n"
       "  time         by {}, status {}\n  calibration  {}\n"
       "  changes      {} of the serial number, {} of the angles\n",
-      ruby128::hex_text(info->serial), info->rpm_set, info->rpm_actual, info->return_mode_raw,
-      info->return_mode_raw == 3 ? "dual" : "single", ruby128::address_text(info->device_address),
-      ruby128::address_text(info->destination_address), info->data_port, info->device_port,
-      ruby128::hex_text(info->mac, ":"), ruby128::sync_mode_name(info->sync_mode_raw),
-      info->sync_status_raw, calibration_in(device), device.counters().serial_changes,
-      device.counters().angle_changes);
+      hex_text(info->serial, ""), info->rpm_set.value(), info->rpm_actual.value(),
+      info->return_mode, info->return_mode == 3 ? "dual" : "single",
+      fmt::join(info->device_address, "."), fmt::join(info->destination_address, "."),
+      info->data_port.value(), info->device_port.value(), hex_text(info->mac, ":"),
+      ruby128::sync_mode_name(info->sync_mode), info->sync_status, calibration_in(device),
+      device.counters().serial_changes, device.counters().angle_changes);
 }
 
 std::string text_of(const CaptureSurvey& survey) {
@@ -195,17 +201,17 @@ Json json_of(const Ruby128Facts& facts) {
 }
 
 Json json_of(const Ruby128DeviceReader& device) {
-  const auto info = device.newest();
+  const auto& info = device.newest();
   if (!info) return {};
   return {{"packets", device.counters().packets},
-          {"serial", ruby128::hex_text(info->serial)},
-          {"rpm_set", info->rpm_set},
-          {"rpm_actual", info->rpm_actual},
-          {"return_mode", info->return_mode_raw},
-          {"data_port", info->data_port},
-          {"device_port", info->device_port},
-          {"sync_mode", ruby128::sync_mode_name(info->sync_mode_raw)},
-          {"sync_status", info->sync_status_raw},
+          {"serial", hex_text(info->serial, "")},
+          {"rpm_set", info->rpm_set.value()},
+          {"rpm_actual", info->rpm_actual.value()},
+          {"return_mode", info->return_mode},
+          {"data_port", info->data_port.value()},
+          {"device_port", info->device_port.value()},
+          {"sync_mode", ruby128::sync_mode_name(info->sync_mode)},
+          {"sync_status", info->sync_status},
           {"calibration", calibration_in(device)},
           {"serial_changes", device.counters().serial_changes},
           {"angle_changes", device.counters().angle_changes}};

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "ruby128_packet_sender.hpp"
 
-#include "firmware_io/ruby128/device_info.hpp"
 #include "firmware_io/ruby128/difop_angles.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 
@@ -35,19 +34,18 @@ decode::Datagram datagram(std::span<const std::uint8_t> payload, std::int64_t ca
 
 ruby128::ruby128_wire::Difop difop_of(const ruby128::Ruby128Calibration& calibration,
                                       const Ruby128Unit& unit, const Ruby128PacketFacts& facts) {
-  ruby128::Ruby128DeviceInfo info;
-  info.rpm_set = info.rpm_actual = unit.rpm;
-  info.device_address = kSensor;
-  info.destination_address = kHost;
-  info.mac = {0x02, 0x00, kSensor[0], kSensor[1], kSensor[2], kSensor[3]};  // as in the capture
-  info.data_port = ruby128::kRubyDataPort;
-  info.device_port = ruby128::kRubyDevicePort;
-  info.fov_end_cdeg = beams::kRevolution_cdeg;
-  info.serial = unit.serial;
-  info.return_mode_raw = facts.returns == drive::ReturnMode::kDual ? kDualMode : kStrongestMode;
-  info.temperatures_raw.fill(ruby128::ruby_temperature_field(unit.temperature_deg_c));
+  using decode::Be16;
   ruby128::ruby128_wire::Difop difop = ruby128::blank_difop();
-  ruby128::set_device_info(difop, info);
+  difop.rpm_set = difop.rpm_actual = Be16::of(unit.rpm);
+  difop.device_address = kSensor;
+  difop.destination_address = kHost;
+  difop.mac = {0x02, 0x00, kSensor[0], kSensor[1], kSensor[2], kSensor[3]};  // as in the capture
+  difop.data_port = Be16::of(ruby128::kRubyDataPort);
+  difop.device_port = Be16::of(ruby128::kRubyDevicePort);
+  difop.fov_end_cdeg = Be16::of(beams::kRevolution_cdeg);
+  difop.serial = unit.serial;
+  difop.return_mode = facts.returns == drive::ReturnMode::kDual ? kDualMode : kStrongestMode;
+  difop.temperatures.fill(Be16::of(ruby128::ruby_temperature_field(unit.temperature_deg_c)));
   ruby128::set_calibration(difop, calibration);
   return difop;
 }

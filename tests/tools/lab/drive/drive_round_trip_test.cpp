@@ -240,13 +240,12 @@ TEST_F(Ruby128Drive, SendsADevicePacketFirstAndThenOnceASecond) {
     const auto calibration = ruby128::calibration_of(*difop);
     ASSERT_TRUE(calibration) << calibration.error().message;
     EXPECT_EQ(fingerprint(*calibration), fingerprint(ruby128::nominal_ruby128()));
-    const ruby128::Ruby128DeviceInfo info = ruby128::device_info_of(*difop);
-    EXPECT_EQ(info.rpm_set, 601);
-    EXPECT_EQ(info.rpm_actual, 601);
-    EXPECT_EQ(info.serial, config.unit.serial);
-    EXPECT_EQ(info.data_port, ruby128::kRubyDataPort);
-    EXPECT_EQ(info.device_port, ruby128::kRubyDevicePort);
-    EXPECT_EQ(info.return_mode_raw, 1);
+    EXPECT_EQ(difop->rpm_set.value(), 601);
+    EXPECT_EQ(difop->rpm_actual.value(), 601);
+    EXPECT_EQ(difop->serial, config.unit.serial);
+    EXPECT_EQ(difop->data_port.value(), ruby128::kRubyDataPort);
+    EXPECT_EQ(difop->device_port.value(), ruby128::kRubyDevicePort);
+    EXPECT_EQ(difop->return_mode, 1);
   }
   ASSERT_EQ(heard_ns.size(), 3U);
   EXPECT_EQ(heard_ns[0], columns.front().stamp_ns);

@@ -9,9 +9,7 @@
 namespace terracut::run {
 
 threads::ThreadRequest thread_request(std::string name, int priority, std::optional<int> core) {
-  threads::ThreadRequest request{.name = std::move(name), .scheduling = {}, .core = core};
-  if (priority > 0) request.scheduling = threads::FifoScheduling{priority};
-  return request;
+  return {.name = std::move(name), .priority = priority, .core = core};
 }
 
 std::vector<threads::Grant> LiveThreadState::set_up(const threads::ThreadRequest& request) {

@@ -36,11 +36,10 @@ std::string mend_memory_lock() {
          "container '--cap-add IPC_LOCK --ulimit memlock=-1'";
 }
 
-std::string mend_real_time_priority(bool deadline) {
+std::string mend_real_time_priority() {
   return setcap_command() +
-         (deadline ? ""
-                   : ", or '<user> - rtprio 99' in /etc/security/limits.conf and a new login") +
-         "; for a container '--cap-add SYS_NICE'" + (deadline ? "" : " or '--ulimit rtprio=99'");
+         ", or '<user> - rtprio 99' in /etc/security/limits.conf and a new login; for a container "
+         "'--cap-add SYS_NICE' or '--ulimit rtprio=99'";
 }
 
 }  // namespace terracut::threads

@@ -27,7 +27,7 @@ struct Grant {
 /// What mends a refusal to lock memory.
 [[nodiscard]] std::string mend_memory_lock();
 
-/// What mends a refusal of a real-time priority; SCHED_DEADLINE has no limits.conf line.
-[[nodiscard]] std::string mend_real_time_priority(bool deadline);
+/// What mends a refusal of a real-time priority.
+[[nodiscard]] std::string mend_real_time_priority();
 
 }  // namespace terracut::threads

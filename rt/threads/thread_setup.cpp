@@ -4,7 +4,6 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <sys/syscall.h>
 #include <unistd.h>
 
 #include <array>
@@ -15,51 +14,11 @@
 namespace terracut::threads {
 namespace {
 
-/// The system call's argument, as it was first (48 bytes); the kernel takes every length since.
-/// The GNU C library has neither the call nor the structure before 2.41, and after it under this
-/// name, hence the other one here.
-struct KernelSchedulingAttributes {
-  std::uint32_t size = 48;
-  std::uint32_t policy = 0;
-  std::uint64_t flags = 0;
-  std::int32_t nice = 0;
-  std::uint32_t priority = 0;
-  std::uint64_t runtime_ns = 0;
-  std::uint64_t deadline_ns = 0;
-  std::uint64_t period_ns = 0;
-};
-static_assert(sizeof(KernelSchedulingAttributes) == 48);
-
-constexpr std::uint32_t kFifo = 1;
-constexpr std::uint32_t kDeadline = 6;
-constexpr std::uint64_t kResetOnFork = 1;  // else a helper thread would run at our priority
-
-/// 0 or errno.
-int set_scheduling(KernelSchedulingAttributes attributes) {
-  return ::syscall(SYS_sched_setattr, 0, &attributes, 0U) == 0 ? 0 : errno;
-}
-
-/// False where the system does not tell.
-bool get_scheduling(KernelSchedulingAttributes& attributes) {
-  return ::syscall(SYS_sched_getattr, 0, &attributes, sizeof attributes, 0U) == 0;
-}
-
-std::string in_us(std::int64_t time_ns) {
-  return std::to_string(time_ns / 1000) + " us";
-}
-
-std::string describe(const FifoScheduling& fifo) {
-  return "SCHED_FIFO priority " + std::to_string(fifo.priority);
-}
-
-std::string describe(const DeadlineScheduling& deadline) {
-  return "SCHED_DEADLINE " + in_us(deadline.runtime_ns) + " within " + in_us(deadline.deadline_ns) +
-         " every " + in_us(deadline.period_ns);
+std::string fifo(int priority) {
+  return "SCHED_FIFO priority " + std::to_string(priority);
 }
 
 Status check(const ThreadRequest& request) {
-  constexpr std::int64_t kShortest_ns = 1024;  // the kernel's own limits
-  constexpr std::int64_t kLongest_ns = std::int64_t{1} << 62;
   if (request.name.empty() || request.name.size() > 15) {
     return fail(ErrorCode::kInvalidArgument,
                 "the name of a thread has 1 to 15 bytes, not '" + request.name + "'");
@@ -69,24 +28,9 @@ Status check(const ThreadRequest& request) {
                                                  std::to_string(CPU_SETSIZE - 1) + ", not " +
                                                  std::to_string(*request.core));
   }
-  if (const auto* fifo = std::get_if<FifoScheduling>(&request.scheduling)) {
-    if (fifo->priority < 1 || fifo->priority > 99) {
-      return fail(ErrorCode::kInvalidArgument, "the priority of SCHED_FIFO is from 1 to 99, not " +
-                                                   std::to_string(fifo->priority));
-    }
-  }
-  if (const auto* deadline = std::get_if<DeadlineScheduling>(&request.scheduling)) {
-    if (deadline->runtime_ns < kShortest_ns || deadline->deadline_ns < deadline->runtime_ns ||
-        deadline->period_ns < deadline->deadline_ns || deadline->period_ns > kLongest_ns) {
-      return fail(
-          ErrorCode::kInvalidArgument,
-          "SCHED_DEADLINE needs 1 us <= runtime <= deadline <= period, not " + describe(*deadline));
-    }
-    if (request.core) {
-      return fail(ErrorCode::kInvalidArgument,
-                  "SCHED_DEADLINE and a core of one's own exclude each other: the kernel chooses "
-                  "the core. Leave one of them out, or give the process a core by a cpuset");
-    }
+  if (request.priority < 0 || request.priority > 99) {
+    return fail(ErrorCode::kInvalidArgument, "the priority of SCHED_FIFO is from 1 to 99, not " +
+                                                 std::to_string(request.priority));
   }
   return {};
 }
@@ -117,69 +61,41 @@ Grant set_core(int core) {
   return grant;
 }
 
-void answer(Grant& grant, int error_number, bool deadline) {
-  grant.error_number = error_number;
-  grant.granted = error_number == 0;
+Grant set_priority(int priority) {
+  Grant grant{.asked = fifo(priority)};
+  const ::sched_param param{.sched_priority = priority};
+  // Reset on fork: else a helper thread would run at our priority.
+  grant.granted = ::sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &param) == 0;
+  if (!grant.granted) grant.error_number = errno;
   grant.in_force = "runs as " + scheduling_in_force();
-  if (error_number == EPERM) {
-    grant.mend = mend_real_time_priority(deadline);
+  if (grant.error_number == EPERM) {
+    grant.mend = mend_real_time_priority();
     if (::geteuid() == 0) {
       grant.mend +=
           "; if it has that right already, its control group has no real-time share: "
           "see cpu.rt_runtime_us";
     }
-    if (deadline) grant.mend += "; all cores must be allowed, not only " + cores_in_force();
-  } else if (error_number == EBUSY) {
-    grant.mend =
-        "the processors cannot promise so much besides what was promised already: ask for a "
-        "shorter runtime or a longer period, or see kernel.sched_rt_runtime_us";
-  } else if (error_number != 0) {
+  } else if (!grant.granted) {
     grant.mend = "this kernel does not offer it";
   }
-}
-
-Grant set_fifo(const FifoScheduling& fifo) {
-  Grant grant{.asked = describe(fifo)};
-  answer(grant,
-         set_scheduling({.policy = kFifo,
-                         .flags = kResetOnFork,
-                         .priority = static_cast<std::uint32_t>(fifo.priority)}),
-         false);
-  return grant;
-}
-
-Grant set_deadline(const DeadlineScheduling& deadline) {
-  Grant grant{.asked = describe(deadline)};
-  answer(grant,
-         set_scheduling({.policy = kDeadline,
-                         .flags = kResetOnFork,
-                         .runtime_ns = static_cast<std::uint64_t>(deadline.runtime_ns),
-                         .deadline_ns = static_cast<std::uint64_t>(deadline.deadline_ns),
-                         .period_ns = static_cast<std::uint64_t>(deadline.period_ns)}),
-         true);
   return grant;
 }
 
 }  // namespace
 
 std::string scheduling_in_force() {
-  KernelSchedulingAttributes attributes;
-  if (!get_scheduling(attributes)) return "unknown scheduling";
-  switch (attributes.policy) {
-    case kFifo:
-      return describe(FifoScheduling{static_cast<int>(attributes.priority)});
-    case kDeadline:
-      return describe(DeadlineScheduling{static_cast<std::int64_t>(attributes.runtime_ns),
-                                         static_cast<std::int64_t>(attributes.deadline_ns),
-                                         static_cast<std::int64_t>(attributes.period_ns)});
-    default:
-      break;
+  const int scheduler = ::sched_getscheduler(0);
+  if (scheduler < 0) return "unknown scheduling";
+  const auto policy = static_cast<std::size_t>(scheduler & ~SCHED_RESET_ON_FORK);
+  if (policy == SCHED_FIFO) {
+    ::sched_param param{};
+    ::sched_getparam(0, &param);
+    return fifo(param.sched_priority);
   }
-  constexpr std::array<std::string_view, 6> kNames{"SCHED_OTHER", "", "SCHED_RR",
-                                                   "SCHED_BATCH", "", "SCHED_IDLE"};
-  const bool known = attributes.policy < kNames.size() && !kNames[attributes.policy].empty();
-  return known ? std::string(kNames[attributes.policy])
-               : "policy " + std::to_string(attributes.policy);
+  constexpr std::array<std::string_view, 7> kNames{
+      "SCHED_OTHER", "", "SCHED_RR", "SCHED_BATCH", "", "SCHED_IDLE", "SCHED_DEADLINE"};
+  const bool known = policy < kNames.size() && !kNames[policy].empty();
+  return known ? std::string(kNames[policy]) : "policy " + std::to_string(policy);
 }
 
 std::vector<int> allowed_cores() {
@@ -211,11 +127,7 @@ Expected<std::vector<Grant>> set_up_this_thread(const ThreadRequest& request) {
   if (const Status status = check(request); !status) return tl::unexpected(status.error());
   std::vector<Grant> grants{set_name(request.name)};
   if (request.core) grants.push_back(set_core(*request.core));
-  if (const auto* fifo = std::get_if<FifoScheduling>(&request.scheduling)) {
-    grants.push_back(set_fifo(*fifo));
-  } else if (const auto* deadline = std::get_if<DeadlineScheduling>(&request.scheduling)) {
-    grants.push_back(set_deadline(*deadline));
-  }
+  if (request.priority > 0) grants.push_back(set_priority(request.priority));
   return grants;
 }
 

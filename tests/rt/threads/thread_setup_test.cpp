@@ -86,8 +86,7 @@ TEST(ThreadSetup, StaysWhereItMayRunWhenTheCoreDoesNotExist) {
 
 TEST(ThreadSetup, RunsFifoIfItMayAndElseSaysWhatToDo) {
   const Grant grant = in_own_thread([] {
-    const auto grants =
-        set_up_this_thread({.name = "fifo", .scheduling = FifoScheduling{.priority = 7}});
+    const auto grants = set_up_this_thread({.name = "fifo", .priority = 7});
     return grants ? grants->at(1) : Grant{};
   });
   EXPECT_EQ(grant.asked, "SCHED_FIFO priority 7");
@@ -102,7 +101,7 @@ TEST(ThreadSetup, RunsFifoIfItMayAndElseSaysWhatToDo) {
 
 TEST(ThreadSetup, DoesNotPassItsPriorityOnToThreadsItCreates) {
   const std::string scheduling = in_own_thread([] {
-    const auto grants = set_up_this_thread({.name = "fifo", .scheduling = FifoScheduling{}});
+    const auto grants = set_up_this_thread({.name = "fifo", .priority = 50});
     if (!grants || !grants->at(1).granted) return std::string("skip");
     return in_own_thread([] { return scheduling_in_force(); });
   });
@@ -110,52 +109,13 @@ TEST(ThreadSetup, DoesNotPassItsPriorityOnToThreadsItCreates) {
   EXPECT_EQ(scheduling, "SCHED_OTHER");
 }
 
-TEST(ThreadSetup, RunsByDeadlineIfItMayAndElseSaysWhatToDo) {
-  const Grant grant = in_own_thread([] {
-    const auto grants = set_up_this_thread(
-        {.name = "deadline",
-         .scheduling = DeadlineScheduling{
-             .runtime_ns = 1'000'000, .deadline_ns = 90'000'000, .period_ns = 100'000'000}});
-    return grants ? grants->at(1) : Grant{};
-  });
-  EXPECT_EQ(grant.asked, "SCHED_DEADLINE 1000 us within 90000 us every 100000 us");
-  if (grant.granted) {
-    EXPECT_EQ(grant.in_force, "runs as " + grant.asked);
-  } else {
-    EXPECT_NE(grant.error_number, 0);
-    EXPECT_EQ(grant.in_force, "runs as SCHED_OTHER");
-    EXPECT_FALSE(grant.mend.empty());
-  }
-}
-
-/// Threads that each want a whole core, one started by the other, until one is refused or there
-/// are `more` of them; they hold their share meanwhile.
-Grant want_whole_cores(unsigned more) {
-  return in_own_thread([more] {
-    const auto grants = set_up_this_thread(
-        {.name = "greedy",
-         .scheduling = DeadlineScheduling{
-             .runtime_ns = 100'000'000, .deadline_ns = 100'000'000, .period_ns = 100'000'000}});
-    if (!grants) return Grant{};
-    return grants->at(1).granted && more > 0 ? want_whole_cores(more - 1) : grants->at(1);
-  });
-}
-
-TEST(ThreadSetup, TellsWhenTheProcessorsCannotPromiseSoMuch) {
-  const Grant grant = want_whole_cores(std::thread::hardware_concurrency() + 1);
-  if (grant.error_number != EBUSY) GTEST_SKIP() << "not admitted by load here: " << to_line(grant);
-  EXPECT_FALSE(grant.granted);
-  EXPECT_EQ(grant.in_force, "runs as SCHED_OTHER");
-  EXPECT_THAT(grant.mend, testing::HasSubstr("shorter runtime"));
-}
-
 TEST(ThreadSetup, FallsBackInGoodOrderWithoutRights) {
   EXPECT_EQ(test::in_child_process([]() -> std::string {
               const rlimit none{.rlim_cur = 0, .rlim_max = 0};
               if (::setrlimit(RLIMIT_RTPRIO, &none) != 0) return "setrlimit failed";
               if (!test::give_up_rights()) return "could not give up rights";
-              const auto fifo = set_up_this_thread(
-                  {.name = "fifo", .scheduling = FifoScheduling{}, .core = some_allowed_core()});
+              const auto fifo =
+                  set_up_this_thread({.name = "fifo", .priority = 50, .core = some_allowed_core()});
               if (!fifo || fifo->size() != 3) return "three answers expected";
               if (!fifo->at(0).granted || !fifo->at(1).granted) return "name and core are free";
               const Grant& grant = fifo->at(2);
@@ -173,11 +133,9 @@ TEST(ThreadSetup, NeedsNoMoreThanTheLimitOfPriorities) {
     const rlimit limit{.rlim_cur = 20, .rlim_max = 20};
     if (::setrlimit(RLIMIT_RTPRIO, &limit) != 0) return "skip";
     if (!test::give_up_rights()) return "could not give up rights";
-    const auto higher =
-        set_up_this_thread({.name = "fifo", .scheduling = FifoScheduling{.priority = 21}});
+    const auto higher = set_up_this_thread({.name = "fifo", .priority = 21});
     if (!higher || higher->at(1).granted) return "21 was granted";
-    const auto allowed =
-        set_up_this_thread({.name = "fifo", .scheduling = FifoScheduling{.priority = 20}});
+    const auto allowed = set_up_this_thread({.name = "fifo", .priority = 20});
     return allowed && allowed->at(1).granted ? "" : "20 was refused";
   });
   if (complaint == "skip") GTEST_SKIP() << "no right to raise the limit of priorities here";
@@ -185,25 +143,13 @@ TEST(ThreadSetup, NeedsNoMoreThanTheLimitOfPriorities) {
 }
 
 TEST(ThreadSetup, RefusesRequestsThatMakeNoSense) {
-  const DeadlineScheduling sound{
-      .runtime_ns = 1'000'000, .deadline_ns = 2'000'000, .period_ns = 3'000'000};
-  auto longer_than_its_deadline = sound;
-  longer_than_its_deadline.runtime_ns = 2'500'000;
-  auto longer_than_its_period = sound;
-  longer_than_its_period.deadline_ns = 4'000'000;
-  auto nothing = sound;
-  nothing.runtime_ns = 0;
   for (const ThreadRequest& request : {
            ThreadRequest{.name = ""},
            ThreadRequest{.name = "sixteen bytes..."},
-           ThreadRequest{.name = "fifo", .scheduling = FifoScheduling{.priority = 0}},
-           ThreadRequest{.name = "fifo", .scheduling = FifoScheduling{.priority = 100}},
+           ThreadRequest{.name = "fifo", .priority = -1},
+           ThreadRequest{.name = "fifo", .priority = 100},
            ThreadRequest{.name = "core", .core = -1},
            ThreadRequest{.name = "core", .core = 1 << 20},
-           ThreadRequest{.name = "both", .scheduling = sound, .core = 0},
-           ThreadRequest{.name = "runtime", .scheduling = longer_than_its_deadline},
-           ThreadRequest{.name = "deadline", .scheduling = longer_than_its_period},
-           ThreadRequest{.name = "nothing", .scheduling = nothing},
        }) {
     const auto grants = set_up_this_thread(request);
     ASSERT_FALSE(grants.has_value()) << request.name;

@@ -7,7 +7,7 @@
 namespace terracut::eval {
 
 void pin_this_thread(const std::string& name, const std::vector<int>& cores, std::size_t index) {
-  threads::ThreadRequest request{.name = name, .scheduling = {}, .core = {}};
+  threads::ThreadRequest request{.name = name};
   if (!cores.empty()) request.core = cores[index % cores.size()];
   (void)threads::set_up_this_thread(request);
 }

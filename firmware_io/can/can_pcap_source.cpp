@@ -45,7 +45,6 @@ std::string_view describe(CanReject reject) {
     case CanReject::kId:
       return "its id has more than the 11 bits of its format";
     case CanReject::kXl:
-    case CanReject::kCount:
       break;
   }
   return "it is a CAN XL frame";

@@ -29,9 +29,7 @@ enum class CanReject : std::uint8_t {
   kTruncated,  ///< Fewer bytes than its length says, or than the header.
   kLength,     ///< A length that such a frame cannot have.
   kId,         ///< A number of more than 11 bits in the 11-bit format.
-  kCount,
 };
-inline constexpr std::size_t kCanRejects = static_cast<std::size_t>(CanReject::kCount);
 
 /// The frame in `bytes`; its stamp is left 0. A frame is FD where its flag says so, or where there
 /// are as many bytes as only FD frames have: older kernels and captures do not set the flag.

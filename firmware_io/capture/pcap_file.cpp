@@ -109,7 +109,7 @@ std::string PcapFile::link_name() const {
 Status PcapFile::reopen() {
   handle_.reset();
   records_this_pass_ = 0;
-  end_ = CaptureEnd::kNotReached;
+  is_at_end_ = false;
   break_off_.reset();
 
   File file;
@@ -152,18 +152,17 @@ Error PcapFile::broken_off(const char* reason) {
   } else {
     what += "; the packets before it are good. Was the recording or the copy interrupted?";
   }
-  end_ = CaptureEnd::kBrokeOff;
   return {mixed ? ErrorCode::kUnsupported : ErrorCode::kMalformed, std::move(what)};
 }
 
 Expected<std::optional<PcapRecord>> PcapFile::next() {
   if (break_off_) return tl::unexpected(*break_off_);
-  if (end_ != CaptureEnd::kNotReached) return std::nullopt;
+  if (is_at_end_) return std::nullopt;
   ::pcap_pkthdr* header = nullptr;
   const unsigned char* data = nullptr;
   const int result = ::pcap_next_ex(handle_.get(), &header, &data);
   if (result == PCAP_ERROR_BREAK) {
-    end_ = CaptureEnd::kClean;
+    is_at_end_ = true;
     return std::nullopt;
   }
   if (result != 1) {
@@ -176,7 +175,6 @@ Expected<std::optional<PcapRecord>> PcapFile::next() {
 
 Status PcapFile::rewind() {
   if (Status opened = reopen(); !opened) {
-    end_ = CaptureEnd::kBrokeOff;
     break_off_ = opened.error();
     return opened;
   }

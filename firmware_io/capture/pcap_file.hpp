@@ -15,13 +15,6 @@ struct pcap;  // libpcap's handle, pcap_t
 
 namespace terracut::capture {
 
-/// How reading ended.
-enum class CaptureEnd : std::uint8_t {
-  kNotReached,
-  kClean,     ///< After the last whole record.
-  kBrokeOff,  ///< Inside a record, or at one that cannot be read on from. What came before is good.
-};
-
 /// One record of a capture file, as it was captured.
 struct PcapRecord {
   std::span<const std::uint8_t> bytes;  ///< From the link layer on; valid until the next record.
@@ -43,14 +36,13 @@ class PcapFile {
   /// The next record; nothing at the end.
   ///
   /// An error (kMalformed or kUnsupported: interfaces of different link types in one pcapng) means
-  /// that the file breaks off: end() is then kBrokeOff, the message says after which packet and at
-  /// which byte, and every further call returns the same error. Allocates nothing a record.
+  /// that the file breaks off: the message says after which packet and at which byte, and every
+  /// further call returns the same error. Allocates nothing a record.
   [[nodiscard]] Expected<std::optional<PcapRecord>> next();
 
   /// Back to the first record (a file is opened anew).
   [[nodiscard]] Status rewind();
 
-  [[nodiscard]] CaptureEnd end() const noexcept { return end_; }
   [[nodiscard]] int link_type() const noexcept { return link_type_; }  ///< libpcap's DLT_ number.
   [[nodiscard]] std::string link_name() const;                         ///< "EN10MB (1)"
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
@@ -70,7 +62,7 @@ class PcapFile {
   std::unique_ptr<::pcap, Close> handle_;
   int link_type_ = 0;
   std::uint64_t records_this_pass_ = 0;
-  CaptureEnd end_ = CaptureEnd::kNotReached;
+  bool is_at_end_ = false;
   std::optional<Error> break_off_;
 };
 

@@ -52,16 +52,15 @@ class PcapSource {
   /// are counted and stepped over. The payload is valid until the next call.
   ///
   /// An error (kMalformed or kUnsupported: interfaces of different link types in one pcapng) means
-  /// that the file breaks off: end() is then kBrokeOff, the message says after which packet and at
-  /// which byte, and every further call returns the same error. Everything returned before stays
-  /// valid, so a replay may finish with a warning. Reading whole files allocates nothing a packet.
+  /// that the file breaks off: the message says after which packet and at which byte, and every
+  /// further call returns the same error. Everything returned before stays valid, so a replay may
+  /// finish with a warning. Reading whole files allocates nothing a packet.
   [[nodiscard]] Expected<std::optional<decode::Datagram>> next();
 
   /// Back to the first packet (a file is opened anew). Counters go on.
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
-  [[nodiscard]] CaptureEnd end() const noexcept { return file_.end(); }
   [[nodiscard]] int link_type() const noexcept { return file_.link_type(); }  ///< libpcap's DLT_
   [[nodiscard]] const std::string& name() const noexcept { return file_.name(); }
 

@@ -28,12 +28,6 @@
 /// and noexcept; any thread.
 namespace terracut::hdl64e {
 
-/// Which head azimuth a laser's return is given.
-enum class AzimuthAt : std::uint8_t {
-  kFiring,  ///< The head's azimuth at that laser's own firing time.
-  kBlock,   ///< The azimuth written in the block, for comparison with drivers that use it for all.
-};
-
 /// How far the head rotates from column to column, ticks, given the packet's first and last azimuth
 /// (wire values, [0, 36000)). Exact: both divisors divide kTicksPerCdeg.
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
@@ -61,10 +55,8 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 
 /// How far the head has rotated since its column's azimuth when `laser` (0..63) fires, ticks.
 /// `step_ticks` as of column_step_ticks(), >= 0.
-[[nodiscard]] constexpr std::int32_t firing_advance_ticks(
-    std::int32_t step_ticks, int laser, bool dual_return = false,
-    AzimuthAt azimuth_at = AzimuthAt::kFiring) noexcept {
-  if (azimuth_at == AzimuthAt::kBlock) return 0;
+[[nodiscard]] constexpr std::int32_t firing_advance_ticks(std::int32_t step_ticks, int laser,
+                                                          bool dual_return = false) noexcept {
   const auto& shares = dual_return ? kFiringSharesDual : kFiringSharesSingle;
   const std::int64_t share = shares[static_cast<std::size_t>(laser % kLasersPerBlock)];
   return static_cast<std::int32_t>((step_ticks * share) >> kFiringShareBits);
@@ -78,9 +70,7 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 /// Offsets of all 64 beams for one unit.
 class BeamOffsets {
  public:
-  explicit BeamOffsets(const Hdl64eCalibration& calibration,
-                       AzimuthAt azimuth_at = AzimuthAt::kFiring) noexcept
-      : azimuth_at_(azimuth_at) {
+  explicit BeamOffsets(const Hdl64eCalibration& calibration) noexcept {
     for (std::size_t i = 0; i < rot_ticks_.size(); ++i) {
       rot_ticks_[i] = rot_correction_ticks(calibration.lasers[i]);
     }
@@ -91,7 +81,7 @@ class BeamOffsets {
 
   [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int laser,
                                           bool dual_return = false) const noexcept {
-    return firing_advance_ticks(step_ticks, laser, dual_return, azimuth_at_) -
+    return firing_advance_ticks(step_ticks, laser, dual_return) -
            rot_ticks_[static_cast<std::size_t>(laser)];
   }
   /// No beam's offset is below hindmost_ticks(), nor above foremost_ticks() for that step.
@@ -99,10 +89,8 @@ class BeamOffsets {
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks - least_rot_ticks_;
   }
-  [[nodiscard]] AzimuthAt azimuth_at() const noexcept { return azimuth_at_; }
 
  private:
-  AzimuthAt azimuth_at_;
   std::array<std::int32_t, kHdl64eLasers> rot_ticks_{};
   std::int32_t least_rot_ticks_ = 0, most_rot_ticks_ = 0;
 };

@@ -29,12 +29,6 @@ struct FiringTimes {
   [[nodiscard]] constexpr std::int32_t laser_ns(int laser) const noexcept {
     return group_ns * (laser / 4) + in_group_ns[static_cast<std::size_t>(laser % 4)];
   }
-  /// From the packet's device stamp to a firing; negative, since the stamp marks the packet's end.
-  /// Decoders disagree whether it marks the end or the first firing (docs/reference/sensors.md):
-  /// the whole difference is one packet, which matters to sensor fusion only.
-  [[nodiscard]] constexpr std::int32_t after_stamp_ns(int column, int laser) const noexcept {
-    return column_ns * column + laser_ns(laser) - packet_ns();
-  }
 };
 
 /// S2, S2.1 and S3 in single return with the 48 us cycle: a packet every 288.0 us.
@@ -50,8 +44,5 @@ inline constexpr FiringTimes kFiringTimesDual{
 static_assert(kFiringTimesSingle48.packet_ns() == 288'000);
 static_assert(kFiringTimesSingle57.packet_ns() == 345'600);
 static_assert(kFiringTimesDual.packet_ns() == 172'800);
-static_assert(kFiringTimesSingle48.after_stamp_ns(0, 0) == -288'000);
-static_assert(kFiringTimesSingle48.after_stamp_ns(5, 31) == -2'340);
-static_assert(kFiringTimesDual.after_stamp_ns(2, 31) == -3'500);
 
 }  // namespace terracut::hdl64e

@@ -19,7 +19,7 @@ int checked_columns(int columns) {
 
 Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount,
                            const Config& config, int columns, memory::FixedMemory& memory)
-    : offsets_(calibration, config.azimuth_at),
+    : offsets_(calibration),
       kernel_(calibration, config.geometry, mount, checked_columns(columns), memory),
       rows_(rows_by_elevation(calibration)) {}
 
@@ -28,7 +28,7 @@ void Hdl64eSensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcept
   std::array<std::int32_t, kHdl64eLasers> offset_ticks;
   for (int j = 0; j < kLasersPerBlock; ++j) {
     advance_ticks[static_cast<std::size_t>(j)] =
-        firing_advance_ticks(azimuths.step_ticks, j, azimuths.dual_return, offsets_.azimuth_at());
+        firing_advance_ticks(azimuths.step_ticks, j, azimuths.dual_return);
   }
   for (int i = 0; i < kRows; ++i) {
     offset_ticks[static_cast<std::size_t>(i)] =

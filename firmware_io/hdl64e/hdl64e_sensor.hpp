@@ -29,7 +29,6 @@ class Hdl64eSensor {
   using Calibration = Hdl64eCalibration;
   struct Config {
     GeometryModel geometry = GeometryModel::kManual;
-    AzimuthAt azimuth_at = AzimuthAt::kFiring;
   };
   static constexpr int kRows = kHdl64eLasers;
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;

@@ -21,8 +21,6 @@ namespace terracut::hdl64e {
 
 inline constexpr std::uint16_t kHdl64eDataPort = 2368;   ///< UDP destination; factory setting.
 inline constexpr std::uint16_t kHdl64eSourcePort = 443;  ///< UDP source of factory units.
-/// NMEA packets of the smaller models.
-inline constexpr std::uint16_t kVelodynePositionPort = 8308;
 
 inline constexpr std::uint16_t kUpperBlockId = 0xEEFF;  ///< Lasers 0..31 (bytes FF EE).
 inline constexpr std::uint16_t kLowerBlockId = 0xDDFF;  ///< Lasers 32..63 (bytes FF DD).
@@ -31,7 +29,6 @@ inline constexpr std::size_t kHdl64ePacketBytes = 1206;
 inline constexpr int kBlocksPerPacket = 12;
 inline constexpr int kLasersPerBlock = 32;
 
-inline constexpr double kHdl64eMetresPerCount = 0.002;
 /// The device clock counts microseconds since the top of the hour: 0 .. kDeviceHour_us - 1.
 inline constexpr std::uint32_t kDeviceHour_us = 3'600'000'000U;
 

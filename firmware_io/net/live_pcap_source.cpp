@@ -136,7 +136,6 @@ Expected<LivePcapSource::Handle> LivePcapSource::activate(const LivePcapConfig& 
                 fmt::format("interface '{}': {}", config.interface, message.data()));
   }
   ::pcap_set_snaplen(handle.get(), static_cast<int>(config.slot_bytes + kMostHeaderBytes));
-  ::pcap_set_promisc(handle.get(), config.promiscuous ? 1 : 0);
   ::pcap_set_immediate_mode(handle.get(), 1);  // else packets wait for others to share a wake-up
   ::pcap_set_buffer_size(handle.get(), static_cast<int>(config.buffer_bytes));
   ::pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);

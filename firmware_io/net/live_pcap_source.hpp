@@ -26,7 +26,6 @@ struct LivePcapConfig {
   std::string interface{};
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< Only this sender; others count as foreign.
-  bool promiscuous = false;  ///< Also what is meant for other machines: a mirror port.
 
   std::size_t buffer_bytes = 8U << 20;  ///< Of the kernel's ring.
   std::size_t batch = kBatchDatagrams;               ///< Datagrams a receive() returns at most, [1, 1024].

@@ -22,7 +22,6 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kLookEvery_ns = kSecond_ns / 2;
 constexpr std::size_t kMostBatch = 1024;
 constexpr std::size_t kMostSlotBytes = 65536;
-constexpr int kMostBusyPoll_us = 100'000;
 
 template <class Value>
 bool set_option(int socket, int level, int option, const Value& value) noexcept {
@@ -46,9 +45,6 @@ Status check(const UdpSourceConfig& config) {
   }
   if (config.slot_bytes < 1 || config.slot_bytes > kMostSlotBytes) {
     return refuse("slot_bytes", config.slot_bytes, 1, kMostSlotBytes);
-  }
-  if (config.busy_poll_us < 0 || config.busy_poll_us > kMostBusyPoll_us) {
-    return refuse("busy_poll_us", config.busy_poll_us, 0, kMostBusyPoll_us);
   }
   if (config.multicast_group && !is_multicast(*config.multicast_group)) {
     return fail(ErrorCode::kInvalidArgument,
@@ -145,8 +141,6 @@ tl::expected<UdpSource::Socket, UdpSource::Failure> UdpSource::open_socket(
   // Else it would hear every group that any program of this machine has joined.
   set_option(descriptor, IPPROTO_IP, IP_MULTICAST_ALL, off);
   if (config.share_port) set_option(descriptor, SOL_SOCKET, SO_REUSEADDR, on);
-  socket.busy_polls = config.busy_poll_us > 0 &&
-                      set_option(descriptor, SOL_SOCKET, SO_BUSY_POLL, config.busy_poll_us);
 
   if (!config.interface.empty()) {
     socket.interface_index = interface.index;
@@ -217,19 +211,12 @@ void UdpSource::note_shortfalls() {
                     "left out",
                     config_.interface));
   }
-  if (config_.busy_poll_us > 0 && !socket_.busy_polls) {
-    warnings_.emplace_back(
-        "the network driver is not polled (SO_BUSY_POLL needs CAP_NET_ADMIN or "
-        "sysctl net.core.busy_read); only the socket is");
-  }
 }
 
 std::span<const decode::Datagram> UdpSource::receive(std::int64_t timeout_ns) noexcept {
   const std::int64_t begun_ns = measure::monotonic_ns();
-  const std::int64_t patience_ns = std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
-  const std::int64_t deadline_ns = begun_ns + patience_ns;
-  const std::int64_t spin_until_ns =
-      begun_ns + std::min(patience_ns, std::int64_t{config_.busy_poll_us} * 1000);
+  const std::int64_t deadline_ns =
+      begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
       // It was empty when the link was found down, so this came since.
@@ -239,7 +226,6 @@ std::span<const decode::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
     const std::int64_t now_ns = measure::monotonic_ns();
     look_after(now_ns);
     if (now_ns >= deadline_ns) return {};
-    if (now_ns < spin_until_ns) continue;
     const std::int64_t until_ns = std::min(deadline_ns, next_look_ns_);
     if (wake_.wait(socket_.descriptor.get(), until_ns - now_ns)) return {};
   }

@@ -42,7 +42,6 @@ struct UdpSourceConfig {
   bool share_port = false;
 
   std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
-  int busy_poll_us = 0;    ///< Look again and again for so long before sleeping, [0, 100000].
   std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, [1, 1024].
   std::size_t slot_bytes = 1536;  ///< The longest payload taken, [1, 65536]; all of one Ethernet
                                   ///< frame by default.
@@ -90,7 +89,6 @@ class UdpSource {
     ReceiveBuffer buffer;
     int interface_index = 0;
     bool bound_to_interface = false;  ///< Else each datagram is asked where it came in.
-    bool busy_polls = false;
   };
 
   /// The call of open_socket() that failed, and its errno.

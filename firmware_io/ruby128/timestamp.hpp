@@ -47,7 +47,6 @@ class RubyTimestampDetector {
 
   [[nodiscard]] RubyTimestamp encoding() const noexcept { return encoding_; }
   [[nodiscard]] bool complete() const noexcept { return complete_; }
-  void restart() noexcept { *this = {}; }
 
  private:
   RubyTimestamp encoding_ = RubyTimestamp::kUtcMicroseconds;

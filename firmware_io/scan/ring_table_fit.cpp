@@ -112,10 +112,7 @@ Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
   FittedRings fitted;
   std::vector<LinePoint> points;
   for (std::size_t ring = 0; ring < lines.size(); ++ring) {
-    if (rings_[ring].samples.size() < kMinPointsPerRing) {
-      ++fitted.interpolated_rings;
-      continue;
-    }
+    if (rings_[ring].samples.size() < kMinPointsPerRing) continue;
     if (offsets != nullptr) {
       lines[ring] = through(rings_[ring], (*offsets)[ring].vert_offset_m);
       continue;

@@ -25,7 +25,6 @@ struct FittedRings {
   RingTable table;
   HeightResidual residual;  ///< Over all rings.
   std::vector<HeightResidual> by_ring;
-  int interpolated_rings = 0;       ///< Rings with too few points, put between their neighbours.
   bool from_nominal_table = false;  ///< No scan had all rings (ScanReader::fit_rings()).
 };
 

@@ -153,7 +153,6 @@ Expected<SensorMotion> SensorMotion::read(const std::filesystem::path& poses,
   if (calib) {
     const auto own = read_extrinsics(*calib);
     if (!own) return tl::unexpected(own.error());
-    motion.has_own_extrinsics_ = own->has_value();
     if (*own) motion.T_camera_lidar_ = **own;
   }
   return motion;

@@ -33,8 +33,6 @@ class SensorMotion {
       const std::optional<std::filesystem::path>& calib);
 
   [[nodiscard]] std::size_t frames() const noexcept { return times_s_.size(); }
-  /// True when the sensor's place came from the "Tr:" line.
-  [[nodiscard]] bool has_own_extrinsics() const noexcept { return has_own_extrinsics_; }
 
   /// Mean motion from the frame before to the frame after (at the ends: to the one neighbour).
   /// Error kInvalidArgument for a frame that the files do not have.
@@ -46,7 +44,6 @@ class SensorMotion {
   std::vector<Pose> camera_poses_;
   std::vector<double> times_s_;
   Pose T_camera_lidar_{};
-  bool has_own_extrinsics_ = false;
   std::filesystem::path poses_path_;
 };
 

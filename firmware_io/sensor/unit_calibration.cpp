@@ -31,10 +31,8 @@ struct StreamSearch {
   std::optional<hdl64e::Hdl64eCalibration> found;
   std::string table_error;  ///< Of a whole table that does not hold a plausible calibration.
   std::string broke_off;    ///< Why the capture could not be read further.
-  std::uint64_t datagrams = 0;
-  std::uint64_t data_packets = 0;  ///< Of them, of an HDL-64E.
+  std::uint64_t data_packets = 0;
   std::size_t holes = 0;
-  frame::LossCounters losses;
 };
 
 StreamSearch search_status_stream(PcapSource& source) {
@@ -45,12 +43,8 @@ StreamSearch search_status_stream(PcapSource& source) {
     const auto next = source.next();
     if (!next) search.broke_off = next.error().message;
     if (!next || !*next) break;
-    ++search.datagrams;
     const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, azimuths);
-    if (reject && *reject != frame::Reject::kStationary) {  // a standing head still talks
-      ++search.losses.rejected[static_cast<std::size_t>(*reject)];
-      continue;
-    }
+    if (reject && *reject != frame::Reject::kStationary) continue;  // a standing head still talks
     const auto packet = hdl64e::Hdl64ePacketView::of((*next)->payload);
     if (!packet) continue;
     ++search.data_packets;

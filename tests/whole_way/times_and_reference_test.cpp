@@ -32,7 +32,7 @@ TEST(TimesAndReference, LasersOfTheHdl64eFireWhenTheReferenceSays) {
     const auto& times = dual_return ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48;
     for (const Return& beam : packet.returns) {
       const int firing = beam.column * times.columns_per_packet / 6;
-      const auto after_first_ns = times.after_stamp_ns(firing, beam.laser % 32) + times.packet_ns();
+      const auto after_first_ns = times.column_ns * firing + times.laser_ns(beam.laser % 32);
       ASSERT_NEAR(after_first_ns, beam.fired_us * 1e3, 1e-6) << beam.column << ", " << beam.laser;
     }
   }

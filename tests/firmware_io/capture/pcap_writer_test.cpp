@@ -58,7 +58,6 @@ TEST(PcapWriter, WritesWhatTheSourceReadsBack) {
   const auto end = source->next();
   ASSERT_TRUE(end);
   EXPECT_FALSE(end->has_value());
-  EXPECT_EQ(source->end(), CaptureEnd::kClean);
 }
 
 TEST(PcapWriter, PutsRightChecksumsInIpAndUdp) {

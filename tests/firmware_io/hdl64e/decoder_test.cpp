@@ -185,26 +185,21 @@ TEST(Hdl64eDecoder, FramesWithoutReturnsAreNoFrames) {
   }());
 }
 
-TEST(Hdl64eDecoder, RotatesLaterLasersOnUnlessAskedForTheBlockAzimuth) {
+TEST(Hdl64eDecoder, RotatesLaterLasersOn) {
   std::vector<FiringColumn> firings(6);
   for (std::size_t c = 0; c < 6; ++c) {
     firings[c].unwrapped_azimuth_cdeg = 9'000 + 20 * static_cast<std::int64_t>(c);
     firings[c].stamp_ns = 48'000 * static_cast<std::int64_t>(c);
   }
   firings[0].by_laser[31] = {10'000, 0, 0};
-  const auto azimuth_deg = [&](hdl64e::AzimuthAt azimuth_at) {
-    Recorder::Config config;
-    config.sensor.azimuth_at = azimuth_at;
-    hdl64e::Hdl64eCalibration flat;
-    Recorder recorder(config, flat);
-    recorder.decode_all(to_packets(firings));
-    recorder.flush();
-    const frame::Return& point = recorder.frames.at(0).returns.at(0).point;
-    return beams::rad_to_deg(std::atan2(-point.y_m, point.x_m));
-  };
-  EXPECT_NEAR(azimuth_deg(hdl64e::AzimuthAt::kBlock), 90.0, 1e-4);
+  hdl64e::Hdl64eCalibration flat;
+  Recorder recorder({}, flat);
+  recorder.decode_all(to_packets(firings));
+  recorder.flush();
+  const frame::Return& point = recorder.frames.at(0).returns.at(0).point;
   // The last group of four fires 42 us into the 48 us, its last laser 3.66 us later.
-  EXPECT_NEAR(azimuth_deg(hdl64e::AzimuthAt::kFiring), 90.0 + 0.20 * 45.66 / 48.0, 1e-4);
+  EXPECT_NEAR(beams::rad_to_deg(std::atan2(-point.y_m, point.x_m)), 90.0 + 0.20 * 45.66 / 48.0,
+              1e-4);
 }
 
 TEST(Hdl64eDecoder, PlacesBothReturnsOfADualReturnPacket) {

@@ -68,7 +68,6 @@ TEST_F(UdpSourceRefusal, OfSettingsOutOfRangeNamesTheRange) {
   expect_refusal({.batch = 1025}, ErrorCode::kInvalidArgument, HasSubstr("1024"));
   expect_refusal({.slot_bytes = 0}, ErrorCode::kInvalidArgument, HasSubstr("slot_bytes 0"));
   expect_refusal({.slot_bytes = 65537}, ErrorCode::kInvalidArgument, HasSubstr("65536"));
-  expect_refusal({.busy_poll_us = -1}, ErrorCode::kInvalidArgument, HasSubstr("busy_poll_us -1"));
   expect_refusal({.multicast_group = 0xC0A80001}, ErrorCode::kInvalidArgument,
                  AllOf(HasSubstr("192.168.0.1"), HasSubstr("224.0.0.0")));
   expect_refusal({.bind = {0xEF000001, 0}}, ErrorCode::kInvalidArgument,

@@ -277,21 +277,6 @@ TEST_F(UdpSourceTest, SharesItsPortOnlyWithThoseThatShareItToo) {
   EXPECT_EQ(receive(second, 3).size(), 3U);
 }
 
-TEST_F(UdpSourceTest, ThatPollsBusilyReceivesTheSame) {
-  auto source = open({.busy_poll_us = 2000});
-  auto sender = sender_to(source);
-  Numbered numbered(20);
-  std::thread sending([&] {
-    for (std::size_t i = 0; i < 20; ++i) {
-      sender.send(std::span(numbered.datagrams()).subspan(i, 1));
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-  });
-  const auto received = receive(source, 20);
-  sending.join();
-  for (std::size_t i = 0; i < received.size(); ++i) EXPECT_EQ(received[i].number(), i);
-}
-
 TEST_F(UdpSourceTest, TakesItsMemoryFromTheLedgerAtStart) {
   auto source = open({.batch = 32, .slot_bytes = 2048});
   EXPECT_GE(memory_.total_bytes(), 32U * 2048U);

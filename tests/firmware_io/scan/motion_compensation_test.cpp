@@ -82,7 +82,6 @@ TEST(SensorMotion, TakesVelocityIntoTheSensorsFrame) {
                                          folder.write("times.txt", kTimes), std::nullopt);
   ASSERT_TRUE(motion) << motion.error().message;
   EXPECT_EQ(motion->frames(), 3U);
-  EXPECT_FALSE(motion->has_own_extrinsics());
   for (const std::uint32_t frame : {0U, 1U, 2U}) {
     const auto twist = motion->twist(frame);
     ASSERT_TRUE(twist);
@@ -119,7 +118,6 @@ TEST(SensorMotion, TakesTheSensorsPlaceFromTheCalibration) {
   const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),
                                          folder.write("times.txt", kTimes), calib);
   ASSERT_TRUE(motion);
-  EXPECT_TRUE(motion->has_own_extrinsics());
   EXPECT_NEAR(motion->twist(1)->velocity_m_s[2], 10, 1e-9);
 }
 

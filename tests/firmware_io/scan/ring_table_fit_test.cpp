@@ -78,7 +78,6 @@ TEST(RingTableFit, FindsTheTableAScanWasMadeWith) {
   expect_near(found.table, truth, 0.002, 0.0005);
   EXPECT_LT(found.residual.rms_m, 1e-4);
   EXPECT_EQ(found.residual.points, 64U * 2000U);
-  EXPECT_EQ(found.interpolated_rings, 0);
 }
 
 TEST(RingTableFit, FindsItThroughMotionCompensation) {
@@ -103,7 +102,6 @@ TEST(RingTableFit, PutsRingsWithFewPointsBetweenTheirNeighbours) {
     if (ring == 0 || ring == 10 || ring == 11 || ring == 63) ring = kNoRing;
   }
   const FittedRings found = fitted(points, recovery.ring_of_point);
-  EXPECT_EQ(found.interpolated_rings, 4);
   expect_near(found.table, truth, 0.05, 0.001);
 }
 

@@ -73,7 +73,6 @@ TEST_P(RealCaptures, KeepTheirPacketsWhenCutInTheMiddle) {
   auto next = source->next();
   for (; next && *next; next = source->next()) ++packets;
   EXPECT_FALSE(next);
-  EXPECT_EQ(source->end(), capture::CaptureEnd::kBrokeOff);
   EXPECT_GT(packets, GetParam().data_packets / 3);
 }
 

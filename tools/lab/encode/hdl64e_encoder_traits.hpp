@@ -33,7 +33,6 @@ struct Hdl64eEncoderTraits {
 
   struct Config {
     drive::ReturnMode returns = drive::ReturnMode::kSingle;
-    hdl64e::AzimuthAt azimuth_at = hdl64e::AzimuthAt::kFiring;
     hdl64e::GeometryModel geometry = hdl64e::GeometryModel::kManual;
   };
 
@@ -77,8 +76,8 @@ struct Hdl64eEncoderTraits {
     return offsets.offset_ticks(step_ticks, laser, returns == drive::ReturnMode::kDual);
   }
 
-  [[nodiscard]] static Offsets offsets(const Calibration& calibration, const Config& config) {
-    return Offsets(calibration, config.azimuth_at);
+  [[nodiscard]] static Offsets offsets(const Calibration& calibration, const Config&) {
+    return Offsets(calibration);
   }
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config& config) {
     return Geometry(calibration, config.geometry);

@@ -3,45 +3,34 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
+#include <variant>
 
 #include "calib/mount/mount.hpp"
+#include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/blind_sector.hpp"
-#include "firmware_io/decode/column_returns.hpp"
 #include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/decode/deskewer.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/host_clock.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/packet_returns.hpp"
 #include "firmware_io/decode/stream_tracker.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/hdl64e/hdl64e_sensor.hpp"
+#include "firmware_io/ruby128/ruby128_sensor.hpp"
 #include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::decode {
 
 /// Data packets of one spinning sensor in, frames of returns out. A return goes straight into its
-/// cell while its packet is read.
-///
-/// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
-/// - `Calibration`, `Config`; `kRows` lasers; `kPacketBytes`, the size of a data packet;
-///   `kClockWrap_us`, where the device clock wraps;
-///   `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
-/// - a constructor (const Calibration&, const mount::Mount&, const Config&, int columns,
-///   memory::FixedMemory&);
-/// - `check(payload, PacketAzimuths&)`: the reason to reject a payload, or nothing and its heads;
-/// - `spread(step_ticks)`: the BeamSpread around the head;
-/// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
-/// - `begin_packet(azimuths)`, then `read_column(payload, azimuths, column, found)` for each column
-/// in
-///   frame, which fills in its ColumnReturns<kRows>;
-/// - `rows()`: the range image row of each laser.
-/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
+/// cell while its packet is read. All that differs from model to model is in a trait
+/// (packet_returns.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
@@ -53,14 +42,13 @@ namespace terracut::decode {
 ///
 /// One thread. The constructor takes all memory (throws std::invalid_argument on a bad setting);
 /// all else allocates nothing, locks nothing and throws nothing (rt/threads/nonblocking.hpp).
-template <class Sensor>
 class Decoder {
  public:
   struct Config {
-    /// Firings per frame at the sensor's spin rate.
-    int columns = Sensor::kDefaultColumns;
-    /// Room for so many returns a cell on average; beyond, they are counted and lost.
-    int returns_per_cell = Sensor::kDefaultReturnsPerCell;
+    int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: as at 10 Hz.
+    /// Room for so many returns a cell on average; beyond, they are counted and lost. 0: as many as
+    /// single return at 10 Hz has, and some.
+    int returns_per_cell = 0;
     /// In dual return: which return owns a cell. All of them are placed and labelled.
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
@@ -74,30 +62,13 @@ class Decoder {
     /// are handed over as seen.
     vehicle::EgoMotion* motion = nullptr;
     frame::FrameInstant deskew_at = frame::FrameInstant::kEnd;
-    typename Sensor::Config sensor;
+    hdl64e::Hdl64eSensor::Config hdl64e;
+    ruby128::Ruby128Sensor::Config ruby128;
   };
 
-  Decoder(const typename Sensor::Calibration& calibration, const mount::Mount& mount,
-          const Config& config, memory::FixedMemory& memory)
-      : reorder_packets_(config.reorder_packets),
-        dual_owner_(config.dual_owner),
-        return_capacity_(frame::ImageShape{kRows, config.columns}.cells() +
-                         frame_config(config).overflow_capacity),
-        sensor_(calibration, mount, config.sensor, config.columns, memory),
-        tracker_(Sensor::kClockWrap_us, memory),
-        frames_(frame_config(config), memory),
-        clock_(Sensor::kClockWrap_us),
-        kept_(memory.take<KeptPacket>("packets in doubt", kMostKept)) {
-    if (config.motion == nullptr) return;
-    std::array<std::int32_t, kLasers> beam_ticks{};
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      beam_ticks[static_cast<std::size_t>(sensor_.rows()[i])] =
-          sensor_.beam_ticks(static_cast<int>(i));
-    }
-    deskewer_.emplace(
-        Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), kRevolution_ticks},
-        beam_ticks, memory);
-  }
+  /// Of the sensor that the calibration belongs to.
+  Decoder(const calib::SensorCalibration& calibration, const mount::Mount& mount,
+          const Config& config, memory::FixedMemory& memory);
 
   /// Takes one datagram, whose payload must stay as it is until next() has returned null.
   ///
@@ -147,11 +118,11 @@ class Decoder {
   [[nodiscard]] std::int64_t device_stamp_us() const noexcept { return azimuths_.device_stamp_us; }
   /// The last packet decoded carried two returns per firing.
   [[nodiscard]] bool dual_return() const noexcept { return azimuths_.dual_return; }
-  /// From firing to firing, mean of the last packets; 0 before the first.
-  [[nodiscard]] double step_deg() const noexcept {
-    return steps_ == 0 ? 0 : static_cast<double>(steps_ticks_) / static_cast<double>(steps_) * 1e-5;
+  /// How an RS-Ruby128's stamps are read; null for another sensor.
+  [[nodiscard]] const ruby128::RubyTimestampDetector* ruby_timestamp() const noexcept {
+    const auto* ruby128 = std::get_if<PacketReturns<ruby128::Ruby128Sensor>>(&sensor_);
+    return ruby128 == nullptr ? nullptr : &ruby128->trait().timestamp();
   }
-  [[nodiscard]] const Sensor& sensor() const noexcept { return sensor_; }
   /// Where the sensor is blind, as far as that has been learnt (blind_sector.hpp).
   [[nodiscard]] frame::BlindAzimuths blind() const noexcept {
     return blind_azimuths(blind_.sector());
@@ -160,14 +131,30 @@ class Decoder {
   [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return frames_.images(); }
 
  private:
-  static constexpr int kRows = Sensor::kRows;
-  static constexpr auto kLasers = static_cast<std::size_t>(kRows);
+  using SensorReturns =
+      std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>>;
 
-  [[nodiscard]] static FrameBuilder::Config frame_config(const Config& config) {
-    const frame::ImageShape shape{kRows, config.columns};
-    const auto spare = static_cast<std::size_t>(std::max(0, config.returns_per_cell - 1));
-    return {shape, spare * static_cast<std::size_t>(kRows * config.columns), config.images,
-            kRevolution_ticks};
+  /// What the sensors differ in beside their traits' work.
+  struct Model {
+    int rows, columns, returns_per_cell;
+    std::size_t packet_bytes;
+    std::int64_t clock_wrap_us;
+  };
+  [[nodiscard]] static Model model_of(const calib::SensorCalibration& calibration,
+                                      const Config& config);
+  [[nodiscard]] static SensorReturns sensor_of(const calib::SensorCalibration& calibration,
+                                               const mount::Mount& mount, const Config& config,
+                                               int columns, memory::FixedMemory& memory);
+  [[nodiscard]] static FrameBuilder::Config frame_config(const Model& model, const Config& config);
+  Decoder(const Model& model, const calib::SensorCalibration& calibration,
+          const mount::Mount& mount, const Config& config, memory::FixedMemory& memory);
+
+  /// One switch a call, and no virtual one.
+  template <class Function>
+  decltype(auto) with_sensor(Function&& function) noexcept {
+    if (auto* hdl64e = std::get_if<PacketReturns<hdl64e::Hdl64eSensor>>(&sensor_))
+      return function(*hdl64e);
+    return function(*std::get_if<PacketReturns<ruby128::Ruby128Sensor>>(&sensor_));
   }
 
   [[nodiscard]] static std::int64_t frame_of(std::int64_t ticks) noexcept {
@@ -211,13 +198,15 @@ class Decoder {
   }
   /// A packet that contradicts the stream.
   struct KeptPacket {
-    std::array<std::uint8_t, Sensor::kPacketBytes> bytes;
     PacketAzimuths azimuths;
     std::int64_t stamp_ns;
     std::int64_t rotor_cdeg;  ///< Placement::rotor_cdeg
     frame::Reject reason;     ///< Unless others agree with it.
   };
   void keep(const Datagram& datagram, const Placement& placed) noexcept;
+  [[nodiscard]] std::span<std::uint8_t> kept_bytes(std::size_t number) noexcept {
+    return kept_bytes_.subspan(number * packet_bytes_, packet_bytes_);
+  }
   void reject_kept() noexcept {
     for (std::size_t i = 0; i < kept_packets_; ++i) count_rejected(kept_[i].reason);
     kept_packets_ = 0;
@@ -299,39 +288,20 @@ class Decoder {
     frames_.losses().azimuth_hole_columns +=
         static_cast<std::uint64_t>((due.ticks + step_ticks / 2) / step_ticks);
   }
-  /// The first `late_columns` are left out and counted.
-  void place_packet(std::span<const std::uint8_t> payload, std::int64_t rotor_cdeg,
-                    int late_columns, bool is_in_one_frame) noexcept;
-  void leave_out(int late_columns) noexcept;
-  /// Places a packet's returns laser by laser. Each cache line of the image then is written once
-  /// and not once a firing, which takes half the time. Returns false and places nothing where the
-  /// overflow list might run full.
-  [[nodiscard]] bool place_by_laser(std::int64_t rotor_cdeg, frame::CellOwner owner) noexcept;
-  /// In the order of arrival, into any of the open frames.
-  void place_by_firing(std::int64_t rotor_cdeg, frame::CellOwner owner) noexcept;
-  [[nodiscard]] std::int64_t frame_of_beam(std::int64_t rotor_cdeg, std::size_t column,
-                                           std::size_t laser) const noexcept {
-    const std::int64_t column_cdeg = rotor_cdeg + azimuths_.advance_cdeg(static_cast<int>(column));
-    return (column_cdeg - beams::wrap_cdeg(column_cdeg)) / beams::kRevolution_cdeg +
-           found_[column].frame_offset[laser];
-  }
-  [[nodiscard]] frame::Return point(std::size_t column, std::size_t laser) const noexcept {
-    const ColumnReturns<kLasers>& found = found_[column];
-    return {found.x_m[laser], found.y_m[laser], found.z_m[laser], found.ground_range_m[laser],
-            found.intensity[laser]};
-  }
   static constexpr std::size_t kMostKept = StreamTracker::kNewStream_packets - 1;
 
   int reorder_packets_;
   frame::CellOwner dual_owner_;
   std::size_t return_capacity_;
-  Sensor sensor_;
+  std::size_t packet_bytes_;
+  SensorReturns sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;
   BlindSector blind_{kRevolution_ticks};
   HostClock clock_;
   std::optional<Deskewer> deskewer_;
   std::span<KeptPacket> kept_;
+  std::span<std::uint8_t> kept_bytes_;  ///< Their payloads.
   std::size_t kept_packets_ = 0;
   PacketAzimuths azimuths_;
   Step step_ = Step::kNothing;
@@ -345,7 +315,6 @@ class Decoder {
     Datagram pushed;
   } anew_;  ///< While packets that were kept become the stream.
   std::optional<frame::Reject> rejected_;
-  std::array<ColumnReturns<kLasers>, PacketAzimuths::kMaxColumns> found_{};  ///< Of one packet.
   std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.
   std::int64_t complete_ticks_ = 0;          ///< Up to here no more returns are expected.
   std::int64_t completes_behind_ticks_ = 0;  ///< Usual distance of complete_ticks_ behind the head.
@@ -353,350 +322,5 @@ class Decoder {
   bool has_crossed_ = false;  ///< A sector lies in the packet before.
   std::uint64_t packets_ = 0, columns_ = 0;
 };
-
-template <class Sensor>
-void Decoder<Sensor>::push(const Datagram& datagram) noexcept {
-  rejected_.reset();
-  auto reason = sensor_.check(datagram.payload, azimuths_);
-  if (!reason && azimuths_.behind_sector > 0 && !blind_.is_inside(azimuths_)) {
-    reason = frame::Reject::kAzimuthJump;
-  }
-  if (reason) {
-    if (*reason == frame::Reject::kStationary) {
-      tracker_.note_stationary(azimuths_.device_stamp_us, azimuths_.first_cdeg(), frames_.losses());
-    } else if (*reason == frame::Reject::kAzimuthOutOfRange ||
-               *reason == frame::Reject::kAzimuthMismatch ||
-               *reason == frame::Reject::kAzimuthJump) {
-      tracker_.note_rejected(azimuths_.device_stamp_us);
-    } else if (*reason == frame::Reject::kDeviceInfo) {
-      rejected_ = reason;  // nothing is lost with it
-      return;
-    }
-    return reject(*reason);
-  }
-  const std::int64_t began_ns = host_began_ns(datagram.stamp_ns);
-  const Placement placed = tracker_.place(azimuths_, began_ns, frames_.losses());
-  if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
-  if (placed.arrival == Arrival::kDoubtful) {
-    if (placed.is_first_in_doubt) reject_kept();
-    return keep(datagram, placed);
-  }
-  if (placed.arrival == Arrival::kNewStream) {
-    anew_.pushed = datagram;
-    anew_.pushed_azimuths = azimuths_;
-    return begin_anew(placed.rotor_cdeg, true);
-  }
-  reject_kept();
-  after_packet_ = Step::kNothing;
-  take(datagram.payload, datagram.stamp_ns, placed);
-}
-
-template <class Sensor>
-void Decoder<Sensor>::end_stream() noexcept {
-  if (kept_packets_ > 0) return begin_anew(kept_[kept_packets_ - 1].rotor_cdeg, false);
-  step_ = Step::kEnd;
-}
-
-template <class Sensor>
-frame::Frame* Decoder<Sensor>::next(frame::RangeImage* in_exchange) noexcept {
-  frame::Frame* frame = frames_.next(in_exchange);
-  while (frame == nullptr && go_on()) frame = frames_.next();
-  if (frame == nullptr) return nullptr;
-  frame->info.blind = blind();
-  if (deskewer_) frame->info.deskew = deskewer_->apply(frames_.oldest(), *frame->image);
-  return frame;
-}
-
-template <class Sensor>
-bool Decoder<Sensor>::go_on() noexcept {
-  switch (step_) {
-    case Step::kNothing:
-      return false;
-    case Step::kTakeKept:
-      take_kept();
-      break;
-    case Step::kTakePushed:
-      take_pushed();
-      break;
-    case Step::kRestart:
-      restart();
-      break;
-    case Step::kPlace:
-      place();
-      break;
-    case Step::kEnd:
-      end();
-      break;
-  }
-  return true;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::keep(const Datagram& datagram, const Placement& placed) noexcept {
-  KeptPacket& kept = kept_[kept_packets_++];
-  std::copy(datagram.payload.begin(), datagram.payload.end(), kept.bytes.begin());
-  kept.azimuths = azimuths_;
-  kept.stamp_ns = datagram.stamp_ns;
-  kept.rotor_cdeg = placed.rotor_cdeg;
-  kept.reason = placed.reject;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::begin_anew(std::int64_t newest_cdeg, bool has_pushed) noexcept {
-  anew_.next = 0;
-  anew_.has_begun = false;
-  anew_.has_pushed = has_pushed;
-  anew_.newest_cdeg = newest_cdeg;
-  step_ = after_packet_ = Step::kTakeKept;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::take_kept() noexcept {
-  if (anew_.next == kept_packets_) {
-    kept_packets_ = 0;
-    step_ = anew_.has_pushed ? Step::kTakePushed : Step::kEnd;
-    return;
-  }
-  const KeptPacket& kept = kept_[anew_.next++];
-  if (kept.rotor_cdeg < anew_.newest_cdeg - beams::kRevolution_cdeg)
-    return count_rejected(kept.reason);
-  azimuths_ = kept.azimuths;
-  const std::int64_t began_ns = host_began_ns(kept.stamp_ns);
-  const Placement placed = std::exchange(anew_.has_begun, true)
-                               ? tracker_.go_on(azimuths_, began_ns, frames_.losses())
-                               : tracker_.begin(azimuths_, began_ns, frames_.losses());
-  if (placed.arrival == Arrival::kRejected) return count_rejected(placed.reject);
-  take(kept.bytes, kept.stamp_ns, placed);
-}
-
-template <class Sensor>
-void Decoder<Sensor>::take_pushed() noexcept {
-  rejected_.reset();
-  step_ = after_packet_ = Step::kNothing;
-  azimuths_ = anew_.pushed_azimuths;
-  const Datagram& pushed = anew_.pushed;
-  const Placement placed =
-      tracker_.go_on(azimuths_, host_began_ns(pushed.stamp_ns), frames_.losses());
-  if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
-  take(pushed.payload, pushed.stamp_ns, placed);
-}
-
-template <class Sensor>
-void Decoder<Sensor>::take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
-                           const Placement& placed) noexcept {
-  const BeamSpread spread = sensor_.spread(azimuths_.step_ticks);
-  const std::int64_t begin_ticks = placed.rotor_cdeg * kTicksPerCdeg;
-  std::int64_t most_ticks = begin_ticks;
-  for (int column = 1; column < azimuths_.columns; ++column) {
-    most_ticks = std::max(most_ticks, begin_ticks + azimuths_.advance_cdeg(column) * kTicksPerCdeg);
-  }
-  const std::int64_t last_frame = frame_of(most_ticks + spread.foremost_ticks);
-  const int late_columns = columns_too_late(placed, spread, last_frame);
-  const std::int64_t first_ticks =
-      begin_ticks + azimuths_.advance_cdeg(late_columns) * kTicksPerCdeg;
-  std::int64_t least_ticks = first_ticks;
-  for (int column = late_columns + 1; column < azimuths_.columns; ++column) {
-    least_ticks =
-        std::min(least_ticks, begin_ticks + azimuths_.advance_cdeg(column) * kTicksPerCdeg);
-  }
-  job_ = {.payload = payload,
-          .stamp_ns = stamp_ns,
-          .placed = placed,
-          .spread = spread,
-          .swept = {first_ticks, begin_ticks + azimuths_.sweep_ticks},
-          .late_columns = late_columns,
-          .first_frame = frame_of(least_ticks + spread.hindmost_ticks),
-          .last_frame = last_frame,
-          .stride = {azimuths_.pace_ticks, azimuths_.widest_ticks},
-          .step_ticks = 0};
-  if (placed.arrival != Arrival::kRestart) return judge();
-  blind_.end();
-  count_due();
-  tracker_.miss(seen_share(placed.missing), frames_.losses());
-  frames_.flush();
-  step_ = Step::kRestart;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::restart() noexcept {
-  if (deskewer_) {
-    deskewer_->restart();
-    clock_.reset();
-  }
-  frames_.start(job_.first_frame, job_.swept.from_ticks);
-  frontier_ticks_ = job_.swept.from_ticks;
-  steps_ticks_ = steps_ = 0;
-  judge();
-}
-
-template <class Sensor>
-void Decoder<Sensor>::judge() noexcept {
-  step_ = after_packet_;
-  const Arrival arrival = job_.placed.arrival;
-  const RotorInterval& swept = job_.swept;
-  const bool is_next = arrival == Arrival::kNext;
-  if (job_.first_frame < frames_.oldest()) {
-    if (is_next) {
-      tracker_.miss(missing_before(job_.placed, swept), frames_.losses());
-      blind_.pass(swept);
-    }
-    return reject(frame::Reject::kLate);
-  }
-
-  job_.step_ticks = mean_step(azimuths_.step_ticks);
-  if (is_next) {
-    judge_gap(job_.placed, swept, job_.stride, job_.spread, job_.step_ticks);
-    if (azimuths_.behind_sector > 0 && job_.late_columns == 0) {
-      cross_sector(swept, job_.stride, job_.spread, job_.step_ticks);
-    } else {
-      blind_.pass(swept);
-    }
-    frames_.set_blind(blind_.sector());
-    count_due();
-  }
-  if (arrival == Arrival::kReordered) {
-    frames_.regain(swept, job_.spread);
-    blind_.fill(swept);
-  }
-  frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
-  if (arrival != Arrival::kReordered) has_crossed_ = azimuths_.behind_sector > 0;
-  if (deskewer_ && arrival != Arrival::kReordered && !has_crossed_) {
-    const HostClock::Sent sent = clock_.sent(azimuths_.device_stamp_us, job_.stamp_ns);
-    if (sent.anew) deskewer_->begin_anew(swept.from_ticks);
-    deskewer_->note(swept.from_ticks, sent.instant_ns - azimuths_.nominal_period_ns);
-  }
-  frames_.roll_to(job_.last_frame - 1);
-  step_ = Step::kPlace;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::place() noexcept {
-  // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
-  // frame unevenly.
-  const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
-  frames_.note_packet(job_.stamp_ns, job_.first_frame, job_.last_frame, next_ticks, job_.step_ticks,
-                      job_.spread);
-  place_packet(job_.payload, job_.placed.rotor_cdeg, job_.late_columns,
-               job_.first_frame == job_.last_frame);
-
-  const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
-  completes_behind_ticks_ =
-      late_packets * job_.stride.widest_ticks + job_.step_ticks - job_.spread.hindmost_ticks;
-  complete_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - completes_behind_ticks_;
-  frames_.roll_to(frame_of(complete_ticks_));
-  step_ = after_packet_;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::end() noexcept {
-  tracker_.end_of_stream(frames_.losses());
-  blind_.end();
-  count_due();
-  frames_.flush();
-  step_ = Step::kNothing;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::judge_gap(const Placement& placed, const RotorInterval& swept,
-                                const BlindSector::Stride& stride, const BeamSpread& spread,
-                                std::int64_t step_ticks) noexcept {
-  const RotorInterval gap{frontier_ticks_, swept.from_ticks};
-  const std::int64_t missing = missing_before(placed, swept);
-  if (gap.ticks() <= step_ticks * 3 / 4) {
-    tracker_.miss(missing, frames_.losses());
-    return;
-  }
-  const BlindSector::Verdict verdict = blind_.judge(gap, missing, placed.explained, stride);
-  frames_.set_blind(blind_.sector());
-  tracker_.miss(verdict.packets, frames_.losses());
-  if (verdict.lost.ticks() > 0) {
-    frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
-  }
-}
-
-template <class Sensor>
-void Decoder<Sensor>::cross_sector(const RotorInterval& swept, const BlindSector::Stride& stride,
-                                   const BeamSpread& spread, std::int64_t step_ticks) noexcept {
-  const RotorInterval inside = azimuths_.sector_inside(swept.from_ticks);
-  const BlindSector::Verdict verdict = blind_.cross(swept.from_ticks, inside, stride);
-  frames_.set_blind(blind_.sector());
-  if (verdict.lost.ticks() > 0) {
-    frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
-  }
-}
-
-template <class Sensor>
-void Decoder<Sensor>::place_packet(std::span<const std::uint8_t> payload, std::int64_t rotor_cdeg,
-                                   int late_columns, bool is_in_one_frame) noexcept {
-  sensor_.begin_packet(azimuths_);
-  for (int column = 0; column < azimuths_.columns; ++column) {
-    sensor_.read_column(payload, azimuths_, column, found_[static_cast<std::size_t>(column)]);
-  }
-  if (late_columns > 0) leave_out(late_columns);
-  const frame::CellOwner owner =
-      azimuths_.dual_return ? dual_owner_ : frame::CellOwner::kFirstArrived;
-  const bool goes_by_laser = is_in_one_frame && late_columns == 0;
-  if (!goes_by_laser || !place_by_laser(rotor_cdeg, owner)) place_by_firing(rotor_cdeg, owner);
-  ++packets_;
-  columns_ += static_cast<std::uint64_t>(azimuths_.columns - late_columns);
-}
-
-template <class Sensor>
-void Decoder<Sensor>::leave_out(int late_columns) noexcept {
-  frame::LossCounters& losses = frames_.losses();
-  for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
-    for (std::uint16_t& raw : found_[c].raw) {
-      losses.late_returns += raw != 0 ? 1U : 0U;
-      raw = 0;
-    }
-  }
-  // Both returns of a pair are one firing.
-  losses.azimuth_hole_columns +=
-      azimuths_.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
-}
-
-template <class Sensor>
-bool Decoder<Sensor>::place_by_laser(std::int64_t rotor_cdeg, frame::CellOwner owner) noexcept {
-  const auto columns = static_cast<std::size_t>(azimuths_.columns);
-  std::array<std::uint32_t, PacketAzimuths::kMaxColumns> number{};  // of each column's next return
-  std::uint32_t returns = 0;
-  for (std::size_t c = 0; c < columns; ++c) {
-    number[c] = returns;
-    for (const std::uint16_t raw : found_[c].raw) returns += raw != 0 ? 1U : 0U;
-  }
-  frame::RangeImage& image = frames_.image(frame_of_beam(rotor_cdeg, 0, 0));
-  const std::optional<std::uint32_t> first = image.take_numbers(returns);
-  if (!first) return false;
-  for (std::uint32_t& next : number) next += *first;
-
-  const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
-  for (std::size_t i = 0; i < kLasers; ++i) {
-    // Which columns a laser found something in is as good as random, so no branch is asked to guess
-    // it.
-    std::array<std::uint8_t, PacketAzimuths::kMaxColumns> hits;
-    std::size_t hit_count = 0;
-    for (std::size_t c = 0; c < columns; ++c) {
-      hits[hit_count] = static_cast<std::uint8_t>(c);
-      hit_count += found_[c].raw[i] != 0 ? 1 : 0;
-    }
-    for (std::size_t n = 0; n < hit_count; ++n) {
-      const std::size_t c = hits[n];
-      image.place_numbered(rows[i], found_[c].column[i], point(c, i), owner, number[c]++);
-    }
-  }
-  return true;
-}
-
-template <class Sensor>
-void Decoder<Sensor>::place_by_firing(std::int64_t rotor_cdeg, frame::CellOwner owner) noexcept {
-  const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
-  for (std::size_t c = 0; c < static_cast<std::size_t>(azimuths_.columns); ++c) {
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      if (found_[c].raw[i] == 0) continue;
-      frames_.place(frame_of_beam(rotor_cdeg, c, i), rows[i], found_[c].column[i], point(c, i),
-                    owner);
-    }
-  }
-}
 
 }  // namespace terracut::decode

@@ -6,20 +6,19 @@
 #include <vector>
 
 #include "calib/terracut/calibration_table.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/terracut/points.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {
 
 struct Decoder::Engine {
-  Engine(const Calibration& calibration, const Mount& mount,
-         const sensor::SensorDecoder::Config& config)
+  Engine(const Calibration& calibration, const Mount& mount, const decode::Decoder::Config& config)
       : decoder(calibration.table().unit, mount_of(mount), config, memory),
         room(decoder.return_capacity()) {}
 
   memory::FixedMemory memory;
-  sensor::SensorDecoder decoder;
+  decode::Decoder decoder;
   std::vector<Point> room;
   Frame frame;
 };
@@ -31,7 +30,7 @@ Decoder::~Decoder() = default;
 
 Expected<Decoder> Decoder::make(const Calibration& calibration, const Mount& mount,
                                 const Config& config) {
-  sensor::SensorDecoder::Config of_engine;
+  decode::Decoder::Config of_engine;
   of_engine.reorder_packets = config.reorder_packets;
   return made([&] { return Decoder(std::make_unique<Engine>(calibration, mount, of_engine)); });
 }

@@ -7,7 +7,7 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
 #include "pipeline/run/frame_exchange.hpp"
@@ -19,14 +19,14 @@ namespace terracut::run {
 /// image. Where a frame ended before its coarse stages were far enough, the segmenting thread does
 /// them.
 struct LivePipeline {
-  sensor::SensorDecoder decoder;  ///< Receiving thread, as coarse.
+  decode::Decoder decoder;  ///< Receiving thread, as coarse.
   ground::CoarseStages coarse;
   ground::CoarseStages late_coarse;  ///< Segmenting thread, as fine.
   ground::FineStages fine;
 
   LivePipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
-               const sensor::SensorDecoder::Config& decoder_config,
-               const ground::SegmenterConfig& config, memory::FixedMemory& memory)
+               const decode::Decoder::Config& decoder_config, const ground::SegmenterConfig& config,
+               memory::FixedMemory& memory)
       : decoder(calibration, profile.mount, live(decoder_config), memory),
         coarse(config, profile, decoder.shape(), memory),
         late_coarse(config, profile, decoder.shape(), memory),
@@ -45,7 +45,7 @@ struct LivePipeline {
   }
 
  private:
-  [[nodiscard]] static sensor::SensorDecoder::Config live(sensor::SensorDecoder::Config config) {
+  [[nodiscard]] static decode::Decoder::Config live(decode::Decoder::Config config) {
     config.images = FrameExchange::kImages;
     return config;
   }

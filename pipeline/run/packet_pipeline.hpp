@@ -8,7 +8,7 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "pipeline/ground/ground_method.hpp"
 #include "pipeline/run/frame.hpp"
 #include "pipeline/run/stage_clock.hpp"
@@ -36,7 +36,7 @@ class PacketPipeline {
   };
 
   PacketPipeline(const calib::SensorCalibration& calibration, const mount::RingProfile& profile,
-                 const sensor::SensorDecoder::Config& decoder, const ground::MethodConfig& method,
+                 const decode::Decoder::Config& decoder, const ground::MethodConfig& method,
                  memory::FixedMemory& memory, Timing timing = Timing::kPackets)
       : decoder_(calibration, profile.mount, decoder, memory),
         method_(method, profile, decoder_.shape(), decoder_.return_capacity(), memory),
@@ -59,13 +59,13 @@ class PacketPipeline {
   void label(Frame& frame) noexcept;
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_.labels(); }
 
-  [[nodiscard]] const sensor::SensorDecoder& decoder() const noexcept { return decoder_; }
+  [[nodiscard]] const decode::Decoder& decoder() const noexcept { return decoder_; }
 
  private:
   void resume() noexcept;
   void pause() noexcept;
 
-  sensor::SensorDecoder decoder_;
+  decode::Decoder decoder_;
   ground::GroundMethod method_;
   Timing timing_;
   StageClock clock_;

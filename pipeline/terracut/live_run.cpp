@@ -70,8 +70,8 @@ struct LiveRun::Engine {
         points(pipeline.decoder.return_capacity()),
         labels(points.size()) {}
 
-  static sensor::SensorDecoder::Config decoder_config(const sensor::SensorOnAir& sensor) {
-    sensor::SensorDecoder::Config config;
+  static decode::Decoder::Config decoder_config(const sensor::SensorOnAir& sensor) {
+    decode::Decoder::Config config;
     config.columns = sensor.columns;
     config.reorder_packets = 0;  // one cable delivers in order
     return config;

@@ -14,7 +14,7 @@ namespace terracut {
 
 struct PacketPipeline::Engine {
   Engine(const Calibration& calibration, const Config& config,
-         const sensor::SensorDecoder::Config& decoder)
+         const decode::Decoder::Config& decoder)
       : pipeline(calibration.table().unit,
                  calib::ring_profile(calibration.table().unit, mount_of(config.mount)), decoder,
                  config_of(config.profile), memory),
@@ -34,7 +34,7 @@ PacketPipeline::~PacketPipeline() = default;
 
 Expected<PacketPipeline> PacketPipeline::make(const Calibration& calibration,
                                               const Config& config) {
-  sensor::SensorDecoder::Config decoder;
+  decode::Decoder::Config decoder;
   decoder.reorder_packets = config.reorder_packets;
   return made(
       [&] { return PacketPipeline(std::make_unique<Engine>(calibration, config, decoder)); });

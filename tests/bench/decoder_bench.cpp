@@ -8,9 +8,8 @@
 #include <vector>
 
 #include "calib/ruby128/nominal_ruby128.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/decode/deskewer.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
 #include "tests/support/hand_out.hpp"
@@ -43,7 +42,7 @@ void report(benchmark::State& state, std::size_t packets, std::size_t columns_pe
 void decode_frames(benchmark::State& state) {
   const auto packets = street_like();
   memory::FixedMemory memory;
-  hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
+  decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
   std::uint64_t returns = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     returns += info.returns;
@@ -64,7 +63,7 @@ void decode_ruby128_frames(benchmark::State& state) {
                                              .last_cdeg = 35'000 + 5 * 36'000,
                                              .share_of_returns = 0.9});
   memory::FixedMemory memory;
-  ruby128::Ruby128Decoder decoder(ruby128::nominal_ruby128(), {}, {}, memory);
+  decode::Decoder decoder(ruby128::nominal_ruby128(), {}, {}, memory);
   std::uint64_t returns = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     returns += info.returns;

@@ -11,7 +11,7 @@
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "decoder_run.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "input.hpp"
 
@@ -34,8 +34,8 @@ std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input({data, size});
-  fuzz::DecoderRun<hdl64e::Hdl64eDecoder, hdl64e::Hdl64eCalibration> run(hdl64e::nominal_hdl64e(),
-                                                                         returns_in, 200.0F);
+  fuzz::DecoderRun<decode::Decoder, hdl64e::Hdl64eCalibration> run(hdl64e::nominal_hdl64e(),
+                                                                   returns_in, 200.0F);
   hdl64e::Hdl64ePacketBuffer packet;
   std::uint32_t azimuth_cdeg = input.next(2) % 36'000;
   std::uint32_t stamp_us = input.next(4);

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/firing_times.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "packet_sequence.hpp"
 #include "tools/lab/encode/hdl64e_packet_encoder.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 using namespace terracut;
 
 struct Hdl64e {
-  using Decoder = hdl64e::Hdl64eDecoder;
+  using Decoder = decode::Decoder;
   using Calibration = hdl64e::Hdl64eCalibration;
   using Column = frame::FiringColumn;
   using Bytes = std::array<std::uint8_t, hdl64e::kHdl64ePacketBytes>;

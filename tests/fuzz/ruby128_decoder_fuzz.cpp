@@ -10,7 +10,7 @@
 
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "decoder_run.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 #include "input.hpp"
@@ -58,8 +58,8 @@ struct Head {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   fuzz::Input input({data, size});
-  fuzz::DecoderRun<ruby128::Ruby128Decoder, ruby128::Ruby128Calibration> run(
-      ruby128::nominal_ruby128(), returns_in, 400.0F);
+  fuzz::DecoderRun<decode::Decoder, ruby128::Ruby128Calibration> run(ruby128::nominal_ruby128(),
+                                                                     returns_in, 400.0F);
   ruby128::Ruby128PacketBuffer packet;
   Head head;
   const auto send = [&] {

@@ -8,8 +8,8 @@
 #include <span>
 
 #include "calib/ruby128/nominal_ruby128.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "packet_sequence.hpp"
 #include "tools/lab/encode/ruby128_packet_encoder.hpp"
 
@@ -18,7 +18,7 @@ namespace {
 using namespace terracut;
 
 struct Ruby128 {
-  using Decoder = ruby128::Ruby128Decoder;
+  using Decoder = decode::Decoder;
   using Calibration = ruby128::Ruby128Calibration;
   using Column = frame::Ruby128Column;
   using Bytes = std::array<std::uint8_t, ruby128::kRubyPacketBytes>;

@@ -12,7 +12,7 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -127,7 +127,7 @@ struct ArrivingFrame : testing::Test {
   std::vector<Packet> sent;
   memory::FixedMemory memory;
   mount::RingProfile profile = ring_profile(setup.calibration, setup.mount);
-  sensor::SensorDecoder decoder;
+  decode::Decoder decoder;
   std::unique_ptr<ground::Segmenter> ahead, at_once;
   const frame::RangeImage* finalizing = nullptr;  // the oldest open frame
   std::vector<ColumnHash> hashes;                 // of its complete columns
@@ -180,9 +180,9 @@ TYPED_TEST(ArrivingFrame, IsLabelledAsAtOnceAfterTheStreamHasBegunAgain) {
 
 TYPED_TEST(ArrivingFrame, HasNoCompleteColumnsWhereItWillBeDeskewed) {
   vehicle::EgoMotion motion({}, this->memory);
-  sensor::SensorDecoder::Config config;
+  decode::Decoder::Config config;
   config.motion = &motion;
-  sensor::SensorDecoder deskewing(this->setup.calibration, this->setup.mount, config, this->memory);
+  decode::Decoder deskewing(this->setup.calibration, this->setup.mount, config, this->memory);
   int most = 0;
   for (const Packet& packet : this->sent) {
     test::decode(deskewing, packet.datagram(),

@@ -119,7 +119,7 @@ class BothDecoders {
 
   auto make_reference() const {
     if constexpr (std::is_same_v<Sensor, Hdl64e>) {
-      const bool ros_like = config_.sensor.geometry == hdl64e::GeometryModel::kRosLike;
+      const bool ros_like = config_.hdl64e.geometry == hdl64e::GeometryModel::kRosLike;
       return Hdl64eReference(calibration_,
                              ros_like ? Hdl64eOffsets::kRosLike : Hdl64eOffsets::kManual);
     } else {
@@ -256,7 +256,7 @@ TYPED_TEST(DecoderAndReference, RefuseTheSamePacketsForTheSameReason) {
 
 TEST(Hdl64eDecoderAndReference, AgreeInTheRosLikeGeometry) {
   BothDecoders<Hdl64e> both({.head = {.seed = 8}});
-  both.config().sensor.geometry = hdl64e::GeometryModel::kRosLike;
+  both.config().hdl64e.geometry = hdl64e::GeometryModel::kRosLike;
   EXPECT_EQ(both.difference(), "");
 }
 

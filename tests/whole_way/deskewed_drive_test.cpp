@@ -22,9 +22,9 @@
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "pipeline/ground/profile.hpp"
 #include "pipeline/ground/segmenter.hpp"
@@ -138,12 +138,12 @@ class DeskewedDrive : public testing::Test {
     vehicle::EgoMotion motion({}, memory);
     const auto samples = simulator::simulated_motion(config);
     ASSERT_TRUE(samples) << samples.error().message;
-    sensor::SensorDecoder::Config settings;
+    decode::Decoder::Config settings;
     if (at) {
       settings.motion = &motion;
       settings.deskew_at = *at;
     }
-    sensor::SensorDecoder decoder(config.calibration, config.mount, settings, memory);
+    decode::Decoder decoder(config.calibration, config.mount, settings, memory);
     auto source = capture::PcapSource::open(pcap());
     ASSERT_TRUE(source);
     auto next_sample = samples->begin();
@@ -296,10 +296,10 @@ TEST_F(DeskewedDrive, WithoutSamplesTheFramesSayNoEgoMotionAndAreAsSeen) {
   write(config);
   memory::FixedMemory memory;
   vehicle::EgoMotion motion({}, memory);
-  sensor::SensorDecoder::Config settings;
+  decode::Decoder::Config settings;
   settings.motion = &motion;
-  sensor::SensorDecoder deskewing(config.calibration, config.mount, settings, memory);
-  sensor::SensorDecoder plain(config.calibration, config.mount, {}, memory);
+  decode::Decoder deskewing(config.calibration, config.mount, settings, memory);
+  decode::Decoder plain(config.calibration, config.mount, {}, memory);
   std::vector<float> places, plain_places;
   const auto into = [](std::vector<float>& x_m, frame::DeskewState expected) {
     return [&x_m, expected](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {

@@ -12,8 +12,8 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tools/lab/encode/hdl64e_packet_encoder.hpp"
@@ -103,7 +103,7 @@ struct TwoWays {
   }
 
   memory::FixedMemory memory;
-  hdl64e::Hdl64eDecoder decoder;
+  decode::Decoder decoder;
   hdl64e::Hdl64eGeometry geometry;
   hdl64e::BeamOffsets offsets;
   std::array<int, hdl64e::kHdl64eLasers> rows;

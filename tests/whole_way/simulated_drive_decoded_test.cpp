@@ -12,8 +12,8 @@
 
 #include "calib/mount/mount.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
@@ -77,12 +77,12 @@ class SimulatedDriveDecoded : public testing::Test {
     const auto calibration =
         EncoderTraits::read_calibration(drive::calibration_path_of<EncoderTraits>(pcap()));
     EXPECT_TRUE(calibration) << calibration.error().message;
-    sensor::SensorDecoder::Config settings;
+    decode::Decoder::Config settings;
     settings.columns = static_cast<int>(
         std::lround(1e9 / (config.spin_hz *
                            static_cast<double>(EncoderTraits::firing_ns(config.sensor.returns)))));
     memory::FixedMemory memory;
-    sensor::SensorDecoder decoder(*calibration, config.mount, settings, memory);
+    decode::Decoder decoder(*calibration, config.mount, settings, memory);
     const mount::RigidTransform T = mount::T_vehicle_lidar(config.mount);
     double worst_m = 0;
     int frames = 0;

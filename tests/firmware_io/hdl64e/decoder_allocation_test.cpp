@@ -17,7 +17,7 @@ TEST(Hdl64eDecoderMemory, DecodingAllocatesNothing) {
   packets[400].set_u16(2, 36'000);
 
   memory::FixedMemory memory;
-  hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
+  decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory);
   std::uint64_t frames = 0, returns = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     ++frames;
@@ -40,9 +40,9 @@ TEST(Hdl64eDecoderMemory, TakingTheMotionOutAllocatesNothing) {
   const auto packets = random_packets({.last_cdeg = 37'100 + 3 * 36'000});
   memory::FixedMemory memory;
   vehicle::EgoMotion motion({}, memory);
-  hdl64e::Hdl64eDecoder::Config config;
+  decode::Decoder::Config config;
   config.motion = &motion;
-  hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, config, memory);
+  decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, config, memory);
   std::uint64_t frames = 0, deskewed = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     ++frames;

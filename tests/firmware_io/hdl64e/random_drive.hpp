@@ -11,7 +11,7 @@
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "firmware_io/decode/datagram.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tools/lab/encode/hdl64e_packet_encoder.hpp"
 
@@ -120,7 +120,7 @@ inline Frame copy_of(const frame::FrameInfo& info, const frame::RangeImage& imag
 /// A decoder of the nominal unit that keeps every frame.
 class Recorder {
  public:
-  using Config = hdl64e::Hdl64eDecoder::Config;
+  using Config = decode::Decoder::Config;
   explicit Recorder(const Config& config = {},
                     const hdl64e::Hdl64eCalibration& calibration = hdl64e::nominal_hdl64e(),
                     const mount::Mount& mount = {})
@@ -150,7 +150,7 @@ class Recorder {
   }
 
   memory::FixedMemory memory;
-  hdl64e::Hdl64eDecoder decoder;
+  decode::Decoder decoder;
   std::vector<Frame> frames;
 };
 

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "calib/ruby128/nominal_ruby128.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "random_stream.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/hand_out.hpp"
@@ -24,7 +24,7 @@ TEST_P(Ruby128DecoderMemory, DecodingAllocatesNothing) {
   packets[400].bytes.set_azimuth_cdeg(0, 36'000);
 
   memory::FixedMemory memory;
-  Ruby128Decoder decoder(nominal_ruby128(), {}, {}, memory);
+  decode::Decoder decoder(nominal_ruby128(), {}, {}, memory);
   std::uint64_t frames = 0, returns = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
     ++frames;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 
 #include <gtest/gtest.h>
 
@@ -41,9 +41,9 @@ std::uint64_t checksum(const frame::RangeImage& image) {
   return sum;
 }
 
-Heard hear(const std::vector<RubyPacket>& packets, Ruby128Decoder::Config config = {}) {
+Heard hear(const std::vector<RubyPacket>& packets, decode::Decoder::Config config = {}) {
   memory::FixedMemory memory;
-  Ruby128Decoder decoder(nominal_ruby128(), {}, config, memory);
+  decode::Decoder decoder(nominal_ruby128(), {}, config, memory);
   Heard heard;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
     EXPECT_EQ(info.returns, image.returns());
@@ -80,7 +80,7 @@ TEST_P(EveryMode, DecodesEveryReturnOfThreeFramesAndLosesNothing) {
                                              .last_cdeg = 36'000 * 4 + 1'200,
                                              .timestamp = mode.timestamp,
                                              .protocol_version = 0});
-  Ruby128Decoder::Config config;
+  decode::Decoder::Config config;
   config.columns = static_cast<int>(std::lround(18'000 / mode.spin_hz));
   const Heard heard = hear(packets, config);
   EXPECT_EQ(heard.dual, mode.dual);
@@ -149,7 +149,7 @@ TEST(Ruby128Decoder, LosesNothingWhereTheUnitOfItsStampsShowsLate) {
 
 TEST(Ruby128Decoder, TakesDeviceInformationForNoLoss) {
   memory::FixedMemory memory;
-  Ruby128Decoder decoder(nominal_ruby128(), {}, {}, memory);
+  decode::Decoder decoder(nominal_ruby128(), {}, {}, memory);
   std::vector<std::uint8_t> difop(kRubyPacketBytes, 0);
   const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
   std::copy(start.begin(), start.end(), difop.begin());
@@ -231,9 +231,9 @@ float owner_range_m(frame::CellOwner owner) {
   packets[30].bytes.set_return(0, kChannel, 6'000, 10);  // the last return: far, weak
   packets[30].bytes.set_return(1, kChannel, 2'000, 90);  // the strongest: near
   memory::FixedMemory memory;
-  Ruby128Decoder::Config config;
+  decode::Decoder::Config config;
   config.dual_owner = owner;
-  Ruby128Decoder decoder(nominal_ruby128(), {}, config, memory);
+  decode::Decoder decoder(nominal_ruby128(), {}, config, memory);
   float found_m = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
     EXPECT_EQ(info.returns, 2U);
@@ -255,23 +255,11 @@ TEST(Ruby128Decoder, TheOwnerOfACellIsTheReturnThatThePolicyNames) {
   EXPECT_NEAR(owner_range_m(frame::CellOwner::kFirstArrived), kFar_m, 0.2);
 }
 
-TEST(Ruby128Decoder, MeasuresTheStepFromTheAzimuths) {
-  for (const double spin_hz : {5.0, 9.8, 10.0, 20.0}) {
-    memory::FixedMemory memory;
-    Ruby128Decoder decoder(nominal_ruby128(), {}, {}, memory);
-    const auto nothing = [](const frame::FrameInfo&, const frame::RangeImage&) noexcept {};
-    for (const auto& packet : test::random_packets({.spin_hz = spin_hz, .share_of_returns = 0})) {
-      test::decode(decoder, packet.datagram(), nothing);
-    }
-    EXPECT_NEAR(decoder.step_deg(), spin_hz * 360 * 55.55e-6, 0.001);
-  }
-}
-
 TEST(Ruby128Decoder, RefusesSettingsOutsideTheirRange) {
   memory::FixedMemory memory;
-  Ruby128Decoder::Config config;
+  decode::Decoder::Config config;
   config.columns = 15;
-  EXPECT_THROW(Ruby128Decoder(nominal_ruby128(), {}, config, memory), std::invalid_argument);
+  EXPECT_THROW(decode::Decoder(nominal_ruby128(), {}, config, memory), std::invalid_argument);
 }
 
 }  // namespace

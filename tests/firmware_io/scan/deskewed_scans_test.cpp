@@ -23,8 +23,8 @@
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
@@ -55,14 +55,14 @@ void decode(const Drive& drive, bool deskew, Visit&& visit) {
   memory::FixedMemory memory;
   vehicle::EgoMotion motion({}, memory);
   std::vector<vehicle::MotionSample> samples;
-  hdl64e::Hdl64eDecoder::Config config;
+  decode::Decoder::Config config;
   if (deskew) {
     config.motion = &motion;
     config.deskew_at = frame::FrameInstant::kMiddle;
     std::ifstream log(drive::can_log_path_of(drive.pcap));
     samples = test::samples_of({std::istreambuf_iterator<char>(log), {}});
   }
-  hdl64e::Hdl64eDecoder decoder(drive.calibration, {}, config, memory);
+  decode::Decoder decoder(drive.calibration, {}, config, memory);
   auto source = capture::PcapSource::open(drive.pcap);
   ASSERT_TRUE(source);
   auto next = samples.begin();

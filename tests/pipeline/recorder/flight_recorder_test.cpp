@@ -15,7 +15,7 @@
 
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "small_disk.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
@@ -166,14 +166,14 @@ TEST_F(FlightRecorderTest, ReplayingADumpOfAnHdl64eGivesTheFramesThatWereDecoded
   const auto packets = random_packets(DriveSettings{.last_cdeg = 37'100 + 6 * 36'000});
   std::vector<Datagram> datagrams;
   for (const Packet& packet : packets) datagrams.push_back(packet.datagram());
-  expect_same_frames<hdl64e::Hdl64eDecoder>(datagrams, hdl64e::nominal_hdl64e());
+  expect_same_frames<decode::Decoder>(datagrams, hdl64e::nominal_hdl64e());
 }
 
 TEST_F(FlightRecorderTest, ReplayingADumpOfARuby128GivesTheFramesThatWereDecodedLive) {
   const auto packets = random_packets(RubyStream{.last_cdeg = 34'000 + 6 * 36'000});
   std::vector<Datagram> datagrams;
   for (const RubyPacket& packet : packets) datagrams.push_back(packet.datagram());
-  expect_same_frames<ruby128::Ruby128Decoder>(datagrams, ruby128::nominal_ruby128());
+  expect_same_frames<decode::Decoder>(datagrams, ruby128::nominal_ruby128());
 }
 
 TEST_F(FlightRecorderTest, KeepsAddressesPortsStampsAndBytes) {

@@ -58,8 +58,7 @@ struct HeldWait {
 /// Gives the packets that have come by now, and lets time pass for those that were decoded.
 class MadeSource {
  public:
-  MadeSource(HeldTime& time, const sensor::SensorDecoder& decoder)
-      : time_(time), decoder_(decoder) {}
+  MadeSource(HeldTime& time, const decode::Decoder& decoder) : time_(time), decoder_(decoder) {}
 
   void add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
     waiting_.push_back({.payload = payload, .stamp_ns = stamp_ns});
@@ -97,7 +96,7 @@ class MadeSource {
  private:
   HeldTime& time_;
   std::vector<Datagram> waiting_;
-  const sensor::SensorDecoder& decoder_;
+  const decode::Decoder& decoder_;
   std::uint64_t decoded_ = 0;
   std::size_t next_ = 0;
   net::ReceiveCounters counters_;
@@ -192,8 +191,8 @@ class LiveFrames : public testing::Test {
   memory::FixedMemory memory_;
   calib::SensorCalibration calibration_ = hdl64e::nominal_hdl64e();
   mount::RingProfile profile_ = calib::ring_profile(calibration_, mount::Mount{});
-  static sensor::SensorDecoder::Config decoder_config() {
-    sensor::SensorDecoder::Config config;
+  static decode::Decoder::Config decoder_config() {
+    decode::Decoder::Config config;
     config.columns = 2083;
     config.reorder_packets = 0;
     return config;

@@ -22,7 +22,7 @@ class PacketPipelineTest : public testing::Test {
   using Timing = PacketPipeline::Timing;
 
   std::unique_ptr<PacketPipeline> pipeline(Timing timing = Timing::kPackets) {
-    return std::make_unique<PacketPipeline>(unit_, profile_, sensor::SensorDecoder::Config{},
+    return std::make_unique<PacketPipeline>(unit_, profile_, decode::Decoder::Config{},
                                             ground::MethodConfig{}, memory_, timing);
   }
 

@@ -8,10 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "hdl64e_reference.hpp"
 #include "rotating_head.hpp"
 #include "ruby128_reference.hpp"
@@ -23,7 +22,7 @@ namespace terracut::reference {
 using PayloadBytes = std::vector<std::uint8_t>;
 
 struct Hdl64e {
-  using Decoder = hdl64e::Hdl64eDecoder;
+  using Decoder = decode::Decoder;
   using Calibration = hdl64e::Hdl64eCalibration;
   using Reference = Hdl64eReference;
   static constexpr int kColumns = 6, kLasers = 64;
@@ -56,7 +55,7 @@ struct Hdl64e {
 };
 
 struct Ruby128 {
-  using Decoder = ruby128::Ruby128Decoder;
+  using Decoder = decode::Decoder;
   using Calibration = ruby128::Ruby128Calibration;
   using Reference = Ruby128Reference;
   static constexpr int kColumns = 3, kLasers = 128;

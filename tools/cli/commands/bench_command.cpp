@@ -100,7 +100,7 @@ void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResu
 }
 
 /// One pass of decoding alone: nanoseconds a column of 64 lasers.
-double run_decoding(sensor::SensorDecoder& decoder, const Packets& packets) {
+double run_decoding(decode::Decoder& decoder, const Packets& packets) {
   const std::uint64_t columns_before = decoder.columns_decoded();
   const std::int64_t start_ns = measure::thread_cpu_ns();
   for (const decode::Datagram& datagram : packets.datagrams) {
@@ -186,7 +186,7 @@ ExitCode run_bench(const Options& options) {
   run::PacketPipeline pipeline(capture->calibration, *profile, decoder_config,
                                method_config_of(options.method), memory,
                                run::PacketPipeline::Timing::kFrames);
-  sensor::SensorDecoder decoder(capture->calibration, profile->mount, decoder_config, memory);
+  decode::Decoder decoder(capture->calibration, profile->mount, decoder_config, memory);
   const int core = stay_on_core(options.bench_core);
   if (core < 0) warn("could not stay on one core; times include moves between cores");
 

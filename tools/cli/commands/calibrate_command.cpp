@@ -32,8 +32,7 @@ constexpr std::uint32_t kMountFrames = 20;
 
 /// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when
 /// it has seen enough.
-Status decode_frames(OpenCapture& capture, const CaptureOptions& options,
-                     sensor::SensorDecoder& decoder,
+Status decode_frames(OpenCapture& capture, const CaptureOptions& options, decode::Decoder& decoder,
                      const std::function<bool(const RangeImage&)>& on_frame) {
   bool more = true;
   std::uint64_t offered = 0;
@@ -60,8 +59,8 @@ Expected<mount::MountEstimate> estimate(OpenCapture& capture, const Options& opt
   std::uint32_t frames = 0;
   const mount::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
   memory::FixedMemory memory;
-  sensor::SensorDecoder decoder(capture.calibration, at_the_sensor,
-                                decoder_config_of(options, capture.sensor.columns), memory);
+  decode::Decoder decoder(capture.calibration, at_the_sensor,
+                          decoder_config_of(options, capture.sensor.columns), memory);
   const Status decoded =
       decode_frames(capture, options.capture, decoder, [&](const RangeImage& image) {
         frame::for_each_return(image, [&](const PlacedReturn& placed) {
@@ -78,8 +77,8 @@ Expected<mount::MountEstimate> estimate(OpenCapture& capture, const Options& opt
 Expected<mount::RingProfileEstimate> measure_rings(OpenCapture& capture, const Options& options,
                                                    const mount::RingProfile& geometry) {
   memory::FixedMemory memory;
-  sensor::SensorDecoder decoder(capture.calibration, geometry.mount,
-                                decoder_config_of(options, capture.sensor.columns), memory);
+  decode::Decoder decoder(capture.calibration, geometry.mount,
+                          decoder_config_of(options, capture.sensor.columns), memory);
   ground::Segmenter segmenter(method_config_of(options.method).segmenter, geometry, decoder.shape(),
                               decoder.return_capacity(), memory);
   mount::RingProfileEstimate rings(geometry);

@@ -150,8 +150,7 @@ class Replay {
     pipeline_.push(datagram);
     take_frames();
     if (pipeline_.rejected()) return;
-    if (const auto* ruby128 = pipeline_.decoder().ruby128())
-      clock_of_device_.note(*ruby128, datagram.stamp_ns);
+    clock_of_device_.note(pipeline_.decoder(), datagram.stamp_ns);
     if (const auto packet = hdl64e::Hdl64ePacketView::of(datagram.payload)) {
       status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
     }

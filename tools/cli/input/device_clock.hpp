@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 
 namespace terracut::cli {
 
@@ -15,10 +15,12 @@ class DeviceClock {
   /// `offset_s` is added to the device's stamps (--clock-offset).
   explicit DeviceClock(double offset_s) : offset_ns_(static_cast<std::int64_t>(offset_s * 1e9)) {}
 
-  /// After each decoded packet.
-  void note(const ruby128::Ruby128Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
-    encoding_ = decoder.sensor().timestamp().encoding();
-    proven_ = decoder.sensor().timestamp().complete();
+  /// After each decoded packet; another sensor's is not noted.
+  void note(const decode::Decoder& decoder, std::int64_t host_stamp_ns) noexcept {
+    const ruby128::RubyTimestampDetector* timestamp = decoder.ruby_timestamp();
+    if (timestamp == nullptr) return;
+    encoding_ = timestamp->encoding();
+    proven_ = timestamp->complete();
     ahead_ns_ = decoder.device_stamp_us() * 1000 + offset_ns_ - host_stamp_ns;
     noted_ = true;
   }

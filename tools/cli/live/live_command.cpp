@@ -147,9 +147,9 @@ struct LiveParts {
   }
   /// Packets of a sensor that is connected by one cable do not come late, so none is waited for
   /// unless that is asked for.
-  static sensor::SensorDecoder::Config decoder_config(const Options& options,
-                                                      const sensor::SensorOnAir& sensor,
-                                                      std::optional<run::VehicleMotion>& motion) {
+  static decode::Decoder::Config decoder_config(const Options& options,
+                                                const sensor::SensorOnAir& sensor,
+                                                std::optional<run::VehicleMotion>& motion) {
     auto config = decoder_config_of(options, sensor.columns, motion ? &motion->motion() : nullptr);
     config.reorder_packets = options.capture.reorder_packets.value_or(0);
     return config;

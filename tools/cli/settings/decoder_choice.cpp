@@ -4,10 +4,10 @@
 
 namespace terracut::cli {
 
-sensor::SensorDecoder::Config decoder_config_of(const Options& options, int columns,
-                                                vehicle::EgoMotion* motion) {
+decode::Decoder::Config decoder_config_of(const Options& options, int columns,
+                                          vehicle::EgoMotion* motion) {
   const CaptureOptions& capture = options.capture;
-  sensor::SensorDecoder::Config config;
+  decode::Decoder::Config config;
   config.columns = columns;
   config.reorder_packets = capture.reorder_packets.value_or(config.reorder_packets);
   config.dual_owner = capture.cell_owner;

@@ -8,8 +8,8 @@
 
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/mount/mount.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "rt/error.hpp"
@@ -58,7 +58,7 @@ class PacketWay {
                               std::span<const std::int16_t> ring_of_point);
 
   hdl64e::Hdl64eCalibration calibration_;
-  hdl64e::Hdl64eDecoder decoder_;
+  decode::Decoder decoder_;
   std::vector<std::vector<std::uint8_t>> packets_;
   std::vector<std::uint32_t> point_of_return_;
 };

@@ -14,9 +14,9 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/sensor/sensor_decoder.hpp"
 #include "method_bench.hpp"
 #include "pinned_thread.hpp"
 #include "result_keeper.hpp"
@@ -103,8 +103,8 @@ class DriveEvaluation {
   [[nodiscard]] std::vector<Fault> take_faults() { return std::move(faults_); }
 
  private:
-  [[nodiscard]] static sensor::SensorDecoder::Config decoder_config(int columns) {
-    sensor::SensorDecoder::Config config;
+  [[nodiscard]] static decode::Decoder::Config decoder_config(int columns) {
+    decode::Decoder::Config config;
     config.columns = columns;
     return config;
   }
@@ -172,7 +172,7 @@ class DriveEvaluation {
   std::string scene_;
   fs::path truth_folder_;
   memory::FixedMemory memory_;
-  sensor::SensorDecoder decoder_;
+  decode::Decoder decoder_;
   MethodBench bench_;
   ResultKeeper& keeper_;
   std::function<void()> on_frame_done_;

@@ -11,9 +11,8 @@
 #include <vector>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ruby128/difop_angles.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "random_columns.hpp"
 #include "tests/support/hand_out.hpp"
@@ -28,12 +27,12 @@ using test::RandomColumns;
 
 struct Hdl64e {
   using EncoderTraits = encode::Hdl64eEncoderTraits;
-  using Decoder = hdl64e::Hdl64eDecoder;
+  using Decoder = decode::Decoder;
   static constexpr std::uint16_t kPort = hdl64e::kHdl64eDataPort;
 };
 struct Ruby128 {
   using EncoderTraits = encode::Ruby128EncoderTraits;
-  using Decoder = ruby128::Ruby128Decoder;
+  using Decoder = decode::Decoder;
   static constexpr std::uint16_t kPort = ruby128::kRubyDataPort;
 };
 

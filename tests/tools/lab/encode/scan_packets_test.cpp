@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/frame/each_return.hpp"
-#include "firmware_io/hdl64e/hdl64e_decoder.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
@@ -103,7 +103,7 @@ TEST(ScanPackets, BringBackEveryEncodedReturnInItsFrameAtItsPlace) {
     ASSERT_NO_FATAL_FAILURE(encode(sequence, drive));
 
     memory::FixedMemory memory;
-    hdl64e::Hdl64eDecoder decoder(drive.calibration, {kSensorHeight_m, 0, 0}, {}, memory);
+    decode::Decoder decoder(drive.calibration, {kSensorHeight_m, 0, 0}, {}, memory);
     auto source = capture::PcapSource::open(drive.pcap);
     ASSERT_TRUE(source);
     std::uint32_t frames = 0;

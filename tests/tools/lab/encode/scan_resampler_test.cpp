@@ -12,8 +12,8 @@
 
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ruby128/difop.hpp"
-#include "firmware_io/ruby128/ruby128_decoder.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
@@ -70,7 +70,7 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
               0.004);
 
   memory::FixedMemory memory;
-  ruby128::Ruby128Decoder decoder(ruby128::nominal_ruby128(), {.height_m = 0}, {}, memory);
+  decode::Decoder decoder(ruby128::nominal_ruby128(), {.height_m = 0}, {}, memory);
   int frames = 0;
   const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
     EXPECT_TRUE(info.complete);

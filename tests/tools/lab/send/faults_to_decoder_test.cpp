@@ -55,7 +55,7 @@ class FaultsToDecoder : public LiveTest {
         receive_until(source, received, [&] { return source.counters().received == sent; }));
     source.refresh_drops();
 
-    hdl64e::Hdl64eDecoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory_);
+    decode::Decoder decoder(hdl64e::nominal_hdl64e(), {}, {}, memory_);
     const auto on_frame = [&](const frame::FrameInfo&, const frame::RangeImage&) noexcept {
       ++result.frames;
     };

@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/decode/decoder.hpp"
+
+#include <algorithm>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace terracut::decode {
+
+Decoder::Model Decoder::model_of(const calib::SensorCalibration& calibration,
+                                 const Config& config) {
+  const auto model = [&]<class Sensor>(std::type_identity<Sensor>) -> Model {
+    const auto or_default = [](int given, int usual) { return given != 0 ? given : usual; };
+    return {.rows = Sensor::kRows,
+            .columns = or_default(config.columns, Sensor::kDefaultColumns),
+            .returns_per_cell = or_default(config.returns_per_cell, Sensor::kDefaultReturnsPerCell),
+            .packet_bytes = Sensor::kPacketBytes,
+            .clock_wrap_us = Sensor::kClockWrap_us};
+  };
+  return std::holds_alternative<hdl64e::Hdl64eCalibration>(calibration)
+             ? model(std::type_identity<hdl64e::Hdl64eSensor>{})
+             : model(std::type_identity<ruby128::Ruby128Sensor>{});
+}
+
+Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibration,
+                                          const mount::Mount& mount, const Config& config,
+                                          int columns, memory::FixedMemory& memory) {
+  if (const auto* hdl64e = std::get_if<hdl64e::Hdl64eCalibration>(&calibration)) {
+    return PacketReturns<hdl64e::Hdl64eSensor>(*hdl64e, mount, config.hdl64e, columns, memory);
+  }
+  return PacketReturns<ruby128::Ruby128Sensor>(std::get<ruby128::Ruby128Calibration>(calibration),
+                                               mount, config.ruby128, columns, memory);
+}
+
+FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {
+  const frame::ImageShape shape{model.rows, model.columns};
+  const auto spare = static_cast<std::size_t>(std::max(0, model.returns_per_cell - 1));
+  return {shape, spare * static_cast<std::size_t>(model.rows * model.columns), config.images,
+          kRevolution_ticks};
+}
+
+Decoder::Decoder(const calib::SensorCalibration& calibration, const mount::Mount& mount,
+                 const Config& config, memory::FixedMemory& memory)
+    : Decoder(model_of(calibration, config), calibration, mount, config, memory) {}
+
+Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration,
+                 const mount::Mount& mount, const Config& config, memory::FixedMemory& memory)
+    : reorder_packets_(config.reorder_packets),
+      dual_owner_(config.dual_owner),
+      return_capacity_(frame::ImageShape{model.rows, model.columns}.cells() +
+                       frame_config(model, config).overflow_capacity),
+      packet_bytes_(model.packet_bytes),
+      sensor_(sensor_of(calibration, mount, config, model.columns, memory)),
+      tracker_(model.clock_wrap_us, memory),
+      frames_(frame_config(model, config), memory),
+      clock_(model.clock_wrap_us),
+      kept_(memory.take<KeptPacket>("packets in doubt", kMostKept)),
+      kept_bytes_(memory.take<std::uint8_t>("packets in doubt", kMostKept * packet_bytes_)) {
+  if (config.motion == nullptr) return;
+  std::vector<std::int32_t> beam_ticks(static_cast<std::size_t>(model.rows));
+  with_sensor([&](auto& sensor) noexcept {
+    const auto rows = sensor.trait().rows();
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      beam_ticks[static_cast<std::size_t>(rows[i])] =
+          sensor.trait().beam_ticks(static_cast<int>(i));
+    }
+  });
+  deskewer_.emplace(
+      Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), kRevolution_ticks},
+      beam_ticks, memory);
+}
+
+void Decoder::push(const Datagram& datagram) noexcept {
+  rejected_.reset();
+  auto reason = with_sensor(
+      [&](auto& sensor) noexcept { return sensor.trait().check(datagram.payload, azimuths_); });
+  if (!reason && azimuths_.behind_sector > 0 && !blind_.is_inside(azimuths_)) {
+    reason = frame::Reject::kAzimuthJump;
+  }
+  if (reason) {
+    if (*reason == frame::Reject::kStationary) {
+      tracker_.note_stationary(azimuths_.device_stamp_us, azimuths_.first_cdeg(), frames_.losses());
+    } else if (*reason == frame::Reject::kAzimuthOutOfRange ||
+               *reason == frame::Reject::kAzimuthMismatch ||
+               *reason == frame::Reject::kAzimuthJump) {
+      tracker_.note_rejected(azimuths_.device_stamp_us);
+    } else if (*reason == frame::Reject::kDeviceInfo) {
+      rejected_ = reason;  // nothing is lost with it
+      return;
+    }
+    return reject(*reason);
+  }
+  const std::int64_t began_ns = host_began_ns(datagram.stamp_ns);
+  const Placement placed = tracker_.place(azimuths_, began_ns, frames_.losses());
+  if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
+  if (placed.arrival == Arrival::kDoubtful) {
+    if (placed.is_first_in_doubt) reject_kept();
+    return keep(datagram, placed);
+  }
+  if (placed.arrival == Arrival::kNewStream) {
+    anew_.pushed = datagram;
+    anew_.pushed_azimuths = azimuths_;
+    return begin_anew(placed.rotor_cdeg, true);
+  }
+  reject_kept();
+  after_packet_ = Step::kNothing;
+  take(datagram.payload, datagram.stamp_ns, placed);
+}
+
+void Decoder::end_stream() noexcept {
+  if (kept_packets_ > 0) return begin_anew(kept_[kept_packets_ - 1].rotor_cdeg, false);
+  step_ = Step::kEnd;
+}
+
+frame::Frame* Decoder::next(frame::RangeImage* in_exchange) noexcept {
+  frame::Frame* frame = frames_.next(in_exchange);
+  while (frame == nullptr && go_on()) frame = frames_.next();
+  if (frame == nullptr) return nullptr;
+  frame->info.blind = blind();
+  if (deskewer_) frame->info.deskew = deskewer_->apply(frames_.oldest(), *frame->image);
+  return frame;
+}
+
+bool Decoder::go_on() noexcept {
+  switch (step_) {
+    case Step::kNothing:
+      return false;
+    case Step::kTakeKept:
+      take_kept();
+      break;
+    case Step::kTakePushed:
+      take_pushed();
+      break;
+    case Step::kRestart:
+      restart();
+      break;
+    case Step::kPlace:
+      place();
+      break;
+    case Step::kEnd:
+      end();
+      break;
+  }
+  return true;
+}
+
+void Decoder::keep(const Datagram& datagram, const Placement& placed) noexcept {
+  std::ranges::copy(datagram.payload, kept_bytes(kept_packets_).begin());
+  kept_[kept_packets_++] = {azimuths_, datagram.stamp_ns, placed.rotor_cdeg, placed.reject};
+}
+
+void Decoder::begin_anew(std::int64_t newest_cdeg, bool has_pushed) noexcept {
+  anew_.next = 0;
+  anew_.has_begun = false;
+  anew_.has_pushed = has_pushed;
+  anew_.newest_cdeg = newest_cdeg;
+  step_ = after_packet_ = Step::kTakeKept;
+}
+
+void Decoder::take_kept() noexcept {
+  if (anew_.next == kept_packets_) {
+    kept_packets_ = 0;
+    step_ = anew_.has_pushed ? Step::kTakePushed : Step::kEnd;
+    return;
+  }
+  const std::size_t number = anew_.next++;
+  const KeptPacket& kept = kept_[number];
+  if (kept.rotor_cdeg < anew_.newest_cdeg - beams::kRevolution_cdeg)
+    return count_rejected(kept.reason);
+  azimuths_ = kept.azimuths;
+  const std::int64_t began_ns = host_began_ns(kept.stamp_ns);
+  const Placement placed = std::exchange(anew_.has_begun, true)
+                               ? tracker_.go_on(azimuths_, began_ns, frames_.losses())
+                               : tracker_.begin(azimuths_, began_ns, frames_.losses());
+  if (placed.arrival == Arrival::kRejected) return count_rejected(placed.reject);
+  take(kept_bytes(number), kept.stamp_ns, placed);
+}
+
+void Decoder::take_pushed() noexcept {
+  rejected_.reset();
+  step_ = after_packet_ = Step::kNothing;
+  azimuths_ = anew_.pushed_azimuths;
+  const Datagram& pushed = anew_.pushed;
+  const Placement placed =
+      tracker_.go_on(azimuths_, host_began_ns(pushed.stamp_ns), frames_.losses());
+  if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
+  take(pushed.payload, pushed.stamp_ns, placed);
+}
+
+void Decoder::take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
+                   const Placement& placed) noexcept {
+  const BeamSpread spread = with_sensor(
+      [&](auto& sensor) noexcept { return sensor.trait().spread(azimuths_.step_ticks); });
+  const std::int64_t begin_ticks = placed.rotor_cdeg * kTicksPerCdeg;
+  std::int64_t most_ticks = begin_ticks;
+  for (int column = 1; column < azimuths_.columns; ++column) {
+    most_ticks = std::max(most_ticks, begin_ticks + azimuths_.advance_cdeg(column) * kTicksPerCdeg);
+  }
+  const std::int64_t last_frame = frame_of(most_ticks + spread.foremost_ticks);
+  const int late_columns = columns_too_late(placed, spread, last_frame);
+  const std::int64_t first_ticks =
+      begin_ticks + azimuths_.advance_cdeg(late_columns) * kTicksPerCdeg;
+  std::int64_t least_ticks = first_ticks;
+  for (int column = late_columns + 1; column < azimuths_.columns; ++column) {
+    least_ticks =
+        std::min(least_ticks, begin_ticks + azimuths_.advance_cdeg(column) * kTicksPerCdeg);
+  }
+  job_ = {.payload = payload,
+          .stamp_ns = stamp_ns,
+          .placed = placed,
+          .spread = spread,
+          .swept = {first_ticks, begin_ticks + azimuths_.sweep_ticks},
+          .late_columns = late_columns,
+          .first_frame = frame_of(least_ticks + spread.hindmost_ticks),
+          .last_frame = last_frame,
+          .stride = {azimuths_.pace_ticks, azimuths_.widest_ticks},
+          .step_ticks = 0};
+  if (placed.arrival != Arrival::kRestart) return judge();
+  blind_.end();
+  count_due();
+  tracker_.miss(seen_share(placed.missing), frames_.losses());
+  frames_.flush();
+  step_ = Step::kRestart;
+}
+
+void Decoder::restart() noexcept {
+  if (deskewer_) {
+    deskewer_->restart();
+    clock_.reset();
+  }
+  frames_.start(job_.first_frame, job_.swept.from_ticks);
+  frontier_ticks_ = job_.swept.from_ticks;
+  steps_ticks_ = steps_ = 0;
+  judge();
+}
+
+void Decoder::judge() noexcept {
+  step_ = after_packet_;
+  const Arrival arrival = job_.placed.arrival;
+  const RotorInterval& swept = job_.swept;
+  const bool is_next = arrival == Arrival::kNext;
+  if (job_.first_frame < frames_.oldest()) {
+    if (is_next) {
+      tracker_.miss(missing_before(job_.placed, swept), frames_.losses());
+      blind_.pass(swept);
+    }
+    return reject(frame::Reject::kLate);
+  }
+
+  job_.step_ticks = mean_step(azimuths_.step_ticks);
+  if (is_next) {
+    judge_gap(job_.placed, swept, job_.stride, job_.spread, job_.step_ticks);
+    if (azimuths_.behind_sector > 0 && job_.late_columns == 0) {
+      cross_sector(swept, job_.stride, job_.spread, job_.step_ticks);
+    } else {
+      blind_.pass(swept);
+    }
+    frames_.set_blind(blind_.sector());
+    count_due();
+  }
+  if (arrival == Arrival::kReordered) {
+    frames_.regain(swept, job_.spread);
+    blind_.fill(swept);
+  }
+  frontier_ticks_ = std::max(frontier_ticks_, swept.to_ticks);
+  if (arrival != Arrival::kReordered) has_crossed_ = azimuths_.behind_sector > 0;
+  if (deskewer_ && arrival != Arrival::kReordered && !has_crossed_) {
+    const HostClock::Sent sent = clock_.sent(azimuths_.device_stamp_us, job_.stamp_ns);
+    if (sent.anew) deskewer_->begin_anew(swept.from_ticks);
+    deskewer_->note(swept.from_ticks, sent.instant_ns - azimuths_.nominal_period_ns);
+  }
+  frames_.roll_to(job_.last_frame - 1);
+  step_ = Step::kPlace;
+}
+
+void Decoder::place() noexcept {
+  // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
+  // frame unevenly.
+  const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
+  frames_.note_packet(job_.stamp_ns, job_.first_frame, job_.last_frame, next_ticks, job_.step_ticks,
+                      job_.spread);
+  const PacketPlace place{
+      .rotor_cdeg = job_.placed.rotor_cdeg,
+      .late_columns = job_.late_columns,
+      .is_in_one_frame = job_.first_frame == job_.last_frame,
+      .owner = azimuths_.dual_return ? dual_owner_ : frame::CellOwner::kFirstArrived};
+  with_sensor(
+      [&](auto& sensor) noexcept { sensor.place(job_.payload, azimuths_, place, frames_); });
+  ++packets_;
+  columns_ += static_cast<std::uint64_t>(azimuths_.columns - job_.late_columns);
+
+  const std::int64_t late_packets = reorder_packets_ > 0 ? reorder_packets_ + 1 : 0;
+  completes_behind_ticks_ =
+      late_packets * job_.stride.widest_ticks + job_.step_ticks - job_.spread.hindmost_ticks;
+  complete_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - completes_behind_ticks_;
+  frames_.roll_to(frame_of(complete_ticks_));
+  step_ = after_packet_;
+}
+
+void Decoder::end() noexcept {
+  tracker_.end_of_stream(frames_.losses());
+  blind_.end();
+  count_due();
+  frames_.flush();
+  step_ = Step::kNothing;
+}
+
+void Decoder::judge_gap(const Placement& placed, const RotorInterval& swept,
+                        const BlindSector::Stride& stride, const BeamSpread& spread,
+                        std::int64_t step_ticks) noexcept {
+  const RotorInterval gap{frontier_ticks_, swept.from_ticks};
+  const std::int64_t missing = missing_before(placed, swept);
+  if (gap.ticks() <= step_ticks * 3 / 4) {
+    tracker_.miss(missing, frames_.losses());
+    return;
+  }
+  const BlindSector::Verdict verdict = blind_.judge(gap, missing, placed.explained, stride);
+  frames_.set_blind(blind_.sector());
+  tracker_.miss(verdict.packets, frames_.losses());
+  if (verdict.lost.ticks() > 0) {
+    frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
+  }
+}
+
+void Decoder::cross_sector(const RotorInterval& swept, const BlindSector::Stride& stride,
+                           const BeamSpread& spread, std::int64_t step_ticks) noexcept {
+  const RotorInterval inside = azimuths_.sector_inside(swept.from_ticks);
+  const BlindSector::Verdict verdict = blind_.cross(swept.from_ticks, inside, stride);
+  frames_.set_blind(blind_.sector());
+  if (verdict.lost.ticks() > 0) {
+    frames_.lose(verdict.lost, spread, step_ticks, !verdict.is_pending);
+  }
+}
+
+}  // namespace terracut::decode

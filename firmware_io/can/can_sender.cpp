@@ -29,7 +29,7 @@ Expected<CanSender> CanSender::open(std::string interface, bool wait_for_interfa
     if (!socket) return tl::unexpected(explain(socket.error(), interface));
     sender.socket_ = *std::move(socket);
   } else if (!wait_for_interface) {
-    return tl::unexpected(no_such_can_interface(interface));
+    return tl::unexpected(net::no_such_interface(interface));
   }
   sender.interface_index_ = status.index;
   sender.interface_ = std::move(interface);

@@ -85,9 +85,4 @@ Error explain(const CanSocketFailure& failure, const std::string& interface) {
   return {ErrorCode::kUnreadable, fmt::format("CAN socket on '{}': {}", interface, reason)};
 }
 
-Error no_such_can_interface(const std::string& interface) {
-  return {ErrorCode::kNotFound,
-          fmt::format("no such interface '{}'; there are: {}", interface, net::interface_names())};
-}
-
 }  // namespace terracut::can

@@ -34,7 +34,4 @@ inline constexpr std::size_t kMostCanFilters = 512;
 /// interface is gone or no CAN interface; kUnreadable: anything else.
 [[nodiscard]] Error explain(const CanSocketFailure& failure, const std::string& interface);
 
-/// "no such interface ...", with those that there are.
-[[nodiscard]] Error no_such_can_interface(const std::string& interface);
-
 }  // namespace terracut::can

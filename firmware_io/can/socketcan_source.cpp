@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "firmware_io/can/can_socket.hpp"
+#include "firmware_io/net/receive_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::can {
@@ -18,13 +19,8 @@ namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kLookEvery_ns = kSecond_ns / 2;
-constexpr std::size_t kMostBatch = 1024;
 
 Status check(const SocketCanConfig& config) {
-  if (config.batch < 1 || config.batch > kMostBatch) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("batch {}: expected a number from 1 to {}", config.batch, kMostBatch));
-  }
   if (config.ids.empty() || config.ids.size() > kMostCanFilters) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{} CAN ids: expected 1 to {}", config.ids.size(), kMostCanFilters));
@@ -50,7 +46,7 @@ Expected<SocketCanSource> SocketCanSource::open(SocketCanConfig config,
     if (!socket) return tl::unexpected(explain(socket.error(), config.interface));
     descriptor = *std::move(socket);
   } else if (!config.wait_for_interface) {
-    return tl::unexpected(no_such_can_interface(config.interface));
+    return tl::unexpected(net::no_such_interface(config.interface));
   }
   auto source = adopt(std::move(descriptor), std::move(config), memory);
   if (!source) return source;
@@ -68,8 +64,7 @@ Expected<SocketCanSource> SocketCanSource::adopt(files::OwnedDescriptor descript
   if (!wake) return tl::unexpected(wake.error());
   SocketCanSource source(std::move(config), *std::move(wake), memory);
   if (!descriptor) return source;
-  source.buffer_ =
-      net::request_receive_buffer(descriptor.get(), source.config_.receive_buffer_bytes);
+  (void)net::request_receive_buffer(descriptor.get(), source.config_.receive_buffer_bytes);
   const int on = 1;
   ::setsockopt(descriptor.get(), SOL_SOCKET, SO_TIMESTAMPNS, &on, sizeof on);
   source.socket_ = std::move(descriptor);
@@ -216,7 +211,7 @@ void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
       threads::trusted_call([&]() noexcept {  // nothing came: nothing to be late for
         auto socket = open_can_socket(now.index, config_.ids, true);
         if (!socket) return false;
-        buffer_ = net::request_receive_buffer(socket->get(), config_.receive_buffer_bytes);
+        (void)net::request_receive_buffer(socket->get(), config_.receive_buffer_bytes);
         socket_ = *std::move(socket);
         return true;
       });

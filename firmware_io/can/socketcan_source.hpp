@@ -18,7 +18,6 @@
 #include "firmware_io/can/can_wire.hpp"
 #include "firmware_io/net/drop_counter.hpp"
 #include "firmware_io/net/network_interface.hpp"
-#include "firmware_io/net/receive_buffer.hpp"
 #include "firmware_io/net/receive_counters.hpp"
 #include "rt/error.hpp"
 #include "rt/files/owned_descriptor.hpp"
@@ -31,7 +30,7 @@ namespace terracut::can {
 struct SocketCanConfig {
   std::string interface{};   ///< "can0"
   std::vector<CanId> ids{};  ///< The messages wanted, [1, 512] of them; the kernel sorts out.
-  std::size_t batch = 64;    ///< Frames a receive() returns at most, [1, 1024].
+  std::size_t batch = 64;    ///< Frames a receive() returns at most, > 0.
   std::size_t receive_buffer_bytes = 1U << 20;  ///< About 1300 frames.
   bool wait_for_interface = false;  ///< One that is not there at open() is taken up when it comes.
 };
@@ -72,7 +71,6 @@ class SocketCanSource {
   [[nodiscard]] net::LinkState link() const noexcept { return link_; }
   /// The controller has taken itself off the bus, as far as its error frames tell.
   [[nodiscard]] bool bus_off() const noexcept { return bus_off_; }
-  [[nodiscard]] const net::ReceiveBuffer& receive_buffer() const noexcept { return buffer_; }
 
  private:
   /// Room for what the kernel says beside a frame: its stamp and the count of drops.
@@ -95,7 +93,6 @@ class SocketCanSource {
   threads::WakeEvent wake_;
   files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with; none when adopted.
   files::OwnedDescriptor socket_;
-  net::ReceiveBuffer buffer_;
   int interface_index_ = 0;
 
   std::span<Wire> wires_;

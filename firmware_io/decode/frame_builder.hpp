@@ -60,9 +60,6 @@ class FrameBuilder {
 
   [[nodiscard]] bool started() const noexcept { return started_; }
   [[nodiscard]] std::int64_t oldest() const noexcept { return oldest_; }
-  [[nodiscard]] bool is_open(std::int64_t frame) const noexcept {
-    return started_ && frame - oldest_ >= 0 && frame - oldest_ <= 1;
-  }
 
   /// Puts a return into an open frame. False, and counted, when its overflow list is full.
   bool place(std::int64_t frame, int row, int column, const frame::Return& point,

@@ -115,13 +115,6 @@ class Hdl64ePacketView {
     return std::span<const std::uint8_t, 3 * kLasersPerBlock>(
         bytes_ + block_offset(block) + offsetof(wire::Block, returns), 3 * kLasersPerBlock);
   }
-  /// `laser` is the index inside the block, 0..31.
-  [[nodiscard]] constexpr std::uint16_t distance(int block, int laser) const noexcept {
-    return u16(return_offset(block, laser));
-  }
-  [[nodiscard]] constexpr std::uint8_t intensity(int block, int laser) const noexcept {
-    return bytes_[return_offset(block, laser) + offsetof(wire::Return, intensity)];
-  }
   [[nodiscard]] constexpr std::uint32_t stamp_us() const noexcept {
     return u16(offsetof(wire::Packet, stamp_us)) |
            std::uint32_t{u16(offsetof(wire::Packet, stamp_us) + 2)} << 16;
@@ -147,11 +140,6 @@ class Hdl64ePacketView {
   [[nodiscard]] static constexpr std::size_t block_offset(int block) noexcept {
     assert(block >= 0 && block < kBlocksPerPacket);
     return static_cast<std::size_t>(block) * sizeof(wire::Block);
-  }
-  [[nodiscard]] static constexpr std::size_t return_offset(int block, int laser) noexcept {
-    assert(laser >= 0 && laser < kLasersPerBlock);
-    return block_offset(block) + offsetof(wire::Block, returns) +
-           static_cast<std::size_t>(laser) * sizeof(wire::Return);
   }
   [[nodiscard]] constexpr std::uint16_t u16(std::size_t offset) const noexcept {
     return static_cast<std::uint16_t>(bytes_[offset] | (bytes_[offset + 1] << 8));

@@ -21,33 +21,9 @@ namespace {
 static_assert(DatagramSource<LivePcapSource>);
 
 constexpr std::int64_t kLookEvery_ns = 500'000'000;
-constexpr std::size_t kMostBatch = 1024;
-constexpr std::size_t kMostSlotBytes = 65536;
-constexpr std::size_t kMostBufferBytes = std::size_t{1} << 30;
+constexpr int kBufferBytes = 8 << 20;  ///< Of the kernel's ring.
 /// Link layer, VLAN tags, the longest IP header and UDP's.
 constexpr std::size_t kMostHeaderBytes = 128;
-
-Status check(const LivePcapConfig& config) {
-  const auto refuse = [](const char* name, auto found, auto low, auto high) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{} {}: expected a number from {} to {}", name, found, low, high));
-  };
-  if (config.batch < 1 || config.batch > kMostBatch) {
-    return refuse("batch", config.batch, 1, kMostBatch);
-  }
-  if (config.slot_bytes < 1 || config.slot_bytes > kMostSlotBytes) {
-    return refuse("slot_bytes", config.slot_bytes, 1, kMostSlotBytes);
-  }
-  if (config.buffer_bytes < 1 || config.buffer_bytes > kMostBufferBytes) {
-    return refuse("buffer_bytes", config.buffer_bytes, 1, kMostBufferBytes);
-  }
-  return {};
-}
-
-Error no_such_interface(const std::string& name) {
-  return {ErrorCode::kNotFound,
-          fmt::format("no such interface '{}'; there are: {}", name, interface_names())};
-}
 
 Error refused(const std::string& interface, int result, ::pcap* handle) {
   switch (result) {
@@ -103,7 +79,6 @@ void LivePcapSource::Close::operator()(::pcap* handle) const noexcept {
 }
 
 Expected<LivePcapSource> LivePcapSource::open(LivePcapConfig config, memory::FixedMemory& memory) {
-  if (Status valid = check(config); !valid) return tl::unexpected(valid.error());
   auto wake = threads::WakeEvent::make();
   if (!wake) return tl::unexpected(wake.error());
   files::OwnedDescriptor probe(::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0));
@@ -137,7 +112,7 @@ Expected<LivePcapSource::Handle> LivePcapSource::activate(const LivePcapConfig& 
   }
   ::pcap_set_snaplen(handle.get(), static_cast<int>(config.slot_bytes + kMostHeaderBytes));
   ::pcap_set_immediate_mode(handle.get(), 1);  // else packets wait for others to share a wake-up
-  ::pcap_set_buffer_size(handle.get(), static_cast<int>(config.buffer_bytes));
+  ::pcap_set_buffer_size(handle.get(), kBufferBytes);
   ::pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);
   if (const int result = ::pcap_activate(handle.get()); result < 0) {
     return tl::unexpected(refused(config.interface, result, handle.get()));

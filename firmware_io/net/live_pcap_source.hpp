@@ -27,9 +27,8 @@ struct LivePcapConfig {
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< Only this sender; others count as foreign.
 
-  std::size_t buffer_bytes = 8U << 20;  ///< Of the kernel's ring.
-  std::size_t batch = kBatchDatagrams;               ///< Datagrams a receive() returns at most, [1, 1024].
-  std::size_t slot_bytes = 1536;        ///< The longest payload taken, [1, 65536].
+  std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, > 0.
+  std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0.
 };
 
 /// UDP datagrams listened to on an interface with libpcap, where a socket does not hear them: the
@@ -40,8 +39,8 @@ struct LivePcapConfig {
 /// and tries twice a second to open it again, which is the only time it allocates.
 class LivePcapSource {
  public:
-  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface. kUnreadable: not
-  /// permitted, or the interface is down. kUnsupported: a link layer without IP.
+  /// kNotFound: no such interface. kUnreadable: not permitted, or the interface is down.
+  /// kUnsupported: a link layer without IP.
   [[nodiscard]] static Expected<LivePcapSource> open(LivePcapConfig config,
                                                      memory::FixedMemory& memory);
 

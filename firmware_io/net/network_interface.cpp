@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/net/network_interface.hpp"
 
+#include <fmt/format.h>
 #include <net/if.h>
 #include <sys/ioctl.h>
 
@@ -14,6 +15,17 @@ namespace {
 struct FreeNames {
   void operator()(struct if_nameindex* names) const noexcept { ::if_freenameindex(names); }
 };
+
+/// "lo, eth0"
+std::string interface_names() {
+  const std::unique_ptr<struct if_nameindex, FreeNames> names(::if_nameindex());
+  std::string text;
+  for (const struct if_nameindex* each = names.get(); each != nullptr && each->if_index != 0;
+       ++each) {
+    text += (text.empty() ? "" : ", ") + std::string(each->if_name);
+  }
+  return text.empty() ? "none" : text;
+}
 
 }  // namespace
 
@@ -34,14 +46,9 @@ InterfaceStatus interface_status(int socket, const std::string& name) noexcept {
   return {up ? LinkState::kUp : LinkState::kDown, index};
 }
 
-std::string interface_names() {
-  const std::unique_ptr<struct if_nameindex, FreeNames> names(::if_nameindex());
-  std::string text;
-  for (const struct if_nameindex* each = names.get(); each != nullptr && each->if_index != 0;
-       ++each) {
-    text += (text.empty() ? "" : ", ") + std::string(each->if_name);
-  }
-  return text.empty() ? "none" : text;
+Error no_such_interface(const std::string& name) {
+  return {ErrorCode::kNotFound,
+          fmt::format("no such interface '{}'; there are: {}", name, interface_names())};
 }
 
 }  // namespace terracut::net

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware_io/net/receive_counters.hpp"
+#include "rt/error.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::net {
@@ -21,8 +22,8 @@ struct InterfaceStatus {
 [[nodiscard]] InterfaceStatus interface_status(int socket, const std::string& name) noexcept
     TERRACUT_NONBLOCKING;
 
-/// "lo, eth0", for error messages.
-[[nodiscard]] std::string interface_names();
+/// kNotFound, with those that there are: "no such interface 'eth1'; there are: lo, eth0".
+[[nodiscard]] Error no_such_interface(const std::string& name);
 
 /// The most characters a name of an interface has.
 inline constexpr std::size_t kInterfaceNameLength = 15;

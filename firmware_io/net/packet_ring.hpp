@@ -78,7 +78,7 @@ class PacketRing {
   PacketRing(const PacketRingSize& size, memory::FixedMemory& memory);
 
   /// Writer thread only. Wait-free, bounded by the payload's length; allocates nothing. A payload
-  /// longer than the whole ring is left out and counted.
+  /// longer than the whole ring is left out.
   void add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
 
   /// One reader thread, while the writer goes on. Allocates nothing. `window` must be of this size.
@@ -87,9 +87,6 @@ class PacketRing {
   /// Since construction, those overwritten meanwhile included. Any thread.
   [[nodiscard]] std::uint64_t added() const noexcept {
     return published_.load(std::memory_order_acquire);
-  }
-  [[nodiscard]] std::uint64_t too_long() const noexcept {
-    return too_long_.load(std::memory_order_relaxed);
   }
 
  private:
@@ -111,7 +108,6 @@ class PacketRing {
   std::atomic<std::uint64_t> announced_{0};        ///< Datagrams begun.
   std::atomic<std::uint64_t> announced_words_{0};  ///< Words given to them.
   std::atomic<std::uint64_t> published_{0};        ///< Datagrams complete.
-  std::atomic<std::uint64_t> too_long_{0};
 };
 
 }  // namespace terracut::net

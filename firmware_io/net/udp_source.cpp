@@ -20,8 +20,6 @@ static_assert(DatagramSource<UdpSource>);
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr std::int64_t kLookEvery_ns = kSecond_ns / 2;
-constexpr std::size_t kMostBatch = 1024;
-constexpr std::size_t kMostSlotBytes = 65536;
 
 template <class Value>
 bool set_option(int socket, int level, int option, const Value& value) noexcept {
@@ -36,16 +34,6 @@ bool join(int socket, const UdpSourceConfig& config, int interface_index) noexce
 }
 
 Status check(const UdpSourceConfig& config) {
-  const auto refuse = [](const char* name, auto found, auto low, auto high) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{} {}: expected a number from {} to {}", name, found, low, high));
-  };
-  if (config.batch < 1 || config.batch > kMostBatch) {
-    return refuse("batch", config.batch, 1, kMostBatch);
-  }
-  if (config.slot_bytes < 1 || config.slot_bytes > kMostSlotBytes) {
-    return refuse("slot_bytes", config.slot_bytes, 1, kMostSlotBytes);
-  }
   if (config.multicast_group && !is_multicast(*config.multicast_group)) {
     return fail(ErrorCode::kInvalidArgument,
                 fmt::format("{} is no multicast group; expected 224.0.0.0 to 239.255.255.255",
@@ -58,11 +46,6 @@ Status check(const UdpSourceConfig& config) {
                             ipv4_text(config.bind.address)));
   }
   return {};
-}
-
-Error no_such_interface(const std::string& name) {
-  return {ErrorCode::kNotFound,
-          fmt::format("no such interface '{}'; there are: {}", name, interface_names())};
 }
 
 std::string reason_of(int error_number) {

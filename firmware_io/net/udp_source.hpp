@@ -42,9 +42,9 @@ struct UdpSourceConfig {
   bool share_port = false;
 
   std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
-  std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, [1, 1024].
-  std::size_t slot_bytes = 1536;  ///< The longest payload taken, [1, 65536]; all of one Ethernet
-                                  ///< frame by default.
+  std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, > 0.
+  std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0; by default all of one
+                                        ///< Ethernet frame.
 };
 
 /// UDP datagrams over IPv4 as they arrive, many for one system call, with the kernel's time stamps
@@ -79,7 +79,6 @@ class UdpSource {
 
   /// Where the socket is bound, with the port the system chose.
   [[nodiscard]] const Ipv4Endpoint& local() const noexcept { return config_.bind; }
-  [[nodiscard]] const ReceiveBuffer& receive_buffer() const noexcept { return socket_.buffer; }
   /// What was asked for but could only be had in part, one sentence each, for the log at start.
   [[nodiscard]] std::span<const std::string> warnings() const noexcept { return warnings_; }
 

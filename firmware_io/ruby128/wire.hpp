@@ -106,9 +106,6 @@ class Ruby128PacketView {
   [[nodiscard]] constexpr std::uint16_t protocol_version() const noexcept {
     return u16(offsetof(ruby128_wire::Packet, protocol_version));
   }
-  [[nodiscard]] constexpr std::uint8_t wave_mode() const noexcept {
-    return bytes_[offsetof(ruby128_wire::Packet, wave_mode)];
-  }
   [[nodiscard]] constexpr double temperature_deg_c() const noexcept {
     constexpr std::size_t kAt = offsetof(ruby128_wire::Packet, temperature);
     return ruby_temperature_deg_c(bytes_[kAt], bytes_[kAt + 1]);
@@ -118,9 +115,6 @@ class Ruby128PacketView {
   }
   [[nodiscard]] constexpr std::uint8_t block_id(int block) const noexcept {
     return bytes_[block_offset(block)];
-  }
-  [[nodiscard]] constexpr std::uint8_t return_id(int block) const noexcept {
-    return bytes_[block_offset(block) + offsetof(ruby128_wire::Block, return_id)];
   }
   [[nodiscard]] constexpr std::uint16_t azimuth_cdeg(int block) const noexcept {
     return u16(block_offset(block) + offsetof(ruby128_wire::Block, azimuth_cdeg));
@@ -132,13 +126,6 @@ class Ruby128PacketView {
         bytes_ + block_offset(block) + offsetof(ruby128_wire::Block, returns),
         3 * kRubyChannelsPerBlock);
   }
-  /// `channel` in [0, 128).
-  [[nodiscard]] constexpr std::uint16_t distance(int block, int channel) const noexcept {
-    return u16(return_offset(block, channel));
-  }
-  [[nodiscard]] constexpr std::uint8_t intensity(int block, int channel) const noexcept {
-    return bytes_[return_offset(block, channel) + offsetof(ruby128_wire::Return, intensity)];
-  }
 
  private:
   explicit constexpr Ruby128PacketView(const std::uint8_t* bytes) noexcept : bytes_(bytes) {}
@@ -147,11 +134,6 @@ class Ruby128PacketView {
     assert(block >= 0 && block < kRubyBlocksPerPacket);
     return offsetof(ruby128_wire::Packet, blocks) +
            static_cast<std::size_t>(block) * sizeof(ruby128_wire::Block);
-  }
-  [[nodiscard]] static constexpr std::size_t return_offset(int block, int channel) noexcept {
-    assert(channel >= 0 && channel < kRubyChannelsPerBlock);
-    return block_offset(block) + offsetof(ruby128_wire::Block, returns) +
-           static_cast<std::size_t>(channel) * sizeof(ruby128_wire::Return);
   }
   [[nodiscard]] constexpr std::uint16_t u16(std::size_t offset) const noexcept {
     return static_cast<std::uint16_t>(bytes_[offset] << 8 | bytes_[offset + 1]);

@@ -116,11 +116,4 @@ CaptureSurvey survey_capture(capture::PcapSource& source,
   return survey;
 }
 
-Expected<CaptureSurvey> survey_capture(const std::filesystem::path& path,
-                                       capture::PcapFilter filter) {
-  Expected<capture::PcapSource> source = capture::PcapSource::open(path, filter);
-  if (!source) return tl::unexpected(source.error());
-  return survey_capture(*source);
-}
-
 }  // namespace terracut::sensor

@@ -4,7 +4,6 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
@@ -55,13 +54,9 @@ struct CaptureSurvey {
   static constexpr std::size_t kMostStreams = 1024;
 };
 
-/// Reads the whole capture once. Errors as PcapSource::open(); a capture that breaks off is no
+/// Reads the capture from where it stands, until `stop_wanted`, if any. One that breaks off is no
 /// error here, see CaptureSurvey::broke_off. For inspection: allocates, takes about a second a
 /// gigabyte.
-[[nodiscard]] Expected<CaptureSurvey> survey_capture(const std::filesystem::path& path,
-                                                     capture::PcapFilter filter = {});
-
-/// The same of a source that is open already, from where it stands, until `stop_wanted`, if any.
 [[nodiscard]] CaptureSurvey survey_capture(capture::PcapSource& source,
                                            const std::function<bool()>& stop_wanted = {});
 

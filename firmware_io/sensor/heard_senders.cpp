@@ -6,14 +6,13 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 
 namespace terracut::sensor {
 namespace {
-
-using sensor::SensorModel;
 
 constexpr std::array kDecoded{SensorModel::kHdl64e, SensorModel::kRuby128};
 
@@ -33,26 +32,25 @@ void HeardSenders::add(const decode::Datagram& datagram) {
   if (first_known_ns_ == 0 && !rotating().empty()) first_known_ns_ = newest_ns_;
 }
 
-std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
+template <class Predicate>
+std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& are) const {
   std::vector<Sensor> found;
   for (const auto& [address, sender] : senders_) {
     for (const SensorModel model : kDecoded) {
-      if (wants(model) && sender.probe.knows(model)) found.push_back({address, model});
+      if (wants(model) && std::invoke(are, sender.probe, model)) found.push_back({address, model});
     }
   }
   return found;
 }
 
+std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
+  return sensors_that(&SensorProbe::knows);
+}
+
 std::vector<HeardSenders::Sensor> HeardSenders::steady() const {
-  std::vector<Sensor> found;
-  for (const auto& [address, sender] : senders_) {
-    for (const SensorModel model : kDecoded) {
-      if (wants(model) && sender.probe.packets_of(model) >= kSteady_packets) {
-        found.push_back({address, model});
-      }
-    }
-  }
-  return found;
+  return sensors_that([](const SensorProbe& probe, SensorModel model) {
+    return probe.packets_of(model) >= kSteady_packets;
+  });
 }
 
 bool HeardSenders::has_told(const Sensor& sensor) const {

@@ -67,6 +67,8 @@ class HeardSenders {
     Ruby128DeviceReader ruby128_device;
   };
 
+  template <class Predicate>
+  [[nodiscard]] std::vector<Sensor> sensors_that(const Predicate& are) const;
   [[nodiscard]] std::string describe(const Sender& sender) const;
 
   std::optional<SensorModel> wanted_;

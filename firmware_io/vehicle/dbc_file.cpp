@@ -6,13 +6,13 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <utility>
 
 #include "calib/text/bounded_file.hpp"
 #include "calib/text/number_text.hpp"
+#include "rt/number_of.hpp"
 
 namespace terracut::vehicle {
 namespace {
@@ -44,11 +44,7 @@ class LineReader {
   template <class Whole>
   std::optional<Whole> whole() {
     const auto text = run_of(kNumberCharacters);
-    if (!text) return std::nullopt;
-    Whole value = 0;
-    const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-    if (error != std::errc{} || end != text->data() + text->size()) return std::nullopt;
-    return value;
+    return text ? rt::number_of<Whole>(*text) : std::nullopt;
   }
   /// What stands between quotation marks.
   std::optional<std::string_view> quoted() {

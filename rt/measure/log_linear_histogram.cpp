@@ -56,14 +56,4 @@ std::uint64_t LogLinearHistogram::count_not_above(std::int64_t limit_ns) const n
   return sum;
 }
 
-LogLinearHistogram& LogLinearHistogram::operator+=(const LogLinearHistogram& other) noexcept {
-  for (std::size_t bucket = 0; bucket < kBuckets; ++bucket)
-    buckets_[bucket] += other.buckets_[bucket];
-  count_ += other.count_;
-  min_ns_ = std::min(min_ns_, other.min_ns_);
-  max_ns_ = std::max(max_ns_, other.max_ns_);
-  sum_ns_ += other.sum_ns_;
-  return *this;
-}
-
 }  // namespace terracut::measure

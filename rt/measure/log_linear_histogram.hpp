@@ -39,9 +39,6 @@ class LogLinearHistogram {
   /// slower is ever counted. For cumulative histograms.
   [[nodiscard]] std::uint64_t count_not_above(std::int64_t limit_ns) const noexcept;
 
-  /// Adds all of `other`, as if its values had been recorded here.
-  LogLinearHistogram& operator+=(const LogLinearHistogram& other) noexcept;
-
  private:
   static constexpr int kLinearBits = 8;  // 2^8 buckets of width 1, then 2^7 for every doubling
   static constexpr std::size_t kHalf = std::size_t{1} << (kLinearBits - 1);

@@ -13,8 +13,8 @@
 namespace terracut::measure {
 
 Expected<ProcFile> ProcFile::open(const char* path) {
-  const int file = ::open(path, O_RDONLY | O_CLOEXEC);
-  if (file >= 0) return ProcFile(file);
+  files::OwnedDescriptor file(::open(path, O_RDONLY | O_CLOEXEC));
+  if (file) return ProcFile(std::move(file));
   const int error_number = errno;
   return fail(error_number == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
               std::string("could not open ") + path + ": " +
@@ -22,21 +22,10 @@ Expected<ProcFile> ProcFile::open(const char* path) {
                   "; this kernel or container does not tell");
 }
 
-ProcFile::ProcFile(ProcFile&& other) noexcept : file_(std::exchange(other.file_, -1)) {}
-
-ProcFile& ProcFile::operator=(ProcFile&& other) noexcept {
-  std::swap(file_, other.file_);
-  return *this;
-}
-
-ProcFile::~ProcFile() {
-  if (file_ >= 0) ::close(file_);
-}
-
 std::string_view ProcFile::read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING {
   // No device lies behind /proc.
   const ::ssize_t got = threads::trusted_call(
-      [&]() noexcept { return ::pread(file_, buffer.data(), buffer.size(), 0); });
+      [&]() noexcept { return ::pread(file_.get(), buffer.data(), buffer.size(), 0); });
   return {buffer.data(), got > 0 ? static_cast<std::size_t>(got) : 0};
 }
 

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::measure {
@@ -18,17 +20,13 @@ class ProcFile {
   /// kNotFound or kUnreadable, with the system's reason.
   [[nodiscard]] static Expected<ProcFile> open(const char* path);
 
-  ProcFile(ProcFile&& other) noexcept;
-  ProcFile& operator=(ProcFile&& other) noexcept;
-  ~ProcFile();
-
   /// As much of the file as `buffer` holds; empty when it cannot be read any more. One system call
   /// that waits for no disk: the kernel writes the text while it is asked.
   [[nodiscard]] std::string_view read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING;
 
  private:
-  explicit ProcFile(int file) : file_(file) {}
-  int file_ = -1;
+  explicit ProcFile(files::OwnedDescriptor file) noexcept : file_(std::move(file)) {}
+  files::OwnedDescriptor file_;
 };
 
 /// The n-th number, from 0, of a line of numbers between blanks; -1 when there is no such number or

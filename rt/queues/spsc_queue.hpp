@@ -24,7 +24,7 @@ namespace terracut::queues {
 ///               v                      v              of two, so that the counts may wrap).
 ///     +---+---+---+---+---+---+---+---+---+---+
 ///     |   |   | n |n+1|n+2|n+3|n+4|n+5|   |   |       empty: pushed_ - popped_ == 0
-///     +---+---+---+---+---+---+---+---+---+---+       full:  pushed_ - popped_ == capacity()
+///     +---+---+---+---+---+---+---+---+---+---+       full:  pushed_ - popped_ == capacity
 ///              the consumer     ^      the producer
 ///              reads here       |      writes here
 ///                 pushed_seen_ (consumer's copy)
@@ -80,7 +80,7 @@ class SpscQueue {
     return true;
   }
 
-  /// How many values wait, in [0, capacity()]. Exact while neither side is at work; else it was
+  /// How many values wait, [0, capacity]. Exact while neither side is at work; else it was
   /// right at some moment, or lies between what was right at two moments, of the call.
   [[nodiscard]] std::size_t size_approx() const noexcept TERRACUT_NONBLOCKING {
     // popped_ first: whoever sees it sees at least as high a pushed_ afterwards, so the difference
@@ -89,8 +89,6 @@ class SpscQueue {
     const std::size_t pushed = pushed_.load(std::memory_order_acquire);
     return std::min(pushed - popped, capacity_);
   }
-
-  [[nodiscard]] std::size_t capacity() const noexcept TERRACUT_NONBLOCKING { return capacity_; }
 
  private:
   static constexpr std::size_t kCacheLine = memory::FixedMemory::kAlignment;

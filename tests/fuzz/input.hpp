@@ -46,4 +46,11 @@ class Input {
   std::span<const std::uint8_t> bytes_;
 };
 
+/// Of a block's bytes, three a return: how many have a distance.
+[[nodiscard]] inline std::uint64_t returns_in(std::span<const std::uint8_t> block) {
+  std::uint64_t sum = 0;
+  for (std::size_t at = 0; at < block.size(); at += 3) sum += (block[at] | block[at + 1]) != 0;
+  return sum;
+}
+
 }  // namespace terracut::fuzz

@@ -30,9 +30,9 @@ TEST(Hdl64ePacket, HasItsFieldsAtTheirOffsetsInLittleEndian) {
   ASSERT_TRUE(view);
   EXPECT_EQ(view->block_id(11), kLowerBlockId);
   EXPECT_EQ(view->azimuth_cdeg(11), 35999);
-  EXPECT_EQ(view->distance(11, 31), 10000);
-  EXPECT_EQ(view->intensity(11, 31), 200);
   EXPECT_EQ(view->returns(11)[93], 0x10);
+  EXPECT_EQ(view->returns(11)[94], 0x27);
+  EXPECT_EQ(view->returns(11)[95], 200);
   EXPECT_EQ(view->stamp_us(), 3'599'999'999U);
   EXPECT_EQ(view->status_type(), 'W');
   EXPECT_EQ(view->status_value(), 0xA1);
@@ -55,9 +55,11 @@ TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
   for (int block = 0; block < kBlocksPerPacket; ++block) {
     EXPECT_EQ(view->block_id(block), block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
     EXPECT_EQ(view->azimuth_cdeg(block), 35'000 + block);
-    for (int laser = 0; laser < kLasersPerBlock; ++laser) {
-      EXPECT_EQ(view->distance(block, laser), block * 2048 + laser);
-      EXPECT_EQ(view->intensity(block, laser), laser);
+    const auto returns = view->returns(block);
+    for (std::size_t laser = 0; laser < kLasersPerBlock; ++laser) {
+      EXPECT_EQ(returns[3 * laser] | returns[3 * laser + 1] << 8,
+                block * 2048 + static_cast<int>(laser));
+      EXPECT_EQ(returns[3 * laser + 2], laser);
     }
   }
   EXPECT_EQ(view->stamp_us(), 0xD693A3FEU);

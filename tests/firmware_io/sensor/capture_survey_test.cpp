@@ -17,6 +17,11 @@ namespace {
 
 using test::Bytes;
 
+Expected<CaptureSurvey> survey_of(const std::filesystem::path& file) {
+  return capture::PcapSource::open(file).map(
+      [](capture::PcapSource source) { return survey_capture(source); });
+}
+
 /// A unit that rotates at 10 Hz, 288 us a packet.
 class Unit {
  public:
@@ -80,7 +85,7 @@ class SurveyOfAUnit : public testing::Test {
       EXPECT_TRUE(writer->write(from_unit(payload, n * unit.period_ns())));
     }
     EXPECT_TRUE(writer->finish());
-    auto result = survey_capture(folder_ / "unit.pcap");
+    auto result = survey_of(folder_ / "unit.pcap");
     EXPECT_TRUE(result);
     EXPECT_EQ(result->streams.size(), 1U);
     EXPECT_EQ(result->streams.at(0).sensor, SensorModel::kHdl64e);
@@ -177,7 +182,7 @@ TEST(CaptureSurvey, TellsStreamsApart) {
     }
   }
   ASSERT_TRUE(writer->finish());
-  const auto survey = survey_capture(folder / "a.pcap");
+  const auto survey = survey_of(folder / "a.pcap");
   ASSERT_TRUE(survey);
   ASSERT_EQ(survey->streams.size(), 3U);
   EXPECT_EQ(survey->link_type_name, "EN10MB");
@@ -203,7 +208,7 @@ TEST(CaptureSurvey, ReportsACaptureThatBreaksOff) {
   Bytes cut = file.bytes();
   cut.resize(cut.size() - 5);
   test::write_file(folder / "cut.pcap", cut);
-  const auto survey = survey_capture(folder / "cut.pcap");
+  const auto survey = survey_of(folder / "cut.pcap");
   ASSERT_TRUE(survey);
   ASSERT_TRUE(survey->broke_off);
   EXPECT_EQ(survey->streams.at(0).packets, 1U);

@@ -27,7 +27,8 @@ class RealCaptures : public testing::TestWithParam<RealCapture> {
 };
 
 TEST_P(RealCaptures, AreSurveyedByModelAndCount) {
-  const auto survey = survey_capture(path_);
+  const auto survey = capture::PcapSource::open(path_).map(
+      [](capture::PcapSource source) { return survey_capture(source); });
   ASSERT_TRUE(survey) << survey.error().message;
   EXPECT_FALSE(survey->broke_off);
   EXPECT_EQ(survey->counters.refused_total(), 0U);

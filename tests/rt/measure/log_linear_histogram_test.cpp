@@ -103,21 +103,5 @@ TEST(LogLinearHistogram, NeverCountsASlowerValueAsNotAboveALimit) {
   EXPECT_EQ(histogram.count_not_above(2 * kLast), histogram.count());
 }
 
-TEST(LogLinearHistogram, SumsLikeOneThatSawBoth) {
-  LogLinearHistogram early, late, both;
-  for (std::int64_t value = 1; value < 100'000; value += 7) {
-    (value % 2 == 0 ? early : late).record(value);
-    both.record(value);
-  }
-  early += late;
-  EXPECT_EQ(early.count(), both.count());
-  EXPECT_EQ(early.min_ns(), both.min_ns());
-  EXPECT_EQ(early.max_ns(), both.max_ns());
-  EXPECT_DOUBLE_EQ(early.mean_ns(), both.mean_ns());
-  for (const double percent : {1.0, 50.0, 99.0}) {
-    EXPECT_EQ(early.percentile_ns(percent), both.percentile_ns(percent));
-  }
-}
-
 }  // namespace
 }  // namespace terracut::measure

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "firmware_io/can/can_socket.hpp"
+#include "firmware_io/net/network_interface.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "tools/cli/console.hpp"
 
@@ -55,7 +55,7 @@ void LiveWatch::open_health() {
   auto sender = can::CanSender::open(options_.watch.health_can, true);
   if (sender) {
     if (!sender->has_interface()) {
-      warn(can::no_such_can_interface(options_.watch.health_can).message +
+      warn(net::no_such_interface(options_.watch.health_can).message +
            "; it is waited for, and until then no health is sent");
     }
     health_.emplace(options_.watch.health_can, *std::move(sender));

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "firmware_io/can/can_socket.hpp"
+#include "firmware_io/net/network_interface.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -19,7 +19,7 @@ Expected<VehicleBus> VehicleBus::open(const std::string& interface, vehicle::Mot
       memory);
   if (!source) return tl::unexpected(source.error());
   if (source->link() == net::LinkState::kGone) {
-    warn(can::no_such_can_interface(interface).message +
+    warn(net::no_such_interface(interface).message +
          "; it is waited for, and until then frames have no ego motion");
   } else if (source->link() == net::LinkState::kDown) {
     warn(fmt::format("CAN interface '{}' is down; until it is up frames have no ego motion",

@@ -39,8 +39,7 @@ Expected<UdpSender> UdpSender::open(const UdpSenderConfig& config, memory::Fixed
   if (!config.interface.empty()) {
     const net::InterfaceStatus interface = net::interface_status(socket.get(), config.interface);
     if (interface.state == net::LinkState::kGone) {
-      return fail(ErrorCode::kNotFound, fmt::format("no such interface '{}'; there are: {}",
-                                                    config.interface, net::interface_names()));
+      return tl::unexpected(net::no_such_interface(config.interface));
     }
     ip_mreqn multicast{};
     multicast.imr_ifindex = interface.index;

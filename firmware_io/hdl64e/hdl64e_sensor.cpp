@@ -40,14 +40,13 @@ void Hdl64eSensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcept
 void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload,
                                const decode::PacketAzimuths& azimuths, int column,
                                Column& found) noexcept {
-  const auto packet = Hdl64ePacketView::of(payload);
-  if (packet) {  // check() has seen to it
-    for (int half = 0; half < 2; ++half) {
-      const auto bytes = packet->returns(2 * column + half);
-      const auto first = static_cast<std::size_t>(half) * kLasersPerBlock;
-      for (std::size_t j = 0; j < kLasersPerBlock; ++j) {
-        found.raw[first + j] = static_cast<std::uint16_t>(bytes[3 * j] | bytes[3 * j + 1] << 8);
-        found.intensity[first + j] = bytes[3 * j + 2];
+  if (const auto* packet = packet_in(payload)) {  // check() has seen to it
+    for (std::size_t half = 0; half < 2; ++half) {
+      const auto& returns = packet->blocks[2 * static_cast<std::size_t>(column) + half].returns;
+      const std::size_t first = half * kLasersPerBlock;
+      for (std::size_t j = 0; j < returns.size(); ++j) {
+        found.raw[first + j] = returns[j].distance.value();
+        found.intensity[first + j] = returns[j].intensity;
       }
     }
   }

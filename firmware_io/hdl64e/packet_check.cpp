@@ -3,10 +3,10 @@
 #include "firmware_io/hdl64e/packet_check.hpp"
 
 #include <algorithm>
-#include <array>
 
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::hdl64e {
 namespace {
@@ -14,14 +14,10 @@ namespace {
 /// Blocks of lasers 64..95 and 96..127: only the VLS-128 sends them.
 constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF;
 
-/// RoboSense RS-Ruby family: payload size and the four bytes every MSOP packet begins with.
-constexpr std::size_t kRubyPacketBytes = 1248;
-constexpr std::array<std::uint8_t, 4> kRubyLeader{0x55, 0xAA, 0x05, 0x5A};
-
-std::optional<frame::Reject> reject_ids(const Hdl64ePacketView& packet) noexcept {
+std::optional<frame::Reject> reject_ids(const wire::Packet& packet) noexcept {
   int upper = 0, lower = 0, others = 0, misplaced = 0;
-  for (int block = 0; block < kBlocksPerPacket; ++block) {
-    const std::uint16_t id = packet.block_id(block);
+  for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+    const std::uint16_t id = packet.blocks[block].id.value();
     upper += id == kUpperBlockId;
     lower += id == kLowerBlockId;
     others += id == kVls128ThirdId || id == kVls128FourthId;
@@ -37,27 +33,28 @@ std::optional<frame::Reject> reject_ids(const Hdl64ePacketView& packet) noexcept
 }
 
 bool is_ruby(std::span<const std::uint8_t> payload) noexcept {
-  return payload.size() == kRubyPacketBytes &&
-         std::equal(kRubyLeader.begin(), kRubyLeader.end(), payload.begin());
+  return payload.size() == ruby128::kRubyPacketBytes &&
+         std::equal(ruby128::kRubyMagic.begin(), ruby128::kRubyMagic.end(), payload.begin());
 }
 
 }  // namespace
 
 std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
                                                  decode::PacketAzimuths& azimuths) noexcept {
-  const auto packet = Hdl64ePacketView::of(payload);
-  if (!packet) return is_ruby(payload) ? frame::Reject::kWrongModel : frame::Reject::kWrongSize;
+  const auto* packet = packet_in(payload);
+  if (packet == nullptr)
+    return is_ruby(payload) ? frame::Reject::kWrongModel : frame::Reject::kWrongSize;
   if (const auto reason = reject_ids(*packet)) return reason;
 
-  azimuths.device_stamp_us = packet->stamp_us() % kDeviceHour_us;
+  azimuths.device_stamp_us = packet->stamp_us.value() % kDeviceHour_us;
   azimuths.columns = kColumnsPerPacketSingle;
   bool in_range = true, pairs_agree = true;
-  for (int column = 0; column < kColumnsPerPacketSingle; ++column) {
-    const int azimuth_cdeg = packet->azimuth_cdeg(2 * column);
-    const int lower_cdeg = packet->azimuth_cdeg(2 * column + 1);
+  for (std::size_t column = 0; column < kColumnsPerPacketSingle; ++column) {
+    const int azimuth_cdeg = packet->blocks[2 * column].azimuth_cdeg.value();
+    const int lower_cdeg = packet->blocks[2 * column + 1].azimuth_cdeg.value();
     in_range &= azimuth_cdeg < beams::kRevolution_cdeg && lower_cdeg < beams::kRevolution_cdeg;
     pairs_agree &= azimuth_cdeg == lower_cdeg;
-    azimuths.azimuth_cdeg[static_cast<std::size_t>(column)] = azimuth_cdeg;
+    azimuths.azimuth_cdeg[column] = azimuth_cdeg;
   }
   if (!in_range) return frame::Reject::kAzimuthOutOfRange;
   if (!pairs_agree) return frame::Reject::kAzimuthMismatch;

@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -90,68 +89,27 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 // --- Reading ---
 
-/// Reads fields of one packet where it lies, without copying it. Checks only the length: block ids
-/// and azimuths are whatever the sender wrote. Valid as long as the payload is.
-class Hdl64ePacketView {
- public:
-  /// Nothing when the payload is not exactly 1206 bytes long.
-  [[nodiscard]] static constexpr std::optional<Hdl64ePacketView> of(
-      std::span<const std::uint8_t> payload) noexcept {
-    if (payload.size() != kHdl64ePacketBytes) {
-      return std::nullopt;
-    }
-    return Hdl64ePacketView(payload.data());
-  }
+/// The packet that a payload is, read where it lies; null where it is not exactly 1206 bytes long.
+/// Block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
+[[nodiscard]] inline const wire::Packet* packet_in(std::span<const std::uint8_t> payload) noexcept {
+  // Bytes are all it has, so any address will do.
+  return payload.size() == sizeof(wire::Packet)
+             ? reinterpret_cast<const wire::Packet*>(payload.data())
+             : nullptr;
+}
 
-  [[nodiscard]] constexpr std::uint16_t block_id(int block) const noexcept {
-    return u16(block_offset(block));
-  }
-  [[nodiscard]] constexpr std::uint16_t azimuth_cdeg(int block) const noexcept {
-    return u16(block_offset(block) + offsetof(wire::Block, azimuth_cdeg));
-  }
-  /// The 32 returns of a block as they lie: distance low byte, high byte, intensity, 96 bytes.
-  [[nodiscard]] constexpr std::span<const std::uint8_t, 3 * kLasersPerBlock> returns(
-      int block) const noexcept {
-    return std::span<const std::uint8_t, 3 * kLasersPerBlock>(
-        bytes_ + block_offset(block) + offsetof(wire::Block, returns), 3 * kLasersPerBlock);
-  }
-  [[nodiscard]] constexpr std::uint32_t stamp_us() const noexcept {
-    return u16(offsetof(wire::Packet, stamp_us)) |
-           std::uint32_t{u16(offsetof(wire::Packet, stamp_us) + 2)} << 16;
-  }
-  [[nodiscard]] constexpr std::uint8_t status_type() const noexcept {
-    return bytes_[offsetof(wire::Packet, status_type)];
-  }
-  [[nodiscard]] constexpr std::uint8_t status_value() const noexcept {
-    return bytes_[offsetof(wire::Packet, status_value)];
-  }
-
-  /// Block 1 is a lower block and block 2 an upper one: true for the HDL-64E S2/S3 in either return
-  /// mode and for no other Velodyne model. The smaller models send upper blocks only, the VLS-128
-  /// goes on with other ids in block 2, and the S1 sends about three upper blocks for each lower
-  /// one.
-  [[nodiscard]] constexpr bool is_hdl64e() const noexcept {
-    return block_id(1) == kLowerBlockId && block_id(2) == kUpperBlockId;
-  }
-
- private:
-  explicit constexpr Hdl64ePacketView(const std::uint8_t* bytes) noexcept : bytes_(bytes) {}
-
-  [[nodiscard]] static constexpr std::size_t block_offset(int block) noexcept {
-    assert(block >= 0 && block < kBlocksPerPacket);
-    return static_cast<std::size_t>(block) * sizeof(wire::Block);
-  }
-  [[nodiscard]] constexpr std::uint16_t u16(std::size_t offset) const noexcept {
-    return static_cast<std::uint16_t>(bytes_[offset] | (bytes_[offset + 1] << 8));
-  }
-
-  const std::uint8_t* bytes_;
-};
+/// Block 1 is a lower block and block 2 an upper one: true for the HDL-64E S2/S3 in either return
+/// mode and for no other Velodyne model. The smaller models send upper blocks only, the VLS-128
+/// goes on with other ids in block 2, and the S1 sends about three upper blocks for each lower one.
+[[nodiscard]] constexpr bool is_hdl64e(const wire::Packet& packet) noexcept {
+  return packet.blocks[1].id.value() == kLowerBlockId &&
+         packet.blocks[2].id.value() == kUpperBlockId;
+}
 
 // --- Writing ---
 
 /// One packet being made; starts as 12 blocks without any return, at azimuth 0, with the block ids
-/// of the HDL-64E in place. Indices as in Hdl64ePacketView.
+/// of the HDL-64E in place. `laser` is the index inside the block, 0..31.
 class Hdl64ePacketBuffer {
  public:
   Hdl64ePacketBuffer() noexcept { clear(); }

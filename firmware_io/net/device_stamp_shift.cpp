@@ -22,22 +22,22 @@ void write_at(std::span<std::uint8_t> payload, std::size_t offset, const Bytes& 
   std::copy(bytes.begin(), bytes.end(), field.begin());
 }
 
-void shift_hdl64e(std::span<std::uint8_t> payload, const hdl64e::Hdl64ePacketView& packet,
+void shift_hdl64e(std::span<std::uint8_t> payload, const hdl64e::wire::Packet& packet,
                   std::int64_t shift_ns) noexcept {
   constexpr std::int64_t kHour_us = hdl64e::kDeviceHour_us;
   const std::int64_t shifted_us =
-      (std::int64_t{packet.stamp_us()} + rounded_us(shift_ns)) % kHour_us;
+      (std::int64_t{packet.stamp_us.value()} + rounded_us(shift_ns)) % kHour_us;
   const auto stamp_us =
       static_cast<std::uint32_t>(shifted_us < 0 ? shifted_us + kHour_us : shifted_us);
   write_at(payload, offsetof(hdl64e::wire::Packet, stamp_us),
            hdl64e::wire::U32::of(stamp_us).bytes);
 }
 
-void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::Ruby128PacketView& packet,
+void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire::Packet& packet,
                    ruby128::RubyTimestamp encoding, std::int64_t shift_ns) noexcept {
   const std::int64_t unit_ns = encoding == ruby128::RubyTimestamp::kUtcNanoseconds ? 1 : 1000;
   const std::int64_t step_ns = unit_ns == 1 ? shift_ns : rounded_us(shift_ns) * unit_ns;
-  const std::int64_t stamp_ns = ruby128::read_ruby_timestamp(packet.stamp(), encoding) + step_ns;
+  const std::int64_t stamp_ns = ruby128::read_ruby_timestamp(packet.stamp, encoding) + step_ns;
   write_at(payload, offsetof(ruby128::ruby128_wire::Packet, stamp),
            ruby128::write_ruby_timestamp(std::max<std::int64_t>(stamp_ns, 0), encoding));
 }
@@ -47,15 +47,15 @@ void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::Ruby128Packet
 bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept {
   const sensor::SensorModel model = sensor::recognise_sensor(payload);
   if (model == sensor::SensorModel::kHdl64e) {
-    const auto packet = hdl64e::Hdl64ePacketView::of(payload);
-    if (!packet) return false;
+    const auto* packet = hdl64e::packet_in(payload);
+    if (packet == nullptr) return false;
     shift_hdl64e(payload, *packet, shift_ns);
     return true;
   }
   if (model == sensor::SensorModel::kRuby128 || model == sensor::SensorModel::kRubyPlus) {
-    const auto packet = ruby128::Ruby128PacketView::of(payload);
-    if (!packet) return false;
-    const ruby128::RubyTimestamp encoding = ruby_encoding_.add(packet->stamp());
+    const auto* packet = ruby128::packet_in(payload);
+    if (packet == nullptr) return false;
+    const ruby128::RubyTimestamp encoding = ruby_encoding_.add(packet->stamp);
     if (shift_ns != 0) shift_ruby128(payload, *packet, encoding, shift_ns);
     return true;
   }

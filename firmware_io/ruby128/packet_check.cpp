@@ -47,8 +47,8 @@ void complete(decode::PacketAzimuths& azimuths) noexcept {
 std::optional<frame::Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
                                                   decode::PacketAzimuths& azimuths) noexcept {
   if (const auto reason = reject_model(payload)) return reason;
-  const auto packet = Ruby128PacketView::of(payload);
-  if (!packet) return frame::Reject::kWrongSize;
+  const auto* packet = packet_in(payload);
+  if (packet == nullptr) return frame::Reject::kWrongSize;
 
   std::array<std::int32_t, kRubyBlocksPerPacket> azimuth_cdeg{};
   azimuths.columns = kRubyBlocksPerPacket;
@@ -56,7 +56,7 @@ std::optional<frame::Reject> check_ruby128_packet(std::span<const std::uint8_t> 
   bool in_range = true;
   for (int block = 0; block < kRubyBlocksPerPacket; ++block) {
     const auto b = static_cast<std::size_t>(block);
-    azimuth_cdeg[b] = azimuths.azimuth_cdeg[b] = packet->azimuth_cdeg(block);
+    azimuth_cdeg[b] = azimuths.azimuth_cdeg[b] = packet->blocks[b].azimuth_cdeg.value();
     in_range &= azimuth_cdeg[b] < beams::kRevolution_cdeg;
   }
   if (!in_range) return frame::Reject::kAzimuthOutOfRange;

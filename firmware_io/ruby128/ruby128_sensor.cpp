@@ -41,15 +41,15 @@ std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> 
   const bool is_of_this_sensor = !reason || *reason == frame::Reject::kAzimuthOutOfRange ||
                                  *reason == frame::Reject::kAzimuthJump ||
                                  *reason == frame::Reject::kStationary;
-  const auto packet = Ruby128PacketView::of(payload);
-  if (!is_of_this_sensor || !packet) return reason;
+  const auto* packet = packet_in(payload);
+  if (!is_of_this_sensor || packet == nullptr) return reason;
 
-  const RubyTimestamp detected = timestamp_.add(packet->stamp());
+  const RubyTimestamp detected = timestamp_.add(packet->stamp);
   const RubyTimestamp encoding = given_timestamp_.value_or(detected);
   // On about one start in a thousand the first packet looks like the other unit of UTC.
   azimuths.clock_restarts = encoding != last_encoding_.value_or(encoding);
   last_encoding_ = encoding;
-  const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp(), encoding);
+  const std::int64_t stamp_ns = read_ruby_timestamp(packet->stamp, encoding);
   azimuths.device_stamp_us = ruby_even_stamp_us(stamp_ns, azimuths, !reason);
   return reason;
 }
@@ -62,11 +62,11 @@ void Ruby128Sensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcep
 void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
                                 const decode::PacketAzimuths& azimuths, int column,
                                 Column& found) noexcept {
-  if (const auto packet = Ruby128PacketView::of(payload)) {  // check() has seen to it
-    const auto bytes = packet->returns(column);
-    for (std::size_t i = 0; i < static_cast<std::size_t>(kRows); ++i) {
-      found.raw[i] = static_cast<std::uint16_t>(bytes[3 * i] << 8 | bytes[3 * i + 1]);
-      found.intensity[i] = bytes[3 * i + 2];
+  if (const auto* packet = packet_in(payload)) {  // check() has seen to it
+    const auto& returns = packet->blocks[static_cast<std::size_t>(column)].returns;
+    for (std::size_t i = 0; i < returns.size(); ++i) {
+      found.raw[i] = returns[i].distance.value();
+      found.intensity[i] = returns[i].intensity;
     }
   }
   kernel_.set_step(column == 0 ? first_step_ticks_ : azimuths.step_ticks);

@@ -6,7 +6,6 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <type_traits>
 
@@ -52,7 +51,7 @@ struct Packet {
   decode::Be16 protocol_version;
   std::uint8_t reserved1;
   std::uint8_t wave_mode;
-  decode::Be16 temperature;            ///< Sign and magnitude (see temperature_deg_c()).
+  decode::Be16 temperature;            ///< See ruby_temperature_deg_c().
   std::array<std::uint8_t, 10> stamp;  ///< One of three encodings (timestamp.hpp).
   std::array<std::uint8_t, 10> reserved2;
   std::uint8_t lidar_type, lidar_model;
@@ -71,15 +70,14 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 }  // namespace ruby128_wire
 
-/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree with
-/// the low four in the high half of the second byte (RS-Ruby user manual).
-[[nodiscard]] constexpr double ruby_temperature_deg_c(std::uint8_t high,
-                                                      std::uint8_t low) noexcept {
-  const int sixteenths = (high & 0x7F) << 4 | low >> 4;
-  return (high & 0x80 ? -sixteenths : sixteenths) / 16.0;
+/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree
+/// (RS-Ruby user manual).
+[[nodiscard]] constexpr double ruby_temperature_deg_c(std::uint16_t field) noexcept {
+  const int sixteenths = (field & 0x7FFF) >> 4;
+  return ((field & 0x8000) != 0 ? -sixteenths : sixteenths) / 16.0;
 }
-static_assert(ruby_temperature_deg_c(0x12, 0xC0) == 18.75);
-static_assert(ruby_temperature_deg_c(0x92, 0xC0) == -18.75);
+static_assert(ruby_temperature_deg_c(0x12C0) == 18.75);
+static_assert(ruby_temperature_deg_c(0x92C0) == -18.75);
 
 /// The inverse, rounded towards zero; |temperature_deg_c| < 128.
 [[nodiscard]] constexpr std::uint16_t ruby_temperature_field(double temperature_deg_c) noexcept {
@@ -92,60 +90,20 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
 
 // --- Reading ---
 
-/// Reads fields of one packet where it lies, without copying it. Checks only the length: magic,
-/// block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
-class Ruby128PacketView {
- public:
-  /// Nothing when the payload is not exactly 1248 bytes long.
-  [[nodiscard]] static constexpr std::optional<Ruby128PacketView> of(
-      std::span<const std::uint8_t> payload) noexcept {
-    if (payload.size() != kRubyPacketBytes) return std::nullopt;
-    return Ruby128PacketView(payload.data());
-  }
-
-  [[nodiscard]] constexpr std::uint16_t protocol_version() const noexcept {
-    return u16(offsetof(ruby128_wire::Packet, protocol_version));
-  }
-  [[nodiscard]] constexpr double temperature_deg_c() const noexcept {
-    constexpr std::size_t kAt = offsetof(ruby128_wire::Packet, temperature);
-    return ruby_temperature_deg_c(bytes_[kAt], bytes_[kAt + 1]);
-  }
-  [[nodiscard]] constexpr std::span<const std::uint8_t, 10> stamp() const noexcept {
-    return std::span<const std::uint8_t, 10>(bytes_ + offsetof(ruby128_wire::Packet, stamp), 10);
-  }
-  [[nodiscard]] constexpr std::uint8_t block_id(int block) const noexcept {
-    return bytes_[block_offset(block)];
-  }
-  [[nodiscard]] constexpr std::uint16_t azimuth_cdeg(int block) const noexcept {
-    return u16(block_offset(block) + offsetof(ruby128_wire::Block, azimuth_cdeg));
-  }
-  /// The 128 returns of a block as they lie: distance high byte, low byte, intensity, 384 bytes.
-  [[nodiscard]] constexpr std::span<const std::uint8_t, 3 * kRubyChannelsPerBlock> returns(
-      int block) const noexcept {
-    return std::span<const std::uint8_t, 3 * kRubyChannelsPerBlock>(
-        bytes_ + block_offset(block) + offsetof(ruby128_wire::Block, returns),
-        3 * kRubyChannelsPerBlock);
-  }
-
- private:
-  explicit constexpr Ruby128PacketView(const std::uint8_t* bytes) noexcept : bytes_(bytes) {}
-
-  [[nodiscard]] static constexpr std::size_t block_offset(int block) noexcept {
-    assert(block >= 0 && block < kRubyBlocksPerPacket);
-    return offsetof(ruby128_wire::Packet, blocks) +
-           static_cast<std::size_t>(block) * sizeof(ruby128_wire::Block);
-  }
-  [[nodiscard]] constexpr std::uint16_t u16(std::size_t offset) const noexcept {
-    return static_cast<std::uint16_t>(bytes_[offset] << 8 | bytes_[offset + 1]);
-  }
-
-  const std::uint8_t* bytes_;
-};
+/// The packet that a payload is, read where it lies; null where it is not exactly 1248 bytes long.
+/// Magic, block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
+[[nodiscard]] inline const ruby128_wire::Packet* packet_in(
+    std::span<const std::uint8_t> payload) noexcept {
+  // Bytes are all it has, so any address will do.
+  return payload.size() == sizeof(ruby128_wire::Packet)
+             ? reinterpret_cast<const ruby128_wire::Packet*>(payload.data())
+             : nullptr;
+}
 
 // --- Writing ---
 
 /// One packet being made; starts as three blocks without any return, at azimuth 0, with magic and
-/// block ids in place. Indices as in Ruby128PacketView.
+/// block ids in place. `channel` in [0, 128).
 class Ruby128PacketBuffer {
  public:
   Ruby128PacketBuffer() noexcept { clear(); }

@@ -9,9 +9,9 @@
 namespace terracut::sensor {
 
 void Hdl64eSurvey::add(std::span<const std::uint8_t> payload) {
-  const auto packet = hdl64e::Hdl64ePacketView::of(payload);
-  if (!packet) return;
-  status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+  const auto* packet = hdl64e::packet_in(payload);
+  if (packet == nullptr) return;
+  status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
   decode::PacketAzimuths azimuths;
   const auto reject = hdl64e::check_hdl64e_packet(payload, azimuths);
   if (reject && azimuths.columns == 0) return;  // not its block ids after all

@@ -24,9 +24,9 @@ void HeardSenders::add(const decode::Datagram& datagram) {
   Sender& sender = senders_[datagram.source_address];
   sender.probe.add(datagram.payload);
   (void)sender.ruby128_device.add(datagram.payload);
-  const auto packet = hdl64e::Hdl64ePacketView::of(datagram.payload);
-  if (packet && packet->is_hdl64e()) {
-    sender.hdl64e_status.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+  const auto* packet = hdl64e::packet_in(datagram.payload);
+  if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
+    sender.hdl64e_status.add(packet->status_type, packet->status_value, packet->stamp_us.value());
   }
   newest_ns_ = datagram.stamp_ns;
   if (first_known_ns_ == 0 && !rotating().empty()) first_known_ns_ = newest_ns_;

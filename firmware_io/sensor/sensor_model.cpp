@@ -46,20 +46,20 @@ SensorModel product(std::uint8_t number) noexcept {
   }
 }
 
-SensorModel velodyne_model(const hdl64e::Hdl64ePacketView& packet) noexcept {
-  if (packet.is_hdl64e()) return SensorModel::kHdl64e;
+SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
+  if (hdl64e::is_hdl64e(packet)) return SensorModel::kHdl64e;
   int upper = 0;
   int lower = 0;
-  for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
-    upper += packet.block_id(block) == hdl64e::kUpperBlockId ? 1 : 0;
-    lower += packet.block_id(block) == hdl64e::kLowerBlockId ? 1 : 0;
+  for (const hdl64e::wire::Block& block : packet.blocks) {
+    upper += block.id.value() == hdl64e::kUpperBlockId ? 1 : 0;
+    lower += block.id.value() == hdl64e::kLowerBlockId ? 1 : 0;
   }
-  const std::uint8_t number = packet.status_value();
-  if (upper == hdl64e::kBlocksPerPacket) return product(number);
+  if (upper == hdl64e::kBlocksPerPacket) return product(packet.status_value);
   // The S1 sends about three upper blocks for each lower one and nothing else.
   if (upper + lower == hdl64e::kBlocksPerPacket && lower > 0) return SensorModel::kHdl64eS1;
   constexpr std::uint16_t kThirdVls128Block = 0xCCFF;
-  if (packet.block_id(1) == hdl64e::kLowerBlockId && packet.block_id(2) == kThirdVls128Block) {
+  if (packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
+      packet.blocks[2].id.value() == kThirdVls128Block) {
     return SensorModel::kVls128;
   }
   return SensorModel::kUnknown;
@@ -158,7 +158,7 @@ std::string_view to_string(SensorModel model) noexcept {
 }
 
 SensorModel recognise_sensor(Bytes payload) noexcept {
-  if (const auto packet = hdl64e::Hdl64ePacketView::of(payload)) return velodyne_model(*packet);
+  if (const auto* packet = hdl64e::packet_in(payload)) return velodyne_model(*packet);
   if (payload.size() == ruby128::kRubyPacketBytes) return robosense_model(payload);
   if (payload.size() == kPositionBytes) {
     // NMEA text at offset 206 where a GPS is connected, else zeros.

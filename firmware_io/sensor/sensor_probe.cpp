@@ -65,10 +65,10 @@ void SensorProbe::add(std::span<const std::uint8_t> payload) {
   if (model == SensorModel::kHdl64e) {
     if (!hdl64e::check_hdl64e_packet(payload, azimuths)) azimuths_[model].add(azimuths);
   } else if (model == SensorModel::kRuby128) {
-    const auto packet = ruby128::Ruby128PacketView::of(payload);
-    if (!packet || ruby128::check_ruby128_packet(payload, azimuths)) return;
-    const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp());
-    azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp(), encoding) / 1000;
+    const auto* packet = ruby128::packet_in(payload);
+    if (packet == nullptr || ruby128::check_ruby128_packet(payload, azimuths)) return;
+    const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp);
+    azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp, encoding) / 1000;
     azimuths_[model].add(azimuths);
   }
 }

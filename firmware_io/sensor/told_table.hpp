@@ -32,9 +32,9 @@ class ToldTable {
   /// Receiving thread. Nothing more is passed on once a table was told.
   void add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
     if (told_.load(std::memory_order_relaxed)) return;
-    const auto packet = hdl64e::Hdl64ePacketView::of(datagram.payload);
-    if (!packet || !packet->is_hdl64e()) return;
-    (void)heard_.try_push({packet->stamp_us(), packet->status_type(), packet->status_value()});
+    const auto* packet = hdl64e::packet_in(datagram.payload);
+    if (packet == nullptr || !hdl64e::is_hdl64e(*packet)) return;
+    (void)heard_.try_push({packet->stamp_us.value(), packet->status_type, packet->status_value});
   }
 
   /// What there is to be said, once; empty before and after, and where nothing differs. Any one

@@ -45,10 +45,10 @@ StreamSearch search_status_stream(PcapSource& source) {
     if (!next || !*next) break;
     const auto reject = hdl64e::check_hdl64e_packet((*next)->payload, azimuths);
     if (reject && *reject != frame::Reject::kStationary) continue;  // a standing head still talks
-    const auto packet = hdl64e::Hdl64ePacketView::of((*next)->payload);
-    if (!packet) continue;
+    const auto* packet = hdl64e::packet_in((*next)->payload);
+    if (packet == nullptr) continue;
     ++search.data_packets;
-    status.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+    status.add(packet->status_type, packet->status_value, packet->stamp_us.value());
   }
   search.holes = status.holes();
   if (!status.has_table()) return search;

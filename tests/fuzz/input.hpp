@@ -46,10 +46,13 @@ class Input {
   std::span<const std::uint8_t> bytes_;
 };
 
-/// Of a block's bytes, three a return: how many have a distance.
-[[nodiscard]] inline std::uint64_t returns_in(std::span<const std::uint8_t> block) {
+/// How many returns of a sensor's packet have a distance.
+template <class Packet>
+[[nodiscard]] std::uint64_t returns_in(const Packet& packet) {
   std::uint64_t sum = 0;
-  for (std::size_t at = 0; at < block.size(); at += 3) sum += (block[at] | block[at + 1]) != 0;
+  for (const auto& block : packet.blocks) {
+    for (const auto& beam : block.returns) sum += beam.distance.value() != 0 ? 1U : 0U;
+  }
   return sum;
 }
 

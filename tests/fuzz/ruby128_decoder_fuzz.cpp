@@ -22,12 +22,8 @@ using namespace terracut;
 constexpr int kMaxPackets = 4'000;
 
 std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-  const auto packet = ruby128::Ruby128PacketView::of(payload);
-  std::uint64_t sum = 0;
-  for (int block = 0; packet && block < ruby128::kRubyBlocksPerPacket; ++block) {
-    sum += fuzz::returns_in(packet->returns(block));
-  }
-  return sum;
+  const auto* packet = ruby128::packet_in(payload);
+  return packet == nullptr ? 0 : fuzz::returns_in(*packet);
 }
 
 /// A head whose azimuth, speed, clock and return mode the input changes at will.

@@ -116,9 +116,10 @@ TEST_F(RubyClocks, TemperatureIsTheReferences) {
     for (int low = 0; low < 256; ++low) {
       bytes_[8] = static_cast<std::uint8_t>(high);
       bytes_[9] = static_cast<std::uint8_t>(low);
-      const auto view = ruby128::Ruby128PacketView::of(bytes_);
-      ASSERT_TRUE(view);
-      ASSERT_EQ(view->temperature_deg_c(), ruby128_temperature_c(bytes_));
+      const auto* packet = ruby128::packet_in(bytes_);
+      ASSERT_NE(packet, nullptr);
+      ASSERT_EQ(ruby128::ruby_temperature_deg_c(packet->temperature.value()),
+                ruby128_temperature_c(bytes_));
     }
   }
 }

@@ -12,9 +12,9 @@ namespace {
 TEST(Hdl64ePacket, IsViewedOnlyAtItsExactSize) {
   const std::vector<std::uint8_t> bytes(1248);
   for (const std::size_t size : {0U, 1U, 512U, 1205U, 1207U, 1248U}) {
-    EXPECT_FALSE(Hdl64ePacketView::of(std::span(bytes).first(size)));
+    EXPECT_EQ(packet_in(std::span(bytes).first(size)), nullptr);
   }
-  EXPECT_TRUE(Hdl64ePacketView::of(std::span(bytes).first(1206)));
+  EXPECT_NE(packet_in(std::span(bytes).first(1206)), nullptr);
 }
 
 TEST(Hdl64ePacket, HasItsFieldsAtTheirOffsetsInLittleEndian) {
@@ -26,16 +26,15 @@ TEST(Hdl64ePacket, HasItsFieldsAtTheirOffsetsInLittleEndian) {
   put(1100 + 4 + 3 * 31, {0x10, 0x27, 0xC8});       // laser 31: 20.000 m, 200
   put(1200, {0xFF, 0xA3, 0x93, 0xD6, 0x57, 0xA1});  // 3 599 999 999 us, 'W', 0xA1
   // One byte off any alignment.
-  const auto view = Hdl64ePacketView::of(std::span<const std::uint8_t>(bytes).subspan(1));
-  ASSERT_TRUE(view);
-  EXPECT_EQ(view->block_id(11), kLowerBlockId);
-  EXPECT_EQ(view->azimuth_cdeg(11), 35999);
-  EXPECT_EQ(view->returns(11)[93], 0x10);
-  EXPECT_EQ(view->returns(11)[94], 0x27);
-  EXPECT_EQ(view->returns(11)[95], 200);
-  EXPECT_EQ(view->stamp_us(), 3'599'999'999U);
-  EXPECT_EQ(view->status_type(), 'W');
-  EXPECT_EQ(view->status_value(), 0xA1);
+  const auto* read = packet_in(std::span<const std::uint8_t>(bytes).subspan(1));
+  ASSERT_NE(read, nullptr);
+  EXPECT_EQ(read->blocks[11].id.value(), kLowerBlockId);
+  EXPECT_EQ(read->blocks[11].azimuth_cdeg.value(), 35999);
+  EXPECT_EQ(read->blocks[11].returns[31].distance.value(), 10000);
+  EXPECT_EQ(read->blocks[11].returns[31].intensity, 200);
+  EXPECT_EQ(read->stamp_us.value(), 3'599'999'999U);
+  EXPECT_EQ(read->status_type, 'W');
+  EXPECT_EQ(read->status_value, 0xA1);
 }
 
 TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
@@ -49,24 +48,23 @@ TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
   }
   packet.set_stamp_us(0xD693A3FE);
   packet.set_status('T', 41);
-  const auto view = Hdl64ePacketView::of(packet.payload());
-  ASSERT_TRUE(view);
-  EXPECT_TRUE(view->is_hdl64e());
-  for (int block = 0; block < kBlocksPerPacket; ++block) {
-    EXPECT_EQ(view->block_id(block), block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
-    EXPECT_EQ(view->azimuth_cdeg(block), 35'000 + block);
-    const auto returns = view->returns(block);
-    for (std::size_t laser = 0; laser < kLasersPerBlock; ++laser) {
-      EXPECT_EQ(returns[3 * laser] | returns[3 * laser + 1] << 8,
-                block * 2048 + static_cast<int>(laser));
-      EXPECT_EQ(returns[3 * laser + 2], laser);
+  const auto* read = packet_in(packet.payload());
+  ASSERT_NE(read, nullptr);
+  EXPECT_TRUE(is_hdl64e(*read));
+  for (std::size_t number = 0; number < read->blocks.size(); ++number) {
+    const wire::Block& block = read->blocks[number];
+    EXPECT_EQ(block.id.value(), number % 2 == 0 ? kUpperBlockId : kLowerBlockId);
+    EXPECT_EQ(block.azimuth_cdeg.value(), 35'000 + number);
+    for (std::size_t laser = 0; laser < block.returns.size(); ++laser) {
+      EXPECT_EQ(block.returns[laser].distance.value(), number * 2048 + laser);
+      EXPECT_EQ(block.returns[laser].intensity, laser);
     }
   }
-  EXPECT_EQ(view->stamp_us(), 0xD693A3FEU);
-  EXPECT_EQ(view->status_type(), 'T');
-  EXPECT_EQ(view->status_value(), 41);
+  EXPECT_EQ(read->stamp_us.value(), 0xD693A3FEU);
+  EXPECT_EQ(read->status_type, 'T');
+  EXPECT_EQ(read->status_value, 41);
   packet.set_block_id(1, kUpperBlockId);
-  EXPECT_FALSE(Hdl64ePacketView::of(packet.payload())->is_hdl64e());
+  EXPECT_FALSE(is_hdl64e(*packet_in(packet.payload())));
 }
 
 TEST(Hdl64ePacket, FiringTimesFollowTheMakersTables) {

@@ -14,7 +14,6 @@ namespace terracut::test {
 namespace {
 
 using hdl64e::Hdl64ePacketBuffer;
-using hdl64e::Hdl64ePacketView;
 using net::DeviceStampShift;
 using ruby128::RubyTimestamp;
 
@@ -31,7 +30,7 @@ std::vector<std::uint8_t> hdl64e_packet(std::uint32_t stamp_us) {
 std::uint32_t shifted_us(std::uint32_t stamp_us, std::int64_t shift_ns) {
   auto packet = hdl64e_packet(stamp_us);
   EXPECT_TRUE(DeviceStampShift()(packet, shift_ns));
-  return Hdl64ePacketView::of(packet)->stamp_us();
+  return hdl64e::packet_in(packet)->stamp_us.value();
 }
 
 TEST(DeviceStampShift, MovesTheClockOfAnHdl64e) {

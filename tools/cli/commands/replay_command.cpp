@@ -151,8 +151,8 @@ class Replay {
     take_frames();
     if (pipeline_.rejected()) return;
     clock_of_device_.note(pipeline_.decoder(), datagram.stamp_ns);
-    if (const auto packet = hdl64e::Hdl64ePacketView::of(datagram.payload)) {
-      status_.add(packet->status_type(), packet->status_value(), packet->stamp_us());
+    if (const auto* packet = hdl64e::packet_in(datagram.payload)) {
+      status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
     }
   }
 

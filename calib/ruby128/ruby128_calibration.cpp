@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
-#include <optional>
 #include <string_view>
 
 #include "calib/beams/angle.hpp"
@@ -34,23 +33,6 @@ constexpr Span kHighestSpan{14'000, 16'000};   // 15
 constexpr Span kElevationSpan{kLowestSpan.low_mdeg, kHighestSpan.high_mdeg};
 constexpr Span kOffsetSpan{-10'000, 10'000};     // -5.95 .. 5.95
 constexpr std::int64_t kMinSpread_mdeg = 5'000;  // 11.9
-
-enum class Fault : std::uint8_t {
-  kRubyPlus,
-  kElevation,
-  kOffset,
-  kLowest,
-  kHighest,
-  kTwins,
-  kSpread,
-  kMonotonous,
-};
-
-/// What is wrong, with one or two channels, [0, 128), that show it.
-struct Finding {
-  Fault fault;
-  int channel = 0, other = 0;
-};
 
 const Ruby128Channel& at(const Channels& channels, int channel) noexcept {
   return channels[static_cast<std::size_t>(channel)];
@@ -95,55 +77,6 @@ bool is_ruby_plus(const Channels& channels) noexcept {
   return true;
 }
 
-std::optional<Finding> check_rows(const Channels& channels) noexcept {
-  const auto rows = rows_of(channels);
-  const auto order = beams::order_of_rows(rows);
-  const int lowest = order.front(), highest = order.back();
-  if (!kLowestSpan.contains(elevation_mdeg(channels, lowest))) {
-    return Finding{Fault::kLowest, lowest, highest};
-  }
-  if (!kHighestSpan.contains(elevation_mdeg(channels, highest))) {
-    return Finding{Fault::kHighest, highest, lowest};
-  }
-  for (std::size_t row = 1; row < order.size(); ++row) {
-    const int below = order[row - 1], above = order[row];
-    if (angle_cdeg(at(channels, below).elevation_rad) ==
-        angle_cdeg(at(channels, above).elevation_rad)) {
-      return Finding{Fault::kTwins, std::min(below, above), std::max(below, above)};
-    }
-  }
-  if (std::is_sorted(rows.begin(), rows.end()) || std::is_sorted(rows.rbegin(), rows.rend())) {
-    return Finding{Fault::kMonotonous};
-  }
-  return std::nullopt;
-}
-
-std::optional<Finding> check_offsets(const Channels& channels) noexcept {
-  int least = 0, most = 0;
-  for (int channel = 1; channel < kRuby128Lasers; ++channel) {
-    if (offset_mdeg(channels, channel) < offset_mdeg(channels, least)) least = channel;
-    if (offset_mdeg(channels, channel) > offset_mdeg(channels, most)) most = channel;
-  }
-  if (offset_mdeg(channels, most) - offset_mdeg(channels, least) >= kMinSpread_mdeg) {
-    return std::nullopt;
-  }
-  return Finding{Fault::kSpread, least, most};
-}
-
-/// The first thing that speaks against the table.
-std::optional<Finding> first_finding(const Channels& channels) noexcept {
-  if (is_ruby_plus(channels)) return Finding{Fault::kRubyPlus};
-  for (int channel = 0; channel < kRuby128Lasers; ++channel) {
-    if (!kElevationSpan.contains(elevation_mdeg(channels, channel))) {
-      return Finding{Fault::kElevation, channel};
-    }
-    if (!kOffsetSpan.contains(offset_mdeg(channels, channel)))
-      return Finding{Fault::kOffset, channel};
-  }
-  if (const auto finding = check_rows(channels)) return finding;
-  return check_offsets(channels);
-}
-
 std::string outside(int channel, std::string_view what, double rad, Span span,
                     std::string_view hint) {
   return fmt::format("channel {} of 128: {} is {:.6g} deg, expected {:g} to {:g} deg{}",
@@ -171,45 +104,66 @@ std::string_view hint_for_view(const Channels& channels, int one_end, int other_
   return "";
 }
 
-std::string describe(const Finding& finding, const Channels& channels) {
-  const Ruby128Channel& channel = at(channels, finding.channel);
-  switch (finding.fault) {
-    case Fault::kRubyPlus:
-      return "this is the table of an RS-Ruby Plus, whose firing times and lens differ too; "
-             "expected "
-             "an RS-Ruby128";
-    case Fault::kElevation:
-      return outside(finding.channel, "elevation", channel.elevation_rad, kElevationSpan,
+/// In these functions the result is what speaks against the table; empty where nothing does.
+std::string check_channels(const Channels& channels) {
+  for (int number = 0; number < kRuby128Lasers; ++number) {
+    const Ruby128Channel& channel = at(channels, number);
+    if (!kElevationSpan.contains(angle_mdeg(channel.elevation_rad))) {
+      return outside(number, "elevation", channel.elevation_rad, kElevationSpan,
                      hint_for_elevation(channel.elevation_rad));
-    case Fault::kOffset:
-      return outside(finding.channel, "azimuth offset", channel.azimuth_offset_rad, kOffsetSpan,
+    }
+    if (!kOffsetSpan.contains(angle_mdeg(channel.azimuth_offset_rad))) {
+      return outside(number, "azimuth offset", channel.azimuth_offset_rad, kOffsetSpan,
                      hint_for_offset(channel.azimuth_offset_rad));
-    case Fault::kLowest:
-      return outside(finding.channel, "the lowest elevation of all", channel.elevation_rad,
-                     kLowestSpan, hint_for_view(channels, finding.channel, finding.other));
-    case Fault::kHighest:
-      return outside(finding.channel, "the highest elevation of all", channel.elevation_rad,
-                     kHighestSpan, hint_for_view(channels, finding.channel, finding.other));
-    case Fault::kTwins:
-      return fmt::format(
-          "channels {} and {} have the same elevation {:.3f} deg, expected 128 distinct ones (in "
-          "hundredths of a degree)",
-          finding.channel + 1, finding.other + 1, beams::rad_to_deg(channel.elevation_rad));
-    case Fault::kSpread:
-      return fmt::format(
-          "all azimuth offsets lie between {:.3f} deg (channel {}) and {:.3f} deg (channel {}), "
-          "expected some 12 deg from the least to the greatest",
-          beams::rad_to_deg(channel.azimuth_offset_rad), finding.channel + 1,
-          beams::rad_to_deg(at(channels, finding.other).azimuth_offset_rad), finding.other + 1);
-    case Fault::kMonotonous:
-      return fmt::format(
-          "elevations run in order from {:.3f} deg (channel 1) to {:.3f} deg (channel 128); this "
-          "looks like a sorted table, expected the order of channels on the wire, which is not "
-          "that of elevations",
-          beams::rad_to_deg(channels.front().elevation_rad),
-          beams::rad_to_deg(channels.back().elevation_rad));
+    }
   }
   return {};
+}
+
+std::string check_rows(const Channels& channels) {
+  const auto rows = rows_of(channels);
+  const auto order = beams::order_of_rows(rows);
+  const int lowest = order.front(), highest = order.back();
+  if (!kLowestSpan.contains(elevation_mdeg(channels, lowest))) {
+    return outside(lowest, "the lowest elevation of all", at(channels, lowest).elevation_rad,
+                   kLowestSpan, hint_for_view(channels, lowest, highest));
+  }
+  if (!kHighestSpan.contains(elevation_mdeg(channels, highest))) {
+    return outside(highest, "the highest elevation of all", at(channels, highest).elevation_rad,
+                   kHighestSpan, hint_for_view(channels, highest, lowest));
+  }
+  for (std::size_t row = 1; row < order.size(); ++row) {
+    const auto [first, second] = std::minmax(order[row - 1], order[row]);
+    const double elevation_rad = at(channels, first).elevation_rad;
+    if (angle_cdeg(elevation_rad) != angle_cdeg(at(channels, second).elevation_rad)) continue;
+    return fmt::format(
+        "channels {} and {} have the same elevation {:.3f} deg, expected 128 distinct ones (in "
+        "hundredths of a degree)",
+        first + 1, second + 1, beams::rad_to_deg(elevation_rad));
+  }
+  if (std::is_sorted(rows.begin(), rows.end()) || std::is_sorted(rows.rbegin(), rows.rend())) {
+    return fmt::format(
+        "elevations run in order from {:.3f} deg (channel 1) to {:.3f} deg (channel 128); this "
+        "looks like a sorted table, expected the order of channels on the wire, which is not "
+        "that of elevations",
+        beams::rad_to_deg(channels.front().elevation_rad),
+        beams::rad_to_deg(channels.back().elevation_rad));
+  }
+  return {};
+}
+
+std::string check_offsets(const Channels& channels) {
+  int least = 0, most = 0;
+  for (int channel = 1; channel < kRuby128Lasers; ++channel) {
+    if (offset_mdeg(channels, channel) < offset_mdeg(channels, least)) least = channel;
+    if (offset_mdeg(channels, channel) > offset_mdeg(channels, most)) most = channel;
+  }
+  if (offset_mdeg(channels, most) - offset_mdeg(channels, least) >= kMinSpread_mdeg) return {};
+  return fmt::format(
+      "all azimuth offsets lie between {:.3f} deg (channel {}) and {:.3f} deg (channel {}), "
+      "expected some 12 deg from the least to the greatest",
+      beams::rad_to_deg(at(channels, least).azimuth_offset_rad), least + 1,
+      beams::rad_to_deg(at(channels, most).azimuth_offset_rad), most + 1);
 }
 
 }  // namespace
@@ -225,16 +179,23 @@ std::int64_t angle_cdeg(double rad) noexcept {
 }
 
 Status validate(const Ruby128Calibration& calibration) {
-  const auto finding = first_finding(calibration.channels);
-  if (!finding) return {};
-  return fail(
-      finding->fault == Fault::kRubyPlus ? ErrorCode::kUnsupported : ErrorCode::kMalformed,
-      fmt::format("RS-Ruby128 calibration{}{}: {}", calibration.origin.empty() ? "" : " from ",
-                  calibration.origin, describe(*finding, calibration.channels)));
-}
-
-bool is_plausible(const Channels& channels) noexcept {
-  return !first_finding(channels).has_value();
+  const Channels& channels = calibration.channels;
+  const auto refuse = [&](ErrorCode code, std::string_view what) {
+    return fail(code,
+                fmt::format("RS-Ruby128 calibration{}{}: {}",
+                            calibration.origin.empty() ? "" : " from ", calibration.origin, what));
+  };
+  if (is_ruby_plus(channels)) {
+    return refuse(ErrorCode::kUnsupported,
+                  "this is the table of an RS-Ruby Plus, whose firing times and lens differ too; "
+                  "expected an RS-Ruby128");
+  }
+  for (const auto check : {check_channels, check_rows, check_offsets}) {
+    if (const std::string what = check(channels); !what.empty()) {
+      return refuse(ErrorCode::kMalformed, what);
+    }
+  }
+  return {};
 }
 
 std::uint64_t fingerprint(const Ruby128Calibration& calibration) {

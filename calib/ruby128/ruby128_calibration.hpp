@@ -45,10 +45,6 @@ struct Ruby128Calibration {
 /// all that.
 [[nodiscard]] Status validate(const Ruby128Calibration& calibration);
 
-/// The same without a reason: no allocation, a few tens of microseconds.
-[[nodiscard]] bool is_plausible(
-    const std::array<Ruby128Channel, kRuby128Lasers>& channels) noexcept;
-
 /// A 64-bit fingerprint of all angles (not of the origin), rounded by angle_cdeg(), so that the
 /// same table gives the same hash from a file and from DIFOP.
 [[nodiscard]] std::uint64_t fingerprint(const Ruby128Calibration& calibration);

@@ -95,12 +95,6 @@ Status check_signs(const ruby128_wire::Difop& difop) {
 
 }  // namespace
 
-bool has_plausible_angles(const ruby128_wire::Difop& difop) noexcept {
-  // An unset sign is an odd one, and elevations that are all zero do not make a plausible table.
-  return !first_with_odd_sign(difop.elevations) && !first_with_odd_sign(difop.azimuth_offsets) &&
-         is_plausible(channels_of(difop));
-}
-
 Expected<Ruby128Calibration> calibration_of(const ruby128_wire::Difop& difop) {
   if (const Status status = check_signs(difop); !status) return tl::unexpected(status.error());
   Ruby128Calibration calibration;

@@ -8,9 +8,6 @@
 
 namespace terracut::ruby128 {
 
-/// calibration_of() would have one. No allocation, a few tens of microseconds.
-[[nodiscard]] bool has_plausible_angles(const ruby128_wire::Difop& difop) noexcept;
-
 /// The unit's calibration out of its DIFOP, exactly the hundredths of a degree that stand there, or
 /// why there is none: kNoCalibration for angles that were never written into the unit (a sign is
 /// 0xFF, or all elevations are zero), kMalformed or kUnsupported (a Ruby Plus) for implausible

@@ -15,7 +15,7 @@ bool same_angles(const ruby128::ruby128_wire::Difop& a,
 
 }  // namespace
 
-bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) noexcept {
+bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) {
   const std::optional<ruby128::ruby128_wire::Difop> difop = ruby128::read_difop(payload);
   if (!difop) return false;
   ++counters_.packets;
@@ -25,16 +25,8 @@ bool Ruby128DeviceReader::add(std::span<const std::uint8_t> payload) noexcept {
     if (newest_->serial != difop->serial) ++counters_.serial_changes;
   }
   newest_ = difop;
-  if (!calibrated_ && new_angles && ruby128::has_plausible_angles(*difop)) calibrated_ = difop;
+  if (new_angles && !has_calibration()) calibration_ = ruby128::calibration_of(*difop);
   return true;
-}
-
-Expected<ruby128::Ruby128Calibration> Ruby128DeviceReader::calibration() const {
-  if (calibrated_) return ruby128::calibration_of(*calibrated_);
-  if (newest_) return ruby128::calibration_of(*newest_);
-  return fail(ErrorCode::kNoCalibration,
-              "no DIFOP packet has come; they come about once a second, by factory setting to UDP "
-              "port 7788");
 }
 
 }  // namespace terracut::sensor

@@ -23,13 +23,11 @@ struct Ruby128DeviceCounters {
 /// plausible. Later angles are counted, never taken: a calibration must not change under a running
 /// decoder.
 ///
-/// One thread at a time. add() is real-time safe: no allocation, lock or exception; well below a
-/// microsecond, and a few tens in a packet whose angles differ from the one before. calibration()
-/// is for start and reports; it allocates.
+/// One thread at a time. For start and reports: add() may allocate.
 class Ruby128DeviceReader {
  public:
   /// False for what is no DIFOP.
-  bool add(std::span<const std::uint8_t> payload) noexcept;
+  bool add(std::span<const std::uint8_t> payload);
 
   [[nodiscard]] const Ruby128DeviceCounters& counters() const noexcept { return counters_; }
 
@@ -38,14 +36,20 @@ class Ruby128DeviceReader {
     return newest_;
   }
 
-  [[nodiscard]] bool has_calibration() const noexcept { return calibrated_.has_value(); }
+  [[nodiscard]] bool has_calibration() const noexcept { return calibration_.has_value(); }
   /// The first plausible angles. While there are none: kNoCalibration when no packet has come, else
   /// what calibration_of() says of the newest.
-  [[nodiscard]] Expected<ruby128::Ruby128Calibration> calibration() const;
+  [[nodiscard]] const Expected<ruby128::Ruby128Calibration>& calibration() const noexcept {
+    return calibration_;
+  }
 
  private:
   Ruby128DeviceCounters counters_;
-  std::optional<ruby128::ruby128_wire::Difop> newest_, calibrated_;
+  std::optional<ruby128::ruby128_wire::Difop> newest_;
+  Expected<ruby128::Ruby128Calibration> calibration_ =
+      fail(ErrorCode::kNoCalibration,
+           "no DIFOP packet has come; they come about once a second, by factory setting to UDP "
+           "port 7788");
 };
 
 }  // namespace terracut::sensor

@@ -9,7 +9,6 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
-#include "tests/support/allocation_counter.hpp"
 
 namespace terracut::sensor {
 namespace {
@@ -111,20 +110,6 @@ TEST(Ruby128DeviceReader, WaitsForAnglesAndSaysWhyThereAreNone) {
   reader.add(ruby128::payload_of(unset));
   EXPECT_TRUE(reader.has_calibration());
   EXPECT_NEAR(lowest_deg(reader), -25.0, 1e-9);
-}
-
-TEST(Ruby128DeviceReader, AddsPacketsWithoutAllocating) {
-  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer brings its own allocator";
-  Ruby128DeviceReader reader;
-  Difop implausible = difop_of_unit(3);
-  implausible.elevations[0].sign = 9;
-  const Difop packets[] = {ruby128::blank_difop(), implausible, difop_of_unit(1),
-                           difop_of_unit(2, 0.2)};
-  const std::uint64_t before = test::allocations_of_this_thread();
-  for (const Difop& difop : packets) reader.add(ruby128::payload_of(difop));
-  reader.add({});
-  EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
-  EXPECT_TRUE(reader.has_calibration());
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include "firmware_io/decode/decoder.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -19,9 +20,13 @@ Decoder::Model Decoder::model_of(const calib::SensorCalibration& calibration,
             .packet_bytes = Sensor::kPacketBytes,
             .clock_wrap_us = Sensor::kClockWrap_us};
   };
-  return std::holds_alternative<hdl64e::Hdl64eCalibration>(calibration)
-             ? model(std::type_identity<hdl64e::Hdl64eSensor>{})
-             : model(std::type_identity<ruby128::Ruby128Sensor>{});
+  const Model found = std::holds_alternative<hdl64e::Hdl64eCalibration>(calibration)
+                          ? model(std::type_identity<hdl64e::Hdl64eSensor>{})
+                          : model(std::type_identity<ruby128::Ruby128Sensor>{});
+  if (found.columns < 16 || found.columns > beams::kRevolution_cdeg) {
+    throw std::invalid_argument("Decoder: columns per frame must be in [16, 36000]");
+  }
+  return found;
 }
 
 Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibration,

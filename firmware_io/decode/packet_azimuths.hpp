@@ -20,6 +20,15 @@ inline constexpr double kRadPerTick = beams::deg_to_rad(1e-5);
 /// model's by more than this part of it is one of its.
 inline constexpr std::int32_t kPeriodTolerance = 8;
 
+/// Time from one stamp of a device clock that counts [0, wrap_us) to another, the short way round:
+/// [-wrap_us / 2, wrap_us / 2).
+[[nodiscard]] constexpr std::int64_t clock_step_us(std::int64_t from_us, std::int64_t to_us,
+                                                   std::int64_t wrap_us) noexcept {
+  const std::int64_t step_us = (to_us - from_us) % wrap_us;
+  if (step_us >= wrap_us / 2) return step_us - wrap_us;
+  return step_us < -(wrap_us / 2) ? step_us + wrap_us : step_us;
+}
+
 /// Where the head stood, and when, in one data packet of a spinning sensor: all that ordering
 /// packets and cutting frames needs to know of it. Made by a sensor trait, which vouches for it:
 /// azimuths in range, advancing, and not those of a head that stands still.

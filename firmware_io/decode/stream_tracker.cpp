@@ -51,14 +51,6 @@ bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
 StreamTracker::StreamTracker(std::int64_t clock_wrap_us, memory::FixedMemory& memory)
     : clock_wrap_us_(clock_wrap_us), seen_(memory.take<Seen>("stream tracker", kSeenSlots)) {}
 
-std::int64_t StreamTracker::device_step_us(std::int64_t from_us,
-                                           std::int64_t to_us) const noexcept {
-  std::int64_t step = (to_us - from_us) % clock_wrap_us_;
-  if (step >= clock_wrap_us_ / 2) step -= clock_wrap_us_;
-  if (step < -(clock_wrap_us_ / 2)) step += clock_wrap_us_;
-  return step;
-}
-
 StreamTracker::Seen StreamTracker::seen(const PacketAzimuths& azimuths) noexcept {
   return {static_cast<std::uint32_t>(azimuths.device_stamp_us),
           static_cast<std::uint16_t>(azimuths.first_cdeg()),

@@ -107,7 +107,9 @@ class StreamTracker {
   static constexpr std::size_t kPeriodSamples = 15;
 
   [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us,
-                                            std::int64_t to_us) const noexcept;
+                                            std::int64_t to_us) const noexcept {
+    return clock_step_us(from_us, to_us, clock_wrap_us_);
+  }
   [[nodiscard]] static Seen seen(const PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] static std::size_t slot_of(const PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] bool is_repeat(const PacketAzimuths& azimuths) const noexcept;

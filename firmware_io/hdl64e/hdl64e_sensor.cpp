@@ -2,25 +2,12 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 
-#include <algorithm>
-#include <stdexcept>
-
 namespace terracut::hdl64e {
-namespace {
-
-int checked_columns(int columns) {
-  if (columns < 16 || columns > beams::kRevolution_cdeg) {
-    throw std::invalid_argument("HDL-64E: columns per frame must be in [16, 36000]");
-  }
-  return columns;
-}
-
-}  // namespace
 
 Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount,
                            const Config& config, int columns, memory::FixedMemory& memory)
     : offsets_(calibration),
-      kernel_(calibration, config.geometry, mount, checked_columns(columns), memory),
+      kernel_(calibration, config.geometry, mount, columns, memory),
       rows_(rows_by_elevation(calibration)) {}
 
 void Hdl64eSensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcept {

@@ -37,7 +37,7 @@ class Hdl64eSensor {
   static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a frame, 48 us each.
   static constexpr int kDefaultReturnsPerCell = 2;
 
-  /// columns: in [16, 36000], else std::invalid_argument.
+  /// columns: in [16, 36000].
   Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
                int columns, memory::FixedMemory& memory);
 

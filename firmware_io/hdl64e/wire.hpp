@@ -9,6 +9,8 @@
 #include <span>
 #include <type_traits>
 
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/wire_integer.hpp"
 #include "firmware_io/hdl64e/firing_times.hpp"
 
 /// The data packet of the HDL-64E (S2, S2.1, S3) as it lies in the UDP payload; little endian
@@ -35,45 +37,20 @@ inline constexpr std::uint32_t kDeviceHour_us = 3'600'000'000U;
 
 namespace wire {
 
-/// Little-endian integers made of bytes: alignment 1, so the structs below have no padding and may
-/// be copied to and from any address.
-struct U16 {
-  std::array<std::uint8_t, 2> bytes;
-  [[nodiscard]] constexpr std::uint16_t value() const noexcept {
-    return static_cast<std::uint16_t>(bytes[0] | (bytes[1] << 8));
-  }
-  [[nodiscard]] static constexpr U16 of(std::uint16_t value) noexcept {
-    return {{static_cast<std::uint8_t>(value & 0xFF), static_cast<std::uint8_t>(value >> 8)}};
-  }
-};
-
-struct U32 {
-  std::array<std::uint8_t, 4> bytes;
-  [[nodiscard]] constexpr std::uint32_t value() const noexcept {
-    return std::uint32_t{bytes[0]} | std::uint32_t{bytes[1]} << 8 | std::uint32_t{bytes[2]} << 16 |
-           std::uint32_t{bytes[3]} << 24;
-  }
-  [[nodiscard]] static constexpr U32 of(std::uint32_t value) noexcept {
-    return {{static_cast<std::uint8_t>(value & 0xFF), static_cast<std::uint8_t>(value >> 8 & 0xFF),
-             static_cast<std::uint8_t>(value >> 16 & 0xFF),
-             static_cast<std::uint8_t>(value >> 24)}};
-  }
-};
-
 struct Return {
-  U16 distance;            ///< Counts of 2 mm; 0 = no return.
+  decode::Le16 distance;   ///< Counts of 2 mm; 0 = no return.
   std::uint8_t intensity;  ///< Uncorrected.
 };
 
 struct Block {
-  U16 id;            ///< kUpperBlockId or kLowerBlockId.
-  U16 azimuth_cdeg;  ///< 0..35999, clockwise seen from above.
+  decode::Le16 id;            ///< kUpperBlockId or kLowerBlockId.
+  decode::Le16 azimuth_cdeg;  ///< 0..35999, clockwise seen from above.
   std::array<Return, kLasersPerBlock> returns;
 };
 
 struct Packet {
   std::array<Block, kBlocksPerPacket> blocks;
-  U32 stamp_us;              ///< Device clock at the end of the packet (see firing_times.hpp).
+  decode::Le32 stamp_us;     ///< Device clock at the end of the packet (see firing_times.hpp).
   std::uint8_t status_type;  ///< The status stream: one (type, value) pair a packet.
   std::uint8_t status_value;
 };
@@ -117,18 +94,20 @@ class Hdl64ePacketBuffer {
   void clear() noexcept {
     packet_ = wire::Packet{};
     for (std::size_t block = 0; block < packet_.blocks.size(); ++block) {
-      packet_.blocks[block].id = wire::U16::of(block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
+      packet_.blocks[block].id = decode::Le16::of(block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
     }
   }
-  void set_block_id(int block, std::uint16_t id) noexcept { at(block).id = wire::U16::of(id); }
+  void set_block_id(int block, std::uint16_t id) noexcept { at(block).id = decode::Le16::of(id); }
   void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
-    at(block).azimuth_cdeg = wire::U16::of(azimuth_cdeg);
+    at(block).azimuth_cdeg = decode::Le16::of(azimuth_cdeg);
   }
   void set_return(int block, int laser, std::uint16_t distance, std::uint8_t intensity) noexcept {
     assert(laser >= 0 && laser < kLasersPerBlock);
-    at(block).returns[static_cast<std::size_t>(laser)] = {wire::U16::of(distance), intensity};
+    at(block).returns[static_cast<std::size_t>(laser)] = {decode::Le16::of(distance), intensity};
   }
-  void set_stamp_us(std::uint32_t stamp_us) noexcept { packet_.stamp_us = wire::U32::of(stamp_us); }
+  void set_stamp_us(std::uint32_t stamp_us) noexcept {
+    packet_.stamp_us = decode::Le32::of(stamp_us);
+  }
   void set_status(std::uint8_t type, std::uint8_t value) noexcept {
     packet_.status_type = type;
     packet_.status_value = value;
@@ -154,14 +133,7 @@ class Hdl64ePacketBuffer {
 /// Device time from `earlier_us` to `later_us` the short way round the hour: [-30 min, 30 min).
 [[nodiscard]] constexpr std::int64_t device_step_us(std::uint32_t earlier_us,
                                                     std::uint32_t later_us) noexcept {
-  constexpr std::int64_t kHour = kDeviceHour_us;
-  std::int64_t step = (std::int64_t{later_us} - std::int64_t{earlier_us}) % kHour;
-  if (step >= kHour / 2) {
-    step -= kHour;
-  } else if (step < -kHour / 2) {
-    step += kHour;
-  }
-  return step;
+  return decode::clock_step_us(earlier_us, later_us, kDeviceHour_us);
 }
 static_assert(device_step_us(kDeviceHour_us - 88, 200) == 288);
 static_assert(device_step_us(200, kDeviceHour_us - 88) == -288);

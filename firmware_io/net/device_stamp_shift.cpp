@@ -29,8 +29,7 @@ void shift_hdl64e(std::span<std::uint8_t> payload, const hdl64e::wire::Packet& p
       (std::int64_t{packet.stamp_us.value()} + rounded_us(shift_ns)) % kHour_us;
   const auto stamp_us =
       static_cast<std::uint32_t>(shifted_us < 0 ? shifted_us + kHour_us : shifted_us);
-  write_at(payload, offsetof(hdl64e::wire::Packet, stamp_us),
-           hdl64e::wire::U32::of(stamp_us).bytes);
+  write_at(payload, offsetof(hdl64e::wire::Packet, stamp_us), decode::Le32::of(stamp_us).bytes);
 }
 
 void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire::Packet& packet,

@@ -11,7 +11,7 @@
 #include <type_traits>
 
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "firmware_io/decode/big_endian.hpp"
+#include "firmware_io/decode/wire_integer.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 #include "rt/threads/nonblocking.hpp"
 

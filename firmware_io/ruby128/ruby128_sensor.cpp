@@ -3,20 +3,12 @@
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
 
 #include <algorithm>
-#include <stdexcept>
 
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::ruby128 {
 namespace {
-
-int checked_columns(int columns) {
-  if (columns < 16 || columns > beams::kRevolution_cdeg) {
-    throw std::invalid_argument("RS-Ruby128: columns per frame must be in [16, 36000]");
-  }
-  return columns;
-}
 
 std::array<std::int32_t, kRubyBlocksPerPacket> block_azimuths(
     const decode::PacketAzimuths& azimuths) noexcept {
@@ -29,7 +21,7 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount&
                              const Config& config, int columns, memory::FixedMemory& memory)
     : given_timestamp_(config.timestamp),
       offsets_(calibration),
-      kernel_(calibration, mount, checked_columns(columns), memory),
+      kernel_(calibration, mount, columns, memory),
       rows_(rows_by_elevation(calibration)) {}
 
 std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,

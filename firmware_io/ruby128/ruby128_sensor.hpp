@@ -41,7 +41,7 @@ class Ruby128Sensor {
   /// Dual return and the columns that two firings share: more than two for some cells.
   static constexpr int kDefaultReturnsPerCell = 3;
 
-  /// columns: in [16, 36000], else std::invalid_argument.
+  /// columns: in [16, 36000].
   Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
                 int columns, memory::FixedMemory& memory);
 

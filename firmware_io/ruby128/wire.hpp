@@ -9,7 +9,7 @@
 #include <span>
 #include <type_traits>
 
-#include "firmware_io/decode/big_endian.hpp"
+#include "firmware_io/decode/wire_integer.hpp"
 
 /// The data packet (MSOP) of the RS-Ruby128 as it lies in the UDP payload; big endian (RS-Ruby user
 /// manual v1.0; docs/reference/sensors.md). Nothing here allocates or throws; everything is

@@ -44,17 +44,11 @@ void StreamSurvey::add(const decode::PacketAzimuths& azimuths, bool rotating) {
   add_step(azimuths, rotating);
 }
 
-std::int64_t StreamSurvey::clock_step_us(std::int64_t from_us, std::int64_t to_us) const {
-  std::int64_t step_us = (to_us - from_us) % clock_wrap_us_;
-  if (step_us >= clock_wrap_us_ / 2) step_us -= clock_wrap_us_;
-  if (step_us < -(clock_wrap_us_ / 2)) step_us += clock_wrap_us_;
-  return step_us;
-}
-
 void StreamSurvey::add_step(const decode::PacketAzimuths& azimuths, bool rotating) {
   bool goes_on = false;
   if (newest_) {
-    const std::int64_t step_us = clock_step_us(newest_->device_stamp_us, azimuths.device_stamp_us);
+    const std::int64_t step_us =
+        decode::clock_step_us(newest_->device_stamp_us, azimuths.device_stamp_us, clock_wrap_us_);
     if (step_us == 0) {
       ++facts_.packets_repeated;
       return;
@@ -97,7 +91,8 @@ bool StreamSurvey::follow(const decode::PacketAzimuths& azimuths, std::int64_t s
   const double step_periods = static_cast<double>(step_us) / nominal_us;
   const double measured_us = step_periods > 2 ? period_us() : 0;
   const double one_us = measured_us > 0 ? measured_us : nominal_us;
-  const std::int64_t since_us = clock_step_us(seen_->stamp_us, azimuths.device_stamp_us);
+  const std::int64_t since_us =
+      decode::clock_step_us(seen_->stamp_us, azimuths.device_stamp_us, clock_wrap_us_);
   const auto expected_cdeg =
       seen_->rotor_cdeg + std::llround(static_cast<double>(since_us) / one_us *
                                        azimuths.pace_ticks / decode::kTicksPerCdeg);

@@ -61,7 +61,6 @@ class StreamSurvey {
 
   /// Device time and azimuth between two packets next to each other in the capture.
   void add_step(const decode::PacketAzimuths& azimuths, bool rotating);
-  [[nodiscard]] std::int64_t clock_step_us(std::int64_t from_us, std::int64_t to_us) const;
   /// A packet of a rotating head comes `step_us` after the one before. True where it tells by the
   /// azimuths what was lost between them.
   [[nodiscard]] bool follow(const decode::PacketAzimuths& azimuths, std::int64_t step_us);

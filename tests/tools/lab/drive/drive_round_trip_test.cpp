@@ -78,7 +78,7 @@ class DriveRoundTrip : public testing::Test {
     std::ifstream file(folder / "drive.truth" / name, std::ios::binary);
     EXPECT_TRUE(file) << name;
     std::vector<std::uint32_t> labels;
-    hdl64e::wire::U32 label{};
+    decode::Le32 label{};
     while (file.read(reinterpret_cast<char*>(label.bytes.data()), 4)) {
       labels.push_back(label.value());
     }

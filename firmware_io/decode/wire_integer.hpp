@@ -30,6 +30,8 @@ struct WireInteger {
     return written;
   }
 
+  constexpr WireInteger& operator=(Unsigned value) noexcept { return *this = of(value); }
+
  private:
   [[nodiscard]] static constexpr std::size_t shift(std::size_t i) noexcept {
     return 8 * (kOrder == std::endian::little ? i : sizeof(Unsigned) - 1 - i);

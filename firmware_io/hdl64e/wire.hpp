@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -85,48 +84,23 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 // --- Writing ---
 
-/// One packet being made; starts as 12 blocks without any return, at azimuth 0, with the block ids
-/// of the HDL-64E in place. `laser` is the index inside the block, 0..31.
-class Hdl64ePacketBuffer {
- public:
-  Hdl64ePacketBuffer() noexcept { clear(); }
+/// A packet to fill in: 12 blocks without any return, at azimuth 0, with the block ids of the
+/// HDL-64E in place.
+[[nodiscard]] constexpr wire::Packet blank_packet() noexcept {
+  wire::Packet packet{};
+  for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+    packet.blocks[block].id = block % 2 == 0 ? kUpperBlockId : kLowerBlockId;
+  }
+  return packet;
+}
 
-  void clear() noexcept {
-    packet_ = wire::Packet{};
-    for (std::size_t block = 0; block < packet_.blocks.size(); ++block) {
-      packet_.blocks[block].id = decode::Le16::of(block % 2 == 0 ? kUpperBlockId : kLowerBlockId);
-    }
-  }
-  void set_block_id(int block, std::uint16_t id) noexcept { at(block).id = decode::Le16::of(id); }
-  void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
-    at(block).azimuth_cdeg = decode::Le16::of(azimuth_cdeg);
-  }
-  void set_return(int block, int laser, std::uint16_t distance, std::uint8_t intensity) noexcept {
-    assert(laser >= 0 && laser < kLasersPerBlock);
-    at(block).returns[static_cast<std::size_t>(laser)] = {decode::Le16::of(distance), intensity};
-  }
-  void set_stamp_us(std::uint32_t stamp_us) noexcept {
-    packet_.stamp_us = decode::Le32::of(stamp_us);
-  }
-  void set_status(std::uint8_t type, std::uint8_t value) noexcept {
-    packet_.status_type = type;
-    packet_.status_value = value;
-  }
-
-  /// The payload to send; valid, and following later changes, as long as this object lives.
-  [[nodiscard]] std::span<const std::uint8_t, kHdl64ePacketBytes> payload() const noexcept {
-    return std::span<const std::uint8_t, kHdl64ePacketBytes>(
-        reinterpret_cast<const std::uint8_t*>(&packet_), kHdl64ePacketBytes);
-  }
-
- private:
-  [[nodiscard]] wire::Block& at(int block) noexcept {
-    assert(block >= 0 && block < kBlocksPerPacket);
-    return packet_.blocks[static_cast<std::size_t>(block)];
-  }
-
-  wire::Packet packet_;
-};
+/// The payload to send; valid, and following later changes, as long as `packet` lives.
+[[nodiscard]] inline std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(
+    const wire::Packet& packet) noexcept {
+  return std::span<const std::uint8_t, kHdl64ePacketBytes>(
+      reinterpret_cast<const std::uint8_t*>(&packet), kHdl64ePacketBytes);
+}
+std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(wire::Packet&&) = delete;
 
 // --- The device clock ---
 

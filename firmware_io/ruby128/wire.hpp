@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -102,48 +101,22 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
 
 // --- Writing ---
 
-/// One packet being made; starts as three blocks without any return, at azimuth 0, with magic and
-/// block ids in place. `channel` in [0, 128).
-class Ruby128PacketBuffer {
- public:
-  Ruby128PacketBuffer() noexcept { clear(); }
+/// A packet to fill in: three blocks without any return, at azimuth 0, with magic and block ids in
+/// place.
+[[nodiscard]] constexpr ruby128_wire::Packet blank_packet() noexcept {
+  ruby128_wire::Packet packet{};
+  packet.magic = kRubyMagic;
+  packet.wave_mode = kRubyFirstReturnBit;
+  for (ruby128_wire::Block& block : packet.blocks) block.id = kRubyBlockId;
+  return packet;
+}
 
-  void clear() noexcept {
-    packet_ = ruby128_wire::Packet{};
-    packet_.magic = kRubyMagic;
-    packet_.wave_mode = kRubyFirstReturnBit;
-    for (ruby128_wire::Block& block : packet_.blocks) block.id = kRubyBlockId;
-  }
-  void set_protocol_version(std::uint16_t version) noexcept {
-    packet_.protocol_version = decode::Be16::of(version);
-  }
-  void set_wave_mode(std::uint8_t mode) noexcept { packet_.wave_mode = mode; }
-  void set_temperature_deg_c(double temperature_deg_c) noexcept {
-    packet_.temperature = decode::Be16::of(ruby_temperature_field(temperature_deg_c));
-  }
-  void set_stamp(const std::array<std::uint8_t, 10>& stamp) noexcept { packet_.stamp = stamp; }
-  void set_azimuth_cdeg(int block, std::uint16_t azimuth_cdeg) noexcept {
-    at(block).azimuth_cdeg = decode::Be16::of(azimuth_cdeg);
-  }
-  void set_return_id(int block, std::uint8_t id) noexcept { at(block).return_id = id; }
-  void set_return(int block, int channel, std::uint16_t distance, std::uint8_t intensity) noexcept {
-    assert(channel >= 0 && channel < kRubyChannelsPerBlock);
-    at(block).returns[static_cast<std::size_t>(channel)] = {decode::Be16::of(distance), intensity};
-  }
-
-  /// The payload to send; valid, and following later changes, as long as this object lives.
-  [[nodiscard]] std::span<const std::uint8_t, kRubyPacketBytes> payload() const noexcept {
-    return std::span<const std::uint8_t, kRubyPacketBytes>(
-        reinterpret_cast<const std::uint8_t*>(&packet_), kRubyPacketBytes);
-  }
-
- private:
-  [[nodiscard]] ruby128_wire::Block& at(int block) noexcept {
-    assert(block >= 0 && block < kRubyBlocksPerPacket);
-    return packet_.blocks[static_cast<std::size_t>(block)];
-  }
-
-  ruby128_wire::Packet packet_;
-};
+/// The payload to send; valid, and following later changes, as long as `packet` lives.
+[[nodiscard]] inline std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
+    const ruby128_wire::Packet& packet) noexcept {
+  return std::span<const std::uint8_t, kRubyPacketBytes>(
+      reinterpret_cast<const std::uint8_t*>(&packet), kRubyPacketBytes);
+}
+std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Packet&&) = delete;
 
 }  // namespace terracut::ruby128

@@ -32,18 +32,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Input input({data, size});
   fuzz::DecoderRun<decode::Decoder, hdl64e::Hdl64eCalibration> run(hdl64e::nominal_hdl64e(),
                                                                    returns_in, 200.0F);
-  hdl64e::Hdl64ePacketBuffer packet;
+  hdl64e::wire::Packet packet = hdl64e::blank_packet();
   std::uint32_t azimuth_cdeg = input.next(2) % 36'000;
   std::uint32_t stamp_us = input.next(4);
   std::uint32_t step_cdeg = 17;
   const auto send = [&] {
-    for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
-      const auto column = static_cast<std::uint32_t>(block / 2);
-      packet.set_azimuth_cdeg(
-          block, static_cast<std::uint16_t>((azimuth_cdeg + column * step_cdeg) % 36'000));
+    for (std::uint32_t block = 0; block < packet.blocks.size(); ++block) {
+      packet.blocks[block].azimuth_cdeg =
+          static_cast<std::uint16_t>((azimuth_cdeg + block / 2 * step_cdeg) % 36'000);
     }
-    packet.set_stamp_us(stamp_us);
-    run.feed(packet.payload());
+    packet.stamp_us = stamp_us;
+    run.feed(hdl64e::payload_of(packet));
     azimuth_cdeg = (azimuth_cdeg + 6 * step_cdeg) % 36'000;
     stamp_us += 288;
     run.advance(288'000);
@@ -70,14 +69,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         step_cdeg = input.next(1) % 120;
         break;
       case 6: {  // one return
-        const auto where = static_cast<int>(input.next(2));
-        packet.set_return(where / 32 % 12, where % 32, static_cast<std::uint16_t>(input.next(2)),
-                          static_cast<std::uint8_t>(input.next(1)));
+        const std::uint32_t where = input.next(2);
+        auto& one = packet.blocks[where / 32 % 12].returns[where % 32];
+        one.distance = static_cast<std::uint16_t>(input.next(2));
+        one.intensity = static_cast<std::uint8_t>(input.next(1));
         break;
       }
       case 7: {  // a bent copy of the packet
         std::array<std::uint8_t, hdl64e::kHdl64ePacketBytes> bent{};
-        std::memcpy(bent.data(), packet.payload().data(), bent.size());
+        std::memcpy(bent.data(), hdl64e::payload_of(packet).data(), bent.size());
         for (std::uint32_t n = input.next(1) % 8; n > 0; --n) {
           bent[input.next(2) % bent.size()] = static_cast<std::uint8_t>(input.next(1));
         }

@@ -33,11 +33,11 @@ struct Hdl64e {
   static Bytes encode(const std::array<Column, kColumns>& columns, std::int64_t first_reading,
                       bool dual, int encoding) {
     (void)first_reading, (void)encoding;  // have no place in its packets
-    hdl64e::Hdl64ePacketBuffer packet;
+    hdl64e::wire::Packet packet = hdl64e::blank_packet();
     const std::int64_t end_ns = columns.back().stamp_ns + firing_ns(dual);
     encode::encode_hdl64e_packet(columns, end_ns, {}, packet);
     Bytes bytes;
-    std::ranges::copy(packet.payload(), bytes.begin());
+    std::ranges::copy(hdl64e::payload_of(packet), bytes.begin());
     return bytes;
   }
   static std::uint64_t returns_in(std::span<const std::uint8_t> payload) {

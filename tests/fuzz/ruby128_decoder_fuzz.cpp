@@ -33,10 +33,10 @@ struct Head {
   ruby128::RubyTimestamp encoding = ruby128::RubyTimestamp::kUtcMicroseconds;
   std::uint32_t reading = 0, readings_per_firing = 1;
 
-  void next(ruby128::Ruby128PacketBuffer& packet) {
-    packet.set_stamp(ruby128::write_ruby_timestamp(stamp_ns, encoding));
-    for (int block = 0; block < ruby128::kRubyBlocksPerPacket; ++block) {
-      packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(azimuth_cdeg));
+  void next(ruby128::ruby128_wire::Packet& packet) {
+    packet.stamp = ruby128::write_ruby_timestamp(stamp_ns, encoding);
+    for (ruby128::ruby128_wire::Block& block : packet.blocks) {
+      block.azimuth_cdeg = static_cast<std::uint16_t>(azimuth_cdeg);
       if (++reading % readings_per_firing != 0) continue;
       azimuth_cdeg = (azimuth_cdeg + step_cdeg) % 36'000;
       stamp_ns += ruby128::kRubyBlock_ns;
@@ -54,12 +54,12 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Input input({data, size});
   fuzz::DecoderRun<decode::Decoder, ruby128::Ruby128Calibration> run(ruby128::nominal_ruby128(),
                                                                      returns_in, 400.0F);
-  ruby128::Ruby128PacketBuffer packet;
+  ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
   Head head;
   const auto send = [&] {
     const std::int64_t before_ns = head.stamp_ns;
     head.next(packet);
-    run.feed(packet.payload());
+    run.feed(ruby128::payload_of(packet));
     run.advance(head.stamp_ns - before_ns);
   };
   for (int fed = 0; fed < kMaxPackets && !input.empty(); ++fed) {
@@ -83,15 +83,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         head.step_cdeg = input.next(1) % 120;
         break;
       case 6: {  // one return
-        const int block = input.below(ruby128::kRubyBlocksPerPacket);
-        const int channel = input.below(ruby128::kRubyChannelsPerBlock);
-        const auto distance = static_cast<std::uint16_t>(input.next(2));
-        packet.set_return(block, channel, distance, static_cast<std::uint8_t>(input.next(1)));
+        const auto block = static_cast<std::size_t>(input.below(ruby128::kRubyBlocksPerPacket));
+        const auto channel = static_cast<std::size_t>(input.below(ruby128::kRubyChannelsPerBlock));
+        auto& one = packet.blocks[block].returns[channel];
+        one.distance = static_cast<std::uint16_t>(input.next(2));
+        one.intensity = static_cast<std::uint8_t>(input.next(1));
         break;
       }
       case 7: {  // a bent copy of the packet
         std::array<std::uint8_t, ruby128::kRubyPacketBytes> bent{};
-        std::memcpy(bent.data(), packet.payload().data(), bent.size());
+        std::memcpy(bent.data(), ruby128::payload_of(packet).data(), bent.size());
         for (std::uint32_t n = input.next(1) % 8; n > 0; --n) {
           bent[input.next(2) % bent.size()] = static_cast<std::uint8_t>(input.next(1));
         }
@@ -107,7 +108,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         break;
       case 10:
         head.encoding = static_cast<ruby128::RubyTimestamp>(input.next(1) % 3);
-        packet.set_protocol_version(static_cast<std::uint16_t>(input.next(1) % 2));
+        packet.protocol_version = static_cast<std::uint16_t>(input.next(1) % 2);
         break;
       default:
         run.advance(static_cast<std::int32_t>(input.next(4)));

@@ -35,10 +35,10 @@ struct Ruby128 {
     encode::Ruby128PacketFacts facts;
     facts.returns = dual ? drive::ReturnMode::kDual : drive::ReturnMode::kSingle;
     facts.timestamp = static_cast<ruby128::RubyTimestamp>(encoding);
-    ruby128::Ruby128PacketBuffer packet;
+    ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
     encode::encode_ruby128_packet(columns, static_cast<int>(first_reading % 2), facts, packet);
     Bytes bytes;
-    std::ranges::copy(packet.payload(), bytes.begin());
+    std::ranges::copy(ruby128::payload_of(packet), bytes.begin());
     return bytes;
   }
   static std::uint64_t returns_in(std::span<const std::uint8_t> payload) {

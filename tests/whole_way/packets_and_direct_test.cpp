@@ -64,10 +64,10 @@ struct TwoWays {
   }
 
   void send(const std::array<frame::FiringColumn, hdl64e::kColumnsPerPacketSingle>& columns) {
-    hdl64e::Hdl64ePacketBuffer packet;
+    hdl64e::wire::Packet packet = hdl64e::blank_packet();
     encode::encode_hdl64e_packet(columns, encode::packet_end_ns(columns), {}, packet);
     const auto rejected = test::decode(
-        decoder, decode::Datagram{packet.payload(), columns.back().stamp_ns}, on_frame());
+        decoder, decode::Datagram{hdl64e::payload_of(packet), columns.back().stamp_ns}, on_frame());
     ASSERT_FALSE(rejected.has_value()) << to_string(*rejected);
   }
 

@@ -75,11 +75,11 @@ inline std::vector<Packet> to_packets(std::span<const FiringColumn> firings) {
   std::vector<Packet> packets;
   for (std::size_t n = 0; n + 6 <= firings.size(); n += 6) {
     const auto six = firings.subspan(n).first<6>();
-    hdl64e::Hdl64ePacketBuffer buffer;
+    hdl64e::wire::Packet buffer = hdl64e::blank_packet();
     Packet& packet = packets.emplace_back();
     packet.stamp_ns = encode::packet_end_ns(six);
     encode::encode_hdl64e_packet(six, packet.stamp_ns, {'T', 35}, buffer);
-    std::copy(buffer.payload().begin(), buffer.payload().end(), packet.bytes.begin());
+    std::ranges::copy(hdl64e::payload_of(buffer), packet.bytes.begin());
   }
   return packets;
 }

@@ -38,17 +38,19 @@ TEST(Hdl64ePacket, HasItsFieldsAtTheirOffsetsInLittleEndian) {
 }
 
 TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
-  Hdl64ePacketBuffer packet;
-  for (int block = 0; block < kBlocksPerPacket; ++block) {
-    packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(35'000 + block));
-    for (int laser = 0; laser < kLasersPerBlock; ++laser) {
-      packet.set_return(block, laser, static_cast<std::uint16_t>(block * 2048 + laser),
-                        static_cast<std::uint8_t>(laser));
+  wire::Packet packet = blank_packet();
+  for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+    packet.blocks[block].azimuth_cdeg = static_cast<std::uint16_t>(35'000 + block);
+    for (std::size_t laser = 0; laser < kLasersPerBlock; ++laser) {
+      auto& beam = packet.blocks[block].returns[laser];
+      beam.distance = static_cast<std::uint16_t>(block * 2048 + laser);
+      beam.intensity = static_cast<std::uint8_t>(laser);
     }
   }
-  packet.set_stamp_us(0xD693A3FE);
-  packet.set_status('T', 41);
-  const auto* read = packet_in(packet.payload());
+  packet.stamp_us = 0xD693A3FE;
+  packet.status_type = 'T';
+  packet.status_value = 41;
+  const auto* read = packet_in(payload_of(packet));
   ASSERT_NE(read, nullptr);
   EXPECT_TRUE(is_hdl64e(*read));
   for (std::size_t number = 0; number < read->blocks.size(); ++number) {
@@ -63,8 +65,8 @@ TEST(Hdl64ePacket, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read->stamp_us.value(), 0xD693A3FEU);
   EXPECT_EQ(read->status_type, 'T');
   EXPECT_EQ(read->status_value, 41);
-  packet.set_block_id(1, kUpperBlockId);
-  EXPECT_FALSE(is_hdl64e(*packet_in(packet.payload())));
+  packet.blocks[1].id = kUpperBlockId;
+  EXPECT_FALSE(is_hdl64e(*packet_in(payload_of(packet))));
 }
 
 TEST(Hdl64ePacket, FiringTimesFollowTheMakersTables) {

@@ -13,18 +13,19 @@
 namespace terracut::test {
 namespace {
 
-using hdl64e::Hdl64ePacketBuffer;
 using net::DeviceStampShift;
 using ruby128::RubyTimestamp;
 
 std::vector<std::uint8_t> hdl64e_packet(std::uint32_t stamp_us) {
-  Hdl64ePacketBuffer packet;
-  for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
-    packet.set_azimuth_cdeg(block, static_cast<std::uint16_t>(100 + 17 * (block / 2)));
+  hdl64e::wire::Packet packet = hdl64e::blank_packet();
+  for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+    packet.blocks[block].azimuth_cdeg = static_cast<std::uint16_t>(100 + 17 * (block / 2));
   }
-  packet.set_stamp_us(stamp_us);
-  packet.set_status(12, 34);
-  return {packet.payload().begin(), packet.payload().end()};
+  packet.stamp_us = stamp_us;
+  packet.status_type = 12;
+  packet.status_value = 34;
+  const auto payload = hdl64e::payload_of(packet);
+  return {payload.begin(), payload.end()};
 }
 
 std::uint32_t shifted_us(std::uint32_t stamp_us, std::int64_t shift_ns) {

@@ -21,7 +21,7 @@ TEST_P(Ruby128DecoderMemory, DecodingAllocatesNothing) {
       test::random_packets({.dual = GetParam(), .first_cdeg = 34'800, .last_cdeg = 36'000 * 4});
   packets.erase(packets.begin() + 200, packets.begin() + 210);
   std::swap(packets[300], packets[301]);
-  packets[400].bytes.set_azimuth_cdeg(0, 36'000);
+  packets[400].bytes.blocks[0].azimuth_cdeg = 36'000;
 
   memory::FixedMemory memory;
   decode::Decoder decoder(nominal_ruby128(), {}, {}, memory);

@@ -224,12 +224,13 @@ INSTANTIATE_TEST_SUITE_P(ReturnMode, LossIn, testing::Values(false, true),
 /// Both returns of one channel, by the policy, in the first firing of a stream.
 float owner_range_m(frame::CellOwner owner) {
   auto packets = test::random_packets({.dual = true, .share_of_returns = 0});
-  constexpr int kChannel = 9;
+  constexpr std::size_t kChannel = 9;
   for (RubyPacket& packet : packets) {
-    for (int block = 0; block < 3; ++block) packet.bytes.set_return(block, kChannel, 0, 0);
+    for (auto& block : packet.bytes.blocks) block.returns[kChannel] = {};
   }
-  packets[30].bytes.set_return(0, kChannel, 6'000, 10);  // the last return: far, weak
-  packets[30].bytes.set_return(1, kChannel, 2'000, 90);  // the strongest: near
+  auto& blocks = packets[30].bytes.blocks;
+  blocks[0].returns[kChannel] = {decode::Be16::of(6'000), 10};  // the last return: far, weak
+  blocks[1].returns[kChannel] = {decode::Be16::of(2'000), 90};  // the strongest: near
   memory::FixedMemory memory;
   decode::Decoder::Config config;
   config.dual_owner = owner;

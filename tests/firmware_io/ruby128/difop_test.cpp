@@ -60,7 +60,8 @@ TEST(Difop, IsKnownByItsLengthAndItsFirstEightBytes) {
 }
 
 TEST(Difop, DataPacketsAreNone) {
-  EXPECT_FALSE(is_difop(Ruby128PacketBuffer().payload()));
+  const auto data = blank_packet();
+  EXPECT_FALSE(is_difop(payload_of(data)));
 }
 
 TEST(Difop, ABlankOneHasMagicTailAndUnsetAngles) {

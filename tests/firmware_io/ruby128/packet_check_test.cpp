@@ -19,12 +19,12 @@ namespace {
 using Bytes = std::vector<std::uint8_t>;
 
 Bytes packet_at(std::array<int, 3> azimuth_cdeg) {
-  Ruby128PacketBuffer packet;
-  for (int b = 0; b < 3; ++b) {
-    packet.set_azimuth_cdeg(b,
-                            static_cast<std::uint16_t>(azimuth_cdeg[static_cast<std::size_t>(b)]));
+  ruby128_wire::Packet packet = blank_packet();
+  for (std::size_t b = 0; b < 3; ++b) {
+    packet.blocks[b].azimuth_cdeg = static_cast<std::uint16_t>(azimuth_cdeg[b]);
   }
-  return {packet.payload().begin(), packet.payload().end()};
+  const auto payload = payload_of(packet);
+  return {payload.begin(), payload.end()};
 }
 
 std::optional<frame::Reject> check(const Bytes& payload) {

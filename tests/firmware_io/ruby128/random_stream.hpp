@@ -29,12 +29,12 @@ struct RubyStream {
 };
 
 struct RubyPacket {
-  ruby128::Ruby128PacketBuffer bytes;
+  ruby128::ruby128_wire::Packet bytes = ruby128::blank_packet();
   std::int64_t stamp_ns = 0;  ///< Of the first block.
   std::uint32_t returns = 0;
 
   [[nodiscard]] decode::Datagram datagram() const {
-    return {.payload = bytes.payload(), .stamp_ns = stamp_ns};
+    return {.payload = ruby128::payload_of(bytes), .stamp_ns = stamp_ns};
   }
 };
 
@@ -48,22 +48,22 @@ inline std::vector<RubyPacket> random_packets(const RubyStream& stream) {
   for (std::int64_t block = 0;; ++block) {
     const std::int64_t firing = block / returns_a_firing;
     const double rotor_cdeg = stream.first_cdeg + static_cast<double>(firing) * step_cdeg;
-    const int slot = static_cast<int>(block % ruby128::kRubyBlocksPerPacket);
+    const auto slot = static_cast<std::size_t>(block % ruby128::kRubyBlocksPerPacket);
     if (slot == 0) {
       if (rotor_cdeg >= stream.last_cdeg) return packets;
       RubyPacket& packet = packets.emplace_back();
       packet.stamp_ns = stream.start_ns + firing * ruby128::kRubyBlock_ns;
-      packet.bytes.set_protocol_version(stream.protocol_version);
-      packet.bytes.set_wave_mode(stream.dual ? 3 : 1);
-      packet.bytes.set_stamp(ruby128::write_ruby_timestamp(packet.stamp_ns, stream.timestamp));
+      packet.bytes.protocol_version = stream.protocol_version;
+      packet.bytes.wave_mode = stream.dual ? 3 : 1;
+      packet.bytes.stamp = ruby128::write_ruby_timestamp(packet.stamp_ns, stream.timestamp);
     }
     RubyPacket& packet = packets.back();
-    packet.bytes.set_azimuth_cdeg(
-        slot, static_cast<std::uint16_t>(beams::wrap_cdeg(std::llround(rotor_cdeg))));
-    for (int channel = 0; channel < ruby128::kRubyChannelsPerBlock; ++channel) {
+    packet.bytes.blocks[slot].azimuth_cdeg =
+        static_cast<std::uint16_t>(beams::wrap_cdeg(std::llround(rotor_cdeg)));
+    for (auto& beam : packet.bytes.blocks[slot].returns) {
       if (chance(random) >= stream.share_of_returns) continue;
-      packet.bytes.set_return(slot, channel, static_cast<std::uint16_t>(distance(random)),
-                              static_cast<std::uint8_t>(intensity(random)));
+      beam.intensity = static_cast<std::uint8_t>(intensity(random));
+      beam.distance = static_cast<std::uint16_t>(distance(random));
       ++packet.returns;
     }
   }

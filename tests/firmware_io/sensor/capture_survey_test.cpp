@@ -32,19 +32,19 @@ class Unit {
     const std::int64_t period_us = dual_ ? 173 : 288;
     const int columns = dual_ ? hdl64e::kColumnsPerPacketDual : hdl64e::kColumnsPerPacketSingle;
     const int blocks_per_column = hdl64e::kBlocksPerPacket / columns;
-    hdl64e::Hdl64ePacketBuffer packet;
-    for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
-      const std::int64_t column = n * columns + block / blocks_per_column;
+    hdl64e::wire::Packet packet = hdl64e::blank_packet();
+    for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+      const std::int64_t column = n * columns + static_cast<int>(block) / blocks_per_column;
       const double step_cdeg = 3.6 * static_cast<double>(period_us) / columns / 10.0;
-      packet.set_azimuth_cdeg(
-          block, static_cast<std::uint16_t>(
-                     static_cast<std::int64_t>(static_cast<double>(column) * step_cdeg) % 36000));
+      packet.blocks[block].azimuth_cdeg = static_cast<std::uint16_t>(
+          static_cast<std::int64_t>(static_cast<double>(column) * step_cdeg) % 36000);
     }
-    packet.set_stamp_us(
-        static_cast<std::uint32_t>((3'599'000'000 + n * period_us) % 3'600'000'000));
+    packet.stamp_us = static_cast<std::uint32_t>((3'599'000'000 + n * period_us) % 3'600'000'000);
     const hdl64e::StatusPair pair = status_.next(1'600'000'000'000'000'000 + n * period_us * 1000);
-    packet.set_status(pair.type, pair.value);
-    return {packet.payload().begin(), packet.payload().end()};
+    packet.status_type = pair.type;
+    packet.status_value = pair.value;
+    const auto payload = hdl64e::payload_of(packet);
+    return {payload.begin(), payload.end()};
   }
 
   [[nodiscard]] std::int64_t period_ns() const { return dual_ ? 173'000 : 288'000; }

@@ -51,7 +51,8 @@ TEST(Ruby128DeviceReader, TakesTheCalibrationOfTheFirstPacket) {
 TEST(Ruby128DeviceReader, LeavesOtherPayloadsAlone) {
   Ruby128DeviceReader reader;
   EXPECT_FALSE(reader.add({}));
-  EXPECT_FALSE(reader.add(ruby128::Ruby128PacketBuffer().payload()));
+  const auto data = ruby128::blank_packet();
+  EXPECT_FALSE(reader.add(ruby128::payload_of(data)));
   const std::vector<std::uint8_t> longer(1249, 0xA5);
   EXPECT_FALSE(reader.add(longer));
   EXPECT_EQ(reader.counters().packets, 0U);

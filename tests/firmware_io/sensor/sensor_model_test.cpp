@@ -19,12 +19,14 @@ using testing::HasSubstr;
 
 /// A Velodyne data packet with the given block ids, repeated, and last two bytes.
 Bytes velodyne(std::initializer_list<std::uint16_t> ids, std::uint8_t mode, std::uint8_t product) {
-  hdl64e::Hdl64ePacketBuffer packet;
-  for (int block = 0; block < hdl64e::kBlocksPerPacket; ++block) {
-    packet.set_block_id(block, ids.begin()[static_cast<std::size_t>(block) % ids.size()]);
+  hdl64e::wire::Packet packet{};
+  for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+    packet.blocks[block].id = ids.begin()[block % ids.size()];
   }
-  packet.set_status(mode, product);
-  return {packet.payload().begin(), packet.payload().end()};
+  packet.status_type = mode;
+  packet.status_value = product;
+  const auto payload = hdl64e::payload_of(packet);
+  return {payload.begin(), payload.end()};
 }
 
 Bytes robosense(std::initializer_list<int> start, std::size_t block_bytes) {

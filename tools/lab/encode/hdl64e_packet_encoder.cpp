@@ -16,22 +16,22 @@ std::int64_t packet_end_ns(
 
 void encode_hdl64e_packet(
     std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
-    std::int64_t end_stamp_ns, hdl64e::StatusPair status,
-    hdl64e::Hdl64ePacketBuffer& packet) noexcept {
-  for (int c = 0; c < hdl64e::kColumnsPerPacketSingle; ++c) {
-    const frame::FiringColumn& column = columns[static_cast<std::size_t>(c)];
-    const auto azimuth_cdeg =
-        static_cast<std::uint16_t>(beams::wrap_cdeg(column.unwrapped_azimuth_cdeg));
-    packet.set_azimuth_cdeg(2 * c, azimuth_cdeg);
-    packet.set_azimuth_cdeg(2 * c + 1, azimuth_cdeg);
-    for (int i = 0; i < hdl64e::kHdl64eLasers; ++i) {
-      const frame::LabelledReturn& beam = column.by_laser[static_cast<std::size_t>(i)];
-      packet.set_return(2 * c + i / hdl64e::kLasersPerBlock, i % hdl64e::kLasersPerBlock, beam.raw,
-                        beam.intensity);
+    std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept {
+  for (std::size_t c = 0; c < columns.size(); ++c) {
+    const frame::FiringColumn& column = columns[c];
+    for (std::size_t half = 0; half < 2; ++half) {
+      hdl64e::wire::Block& block = packet.blocks[2 * c + half];
+      block.azimuth_cdeg =
+          static_cast<std::uint16_t>(beams::wrap_cdeg(column.unwrapped_azimuth_cdeg));
+      for (std::size_t j = 0; j < block.returns.size(); ++j) {
+        const frame::LabelledReturn& beam = column.by_laser[half * hdl64e::kLasersPerBlock + j];
+        block.returns[j] = {decode::Le16::of(beam.raw), beam.intensity};
+      }
     }
   }
-  packet.set_stamp_us(static_cast<std::uint32_t>(end_stamp_ns / 1000 % hdl64e::kDeviceHour_us));
-  packet.set_status(status.type, status.value);
+  packet.stamp_us = static_cast<std::uint32_t>(end_stamp_ns / 1000 % hdl64e::kDeviceHour_us);
+  packet.status_type = status.type;
+  packet.status_value = status.value;
 }
 
 }  // namespace terracut::encode

@@ -16,8 +16,7 @@ namespace terracut::encode {
 /// end (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
 void encode_hdl64e_packet(
     std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
-    std::int64_t end_stamp_ns, hdl64e::StatusPair status,
-    hdl64e::Hdl64ePacketBuffer& packet) noexcept;
+    std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept;
 
 /// When the packet of these columns ends: one firing period, taken from the columns themselves,
 /// after the last one. Two columns of one azimuth at the start mean dual return.

@@ -28,7 +28,7 @@ Status Hdl64ePacketSender::send(
     capture::PcapWriter& capture) {
   const std::int64_t end_ns = packet_end_ns(columns);
   encode_hdl64e_packet(columns, end_ns, status_.next(end_ns), packet_);
-  return capture.write({.payload = packet_.payload(),
+  return capture.write({.payload = hdl64e::payload_of(packet_),
                         .stamp_ns = end_ns,
                         .source_address = kSensorAddress,
                         .destination_address = kBroadcastAddress,

@@ -31,7 +31,7 @@ class Hdl64ePacketSender {
   explicit Hdl64ePacketSender(const StatusStreamWriter& status) noexcept : status_(status) {}
 
   StatusStreamWriter status_;
-  hdl64e::Hdl64ePacketBuffer packet_;
+  hdl64e::wire::Packet packet_ = hdl64e::blank_packet();
 };
 
 }  // namespace terracut::encode

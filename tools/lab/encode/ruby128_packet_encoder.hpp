@@ -26,6 +26,6 @@ struct Ruby128PacketFacts {
 /// first return of a firing. The device stamp is the first column's.
 void encode_ruby128_packet(
     std::span<const frame::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns, int first_column,
-    const Ruby128PacketFacts& facts, ruby128::Ruby128PacketBuffer& packet) noexcept;
+    const Ruby128PacketFacts& facts, ruby128::ruby128_wire::Packet& packet) noexcept;
 
 }  // namespace terracut::encode

@@ -34,18 +34,18 @@ decode::Datagram datagram(std::span<const std::uint8_t> payload, std::int64_t ca
 
 ruby128::ruby128_wire::Difop difop_of(const ruby128::Ruby128Calibration& calibration,
                                       const Ruby128Unit& unit, const Ruby128PacketFacts& facts) {
-  using decode::Be16;
   ruby128::ruby128_wire::Difop difop = ruby128::blank_difop();
-  difop.rpm_set = difop.rpm_actual = Be16::of(unit.rpm);
+  difop.rpm_set = difop.rpm_actual = decode::Be16::of(unit.rpm);
   difop.device_address = kSensor;
   difop.destination_address = kHost;
   difop.mac = {0x02, 0x00, kSensor[0], kSensor[1], kSensor[2], kSensor[3]};  // as in the capture
-  difop.data_port = Be16::of(ruby128::kRubyDataPort);
-  difop.device_port = Be16::of(ruby128::kRubyDevicePort);
-  difop.fov_end_cdeg = Be16::of(beams::kRevolution_cdeg);
+  difop.data_port = ruby128::kRubyDataPort;
+  difop.device_port = ruby128::kRubyDevicePort;
+  difop.fov_end_cdeg = beams::kRevolution_cdeg;
   difop.serial = unit.serial;
   difop.return_mode = facts.returns == drive::ReturnMode::kDual ? kDualMode : kStrongestMode;
-  difop.temperatures.fill(Be16::of(ruby128::ruby_temperature_field(unit.temperature_deg_c)));
+  difop.temperatures.fill(
+      decode::Be16::of(ruby128::ruby_temperature_field(unit.temperature_deg_c)));
   ruby128::set_calibration(difop, calibration);
   return difop;
 }
@@ -76,7 +76,7 @@ Status Ruby128PacketSender::send(
     while (*next_difop_ns_ <= stamp_ns) *next_difop_ns_ += kDifopPeriod_ns;
   }
   encode_ruby128_packet(columns, first_column, facts_, packet_);
-  return capture.write(datagram(packet_.payload(), end_ns, ruby128::kRubyDataPort));
+  return capture.write(datagram(ruby128::payload_of(packet_), end_ns, ruby128::kRubyDataPort));
 }
 
 }  // namespace terracut::encode

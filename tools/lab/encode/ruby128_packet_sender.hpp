@@ -43,7 +43,7 @@ class Ruby128PacketSender {
 
   Ruby128PacketFacts facts_;
   ruby128::ruby128_wire::Difop difop_;
-  ruby128::Ruby128PacketBuffer packet_;
+  ruby128::ruby128_wire::Packet packet_ = ruby128::blank_packet();
   std::optional<std::int64_t> next_difop_ns_;
 };
 

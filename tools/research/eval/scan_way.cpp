@@ -37,10 +37,10 @@ Status PacketWay::encode(std::span<const scan::ScanPoint> points,
   point_of_return_.clear();
   std::vector<FiringColumn> columns;
   const auto send = [&] {
-    hdl64e::Hdl64ePacketBuffer packet;
+    hdl64e::wire::Packet packet = hdl64e::blank_packet();
     const std::span<const FiringColumn, kColumns> whole(columns.data(), kColumns);
     encode::encode_hdl64e_packet(whole, encode::packet_end_ns(whole), {}, packet);
-    const auto bytes = packet.payload();
+    const auto bytes = hdl64e::payload_of(packet);
     packets_.emplace_back(bytes.begin(), bytes.end());
     columns.clear();
   };

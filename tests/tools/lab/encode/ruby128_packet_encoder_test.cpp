@@ -27,9 +27,10 @@ std::array<frame::Ruby128Column, 3> three_columns() {
 
 std::vector<std::uint8_t> encoded(const std::array<frame::Ruby128Column, 3>& columns,
                                   const Ruby128PacketFacts& facts, int first_column = 0) {
-  ruby128::Ruby128PacketBuffer packet;
+  ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
   encode_ruby128_packet(columns, first_column, facts, packet);
-  return {packet.payload().begin(), packet.payload().end()};
+  const auto payload = ruby128::payload_of(packet);
+  return {payload.begin(), payload.end()};
 }
 
 std::vector<std::uint8_t> bytes(const std::vector<std::uint8_t>& packet, std::size_t from,
@@ -91,10 +92,11 @@ TEST(Ruby128PacketEncoder, NumbersTheReturnsOfPairsThatStraddlePackets) {
 TEST(Ruby128PacketEncoder, LeavesNothingOfThePacketBefore) {
   auto columns = three_columns();
   columns[1].by_laser[5] = {999, 9, 0};
-  ruby128::Ruby128PacketBuffer packet;
+  ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
   encode_ruby128_packet(columns, 0, {.returns = drive::ReturnMode::kDual}, packet);
   encode_ruby128_packet(three_columns(), 0, {}, packet);
-  EXPECT_EQ(Bytes(packet.payload().begin(), packet.payload().end()), encoded(three_columns(), {}));
+  const auto payload = ruby128::payload_of(packet);
+  EXPECT_EQ(Bytes(payload.begin(), payload.end()), encoded(three_columns(), {}));
 }
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
+#include <cstring>
 #include <numbers>
 #include <span>
 
@@ -56,41 +56,80 @@ template <class Mark>
   }
 }
 
+// What else a byte of CellPlanes::steep says of its return while rows are compared.
+constexpr std::uint8_t kHasReturn = 2;
+constexpr std::uint8_t kIsRaised = 4;   ///< High enough for the upper return of a step.
+constexpr std::uint8_t kUpperMay = 8;   ///< It matters whether it is steep as the upper return.
+constexpr std::uint8_t kLowerMay = 16;  ///< Likewise as the lower one.
+
 /// AdjacentRule::kSlope
 struct SlopeRule {
-  float min_rise_m, min_upper_height_m, min_lower_height_m, tan_max_slope_squared;
+  float min_rise_m, tan_max_slope_squared;
 
   /// Marks the upper return of pairs whose step is too steep, and the lower one where it is high
-  /// enough.
+  /// enough; neither where it does not matter.
   [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
     int first = 0;
-    for (; first + kTogether <= count; first += kTogether) mark_some(rows, first, kTogether);
+    for (; first + kTogether <= count; first += kTogether) {
+      if (may_matter(rows.lower.steep + first, rows.upper.steep + first)) {
+        mark_some(rows, first, kTogether);
+      }
+    }
     mark_some(rows, first, count - first);
   }
 
  private:
+  /// Of kTogether pairs. Most are both on the ground or both far above it.
+  [[gnu::always_inline]] static bool may_matter(const std::uint8_t* lower,
+                                                const std::uint8_t* upper) noexcept {
+    using Word = std::uint64_t;
+    static_assert(kUpperMay == 2 * kIsRaised && kLowerMay == 2 * kUpperMay);
+    Word found = 0;
+    for (int i = 0; i < kTogether; i += int{sizeof(Word)}) {
+      Word low, up;
+      std::memcpy(&low, lower + i, sizeof(low));
+      std::memcpy(&up, upper + i, sizeof(up));
+      found |= up | (low >> 1U & up << 1U);
+    }
+    return (found & (kUpperMay * (~Word{0} / 0xFF))) != 0;
+  }
   /// At most kTogether.
   [[gnu::always_inline]] void mark_some(const RowPair& rows, int first, int count) const noexcept {
-    constexpr float kAnyHeight = -std::numeric_limits<float>::infinity();  // but not NaN
     const Row lower = rows.lower.from(first), upper = rows.upper.from(first);
-    std::uint8_t is_steep[kTogether], is_high[kTogether];
+    std::uint8_t is_steep[kTogether];
     for (int i = 0; i < count; ++i) {
       const float dx = upper.x_m[i] - lower.x_m[i];
       const float dy = upper.y_m[i] - lower.y_m[i];
       const float rise = upper.z_m[i] - lower.z_m[i];
-      is_steep[i] = (rise >= min_rise_m) &
-                    ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) &
-                    (upper.height_m[i] >= min_upper_height_m) & (lower.height_m[i] >= kAnyHeight);
-      is_high[i] = lower.height_m[i] >= min_lower_height_m;
+      is_steep[i] =
+          (rise >= min_rise_m) & ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise);
+    }
+    // Bit 0 of each.
+    for (int i = 0; i < count; ++i) {
+      const std::uint8_t up = upper.steep[i], low = lower.steep[i];
+      upper.steep[i] = static_cast<std::uint8_t>(up | (is_steep[i] & (up >> 3) & (low >> 1)));
+      is_steep[i] = static_cast<std::uint8_t>(is_steep[i] & (low >> 4) & (up >> 2));
     }
     for (int i = 0; i < count; ++i) {
-      upper.steep[i] = static_cast<std::uint8_t>(upper.steep[i] | is_steep[i]);
-    }
-    for (int i = 0; i < count; ++i) {
-      lower.steep[i] = static_cast<std::uint8_t>(lower.steep[i] | (is_steep[i] & is_high[i]));
+      lower.steep[i] = static_cast<std::uint8_t>(lower.steep[i] | is_steep[i]);
     }
   }
 };
+
+/// What the heights say of a row's returns.
+TERRACUT_VECTOR_CLONES void find_what_matters(std::span<const float> height_m, float min_upper_m,
+                                              float min_lower_m, float max_m,
+                                              std::uint8_t* __restrict steep) noexcept {
+  const std::size_t count = height_m.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float h = height_m[i];
+    const bool matters = h <= max_m;
+    steep[i] =
+        static_cast<std::uint8_t>((h == h ? kHasReturn : 0) | (h >= min_upper_m ? kIsRaised : 0) |
+                                  ((h >= min_upper_m) & matters ? kUpperMay : 0) |
+                                  ((h >= min_lower_m) & matters ? kLowerMay : 0));
+  }
+}
 
 /// AdjacentRule::kRingSpacing
 struct SpacingRule {
@@ -126,15 +165,18 @@ TERRACUT_VECTOR_CLONES void mark_by_spacing(const RowPair rows, frame::ColumnRan
 TERRACUT_VECTOR_CLONES void make_obstacles(std::span<const std::uint8_t> steep,
                                            frame::Label* label) noexcept {
   for (std::size_t cell = 0; cell < steep.size(); ++cell) {
-    label[cell] = steep[cell] != 0 ? frame::Label::kObstacle : label[cell];
+    const bool is_steep = (steep[cell] & stage::kSteep) != 0;
+    label[cell] = is_steep ? frame::Label::kObstacle : label[cell];
   }
 }
 
 }  // namespace
 
-AdjacentPoints::AdjacentPoints(const Config& config, const mount::RingProfile& profile,
-                               frame::ImageShape shape, memory::FixedMemory& memory)
+AdjacentPoints::AdjacentPoints(const Config& config, float max_height_m,
+                               const mount::RingProfile& profile, frame::ImageShape shape,
+                               memory::FixedMemory& memory)
     : config_(config),
+      max_height_m_(max_height_m),
       shape_(shape),
       tan_max_slope_squared_(
           static_cast<float>(std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2))),
@@ -164,8 +206,9 @@ float AdjacentPoints::ring_spacing_m(int row, int row_step) const noexcept {
 
 void AdjacentPoints::reset(frame::ColumnRange columns, stage::CellPlanes& planes) const noexcept {
   for (int row = 0; row < shape_.rows; ++row) {
-    std::ranges::fill(planes.steep.subspan(shape_.cell(row, columns.begin), columns.size()),
-                      std::uint8_t{0});
+    const std::size_t first = shape_.cell(row, columns.begin);
+    find_what_matters(planes.height_m.subspan(first, columns.size()), config_.min_upper_height_m,
+                      config_.min_lower_height_m, max_height_m_, &planes.steep[first]);
   }
 }
 
@@ -199,8 +242,7 @@ void AdjacentPoints::compare(const frame::RangeImage& image, frame::ColumnRange 
   const int whole = (columns.end - columns.begin + kTogether - 1) / kTogether * kTogether;
   columns.begin = std::max(columns.end - whole, 0);
   if (config_.rule == AdjacentRule::kSlope) {
-    const SlopeRule rule{config_.min_rise_m, config_.min_upper_height_m, config_.min_lower_height_m,
-                         tan_max_slope_squared_};
+    const SlopeRule rule{config_.min_rise_m, tan_max_slope_squared_};
     for_each_row_pair(image, planes, [&](const RowPair& rows, float) noexcept {
       mark_by_slope(rows, columns, reach(), rule);
     });
@@ -220,8 +262,7 @@ void AdjacentPoints::compare_across_seam(const frame::RangeImage& image,
       rule.mark({rows.lower, rows.upper.from(last)}, offset);
     }
   };
-  const SlopeRule slope{config_.min_rise_m, config_.min_upper_height_m, config_.min_lower_height_m,
-                        tan_max_slope_squared_};
+  const SlopeRule slope{config_.min_rise_m, tan_max_slope_squared_};
   for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
     if (config_.rule == AdjacentRule::kSlope) {
       mark(rows, slope);

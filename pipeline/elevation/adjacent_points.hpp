@@ -37,13 +37,15 @@ class AdjacentPoints {
     float min_lower_height_m = 0.05F;  ///< kSlope: above this the lower return is marked as well.
   };
 
-  AdjacentPoints(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
-                 memory::FixedMemory& memory);
+  /// `max_height_m`: a return higher above the ground reference is an obstacle, and a seed of the
+  /// min-cut, whether it is steep or not, so that kSlope leaves it alone.
+  AdjacentPoints(const Config& config, float max_height_m, const mount::RingProfile& profile,
+                 frame::ImageShape shape, memory::FixedMemory& memory);
 
   // For a frame, also while it arrives (CoarseStages): reset() and compare() columns until all of
   // them are, compare_across_seam(), and mark() what may have become steep.
 
-  /// No return of these columns is steep. Real-time safe, as all of this.
+  /// No return of these columns is steep; their heights are final. Real-time safe, as all of this.
   void reset(frame::ColumnRange columns,
              stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Fills `steep` for the pairs of returns of which one is in these columns and the other in the
@@ -70,6 +72,7 @@ class AdjacentPoints {
                          Visit visit) const noexcept;
 
   Config config_;
+  float max_height_m_;
   frame::ImageShape shape_;
   float tan_max_slope_squared_;
   std::span<float> ring_spacing_m_;    // [row_step - 1][row]

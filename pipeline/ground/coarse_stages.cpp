@@ -22,7 +22,10 @@ CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfi
     : last_stage_(config.last_stage),
       shape_(shape),
       map_(config.elevation_map, profile, shape, memory),
-      adjacent_(config.adjacent_points, profile, shape, memory),
+      adjacent_(
+          config.adjacent_points,
+          std::max(config.elevation_map.obstacle_height_m, config.seeds.min_obstacle_height_m),
+          profile, shape, memory),
       is_current_(memory.take<std::uint8_t>("coarse stages",
                                             static_cast<std::size_t>(map_.grid().sectors()))) {}
 

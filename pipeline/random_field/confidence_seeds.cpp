@@ -101,7 +101,8 @@ TERRACUT_VECTOR_CLONES void find_trusted_obstacles(const std::uint8_t* __restric
   const std::size_t columns = trusted.size();
   std::uint8_t* const __restrict out = trusted.data();
   for (std::size_t i = 0; i < columns; ++i) {
-    out[i] = (steep[i] != 0) | (height_m[i] > min_height_m);
+    const std::uint8_t is_high = height_m[i] > min_height_m;
+    out[i] = static_cast<std::uint8_t>((steep[i] & stage::kSteep) | is_high);
   }
 }
 

@@ -13,6 +13,8 @@
 
 namespace terracut::stage {
 
+inline constexpr std::uint8_t kSteep = 1;
+
 /// What the stages hand on to each other: planes over the range image's cells, row-major with the
 /// image's stride. Written by one stage after the other, on one thread.
 struct CellPlanes {
@@ -21,7 +23,8 @@ struct CellPlanes {
   std::span<float> height_m;
   /// The label so far; kNone in cells without a return.
   std::span<frame::Label> label;
-  /// 1 where the adjacent points test found a steep step at this return, else 0.
+  /// kSteep where the adjacent points test found a steep step at this return; its other bits are
+  /// that test's own.
   std::span<std::uint8_t> steep;
 
   CellPlanes(frame::ImageShape shape, memory::FixedMemory& memory)

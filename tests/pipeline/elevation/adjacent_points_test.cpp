@@ -13,6 +13,7 @@ namespace terracut::elevation {
 namespace {
 
 const frame::ImageShape kShape{64, 360};
+constexpr float kNoLimit_m = 1e9F;
 
 AdjacentPoints::Config paper_rule() {
   AdjacentPoints::Config config;
@@ -30,12 +31,13 @@ struct Refined {
     ground::SegmenterConfig stages;
     stages.elevation_map = {};
     stages.adjacent_points = config;
+    stages.seeds.min_obstacle_height_m = kNoLimit_m;  // whatever is steep is wanted
     test::cast_frame(profile, cast, image);
     ground::CoarseStages(stages, profile, kShape, memory).finish(image, planes);
   }
   [[nodiscard]] int steep_cells() const {
     int count = 0;
-    for (const auto s : planes.steep) count += s;
+    for (const auto s : planes.steep) count += s & stage::kSteep;
     return count;
   }
   memory::FixedMemory memory;
@@ -58,13 +60,13 @@ TEST(AdjacentPoints, BoundIsEquationFive) {
     profile.rings.push_back(ring);
   }
   memory::FixedMemory memory;
-  const AdjacentPoints stage(paper_rule(), profile, {3, 360}, memory);
+  const AdjacentPoints stage(paper_rule(), kNoLimit_m, profile, {3, 360}, memory);
   EXPECT_NEAR(stage.ring_spacing_m(0, 2), 0.533030, 1e-5);
 }
 
 TEST(AdjacentPoints, PairsWhoseUpperBeamMissesTheGroundHaveNoBound) {
   memory::FixedMemory memory;
-  const AdjacentPoints stage(paper_rule(), test::even_profile(), kShape, memory);
+  const AdjacentPoints stage(paper_rule(), kNoLimit_m, test::even_profile(), kShape, memory);
   EXPECT_GT(stage.ring_spacing_m(10, 2), 0.0F);
   EXPECT_EQ(stage.ring_spacing_m(61, 2), 0.0F);
 }
@@ -81,8 +83,8 @@ TEST(AdjacentPoints, AWallIsSteepByEitherRule) {
     for (std::size_t cell = 0; cell < wall.planes.steep.size(); ++cell) {
       if (!wall.image.has_return(cell) || wall.image.z_m()[cell] < 0.5F) continue;
       ++wall_cells;
-      found += wall.planes.steep[cell];
-      EXPECT_TRUE(wall.planes.steep[cell] == 0 ||
+      found += wall.planes.steep[cell] & stage::kSteep;
+      EXPECT_TRUE((wall.planes.steep[cell] & stage::kSteep) == 0 ||
                   wall.planes.label[cell] == frame::Label::kObstacle);
     }
     EXPECT_GT(wall_cells, 100);
@@ -94,8 +96,8 @@ TEST(AdjacentPoints, SeesAWallThatLiesAcrossTheSeamOfColumns) {
   const Refined wall({}, test::ground_with_wall(10, 2, 1.0));       // straight ahead is the seam
   const auto row = static_cast<std::size_t>(kShape.stride()) * 40;  // 7.5 deg down: on the wall
   ASSERT_NEAR(wall.image.x_m()[row], 10.0F, 0.01F);
-  EXPECT_EQ(wall.planes.steep[row], 1);
-  EXPECT_EQ(wall.planes.steep[row + 359], 1);
+  EXPECT_EQ(wall.planes.steep[row] & stage::kSteep, 1);
+  EXPECT_EQ(wall.planes.steep[row + 359] & stage::kSteep, 1);
 }
 
 TEST(AdjacentPoints, EmptyCellsAreNeverSteep) {

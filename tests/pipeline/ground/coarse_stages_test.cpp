@@ -154,6 +154,8 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
     const elevation::RingGrid grid(config().elevation_map.grid, way.profile, kShape, memory);
     const test::PlainCoarseLabels plain(config(), way.profile, grid, image);
     const double obstacle_height_m = double{config().elevation_map.obstacle_height_m};
+    const double steep_matters_to_m =
+        std::max(obstacle_height_m, double{config().seeds.min_obstacle_height_m});
     constexpr double kSlack_m = 1e-3;
     int wrong_heights = 0, wrong_steps = 0, wrong_labels = 0;
     for (std::size_t cell = 0; cell < kShape.cells(); ++cell) {
@@ -167,8 +169,9 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
       wrong_heights += !(std::fabs(double{way.planes.height_m[cell]} - height_m) < kSlack_m);
       bool is_steep = false;
       if (config().last_stage >= stage::Stage::kAdjacentPoints) {
-        is_steep = way.planes.steep[cell] != 0;
-        wrong_steps += is_steep ? !plain.may_be_steep[cell] : plain.must_be_steep[cell];
+        is_steep = (way.planes.steep[cell] & stage::kSteep) != 0;
+        const bool matters = height_m <= steep_matters_to_m - kSlack_m;
+        wrong_steps += is_steep ? !plain.may_be_steep[cell] : plain.must_be_steep[cell] && matters;
       }
       const bool may_be_ground = !is_steep && height_m < obstacle_height_m + kSlack_m;
       const bool may_be_obstacle = is_steep || height_m > obstacle_height_m - kSlack_m;
@@ -254,13 +257,14 @@ TEST_P(CoarseStagesOfArrivingFrames, CompareAcrossTheSeamBothWays) {
           const bool is_lower = (column == last) == lower_is_before;
           ASSERT_TRUE(frame.image.place(
               kRow + (is_lower ? 0 : 2), column,
-              {is_lower ? 6.0F : 6.05F, 0, is_lower ? 0.0F : 0.5F, is_lower ? 6.0F : 6.05F, 0}));
+              {is_lower ? 6.0F : 6.05F, 0, is_lower ? 0.0F : 0.25F, is_lower ? 6.0F : 6.05F, 0}));
           way.stages.advance(frame.image, column + 1, way.planes);
         }
         expect_right_labels(frame.image);
         const std::size_t upper = kShape.cell(22, lower_is_before ? after : last);
         EXPECT_EQ(way.planes.label[upper], frame::Label::kObstacle);
-        EXPECT_EQ(way.planes.steep[upper], config().last_stage >= stage::Stage::kAdjacentPoints);
+        EXPECT_EQ(way.planes.steep[upper] & stage::kSteep,
+                  config().last_stage >= stage::Stage::kAdjacentPoints);
       }
     }
   }

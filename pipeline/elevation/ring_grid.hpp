@@ -22,9 +22,10 @@ namespace terracut::elevation {
 /// on to `range_limit_m`. Everything farther away belongs to the last band.
 class RingGrid {
  public:
+  /// The size of a cell.
   struct Config {
-    float min_band_m = 0.0F;
-    float max_band_m = 1e9F;       ///< Not cut by default, as in the paper.
+    float min_band_m = 0.4F;
+    float max_band_m = 2.0F;
     float range_limit_m = 100.0F;  ///< (0, 250]
     int columns_per_sector = 10;   ///< Image columns a sector covers; [1, 64].
   };

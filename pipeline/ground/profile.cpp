@@ -4,20 +4,14 @@
 
 namespace terracut::ground {
 
-elevation::RingElevationMap::Config SegmenterConfig::terracut_elevation_map() noexcept {
-  elevation::RingElevationMap::Config config;
-  config.grid.min_band_m = 0.4F;
-  config.grid.max_band_m = 2.0F;
-  return config;
-}
-
 SegmenterConfig terracut_profile() noexcept {
   return {};
 }
 
 SegmenterConfig paper_profile() noexcept {
   SegmenterConfig config;
-  config.elevation_map = {};
+  config.elevation_map.grid.min_band_m = 0;
+  config.elevation_map.grid.max_band_m = 1e9F;  // not cut
   config.elevation_map.reference = elevation::GroundReference::kCellMinimum;
   config.elevation_map.obstacle_height_m = 0.20F;
 

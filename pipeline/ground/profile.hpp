@@ -21,7 +21,7 @@ namespace terracut::ground {
 struct SegmenterConfig {
   /// kElevationMap, kAdjacentPoints or kMinCut: the rows of the paper's Table III.
   stage::Stage last_stage = stage::Stage::kMinCut;
-  elevation::RingElevationMap::Config elevation_map = terracut_elevation_map();
+  elevation::RingElevationMap::Config elevation_map;
   elevation::AdjacentPoints::Config adjacent_points;
   random_field::ConfidenceSeeds::Config seeds;
   random_field::RegionTerm::Config region;
@@ -29,8 +29,6 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
-
-  [[nodiscard]] static elevation::RingElevationMap::Config terracut_elevation_map() noexcept;
 };
 
 /// The default: whatever was measured better, on the paper's skeleton (docs/reference/method.md).

@@ -14,11 +14,13 @@ namespace terracut::elevation {
 namespace {
 
 const frame::ImageShape kShape{64, 2083};
+/// A band for each ring, however near or far they are.
+constexpr RingGrid::Config kAsPrinted{.min_band_m = 0, .max_band_m = 1e9F};
 
 TEST(RingGrid, WithoutMergingOrCuttingEveryRingThatReachesTheGroundHasABandOfItsOwn) {
   memory::FixedMemory memory;
   const mount::RingProfile profile = test::even_profile();
-  const RingGrid grid({}, profile, kShape, memory);
+  const RingGrid grid(kAsPrinted, profile, kShape, memory);
   std::set<int> bands;
   int rings = 0;
   for (const mount::Ring& ring : profile.rings) {
@@ -31,10 +33,7 @@ TEST(RingGrid, WithoutMergingOrCuttingEveryRingThatReachesTheGroundHasABandOfIts
 
 TEST(RingGrid, BandsGrowOutwardsAndCoverEveryRange) {
   memory::FixedMemory memory;
-  RingGrid::Config config;
-  config.min_band_m = 0.4F;
-  config.max_band_m = 2.0F;
-  const RingGrid grid(config, test::even_profile(), kShape, memory);
+  const RingGrid grid({}, test::even_profile(), kShape, memory);
   int last = 0;
   for (float range_m = 0; range_m < 300; range_m += 0.01F) {
     const int band = grid.band_of(range_m);
@@ -49,10 +48,7 @@ TEST(RingGrid, BandsGrowOutwardsAndCoverEveryRange) {
 
 TEST(RingGrid, KeepsBandsWithinTheirLimits) {
   memory::FixedMemory memory;
-  RingGrid::Config config;
-  config.min_band_m = 0.4F;
-  config.max_band_m = 2.0F;
-  const RingGrid grid(config, test::even_profile(), kShape, memory);
+  const RingGrid grid({}, test::even_profile(), kShape, memory);
   for (int band = 2; band < grid.bands(); ++band) {
     const float pitch_m = grid.center_m(band) - grid.center_m(band - 1);
     EXPECT_GT(pitch_m, 0.19F) << band;
@@ -63,7 +59,7 @@ TEST(RingGrid, KeepsBandsWithinTheirLimits) {
 TEST(RingGrid, CutsWideBandsAndLeavesTheBlindZoneToItself) {
   memory::FixedMemory memory;
   RingGrid::Config config;
-  config.max_band_m = 2.0F;
+  config.min_band_m = 0;
   const mount::RingProfile profile = test::even_profile();
   const RingGrid grid(config, profile, kShape, memory);
   std::vector<float> width_m(static_cast<std::size_t>(grid.bands()));
@@ -81,7 +77,7 @@ TEST(RingGrid, CutsWideBandsAndLeavesTheBlindZoneToItself) {
 TEST(RingGrid, MixesTheTwoBandsARangeLiesBetween) {
   memory::FixedMemory memory;
   RingGrid::Config config;
-  config.max_band_m = 2.0F;
+  config.min_band_m = 0;
   const RingGrid grid(config, test::even_profile(), kShape, memory);
   for (float range_m = 4; range_m < 99; range_m += 0.37F) {
     const RingGrid::BandMix mix = grid.mix_of(range_m);
@@ -96,7 +92,7 @@ TEST(RingGrid, MixesTheTwoBandsARangeLiesBetween) {
 
 TEST(RingGrid, SectorsShareTheColumnsEvenly) {
   memory::FixedMemory memory;
-  const RingGrid grid({}, test::even_profile(), kShape, memory);
+  const RingGrid grid(kAsPrinted, test::even_profile(), kShape, memory);
   std::vector<int> columns(static_cast<std::size_t>(grid.sectors()));
   for (int column = 0; column < kShape.columns; ++column) {
     ++columns[static_cast<std::size_t>(grid.sector_of(column))];
@@ -109,7 +105,7 @@ TEST(RingGrid, SectorsShareTheColumnsEvenly) {
 
 TEST(RingGrid, TheColumnsOfASectorAreThoseThatNameIt) {
   memory::FixedMemory memory;
-  const RingGrid grid({}, test::even_profile(), kShape, memory);
+  const RingGrid grid(kAsPrinted, test::even_profile(), kShape, memory);
   int next = 0;
   for (int sector = 0; sector < grid.sectors(); ++sector) {
     const auto [begin, end] = grid.columns_of({sector, sector + 1});
@@ -125,7 +121,7 @@ TEST(RingGrid, TheColumnsOfASectorAreThoseThatNameIt) {
 
 TEST(RingGrid, ManyRangesAtOnceAreInTheBandsTheyAreInOneByOne) {
   memory::FixedMemory memory;
-  const RingGrid grid({}, test::even_profile(), kShape, memory);
+  const RingGrid grid(kAsPrinted, test::even_profile(), kShape, memory);
   std::vector<float> range_m{0.0F, 99.99F, 100.0F, 1e30F, std::nanf("")};
   for (float range = 0.3F; range < 120; range += 0.37F) range_m.push_back(range);
   std::vector<std::uint16_t> steps(range_m.size());
@@ -137,7 +133,7 @@ TEST(RingGrid, ManyRangesAtOnceAreInTheBandsTheyAreInOneByOne) {
 
 TEST(RingGrid, SurvivesAProfileWhoseBeamsNeverReachTheGround) {
   memory::FixedMemory memory;
-  const RingGrid grid({}, test::even_profile(64, 1.0, 10.0), kShape, memory);
+  const RingGrid grid(kAsPrinted, test::even_profile(64, 1.0, 10.0), kShape, memory);
   EXPECT_GE(grid.bands(), 1);
   EXPECT_EQ(grid.band_of(50.0F), grid.bands() - 1);
 }

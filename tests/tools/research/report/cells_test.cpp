@@ -66,7 +66,9 @@ TEST(Cells, RingsOfAFlatWorldAllHaveTheSameReturnsAndSquaresDoNot) {
     world.push_back({place, Kind::kGround});
 
   CellTally rings, squares;
-  rings.add(RingCells({.columns_per_sector = 10}, profile, shape), world);
+  rings.add(
+      RingCells({.min_band_m = 0, .max_band_m = 1e9F, .columns_per_sector = 10}, profile, shape),
+      world);
   squares.add(SquareGrid(1, 80), world);
   const CellSums of_rings = all_of(rings), of_squares = all_of(squares);
   EXPECT_EQ(of_rings.empty, 0U);

@@ -7,6 +7,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "pipeline/min_cut/cut_budget.hpp"
@@ -17,21 +18,39 @@
 
 namespace terracut::min_cut {
 
+/// The seeds of the neighbours, one a lane; away from the image's edges by three loads.
+[[nodiscard]] inline EightLanes seeds_around(std::span<const Seed> seeds,
+                                             const NeighbourCells& around) noexcept {
+  if (are_next_to_each_other(around)) [[likely]] {
+    std::uint32_t below, beside, above;
+    std::memcpy(&below, &seeds[around[0]], sizeof(below));
+    std::memcpy(&beside, &seeds[around[3]], sizeof(beside));
+    std::memcpy(&above, &seeds[around[5] - 1], sizeof(above));
+    return {EightLanes::widened((below & 0xFF'FFFFU) | beside << 24U),
+            EightLanes::widened((beside >> 16U & 0xFFU) | (above & 0xFFFF'FF00U))};
+  }
+  EightLanes lanes;
+  for (std::size_t d = 0; d < 4; ++d) {
+    lanes.low |= static_cast<std::uint64_t>(seeds[around[d]]) << (16 * d);
+    lanes.high |= static_cast<std::uint64_t>(seeds[around[d + 4]]) << (16 * d);
+  }
+  return lanes;
+}
+
 /// One node of contract().
 inline void contract_cell(const GridProblem& problem, const UnknownCells& unknown,
                           std::uint32_t cell, int row, const NeighbourCells& around,
                           const std::array<std::uint16_t, kDirections>& weight, CutNode& node,
                           std::int64_t& flow) noexcept {
-  EightLanes seed, w;
+  EightLanes w;
   for (std::size_t d = 0; d < 4; ++d) {
     const auto allowed = [](std::uint16_t given) {
       return std::min<std::uint64_t>(given, kMaxEdgeWeight);
     };
-    seed.low |= static_cast<std::uint64_t>(problem.seeds[around[d]]) << (16 * d);
-    seed.high |= static_cast<std::uint64_t>(problem.seeds[around[d + 4]]) << (16 * d);
     w.low |= allowed(weight[d]) << (16 * d);
     w.high |= allowed(weight[d + 4]) << (16 * d);
   }
+  EightLanes seed = seeds_around(problem.seeds, around);
   if (row == 0) seed.low &= ~std::uint64_t{0xFFFF'FFFF'FFFF};             // directions 0, 1, 2
   if (row + 1 == problem.shape.rows) seed.high &= std::uint64_t{0xFFFF};  // directions 5, 6, 7
 
@@ -41,15 +60,16 @@ inline void contract_cell(const GridProblem& problem, const UnknownCells& unknow
   int to_obstacle = w.where(seed, bit_of(Seed::kObstacle)).sum();
   open.store(node.residual);
   unsigned edges = open.nonzero();
-  for (unsigned left = edges; left != 0; left &= left - 1) {
-    const auto d = static_cast<std::size_t>(std::countr_zero(left));
-    const std::uint32_t other = unknown.node_of(around[d]);
-    node.neighbour[d] = other;
-    if (other < UnknownCells::kPinnedGround) [[likely]]
-      continue;
-    (other == UnknownCells::kPinnedGround ? to_ground : to_obstacle) += node.residual[d];
-    node.residual[d] = 0;
-    edges &= ~(1U << d);
+  for (std::size_t d = 0; d < around.size(); ++d) node.neighbour[d] = unknown.node_of(around[d]);
+  if (unknown.has_pinned()) [[unlikely]] {
+    for (unsigned left = edges; left != 0; left &= left - 1) {
+      const auto d = static_cast<std::size_t>(std::countr_zero(left));
+      if (node.neighbour[d] < UnknownCells::kPinnedGround) continue;
+      (node.neighbour[d] == UnknownCells::kPinnedGround ? to_ground : to_obstacle) +=
+          node.residual[d];
+      node.residual[d] = 0;
+      edges &= ~(1U << d);
+    }
   }
 
   const auto clamped = [](std::int32_t cost) { return std::clamp(cost, 0, kMaxTerminalCost); };

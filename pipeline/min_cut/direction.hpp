@@ -50,4 +50,11 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   return cells;
 }
 
+/// Whether they lie in memory as they do around the cell: not at an edge of the image. Then four
+/// cells may be read from neighbours[0], [3] and [5] - 1 on.
+[[nodiscard]] constexpr bool are_next_to_each_other(const NeighbourCells& neighbours) noexcept {
+  return neighbours[0] + 2 == neighbours[2] && neighbours[3] + 2 == neighbours[4] &&
+         neighbours[5] + 2 == neighbours[7];
+}
+
 }  // namespace terracut::min_cut

@@ -34,6 +34,12 @@ struct EightLanes {
     std::memcpy(numbers.data() + 4, &high, sizeof(high));
   }
 
+  /// The four bytes of `bytes` as the lanes of a half, the lowest byte first.
+  [[nodiscard]] static std::uint64_t widened(std::uint32_t bytes) noexcept {
+    const std::uint64_t pairs = (bytes | std::uint64_t{bytes} << 16U) & 0x0000'FFFF'0000'FFFF;
+    return (pairs | pairs << 8U) & 0x00FF'00FF'00FF'00FF;
+  }
+
   /// The lanes of `*this` where bit `bit` of the same lane of `flags` is set, 0 in the others.
   [[nodiscard]] EightLanes where(const EightLanes& flags, int bit) const noexcept {
     return {low & (((flags.low >> bit) & kOnes) * 0xFFFF),

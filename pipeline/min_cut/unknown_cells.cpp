@@ -24,7 +24,8 @@ void UnknownCells::find(const GridProblem& problem, std::span<const frame::Label
       found_.push_back(static_cast<std::uint32_t>(first + column));
     });
   }
-  if (found_.size > max_unknown_) keep_nearest(problem, labels, dropped);
+  has_pinned_ = found_.size > max_unknown_;
+  if (has_pinned_) keep_nearest(problem, labels, dropped);
   for (std::uint32_t node = 0; node < found_.size; ++node) {
     node_of_cell_[found_.storage[node]] = node;
   }

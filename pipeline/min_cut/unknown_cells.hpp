@@ -38,8 +38,10 @@ class UnknownCells {
   /// Kept cells in row-major order; node i of the graph is cells()[i].
   [[nodiscard]] std::span<const std::uint32_t> cells() const noexcept { return found_.view(); }
 
-  /// Node of an unknown cell, or a kPinned... value when it is beyond the cap. Only valid for cells
-  /// whose seed is kUnknown.
+  /// There were more than max_unknown.
+  [[nodiscard]] bool has_pinned() const noexcept { return has_pinned_; }
+  /// Node of an unknown cell, or a kPinned... value when it is beyond the cap. Of a cell whose seed
+  /// is not kUnknown: any number.
   [[nodiscard]] std::uint32_t node_of(std::uint32_t cell) const noexcept {
     return node_of_cell_[cell];
   }
@@ -56,6 +58,7 @@ class UnknownCells {
 
   std::uint32_t max_unknown_;
   CellList found_;
+  bool has_pinned_ = false;
   std::span<std::uint32_t> node_of_cell_, histogram_;
 };
 

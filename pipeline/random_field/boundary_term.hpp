@@ -2,14 +2,13 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
+#include "pipeline/stage/four_lanes.hpp"
 #include "pipeline/stage/portable_math.hpp"
 
 namespace terracut::random_field {
@@ -21,8 +20,7 @@ enum class BoundaryRule : std::uint8_t {
 };
 
 /// Stage 3b, the boundary term B(A) of the energy (paper, Eq. 8, 9, 14, 15): the weight of an edge
-/// between neighbouring returns, in [0, kCapacityScale] and the same both ways. A value type that
-/// looks at one frame; satisfies EdgeWeights.
+/// between neighbouring returns. A value type that looks at one frame; satisfies EdgeWeights.
 class BoundaryTerm {
  public:
   struct Config {
@@ -47,39 +45,56 @@ class BoundaryTerm {
 
   void operator()(std::uint32_t cell, const min_cut::NeighbourCells& neighbours,
                   std::span<std::uint16_t, min_cut::kDirections> out) const noexcept {
-    // One kind of step for all eight at a time, so that the compiler takes several at once.
-    std::array<float, min_cut::kDirections> along, dz, range_m, exponent;
-    for (std::size_t d = 0; d < min_cut::kDirections; ++d) {
-      const std::size_t other = neighbours[d];
-      const float dx = x_m_[cell] - x_m_[other];
-      const float dy = y_m_[cell] - y_m_[other];
-      along[d] = dx * dx + dy * dy;
-      dz[d] = z_m_[cell] - z_m_[other];
-      range_m[d] = ground_range_m_[cell] + ground_range_m_[other];
-    }
-    if (config_->rule == BoundaryRule::kHeightGradient) {
-      for (std::size_t d = 0; d < min_cut::kDirections; ++d)
-        exponent[d] = by_gradient(along[d], dz[d]);
-    } else {
-      for (std::size_t d = 0; d < min_cut::kDirections; ++d) {
-        exponent[d] = by_nearness(along[d], dz[d], range_m[d]);
-      }
-    }
-    for (std::size_t d = 0; d < min_cut::kDirections; ++d) {
-      out[d] = static_cast<std::uint16_t>((*exp_)(exponent[d]) *
-                                          static_cast<float>(min_cut::kCapacityScale));
-    }
+    const Eight x = differences(x_m_, cell, neighbours), y = differences(y_m_, cell, neighbours),
+                z = differences(z_m_, cell, neighbours);
+    const Eight range = around(ground_range_m_, neighbours);
+    const FourFloats own_range = all(ground_range_m_[cell]);
+    store(weights(x.low, y.low, z.low, own_range + range.low), out.first<4>());
+    store(weights(x.high, y.high, z.high, own_range + range.high), out.last<4>());
   }
 
  private:
-  /// What the weight falls with, from the square of the horizontal distance, the height difference
-  /// and the sum of both ranges.
-  [[nodiscard]] float by_gradient(float along_squared, float dz) const noexcept {
-    return config_->sigma * dz * dz / std::max(std::sqrt(along_squared), config_->min_distance_m);
+  using FourFloats = stage::FourFloats;
+  using FourInts = stage::FourInts;
+  /// Of the neighbours in directions 0 .. 3 and 4 .. 7.
+  struct Eight {
+    FourFloats low, high;
+  };
+
+  [[nodiscard]] static FourFloats all(float value) noexcept { return value - FourFloats{}; }
+  /// A plane at the eight neighbours; away from the image's edges by three loads.
+  [[nodiscard]] static Eight around(const float* plane, const min_cut::NeighbourCells& n) noexcept {
+    if (min_cut::are_next_to_each_other(n)) [[likely]] {
+      const FourFloats below = stage::load_four(plane + n[0]);
+      const FourFloats beside = stage::load_four(plane + n[3]);
+      const FourFloats above = stage::load_four(plane + n[5] - 1);
+      return {__builtin_shufflevector(below, beside, 0, 1, 2, 4),
+              __builtin_shufflevector(beside, above, 2, 5, 6, 7)};
+    }
+    return {FourFloats{plane[n[0]], plane[n[1]], plane[n[2]], plane[n[3]]},
+            FourFloats{plane[n[4]], plane[n[5]], plane[n[6]], plane[n[7]]}};
   }
-  [[nodiscard]] float by_nearness(float along_squared, float dz, float ranges_m) const noexcept {
-    const float scale_m = config_->scale_m + config_->scale_per_metre * (0.5F * ranges_m);
-    return std::sqrt(along_squared + dz * dz) / scale_m;
+  [[nodiscard]] static Eight differences(const float* plane, std::uint32_t cell,
+                                         const min_cut::NeighbourCells& n) noexcept {
+    const Eight there = around(plane, n);
+    return {plane[cell] - there.low, plane[cell] - there.high};
+  }
+  static void store(FourFloats weights, std::span<std::uint16_t, 4> out) noexcept {
+    const FourInts scaled =
+        __builtin_convertvector(weights * static_cast<float>(min_cut::kCapacityScale), FourInts);
+    for (std::size_t d = 0; d < 4; ++d) out[d] = static_cast<std::uint16_t>(scaled[d]);
+  }
+
+  [[nodiscard]] FourFloats weights(FourFloats dx, FourFloats dy, FourFloats dz,
+                                   FourFloats ranges_m) const noexcept {
+    const FourFloats along = dx * dx + dy * dy;
+    if (config_->rule == BoundaryRule::kHeightGradient) {
+      const FourFloats distance_m = stage::square_root(along);
+      const FourFloats least_m = all(config_->min_distance_m);
+      return (*exp_)(config_->sigma * dz * dz / (distance_m < least_m ? least_m : distance_m));
+    }
+    const FourFloats scale_m = config_->scale_m + config_->scale_per_metre * (0.5F * ranges_m);
+    return (*exp_)(stage::square_root(along + dz * dz) / scale_m);
   }
 
   const Config* config_;

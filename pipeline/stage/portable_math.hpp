@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "pipeline/stage/four_lanes.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::stage {
@@ -22,16 +23,20 @@ class NegativeExp {
  public:
   NegativeExp() noexcept;
 
-  [[nodiscard]] float operator()(float t) const noexcept {
-    // No branches: near edges and far ones come in no order.
-    const bool is_inside = t < kEnd;  // and no NaN
-    const float inside = (is_inside & (t > 0.0F)) ? t : 0.0F;
-    const float position = inside * kStepsPerUnit;
-    const auto step = static_cast<std::int32_t>(position);
-    const float share = position - static_cast<float>(step);
-    const float* const entry = &table_[static_cast<std::size_t>(step)];
-    const float value = entry[0] + share * (entry[1] - entry[0]);
-    return is_inside ? value : 0.0F;
+  [[nodiscard]] FourFloats operator()(FourFloats t) const noexcept {
+    const FourInts is_inside = t < kEnd;
+    const FourFloats position = where(is_inside & (t > 0.0F), t) * kStepsPerUnit;
+    const FourInts step = __builtin_convertvector(position, FourInts);
+    const FourFloats share = position - __builtin_convertvector(step, FourFloats);
+    // An entry and the one behind it come with one load.
+    const auto pair = [&](int lane) {
+      return load_two(&table_[static_cast<std::size_t>(step[lane])]);
+    };
+    const FourFloats first = __builtin_shufflevector(pair(0), pair(1), 0, 1, 2, 3);
+    const FourFloats second = __builtin_shufflevector(pair(2), pair(3), 0, 1, 2, 3);
+    const FourFloats lower = __builtin_shufflevector(first, second, 0, 2, 4, 6);
+    const FourFloats upper = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+    return where(is_inside, lower + share * (upper - lower));
   }
 
  private:

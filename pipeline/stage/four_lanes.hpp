@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+
+namespace terracut::stage {
+
+/// Four numbers worked on at once. Every machine terracut runs on has registers of this width (SSE2
+/// and NEON), and each lane gets the bits that the same steps give one by one.
+using FourFloats = float __attribute__((vector_size(16)));
+using TwoFloats = float __attribute__((vector_size(8)));
+/// Of a comparison: all bits of a lane, or none.
+using FourInts = std::int32_t __attribute__((vector_size(16)));
+
+/// from[0] and from[1], at any address.
+[[nodiscard]] inline TwoFloats load_two(const float* from) noexcept {
+  TwoFloats two;
+  std::memcpy(&two, from, sizeof(two));
+  return two;
+}
+/// from[0] to from[3], at any address.
+[[nodiscard]] inline FourFloats load_four(const float* from) noexcept {
+  FourFloats four;
+  std::memcpy(&four, from, sizeof(four));
+  return four;
+}
+[[nodiscard]] inline FourFloats square_root(FourFloats four) noexcept {
+  return FourFloats{std::sqrt(four[0]), std::sqrt(four[1]), std::sqrt(four[2]), std::sqrt(four[3])};
+}
+/// `four` where the mask is set, else 0.
+[[nodiscard]] inline FourFloats where(FourInts mask, FourFloats four) noexcept {
+  FourInts bits;
+  std::memcpy(&bits, &four, sizeof(bits));
+  bits &= mask;
+  std::memcpy(&four, &bits, sizeof(four));
+  return four;
+}
+
+}  // namespace terracut::stage

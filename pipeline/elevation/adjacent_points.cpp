@@ -126,8 +126,8 @@ TERRACUT_VECTOR_CLONES void find_what_matters(std::span<const float> height_m, f
     const bool matters = h <= max_m;
     steep[i] =
         static_cast<std::uint8_t>((h == h ? kHasReturn : 0) | (h >= min_upper_m ? kIsRaised : 0) |
-                                  ((h >= min_upper_m) & matters ? kUpperMay : 0) |
-                                  ((h >= min_lower_m) & matters ? kLowerMay : 0));
+                                  (((h >= min_upper_m) & matters) ? kUpperMay : 0) |
+                                  (((h >= min_lower_m) & matters) ? kLowerMay : 0));
   }
 }
 

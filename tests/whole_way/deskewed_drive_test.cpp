@@ -95,9 +95,9 @@ class DeskewedDrive : public testing::Test {
     ASSERT_TRUE(writer) << writer.error().message;
     // Returns are sorted into frames as their truth is; here each is told by its number.
     drive::TruthFrames<EncoderTraits> frames(
-        EncoderTraits::offsets(config.calibration, config.sensor), config.sensor.returns);
+        EncoderTraits::offsets(config.calibration), config.sensor.returns);
     const auto group_size =
-        static_cast<std::size_t>(EncoderTraits::limits(config.sensor.returns).firings_per_group *
+        static_cast<std::size_t>(EncoderTraits::firings_per_group(config.sensor.returns) *
                                  drive::returns_per_firing(config.sensor.returns));
     std::vector<typename EncoderTraits::Column> group;
     std::vector<std::uint32_t> numbers;

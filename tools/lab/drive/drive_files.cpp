@@ -8,11 +8,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <utility>
-#include <vector>
 
+#include "firmware_io/scan/label_file.hpp"
 #include "rt/files/part_file.hpp"
 
 namespace terracut::drive {
@@ -108,17 +107,9 @@ fs::path DriveFiles::staged_calibration() const {
 }
 
 Status DriveFiles::write_truth(std::uint64_t frame, std::span<const std::uint32_t> labels) {
-  std::vector<char> bytes;
-  bytes.reserve(4 * labels.size());
-  for (const std::uint32_t label : labels) {
-    for (int shift = 0; shift < 32; shift += 8) {
-      bytes.push_back(static_cast<char>(label >> shift & 0xFFU));
-    }
-  }
-  std::ofstream file(staging_->truth() / fmt::format("{:06}.label", frame), std::ios::binary);
-  file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  file.close();
-  if (!file) return write_failed(truth_, "a label file was refused");
+  const Status written =
+      scan::write_label_ids(staging_->truth() / fmt::format("{:06}.label", frame), labels);
+  if (!written) return write_failed(truth_, "a label file was refused");
   return {};
 }
 

@@ -5,116 +5,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <system_error>
 #include <utility>
-#include <vector>
-
-#include "firing_order.hpp"
-#include "firmware_io/capture/pcap_writer.hpp"
-#include "truth_frames.hpp"
 
 namespace terracut::drive {
 namespace fs = std::filesystem;
-
-template <class EncoderTraits>
-class DriveWriter<EncoderTraits>::Impl {
- public:
-  using Column = typename EncoderTraits::Column;
-  using Sender = typename EncoderTraits::Sender;
-
-  Impl(capture::PcapWriter pcap, DriveFiles files, const typename EncoderTraits::Offsets& offsets,
-       Sender sender, ReturnMode returns)
-      : pcap_(std::move(pcap)),
-        files_(std::move(files)),
-        truth_(offsets, returns),
-        sender_(std::move(sender)),
-        order_(EncoderTraits::limits(returns)),
-        returns_(static_cast<std::size_t>(returns_per_firing(returns))),
-        group_(static_cast<std::size_t>(EncoderTraits::limits(returns).firings_per_group) *
-               returns_) {}
-
-  Status add_column(std::int64_t stamp_ns, std::int64_t azimuth_cdeg,
-                    std::span<const frame::LabelledReturn, kLasers> by_laser) {
-    if (finished_) return fail(ErrorCode::kInvalidArgument, "the drive is already finished");
-    const Status ordered = is_second_return() ? order_.check_second_return(stamp_ns, azimuth_cdeg)
-                                              : order_.check(stamp_ns, azimuth_cdeg);
-    if (!ordered) return ordered;
-    Column& column = group_[filled_++];
-    column.stamp_ns = stamp_ns;
-    column.unwrapped_azimuth_cdeg = azimuth_cdeg;
-    std::copy(by_laser.begin(), by_laser.end(), column.by_laser.begin());
-    ++summary_.columns;
-    return filled_ == group_.size() ? write_group() : Status{};
-  }
-
-  Expected<DriveSummary> finish() {
-    if (finished_) return fail(ErrorCode::kInvalidArgument, "the drive is already finished");
-    while (filled_ != 0) {  // an odd end: firings without returns fill up the packets
-      const auto [stamp_ns, azimuth_cdeg] = is_second_return() ? order_.last() : order_.next();
-      static constexpr std::array<frame::LabelledReturn, kLasers> kNothing{};
-      if (const Status added = add_column(stamp_ns, azimuth_cdeg, kNothing); !added) {
-        return tl::unexpected(added.error());
-      }
-    }
-    std::vector<std::uint32_t> labels;
-    while (truth_.take_any(labels)) {
-      if (const Status written = write_truth(labels); !written) {
-        return tl::unexpected(written.error());
-      }
-    }
-    finished_ = true;
-    if (const Status placed = put_in_place(); !placed) return tl::unexpected(placed.error());
-    return summary_;
-  }
-
- private:
-  [[nodiscard]] bool is_second_return() const noexcept { return filled_ % returns_ != 0; }
-
-  Status write_group() {
-    filled_ = 0;
-    constexpr auto kColumns = static_cast<std::size_t>(EncoderTraits::kColumnsPerPacket);
-    for (std::size_t first = 0; first < group_.size(); first += kColumns) {
-      const auto columns =
-          std::span<const Column>(group_).subspan(first).template first<kColumns>();
-      const Status sent = sender_.send(columns, static_cast<int>(first), pcap_);
-      if (!sent) return sent;
-      ++summary_.packets;
-    }
-    truth_.add(group_);
-    std::vector<std::uint32_t> labels;
-    while (truth_.take_finished(labels)) {
-      if (const Status written = write_truth(labels); !written) return written;
-    }
-    return {};
-  }
-
-  Status write_truth(const std::vector<std::uint32_t>& labels) {
-    if (const Status written = files_.write_truth(summary_.frames, labels); !written) {
-      return written;
-    }
-    ++summary_.frames;
-    summary_.returns += labels.size();
-    return {};
-  }
-
-  Status put_in_place() {
-    if (const Status replaceable = files_.check_replaceable(); !replaceable) return replaceable;
-    if (const Status captured = pcap_.finish(); !captured) return captured;
-    return files_.put_in_place(calibration_path_of<EncoderTraits>(pcap_.path()));
-  }
-
-  capture::PcapWriter pcap_;
-  DriveFiles files_;
-  TruthFrames<EncoderTraits> truth_;
-  Sender sender_;
-  FiringOrder order_;
-  std::size_t returns_;        ///< Columns of a firing.
-  std::vector<Column> group_;  ///< Columns that fill whole packets.
-  std::size_t filled_ = 0;
-  DriveSummary summary_;
-  bool finished_ = false;
-};
 
 namespace {
 
@@ -151,31 +46,78 @@ Expected<DriveWriter<EncoderTraits>> DriveWriter<EncoderTraits>::create(
   if (!as_read) return tl::unexpected(as_read.error());
   const auto sender = EncoderTraits::sender(calibration, config);
   if (!sender) return tl::unexpected(sender.error());
-  return DriveWriter(std::make_unique<Impl>(std::move(*pcap), std::move(*files),
-                                            EncoderTraits::offsets(*as_read, config), *sender,
-                                            config.returns));
+  return DriveWriter(std::move(*pcap), std::move(*files), EncoderTraits::offsets(*as_read), *sender,
+                     config.returns);
 }
 
 template <class EncoderTraits>
-DriveWriter<EncoderTraits>::DriveWriter(std::unique_ptr<Impl> impl) noexcept
-    : impl_(std::move(impl)) {}
-template <class EncoderTraits>
-DriveWriter<EncoderTraits>::DriveWriter(DriveWriter&&) noexcept = default;
-template <class EncoderTraits>
-DriveWriter<EncoderTraits>& DriveWriter<EncoderTraits>::operator=(DriveWriter&&) noexcept = default;
-template <class EncoderTraits>
-DriveWriter<EncoderTraits>::~DriveWriter() = default;
+DriveWriter<EncoderTraits>::DriveWriter(capture::PcapWriter pcap, DriveFiles files,
+                                        const typename EncoderTraits::Offsets& offsets,
+                                        Sender sender, ReturnMode returns)
+    : pcap_(std::move(pcap)),
+      files_(std::move(files)),
+      truth_(offsets, returns),
+      sender_(std::move(sender)),
+      group_(static_cast<std::size_t>(EncoderTraits::firings_per_group(returns) *
+                                      returns_per_firing(returns))) {}
 
 template <class EncoderTraits>
 Status DriveWriter<EncoderTraits>::add_column(
     std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
     std::span<const frame::LabelledReturn, kLasers> by_laser) {
-  return impl_->add_column(stamp_ns, unwrapped_azimuth_cdeg, by_laser);
+  Column& column = group_[filled_++];
+  column.stamp_ns = stamp_ns;
+  column.unwrapped_azimuth_cdeg = unwrapped_azimuth_cdeg;
+  std::copy(by_laser.begin(), by_laser.end(), column.by_laser.begin());
+  ++summary_.columns;
+  return filled_ == group_.size() ? write_group() : Status{};
+}
+
+template <class EncoderTraits>
+Status DriveWriter<EncoderTraits>::write_group() {
+  filled_ = 0;
+  constexpr auto kColumns = static_cast<std::size_t>(EncoderTraits::kColumnsPerPacket);
+  for (std::size_t first = 0; first < group_.size(); first += kColumns) {
+    const auto columns = std::span<const Column>(group_).subspan(first).template first<kColumns>();
+    const Status sent = sender_.send(columns, static_cast<int>(first), pcap_);
+    if (!sent) return sent;
+    ++summary_.packets;
+  }
+  truth_.add(group_);
+  std::vector<std::uint32_t> labels;
+  while (truth_.take_finished(labels)) {
+    if (const Status written = write_truth(labels); !written) return written;
+  }
+  return {};
+}
+
+template <class EncoderTraits>
+Status DriveWriter<EncoderTraits>::write_truth(const std::vector<std::uint32_t>& labels) {
+  if (const Status written = files_.write_truth(summary_.frames, labels); !written) {
+    return written;
+  }
+  ++summary_.frames;
+  summary_.returns += labels.size();
+  return {};
 }
 
 template <class EncoderTraits>
 Expected<DriveSummary> DriveWriter<EncoderTraits>::finish() {
-  return impl_->finish();
+  if (filled_ != 0) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("the last {} columns of the drive fill no packet", filled_));
+  }
+  std::vector<std::uint32_t> labels;
+  while (truth_.take_any(labels)) {
+    if (const Status written = write_truth(labels); !written) {
+      return tl::unexpected(written.error());
+    }
+  }
+  Status placed = files_.check_replaceable();
+  if (placed) placed = pcap_.finish();
+  if (placed) placed = files_.put_in_place(calibration_path_of<EncoderTraits>(pcap_.path()));
+  if (!placed) return tl::unexpected(placed.error());
+  return summary_;
 }
 
 template class DriveWriter<encode::Hdl64eEncoderTraits>;

@@ -5,13 +5,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <span>
+#include <vector>
 
 #include "drive_files.hpp"
 #include "encoder_traits.hpp"
+#include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "rt/error.hpp"
+#include "truth_frames.hpp"
 
 namespace terracut::drive {
 
@@ -19,7 +21,7 @@ namespace terracut::drive {
 struct DriveSummary {
   std::uint64_t frames = 0;   ///< Frames with at least one return = truth files.
   std::uint64_t returns = 0;  ///< = entries of all truth files.
-  std::uint64_t columns = 0;  ///< Those that fill up the last packets included.
+  std::uint64_t columns = 0;
   std::uint64_t packets = 0;  ///< Of data.
 };
 
@@ -56,27 +58,32 @@ class DriveWriter {
       const typename EncoderTraits::Calibration& calibration,
       const typename EncoderTraits::Config& config = {});
 
-  DriveWriter(DriveWriter&&) noexcept;
-  DriveWriter& operator=(DriveWriter&&) noexcept;
-  ~DriveWriter();
-
   /// The next firing of all lasers; `stamp_ns` is that of its first laser. In dual return two calls
   /// a firing, with the same stamp and azimuth: HDL-64E strongest, then last; RS-Ruby128 last, then
-  /// strongest. Firings must be those of a rotating head: stamps at least 1 us apart; inside a
-  /// group (Transmitter::limits(); the first group begins with the first firing) the head rotates
-  /// on by the sensor's own span of steps from one to the next. Between groups it may leave a gap
-  /// of up to 0.9 s, if speed and stamps agree with the azimuths to 15 degrees. Errors:
-  /// kInvalidArgument naming the firing and what it broke, kWriteFailed.
+  /// strongest. Firings must be those of a rotating head, which a decoder will follow. kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
                                   std::span<const frame::LabelledReturn, kLasers> by_laser);
 
-  /// Fills up the last packets with empty firings and puts all files in their places.
+  /// Puts all files in their places. kInvalidArgument when the columns do not fill whole packets.
   [[nodiscard]] Expected<DriveSummary> finish();
 
  private:
-  class Impl;
-  explicit DriveWriter(std::unique_ptr<Impl> impl) noexcept;
-  std::unique_ptr<Impl> impl_;
+  using Column = typename EncoderTraits::Column;
+  using Sender = typename EncoderTraits::Sender;
+
+  DriveWriter(capture::PcapWriter pcap, DriveFiles files,
+              const typename EncoderTraits::Offsets& offsets, Sender sender, ReturnMode returns);
+
+  [[nodiscard]] Status write_group();
+  [[nodiscard]] Status write_truth(const std::vector<std::uint32_t>& labels);
+
+  capture::PcapWriter pcap_;
+  DriveFiles files_;
+  TruthFrames<EncoderTraits> truth_;
+  Sender sender_;
+  std::vector<Column> group_;  ///< Columns that fill whole packets.
+  std::size_t filled_ = 0;
+  DriveSummary summary_;
 };
 
 using Hdl64eDriveWriter = DriveWriter<encode::Hdl64eEncoderTraits>;

@@ -21,7 +21,7 @@ FiringPlan<EncoderTraits>::FiringPlan(const typename EncoderTraits::Calibration&
                                       ReturnMode returns, double spin_hz, std::int64_t frames)
     : returns_(returns),
       frames_(frames),
-      group_(EncoderTraits::limits(returns).firings_per_group),
+      group_(EncoderTraits::firings_per_group(returns)),
       cdeg_per_s_(spin_hz * beams::kRevolution_cdeg),
       firing_s_(static_cast<double>(EncoderTraits::firing_ns(returns)) * 1e-9) {
   const double widest_cdeg = 100 * beams::rad_to_deg(EncoderTraits::widest_offset_rad(calibration));

@@ -14,9 +14,7 @@
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/packet_check.hpp"
 #include "hdl64e_packet_sender.hpp"
-#include "tools/lab/drive/firing_order.hpp"
 #include "tools/lab/drive/group_azimuths.hpp"
 #include "tools/lab/drive/return_mode.hpp"
 
@@ -50,15 +48,8 @@ struct Hdl64eEncoderTraits {
   [[nodiscard]] static constexpr std::int64_t firing_ns(drive::ReturnMode returns) noexcept {
     return times(returns).column_ns;
   }
-  [[nodiscard]] static constexpr drive::FiringLimits limits(drive::ReturnMode returns) noexcept {
-    const int firings = times(returns).columns_per_packet;
-    constexpr std::int64_t kAnyTime_ns = 900'000'000;  // the packet carries one stamp for all
-    return {.firings_per_group = firings,
-            .least_step_cdeg = hdl64e::kMinSweep_cdeg / (firings - 1),
-            .most_step_cdeg = hdl64e::kMaxColumnStep_cdeg,
-            .most_step_ns = kAnyTime_ns,
-            .usual_step_ns = firing_ns(returns),
-            .usual_step_cdeg = firing_ns(returns) * 10 * beams::kRevolution_cdeg / 1'000'000'000};
+  [[nodiscard]] static constexpr int firings_per_group(drive::ReturnMode returns) noexcept {
+    return times(returns).columns_per_packet;
   }
 
   [[nodiscard]] static constexpr std::int32_t step_ticks(const drive::GroupAzimuths& rotor_cdeg,
@@ -76,7 +67,7 @@ struct Hdl64eEncoderTraits {
     return offsets.offset_ticks(step_ticks, laser, returns == drive::ReturnMode::kDual);
   }
 
-  [[nodiscard]] static Offsets offsets(const Calibration& calibration, const Config&) {
+  [[nodiscard]] static Offsets offsets(const Calibration& calibration) {
     return Offsets(calibration);
   }
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config& config) {

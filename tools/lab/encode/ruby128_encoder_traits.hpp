@@ -15,9 +15,7 @@
 #include "calib/ruby128/ruby128_geometry.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
-#include "firmware_io/ruby128/packet_check.hpp"
 #include "ruby128_packet_sender.hpp"
-#include "tools/lab/drive/firing_order.hpp"
 #include "tools/lab/drive/group_azimuths.hpp"
 #include "tools/lab/drive/return_mode.hpp"
 
@@ -49,18 +47,7 @@ struct Ruby128EncoderTraits {
   [[nodiscard]] static constexpr std::int64_t firing_ns(drive::ReturnMode) noexcept {
     return ruby128::kRubyBlock_ns;
   }
-  [[nodiscard]] static constexpr drive::FiringLimits limits(drive::ReturnMode returns) noexcept {
-    // Packets of dual return are joined by their stamps (HeldFiring), so those must be regular.
-    constexpr std::int64_t kRegular_ns = ruby128::kRubyBlock_ns * 3 / 2;
-    constexpr std::int64_t kAnyTime_ns = 300'000'000;
-    const bool dual = returns == drive::ReturnMode::kDual;
-    return {.firings_per_group = 3,
-            .least_step_cdeg = dual ? ruby128::kRubyMinSweep_cdeg : ruby128::kRubyMinSweep_cdeg / 2,
-            .most_step_cdeg = ruby128::kRubyMaxStep_cdeg,
-            .most_step_ns = dual ? kRegular_ns : kAnyTime_ns,
-            .usual_step_ns = ruby128::kRubyBlock_ns,
-            .usual_step_cdeg = 20};
-  }
+  [[nodiscard]] static constexpr int firings_per_group(drive::ReturnMode) noexcept { return 3; }
 
   /// In dual return A and B stand in one packet and C beside B in the next, where B keeps its step.
   [[nodiscard]] static constexpr std::int32_t step_ticks(const drive::GroupAzimuths& rotor_cdeg,
@@ -79,7 +66,7 @@ struct Ruby128EncoderTraits {
     return offsets.offset_ticks(step_ticks, channel);
   }
 
-  [[nodiscard]] static Offsets offsets(const Calibration& calibration, const Config&) {
+  [[nodiscard]] static Offsets offsets(const Calibration& calibration) {
     return Offsets(calibration);
   }
   [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config&) {

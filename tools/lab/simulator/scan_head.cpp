@@ -33,7 +33,7 @@ ScanHead<EncoderTraits>::ScanHead(const SimulationConfig<EncoderTraits>& config,
       terrain_(&terrain),
       plan_(&plan),
       geometry_(EncoderTraits::geometry(config.calibration, config.sensor)),
-      offsets_(EncoderTraits::offsets(config.calibration, config.sensor)) {}
+      offsets_(EncoderTraits::offsets(config.calibration)) {}
 
 template <class EncoderTraits>
 void ScanHead<EncoderTraits>::cast(const drive::Firing& firing,

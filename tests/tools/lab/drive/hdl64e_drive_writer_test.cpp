@@ -101,16 +101,6 @@ class DriveWriterTest : public testing::Test {
   fs::path folder, pcap;
 };
 
-TEST_F(DriveWriterTest, TheNthTruthEntryIsTheNthReturnDecoded) {
-  auto firings = random_firings({.share_of_returns = 0.5});
-  const auto summary = write(firings, hdl64e::nominal_hdl64e());
-  EXPECT_EQ(summary.frames, 4U);
-  EXPECT_EQ(summary.columns, firings.size());
-  EXPECT_EQ(summary.packets * 6, firings.size());
-  expect_truth_fits(summary.frames, summary.returns);
-  EXPECT_EQ(files_in_folder(), 3U);
-}
-
 TEST_F(DriveWriterTest, WideRotationalCorrectionsKeepTheirFrames) {
   hdl64e::Hdl64eCalibration calibration = hdl64e::nominal_hdl64e();
   std::mt19937 random(6);
@@ -149,15 +139,6 @@ TEST_F(DriveWriterTest, OneRevolutionIsOneFrame) {
   expect_truth_fits(1, summary.returns);
 }
 
-TEST_F(DriveWriterTest, FillsUpTheLastPacket) {
-  auto firings = random_firings({.last_cdeg = 36'000});
-  firings.resize(firings.size() - 4);
-  const auto summary = write(firings, hdl64e::nominal_hdl64e());
-  EXPECT_EQ(summary.columns, firings.size() + 4);
-  EXPECT_EQ(summary.packets * 6, summary.columns);
-  expect_truth_fits(summary.frames, summary.returns);
-}
-
 TEST_F(DriveWriterTest, TheCaptureCarriesTheCalibration) {
   auto firings = random_firings({.last_cdeg = 37'000 + 13 * 36'000, .share_of_returns = 0.01});
   write(firings, hdl64e::nominal_hdl64e());
@@ -176,18 +157,6 @@ TEST_F(DriveWriterTest, TheCaptureCarriesTheCalibration) {
   const auto parsed = hdl64e::parse_stream_table(table);
   ASSERT_TRUE(parsed) << parsed.error().message;
   EXPECT_EQ(fingerprint(*parsed), fingerprint(hdl64e::nominal_hdl64e()));
-}
-
-TEST_F(DriveWriterTest, AnUnfinishedDriveLeavesNothingBehind) {
-  {
-    auto firings = random_firings({.last_cdeg = 40'000});
-    auto writer = DriveWriter::create(pcap, hdl64e::nominal_hdl64e());
-    ASSERT_TRUE(writer);
-    for (const FiringColumn& f : firings) {
-      ASSERT_TRUE(writer->add_column(f.stamp_ns, f.unwrapped_azimuth_cdeg, f.by_laser));
-    }
-  }
-  EXPECT_EQ(files_in_folder(), 0U);
 }
 
 TEST_F(DriveWriterTest, ReplacesAnOlderDriveAndItsTruth) {
@@ -217,42 +186,6 @@ TEST_F(DriveWriterTest, RefusesToReplaceATableThatIsOfNoDrive) {
   EXPECT_EQ(writer.error().code, ErrorCode::kInvalidArgument);
   EXPECT_NE(writer.error().message.find("drive.calibration.xml"), std::string::npos);
   EXPECT_EQ(files_in_folder(), 1U);
-}
-
-TEST_F(DriveWriterTest, RefusesFiringsNoHeadCouldMake) {
-  const std::array<frame::LabelledReturn, 64> nothing{};
-  struct Step {
-    std::int64_t ns, cdeg;
-    const char* says;
-  };
-  for (const Step& step :
-       {Step{0, 17, "stamp"}, Step{-5, 17, "stamp"}, Step{48'000, 1, "rotate on"},
-        Step{48'000, -17, "rotate on"}, Step{48'000, 101, "rotate on"}}) {
-    auto writer = DriveWriter::create(pcap, hdl64e::nominal_hdl64e());
-    ASSERT_TRUE(writer);
-    ASSERT_TRUE(writer->add_column(1'000'000'000, 100, nothing));
-    const Status added = writer->add_column(1'000'000'000 + step.ns, 100 + step.cdeg, nothing);
-    ASSERT_FALSE(added);
-    EXPECT_EQ(added.error().code, ErrorCode::kInvalidArgument);
-    EXPECT_NE(added.error().message.find(step.says), std::string::npos) << added.error().message;
-    EXPECT_NE(added.error().message.find("firing 1"), std::string::npos) << added.error().message;
-  }
-}
-
-TEST_F(DriveWriterTest, RefusesAGapThatTheDecoderWouldMisread) {
-  const std::array<frame::LabelledReturn, 64> nothing{};
-  const auto after_one_packet = [&](std::int64_t gap_ns, std::int64_t gap_cdeg) {
-    auto writer = DriveWriter::create(pcap, hdl64e::nominal_hdl64e());
-    for (int n = 0; n < 6; ++n) {
-      EXPECT_TRUE(writer->add_column(48'000 * n, 17 * n, nothing));
-    }
-    return writer->add_column(48'000 * 5 + gap_ns, 17 * 5 + gap_cdeg, nothing);
-  };
-  EXPECT_TRUE(after_one_packet(48'000, 17));
-  EXPECT_TRUE(after_one_packet(48'000 * 1000, 17'100));
-  EXPECT_FALSE(after_one_packet(48'000, 9'000));
-  EXPECT_FALSE(after_one_packet(48'000 * 1000, 17));
-  EXPECT_FALSE(after_one_packet(2'000'000'000, 17));
 }
 
 TEST_F(DriveWriterTest, RefusesAnUnusableCalibration) {

@@ -32,7 +32,7 @@ std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& 
   const std::int64_t firing_ns = EncoderTraits::firing_ns(settings.returns);
   const double step_cdeg =
       settings.spin_hz * beams::kRevolution_cdeg * 1e-9 * static_cast<double>(firing_ns);
-  const int group = EncoderTraits::limits(settings.returns).firings_per_group;
+  const int group = EncoderTraits::firings_per_group(settings.returns);
   std::vector<typename EncoderTraits::Column> columns;
   std::uint32_t number = 0;
   for (std::int64_t firing = 0;; ++firing) {

@@ -94,8 +94,8 @@ class DeskewedDrive : public testing::Test {
         drive::DriveWriter<EncoderTraits>::create(pcap(), config.calibration, config.sensor);
     ASSERT_TRUE(writer) << writer.error().message;
     // Returns are sorted into frames as their truth is; here each is told by its number.
-    drive::TruthFrames<EncoderTraits> frames(
-        EncoderTraits::offsets(config.calibration), config.sensor.returns);
+    drive::TruthFrames<EncoderTraits> frames(EncoderTraits::offsets(config.calibration),
+                                             config.sensor.returns);
     const auto group_size =
         static_cast<std::size_t>(EncoderTraits::firings_per_group(config.sensor.returns) *
                                  drive::returns_per_firing(config.sensor.returns));

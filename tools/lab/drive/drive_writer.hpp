@@ -60,7 +60,8 @@ class DriveWriter {
 
   /// The next firing of all lasers; `stamp_ns` is that of its first laser. In dual return two calls
   /// a firing, with the same stamp and azimuth: HDL-64E strongest, then last; RS-Ruby128 last, then
-  /// strongest. Firings must be those of a rotating head, which a decoder will follow. kWriteFailed.
+  /// strongest. Firings must be those of a rotating head, which a decoder will follow.
+  /// kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
                                   std::span<const frame::LabelledReturn, kLasers> by_laser);
 

@@ -50,21 +50,27 @@ TruthClass truth_class(std::uint32_t semantic_kitti_id) noexcept {
 }
 
 void Quality::add(frame::Label label, std::uint32_t semantic_kitti_id) noexcept {
-  const TruthClass truth = truth_class(semantic_kitti_id);
   const bool as_ground = is_ground(label);
+  add(truth_class(semantic_kitti_id), as_ground ? 1 : 0, as_ground ? 0 : 1);
+}
+
+void Quality::add(TruthClass truth, std::uint64_t as_ground, std::uint64_t as_obstacle) noexcept {
   switch (truth) {
     case TruthClass::kIgnored:
       return;
     case TruthClass::kGround:
-      ++(as_ground ? ground_as_ground : ground_as_obstacle);
+      ground_as_ground += as_ground;
+      ground_as_obstacle += as_obstacle;
       return;
     case TruthClass::kKeyObstacle:
-      ++(as_ground ? key_as_ground : key_as_obstacle);
+      key_as_ground += as_ground;
+      key_as_obstacle += as_obstacle;
       break;
     case TruthClass::kOrdinaryObstacle:
       break;
   }
-  ++(as_ground ? obstacle_as_ground : obstacle_as_obstacle);
+  obstacle_as_ground += as_ground;
+  obstacle_as_obstacle += as_obstacle;
 }
 
 Quality& Quality::operator+=(const Quality& other) noexcept {

@@ -9,8 +9,8 @@
 
 namespace terracut::quality {
 
-/// What a SemanticKITTI class id means for the measures (peers.md conventions;
-/// docs/reference/method.md).
+/// What a class, by its SemanticKITTI id or another dataset's, means for the measures (peers.md
+/// conventions; docs/reference/method.md).
 enum class TruthClass : std::uint8_t {
   kIgnored,  ///< Unlabelled or outlier (0, 1): counts nowhere.
   kGround,   ///< 40 road, 44 parking, 48 sidewalk, 49 other ground, 60 lane marking, 72 terrain.
@@ -31,6 +31,7 @@ struct Quality {
   std::uint64_t key_as_obstacle = 0;  ///< Part of obstacle_as_obstacle.
 
   void add(frame::Label label, std::uint32_t semantic_kitti_id) noexcept;
+  void add(TruthClass truth, std::uint64_t as_ground, std::uint64_t as_obstacle) noexcept;
   Quality& operator+=(const Quality& other) noexcept;
 
   [[nodiscard]] double iou_ground()

@@ -12,6 +12,7 @@
 
 #include "cloud_layout.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/quality/quality.hpp"
 
 namespace terracut::datasets {
 
@@ -28,7 +29,7 @@ inline constexpr std::size_t kGroundDefinitions = 2;
 }
 
 /// What points of a class count as.
-enum class Role : std::uint8_t { kIgnored, kGround, kOrdinaryObstacle, kKeyObstacle };
+using Role = quality::TruthClass;
 
 struct ClassEntry {
   std::uint16_t id = 0;  ///< In label files.
@@ -60,6 +61,11 @@ class ClassTable {
   [[nodiscard]] const std::vector<ClassEntry>& entries() const noexcept { return entries_; }
   /// Null for an id the table does not have.
   [[nodiscard]] const ClassEntry* find(std::uint16_t id) const noexcept;
+  /// kIgnored for an id the table does not have.
+  [[nodiscard]] Role role(std::uint16_t id, GroundDefinition definition) const noexcept {
+    const ClassEntry* const entry = find(id);
+    return entry == nullptr ? Role::kIgnored : entry->role(definition);
+  }
 
  private:
   std::optional<CloudLayout> layout_;

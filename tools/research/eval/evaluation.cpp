@@ -14,7 +14,6 @@
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/scan/label_file.hpp"
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
 #include "result_keeper.hpp"
@@ -155,12 +154,12 @@ class Run {
   }
 
   void show_changes(const Work& work, const FrameLabeller& labeller, const scan::KittiScan& scan) {
-    std::vector<std::uint16_t> classes;
+    std::vector<std::uint32_t> truth;
     for (const std::uint32_t point : labeller.placed().point_of_return) {
-      classes.push_back(scan::semantic_class(scan.labels[point]));
+      truth.push_back(scan.labels[point]);
     }
     config_.changed_frames->look({work.sequence->name, work.frame(), *labeller.placed().image,
-                                  classes, [&](std::size_t i) { return labeller.returns(i); }});
+                                  truth, [&](std::size_t i) { return labeller.returns(i); }});
   }
 
   void note(const Work& work, std::string what) {

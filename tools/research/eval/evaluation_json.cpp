@@ -258,20 +258,27 @@ class MethodJson {
             {"frames_realigned", realigned}};
   }
 
+  [[nodiscard]] Json frame_measures(const FrameCounts& counts) const {
+    const Quality all = statistics::quality_of(counts, classes_, {});
+    const Quality road =
+        statistics::quality_of(counts, classes_, {.ground = datasets::GroundDefinition::kRoad});
+    return {{"iou_g", share(has_ground(all), all.iou_ground())},
+            {"recall_o", share(has_key_obstacles(all), all.recall_key_obstacles())},
+            {"iou_road", share(has_ground(road), road.iou_ground())}};
+  }
+
   [[nodiscard]] Json sequences() const {
     Json json = Json::object();
     for (const auto& [name, frames] : frames_) {
       Json& sequence = json[name];
       std::uint64_t points = 0;
-      std::vector<Json> iou, recall, road_iou;
+      std::map<std::string, std::vector<Json>> of_frames;
       for (const auto* frame : frames) {
         points += frame->second.points;
-        const Quality quality = statistics::quality_of(frame->second.counts, classes_, {});
-        iou.push_back(share(has_ground(quality), quality.iou_ground()));
-        recall.push_back(share(has_key_obstacles(quality), quality.recall_key_obstacles()));
-        const Quality road = statistics::quality_of(frame->second.counts, classes_,
-                                                    {.ground = datasets::GroundDefinition::kRoad});
-        road_iou.push_back(share(has_ground(road), road.iou_ground()));
+        const Json measures = frame_measures(frame->second.counts);
+        for (const auto& [measure, value] : measures.items()) {
+          of_frames[measure].push_back(value);
+        }
       }
       sequence["frames"] = frames.size();
       sequence["points"] = points;
@@ -279,9 +286,9 @@ class MethodJson {
         sequence[std::string(named.name)] =
             measures_json(statistics::quality_of(counts_.at(name), classes_, named.scope));
       }
-      sequence["frame_iou_g"] = spread(iou);
-      sequence["frame_recall_o"] = spread(recall);
-      sequence["frame_iou_road"] = spread(road_iou);
+      for (const std::string measure : {"iou_g", "recall_o", "iou_road"}) {
+        sequence["frame_" + measure] = spread(of_frames[measure]);
+      }
       std::vector<std::int64_t> times_ns;
       for (const auto* frame : frames) times_ns.push_back(frame->second.times.segment_ns);
       sequence["ms"] = times_json(std::move(times_ns));
@@ -294,16 +301,9 @@ class MethodJson {
     for (const auto& [name, frames] : frames_) {
       for (const auto* entry : frames) {
         const FrameResult& result = entry->second;
-        const Quality all = statistics::quality_of(result.counts, classes_, {});
-        const Quality road = statistics::quality_of(result.counts, classes_,
-                                                    {.ground = datasets::GroundDefinition::kRoad});
-        Json frame{{"sequence", name},
-                   {"frame", entry->first.frame},
-                   {"points", result.points},
-                   {"iou_g", share(has_ground(all), all.iou_ground())},
-                   {"recall_o", share(has_key_obstacles(all), all.recall_key_obstacles())},
-                   {"iou_road", share(has_ground(road), road.iou_ground())},
-                   {"ms", milliseconds(result.times.segment_ns)}};
+        Json frame{{"sequence", name}, {"frame", entry->first.frame}, {"points", result.points}};
+        frame.update(frame_measures(result.counts));
+        frame["ms"] = milliseconds(result.times.segment_ns);
         if (result.times.decode_ns > 0) frame["decode_ms"] = milliseconds(result.times.decode_ns);
         list.push_back(std::move(frame));
       }

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "firmware_io/scan/label_file.hpp"
+
 namespace terracut::eval {
 
 using frame::Label;
@@ -65,8 +67,7 @@ void FrameLabeller::count(FrameResult& result) const {
   for (std::size_t i = 0; i < labels_.size(); ++i) {
     if (labels_[i] == Label::kNone) continue;
     const ScanPoint& point = scan_->points[i];
-    constexpr std::uint32_t kClass = 0xFFFF;  // the instance stands above it
-    result.counts.add(static_cast<std::uint16_t>(scan_->labels[i] & kClass),
+    result.counts.add(scan::semantic_class(scan_->labels[i]),
                       range_band(std::hypot(double{point.x_m}, double{point.y_m})), labels_[i]);
   }
 }

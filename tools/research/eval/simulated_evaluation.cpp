@@ -147,17 +147,9 @@ class DriveEvaluation {
       }
     }
     if (config_.changed_frames != nullptr && methods.size() == config_.methods.size()) {
-      show_changes(frame, image);
+      config_.changed_frames->look(
+          {scene_, frame, image, truth_, [&](std::size_t i) { return bench_.labels(i); }});
     }
-  }
-
-  void show_changes(const std::string& frame, const frame::RangeImage& image) {
-    std::vector<std::uint16_t> classes;
-    for (const std::uint32_t label : truth_) {
-      classes.push_back(scan::semantic_class(label));
-    }
-    config_.changed_frames->look(
-        {scene_, frame, image, classes, [&](std::size_t i) { return bench_.labels(i); }});
   }
 
   void count(const frame::RangeImage& image, std::span<const frame::Label> labels,

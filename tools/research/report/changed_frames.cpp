@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "firmware_io/frame/each_return.hpp"
+#include "firmware_io/scan/label_file.hpp"
 #include "pipeline/pictures/bird_eye_picture.hpp"
 #include "rt/files/whole_file.hpp"
 
@@ -65,10 +66,8 @@ ChangedFrames::ChangedFrames(std::span<const eval::MethodChoice> methods,
                              const datasets::ClassTable& classes)
     : methods_(methods), classes_(classes), most_(methods.size()) {}
 
-datasets::Role ChangedFrames::role_of(std::uint16_t id) const {
-  const datasets::ClassEntry* const entry = classes_.find(id);
-  return entry == nullptr ? datasets::Role::kIgnored
-                          : entry->role(datasets::GroundDefinition::kAll);
+datasets::Role ChangedFrames::role_of(std::uint32_t label) const {
+  return classes_.role(scan::semantic_class(label), datasets::GroundDefinition::kAll);
 }
 
 void ChangedFrames::look(const LabelledByAll& frame) {
@@ -99,7 +98,7 @@ ChangedFrames::Change ChangedFrames::change_of(const LabelledByAll& frame,
   for (std::size_t i = 0; i < first.size(); ++i) {
     if (!is_changed(first[i], other[i])) continue;
     ++change.returns;
-    const datasets::Role truth = role_of(frame.classes[i]);
+    const datasets::Role truth = role_of(frame.truth[i]);
     if (truth == datasets::Role::kIgnored) continue;
     ++(is_right(truth, first[i]) ? change.right : change.wrong);
   }
@@ -111,7 +110,7 @@ void ChangedFrames::draw(const LabelledByAll& frame, std::size_t method, Change&
   std::vector<Colour> before, after;
   std::vector<std::uint8_t> level;
   for (std::size_t i = 0; i < first.size(); ++i) {
-    const datasets::Role truth = role_of(frame.classes[i]);
+    const datasets::Role truth = role_of(frame.truth[i]);
     const bool changed = is_changed(first[i], other[i]);
     before.push_back(colour_of(truth, other[i], changed));
     after.push_back(colour_of(truth, first[i], changed));

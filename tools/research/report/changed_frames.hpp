@@ -24,7 +24,7 @@ struct LabelledByAll {
   const std::string& sequence;
   const std::string& frame;
   const frame::RangeImage& image;
-  std::span<const std::uint16_t> classes;
+  std::span<const std::uint32_t> truth;                                 ///< As in label files.
   std::function<std::span<const frame::Label>(std::size_t)> labels_of;  ///< methods[index]
 };
 
@@ -56,7 +56,7 @@ class ChangedFrames {
   };
   [[nodiscard]] Change change_of(const LabelledByAll& frame, std::size_t method) const;
   void draw(const LabelledByAll& frame, std::size_t method, Change& change) const;
-  [[nodiscard]] datasets::Role role_of(std::uint16_t id) const;
+  [[nodiscard]] datasets::Role role_of(std::uint32_t label) const;
 
   std::span<const eval::MethodChoice> methods_;
   const datasets::ClassTable& classes_;

@@ -24,7 +24,6 @@ enum class Verdict : std::uint8_t {
   kFalseObstacle,   ///< Ground, called obstacle.
   kIgnored,         ///< Of a class that counts nowhere.
 };
-inline constexpr std::size_t kVerdicts = 7;
 
 [[nodiscard]] Verdict verdict_of(datasets::Role truth, frame::Label label) noexcept;
 [[nodiscard]] pictures::Colour colour_of(Verdict verdict) noexcept;

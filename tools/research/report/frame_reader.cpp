@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "firmware_io/scan/label_file.hpp"
+
 namespace terracut::report {
 
 Status FrameReader::open(const std::string& sequence) {
@@ -36,12 +38,10 @@ Status FrameReader::read(const std::string& sequence, const std::string& frame) 
   truth_.clear();
   is_road_.clear();
   for (const std::uint32_t point : placed_.point_of_return) {
-    const datasets::ClassEntry* const entry =
-        classes_.find(static_cast<std::uint16_t>(labelled_.scan.labels[point]));
-    truth_.push_back(entry == nullptr ? datasets::Role::kIgnored
-                                      : entry->role(datasets::GroundDefinition::kAll));
-    is_road_.push_back(entry != nullptr &&
-                       entry->role(datasets::GroundDefinition::kRoad) == datasets::Role::kGround);
+    const std::uint16_t id = scan::semantic_class(labelled_.scan.labels[point]);
+    truth_.push_back(classes_.role(id, datasets::GroundDefinition::kAll));
+    is_road_.push_back(classes_.role(id, datasets::GroundDefinition::kRoad) ==
+                       datasets::Role::kGround);
   }
   return {};
 }

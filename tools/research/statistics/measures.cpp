@@ -5,26 +5,6 @@
 namespace terracut::statistics {
 namespace {
 
-void add(quality::Quality& quality, datasets::Role role, std::uint64_t as_ground,
-         std::uint64_t as_obstacle) {
-  switch (role) {
-    case datasets::Role::kIgnored:
-      return;
-    case datasets::Role::kGround:
-      quality.ground_as_ground += as_ground;
-      quality.ground_as_obstacle += as_obstacle;
-      return;
-    case datasets::Role::kKeyObstacle:
-      quality.key_as_ground += as_ground;
-      quality.key_as_obstacle += as_obstacle;
-      break;
-    case datasets::Role::kOrdinaryObstacle:
-      break;
-  }
-  quality.obstacle_as_ground += as_ground;
-  quality.obstacle_as_obstacle += as_obstacle;
-}
-
 /// `labels_of(entry, counts)`: the labels to score instead of those counted.
 template <class LabelsOf>
 quality::Quality score(const eval::FrameCounts& counts, const datasets::ClassTable& classes,
@@ -35,7 +15,7 @@ quality::Quality score(const eval::FrameCounts& counts, const datasets::ClassTab
     if (entry == nullptr || (entry->vegetation && !scope.vegetation)) continue;
     if (scope.band && *scope.band != key.band) continue;
     const eval::LabelCounts labels = labels_of(*entry, counted);
-    add(quality, entry->role(scope.ground), labels.ground, labels.obstacle);
+    quality.add(entry->role(scope.ground), labels.ground, labels.obstacle);
   }
   return quality;
 }

@@ -16,7 +16,7 @@ from collections import Counter
 from pathlib import Path
 
 from .accounting import judge_accounting
-from .capture import Drive
+from .capture import Drive, fresh_folder
 from .live import Live, losses, misses, times
 from .program import Program
 from .report import Report
@@ -90,13 +90,6 @@ def live_run(program: Program, report: Report, drive: Drive, deadline_ms: float,
 
 def ids_count(path: Path) -> int:
     return path.stat().st_size if path.exists() else -1
-
-
-def fresh_folder(folder: Path) -> Path:
-    folder.mkdir(exist_ok=True)
-    for path in folder.iterdir():
-        path.unlink()
-    return folder
 
 
 def ids(path: Path) -> array:

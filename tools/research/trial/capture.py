@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import hashlib
+import shutil
 import struct
 from collections import Counter
 from dataclasses import dataclass
@@ -69,3 +70,10 @@ def payloads(pcap: Path, for_s: float) -> list[bytes]:
 def labels_of(folder: Path) -> dict[int, str]:
     """A digest of every frame's label file, by frame number."""
     return {int(path.stem): hashlib.sha256(path.read_bytes()).hexdigest() for path in sorted(folder.glob("*.label"))}
+
+
+def fresh_folder(folder: Path) -> Path:
+    """With nothing in it."""
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir()
+    return folder

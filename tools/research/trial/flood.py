@@ -6,17 +6,16 @@ it shares nothing with the trial but the machine: `python3 flood.py TO RATE SECO
 from __future__ import annotations
 
 import json
+import pickle
 import random
 import signal
 import socket
-import struct
 import subprocess
 import sys
 import time
 from pathlib import Path
 
 TICK_S = 0.001
-LENGTH = struct.Struct("<H")
 PRIORITY = ["chrt", "-f", "60"]  # as the sensor's, which this must not hold up
 
 # --- What is sent ---
@@ -44,21 +43,7 @@ def garbage(packets: list[bytes], count: int = 2000) -> list[bytes]:
     return made
 
 
-def write_payloads(path: Path, payloads: list[bytes]) -> Path:
-    path.write_bytes(b"".join(LENGTH.pack(len(payload)) + payload for payload in payloads))
-    return path
-
-
 # --- Sending ---
-
-
-def read_payloads(path: Path) -> list[bytes]:
-    content, at, payloads = path.read_bytes(), 0, []
-    while at < len(content):
-        (length,) = LENGTH.unpack_from(content, at)
-        payloads.append(content[at + LENGTH.size : at + LENGTH.size + length])
-        at += LENGTH.size + length
-    return payloads
 
 
 def send(to: tuple[str, int], rate: float, seconds: float, payloads: list[bytes], addresses: list[str]) -> dict:
@@ -88,8 +73,10 @@ def send(to: tuple[str, int], rate: float, seconds: float, payloads: list[bytes]
 class Flood:
     """Such a process; stop() gives what it sent."""
 
-    def __init__(self, to: str, rate: float, payloads: Path, addresses: list[str], realtime: bool):
-        command = [*(PRIORITY if realtime else []), sys.executable, __file__, to, str(rate), "0", str(payloads), *addresses]
+    def __init__(self, to: str, rate: float, payloads: list[bytes], addresses: list[str], realtime: bool, scratch: Path):
+        file = scratch / "flood.pickle"
+        file.write_bytes(pickle.dumps(payloads))
+        command = [*(PRIORITY if realtime else []), sys.executable, __file__, to, str(rate), "0", str(file), *addresses]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
 
     def stop(self) -> dict:
@@ -100,5 +87,5 @@ class Flood:
 
 if __name__ == "__main__":
     host, port = sys.argv[1].rsplit(":", 1)
-    told = send((host, int(port)), float(sys.argv[2]), float(sys.argv[3]), read_payloads(Path(sys.argv[4])), sys.argv[5:])
+    told = send((host, int(port)), float(sys.argv[2]), float(sys.argv[3]), pickle.loads(Path(sys.argv[4]).read_bytes()), sys.argv[5:])
     print(json.dumps(told))

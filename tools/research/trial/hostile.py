@@ -9,17 +9,15 @@ on this machine; the sequence fuzzers of tests/fuzz step it for the chain that l
 from __future__ import annotations
 
 import itertools
-import shutil
 import time
 from collections import Counter
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 
 from . import machine
 from .accounting import judge_accounting
-from .capture import Drive, labels_of, payloads
-from .flood import Flood, garbage, write_payloads
+from .capture import Drive, fresh_folder, labels_of, payloads
+from .flood import Flood, garbage
 from .live import Live, losses, misses
 from .loopback import DEADLINE_MS, SENSORS, FRAMES_A_SECOND
 from .program import Program, TrialError
@@ -90,8 +88,7 @@ def hold(program: Program, report: Report, seconds: float, sensors: list[str], s
     deadline_ms = SHORT_DEADLINE_MS if short else DEADLINE_MS
     for sensor in sensors:
         drive = program.drive(sensor, SENSORS[sensor].returns, "street", seconds + CALM_S)
-        folder = fresh(program.scratch / "labels_replay")
-        undisturbed = UndisturbedFrames(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
+        undisturbed = UndisturbedFrames(program, drive)
         rows = [attacked(program, report, drive, undisturbed, seconds, sensor, attack, deadline_ms, short) for attack in ATTACKS]
         report.table(
             f"{sensor}: {seconds:g} s of each, then {CALM_S:g} s of calm; labels within {deadline_ms} ms",
@@ -101,24 +98,18 @@ def hold(program: Program, report: Report, seconds: float, sensors: list[str], s
         )  # fmt: skip
 
 
-def fresh(folder: Path) -> Path:
-    shutil.rmtree(folder, ignore_errors=True)
-    return folder
-
-
 def attacked(program: Program, report: Report, drive: Drive, undisturbed: UndisturbedFrames, seconds: float, sensor: str, attack: Attack,
              deadline_ms: float, short: bool) -> list:  # fmt: skip
     of = f"{sensor}, {attack.name}: "
-    labels = fresh(program.scratch / "labels_live")
+    labels = fresh_folder(program.scratch / "labels_live")
     packets = payloads(drive.pcap, for_s=2)
     a_second = len(undisturbed.stamps_ns) / (seconds + CALM_S)
     faults = ["--faults", attack.faults(seconds)] if attack.faults(seconds) else []
     with Live(program, drive, "--labels", labels, deadline_ms=deadline_ms, limit_s=seconds + 120) as live:
         flood = None
         if attack.addresses:
-            sent_by_others = write_payloads(program.scratch / "flood.bin", attack.sends(packets))
-            flood = Flood(live.sends_to, attack.rate(a_second), sent_by_others, attack.addresses,
-                          machine.has_realtime_rights())  # fmt: skip
+            flood = Flood(live.sends_to, attack.rate(a_second), attack.sends(packets), attack.addresses,
+                          machine.has_realtime_rights(), program.scratch)  # fmt: skip
         sending = live.send(*faults)
         time.sleep(seconds)
         others = flood.stop() if flood else {"sent": 0, "per_second": 0}

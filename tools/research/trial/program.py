@@ -52,6 +52,3 @@ class Program:
             arguments += ["--labels", labels]
         self.must(*arguments)
         return json.loads(report.read_text())
-
-    def has_option(self, command: str, option: str) -> bool:
-        return option in self.must(command, "--help")

@@ -5,14 +5,13 @@ labels of what was not touched are those of an offline replay, bit for bit."""
 
 from __future__ import annotations
 
-import shutil
 from bisect import bisect_right
 from collections import Counter
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from .accounting import judge_accounting
-from .capture import Drive, labels_of, packet_count, records
+from .capture import Drive, fresh_folder, labels_of, packet_count, records
 from .live import Live, losses
 from .program import Program, TrialError
 from .report import Report
@@ -62,9 +61,7 @@ def hold(program: Program, report: Report, together: bool) -> None:
     """One run a fault, or `together`: all in one, which is quicker and says less of which one failed."""
     seconds = FIRST_S + APART_S * len(FAULTS) + 1
     drive = program.drive("hdl64e", "single", "street", round(seconds, 1))
-    folder = program.scratch / "labels_replay"
-    shutil.rmtree(folder, ignore_errors=True)
-    undisturbed = UndisturbedFrames(program.replay(drive.pcap, drive.calibration, folder), drive, labels_of(folder))
+    undisturbed = UndisturbedFrames(program, drive)
     runs = [[fault] for fault in FAULTS]
     if together:
         runs = [[fault for fault in FAULTS if fault.name != "foreign, from the sensor's address"]]
@@ -76,7 +73,10 @@ def hold(program: Program, report: Report, together: bool) -> None:
 class UndisturbedFrames:
     """The drive's frames, undisturbed: where each begins, and its labels."""
 
-    def __init__(self, replay: dict, drive: Drive, labels: dict[int, str]):
+    def __init__(self, program: Program, drive: Drive):
+        folder = fresh_folder(program.scratch / "labels_replay")
+        replay = program.replay(drive.pcap, drive.calibration, folder)
+        labels = labels_of(folder)
         self.begin_ns = [frame["first_packet_ns"] for frame in replay["frames"]]
         self.stamps_ns = [stamp for stamp, _ in records(drive.pcap)]
         # The end of the last two is only known to a replay, which knows that nothing follows.
@@ -94,9 +94,7 @@ def run(program: Program, report: Report, drive: Drive, undisturbed: Undisturbed
     of = (faults[0].name if len(faults) == 1 else "all at once") + ": "
     script = " ".join(f"{fault.kind}@{FIRST_S + i * APART_S:.2f}s:{fault.amount}" for i, fault in enumerate(faults))
     stranger = next((["--foreign-from", fault.foreign_from] for fault in faults if fault.foreign_from), [])
-    labels, dumps = program.scratch / "labels_live", program.scratch / "dumps"
-    for folder in (labels, dumps):
-        shutil.rmtree(folder, ignore_errors=True)
+    labels, dumps = (fresh_folder(program.scratch / name) for name in ("labels_live", "dumps"))
     options = ["--labels", labels, "--recorder-folder", dumps, "--recorder-seconds", RECORDER_S]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=120) as live:
         sent = live.send("--faults", script, *stranger).wait()
@@ -164,8 +162,7 @@ def against_dump(program: Program, report: Report, of: str, drive: Drive, dumps:
     if not captures:
         return sorted(frames), len(frames)
     report.equal(of + "packets in the dump", packet_count(captures[0]), summary["link"]["packets"])
-    folder = program.scratch / "labels_dump"
-    shutil.rmtree(folder, ignore_errors=True)
+    folder = fresh_folder(program.scratch / "labels_dump")
     program.replay(captures[0], drive.calibration, folder)
     replayed = labels_of(folder)
     return [number for number, labels in frames.items() if replayed.get(number) != labels], len(frames)

@@ -20,22 +20,8 @@ TEST(ClassTableTest, OfSemanticKittiSaysWhatThePipelinesOwnMeasuresSay) {
   const auto table = built_in_table("semantickitti");
   ASSERT_TRUE(table) << table.error().message;
   EXPECT_EQ(table->entries().size(), 34U);
-  const auto as_role = [](quality::TruthClass truth) {
-    switch (truth) {
-      case quality::TruthClass::kGround:
-        return Role::kGround;
-      case quality::TruthClass::kKeyObstacle:
-        return Role::kKeyObstacle;
-      case quality::TruthClass::kOrdinaryObstacle:
-        return Role::kOrdinaryObstacle;
-      case quality::TruthClass::kIgnored:
-        break;
-    }
-    return Role::kIgnored;
-  };
   for (const ClassEntry& entry : table->entries()) {
-    EXPECT_EQ(entry.role(GroundDefinition::kAll), as_role(quality::truth_class(entry.id)))
-        << entry.name;
+    EXPECT_EQ(entry.role(GroundDefinition::kAll), quality::truth_class(entry.id)) << entry.name;
     EXPECT_EQ(entry.role(GroundDefinition::kRoad) == Role::kGround, entry.id == 40) << entry.name;
     EXPECT_EQ(entry.vegetation, entry.id == 70) << entry.name;
   }

@@ -33,7 +33,7 @@ class ChangedFramesTest : public testing::Test {
   void look(const std::string& frame, const std::vector<Label>& first,
             const std::vector<Label>& other) {
     static const std::string kSequence = "00";
-    changed_.look({kSequence, frame, image_, classes_,
+    changed_.look({kSequence, frame, image_, truth_,
                    [&](std::size_t i) { return std::span(i == 0 ? first : other); }});
   }
   [[nodiscard]] nlohmann::json written() const {
@@ -47,7 +47,7 @@ class ChangedFramesTest : public testing::Test {
   scan::ScratchFolder folder_;
   memory::FixedMemory memory_;
   frame::RangeImage image_{{.rows = 2, .columns = 8}, 0, memory_};
-  std::vector<std::uint16_t> classes_{40, 10, 40, 0};
+  std::vector<std::uint32_t> truth_{40, 10, 40, 0};
   datasets::ClassTable table_ = *datasets::built_in_table("semantickitti");
   std::vector<eval::MethodChoice> methods_{*eval::method_named("terracut"),
                                            *eval::method_named("paper")};

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <utility>
 
 #include "random.hpp"
 
@@ -85,7 +86,9 @@ void ObjectIndex::update(double time_s, double window_s, const Eigen::Vector3d& 
     sort_in(i, viewpoint, reach_m);
   }
   for (std::vector<Candidate>& sector : sectors_) {
-    std::ranges::stable_sort(sector, {}, &Candidate::nearest_m);
+    std::ranges::sort(sector, {}, [](const Candidate& candidate) {
+      return std::pair(candidate.nearest_m, candidate.object);
+    });
   }
 }
 

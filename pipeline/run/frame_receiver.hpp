@@ -74,6 +74,7 @@ class FrameReceiver {
     }
     source_.refresh_drops();
     before_ = source_.counters();
+    received_ = before_.received;
   }
 
   struct Round {
@@ -87,7 +88,10 @@ class FrameReceiver {
     waited_before_last_fetch_ns_ = waited_before_fetch_ns_;
     waited_before_fetch_ns_ = wait_.read_ns();
     const std::span<const decode::Datagram> datagrams = source_.receive(timeout_ns);
-    const bool more_may_wait = datagrams.size() >= net::kBatchDatagrams;
+    // Others' datagrams fill a batch as well, and are not among those returned.
+    const std::uint64_t received = source_.counters().received;
+    const bool more_may_wait =
+        received - std::exchange(received_, received) >= net::kBatchDatagrams;
     const std::int64_t now_ns = clock_.realtime_ns();
     gate_.begin_batch(more_may_wait);
     frames_ = 0;
@@ -102,8 +106,8 @@ class FrameReceiver {
   }
 
  private:
-  /// Packets are fetched as they come in the last fiftieth of a frame: that much sooner than its
-  /// last packet a gathering ends, however late the thread wakes up.
+  /// Packets are fetched as they come in the last fiftieth of a frame: a gathering ends that much
+  /// sooner than its last packet comes, so that a thread which wakes up late is still in time.
   static constexpr float kFetchedAsTheyCome = 0.02F;
   static constexpr std::int64_t kWorthwhileGathering_ns = 300'000;
   /// More than any buffer holds: who sends without end holds up nothing.
@@ -223,6 +227,7 @@ class FrameReceiver {
   PacketGate gate_;
 
   net::ReceiveCounters before_;
+  std::uint64_t received_ = 0;  ///< By the source, up to the newest fetch.
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;

@@ -591,6 +591,16 @@ TEST_F(LiveFrames, AFullBatchIsFollowedByTheNextAtOnce) {
   EXPECT_GT(receiver_->work_round(100 * kMs).gathering_ns, 0) << "none was left waiting";
 }
 
+TEST_F(LiveFrames, ABatchThatIsFullOfOthersDatagramsIsFollowedByTheNextAtOnce) {
+  receive_gathering(10 * kMs);
+  send(drive(3));
+  run_until(kStart_ns + 40 * kMs);
+  EXPECT_GT(receiver_->work_round(100 * kMs).gathering_ns, 0);
+  source_.leave_out(net::kBatchDatagrams - 1, 0);  // one of the sensor's was among them
+  EXPECT_EQ(receiver_->work_round(100 * kMs).gathering_ns, 0);
+  EXPECT_GT(receiver_->work_round(100 * kMs).gathering_ns, 0);
+}
+
 TEST_F(LiveFrames, AHeadThatIsSetToRotateFasterIsNotWaitedForTooLong) {
   receive_gathering(20 * kMs);
   send(test::random_packets({.first_cdeg = 0,

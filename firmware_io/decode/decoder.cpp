@@ -226,6 +226,7 @@ void Decoder::take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
   blind_.end();
   count_due();
   tracker_.miss(seen_share(placed.missing), frames_.losses());
+  place_rest();
   frames_.flush();
   step_ = Step::kRestart;
 }
@@ -236,6 +237,7 @@ void Decoder::restart() noexcept {
     clock_.reset();
   }
   frames_.start(job_.first_frame, job_.swept.from_ticks);
+  complete_ticks_ = placed_ticks_ = job_.first_frame * kRevolution_ticks;
   frontier_ticks_ = job_.swept.from_ticks;
   steps_ticks_ = steps_ = 0;
   judge();
@@ -276,7 +278,7 @@ void Decoder::judge() noexcept {
     if (sent.anew) deskewer_->begin_anew(swept.from_ticks);
     deskewer_->note(swept.from_ticks, sent.instant_ns - azimuths_.nominal_period_ns);
   }
-  frames_.roll_to(job_.last_frame - 1);
+  end_frames_before(job_.last_frame - 1);
   step_ = Step::kPlace;
 }
 
@@ -289,10 +291,11 @@ void Decoder::place() noexcept {
   const PacketPlace place{
       .rotor_cdeg = job_.placed.rotor_cdeg,
       .late_columns = job_.late_columns,
-      .is_in_one_frame = job_.first_frame == job_.last_frame,
       .owner = azimuths_.dual_return ? dual_owner_ : frame::CellOwner::kFirstArrived};
-  with_sensor(
-      [&](auto& sensor) noexcept { sensor.place(job_.payload, azimuths_, place, frames_); });
+  const bool is_placed = with_sensor([&](auto& returns) noexcept {
+    returns.add(job_.payload, azimuths_, place, frames_);
+    return returns.is_flushed();
+  });
   ++packets_;
   columns_ += static_cast<std::uint64_t>(azimuths_.columns - job_.late_columns);
 
@@ -300,14 +303,26 @@ void Decoder::place() noexcept {
   completes_behind_ticks_ =
       late_packets * job_.stride.widest_ticks + job_.step_ticks - job_.spread.hindmost_ticks;
   complete_ticks_ = (late_packets > 0 ? frontier_ticks_ : next_ticks) - completes_behind_ticks_;
-  frames_.roll_to(frame_of(complete_ticks_));
+  if (is_placed) placed_ticks_ = complete_ticks_;
+  end_frames_before(frame_of(complete_ticks_));
   step_ = after_packet_;
+}
+
+void Decoder::end_frames_before(std::int64_t frame) noexcept {
+  if (frame > frames_.oldest()) place_rest();
+  frames_.roll_to(frame);
+}
+
+void Decoder::place_rest() noexcept {
+  with_sensor([&](auto& returns) noexcept { returns.flush(frames_); });
+  placed_ticks_ = complete_ticks_;
 }
 
 void Decoder::end() noexcept {
   tracker_.end_of_stream(frames_.losses());
   blind_.end();
   count_due();
+  place_rest();
   frames_.flush();
   step_ = Step::kNothing;
 }

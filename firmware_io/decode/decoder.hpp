@@ -28,9 +28,9 @@
 
 namespace terracut::decode {
 
-/// Data packets of one spinning sensor in, frames of returns out. A return goes straight into its
-/// cell while its packet is read. All that differs from model to model is in a trait
-/// (packet_returns.hpp).
+/// Data packets of one spinning sensor in, frames of returns out. Returns go into their cells some
+/// packets at a time, and all of a frame's before it is handed out. All that differs from model to
+/// model is in a trait (packet_returns.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
@@ -179,7 +179,7 @@ class Decoder {
 
   /// Of the oldest frame. Beams' columns are rounded, each by less than one.
   [[nodiscard]] int complete_columns() const noexcept {
-    const std::int64_t complete_ticks = complete_ticks_ - frames_.oldest() * kRevolution_ticks;
+    const std::int64_t complete_ticks = placed_ticks_ - frames_.oldest() * kRevolution_ticks;
     const std::int64_t columns = complete_ticks * frames_.shape().columns / kRevolution_ticks - 1;
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
@@ -252,6 +252,9 @@ class Decoder {
   /// What it tells of the stream, and which frames are over before it can be placed.
   void judge() noexcept;
   void place() noexcept;
+  void end_frames_before(std::int64_t frame) noexcept;
+  /// The returns of packets that wait for others.
+  void place_rest() noexcept;
   void end() noexcept;
 
   /// What lies between the packets before and this one, taken in order.
@@ -317,6 +320,7 @@ class Decoder {
   std::optional<frame::Reject> rejected_;
   std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.
   std::int64_t complete_ticks_ = 0;          ///< Up to here no more returns are expected.
+  std::int64_t placed_ticks_ = 0;            ///< The same when all returns were placed.
   std::int64_t completes_behind_ticks_ = 0;  ///< Usual distance of complete_ticks_ behind the head.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
   bool has_crossed_ = false;  ///< A sector lies in the packet before.

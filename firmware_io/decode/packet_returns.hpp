@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,10 +10,12 @@
 #include <span>
 #include <utility>
 
-#include "firmware_io/decode/column_returns.hpp"
+#include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/rotor_directions.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::decode {
 
@@ -20,57 +23,104 @@ namespace terracut::decode {
 struct PacketPlace {
   std::int64_t rotor_cdeg = 0;  ///< Placement::rotor_cdeg
   int late_columns = 0;         ///< The first so many are left out and counted.
-  bool is_in_one_frame = false;
   frame::CellOwner owner{};
 };
 
-/// The returns of one packet, from its bytes to their cells.
+/// The returns of packets, from their bytes to their cells. Several packets are collected, then
+/// placed laser by laser:
+///
+///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
+///   tile    --a laser's constants, 24 firings in vectors-->  points, next to each other in a row
 ///
 /// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
-/// - `Calibration`, `Config`; `kRows` lasers; `kPacketBytes`, the size of a data packet;
-///   `kClockWrap_us`, where the device clock wraps;
+/// - `Calibration`, `Config`; `kRows` lasers, of which those of a group fire together, `kGroups`;
+///   `kPacketBytes`, the size of a data packet; `kClockWrap_us`, where the device clock wraps;
 ///   `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
-/// - a constructor (const Calibration&, const mount::Mount&, const Config&, int columns,
-///   memory::FixedMemory&);
+/// - a constructor (const Calibration&, const mount::Mount&, const Config&);
 /// - `check(payload, PacketAzimuths&)`: the reason to reject a payload, or nothing and its heads;
 /// - `spread(step_ticks)`: the BeamSpread around the head;
 /// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
-/// - `begin_packet(azimuths)`, then `read_column(payload, azimuths, column, found)` for each column
-///   in turn, which fills in its ColumnReturns<kRows>;
+/// - `group(laser)`, `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated
+///   since its firing's azimuth when the group fires, [0, 1e5];
+/// - `begin_packet(azimuths)`, for each packet in order of arrival, then `step_ticks(azimuths,
+///   column)` and `read_column(payload, column, FiringTile<kRows>&, firing)`, which fills in a
+///   firing of the tile;
+/// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, PointsOut)`;
 /// - `rows()`: the range image row of each laser.
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
 template <class Sensor>
 class PacketReturns {
  public:
-  template <class... Arguments>
-  explicit PacketReturns(Arguments&&... of_sensor)
-      : sensor_(std::forward<Arguments>(of_sensor)...) {}
+  /// columns: of the range image, [16, 36000].
+  PacketReturns(const typename Sensor::Calibration& calibration, const mount::Mount& mount,
+                const typename Sensor::Config& config, int columns, memory::FixedMemory& memory)
+      : sensor_(calibration, mount, config),
+        columns_(columns),
+        directions_(memory),
+        tile_(memory.take<FiringTile<kLasers>>("decoder tables", 1)),
+        heads_(memory.take<TileHeads<Sensor::kGroups>>("decoder tables", 1)),
+        measured_m_(memory.take<TileRow<float>>("decoder tables", kLasers)),
+        beams_(memory.take<BeamColumns>("decoder tables", kLasers)),
+        points_(memory.take<TilePoints>("decoder tables", kLasers)) {
+    advance_key_.fill(kNoAdvance);
+    for (std::size_t i = 0; i < kLasers; ++i) {
+      offset_[i] = column_angle(sensor_.beam_ticks(static_cast<int>(i)), columns);
+    }
+  }
 
   [[nodiscard]] Sensor& trait() noexcept { return sensor_; }
   [[nodiscard]] const Sensor& trait() const noexcept { return sensor_; }
 
-  /// Reads a packet that the trait's check() has passed and places its returns.
-  void place(std::span<const std::uint8_t> payload, const PacketAzimuths& azimuths,
-             const PacketPlace& place, FrameBuilder& frames) noexcept {
+  /// Reads a packet that the trait's check() has passed. Its returns are placed when enough are
+  /// there, or by flush(); its frames must be open until then.
+  void add(std::span<const std::uint8_t> payload, const PacketAzimuths& azimuths,
+           const PacketPlace& place, FrameBuilder& frames) noexcept {
+    const auto columns = static_cast<std::size_t>(azimuths.columns);
+    if (place.owner != owner_ || firings_ + columns > kTileFirings) flush(frames);
+    owner_ = place.owner;
     sensor_.begin_packet(azimuths);
-    for (int column = 0; column < azimuths.columns; ++column) {
-      sensor_.read_column(payload, azimuths, column, found_[static_cast<std::size_t>(column)]);
+    for (std::size_t c = 0; c < columns; ++c) {
+      const std::size_t firing = firings_ + c;
+      sensor_.read_column(payload, c, tile_[0], firing);
+      rotor_cdeg_[firing] = place.rotor_cdeg + azimuths.advance_cdeg(static_cast<int>(c));
+      set_advance(firing, sensor_.step_ticks(azimuths, c), azimuths.dual_return);
     }
     if (place.late_columns > 0) leave_out(place.late_columns, azimuths, frames.losses());
-    const bool goes_by_laser = place.is_in_one_frame && place.late_columns == 0;
-    if (goes_by_laser && place_by_laser(azimuths, place, frames)) return;
-    place_by_firing(azimuths, place, frames);
+    firings_ += columns;
+    if (firings_ == kTileFirings) flush(frames);
   }
+  /// Places what was added.
+  void flush(FrameBuilder& frames) noexcept {
+    if (firings_ == 0) return;
+    const std::size_t firings = std::exchange(firings_, 0);
+    complete(firings);
+    measure({tile_[0].raw[0].data(), kLasers * kTileFirings}, sensor_.metres_per_count(),
+            measured_m_[0].data());
+    const Tile tile = find_cells(firings, frames);
+    if (!place_by_laser(tile)) place_by_firing(tile, frames);
+  }
+  /// All that was added is placed.
+  [[nodiscard]] bool is_flushed() const noexcept { return firings_ == 0; }
 
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kRows);
+  static constexpr std::int64_t kNoAdvance = -1;
+
+  /// What is being placed, where.
+  struct Tile {
+    std::size_t firings;
+    std::int64_t first_frame;                  ///< The older of two.
+    std::array<frame::RangeImage*, 2> images;  ///< Of the two.
+    bool is_in_one_frame;
+    std::size_t frame;  ///< Which, if so.
+  };
+  using Numbers = std::array<TileRow<std::uint32_t>, 2>;  ///< By frame and firing.
 
   void leave_out(int late_columns, const PacketAzimuths& azimuths,
                  frame::LossCounters& losses) noexcept {
-    for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
-      for (std::uint16_t& raw : found_[c].raw) {
-        losses.late_returns += raw != 0 ? 1U : 0U;
-        raw = 0;
+    for (TileRow<std::uint16_t>& raw : tile_[0].raw) {
+      for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
+        losses.late_returns += std::exchange(raw[firings_ + c], std::uint16_t{0}) != 0 ? 1U : 0U;
       }
     }
     // Both returns of a pair are one firing.
@@ -78,68 +128,176 @@ class PacketReturns {
         azimuths.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
   }
 
-  /// Laser by laser. Each cache line of the image then is written once and not once a firing, which
-  /// takes half the time. Returns false and places nothing where the overflow list might run full.
-  [[nodiscard]] bool place_by_laser(const PacketAzimuths& azimuths, const PacketPlace& place,
-                                    FrameBuilder& frames) noexcept {
-    const auto columns = static_cast<std::size_t>(azimuths.columns);
-    std::array<std::uint32_t, PacketAzimuths::kMaxColumns>
-        number{};  // of each column's next return
-    std::uint32_t returns = 0;
-    for (std::size_t c = 0; c < columns; ++c) {
-      number[c] = returns;
-      for (const std::uint16_t raw : found_[c].raw) returns += raw != 0 ? 1U : 0U;
+  /// The same step mostly comes again and again.
+  void set_advance(std::size_t firing, std::int32_t step_ticks, bool dual_return) noexcept {
+    const std::int64_t key = std::int64_t{step_ticks} * 2 + (dual_return ? 1 : 0);
+    if (std::exchange(advance_key_[firing], key) == key) return;
+    for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
+      const std::int32_t ticks = sensor_.advance_ticks(step_ticks, group, dual_return);
+      heads_[0].set_advance(firing, group, ticks, column_angle(ticks, columns_));
     }
-    frame::RangeImage& image = frames.image(frame_of_beam(azimuths, place.rotor_cdeg, 0, 0));
-    const std::optional<std::uint32_t> first = image.take_numbers(returns);
-    if (!first) return false;
-    for (std::uint32_t& next : number) next += *first;
+  }
 
-    const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
+  /// The rest of a tile that is not full: without returns.
+  void complete(std::size_t firings) noexcept {
+    if (firings == kTileFirings) return;
+    for (TileRow<std::uint16_t>& raw : tile_[0].raw) {
+      std::fill(raw.begin() + static_cast<std::ptrdiff_t>(firings), raw.end(), std::uint16_t{0});
+    }
+    for (std::size_t f = firings; f < kTileFirings; ++f) {
+      rotor_cdeg_[f] = rotor_cdeg_[firings - 1];
+      advance_key_[f] = kNoAdvance;
+      for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
+        heads_[0].set_advance(f, group, 0, {});
+      }
+    }
+  }
+
+  [[nodiscard]] Tile find_cells(std::size_t firings, FrameBuilder& frames) noexcept {
+    const std::int64_t first_frame = frames.oldest();
+    TileHeads<Sensor::kGroups>& heads = heads_[0];
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      const std::int32_t azimuth_cdeg = beams::wrap_cdeg(rotor_cdeg_[f]);
+      const std::int64_t revolution =
+          (rotor_cdeg_[f] - azimuth_cdeg) / beams::kRevolution_cdeg - first_frame;
+      ColumnAngle angle = column_angle(std::int64_t{azimuth_cdeg} * kTicksPerCdeg, columns_);
+      angle.whole += static_cast<std::int32_t>(revolution) * columns_;
+      heads.set_head(f, directions_.at(azimuth_cdeg), angle);
+    }
+    std::int32_t least = 0, most = 0;
     for (std::size_t i = 0; i < kLasers; ++i) {
-      // Which columns a laser found something in is as good as random, so no branch is asked to
-      // guess it.
-      std::array<std::uint8_t, PacketAzimuths::kMaxColumns> hits;
-      std::size_t hit_count = 0;
-      for (std::size_t c = 0; c < columns; ++c) {
-        hits[hit_count] = static_cast<std::uint8_t>(c);
-        hit_count += found_[c].raw[i] != 0 ? 1 : 0;
+      const std::size_t group = sensor_.group(i);
+      find_columns(heads.column.data(), heads.rest.data(), heads.advance_column[group].data(),
+                   heads.advance_rest[group].data(), offset_[i], beams_[i]);
+      least = i == 0 ? beams_[i].least : std::min(least, beams_[i].least);
+      most = i == 0 ? beams_[i].most : std::max(most, beams_[i].most);
+    }
+    return {.firings = firings,
+            .first_frame = first_frame,
+            .images = {&frames.image(first_frame), &frames.image(first_frame + 1)},
+            .is_in_one_frame = most < columns_ || least >= columns_,
+            .frame = most < columns_ ? 0U : 1U};
+  }
+
+  /// How many returns of each firing belong to each of the frames.
+  [[nodiscard]] Numbers count(const Tile& tile) const noexcept {
+    Numbers counts{};
+    if (tile.is_in_one_frame) {
+      TileRow<std::uint16_t> all{};
+      for (const TileRow<std::uint16_t>& raw : tile_[0].raw) {
+        for (std::size_t f = 0; f < kTileFirings; ++f) {
+          all[f] = static_cast<std::uint16_t>(all[f] + std::uint16_t{raw[f] != 0});
+        }
       }
-      for (std::size_t n = 0; n < hit_count; ++n) {
-        const std::size_t c = hits[n];
-        image.place_numbered(rows[i], found_[c].column[i], point(c, i), place.owner, number[c]++);
+      std::ranges::copy(all, counts[tile.frame].begin());
+      return counts;
+    }
+    for (std::size_t i = 0; i < kLasers; ++i) {
+      for (std::size_t f = 0; f < kTileFirings; ++f) {
+        counts[frame_of(beams_[i].column[f])][f] += tile_[0].raw[i][f] != 0 ? 1U : 0U;
       }
+    }
+    return counts;
+  }
+  [[nodiscard]] std::size_t frame_of(std::int32_t column) const noexcept {
+    return column >= columns_ ? 1U : 0U;
+  }
+
+  /// Returns false and places nothing where an overflow list might run full.
+  [[nodiscard]] bool place_by_laser(const Tile& tile) noexcept {
+    Numbers numbers = count(tile);
+    std::array<std::uint32_t, 2> returns{};
+    for (std::size_t n = 0; n < 2; ++n) {
+      for (std::uint32_t& number : numbers[n]) {
+        number = std::exchange(returns[n], returns[n] + number);
+      }
+      if (!tile.images[n]->has_room_for(returns[n])) return false;
+    }
+    for (std::size_t n = 0; n < 2; ++n) {
+      const std::uint32_t first = tile.images[n]->take_numbers(returns[n]);
+      for (std::uint32_t& number : numbers[n]) number += first;
+    }
+    for (std::size_t i = 0; i < kLasers; ++i) {
+      const bool is_run = beams_[i].is_one_run && tile.is_in_one_frame;
+      if (is_run && tile.firings == kTileFirings && place_run(tile, i, numbers[tile.frame])) {
+        continue;
+      }
+      place_one_by_one(tile, i, numbers);
     }
     return true;
   }
 
-  /// In the order of arrival, into any of the open frames.
-  void place_by_firing(const PacketAzimuths& azimuths, const PacketPlace& place,
-                       FrameBuilder& frames) noexcept {
+  void compute_points(std::size_t laser, const PointsOut& out) noexcept {
+    sensor_.compute_points(laser, heads_of_group(heads_[0], sensor_.group(laser)),
+                           measured_m_[laser], out);
+  }
+
+  /// A laser's returns in columns next to each other, if those are empty.
+  [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
+                               TileRow<std::uint32_t>& numbers) noexcept {
+    frame::RangeImage& image = *tile.images[tile.frame];
+    const int row = sensor_.rows()[laser];
+    const int column = beams_[laser].least - (tile.frame == 0 ? 0 : columns_);
+    if (!image.is_empty_from(row, column)) return false;
+    const frame::RangeImage::Cells cells = image.take_cells(row, column, kTileFirings);
+    compute_points(laser, {cells.x_m, cells.y_m, cells.z_m, cells.ground_range_m});
+    fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, image.generation(), numbers);
+    return true;
+  }
+
+  /// Firings that share a column or leave one out, late ones, and the seam.
+  void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
+    compute_points(laser, all_of(points_[laser]));
+    const TileRow<std::int32_t>& column = beams_[laser].column;
+    // Which firings found something is as good as random, so no branch is asked to guess it.
+    std::array<std::uint8_t, kTileFirings> hits;
+    std::size_t hit_count = 0;
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      hits[hit_count] = static_cast<std::uint8_t>(f);
+      hit_count += tile_[0].raw[laser][f] != 0 ? 1 : 0;
+    }
+    for (std::size_t n = 0; n < hit_count; ++n) {
+      const std::size_t f = hits[n];
+      const std::size_t frame = frame_of(column[f]);
+      tile.images[frame]->place_numbered(sensor_.rows()[laser],
+                                         column[f] - (frame == 0 ? 0 : columns_), point(laser, f),
+                                         owner_, numbers[frame][f]++);
+    }
+  }
+
+  /// In the order of arrival.
+  void place_by_firing(const Tile& tile, FrameBuilder& frames) noexcept {
+    for (std::size_t i = 0; i < kLasers; ++i) compute_points(i, all_of(points_[i]));
     const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
-    for (std::size_t c = 0; c < static_cast<std::size_t>(azimuths.columns); ++c) {
+    for (std::size_t f = 0; f < tile.firings; ++f) {
       for (std::size_t i = 0; i < kLasers; ++i) {
-        if (found_[c].raw[i] == 0) continue;
-        frames.place(frame_of_beam(azimuths, place.rotor_cdeg, c, i), rows[i], found_[c].column[i],
-                     point(c, i), place.owner);
+        if (tile_[0].raw[i][f] == 0) continue;
+        const std::int32_t column = beams_[i].column[f];
+        const std::size_t frame = frame_of(column);
+        frames.place(tile.first_frame + static_cast<std::int64_t>(frame), rows[i],
+                     column - (frame == 0 ? 0 : columns_), point(i, f), owner_);
       }
     }
   }
 
-  [[nodiscard]] std::int64_t frame_of_beam(const PacketAzimuths& azimuths, std::int64_t rotor_cdeg,
-                                           std::size_t column, std::size_t laser) const noexcept {
-    const std::int64_t column_cdeg = rotor_cdeg + azimuths.advance_cdeg(static_cast<int>(column));
-    return (column_cdeg - beams::wrap_cdeg(column_cdeg)) / beams::kRevolution_cdeg +
-           found_[column].frame_offset[laser];
-  }
-  [[nodiscard]] frame::Return point(std::size_t column, std::size_t laser) const noexcept {
-    const ColumnReturns<kLasers>& found = found_[column];
-    return {found.x_m[laser], found.y_m[laser], found.z_m[laser], found.ground_range_m[laser],
-            found.intensity[laser]};
+  [[nodiscard]] frame::Return point(std::size_t laser, std::size_t firing) const noexcept {
+    const TilePoints& points = points_[laser];
+    return {points.x_m[firing], points.y_m[firing], points.z_m[firing],
+            points.ground_range_m[firing], tile_[0].intensity[laser][firing]};
   }
 
   Sensor sensor_;
-  std::array<ColumnReturns<kLasers>, PacketAzimuths::kMaxColumns> found_{};
+  int columns_;
+  RotorDirections directions_;
+  std::array<ColumnAngle, kLasers> offset_;           ///< Of each beam from the head.
+  std::span<FiringTile<kLasers>> tile_;               ///< One element.
+  std::span<TileHeads<Sensor::kGroups>> heads_;       ///< One element.
+  std::span<TileRow<float>> measured_m_;              ///< By laser.
+  std::span<BeamColumns> beams_;                      ///< By laser.
+  std::span<TilePoints> points_;                      ///< By laser, where they have no cells.
+  TileRow<std::int64_t> rotor_cdeg_{}, advance_key_;  ///< Of each firing.
+  std::size_t firings_ = 0;                           ///< Added and not placed yet.
+  frame::CellOwner owner_{};
 };
 
 }  // namespace terracut::decode

@@ -17,7 +17,8 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::
       ground_range_m_(memory.take<float>("range images", shape.cells())),
       intensity_(memory.take<std::uint8_t>("range images", shape.cells())),
       return_index_(memory.take<std::uint32_t>("range images", shape.cells())),
-      overflow_(memory.take<OverflowReturn>("range images", overflow_capacity)) {
+      overflow_(memory.take<OverflowReturn>("range images", overflow_capacity)),
+      empty_from_(memory.take<std::int32_t>("range images", static_cast<std::size_t>(shape.rows))) {
   const auto plane = [](const auto& cells) {
     return Plane{reinterpret_cast<const std::byte*>(cells.data()), sizeof(cells[0])};
   };
@@ -28,6 +29,7 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::
 void RangeImage::clear() noexcept {
   returns_ = 0;
   overflow_used_ = 0;
+  std::ranges::fill(empty_from_, 0);
   if (++generation_ == 0) {  // stamps of 2^32 frames ago would look alive
     std::fill(stamp_.begin(), stamp_.end(), 0U);
     generation_ = 1;

@@ -2,11 +2,12 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <utility>
 
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -96,14 +97,16 @@ class RangeImage {
     return true;
   }
 
-  /// For returns that are placed in another order than they arrived in: the numbers of the next
-  /// `count`, which place_numbered() has room for wherever they fall; the first of them is
-  /// answered. Nothing where the overflow list might not hold them all. Real-time safe.
-  [[nodiscard]] std::optional<std::uint32_t> take_numbers(std::size_t count) noexcept {
-    if (overflow_.size() - overflow_used_ < count) return std::nullopt;
-    const std::uint32_t first = returns_;
-    returns_ += static_cast<std::uint32_t>(count);
-    return first;
+  // For returns that are placed in another order than they arrived in: their numbers are taken,
+  // then they are placed wherever they fall.
+
+  /// The overflow list holds so many more returns.
+  [[nodiscard]] bool has_room_for(std::size_t count) const noexcept {
+    return overflow_.size() - overflow_used_ >= count;
+  }
+  /// The first of the next `count` numbers.
+  [[nodiscard]] std::uint32_t take_numbers(std::uint32_t count) noexcept {
+    return std::exchange(returns_, returns_ + count);
   }
   /// place() of a return whose number was taken before.
   bool place_numbered(int row, int column, const Return& point, CellOwner owner,
@@ -115,7 +118,30 @@ class RangeImage {
       return place_second(cell, point, owner, number);
     stamp_[cell] = generation_;
     write(cell, point, number);
+    empty_from_[static_cast<std::size_t>(row)] =
+        std::max(empty_from_[static_cast<std::size_t>(row)], column + 1);
     return true;
+  }
+
+  /// No return of the row is in this column or behind it.
+  [[nodiscard]] bool is_empty_from(int row, int column) const noexcept {
+    return empty_from_[static_cast<std::size_t>(row)] <= column;
+  }
+  /// The planes from some cell on.
+  struct Cells {
+    float *x_m, *y_m, *z_m, *ground_range_m;
+    std::uint8_t* intensity;
+    std::uint32_t *stamp, *return_index;
+  };
+  /// For returns whose numbers were taken and that lie in `count` columns next to each other: the
+  /// cells to write them to, where the row is_empty_from() the first. Stamp: generation(), or 0
+  /// where there is none.
+  [[nodiscard]] Cells take_cells(int row, int column, int count) noexcept {
+    empty_from_[static_cast<std::size_t>(row)] = column + count;
+    const std::size_t cell = shape_.cell(row, column);
+    fetch_next(cell + static_cast<std::size_t>(count));
+    return {&x_m_[cell],       &y_m_[cell],   &z_m_[cell],         &ground_range_m_[cell],
+            &intensity_[cell], &stamp_[cell], &return_index_[cell]};
   }
 
   /// Moves all returns, each as its cell's row and column say; cells and heights stay. One of
@@ -171,6 +197,7 @@ class RangeImage {
     intensity_[cell] = point.intensity;
     return_index_[cell] = return_index;
   }
+  static constexpr std::size_t kLineBytes = 64;  ///< Of a cache.
   struct Plane {
     const std::byte* begin;
     std::size_t cell_bytes;
@@ -183,6 +210,15 @@ class RangeImage {
     constexpr std::size_t kCellsAhead = 16;
     const Plane& plane = planes_[cell % planes_.size()];
     __builtin_prefetch(plane.begin + (cell + kCellsAhead) * plane.cell_bytes, 1);
+  }
+  /// Likewise for cells that are taken together: all planes, whose next ones will be written to
+  /// when those of all other rows have been.
+  void fetch_next(std::size_t cell) const noexcept {
+    for (const Plane& plane : planes_) {
+      const std::byte* next = plane.begin + cell * plane.cell_bytes;
+      __builtin_prefetch(next, 1);
+      __builtin_prefetch(next + kLineBytes, 1);
+    }
   }
   [[nodiscard]] bool owns(std::size_t cell, const Return& point,
                           CellOwner owner) const noexcept TERRACUT_NONBLOCKING;
@@ -199,7 +235,8 @@ class RangeImage {
   std::span<std::uint8_t> intensity_;
   std::span<std::uint32_t> return_index_;
   std::span<OverflowReturn> overflow_;
-  std::array<Plane, 8> planes_;  ///< Of place(); a power of two.
+  std::span<std::int32_t> empty_from_;  ///< Of each row.
+  std::array<Plane, 8> planes_;         ///< Of place(); a power of two.
 };
 
 }  // namespace terracut::frame

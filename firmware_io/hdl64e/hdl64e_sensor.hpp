@@ -10,7 +10,7 @@
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/hdl64e/hdl64e_geometry.hpp"
 #include "calib/mount/mount.hpp"
-#include "firmware_io/decode/column_returns.hpp"
+#include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
@@ -32,14 +32,13 @@ class Hdl64eSensor {
   };
   static constexpr int kRows = kHdl64eLasers;
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
-  using Column = decode::ColumnReturns<static_cast<std::size_t>(kRows)>;
+  static constexpr std::size_t kGroups = kLasersPerBlock;  ///< Both blocks fire together.
+  using Tile = decode::FiringTile<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
   static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a frame, 48 us each.
   static constexpr int kDefaultReturnsPerCell = 2;
 
-  /// columns: in [16, 36000].
-  Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
-               int columns, memory::FixedMemory& memory);
+  Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
   [[nodiscard]] std::optional<frame::Reject> check(
       std::span<const std::uint8_t> payload, decode::PacketAzimuths& azimuths) const noexcept {
@@ -51,14 +50,30 @@ class Hdl64eSensor {
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
     return offsets_.offset_ticks(0, laser);
   }
-  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
-  void read_column(std::span<const std::uint8_t> payload, const decode::PacketAzimuths& azimuths,
-                   int column, Column& found) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] static std::size_t group(std::size_t laser) noexcept { return laser % kGroups; }
+  [[nodiscard]] static std::int32_t advance_ticks(std::int32_t step_ticks, std::size_t group,
+                                                  bool dual_return) noexcept {
+    return firing_advance_ticks(step_ticks, static_cast<int>(group), dual_return);
+  }
+  void begin_packet(const decode::PacketAzimuths&) noexcept {}
+  [[nodiscard]] static std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+                                               std::size_t) noexcept {
+    return azimuths.step_ticks;
+  }
+  static void read_column(std::span<const std::uint8_t> payload, std::size_t column, Tile& tile,
+                          std::size_t firing) noexcept TERRACUT_NONBLOCKING;
+  void compute_points(std::size_t laser, const decode::LaserHeads& heads,
+                      const decode::TileRow<float>& measured_m,
+                      const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
+    kernel_.compute(laser, heads, measured_m, out);
+  }
+  [[nodiscard]] float metres_per_count() const noexcept { return metres_per_count_; }
   [[nodiscard]] std::span<const std::int32_t, kHdl64eLasers> rows() const noexcept { return rows_; }
 
  private:
   BeamOffsets offsets_;
   PointKernel kernel_;
+  float metres_per_count_;
   std::array<std::int32_t, kHdl64eLasers> rows_;
 };
 

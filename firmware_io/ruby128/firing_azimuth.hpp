@@ -34,10 +34,11 @@ inline constexpr std::int32_t kRubyBlock_ns =
     55'550;  ///< From a firing of all channels to the next.
 inline constexpr std::int32_t kRubyGroup_ns = 3'236;  ///< From a group of channels to the next.
 inline constexpr int kRubyGroups = 16;
+inline constexpr int kRubyChannelsPerGroup = 4;  ///< In each half of the channels.
 
 /// The group in which a channel, [0, 128), fires.
 [[nodiscard]] constexpr int ruby_group(int channel) noexcept {
-  return channel / 4 % kRubyGroups;
+  return channel / kRubyChannelsPerGroup % kRubyGroups;
 }
 /// From the first firing of a block to that of `channel`.
 [[nodiscard]] constexpr std::int32_t ruby_channel_ns(int channel) noexcept {

@@ -18,10 +18,10 @@ std::array<std::int32_t, kRubyBlocksPerPacket> block_azimuths(
 }  // namespace
 
 Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount,
-                             const Config& config, int columns, memory::FixedMemory& memory)
+                             const Config& config)
     : given_timestamp_(config.timestamp),
       offsets_(calibration),
-      kernel_(calibration, mount, columns, memory),
+      kernel_(calibration, mount),
       rows_(rows_by_elevation(calibration)) {}
 
 std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
@@ -51,18 +51,15 @@ void Ruby128Sensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcep
                                  azimuths.device_stamp_us, azimuths.behind_sector > 0);
 }
 
-void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload,
-                                const decode::PacketAzimuths& azimuths, int column,
-                                Column& found) noexcept {
-  if (const auto* packet = packet_in(payload)) {  // check() has seen to it
-    const auto& returns = packet->blocks[static_cast<std::size_t>(column)].returns;
-    for (std::size_t i = 0; i < returns.size(); ++i) {
-      found.raw[i] = returns[i].distance.value();
-      found.intensity[i] = returns[i].intensity;
-    }
+void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, std::size_t column,
+                                Tile& tile, std::size_t firing) noexcept {
+  const auto* packet = packet_in(payload);
+  if (packet == nullptr) return;  // check() has seen to it
+  const auto& returns = packet->blocks[column].returns;
+  for (std::size_t i = 0; i < returns.size(); ++i) {
+    tile.raw[i][firing] = returns[i].distance.value();
+    tile.intensity[i][firing] = returns[i].intensity;
   }
-  kernel_.set_step(column == 0 ? first_step_ticks_ : azimuths.step_ticks);
-  kernel_.compute(azimuths.azimuth_cdeg[static_cast<std::size_t>(column)], found);
 }
 
 }  // namespace terracut::ruby128

@@ -9,7 +9,8 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "firmware_io/decode/column_returns.hpp"
+#include "calib/ruby128/ruby128_geometry.hpp"
+#include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
@@ -34,16 +35,15 @@ class Ruby128Sensor {
   };
   static constexpr int kRows = kRuby128Lasers;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
-  using Column = decode::ColumnReturns<static_cast<std::size_t>(kRows)>;
+  static constexpr std::size_t kGroups = kRubyGroups;
+  using Tile = decode::FiringTile<static_cast<std::size_t>(kRows)>;
   /// Device stamps count up from 1970; this is farther than they can get.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
   /// Dual return and the columns that two firings share: more than two for some cells.
   static constexpr int kDefaultReturnsPerCell = 3;
 
-  /// columns: in [16, 36000].
-  Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config,
-                int columns, memory::FixedMemory& memory);
+  Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
   [[nodiscard]] std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
                                                    decode::PacketAzimuths& azimuths) noexcept
@@ -54,9 +54,28 @@ class Ruby128Sensor {
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
     return offsets_.offset_ticks(0, laser);
   }
+  [[nodiscard]] static std::size_t group(std::size_t laser) noexcept {
+    return static_cast<std::size_t>(ruby_group(static_cast<int>(laser)));
+  }
+  [[nodiscard]] static std::int32_t advance_ticks(std::int32_t step_ticks, std::size_t group,
+                                                  bool /*dual_return*/) noexcept {
+    return ruby_advance_ticks(step_ticks, kRubyChannelsPerGroup * static_cast<int>(group));
+  }
   void begin_packet(const decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
-  void read_column(std::span<const std::uint8_t> payload, const decode::PacketAzimuths& azimuths,
-                   int column, Column& found) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+                                        std::size_t column) const noexcept {
+    return column == 0 ? first_step_ticks_ : azimuths.step_ticks;
+  }
+  static void read_column(std::span<const std::uint8_t> payload, std::size_t column, Tile& tile,
+                          std::size_t firing) noexcept TERRACUT_NONBLOCKING;
+  void compute_points(std::size_t laser, const decode::LaserHeads& heads,
+                      const decode::TileRow<float>& measured_m,
+                      const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
+    kernel_.compute(laser, heads, measured_m, out);
+  }
+  [[nodiscard]] static float metres_per_count() noexcept {
+    return static_cast<float>(kRuby128MetresPerCount);
+  }
   [[nodiscard]] std::span<const std::int32_t, kRuby128Lasers> rows() const noexcept {
     return rows_;
   }

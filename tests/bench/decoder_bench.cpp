@@ -111,29 +111,6 @@ void deskew_frame(benchmark::State& state) {
 }
 BENCHMARK(deskew_frame)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
-/// Points only, nothing placed.
-void compute_points(benchmark::State& state) {
-  const auto packets = street_like();
-  memory::FixedMemory memory;
-  hdl64e::Hdl64eSensor sensor(hdl64e::nominal_hdl64e(), {}, {}, 2083, memory);
-  decode::PacketAzimuths azimuths;
-  hdl64e::Hdl64eSensor::Column found{};
-  float sum = 0;
-  for (auto _ : state) {
-    for (const test::Packet& packet : packets) {
-      if (sensor.check(packet.bytes, azimuths)) continue;
-      sensor.begin_packet(azimuths);
-      for (int column = 0; column < azimuths.columns; ++column) {
-        sensor.read_column(packet.bytes, azimuths, column, found);
-        sum += found.x_m[5];
-      }
-    }
-  }
-  benchmark::DoNotOptimize(sum);
-  report(state, packets.size());
-}
-BENCHMARK(compute_points)->Unit(benchmark::kMillisecond);
-
 void check_packets(benchmark::State& state) {
   const auto packets = street_like();
   decode::PacketAzimuths azimuths;

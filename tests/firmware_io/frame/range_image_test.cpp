@@ -126,10 +126,33 @@ TEST_F(SmallImage, ReturnsNumberedAheadArePlacedInAnyOrder) {
   EXPECT_EQ(image.return_index()[3 * 32 + 3], 4U);
 }
 
-TEST_F(SmallImage, NumbersAreOnlyHandedOutWhenAllOfThemCouldShareACell) {
-  EXPECT_EQ(image.take_numbers(4), std::nullopt);
-  EXPECT_EQ(image.returns(), 0U);
-  EXPECT_EQ(image.take_numbers(3), 0U);
+TEST_F(SmallImage, SaysForHowManyReturnsThereIsRoomWhereverTheyFall) {
+  EXPECT_TRUE(image.has_room_for(3));
+  EXPECT_FALSE(image.has_room_for(4));
+  ASSERT_TRUE(image.place(0, 0, {}));
+  EXPECT_TRUE(image.has_room_for(3)) << "it took a cell";
+  ASSERT_TRUE(image.place(0, 0, {}));
+  EXPECT_FALSE(image.has_room_for(3));
+}
+
+TEST_F(SmallImage, CellsTakenTogetherHoldWhatTheirStampsSay) {
+  ASSERT_TRUE(image.place(1, 3, {}));
+  EXPECT_FALSE(image.is_empty_from(1, 3));
+  ASSERT_TRUE(image.is_empty_from(1, 4));
+  ASSERT_EQ(image.take_numbers(1), 1U);
+  const RangeImage::Cells cells = image.take_cells(1, 4, 2);
+  EXPECT_FALSE(image.is_empty_from(1, 5));
+  EXPECT_TRUE(image.is_empty_from(1, 6));
+  EXPECT_TRUE(image.is_empty_from(2, 0)) << "another row";
+  cells.stamp[0] = image.generation();
+  cells.stamp[1] = 0;
+  cells.x_m[0] = 7;
+  cells.return_index[0] = 1;
+  EXPECT_TRUE(image.has_return(image.shape().cell(1, 4)));
+  EXPECT_FALSE(image.has_return(image.shape().cell(1, 5)));
+  EXPECT_EQ(image.x_m()[image.shape().cell(1, 4)], 7);
+  image.clear();
+  EXPECT_TRUE(image.is_empty_from(1, 0));
 }
 
 }  // namespace

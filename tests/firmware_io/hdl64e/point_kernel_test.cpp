@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <limits>
 #include <random>
 #include <string>
 
@@ -17,68 +18,62 @@
 namespace terracut::hdl64e {
 namespace {
 
-constexpr std::size_t kLasers = PointKernel::kLasers;
-
-struct Worst {
-  double error_m = 0;  ///< Beyond 1e-6 of the range.
-  int wrong_columns = 0;
-};
-
 /// Random raw distances at random azimuths through the kernel and through the double functions.
-Worst compare(const Hdl64eCalibration& calibration, GeometryModel model,
-              const mount::Mount& mount) {
-  memory::FixedMemory memory;
-  constexpr int kColumns = 2083;
-  PointKernel kernel(calibration, model, mount, kColumns, memory);
+double worst_error_m(const Hdl64eCalibration& calibration, GeometryModel model,
+                     const mount::Mount& mount) {
+  const PointKernel kernel(calibration, model, mount);
   const Hdl64eGeometry geometry(calibration, model);
   const auto T = mount::T_vehicle_lidar(mount);
-  const BeamOffsets beam_offsets(calibration);
+  memory::FixedMemory memory;
+  const decode::RotorDirections directions(memory);
   std::mt19937 random(3);
   std::uniform_int_distribution<int> any_raw(1, 65'535), near_raw(1, 3'000), any_cdeg(0, 35'999),
       any_step(2'000, 100'000);
-  Worst worst;
-  for (int packet = 0; packet < 400; ++packet) {
-    const std::int32_t step_ticks = any_step(random);
-    std::array<std::int32_t, 32> advance{};
-    std::array<std::int32_t, 64> offset{};
-    for (int i = 0; i < 64; ++i) {
-      advance[static_cast<std::size_t>(i % 32)] = firing_advance_ticks(step_ticks, i);
-      offset[static_cast<std::size_t>(i)] = beam_offsets.offset_ticks(step_ticks, i);
+  double worst_m = 0;
+  for (int tile = 0; tile < 20; ++tile) {
+    decode::TileHeads<kLasersPerBlock> heads{};
+    decode::TileRow<std::int32_t> azimuth_cdeg{}, step_ticks{};
+    for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+      azimuth_cdeg[f] = any_cdeg(random);
+      step_ticks[f] = any_step(random);
+      heads.set_head(f, directions.at(azimuth_cdeg[f]), {});
+      for (std::size_t group = 0; group < kLasersPerBlock; ++group) {
+        heads.set_advance(f, group, firing_advance_ticks(step_ticks[f], static_cast<int>(group)),
+                          {});
+      }
     }
-    kernel.begin_packet(advance, offset);
-    decode::ColumnReturns<kLasers> column{};
-    const std::int32_t azimuth_cdeg =
-        packet % 4 == 0 ? (35'950 + packet / 4) % 36'000 : any_cdeg(random);
-    for (auto& raw : column.raw) {
-      raw = static_cast<std::uint16_t>(packet % 2 == 0 ? any_raw(random) : near_raw(random));
-    }
-    kernel.compute(azimuth_cdeg, column);
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      const auto p =
-          geometry.point(static_cast<int>(i),
-                         decode::firing_azimuth_rad(azimuth_cdeg, advance[i % 32]), column.raw[i]);
-      const auto v = mount::apply(T, p.x_m, p.y_m, p.z_m);
-      const double range_m = std::hypot(p.x_m, p.y_m, p.z_m);
-      const double error_m =
-          std::hypot(column.x_m[i] - v[0], column.y_m[i] - v[1], column.z_m[i] - v[2]);
-      const double range_error_m = std::abs(column.ground_range_m[i] - std::hypot(v[0], v[1]));
-      worst.error_m =
-          std::max({worst.error_m, error_m - 1e-6 * range_m, range_error_m - 1e-6 * range_m});
-      const decode::BeamAzimuth beam = decode::beam_azimuth(azimuth_cdeg, offset[i]);
-      worst.wrong_columns += column.frame_offset[i] != beam.frame;
-      worst.wrong_columns +=
-          column.column[i] != decode::column_of(beam.in_revolution_ticks, kColumns);
+    for (int laser = 0; laser < kHdl64eLasers; ++laser) {
+      const auto i = static_cast<std::size_t>(laser);
+      decode::TileRow<std::uint16_t> raw{};
+      for (auto& counts : raw) {
+        counts = static_cast<std::uint16_t>(tile % 2 == 0 ? any_raw(random) : near_raw(random));
+      }
+      decode::TileRow<float> measured_m{};
+      decode::measure(raw, static_cast<float>(calibration.distance_resolution_m),
+                      measured_m.data());
+      decode::TilePoints points{};
+      kernel.compute(i, decode::heads_of_group(heads, i % kLasersPerBlock), measured_m,
+                     decode::all_of(points));
+      for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+        const double azimuth_rad =
+            decode::firing_azimuth_rad(azimuth_cdeg[f], firing_advance_ticks(step_ticks[f], laser));
+        const auto p = geometry.point(laser, azimuth_rad, raw[f]);
+        const auto v = mount::apply(T, p.x_m, p.y_m, p.z_m);
+        const double allowed_m = 1e-6 * std::hypot(p.x_m, p.y_m, p.z_m);
+        const double error_m =
+            std::hypot(points.x_m[f] - v[0], points.y_m[f] - v[1], points.z_m[f] - v[2]);
+        const double range_error_m = std::abs(points.ground_range_m[f] - std::hypot(v[0], v[1]));
+        worst_m = std::max({worst_m, error_m - allowed_m, range_error_m - allowed_m});
+      }
     }
   }
-  return worst;
+  return worst_m;
 }
 
 void expect_agreement(const Hdl64eCalibration& calibration) {
   for (const auto model : {GeometryModel::kManual, GeometryModel::kRosLike}) {
-    const Worst worst =
-        compare(calibration, model, {.height_m = 1.73, .roll_rad = 0.03, .pitch_rad = -0.05});
-    EXPECT_LT(worst.error_m, 0.001) << calibration.origin;
-    EXPECT_EQ(worst.wrong_columns, 0);
+    const mount::Mount mount{.height_m = 1.73, .roll_rad = 0.03, .pitch_rad = -0.05};
+    EXPECT_LT(worst_error_m(calibration, model, mount), 0.001) << calibration.origin;
   }
 }
 
@@ -107,46 +102,22 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealUnit,
                            return name;
                          });
 
-TEST(PointKernel, FindsTheColumnThatColumnOfFinds) {
-  // Every tick around every column boundary of some image widths, on a unit without offsets.
-  Hdl64eCalibration flat;
-  for (const int columns : {16, 1800, 2083, 4167, 36'000}) {
-    memory::FixedMemory memory;
-    PointKernel kernel(flat, GeometryModel::kManual, {}, columns, memory);
-    int wrong = 0;
-    for (int boundary = 0; boundary <= columns; ++boundary) {
-      const std::int64_t ticks = std::int64_t{boundary} * decode::kRevolution_ticks / columns;
-      const auto cdeg = static_cast<std::int32_t>(std::min<std::int64_t>(ticks / 1000, 35'999));
-      std::array<std::int32_t, 64> offset{};
-      for (int i = 0; i < 64; ++i) {
-        offset[static_cast<std::size_t>(i)] =
-            static_cast<std::int32_t>(ticks - cdeg * 1000) + i - 32;
-      }
-      kernel.begin_packet(std::array<std::int32_t, 32>{}, offset);
-      decode::ColumnReturns<kLasers> out{};
-      kernel.compute(cdeg, out);
-      for (std::size_t i = 0; i < kLasers; ++i) {
-        const decode::BeamAzimuth beam = decode::beam_azimuth(cdeg, offset[i]);
-        wrong += out.frame_offset[i] != beam.frame;
-        wrong += out.column[i] != decode::column_of(beam.in_revolution_ticks, columns);
-      }
-    }
-    EXPECT_EQ(wrong, 0) << columns;
+TEST(PointKernel, TurnsClockwiseAndLeavesOutWhatWasNotMeasured) {
+  const Hdl64eCalibration flat;
+  const PointKernel kernel(flat, GeometryModel::kManual, {.height_m = 2.0});
+  decode::TileHeads<kLasersPerBlock> heads{};
+  for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+    heads.set_head(f, {.sin = 1, .cos = 0}, {});  // clockwise: to the right, which is -y
+    heads.set_advance(f, 0, 0, {});
   }
-}
-
-TEST(PointKernel, ReadsTwentyMetresFromTenThousandCounts) {
-  Hdl64eCalibration flat;
-  memory::FixedMemory memory;
-  PointKernel kernel(flat, GeometryModel::kManual, {.height_m = 2.0}, 2083, memory);
-  kernel.begin_packet(std::array<std::int32_t, 32>{}, std::array<std::int32_t, 64>{});
-  decode::ColumnReturns<kLasers> out{};
-  out.raw.fill(10'000);
-  kernel.compute(9'000, out);  // clockwise: to the right, which is -y
-  EXPECT_NEAR(out.x_m[0], 0.0, 1e-5);
-  EXPECT_NEAR(out.y_m[0], -20.0, 1e-5);
-  EXPECT_NEAR(out.z_m[0], 2.0, 1e-6);
-  EXPECT_NEAR(out.ground_range_m[0], 20.0, 1e-5);
+  decode::TileRow<float> measured_m{20.0F, std::numeric_limits<float>::quiet_NaN()};
+  decode::TilePoints points{};
+  kernel.compute(0, decode::heads_of_group(heads, 0), measured_m, decode::all_of(points));
+  EXPECT_NEAR(points.x_m[0], 0.0, 1e-5);
+  EXPECT_NEAR(points.y_m[0], -20.0, 1e-5);
+  EXPECT_NEAR(points.z_m[0], 2.0, 1e-6);
+  EXPECT_NEAR(points.ground_range_m[0], 20.0, 1e-5);
+  EXPECT_TRUE(std::isnan(points.z_m[1]));
 }
 
 }  // namespace

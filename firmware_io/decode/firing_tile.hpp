@@ -59,8 +59,27 @@ struct ColumnAngle {
           static_cast<std::int32_t>(rest)};
 }
 
-/// Where the head is at each firing of a tile, and how far it has rotated on when a group of lasers
-/// fires. A firing's lasers fire one group after the other.
+/// How far the head has rotated since a firing's azimuth when each group of lasers fires.
+template <std::size_t kGroups>
+struct GroupAdvance {
+  std::array<float, kGroups> sin{}, cos{};
+  std::array<std::int32_t, kGroups> column{}, rest{};  ///< ColumnAngle
+
+  /// `advance_ticks`: [0, 1e5].
+  void set(std::size_t group, std::int32_t advance_ticks, int columns) noexcept {
+    // Below a degree two terms of each series are exact to a float.
+    const float a = static_cast<float>(advance_ticks) * static_cast<float>(kRadPerTick);
+    const float aa = a * a;
+    sin[group] = a * (1.0F - aa * (1.0F / 6.0F));
+    cos[group] = 1.0F - aa * 0.5F;
+    const ColumnAngle angle = column_angle(advance_ticks, columns);
+    column[group] = angle.whole;
+    rest[group] = angle.rest;
+  }
+};
+
+/// Where the head is at each firing of a tile, and its advance. A firing's lasers fire one group
+/// after the other.
 template <std::size_t kGroups>
 struct TileHeads {
   alignas(64) TileRow<float> sin_rotor, cos_rotor;
@@ -75,16 +94,13 @@ struct TileHeads {
     column[firing] = angle.whole;
     rest[firing] = angle.rest;
   }
-  /// `advance_ticks`: [0, 1e5].
-  void set_advance(std::size_t firing, std::size_t group, std::int32_t advance_ticks,
-                   ColumnAngle angle) noexcept {
-    // Below a degree two terms of each series are exact to a float.
-    const float a = static_cast<float>(advance_ticks) * static_cast<float>(kRadPerTick);
-    const float aa = a * a;
-    sin_advance[group][firing] = a * (1.0F - aa * (1.0F / 6.0F));
-    cos_advance[group][firing] = 1.0F - aa * 0.5F;
-    advance_column[group][firing] = angle.whole;
-    advance_rest[group][firing] = angle.rest;
+  void set_advance(std::size_t firing, const GroupAdvance<kGroups>& advance) noexcept {
+    for (std::size_t group = 0; group < kGroups; ++group) {
+      sin_advance[group][firing] = advance.sin[group];
+      cos_advance[group][firing] = advance.cos[group];
+      advance_column[group][firing] = advance.column[group];
+      advance_rest[group][firing] = advance.rest[group];
+    }
   }
 };
 

@@ -59,10 +59,13 @@ class PacketReturns {
         directions_(memory),
         tile_(memory.take<FiringTile<kLasers>>("decoder tables", 1)),
         heads_(memory.take<TileHeads<Sensor::kGroups>>("decoder tables", 1)),
+        known_advance_(
+            memory.take<GroupAdvance<Sensor::kGroups>>("decoder tables", kKnownAdvances)),
         measured_m_(memory.take<TileRow<float>>("decoder tables", kLasers)),
         beams_(memory.take<BeamColumns>("decoder tables", kLasers)),
         points_(memory.take<TilePoints>("decoder tables", kLasers)) {
     advance_key_.fill(kNoAdvance);
+    known_key_.fill(kNoAdvance);
     for (std::size_t i = 0; i < kLasers; ++i) {
       offset_[i] = column_angle(sensor_.beam_ticks(static_cast<int>(i)), columns);
     }
@@ -105,6 +108,7 @@ class PacketReturns {
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kRows);
   static constexpr std::int64_t kNoAdvance = -1;
+  static constexpr std::size_t kKnownAdvances = 8;
 
   /// What is being placed, where.
   struct Tile {
@@ -128,14 +132,26 @@ class PacketReturns {
         azimuths.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
   }
 
-  /// The same step mostly comes again and again.
+  /// A tile's firings take the place of those of the tile before, mostly with the same step.
   void set_advance(std::size_t firing, std::int32_t step_ticks, bool dual_return) noexcept {
     const std::int64_t key = std::int64_t{step_ticks} * 2 + (dual_return ? 1 : 0);
     if (std::exchange(advance_key_[firing], key) == key) return;
-    for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
-      const std::int32_t ticks = sensor_.advance_ticks(step_ticks, group, dual_return);
-      heads_[0].set_advance(firing, group, ticks, column_angle(ticks, columns_));
+    heads_[0].set_advance(firing, advance_of(key, step_ticks, dual_return));
+  }
+  /// Wire azimuths are rounded, so that a few steps come again and again.
+  [[nodiscard]] const GroupAdvance<Sensor::kGroups>& advance_of(std::int64_t key,
+                                                                std::int32_t step_ticks,
+                                                                bool dual_return) noexcept {
+    for (std::size_t i = 0; i < kKnownAdvances; ++i) {
+      if (known_key_[i] == key) return known_advance_[i];
     }
+    const std::size_t oldest = std::exchange(next_known_, (next_known_ + 1) % kKnownAdvances);
+    known_key_[oldest] = key;
+    for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
+      known_advance_[oldest].set(group, sensor_.advance_ticks(step_ticks, group, dual_return),
+                                 columns_);
+    }
+    return known_advance_[oldest];
   }
 
   /// The rest of a tile that is not full: without returns.
@@ -147,9 +163,7 @@ class PacketReturns {
     for (std::size_t f = firings; f < kTileFirings; ++f) {
       rotor_cdeg_[f] = rotor_cdeg_[firings - 1];
       advance_key_[f] = kNoAdvance;
-      for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
-        heads_[0].set_advance(f, group, 0, {});
-      }
+      heads_[0].set_advance(f, {});
     }
   }
 
@@ -289,9 +303,12 @@ class PacketReturns {
   Sensor sensor_;
   int columns_;
   RotorDirections directions_;
-  std::array<ColumnAngle, kLasers> offset_;           ///< Of each beam from the head.
-  std::span<FiringTile<kLasers>> tile_;               ///< One element.
-  std::span<TileHeads<Sensor::kGroups>> heads_;       ///< One element.
+  std::array<ColumnAngle, kLasers> offset_;      ///< Of each beam from the head.
+  std::span<FiringTile<kLasers>> tile_;          ///< One element.
+  std::span<TileHeads<Sensor::kGroups>> heads_;  ///< One element.
+  std::span<GroupAdvance<Sensor::kGroups>> known_advance_;
+  std::array<std::int64_t, kKnownAdvances> known_key_;
+  std::size_t next_known_ = 0;                        ///< To be replaced.
   std::span<TileRow<float>> measured_m_;              ///< By laser.
   std::span<BeamColumns> beams_;                      ///< By laser.
   std::span<TilePoints> points_;                      ///< By laser, where they have no cells.

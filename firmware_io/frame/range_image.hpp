@@ -216,8 +216,8 @@ class RangeImage {
   void fetch_next(std::size_t cell) const noexcept {
     for (const Plane& plane : planes_) {
       const std::byte* next = plane.begin + cell * plane.cell_bytes;
-      __builtin_prefetch(next, 1);
-      __builtin_prefetch(next + kLineBytes, 1);
+      __builtin_prefetch(next, 1, 2);
+      __builtin_prefetch(next + kLineBytes, 1, 2);
     }
   }
   [[nodiscard]] bool owns(std::size_t cell, const Return& point,

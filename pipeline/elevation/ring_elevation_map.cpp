@@ -11,34 +11,56 @@
 namespace terracut::elevation {
 namespace {
 
-/// Applies `reference_m(ground of the sector, range)` to every return: its height above it, and the
-/// label it earns.
-template <class Reference>
-void label_by_height(const frame::RangeImage& image, const RingGrid& grid,
-                     frame::ColumnRange columns, float obstacle_height_m, stage::CellPlanes& planes,
-                     Reference reference_m) noexcept {
-  const frame::ImageShape& shape = image.shape();
-  const auto z_m = image.z_m(), ground_range_m = image.ground_range_m();
-  constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
-  for (int row = 0; row < shape.rows; ++row) {
-    if (row + 1 < shape.rows && columns.size() < kShort) image.fetch(row + 1, columns);
-    for (int column = columns.begin; column < columns.end;) {
-      const int sector = grid.sector_of(column);
-      const int end = std::min(grid.columns_of({sector, sector + 1}).end, columns.end);
-      const std::size_t ground = grid.cell(sector, 0);
-      for (; column < end; ++column) {
-        const std::size_t cell = shape.cell(row, column);
-        if (!image.has_return(cell)) {
-          planes.height_m[cell] = std::numeric_limits<float>::quiet_NaN();
-          planes.label[cell] = frame::Label::kNone;
-          continue;
-        }
-        const float height_m = z_m[cell] - reference_m(ground, ground_range_m[cell]);
-        planes.height_m[cell] = height_m;
-        planes.label[cell] =
-            height_m < obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
-      }
-    }
+// The loops over a row's columns, each passed what it reads and writes for __restrict: without it
+// they are not vectorised in clones.
+
+/// Heights above the surface, mixed of the two bands that a range lies between.
+TERRACUT_VECTOR_CLONES void find_heights(
+    const float* __restrict z_m, const float* __restrict range_m,
+    const std::uint32_t* __restrict stamp, std::uint32_t generation,
+    const std::int32_t* __restrict first_cell, const float* __restrict surface_m,
+    const std::int32_t* __restrict mix_bands, const float* __restrict mix_share, float last_step,
+    std::span<float> height_m) noexcept {
+  constexpr std::int32_t kNan = 0x7FC0'0000;
+  constexpr std::int32_t kInner = RingGrid::BandMixes::kInner;
+  constexpr int kOuterShift = RingGrid::BandMixes::kOuterShift;
+  const std::size_t count = height_m.size();
+  float* const __restrict out = height_m.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const float steps = range_m[i] * RingGrid::kStepsPerMetre;
+    const auto step = static_cast<std::int32_t>(steps < last_step ? steps : last_step);
+    const std::int32_t bands = mix_bands[step];
+    const float inner_m = surface_m[first_cell[i] + (bands & kInner)];
+    const float outer_m = surface_m[first_cell[i] + (bands >> kOuterShift)];
+    const float height = z_m[i] - (inner_m + mix_share[step] * (outer_m - inner_m));
+    const std::int32_t if_none = -std::int32_t{stamp[i] != generation} & kNan;
+    out[i] = std::bit_cast<float>(std::bit_cast<std::int32_t>(height) | if_none);
+  }
+}
+
+/// Heights above the lowest return of the grid cell.
+void find_heights_above(std::span<const GroundSurface::LowestReturn> lowest, const RingGrid& grid,
+                        const frame::RangeImage& image, int row, frame::ColumnRange columns,
+                        std::span<float> height_m) noexcept {
+  for (int column = columns.begin; column < columns.end; ++column) {
+    const std::size_t cell = image.shape().cell(row, column);
+    float& height = height_m[static_cast<std::size_t>(column - columns.begin)];
+    height = std::numeric_limits<float>::quiet_NaN();
+    if (!image.has_return(cell)) continue;
+    const int band = grid.band_of(image.ground_range_m()[cell]);
+    height = image.z_m()[cell] - lowest[grid.cell(grid.sector_of(column), band)].height_m;
+  }
+}
+
+/// The label that a height earns.
+TERRACUT_VECTOR_CLONES void label_heights(std::span<const float> height_m, float obstacle_height_m,
+                                          frame::Label* __restrict label) noexcept {
+  const std::size_t count = height_m.size();
+  const float* const __restrict height = height_m.data();
+  for (std::size_t i = 0; i < count; ++i) {
+    const frame::Label known =
+        height[i] < obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
+    label[i] = height[i] == height[i] ? known : frame::Label::kNone;
   }
 }
 
@@ -155,21 +177,24 @@ void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcep
 
 void RingElevationMap::label(const frame::RangeImage& image, frame::ColumnRange columns,
                              stage::CellPlanes& planes) const noexcept {
-  if (config_.reference == GroundReference::kCellMinimum) {
-    label_by_height(
-        image, grid_, columns, config_.obstacle_height_m, planes,
-        [&](std::size_t ground, float range_m) {
-          return lowest_[ground + static_cast<std::size_t>(grid_.band_of(range_m))].height_m;
-        });
-    return;
+  constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
+  const frame::ImageShape& shape = image.shape();
+  const RingGrid::BandMixes mixes = grid_.mixes();
+  for (int row = 0; row < shape.rows; ++row) {
+    if (row + 1 < shape.rows && columns.size() < kShort) image.fetch(row + 1, columns);
+    const std::size_t first = shape.cell(row, columns.begin);
+    const std::span<float> height_m = planes.height_m.subspan(first, columns.size());
+    if (config_.reference == GroundReference::kLocalSurface) {
+      find_heights(&image.z_m()[first], &image.ground_range_m()[first], &image.stamp()[first],
+                   image.generation(),
+                   &grid_.first_cell_of_column()[static_cast<std::size_t>(columns.begin)],
+                   surface_.height_m().data(), mixes.bands, mixes.outer_share, mixes.last_step,
+                   height_m);
+    } else {
+      find_heights_above(lowest_, grid_, image, row, columns, height_m);
+    }
+    label_heights(height_m, config_.obstacle_height_m, &planes.label[first]);
   }
-  label_by_height(image, grid_, columns, config_.obstacle_height_m, planes,
-                  [&, surface_m = surface_.height_m()](std::size_t ground, float range_m) {
-                    const RingGrid::BandMix& mix = grid_.mix_of(range_m);
-                    const float inner_m = surface_m[ground + mix.inner];
-                    const float outer_m = surface_m[ground + mix.outer];
-                    return inner_m + mix.outer_share * (outer_m - inner_m);
-                  });
 }
 
 }  // namespace terracut::elevation

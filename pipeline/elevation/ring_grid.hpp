@@ -34,9 +34,17 @@ class RingGrid {
 
   /// Where a range lies between the middles of two bands, for linear interpolation.
   struct BandMix {
-    std::uint8_t inner = 0;
-    std::uint8_t outer = 0;
+    int inner = 0;
+    int outer = 0;
     float outer_share = 0;  ///< [0, 1]
+  };
+  /// All of them, for vectors: those of a range's step, and what step_of() cuts ranges off at.
+  struct BandMixes {
+    static constexpr std::int32_t kInner = 0xFFFF;
+    static constexpr int kOuterShift = 16;
+    const std::int32_t* bands;  ///< The outer one in the upper half.
+    const float* outer_share;
+    float last_step;
   };
 
   RingGrid(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
@@ -62,8 +70,13 @@ class RingGrid {
     return band_of_step_[step_of(ground_range_m)];
   }
   /// As band_of(), with the neighbouring band the range leans to.
-  [[nodiscard]] const BandMix& mix_of(float ground_range_m) const noexcept {
-    return mix_of_step_[step_of(ground_range_m)];
+  [[nodiscard]] BandMix mix_of(float ground_range_m) const noexcept {
+    const std::size_t step = step_of(ground_range_m);
+    return {mix_bands_[step] & BandMixes::kInner, mix_bands_[step] >> BandMixes::kOuterShift,
+            mix_share_[step]};
+  }
+  [[nodiscard]] BandMixes mixes() const noexcept {
+    return {mix_bands_.data(), mix_share_.data(), last_step_};
   }
   /// Ranges in steps of 1 / kStepsPerMetre, for band_of_step(): many at once.
   void find_steps(std::span<const float> ground_range_m,
@@ -72,6 +85,10 @@ class RingGrid {
   /// Sector of an image column.
   [[nodiscard]] int sector_of(int column) const noexcept {
     return sector_of_column_[static_cast<std::size_t>(column)];
+  }
+  /// cell(sector, 0) of the sector of each image column.
+  [[nodiscard]] std::span<const std::int32_t> first_cell_of_column() const noexcept {
+    return first_cell_of_column_;
   }
   /// Sectors next to each other, [begin, end); not across the seam.
   struct Sectors {
@@ -98,8 +115,10 @@ class RingGrid {
   float last_step_ = 0;
   std::span<float> center_m_;
   std::span<std::uint8_t> band_of_step_;
-  std::span<BandMix> mix_of_step_;
+  std::span<std::int32_t> mix_bands_;  // of each step, as in BandMixes
+  std::span<float> mix_share_;
   std::span<std::uint16_t> sector_of_column_;
+  std::span<std::int32_t> first_cell_of_column_;
   std::span<std::uint16_t> first_column_;  // of each sector, and the end of the last
 };
 

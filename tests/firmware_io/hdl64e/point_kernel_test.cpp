@@ -37,10 +37,11 @@ double worst_error_m(const Hdl64eCalibration& calibration, GeometryModel model,
       azimuth_cdeg[f] = any_cdeg(random);
       step_ticks[f] = any_step(random);
       heads.set_head(f, directions.at(azimuth_cdeg[f]), {});
+      decode::GroupAdvance<kLasersPerBlock> advance;
       for (std::size_t group = 0; group < kLasersPerBlock; ++group) {
-        heads.set_advance(f, group, firing_advance_ticks(step_ticks[f], static_cast<int>(group)),
-                          {});
+        advance.set(group, firing_advance_ticks(step_ticks[f], static_cast<int>(group)), 2083);
       }
+      heads.set_advance(f, advance);
     }
     for (int laser = 0; laser < kHdl64eLasers; ++laser) {
       const auto i = static_cast<std::size_t>(laser);
@@ -108,7 +109,7 @@ TEST(PointKernel, TurnsClockwiseAndLeavesOutWhatWasNotMeasured) {
   decode::TileHeads<kLasersPerBlock> heads{};
   for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
     heads.set_head(f, {.sin = 1, .cos = 0}, {});  // clockwise: to the right, which is -y
-    heads.set_advance(f, 0, 0, {});
+    heads.set_advance(f, {.sin = {}, .cos = {1.0F}, .column = {}, .rest = {}});
   }
   decode::TileRow<float> measured_m{20.0F, std::numeric_limits<float>::quiet_NaN()};
   decode::TilePoints points{};

@@ -52,27 +52,22 @@ namespace {
 
 /// Its tables passed for __restrict.
 TERRACUT_VECTOR_CLONES void fill(const std::uint16_t* __restrict raw,
-                                 const std::uint8_t* __restrict intensity, std::uint32_t generation,
+                                 const std::uint8_t* __restrict intensity,
                                  std::uint32_t* __restrict numbers,
                                  std::uint8_t* __restrict intensity_out,
-                                 std::uint32_t* __restrict stamp,
                                  std::uint32_t* __restrict return_index) noexcept {
   for (std::size_t f = 0; f < kTileFirings; ++f) intensity_out[f] = intensity[f];
   for (std::size_t f = 0; f < kTileFirings; ++f) {
-    const std::uint32_t has_return = raw[f] != 0 ? 1 : 0;
-    stamp[f] = has_return * generation;
     return_index[f] = numbers[f];
-    numbers[f] += has_return;
+    numbers[f] += raw[f] != 0 ? 1U : 0U;
   }
 }
 
 }  // namespace
 
 void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
-                const frame::RangeImage::Cells& cells, std::uint32_t generation,
-                TileRow<std::uint32_t>& numbers) noexcept {
-  fill(raw.data(), intensity.data(), generation, numbers.data(), cells.intensity, cells.stamp,
-       cells.return_index);
+                const frame::RangeImage::Cells& cells, TileRow<std::uint32_t>& numbers) noexcept {
+  fill(raw.data(), intensity.data(), numbers.data(), cells.intensity, cells.return_index);
 }
 
 }  // namespace terracut::decode

@@ -132,10 +132,10 @@ void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict advance_rest, ColumnAngle offset,
                   BeamColumns& __restrict found) noexcept TERRACUT_NONBLOCKING;
 
-/// Fills in what a laser's points leave out of a run of cells that were empty: which of them have a
-/// return, their intensities and numbers. `numbers`: of each firing's next return.
+/// Fills in what a laser's points leave out of a run of cells that were empty: intensities and
+/// numbers. `numbers`: of each firing's next return.
 void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
-                const frame::RangeImage::Cells& cells, std::uint32_t generation,
+                const frame::RangeImage::Cells& cells,
                 TileRow<std::uint32_t>& numbers) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::decode

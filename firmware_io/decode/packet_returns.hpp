@@ -217,6 +217,10 @@ class PacketReturns {
     return column >= columns_ ? 1U : 0U;
   }
 
+  [[nodiscard]] int column_in(std::size_t frame, std::int32_t column) const noexcept {
+    return frame == 0 ? column : column - columns_;
+  }
+
   /// Returns false and places nothing where an overflow list might run full.
   [[nodiscard]] bool place_by_laser(const Tile& tile) noexcept {
     Numbers numbers = count(tile);
@@ -251,11 +255,12 @@ class PacketReturns {
                                TileRow<std::uint32_t>& numbers) noexcept {
     frame::RangeImage& image = *tile.images[tile.frame];
     const int row = sensor_.rows()[laser];
-    const int column = beams_[laser].least - (tile.frame == 0 ? 0 : columns_);
+    const int column = column_in(tile.frame, beams_[laser].least);
     if (!image.is_empty_from(row, column)) return false;
+    image.fetch_to_write(row, column + int{kTileFirings});
     const frame::RangeImage::Cells cells = image.take_cells(row, column, kTileFirings);
     compute_points(laser, {cells.x_m, cells.y_m, cells.z_m, cells.ground_range_m});
-    fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, image.generation(), numbers);
+    fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, numbers);
     return true;
   }
 
@@ -263,6 +268,9 @@ class PacketReturns {
   void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
     compute_points(laser, all_of(points_[laser]));
     const TileRow<std::int32_t>& column = beams_[laser].column;
+    const int row = sensor_.rows()[laser];
+    const std::size_t newest = frame_of(beams_[laser].most);
+    tile.images[newest]->fetch_to_write(row, column_in(newest, beams_[laser].most));
     // Which firings found something is as good as random, so no branch is asked to guess it.
     std::array<std::uint8_t, kTileFirings> hits;
     std::size_t hit_count = 0;
@@ -273,9 +281,8 @@ class PacketReturns {
     for (std::size_t n = 0; n < hit_count; ++n) {
       const std::size_t f = hits[n];
       const std::size_t frame = frame_of(column[f]);
-      tile.images[frame]->place_numbered(sensor_.rows()[laser],
-                                         column[f] - (frame == 0 ? 0 : columns_), point(laser, f),
-                                         owner_, numbers[frame][f]++);
+      tile.images[frame]->place_numbered(row, column_in(frame, column[f]), point(laser, f), owner_,
+                                         numbers[frame][f]++);
     }
   }
 
@@ -289,7 +296,7 @@ class PacketReturns {
         const std::int32_t column = beams_[i].column[f];
         const std::size_t frame = frame_of(column);
         frames.place(tile.first_frame + static_cast<std::int64_t>(frame), rows[i],
-                     column - (frame == 0 ? 0 : columns_), point(i, f), owner_);
+                     column_in(frame, column), point(i, f), owner_);
       }
     }
   }

@@ -4,13 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace terracut::frame {
+namespace {
+
+constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+
+}  // namespace
 
 RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory)
     : shape_(shape),
       stride_(shape.stride()),
-      stamp_(memory.take<std::uint32_t>("range images", shape.cells())),
       x_m_(memory.take<float>("range images", shape.cells())),
       y_m_(memory.take<float>("range images", shape.cells())),
       z_m_(memory.take<float>("range images", shape.cells())),
@@ -22,17 +27,20 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::
   const auto plane = [](const auto& cells) {
     return Plane{reinterpret_cast<const std::byte*>(cells.data()), sizeof(cells[0])};
   };
-  planes_ = {plane(stamp_),          plane(x_m_),          plane(y_m_),       plane(z_m_),
-             plane(ground_range_m_), plane(return_index_), plane(intensity_), plane(stamp_)};
+  planes_ = {plane(x_m_),       plane(y_m_),         plane(z_m_), plane(ground_range_m_),
+             plane(intensity_), plane(return_index_)};
+  std::ranges::fill(z_m_, kNone);
 }
 
 void RangeImage::clear() noexcept {
+  ++generation_;
   returns_ = 0;
   overflow_used_ = 0;
-  std::ranges::fill(empty_from_, 0);
-  if (++generation_ == 0) {  // stamps of 2^32 frames ago would look alive
-    std::fill(stamp_.begin(), stamp_.end(), 0U);
-    generation_ = 1;
+  for (int row = 0; row < shape_.rows; ++row) {
+    std::int32_t& empty_from = empty_from_[static_cast<std::size_t>(row)];
+    std::ranges::fill(
+        z_m_.subspan(shape_.cell(row, 0), static_cast<std::size_t>(std::exchange(empty_from, 0))),
+        kNone);
   }
 }
 

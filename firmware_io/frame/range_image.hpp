@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -73,9 +74,9 @@ struct PlanarMotions {
 /// One frame of returns as an image: structure of arrays, rows x columns, row-major with stride
 /// `shape().stride()`, cyclic in columns. Fixed memory; no operation here allocates.
 ///
-/// A cell holds a return only where `stamp()[cell] == generation()`; all planes of other cells hold
-/// left-overs of earlier frames. Stamps make clearing unnecessary. The padding cells
-/// (column >= columns) never hold a return.
+/// A cell without a return has a NaN height, so that every comparison with it is false; its other
+/// planes hold left-overs of earlier frames. The padding cells (column >= columns) never hold a
+/// return.
 ///
 /// Thread contract: one writer until the frame is handed over, then readers only.
 class RangeImage {
@@ -83,13 +84,14 @@ class RangeImage {
   /// `overflow_capacity`: how many returns beyond one a cell a frame may have.
   RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory);
 
-  /// Removes all returns. Real-time safe, O(1) but for one frame in 2^32.
+  /// Removes all returns. Real-time safe.
   void clear() noexcept TERRACUT_NONBLOCKING;
 
   /// Puts a return into its cell. Where that is taken, `owner` says which of the two keeps it (the
   /// earlier one when they are equal); the other goes to the overflow list. Returns are numbered in
   /// the order of these calls. False when the overflow list is full: the return is not kept and the
-  /// caller must count it. row in [0, rows), column in [0, columns). Real-time safe.
+  /// caller must count it. row in [0, rows), column in [0, columns); coordinates are no NaN.
+  /// Real-time safe.
   bool place(int row, int column, const Return& point,
              CellOwner owner = CellOwner::kFirstArrived) noexcept {
     if (!place_numbered(row, column, point, owner, returns_)) return false;
@@ -113,10 +115,8 @@ class RangeImage {
                       std::uint32_t number) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
                              static_cast<std::size_t>(column);
-    fetch_ahead(cell);
-    if (stamp_[cell] == generation_) [[unlikely]]
+    if (has_return(cell)) [[unlikely]]
       return place_second(cell, point, owner, number);
-    stamp_[cell] = generation_;
     write(cell, point, number);
     empty_from_[static_cast<std::size_t>(row)] =
         std::max(empty_from_[static_cast<std::size_t>(row)], column + 1);
@@ -131,17 +131,27 @@ class RangeImage {
   struct Cells {
     float *x_m, *y_m, *z_m, *ground_range_m;
     std::uint8_t* intensity;
-    std::uint32_t *stamp, *return_index;
+    std::uint32_t* return_index;
   };
   /// For returns whose numbers were taken and that lie in `count` columns next to each other: the
-  /// cells to write them to, where the row is_empty_from() the first. Stamp: generation(), or 0
-  /// where there is none.
+  /// cells to write them to, where the row is_empty_from() the first. A height that is NaN: none.
   [[nodiscard]] Cells take_cells(int row, int column, int count) noexcept {
     empty_from_[static_cast<std::size_t>(row)] = column + count;
     const std::size_t cell = shape_.cell(row, column);
-    fetch_next(cell + static_cast<std::size_t>(count));
-    return {&x_m_[cell],       &y_m_[cell],   &z_m_[cell],         &ground_range_m_[cell],
-            &intensity_[cell], &stamp_[cell], &return_index_[cell]};
+    return {&x_m_[cell],       &y_m_[cell],         &z_m_[cell], &ground_range_m_[cell],
+            &intensity_[cell], &return_index_[cell]};
+  }
+  /// Asks for the cells of a row that will be written to when those of all other rows have been:
+  /// about a cache line and a half from `column` on. Three frames do not fit the caches next to a
+  /// core.
+  void fetch_to_write(int row, int column) const noexcept {
+    constexpr std::size_t kLineBytes = 64;
+    const std::size_t cell = shape_.cell(row, column);
+    for (const Plane& plane : planes_) {
+      const std::byte* next = plane.begin + cell * plane.cell_bytes;
+      __builtin_prefetch(next, 1, 2);
+      __builtin_prefetch(next + kLineBytes, 1, 2);
+    }
   }
 
   /// Moves all returns, each as its cell's row and column say; cells and heights stay. One of
@@ -149,12 +159,11 @@ class RangeImage {
   void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
 
   /// Asks for a part of a row to be brought next to the core: parts too short for the processor to
-  /// foresee what comes next. Stamps, places and ranges.
+  /// foresee what comes next. Places and ranges.
   void fetch(int row, ColumnRange columns) const noexcept {
     constexpr std::size_t kCellsPerLine = 16;
     const std::size_t end = shape_.cell(row, columns.end);
     for (std::size_t cell = shape_.cell(row, columns.begin); cell < end; cell += kCellsPerLine) {
-      __builtin_prefetch(&stamp_[cell]);
       __builtin_prefetch(&x_m_[cell]);
       __builtin_prefetch(&y_m_[cell]);
       __builtin_prefetch(&z_m_[cell]);
@@ -163,10 +172,9 @@ class RangeImage {
   }
 
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
+  /// Another one after every clear().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
-  [[nodiscard]] bool has_return(std::size_t cell) const noexcept {
-    return stamp_[cell] == generation_;
-  }
+  [[nodiscard]] bool has_return(std::size_t cell) const noexcept { return !std::isnan(z_m_[cell]); }
   /// Returns placed since clear(), those on the overflow list included.
   [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
   /// The most returns a frame may have: cells + overflow capacity.
@@ -174,7 +182,6 @@ class RangeImage {
     return shape_.cells() + overflow_.size();
   }
 
-  [[nodiscard]] std::span<const std::uint32_t> stamp() const noexcept { return stamp_; }
   [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
   [[nodiscard]] std::span<const float> y_m() const noexcept { return y_m_; }
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
@@ -197,29 +204,11 @@ class RangeImage {
     intensity_[cell] = point.intensity;
     return_index_[cell] = return_index;
   }
-  static constexpr std::size_t kLineBytes = 64;  ///< Of a cache.
   struct Plane {
     const std::byte* begin;
     std::size_t cell_bytes;
   };
 
-  /// Asks for the cache lines that the next columns of this row will be written to, those of
-  /// another plane with every column. Three frames do not fit the caches next to a core, and a
-  /// column writes to more rows than the processor could foresee by itself.
-  void fetch_ahead(std::size_t cell) const noexcept {
-    constexpr std::size_t kCellsAhead = 16;
-    const Plane& plane = planes_[cell % planes_.size()];
-    __builtin_prefetch(plane.begin + (cell + kCellsAhead) * plane.cell_bytes, 1);
-  }
-  /// Likewise for cells that are taken together: all planes, whose next ones will be written to
-  /// when those of all other rows have been.
-  void fetch_next(std::size_t cell) const noexcept {
-    for (const Plane& plane : planes_) {
-      const std::byte* next = plane.begin + cell * plane.cell_bytes;
-      __builtin_prefetch(next, 1, 2);
-      __builtin_prefetch(next + kLineBytes, 1, 2);
-    }
-  }
   [[nodiscard]] bool owns(std::size_t cell, const Return& point,
                           CellOwner owner) const noexcept TERRACUT_NONBLOCKING;
   bool place_second(std::size_t cell, const Return& point, CellOwner owner,
@@ -230,13 +219,12 @@ class RangeImage {
   std::uint32_t generation_ = 1;
   std::uint32_t returns_ = 0;
   std::size_t overflow_used_ = 0;
-  std::span<std::uint32_t> stamp_;
   std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
   std::span<std::uint8_t> intensity_;
   std::span<std::uint32_t> return_index_;
   std::span<OverflowReturn> overflow_;
   std::span<std::int32_t> empty_from_;  ///< Of each row.
-  std::array<Plane, 8> planes_;         ///< Of place(); a power of two.
+  std::array<Plane, 6> planes_;
 };
 
 }  // namespace terracut::frame

@@ -15,13 +15,13 @@ namespace {
 // they are not vectorised in clones.
 
 /// Heights above the surface, mixed of the two bands that a range lies between.
-TERRACUT_VECTOR_CLONES void find_heights(
-    const float* __restrict z_m, const float* __restrict range_m,
-    const std::uint32_t* __restrict stamp, std::uint32_t generation,
-    const std::int32_t* __restrict first_cell, const float* __restrict surface_m,
-    const std::int32_t* __restrict mix_bands, const float* __restrict mix_share, float last_step,
-    std::span<float> height_m) noexcept {
-  constexpr std::int32_t kNan = 0x7FC0'0000;
+TERRACUT_VECTOR_CLONES void find_heights(const float* __restrict z_m,
+                                         const float* __restrict range_m,
+                                         const std::int32_t* __restrict first_cell,
+                                         const float* __restrict surface_m,
+                                         const std::int32_t* __restrict mix_bands,
+                                         const float* __restrict mix_share, float last_step,
+                                         std::span<float> height_m) noexcept {
   constexpr std::int32_t kInner = RingGrid::BandMixes::kInner;
   constexpr int kOuterShift = RingGrid::BandMixes::kOuterShift;
   const std::size_t count = height_m.size();
@@ -32,9 +32,7 @@ TERRACUT_VECTOR_CLONES void find_heights(
     const std::int32_t bands = mix_bands[step];
     const float inner_m = surface_m[first_cell[i] + (bands & kInner)];
     const float outer_m = surface_m[first_cell[i] + (bands >> kOuterShift)];
-    const float height = z_m[i] - (inner_m + mix_share[step] * (outer_m - inner_m));
-    const std::int32_t if_none = -std::int32_t{stamp[i] != generation} & kNan;
-    out[i] = std::bit_cast<float>(std::bit_cast<std::int32_t>(height) | if_none);
+    out[i] = z_m[i] - (inner_m + mix_share[step] * (outer_m - inner_m));
   }
 }
 
@@ -83,15 +81,13 @@ GroundSurface::LowestReturn return_of(std::int64_t key) noexcept {
 /// one.
 TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
                                                const float* __restrict range_m,
-                                               const std::uint32_t* __restrict stamp,
-                                               std::uint32_t generation,
                                                std::span<std::int64_t> keys) noexcept {
   const std::size_t count = keys.size();
   std::int64_t* const __restrict out = keys.data();
   std::uint32_t returns = 0;
-  for (std::size_t i = 0; i < count; ++i) returns += stamp[i] == generation;
+  for (std::size_t i = 0; i < count; ++i) returns += z_m[i] == z_m[i];
   for (std::size_t i = 0; i < count; ++i) {
-    const bool has_return = stamp[i] == generation;
+    const bool has_return = z_m[i] == z_m[i];
     out[i] = key_of(has_return ? z_m[i] : GroundSurface::kEmpty, has_return ? range_m[i] : 0.0F);
   }
   return returns;
@@ -136,8 +132,7 @@ void RingElevationMap::take_columns(const frame::RangeImage& image,
   const std::span<std::uint16_t> steps = row_steps_.first(columns.size());
   for (int row = 0; row < image.shape().rows; ++row) {
     const std::size_t first = image.shape().cell(row, columns.begin);
-    seen_ += find_keys(&image.z_m()[first], &image.ground_range_m()[first], &image.stamp()[first],
-                       image.generation(), keys);
+    seen_ += find_keys(&image.z_m()[first], &image.ground_range_m()[first], keys);
     grid_.find_steps(image.ground_range_m().subspan(first, steps.size()), steps);
     std::size_t i = 0;
     for (int sector = sectors.begin; sector < sectors.end; ++sector) {
@@ -185,8 +180,7 @@ void RingElevationMap::label(const frame::RangeImage& image, frame::ColumnRange 
     const std::size_t first = shape.cell(row, columns.begin);
     const std::span<float> height_m = planes.height_m.subspan(first, columns.size());
     if (config_.reference == GroundReference::kLocalSurface) {
-      find_heights(&image.z_m()[first], &image.ground_range_m()[first], &image.stamp()[first],
-                   image.generation(),
+      find_heights(&image.z_m()[first], &image.ground_range_m()[first],
                    &grid_.first_cell_of_column()[static_cast<std::size_t>(columns.begin)],
                    surface_.height_m().data(), mixes.bands, mixes.outer_share, mixes.last_step,
                    height_m);

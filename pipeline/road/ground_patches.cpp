@@ -125,13 +125,13 @@ struct RowOfPatches {
   std::uint32_t* arrival;
 };
 
-/// Sum of the values that are marked by 1, of others by 0.
+/// Sum of the values that are marked by 1; others are marked by 0, and may be NaN.
 template <class Columns>
 float sum_of_marked(const float* values, const std::uint8_t* marks, std::size_t marked,
                     Columns width) noexcept {
   if (marked == width.size()) return width.sum(values);
   float all = 0;
-  for (std::size_t i = 0; i < width.size(); ++i) all += static_cast<float>(marks[i]) * values[i];
+  for (std::size_t i = 0; i < width.size(); ++i) all += marks[i] != 0 ? values[i] : 0.0F;
   return all;
 }
 

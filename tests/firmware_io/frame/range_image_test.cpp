@@ -135,7 +135,7 @@ TEST_F(SmallImage, SaysForHowManyReturnsThereIsRoomWhereverTheyFall) {
   EXPECT_FALSE(image.has_room_for(3));
 }
 
-TEST_F(SmallImage, CellsTakenTogetherHoldWhatTheirStampsSay) {
+TEST_F(SmallImage, CellsTakenTogetherHoldAReturnWhereTheyHaveAHeight) {
   ASSERT_TRUE(image.place(1, 3, {}));
   EXPECT_FALSE(image.is_empty_from(1, 3));
   ASSERT_TRUE(image.is_empty_from(1, 4));
@@ -144,9 +144,9 @@ TEST_F(SmallImage, CellsTakenTogetherHoldWhatTheirStampsSay) {
   EXPECT_FALSE(image.is_empty_from(1, 5));
   EXPECT_TRUE(image.is_empty_from(1, 6));
   EXPECT_TRUE(image.is_empty_from(2, 0)) << "another row";
-  cells.stamp[0] = image.generation();
-  cells.stamp[1] = 0;
   cells.x_m[0] = 7;
+  cells.z_m[0] = 0;
+  cells.z_m[1] = NAN;
   cells.return_index[0] = 1;
   EXPECT_TRUE(image.has_return(image.shape().cell(1, 4)));
   EXPECT_FALSE(image.has_return(image.shape().cell(1, 5)));

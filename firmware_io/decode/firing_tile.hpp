@@ -9,6 +9,7 @@
 
 #include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/decode/rotor_directions.hpp"
+#include "firmware_io/decode/wire_returns.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -21,11 +22,29 @@ inline constexpr std::size_t kTileFirings = 24;
 template <class Value>
 using TileRow = std::array<Value, kTileFirings>;
 
-/// What some firings found, in the order of arrival, by laser.
+/// What one firing found, by laser.
+template <std::size_t kLasers>
+struct FiringReturns {
+  std::span<std::uint16_t, kLasers> raw;  ///< Wire distance; 0: no return.
+  std::span<std::uint8_t, kLasers> intensity;
+};
+
+/// What some firings found, in the order of arrival: as it arrives, and by laser.
 template <std::size_t kLasers>
 struct FiringTile {
-  alignas(64) std::array<TileRow<std::uint16_t>, kLasers> raw;  ///< Wire distance; 0: no return.
+  alignas(64) std::array<std::array<std::uint16_t, kLasers>, kTileFirings> arrived_raw;
+  alignas(64) std::array<std::array<std::uint8_t, kLasers>, kTileFirings> arrived_intensity;
+  alignas(64) std::array<TileRow<std::uint16_t>, kLasers> raw;
   alignas(64) std::array<TileRow<std::uint8_t>, kLasers> intensity;
+
+  [[nodiscard]] FiringReturns<kLasers> firing(std::size_t number) noexcept {
+    return {arrived_raw[number], arrived_intensity[number]};
+  }
+  /// Fills in what is by laser.
+  void turn() noexcept {
+    transpose(arrived_raw[0].data(), kTileFirings, kLasers, raw[0].data());
+    transpose(arrived_intensity[0].data(), kTileFirings, kLasers, intensity[0].data());
+  }
 };
 
 /// Points of one laser of a tile, vehicle frame, metres; NaN where it has no return.

@@ -43,8 +43,7 @@ struct PacketPlace {
 /// - `group(laser)`, `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated
 ///   since its firing's azimuth when the group fires, [0, 1e5];
 /// - `begin_packet(azimuths)`, for each packet in order of arrival, then `step_ticks(azimuths,
-///   column)` and `read_column(payload, column, FiringTile<kRows>&, firing)`, which fills in a
-///   firing of the tile;
+///   column)` and `read_column(payload, column, FiringReturns<kRows>)`, which fills them in;
 /// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, PointsOut)`;
 /// - `rows()`: the range image row of each laser.
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
@@ -84,7 +83,7 @@ class PacketReturns {
     sensor_.begin_packet(azimuths);
     for (std::size_t c = 0; c < columns; ++c) {
       const std::size_t firing = firings_ + c;
-      sensor_.read_column(payload, c, tile_[0], firing);
+      sensor_.read_column(payload, c, tile_[0].firing(firing));
       rotor_cdeg_[firing] = place.rotor_cdeg + azimuths.advance_cdeg(static_cast<int>(c));
       set_advance(firing, sensor_.step_ticks(azimuths, c), azimuths.dual_return);
     }
@@ -97,6 +96,7 @@ class PacketReturns {
     if (firings_ == 0) return;
     const std::size_t firings = std::exchange(firings_, 0);
     complete(firings);
+    tile_[0].turn();
     measure({tile_[0].raw[0].data(), kLasers * kTileFirings}, sensor_.metres_per_count(),
             measured_m_[0].data());
     const Tile tile = find_cells(firings, frames);
@@ -122,9 +122,9 @@ class PacketReturns {
 
   void leave_out(int late_columns, const PacketAzimuths& azimuths,
                  frame::LossCounters& losses) noexcept {
-    for (TileRow<std::uint16_t>& raw : tile_[0].raw) {
-      for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
-        losses.late_returns += std::exchange(raw[firings_ + c], std::uint16_t{0}) != 0 ? 1U : 0U;
+    for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
+      for (std::uint16_t& raw : tile_[0].arrived_raw[firings_ + c]) {
+        losses.late_returns += std::exchange(raw, std::uint16_t{0}) != 0 ? 1U : 0U;
       }
     }
     // Both returns of a pair are one firing.
@@ -157,10 +157,8 @@ class PacketReturns {
   /// The rest of a tile that is not full: without returns.
   void complete(std::size_t firings) noexcept {
     if (firings == kTileFirings) return;
-    for (TileRow<std::uint16_t>& raw : tile_[0].raw) {
-      std::fill(raw.begin() + static_cast<std::ptrdiff_t>(firings), raw.end(), std::uint16_t{0});
-    }
     for (std::size_t f = firings; f < kTileFirings; ++f) {
+      tile_[0].arrived_raw[f].fill(0);
       rotor_cdeg_[f] = rotor_cdeg_[firings - 1];
       advance_key_[f] = kNoAdvance;
       heads_[0].set_advance(f, {});

@@ -12,16 +12,14 @@ Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& m
       rows_(rows_by_elevation(calibration)) {}
 
 void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload, std::size_t column,
-                               Tile& tile, std::size_t firing) noexcept {
+                               const Returns& found) noexcept {
   const auto* packet = packet_in(payload);
   if (packet == nullptr) return;  // check() has seen to it
   for (std::size_t half = 0; half < 2; ++half) {
     const auto& returns = packet->blocks[2 * column + half].returns;
     const std::size_t first = half * kLasersPerBlock;
-    for (std::size_t j = 0; j < returns.size(); ++j) {
-      tile.raw[first + j][firing] = returns[j].distance.value();
-      tile.intensity[first + j][firing] = returns[j].intensity;
-    }
+    decode::split_returns(&returns[0].distance.bytes[0], decode::ByteOrder::kLittle,
+                          found.raw.subspan(first, returns.size()), &found.intensity[first]);
   }
 }
 

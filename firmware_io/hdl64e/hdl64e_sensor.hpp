@@ -33,7 +33,7 @@ class Hdl64eSensor {
   static constexpr int kRows = kHdl64eLasers;
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
   static constexpr std::size_t kGroups = kLasersPerBlock;  ///< Both blocks fire together.
-  using Tile = decode::FiringTile<static_cast<std::size_t>(kRows)>;
+  using Returns = decode::FiringReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
   static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a frame, 48 us each.
   static constexpr int kDefaultReturnsPerCell = 2;
@@ -60,8 +60,8 @@ class Hdl64eSensor {
                                                std::size_t) noexcept {
     return azimuths.step_ticks;
   }
-  static void read_column(std::span<const std::uint8_t> payload, std::size_t column, Tile& tile,
-                          std::size_t firing) noexcept TERRACUT_NONBLOCKING;
+  static void read_column(std::span<const std::uint8_t> payload, std::size_t column,
+                          const Returns& found) noexcept TERRACUT_NONBLOCKING;
   void compute_points(std::size_t laser, const decode::LaserHeads& heads,
                       const decode::TileRow<float>& measured_m,
                       const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {

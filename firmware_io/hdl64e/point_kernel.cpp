@@ -85,4 +85,11 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
   }
 }
 
+void PointKernel::compute(std::size_t laser, const decode::LaserHeads& heads,
+                          const decode::TileRow<float>& measured_m,
+                          const decode::PointsOut& out) const noexcept {
+  compute(laser_[laser], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
+          measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
+}
+
 }  // namespace terracut::hdl64e

@@ -33,10 +33,7 @@ class PointKernel {
   /// `heads`: of the laser's group. `measured_m`: wire distances, NaN: no return.
   void compute(std::size_t laser, const decode::LaserHeads& heads,
                const decode::TileRow<float>& measured_m,
-               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
-    compute(laser_[laser], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
-            measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
-  }
+               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   struct Laser {

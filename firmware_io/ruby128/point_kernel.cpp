@@ -56,4 +56,11 @@ TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
   }
 }
 
+void Ruby128PointKernel::compute(std::size_t channel, const decode::LaserHeads& heads,
+                                 const decode::TileRow<float>& measured_m,
+                                 const decode::PointsOut& out) const noexcept {
+  compute(channel_[channel], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
+          measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
+}
+
 }  // namespace terracut::ruby128

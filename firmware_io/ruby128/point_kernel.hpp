@@ -28,10 +28,7 @@ class Ruby128PointKernel {
   /// `heads`: of the channel's group. `measured_m`: wire distances, NaN: no return.
   void compute(std::size_t channel, const decode::LaserHeads& heads,
                const decode::TileRow<float>& measured_m,
-               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
-    compute(channel_[channel], heads.sin_rotor, heads.cos_rotor, heads.sin_advance,
-            heads.cos_advance, measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
-  }
+               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   struct Channel {

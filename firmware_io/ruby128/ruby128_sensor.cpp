@@ -52,14 +52,11 @@ void Ruby128Sensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcep
 }
 
 void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, std::size_t column,
-                                Tile& tile, std::size_t firing) noexcept {
+                                const Returns& found) noexcept {
   const auto* packet = packet_in(payload);
   if (packet == nullptr) return;  // check() has seen to it
-  const auto& returns = packet->blocks[column].returns;
-  for (std::size_t i = 0; i < returns.size(); ++i) {
-    tile.raw[i][firing] = returns[i].distance.value();
-    tile.intensity[i][firing] = returns[i].intensity;
-  }
+  decode::split_returns(&packet->blocks[column].returns[0].distance.bytes[0],
+                        decode::ByteOrder::kBig, found.raw, &found.intensity[0]);
 }
 
 }  // namespace terracut::ruby128

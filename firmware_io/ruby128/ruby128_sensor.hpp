@@ -36,7 +36,7 @@ class Ruby128Sensor {
   static constexpr int kRows = kRuby128Lasers;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
-  using Tile = decode::FiringTile<static_cast<std::size_t>(kRows)>;
+  using Returns = decode::FiringReturns<static_cast<std::size_t>(kRows)>;
   /// Device stamps count up from 1970; this is farther than they can get.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
@@ -66,8 +66,8 @@ class Ruby128Sensor {
                                         std::size_t column) const noexcept {
     return column == 0 ? first_step_ticks_ : azimuths.step_ticks;
   }
-  static void read_column(std::span<const std::uint8_t> payload, std::size_t column, Tile& tile,
-                          std::size_t firing) noexcept TERRACUT_NONBLOCKING;
+  static void read_column(std::span<const std::uint8_t> payload, std::size_t column,
+                          const Returns& found) noexcept TERRACUT_NONBLOCKING;
   void compute_points(std::size_t laser, const decode::LaserHeads& heads,
                       const decode::TileRow<float>& measured_m,
                       const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::decode {
+
+/// Returns as sensors send them: two bytes of distance, one of intensity, and the next.
+inline constexpr std::size_t kWireReturnBytes = 3;
+enum class ByteOrder : std::uint8_t { kLittle, kBig };
+
+/// Takes returns apart, eight at once. `bytes`: kWireReturnBytes for each of `raw`, whose number is
+/// a multiple of 8; as many intensities are written.
+void split_returns(const std::uint8_t* bytes, ByteOrder order, std::span<std::uint16_t> raw,
+                   std::uint8_t* intensity) noexcept TERRACUT_NONBLOCKING;
+
+/// Rows to columns, eight by eight: `to` has `columns` rows of `rows` values. Both are multiples of
+/// 8.
+void transpose(const std::uint16_t* from, std::size_t rows, std::size_t columns,
+               std::uint16_t* to) noexcept TERRACUT_NONBLOCKING;
+void transpose(const std::uint8_t* from, std::size_t rows, std::size_t columns,
+               std::uint8_t* to) noexcept TERRACUT_NONBLOCKING;
+
+}  // namespace terracut::decode

@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kEnoughPackets = 50;
 /// A step between packets beyond this is a gap, across which the head's way is not known.
 constexpr std::int64_t kLongestStep_us = 5'000;
-/// Sensors keep their set spin rate to a percent or two.
+/// Sensors keep their set spin rate to a percent or two; not all, KITTI's runs at 9.65 Hz.
 constexpr double kNominalTolerance = 0.03;
 
 /// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
@@ -34,11 +34,13 @@ bool is_slow_step(std::int64_t step_us) {
   return step_us * 1000 > kBetween_ns && step_us * 1000 < kLongest_ns;
 }
 
-std::optional<double> nominal_spin_hz(double spin_hz) {
+/// Of the head that is seen to rotate at this rate; none of these sensors rotates slower than 5 Hz
+/// or faster than 20.
+std::optional<double> head_spin_hz(double seen_hz) {
   for (const double nominal_hz : {5.0, 10.0, 15.0, 20.0}) {
-    if (std::abs(spin_hz - nominal_hz) < kNominalTolerance * nominal_hz) return nominal_hz;
+    if (std::abs(seen_hz - nominal_hz) < kNominalTolerance * nominal_hz) return nominal_hz;
   }
-  return std::nullopt;
+  return seen_hz > 5 && seen_hz < 20 ? std::optional(seen_hz) : std::nullopt;
 }
 
 }  // namespace
@@ -101,7 +103,7 @@ bool SensorProbe::dual_return(SensorModel model) const {
 }
 
 int SensorProbe::columns(SensorModel model) const {
-  const std::optional<double> hz = nominal_spin_hz(spin_hz(model));
+  const std::optional<double> hz = head_spin_hz(spin_hz(model));
   if (!knows(model) || !hz) {
     return model == SensorModel::kRuby128 ? ruby128::Ruby128Sensor::kDefaultColumns
                                           : hdl64e::Hdl64eSensor::kDefaultColumns;

@@ -33,7 +33,8 @@ class SensorProbe {
   [[nodiscard]] double spin_hz(SensorModel model) const;
   [[nodiscard]] bool dual_return(SensorModel model) const;
   /// The columns its range image should have: firings a frame at 5, 10, 15 or 20 Hz, where it
-  /// rotates at one of those; else, and while unknown, the model's default.
+  /// rotates at about one of those, at its own rate where it rotates at another one between them;
+  /// else, and while unknown, the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
   /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLS-128".

@@ -30,6 +30,11 @@ TEST(SensorProbe, KnowsTheSlowerCycleOfSomeS3) {
   EXPECT_EQ(columns_of(5, 57'600), 3472);
 }
 
+TEST(SensorProbe, GivesAHeadThatKeepsNoNominalRateColumnsOfItsOwn) {
+  EXPECT_EQ(columns_of(9.65, 48'000), 2159);  // KITTI's
+  EXPECT_EQ(columns_of(9.8, 48'000), 2083);
+}
+
 TEST(SensorProbe, IsNotDeceivedByLostPackets) {
   EXPECT_EQ(columns_of(10, 48'000, 2), 2083);
 }

@@ -56,17 +56,19 @@ void print(const Options& options, const encode::ScanDriveReport& report,
   fmt::print("{}table     {}, fingerprint {:016x}\n", wrote_drive(options),
              report.fitted ? "fitted to the scans" : report.calibration.origin,
              fingerprint(report.calibration));
-  fmt::print(
-      "{}\nframes    {}\nreturns   {} of {} points ({:.2f} %)\n",
-      motion_line(report.why_as_recorded), report.drive.frames, encoded.encoded, encoded.points,
-      encoded.points == 0
-          ? 0.0
-          : 100.0 * static_cast<double>(encoded.encoded) / static_cast<double>(encoded.points));
+  fmt::print("{}\nframes    {}, the head at {:.2f} Hz\nreturns   {} of {} points ({:.2f} %)\n",
+             motion_line(report.why_as_recorded), report.drive.frames, report.spin_hz,
+             encoded.encoded, encoded.points,
+             encoded.points == 0 ? 0.0
+                                 : 100.0 * static_cast<double>(encoded.encoded) /
+                                       static_cast<double>(encoded.points));
   for (std::size_t i = 0; i < encode::kNotEncodedReasons; ++i) {
     if (encoded.not_encoded[i] == 0) continue;
     fmt::print("          {} left out: {}\n", encoded.not_encoded[i],
                to_string(static_cast<encode::NotEncoded>(i)));
   }
+  fmt::print("azimuth   off by {:.3f} degrees (median), {:.2f} at most\n",
+             encoded.median_azimuth_shift_deg, encoded.max_azimuth_shift_deg);
   fmt::print("range     off by {:.1f} mm at most\n", 1000 * encoded.max_range_error_m);
   fmt::print("height    off by {:.1f} cm (rms), {:.1f} cm (p95)\n", 100 * encoded.height.rms_m,
              100 * encoded.height.p95_m);

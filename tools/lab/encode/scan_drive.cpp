@@ -8,7 +8,9 @@
 #include <span>
 #include <utility>
 
+#include "firmware_io/scan/ring_fit_of_scans.hpp"
 #include "frame_motion_log.hpp"
+#include "recorded_spin.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 
 namespace terracut::encode {
@@ -27,6 +29,19 @@ scan::SensorTwist reversed(scan::SensorTwist twist) {
     twist.angular_velocity_rad_s[axis] = -twist.angular_velocity_rad_s[axis];
   }
   return twist;
+}
+
+Expected<RecordedSpin> recorded_spin(const scan::ScanReader& reader) {
+  RecordedSpin spin;
+  scan::KittiScan scan;
+  scan::RingRecovery rings;
+  const Status read = scan::read_some_scans(reader.size(), [&](std::size_t index) {
+    Status one = reader.read(index, scan, rings);
+    if (one) spin.add(rings.ring_of_point);
+    return one;
+  });
+  if (!read) return tl::unexpected(read.error());
+  return spin;
 }
 
 }  // namespace
@@ -57,8 +72,13 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
 
   auto writer = drive::Hdl64eDriveWriter::create(pcap_path, report.calibration);
   if (!writer) return tl::unexpected(std::move(writer.error()));
+  const auto spin = recorded_spin(*reader);
+  if (!spin) return tl::unexpected(spin.error());
+  report.spin_hz = spin->spin_hz();
   FrameMotionLog log(options.first_stamp_ns);
-  ScanEncoder encoder(report.calibration, options.first_stamp_ns, [&](const EncodedFiring& firing) {
+  const ScanEncoder::Config config{static_cast<std::int64_t>(reader->size()), report.spin_hz,
+                                   options.first_stamp_ns};
+  ScanEncoder encoder(report.calibration, config, [&](const EncodedFiring& firing) {
     log.note_firing(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg);
     return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
                               firing.column.by_laser);

@@ -39,6 +39,7 @@ struct ScanDriveOptions {
 struct ScanDriveReport {
   drive::DriveSummary drive;
   EncodeSummary encoded;
+  double spin_hz = 0;                       ///< Of the head, as the recording tells.
   std::string why_as_recorded;              ///< Empty where the motion was put back.
   std::optional<scan::FittedRings> fitted;  ///< Where no calibration was given.
   hdl64e::Hdl64eCalibration calibration;    ///< The one used.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <span>
 #include <string_view>
@@ -12,13 +13,14 @@
 
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/hdl64e/hdl64e_geometry.hpp"
-#include "firing_schedule.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/ring_table.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/drive/firing_plan.hpp"
+#include "tools/lab/quality/error_counts.hpp"
 
 namespace terracut::encode {
 
@@ -29,7 +31,8 @@ enum class NotEncoded : std::uint8_t {
   kTooNear,      ///< Its distance is below what the calibration can say (raw count < 1).
   kTooFar,       ///< Its distance is beyond the wire's 65535 counts.
   kSeam,         ///< The beam that hits it belongs to the frame before or after.
-  kCollision,    ///< Its laser has no firing left near enough: its neighbours took them.
+  kCollision,    ///< Its laser has no firing left near enough: its neighbours took them. A laser
+                 ///< measures once a firing, so no sensor would have sent it so.
   kCount,
 };
 inline constexpr std::size_t kNotEncodedReasons = static_cast<std::size_t>(NotEncoded::kCount);
@@ -39,10 +42,9 @@ inline constexpr std::size_t kNotEncodedReasons = static_cast<std::size_t>(NotEn
 
 /// One encoded frame.
 struct EncodedFrame {
-  std::size_t points = 0;   ///< Of the scan.
-  std::size_t encoded = 0;  ///< = returns of this frame's truth.
-  std::size_t firings = 0;  ///< While the head was in this frame; 360 / firings is the mean step.
-  double max_azimuth_error_deg = 0;  ///< Decoded against the scan's; at most 180 / firings + 0.01.
+  std::size_t points = 0;            ///< Of the scan.
+  std::size_t encoded = 0;           ///< = returns of this frame's truth.
+  double max_azimuth_shift_deg = 0;  ///< Decoded against the scan's.
 };
 
 /// What became of the points.
@@ -51,6 +53,7 @@ struct EncodeSummary {
   std::size_t points = 0;  ///< = encoded + the sum of not_encoded.
   std::size_t encoded = 0;
   std::array<std::size_t, kNotEncodedReasons> not_encoded{};
+  double median_azimuth_shift_deg = 0, max_azimuth_shift_deg = 0;  ///< Decoded against the scan's.
   double max_range_error_m = 0;  ///< Of the range decoded from the wire against the scan's.
   scan::HeightResidual height;   ///< Decoded height against the scan's.
 };
@@ -68,23 +71,31 @@ struct EncodedFiring {
 /// Takes recorded scans back to what an HDL-64E with a given calibration would have sent: one scan
 /// is one frame, consecutive scans are consecutive frames.
 ///
-/// A point becomes a return of its ring's laser (rings by elevation). Its raw distance is the one
-/// whose decoded range (from the sensor's origin) equals the point's, to the wire's 2 mm; its
-/// firing is chosen (firing_schedule.hpp) so that the decoded azimuth is at most half the frame's
-/// mean firing step + 0.01 degrees off. Only the height follows from the calibration alone; how far
-/// off it is, is reported. Two points never share a firing of a laser.
+/// The head rotates steadily and all lasers fire every 48 us, as a sensor's do
+/// (drive/firing_plan.hpp); that the recording's head did so, at `spin_hz` (recorded_spin.hpp), is
+/// what makes one firing of its laser for nearly every point. A point becomes a return of its
+/// ring's laser (rings by elevation) at a firing of its own, moved by at most kFarthest_steps of
+/// the steps from firing to firing (firing_assignment.hpp); what finds none is counted. Its raw
+/// distance is the one whose decoded range (from the sensor's origin) equals the point's, to the
+/// wire's 2 mm. The height follows from the calibration alone; how far off it is, is reported.
 ///
 /// Firings start 11 degrees before the first seam and end as far after the last one. The head's
 /// azimuth of the first frame starts at 36000.  Allocates; one thread; deterministic.
 class ScanEncoder {
  public:
-  static constexpr std::int64_t kFiring_ns = 48'000;  ///< From firing to firing (single return).
-  static constexpr std::int64_t kRunUp_cdeg = 1100;   ///< Before the first seam, after the last.
+  static constexpr double kFarthest_steps = 4;
 
-  /// Receives the firings in order; an error ends the encoding and is handed on.
+  struct Config {
+    std::int64_t frames = 1;          ///< Calls of add_frame() to come.
+    double spin_hz = 10;              ///< 5 to 20.
+    std::int64_t first_stamp_ns = 0;  ///< Of the first firing.
+  };
+
+  /// Receives the firings in order, whole packets of six in all; an error ends the encoding and is
+  /// handed on.
   using Sink = std::function<Status(const EncodedFiring&)>;
 
-  ScanEncoder(const hdl64e::Hdl64eCalibration& calibration, std::int64_t first_stamp_ns, Sink sink);
+  ScanEncoder(const hdl64e::Hdl64eCalibration& calibration, const Config& config, Sink sink);
 
   /// Adds the next frame. `ring_of_point`: 0..63 or kNoRing for each point; `labels`: one for each
   /// point, or empty (truth 0).
@@ -96,36 +107,38 @@ class ScanEncoder {
   [[nodiscard]] Expected<EncodeSummary> finish();
 
  private:
-  struct PendingPoint {
-    double range_m, z_m, azimuth_rad;
-    std::uint32_t label, index;
-    std::uint8_t intensity;
+  struct Wanted {
+    std::int64_t ticks = 0;  ///< Of the beam, in its frame.
+    double range_m = 0, z_m = 0, azimuth_rad = 0;
+    std::uint32_t label = 0, point = 0;
+    std::uint8_t intensity = 0;
+  };
+  struct Planned {
+    drive::Firing when;
+    EncodedFiring what;
   };
 
-  [[nodiscard]] bool want(std::int32_t frame, int laser, const scan::ScanPoint& point,
-                          PendingPoint& pending, WantedBeam& beam);
-  void schedule_frame();
-  [[nodiscard]] Status send_before(std::int64_t azimuth_cdeg);
-  [[nodiscard]] Status send_packet();
-  void encode(const WantedBeam& beam, int laser, std::int64_t column_cdeg, std::int32_t step_ticks,
-              EncodedFiring& firing);
+  [[nodiscard]] bool want(int laser, const scan::ScanPoint& point, Wanted& wanted);
+  [[nodiscard]] Planned& planned(std::int64_t firing);
+  void assign(std::int32_t frame, int laser);
+  void encode(std::int32_t frame, int laser, const Wanted& wanted, Planned& planned);
+  [[nodiscard]] Status send_before(std::int64_t firing);
   void count(NotEncoded reason) { ++summary_.not_encoded[static_cast<std::size_t>(reason)]; }
-  void add_height_error(double error_m);
 
   hdl64e::Hdl64eCalibration calibration_;
   hdl64e::Hdl64eGeometry geometry_;
   std::array<int, scan::kScanRings> laser_of_ring_;
   hdl64e::BeamOffsets offsets_;
-  FiringSchedule schedule_;
-  FiringSchedule::Packet packet_;
+  drive::FiringPlan<Hdl64eEncoderTraits> plan_;
+  std::int64_t first_stamp_ns_, farthest_ticks_;
   Sink sink_;
-  std::int64_t stamp_ns_;
-  std::array<std::vector<WantedBeam>, hdl64e::kHdl64eLasers> wanted_;
-  std::array<std::vector<PendingPoint>, 2>
-      pending_;  ///< Of this frame and the one before, by parity.
+  std::deque<Planned> planned_;  ///< Firings that were looked at and are not sent yet.
+  std::int64_t sent_ = 0;        ///< Firings.
+  /// Of each laser: its first firing behind the frames that were added.
+  std::array<std::int64_t, hdl64e::kHdl64eLasers> next_firing_{};
+  std::array<std::vector<Wanted>, hdl64e::kHdl64eLasers> wanted_;
   EncodeSummary summary_;
-  std::vector<std::uint64_t> height_errors_;  ///< Histogram, millimetres.
-  double height_squares_ = 0;
+  quality::ErrorCounts azimuth_shifts_deg_{0.001, 1000}, height_errors_m_{0.001, 5000};
 };
 
 }  // namespace terracut::encode

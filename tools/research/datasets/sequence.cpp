@@ -77,7 +77,9 @@ Status Sequence::fit_rings() {
   auto fitted = scan::fit_rings_of_scans(
       size(), [&](std::size_t index, const scan::RingTable* table, scan::RingTableFit& fit) {
         Status read = this->read(index, table, scan);
-        if (read) fit.add(scan.scan.points, scan.rings.ring_of_point);
+        if (!read) return read;
+        fit.add(scan.scan.points, scan.rings.ring_of_point);
+        spin_.add(scan.rings.ring_of_point);
         return read;
       });
   if (!fitted) return tl::unexpected(fitted.error());
@@ -101,7 +103,9 @@ Status Sequence::fit_lasers() {
   scan::RingTableFit fit(layout_.rings);
   const Status read = scan::read_some_scans(size(), [&](std::size_t index) {
     Status one = this->read(index, nullptr, scan);
-    if (one) fit.add(scan.scan.points, scan.rings.ring_of_point);
+    if (!one) return one;
+    fit.add(scan.scan.points, scan.rings.ring_of_point);
+    spin_.add(scan.rings.ring_of_point);
     return one;
   });
   if (!read) return read;

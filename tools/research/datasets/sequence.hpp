@@ -13,6 +13,7 @@
 #include "firmware_io/scan/ring_table.hpp"
 #include "laser_order.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/encode/recorded_spin.hpp"
 
 namespace terracut::datasets {
 
@@ -38,6 +39,8 @@ class Sequence {
   [[nodiscard]] Status check_whole() const;
   /// Of the unit, as far as its frames tell.
   [[nodiscard]] const scan::RingTable& rings() const { return table_; }
+  /// Of the head of an HDL-64E, as far as its frames tell.
+  [[nodiscard]] const encode::RecordedSpin& spin() const { return spin_; }
   /// Of an image that holds a frame.
   [[nodiscard]] frame::ImageShape shape() const { return {layout_.rings, layout_.columns}; }
 
@@ -52,6 +55,7 @@ class Sequence {
   std::vector<std::string> frames_;
   RingOfLaser ring_of_laser_;  ///< Where the points have the numbers of their lasers.
   scan::RingTable table_;
+  encode::RecordedSpin spin_;
 };
 
 }  // namespace terracut::datasets

@@ -15,8 +15,8 @@ FrameLabeller::FrameLabeller(std::span<const MethodChoice> methods,
                              const datasets::Sequence& sequence, const mount::RingProfile& profile,
                              bool through_packets) {
   if (through_packets) {
-    way_ = std::make_unique<PacketWay>(scan::hdl64e_calibration(sequence.rings()), profile.mount,
-                                       memory_);
+    way_ = std::make_unique<PacketWay>(scan::hdl64e_calibration(sequence.rings()), sequence.spin(),
+                                       profile.mount, memory_);
   } else {
     way_ = std::make_unique<DirectWay>(sequence.shape(), profile.mount, memory_);
   }

@@ -16,6 +16,16 @@ namespace terracut::eval {
 using encode::EncodedFiring;
 using frame::FiringColumn;
 
+namespace {
+
+decode::Decoder::Config with_columns(int columns) {
+  decode::Decoder::Config config;
+  config.columns = columns;
+  return config;
+}
+
+}  // namespace
+
 DirectWay::DirectWay(const frame::ImageShape& shape, const mount::Mount& mount,
                      memory::FixedMemory& memory)
     : image_(shape, shape.cells(), memory), scan_to_image_(mount) {}
@@ -26,9 +36,11 @@ Expected<PlacedScan> DirectWay::place(std::span<const scan::ScanPoint> points,
   return PlacedScan{&image_, scan_to_image_.point_of_return(), 0};
 }
 
-PacketWay::PacketWay(const hdl64e::Hdl64eCalibration& calibration, const mount::Mount& mount,
-                     memory::FixedMemory& memory)
-    : calibration_(calibration), decoder_(calibration, mount, {}, memory) {}
+PacketWay::PacketWay(const hdl64e::Hdl64eCalibration& calibration, const encode::RecordedSpin& spin,
+                     const mount::Mount& mount, memory::FixedMemory& memory)
+    : calibration_(calibration),
+      spin_hz_(spin.spin_hz()),
+      decoder_(calibration, mount, with_columns(spin.firings()), memory) {}
 
 Status PacketWay::encode(std::span<const scan::ScanPoint> points,
                          std::span<const std::int16_t> ring_of_point) {
@@ -54,7 +66,8 @@ Status PacketWay::encode(std::span<const scan::ScanPoint> points,
     return {};
   };
   constexpr std::int64_t kBegin_ns = 1'600'000'000'000'000'000;
-  encode::ScanEncoder encoder(calibration_, kBegin_ns, take);
+  encode::ScanEncoder encoder(
+      calibration_, {.frames = 1, .spin_hz = spin_hz_, .first_stamp_ns = kBegin_ns}, take);
   if (const Status added = encoder.add_frame(points, ring_of_point, {}); !added) return added;
   const auto summary = encoder.finish();
   return summary ? Status{} : tl::unexpected(summary.error());

@@ -14,6 +14,7 @@
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "rt/error.hpp"
 #include "rt/memory/fixed_memory.hpp"
+#include "tools/lab/encode/recorded_spin.hpp"
 
 namespace terracut::eval {
 
@@ -43,8 +44,9 @@ class DirectWay {
 /// As the sensor would have sent it: encoded as one frame's packets, which the decoder takes.
 class PacketWay {
  public:
-  PacketWay(const hdl64e::Hdl64eCalibration& calibration, const mount::Mount& mount,
-            memory::FixedMemory& memory);
+  /// `spin`: of the head that recorded the scans.
+  PacketWay(const hdl64e::Hdl64eCalibration& calibration, const encode::RecordedSpin& spin,
+            const mount::Mount& mount, memory::FixedMemory& memory);
 
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return decoder_.shape(); }
   [[nodiscard]] std::size_t return_capacity() const noexcept { return decoder_.return_capacity(); }
@@ -58,6 +60,7 @@ class PacketWay {
                               std::span<const std::int16_t> ring_of_point);
 
   hdl64e::Hdl64eCalibration calibration_;
+  double spin_hz_;
   decode::Decoder decoder_;
   std::vector<std::vector<std::uint8_t>> packets_;
   std::vector<std::uint32_t> point_of_return_;

@@ -28,6 +28,7 @@ struct Drive {
   hdl64e::Hdl64eCalibration calibration;
   std::vector<std::vector<scan::ScanPoint>> arriving;
   std::vector<std::vector<std::uint32_t>> labels;
+  ScanEncoder::Config config;
   EncodeSummary summary;
 };
 
@@ -42,7 +43,8 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
   std::vector<scan::KittiScan> scans(reader->size());
   drive.arriving.resize(scans.size());
   drive.labels.resize(scans.size());
-  ScanEncoder encoder(drive.calibration, 0, [&](const EncodedFiring& firing) -> Status {
+  drive.config = {std::ssize(scans), 9.65, 0};
+  ScanEncoder encoder(drive.calibration, drive.config, [&](const EncodedFiring& firing) -> Status {
     for (const auto& source : firing.sources) {
       if (source.frame < 0) continue;
       const auto frame = static_cast<std::size_t>(source.frame);
@@ -75,7 +77,7 @@ void compare(const Drive& drive, const frame::FrameInfo& info, const frame::Rang
   EXPECT_EQ(info.returns, frame.encoded);
   ASSERT_EQ(image.returns(), points.size());
   const double azimuth_bound_rad =
-      beams::deg_to_rad(180.0 / static_cast<double>(frame.firings) + 0.01 + 1e-4);
+      beams::deg_to_rad(ScanEncoder::kFarthest_steps * 360 * 48e-6 * drive.config.spin_hz + 0.01);
   std::size_t far_off = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& r) {
     const scan::ScanPoint& p = points[r.return_index];

@@ -1,23 +1,27 @@
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What tools/beside_peer makes of a peer's answers; the peers are made up here.
+"""What tools/beside_peer makes of a peer's answers; the peers are made up here, and so is where they come from.
 
     beside_peer_test.py MADE_UP_PEER
 """
-import importlib.util
+
 import io
+import os
+import struct
+import subprocess
 import sys
 import tempfile
 import unittest
 from array import array
 from contextlib import redirect_stderr
-from importlib.machinery import SourceFileLoader
 from pathlib import Path
 
-PATH = Path(__file__).resolve().parents[3] / "tools/beside_peer"
-loader = SourceFileLoader("beside_peer", str(PATH))
-tool = importlib.util.module_from_spec(importlib.util.spec_from_loader("beside_peer", loader))
-loader.exec_module(tool)
+sys.path.insert(0, str(Path(__file__).resolve().parents[3] / "tools/research"))
+
+from peers import main as tool  # noqa: E402
+from peers.drives import Drive, kitti_scan, roles  # noqa: E402
+from peers.programs import FROM_PACKETS, PASSES, Peer  # noqa: E402
+from peers.sources import PeerSource, Source, Unavailable, build, fetch  # noqa: E402
 
 # Answers 1000 ns a scan; calls the first point of each ground.
 PEER = f"""#!{sys.executable}
@@ -29,62 +33,131 @@ for n, scan in enumerate(scans):
     if labels != "-":
         open(f"{{labels}}/{{n:06}}.label", "wb").write(struct.pack(f"{{points}}I", 40, *[50] * (points - 1)))
 """
-ROLES = {40: "ground", 10: "key", 50: "ordinary"}
 
 
-class BesidePeer(unittest.TestCase):
+class InAFolder(unittest.TestCase):
     def setUp(self):
-        self.folder = tempfile.TemporaryDirectory()
-        self.addCleanup(self.folder.cleanup)
-        self.root = Path(self.folder.name)
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.root = Path(folder.name)
 
+
+class Answers(InAFolder):
     def peer(self, text):
         program = self.root / "peer"
         program.write_text(text)
         program.chmod(0o755)
-        return tool.Peer(f"p={program}", None)
+        return Peer("p", program, None)
 
-    def sequence(self, *scans):
-        folder = self.root / "sequences" / "00"
+    def drive(self, *scans):
+        drive = Drive("recorded", "00", self.root)
         for number, classes in enumerate(scans):
-            for kind, suffix, content in [("velodyne", "bin", bytes(16 * len(classes))),
-                                          ("labels", "label", array("I", classes).tobytes())]:  # fmt: skip
-                path = folder / kind / f"{number:06}.{suffix}"
-                path.parent.mkdir(parents=True, exist_ok=True)
-                path.write_bytes(content)
-        return tool.Sequence(folder, self.root)
+            drive.scans.append(self.root / f"{number:06}.bin")
+            drive.truth.append(self.root / f"{number:06}.truth")
+            drive.scans[-1].write_bytes(bytes(16 * len(classes)))
+            drive.truth[-1].write_bytes(array("I", classes).tobytes())
+        return drive
 
-    def test_takes_a_time_for_every_scan_of_every_pass(self):
-        times = self.peer(PEER).times(self.sequence([40], [40], [10]))
-        self.assertEqual(times, [0.001] * 3 * tool.PASSES)
+    def score(self, peer, drive):
+        labels = self.root / "labels"
+        peer.label(drive, labels)
+        return drive.score(labels, roles())
 
-    def test_scores_the_labels_a_peer_writes(self):
-        # 1 ground found, 1 missed, 1 key obstacle called ground, 1 not; a class without a role.
-        iou, recall = self.peer(PEER).quality([self.sequence([40, 40, 10, 0], [10, 50])], ROLES, self.root)
+    def test_a_time_for_every_scan_of_every_pass_is_taken(self):
+        self.assertEqual(self.peer(PEER).times(self.drive([40], [40], [10])), {"p": [0.001] * 3 * PASSES})
+
+    def test_the_labels_a_peer_writes_are_scored(self):
+        # 1 ground found, 1 missed, 1 car called ground, 1 not; 0 counts nowhere; instances do not matter.
+        iou, recall = self.score(self.peer(PEER), self.drive([40, 72, 10 | 7 << 16, 0], [10, 50]))
         self.assertAlmostEqual(iou, 1 / 3)
         self.assertAlmostEqual(recall, 1 / 2)
 
     def test_a_peer_that_writes_no_labels_has_no_quality(self):
-        self.assertEqual(self.peer("#!/bin/sh\n").quality([self.sequence([40])], ROLES, self.root), (None, None))
+        self.assertEqual(self.score(self.peer("#!/bin/sh\n"), self.drive([40])), (None, None))
 
     def test_a_peer_that_does_not_answer_for_every_scan_is_refused(self):
-        said = io.StringIO()
         for text in ["#!/bin/sh\necho 1000\n", "#!/bin/sh\nexit 3\n"]:
-            with self.assertRaises(SystemExit), redirect_stderr(said):
-                self.peer(text).times(self.sequence([40], [40]))
+            with self.assertRaises(SystemExit), redirect_stderr(io.StringIO()):
+                self.peer(text).times(self.drive([40], [40]))
 
     def test_a_program_made_with_peer_program_hpp_is_such_a_peer(self):
-        peer, sequence = tool.Peer(f"p={MADE_UP_PEER}", None), self.sequence([40, 40, 10, 10], [40, 50])
-        self.assertEqual(len(peer.times(sequence)), 2 * tool.PASSES)
-        self.assertEqual(peer.quality([sequence], ROLES, self.root), (0.5, 0.5))
-        (sequence.scans[1]).write_bytes(bytes(17))
+        peer, drive = Peer("p", MADE_UP_PEER, None), self.drive([40, 40, 10, 10], [40, 50])
+        self.assertEqual(len(peer.times(drive)["p"]), 2 * PASSES)
+        self.assertEqual(self.score(peer, drive), (0.5, 0.5))
+        drive.scans[1].write_bytes(bytes(17))
         with self.assertRaises(SystemExit) as refused:
-            peer.times(sequence)
+            peer.times(drive)
         self.assertIn("000001.bin: not a scan", str(refused.exception))
+
+
+class Clouds(unittest.TestCase):
+    def test_a_decoded_frame_becomes_a_scan_in_the_sensors_frame(self):
+        header = b"# .PCD v0.7\nFIELDS x y z intensity ring label\nSIZE 4 4 4 4 2 2\nDATA binary\n"
+        scan = array("f", kitti_scan(header + struct.pack("<4f2H", 10, -2, 0.73, 51, 63, 40)))
+        self.assertEqual([round(value, 5) for value in scan], [10, -2, -1, 0.2])
+
+    def test_a_cloud_of_other_fields_is_refused(self):
+        with self.assertRaises(SystemExit):
+            kitti_scan(b"FIELDS x y z\nSIZE 4 4 4\nDATA binary\n" + bytes(12))
+
+
+class Tables(unittest.TestCase):
+    def test_rows_are_drives_and_all_drives_of_a_group(self):
+        samples = {"a": {FROM_PACKETS: [2.0, 2.0], "p": [4.0, 6.0]}, "b": {FROM_PACKETS: [4.0], "p": [1.0]}}
+        rows = dict(tool.time_rows({"recorded": ["a", "b"]}, [FROM_PACKETS, "p"], samples))
+        self.assertEqual(rows["a"], ["2.00 / 2.00 (x 1.00)", "5.00 / 6.00 (x 2.50)"])
+        self.assertEqual(rows["**recorded, all**"], ["2.00 / 4.00 (x 1.00)", "4.00 / 6.00 (x 2.00)"])
+        quality = {"a": {"p": (0.5, None)}, "b": {"p": (1.0, 0.25)}}
+        rows = dict(tool.quality_rows({"recorded": ["a", "b"]}, ["p"], quality))
+        self.assertEqual(rows, {"a": ["50.0 / -"], "b": ["100.0 / 25.0"], "**recorded, mean**": ["75.0 / 25.0"]})
 
     def test_percentiles_are_of_the_nearest_rank(self):
         self.assertEqual(tool.percentile(range(1, 101), 99), 99)
         self.assertEqual(tool.percentile([5, 1], 99), 5)
+
+
+class Sources(InAFolder):
+    """A repository of GitHub's, made up: git is told that it lies in a folder."""
+
+    def setUp(self):
+        super().setUp()
+        self.upstream = self.root / "upstream"
+        (self.upstream / "core").mkdir(parents=True)
+        (self.upstream / "core/method.cpp").write_text("int answer() { return 42; }\n")
+        (self.upstream / "film.gif").write_text("large")
+        git = ["git", "-C", self.upstream, "-c", "user.name=n", "-c", "user.email=e"]
+        for command in (["init", "-q"], ["add", "."], ["commit", "-qm", "first"]):
+            subprocess.run([*git, *command], check=True)
+        commit = subprocess.run([*git, "rev-parse", "HEAD"], check=True, capture_output=True, text=True).stdout.strip()
+        self.source = Source("somebody/method", commit, "core")
+        settings = {"uploadpack.allowFilter": "true", "uploadpack.allowAnySHA1InWant": "true", "safe.directory": "*",
+                    f"url.file://{self.upstream}.insteadOf": "https://github.com/somebody/method"}  # fmt: skip
+        home = {"HOME": str(self.root), "GIT_CONFIG_NOSYSTEM": "1"}
+        before = {name: os.environ.get(name) for name in home}
+        self.addCleanup(lambda: [os.environ.pop(n) if v is None else os.environ.update({n: v}) for n, v in before.items()])
+        os.environ.update(home)
+        for name, value in settings.items():
+            subprocess.run(["git", "config", "--global", name, value], check=True)
+
+    def test_code_is_fetched_at_its_commit_without_what_is_not_built(self):
+        fetch(self.source, self.root / "peers")
+        place = self.root / "peers/method"
+        self.assertTrue((place / "core/method.cpp").is_file())
+        self.assertFalse((place / "film.gif").exists())
+
+    def test_what_was_fetched_is_not_asked_for_again(self):
+        fetch(self.source, self.root / "peers")
+        self.upstream.rename(self.root / "gone")
+        fetch(self.source, self.root / "peers")
+
+    def test_why_a_peer_cannot_be_had_is_said(self):
+        absent = Source("somebody/method", "0" * 40, "core")
+        with self.assertRaisesRegex(Unavailable, "somebody/method@0000000 cannot be fetched: "):
+            build(PeerSource("m", "MIT", (absent,), "none.cpp"), self.root / "peers")
+        with self.assertRaisesRegex(Unavailable, "m cannot be built: .*none.cpp"):
+            build(PeerSource("m", "MIT", (self.source,), "none.cpp"), self.root / "peers")
+        with self.assertRaisesRegex(Unavailable, "/absent.hpp is missing; ./tools/setup --peers installs it"):
+            build(PeerSource("m", "MIT", (self.source,), "none.cpp", needs="/absent.hpp"), self.root / "peers")
 
 
 if __name__ == "__main__":

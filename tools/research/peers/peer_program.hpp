@@ -13,14 +13,15 @@
 #include <vector>
 
 /// What adapters of peers share. Built beside a peer, never by this project
-/// (docs/reference/benchmark.md, "Beside a peer"), and so without anything of it.
+/// (docs/reference/benchmark.md, "Beside its peers"), and so without anything of it.
 namespace terracut::peers {
 
 using Point = std::array<float, 4>;  ///< x, y, z in metres, remission; as it lies in the file.
 
-inline std::int64_t thread_cpu_ns() {
+/// Of all threads: some peers start their own in every call.
+inline std::int64_t process_cpu_ns() {
   timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return now.tv_sec * INT64_C(1'000'000'000) + now.tv_nsec;
 }
 
@@ -77,9 +78,9 @@ int run_peer(int argc, char** argv) {
   for (int pass = 0; pass <= repeat; ++pass) {  // the first one warms caches; not counted
     for (std::size_t i = 0; i < scans.size(); ++i) {
       peer.prepare(scans[i]);
-      const std::int64_t begun_ns = thread_cpu_ns();
+      const std::int64_t begun_ns = process_cpu_ns();
       peer.segment(scans[i]);
-      const std::int64_t spent_ns = thread_cpu_ns() - begun_ns;
+      const std::int64_t spent_ns = process_cpu_ns() - begun_ns;
       if (pass > 0) std::printf("%lld\n", static_cast<long long>(spent_ns));
       if (pass > 0 || folder == "-") continue;
       std::array<char, 32> name{};

@@ -1,0 +1,100 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Drives that everybody labels: packets for terracut, the very points that are in them for its peers."""
+
+import re
+import struct
+import sys
+from array import array
+from pathlib import Path
+
+SENSOR_HEIGHT_M = 1.73  # KITTI's, and what all peers expect
+CLASSES = Path(__file__).resolve().parents[1] / "datasets/semantickitti_classes.yaml"
+
+
+def roles():
+    """{class id: ground, ordinary, key or ignored}, every physical ground counting as ground."""
+    entries = re.findall(r"id: (\d+),.*?\ball: (\w+)", CLASSES.read_text(encoding="utf-8"))
+    return {int(number): role for number, role in entries}
+
+
+def kitti_scan(pcd):
+    """The points of a binary PCD of `terracut replay --pcd`, in the sensor's frame, as KITTI's .bin has them."""
+    header, _, content = pcd.partition(b"DATA binary\n")
+    if not content or b"FIELDS x y z intensity ring label\nSIZE 4 4 4 4 2 2\n" not in header:
+        sys.exit("expected a binary cloud of x y z intensity ring label, as `terracut replay --pcd` writes")
+    scan = array("f")
+    for x_m, y_m, z_m, intensity in struct.iter_unpack("<4f4x", content):
+        scan.extend((x_m, y_m, z_m - SENSOR_HEIGHT_M, intensity / 255))
+    return scan.tobytes()
+
+
+class Drive:
+    """One capture, the truth of its returns, and its frames as scans. Everything lies in its scratch folder."""
+
+    def __init__(self, group, name, folder):
+        self.group, self.name, self.folder = group, name, folder
+        self.capture = folder / "drive.pcap"
+        self.calibration = folder / "drive.calibration.xml"
+        self.scans, self.truth = [], []
+
+    def take(self, program):
+        """Decodes it once, for its points."""
+        program.run("replay", self.capture, "--calibration", self.calibration, "--pcd", self.folder / "pcd")
+        for pcd in sorted((self.folder / "pcd").glob("*.pcd")):
+            scan = self.folder / f"{pcd.stem}.bin"
+            scan.write_bytes(kitti_scan(pcd.read_bytes()))
+            pcd.unlink()
+            self.scans.append(scan)
+            self.truth.append(self.folder / "drive.truth" / f"{pcd.stem}.label")
+
+    def score(self, labels, role_of):
+        """(IoU_g, Recall_o) of the labels NNNNNN.label in a folder; None where a label is missing."""
+        counts = {}
+        for number, truth_file in enumerate(self.truth):
+            written = labels / f"{number:06}.label"
+            if not written.is_file():
+                return (None, None)
+            truth, found = array("I", truth_file.read_bytes()), array("I", written.read_bytes())
+            if len(truth) != len(found):
+                sys.exit(f"{written}: {len(found)} labels for the {len(truth)} points of {truth_file}")
+            for true, label in zip(truth, found):
+                counts[true & 0xFFFF, label & 0xFFFF] = counts.get((true & 0xFFFF, label & 0xFFFF), 0) + 1
+        return score_of(counts, role_of)
+
+
+def score_of(counts, role_of):
+    """(IoU_g, Recall_o) of {(true class, label): points}; None where there is nothing to find."""
+    def points(wanted, called_ground):
+        return sum(number for (true, label), number in counts.items()
+                   if role_of.get(true, "ignored") in wanted and (role_of.get(label) == "ground") == called_ground)  # fmt: skip
+
+    called = points(("ground", "ordinary", "key"), True)
+    met = called + points(("ground",), False)
+    found, key = points(("key",), False), points(("key",), True)
+    key += found
+    return (points(("ground",), True) / met if met else None, found / key if key else None)
+
+
+def recorded(program, root, scratch):
+    """The sequences below a SemanticKITTI root, as the packets they came in, their motion put back."""
+    drives = []
+    for sequence in sorted((root / "sequences").glob("*")):
+        if not any((sequence / "labels").glob("*.label")):
+            continue
+        drive = Drive("recorded", f"{root.name}/{sequence.name}", scratch / root.name / sequence.name)
+        drive.folder.mkdir(parents=True)
+        program.run("encode", sequence, "-o", drive.capture)
+        drive.take(program)
+        drives.append(drive)
+    if not drives:
+        sys.exit(f"expected {root}/sequences/NN with velodyne/ and labels/, found no such folder")
+    return drives
+
+
+def simulated(program, scene, duration_s, scratch):
+    drive = Drive("simulated", scene, scratch / "simulated" / scene)
+    drive.folder.mkdir(parents=True)
+    program.run("simulate", "--scene", scene, "--seed", 1, "--duration", duration_s, "-o", drive.capture)
+    drive.take(program)
+    return drive

@@ -1,0 +1,155 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""terracut and other ground segmenters in turn, in the same minutes, on the same core, over the same points.
+
+The peers (sources.py) are fetched from GitHub, each at one commit, and built in a folder outside of this repository with an
+adapter of ours; one that cannot be had is left out, and why is said. `--peer NAME=PROGRAM` adds any other: a program that
+is called as `PROGRAM REPEAT LABELS SCAN.bin...`, reads all scans (float32 x y z remission), and prints a line for every
+one of them, REPEAT times over: the nanoseconds of processor time that segmenting it took. Where LABELS is not "-", it
+writes LABELS/NNNNNN.label for the n-th scan, uint32 a point: 40, 44, 48, 49, 60 or 72 is ground.
+
+Drives are recorded SemanticKITTI sequences, as the packets they came in (`terracut encode`), and simulated ones. terracut
+labels the packets; its time is shown with and without decoding, and what of it is left when the frame's last packet has
+come. A peer gets the points that were decoded from these packets, in whatever container it likes, for nothing. Every round runs
+each program over every drive, one warming pass and two that count. p50 and p99 are of all frames of all rounds, "x" is the
+ratio of medians. IoU_g and Recall_o, of all ground, are of each drive's points together; the last rows of recorded and of simulated drives
+have their mean. The program is build/release/terracut or $TERRACUT.
+"""
+
+import argparse
+import json
+import math
+import os
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+from peers.drives import recorded, roles, simulated
+from peers.programs import FROM_PACKETS, Peer, Terracut
+from peers.sources import PEERS, Unavailable, build
+from whole_file import write_whole_file
+
+SCENES = ("street", "highway", "rural", "hill")
+
+
+def percentile(values, percent):
+    """By nearest rank."""
+    return sorted(values)[max(1, math.ceil(percent / 100 * len(values))) - 1]
+
+
+def mean(values):
+    values = [value for value in values if value is not None]
+    return statistics.fmean(values) if values else None
+
+
+def percent(share):
+    return "-" if share is None else f"{100 * share:.1f}"
+
+
+def table(title, names, rows):
+    yield "| " + " | ".join([title, *names]) + " |"
+    yield "|" + "---|" * (1 + len(names))
+    for title_of_row, cells in rows:
+        yield "| " + " | ".join([title_of_row, *cells]) + " |"
+
+
+def time_rows(groups, names, samples):
+    """For each drive and for each group's drives together, p50 / p99 (x FROM_PACKETS) of every name."""
+    for group, drives in groups.items():
+        rows = [(drive, [drive]) for drive in drives]
+        if len(drives) > 1:
+            rows.append((f"**{group}, all**", drives))
+        for title, among in rows:
+            of = {name: [ms for drive in among for ms in samples[drive][name]] for name in names}
+            ours = statistics.median(of[FROM_PACKETS])
+            yield title, [
+                f"{statistics.median(ms):.2f} / {percentile(ms, 99):.2f} (x {statistics.median(ms) / ours:.2f})"
+                for ms in of.values()
+            ]
+
+
+def quality_rows(groups, names, quality):
+    for group, drives in groups.items():
+        rows = [(drive, [drive]) for drive in drives]
+        if len(drives) > 1:
+            rows.append((f"**{group}, mean**", drives))
+        for title, among in rows:
+            yield title, [
+                " / ".join(percent(mean(quality[drive][name][measure] for drive in among)) for measure in (0, 1))
+                for name in names
+            ]
+
+
+def available_peers(options):
+    peers = []
+    for source in PEERS:
+        if options.only is not None and source.name not in options.only:
+            continue
+        try:
+            peers.append(Peer(source.name, build(source, options.peers.resolve()), options.core))
+        except Unavailable as why:
+            print(f"left out: {source.name}: {why}", file=sys.stderr)
+    for text in options.peer:
+        name, equals, program = text.partition("=")
+        if not equals or not name or not program:
+            sys.exit(f"--peer: expected NAME=PROGRAM, found '{text}'")
+        peers.append(Peer(name, program, options.core))
+    return peers
+
+
+def arguments(given):
+    parser = argparse.ArgumentParser(prog="beside_peer", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)  # fmt: skip
+    parser.add_argument("roots", nargs="*", type=Path, metavar="DATASET_ROOT", help="of recorded sequences")
+    parser.add_argument("--peers", type=Path, default=Path("../peers"), metavar="FOLDER",
+                        help="where they are fetched to and built (default: ../peers)")  # fmt: skip
+    parser.add_argument("--only", type=lambda text: text.split(","), metavar="NAME,...",
+                        help="of " + ", ".join(peer.name for peer in PEERS) + "; '' is none")  # fmt: skip
+    parser.add_argument("--peer", action="append", default=[], metavar="NAME=PROGRAM", help="one more")
+    parser.add_argument("--scenes", type=lambda text: text.split(",") if text else [], default=SCENES, metavar="SCENE,...",
+                        help="simulated drives (default: " + ",".join(SCENES) + ")")  # fmt: skip
+    parser.add_argument("--duration", type=float, default=1.0, metavar="S", help="of a simulated drive (default: 1)")
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--core", type=int, default=max(os.sched_getaffinity(0)))
+    parser.add_argument("--json", type=Path, help="file for every single time")
+    return parser.parse_args(given)
+
+
+def main(given):
+    options = arguments(given)
+    terracut = Terracut(options.core)
+    programs = [terracut, *available_peers(options)]
+    names = [name for program in programs for name in program.names]
+    with tempfile.TemporaryDirectory() as folder:
+        scratch = Path(folder)
+        drives = [drive for root in options.roots for drive in recorded(terracut, root, scratch)]
+        drives += [simulated(terracut, scene, options.duration, scratch) for scene in options.scenes]
+        groups = {}
+        for drive in drives:
+            groups.setdefault(drive.group, []).append(drive.name)
+
+        role_of = roles()
+        quality = {drive.name: {} for drive in drives}
+        for drive in drives:
+            for number, program in enumerate(programs):
+                labels = drive.folder / f"labels_{number}"
+                program.label(drive, labels)
+                score = drive.score(labels, role_of)
+                quality[drive.name] |= {name: score for name in program.names}
+
+        samples = {drive.name: {name: [] for name in names} for drive in drives}
+        for number in range(options.rounds):
+            for drive in drives:
+                for program in programs:
+                    for name, times in program.times(drive).items():
+                        samples[drive.name][name] += times
+            print(f"\r{number + 1}/{options.rounds}", end="", file=sys.stderr, flush=True)
+        print(file=sys.stderr)
+
+    if options.json:
+        write_whole_file(options.json, json.dumps({"ms": samples, "quality": quality}, indent=1) + "\n")
+    print("\n".join(table("ms a frame, p50 / p99", names, time_rows(groups, names, samples))))
+    print()
+    print("\n".join(table("IoU_g / Recall_o, %", names[2:], quality_rows(groups, names[2:], quality))))
+    return 0

@@ -116,6 +116,15 @@ class Tables(unittest.TestCase):
         self.assertEqual(tool.percentile([5, 1], 99), 5)
 
 
+class Arguments(unittest.TestCase):
+    def test_peers_are_chosen_by_names_that_exist(self):
+        self.assertEqual(tool.arguments(["--only", "FugSeg,TRAVEL"]).only, ["FugSeg", "TRAVEL"])
+        self.assertEqual(tool.arguments(["--only", ""]).only, [])
+        with self.assertRaises(SystemExit), redirect_stderr(io.StringIO()) as said:
+            tool.arguments(["--only", "FugSeg,Nobody"])
+        self.assertIn("there is no peer Nobody", said.getvalue())
+
+
 class Sources(InAFolder):
     """A repository of GitHub's, made up: git is told that it lies in a folder."""
 

@@ -48,6 +48,9 @@ struct PointCloud {
 struct alignas(16) PointXYZ {
   float x = 0, y = 0, z = 0;
 };
+struct alignas(16) PointXYZI {
+  float x = 0, y = 0, z = 0, intensity = 0;
+};
 
 namespace visualization {
 class PCLVisualizer {};

@@ -68,6 +68,8 @@ GRID_MAP = Source("ANYbotics/grid_map", "73a5b61fc80c09be8a5744997b3ee3e6902a98f
 LINEFIT = Source("lorenwel/linefit_ground_segmentation", "e6b9418cc5756e30e4ea87b11d8792f936a2002a",
                  "linefit_ground_segmentation")  # fmt: skip
 DEPTH_CLUSTERING = Source("PRBonn/depth_clustering", "2a824e728725be635eec4cc5214350faea364712", "src")
+LIDAR_PROCESSING = Source("YevgeniyEngineer/LiDAR-Processing-V2", "506aefb70150771b37331d940d97cc1c5bbd363d",
+                          "lidar_processing_lib")  # fmt: skip
 TRAVEL = Source("url-kaist/TRAVEL", "17a0bddd5a9f0d2fd7fe5f17c53a0a105835cf21", "include")
 
 SUFFIXES = {".h", ".hpp", ".c", ".cc", ".cpp"}
@@ -100,6 +102,11 @@ PEERS = (
                     "depth_clustering/src/image_labelers/diff_helpers/*.cpp",
                include="depth_clustering/src", flags="-lopencv_imgproc -lopencv_core", needs=OPENCV,
                note="ground removal at 7 degrees, projection included"),
+    PeerSource("JCP", "GPL-3", (LIDAR_PROCESSING,), "jcp_adapter.cpp",
+               code="LiDAR-Processing-V2/lidar_processing_lib/src/segmenter.cpp",
+               include="LiDAR-Processing-V2/lidar_processing_lib/include "
+                       "LiDAR-Processing-V2/lidar_processing_lib/include/lidar_processing_lib",
+               flags="-lopencv_imgproc -lopencv_core", needs=OPENCV),
     PeerSource("TRAVEL", "GPL-3", (TRAVEL,), "travel_adapter.cpp", include="TRAVEL/include",
                note="its ground segmentation"),
 )  # fmt: skip

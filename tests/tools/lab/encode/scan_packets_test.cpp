@@ -15,6 +15,7 @@
 #include "tests/firmware_io/scan/scratch_folder.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
+#include "tools/lab/encode/recorded_spin.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
 
 namespace terracut::encode {
@@ -28,7 +29,7 @@ struct Drive {
   hdl64e::Hdl64eCalibration calibration;
   std::vector<std::vector<scan::ScanPoint>> arriving;
   std::vector<std::vector<std::uint32_t>> labels;
-  ScanEncoder::Config config;
+  RecordedSpin spin;
   EncodeSummary summary;
 };
 
@@ -43,8 +44,13 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
   std::vector<scan::KittiScan> scans(reader->size());
   drive.arriving.resize(scans.size());
   drive.labels.resize(scans.size());
-  drive.config = {std::ssize(scans), 9.65, 0};
-  ScanEncoder encoder(drive.calibration, drive.config, [&](const EncodedFiring& firing) -> Status {
+  scan::RingRecovery rings;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    ASSERT_TRUE(reader->read(i, scans[i], rings));
+    drive.spin.add(rings.ring_of_point);
+  }
+  const ScanEncoder::Config config{std::ssize(scans), drive.spin.spin_hz(), 0};
+  ScanEncoder encoder(drive.calibration, config, [&](const EncodedFiring& firing) -> Status {
     for (const auto& source : firing.sources) {
       if (source.frame < 0) continue;
       const auto frame = static_cast<std::size_t>(source.frame);
@@ -54,7 +60,6 @@ void encode(const std::filesystem::path& sequence, Drive& drive) {
     return writer->add_column(firing.column.stamp_ns, firing.column.unwrapped_azimuth_cdeg,
                               firing.column.by_laser);
   });
-  scan::RingRecovery rings;
   for (std::size_t i = 0; i < scans.size(); ++i) {
     ASSERT_TRUE(reader->read(i, scans[i], rings));
     ASSERT_TRUE(encoder.add_frame(scans[i].points, rings.ring_of_point, scans[i].labels));
@@ -77,7 +82,7 @@ void compare(const Drive& drive, const frame::FrameInfo& info, const frame::Rang
   EXPECT_EQ(info.returns, frame.encoded);
   ASSERT_EQ(image.returns(), points.size());
   const double azimuth_bound_rad =
-      beams::deg_to_rad(ScanEncoder::kFarthest_steps * 360 * 48e-6 * drive.config.spin_hz + 0.01);
+      beams::deg_to_rad(ScanEncoder::kFarthest_steps * 360 / drive.spin.firings() + 0.01);
   std::size_t far_off = 0;
   frame::for_each_return(image, [&](const frame::PlacedReturn& r) {
     const scan::ScanPoint& p = points[r.return_index];
@@ -105,13 +110,18 @@ TEST(ScanPackets, BringBackEveryEncodedReturnInItsFrameAtItsPlace) {
     ASSERT_NO_FATAL_FAILURE(encode(sequence, drive));
 
     memory::FixedMemory memory;
-    decode::Decoder decoder(drive.calibration, {kSensorHeight_m, 0, 0}, {}, memory);
+    decode::Decoder::Config config;
+    config.columns = drive.spin.firings();
+    decode::Decoder decoder(drive.calibration, {kSensorHeight_m, 0, 0}, config, memory);
     auto source = capture::PcapSource::open(drive.pcap);
     ASSERT_TRUE(source);
     std::uint32_t frames = 0;
+    std::size_t returns = 0, overflow = 0;
     const auto on_frame = [&](const frame::FrameInfo& info,
                               const frame::RangeImage& image) noexcept {
       EXPECT_EQ(info.number, frames++);
+      returns += image.returns();
+      overflow += image.overflow().size();
       compare(drive, info, image);
     };
     for (;;) {
@@ -122,6 +132,8 @@ TEST(ScanPackets, BringBackEveryEncodedReturnInItsFrameAtItsPlace) {
     }
     test::end_stream(decoder, on_frame);
     EXPECT_EQ(frames, drive.arriving.size());
+    // One firing a column, but where azimuths in whole hundredths of a degree straddle a border.
+    EXPECT_LT(static_cast<double>(overflow), 0.02 * static_cast<double>(returns));
     const frame::LossCounters losses = decoder.losses();
     EXPECT_EQ(losses.rejected_total(), 0U);
     EXPECT_EQ(losses.azimuth_hole_columns, 0U);

@@ -3,12 +3,24 @@
 #include "pipeline/ground/fine_stages.hpp"
 
 #include "pipeline/random_field/boundary_term.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::ground {
 namespace {
 
 bool has_expired(const min_cut::CutBudget& budget) noexcept {
   return budget.expired != nullptr && budget.expired(budget.context);
+}
+
+/// The weights of the cut's edges, most of its work, are compiled into this.
+TERRACUT_VECTOR_CLONES min_cut::CutReport solve(min_cut::GridCut& cut,
+                                                const min_cut::GridProblem& problem,
+                                                const random_field::RegionTerm& region,
+                                                const random_field::BoundaryTerm& boundary,
+                                                const min_cut::CutBudget& budget,
+                                                std::span<frame::Label> labels) noexcept
+    TERRACUT_NONBLOCKING {
+  return cut.solve(problem, region, boundary, budget, labels);
 }
 
 }  // namespace
@@ -19,7 +31,7 @@ FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& 
     : config_(config),
       shape_(shape),
       seeds_(config.seeds, profile, shape, memory),
-      region_(config.region, shape, memory),
+      region_(config.region),
       min_cut_(shape, config.min_cut, memory),
       return_labels_(config.returns, return_capacity, memory) {
   if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
@@ -42,7 +54,7 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   }
   if (report.last_stage >= stage::Stage::kMinCut) {
     seeds_.select(planes);
-    region_.evaluate(image, planes, seeds_.seeds());
+    region_.look_at(image, planes, seeds_.seeds());
     done(stage::Stage::kSeeds);
     report.cut = cut(image, planes, budget);
     done(stage::Stage::kMinCut);
@@ -59,10 +71,9 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
 
 min_cut::CutReport FineStages::cut(const frame::RangeImage& image, stage::CellPlanes& planes,
                                    const min_cut::CutBudget& budget) noexcept {
-  const min_cut::GridProblem problem{shape_, seeds_.seeds(), region_.cost_ground(),
-                                     region_.cost_obstacle(), image.ground_range_m()};
-  return min_cut_.solve(problem, random_field::BoundaryTerm(config_.boundary, negative_exp_, image),
-                        budget, planes.label);
+  const min_cut::GridProblem problem{shape_, seeds_.mutable_seeds(), image.ground_range_m()};
+  const random_field::BoundaryTerm boundary(config_.boundary, negative_exp_, image);
+  return solve(min_cut_, problem, region_, boundary, budget, planes.label);
 }
 
 }  // namespace terracut::ground

@@ -136,7 +136,7 @@ constexpr std::array kParameters{
     Parameter{"boundary.scale_per_metre", "m/m", "nearness: its growth with range", 0, 1, {},
               TERRACUT_FIELD(boundary.scale_per_metre)},
 
-    Parameter{"min_cut.max_unknown", "cells", "Unknown cells solved at most; the farthest stay coarse", 0, 262144, {},
+    Parameter{"min_cut.max_unknown", "cells", "Unknown cells at most that persistency may leave open; beyond, upper rows stay coarse", 0, 262144, {},
               TERRACUT_FIELD(min_cut.max_unknown)},
     Parameter{"min_cut.least_finished", "", "Share of them finished when time is up; with less all stay coarse", 0, 1, {},
               TERRACUT_FIELD(min_cut.least_finished)},

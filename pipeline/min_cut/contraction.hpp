@@ -10,100 +10,224 @@
 #include <cstring>
 #include <span>
 
+#include "firmware_io/frame/label.hpp"
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "pipeline/min_cut/eight_lanes.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
-#include "pipeline/min_cut/unknown_cells.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
 
 namespace terracut::min_cut {
 
-/// The seeds of the neighbours, one a lane; away from the image's edges by three loads.
-[[nodiscard]] inline EightLanes seeds_around(std::span<const Seed> seeds,
-                                             const NeighbourCells& around) noexcept {
+/// Builds the graph of the unknown cells, in one pass in row-major order.
+///
+/// An edge to a hard seed is cut exactly when the cell gets the other label, so its weight is added
+/// to the cost of that label: hard seeds never become nodes, and nothing is approximated.
+///
+/// Persistency: a cell whose terminal capacity outweighs all its edges together goes with that
+/// terminal, whatever its neighbours get. It becomes a hard seed at once: cells behind it find it
+/// as one, nodes before it are told, and may be decided by that in turn, until nothing changes. On
+/// real frames two of three unknown cells go this way, most of them without ever being a node.
+/// Ties go to obstacle, so that the answer stays the one described in grid_cut.hpp.
+class Contraction {
+ public:
+  Contraction(const frame::ImageShape& shape, std::size_t max_nodes, memory::FixedMemory& memory);
+
+  struct Result {
+    std::uint32_t unknown = 0;  ///< Cells seen.
+    std::uint32_t decided = 0;  ///< Of them, by persistency.
+    std::uint32_t pinned = 0;   ///< Of them, left at their coarse label for want of room.
+    std::int64_t ops = 0;       ///< Edges from decided cells to nodes.
+    bool finished = false;
+  };
+  /// Turns the unknown cells of `problem.seeds` into decided ones, or into nodes of `graph`, which
+  /// stay kUnknown; where all nodes are in use, into ones pinned to their label in `coarse`. Where
+  /// the caller's clock expires first it is not finished, and the graph is of no use. Real-time
+  /// safe.
+  template <RegionCosts Costs, EdgeWeights Weights>
+  [[nodiscard]] Result run(const GridProblem& problem, const Costs& costs, const Weights& weights,
+                           std::span<const frame::Label> coarse, OpClock& clock,
+                           CutGraph& graph) noexcept;
+
+  /// The cell of each node. A node that was decided after all has no edges, and its side.
+  [[nodiscard]] std::span<const std::uint32_t> cells() const noexcept {
+    return cells_.first(size_);
+  }
+
+ private:
+  /// What a cell is to its neighbours and terminals: edges to open cells, excess as in CutNode.
+  struct OpenEnds {
+    EightLanes weights;
+    std::int32_t excess;
+  };
+
+  void begin(const GridProblem& problem, OpClock& clock) noexcept TERRACUT_NONBLOCKING;
+  void begin_row(int row) noexcept TERRACUT_NONBLOCKING;
+  /// Counts a piece of work of those that the clock is looked at between.
+  [[nodiscard]] bool has_time() noexcept {
+    if (work_++ % CutBudget::kNodesPerClockLook == 0 && clock_->expired()) is_stopped_ = true;
+    return !is_stopped_;
+  }
+  template <class Costs, class Weights>
+  void take_cell(const Costs& costs, const Weights& weights, std::uint32_t cell, int column,
+                 const NeighbourCells& around, frame::Label coarse) noexcept;
+  /// The same, compiled apart: few cells lie at an edge of the image.
+  template <class Costs, class Weights>
+  [[gnu::noinline]] void take_cell_at_edge(const Costs& costs, const Weights& weights,
+                                           std::uint32_t cell, int column,
+                                           const NeighbourCells& around,
+                                           frame::Label coarse) noexcept {
+    take_cell(costs, weights, cell, column, around, coarse);
+  }
+  /// The seeds of the neighbours, one a lane; away from the image's edges by three loads.
+  [[nodiscard]] EightLanes seeds_around(const NeighbourCells& around) const noexcept;
+  [[nodiscard]] static Side persistent_side(std::int32_t excess, int capacity) noexcept {
+    return excess >= capacity ? Side::kObstacle : -excess > capacity ? Side::kGround : Side::kFree;
+  }
+  void add_node(std::uint32_t cell, int column, const OpenEnds& ends) noexcept;
+  /// Tells the nodes before a cell what has become of it.
+  void tell_nodes_before(int column, unsigned edges, Side side) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] std::uint32_t node_before(int column, int direction) const noexcept;
+  /// Directions to cells before the one in `column`.
+  [[nodiscard]] unsigned directions_before(int column) const noexcept {
+    return column == 0 ? 0b00111U : column + 1 == columns_ ? 0b11111U : 0b01111U;
+  }
+
+  int columns_, rows_;
+  std::span<CutNode> nodes_;
+  std::span<std::uint32_t> cells_;     // of the nodes
+  std::span<std::uint32_t> worklist_;  // decided nodes whose neighbours have to be told
+  std::array<std::span<std::uint32_t>, 2> node_in_row_;  // by column; of even rows and odd ones
+
+  // Of the problem in work.
+  std::span<Seed> seeds_;
+  OpClock* clock_ = nullptr;
+  std::uint32_t size_ = 0;
+  std::uint32_t work_ = 0;
+  bool is_stopped_ = false;
+  std::int64_t flow_ = 0;
+  Result result_;
+  // ... and of the row.
+  std::span<std::uint32_t> here_, below_;  // its nodes by column, and those of the row below
+  EightLanes inside_;                      // all bits of the lanes of neighbours in the image
+};
+
+template <RegionCosts Costs, EdgeWeights Weights>
+[[gnu::always_inline]] inline Contraction::Result Contraction::run(
+    const GridProblem& problem, const Costs& costs, const Weights& weights,
+    std::span<const frame::Label> coarse, OpClock& clock, CutGraph& graph) noexcept {
+  begin(problem, clock);
+  const frame::ImageShape& shape = problem.shape;
+  const auto stride = static_cast<std::uint32_t>(shape.stride());
+  for (int row = 0; row < shape.rows; ++row) {
+    begin_row(row);
+    const bool has_rows_around = row > 0 && row + 1 < shape.rows;
+    const std::uint32_t first = static_cast<std::uint32_t>(row) * stride;
+    const auto seeds = problem.seeds.subspan(first, static_cast<std::size_t>(columns_));
+    for_each_unknown(
+        seeds, [&](std::size_t index) __attribute__((always_inline)) {
+          if (!has_time()) return;
+          const auto column = static_cast<int>(index);
+          const std::uint32_t cell = first + static_cast<std::uint32_t>(index);
+          if (has_rows_around && column > 0 && column + 1 < columns_) [[likely]] {
+            take_cell(costs, weights, cell, column, neighbours_inside(cell, stride), coarse[cell]);
+          } else {
+            take_cell_at_edge(costs, weights, cell, column, neighbour_cells(shape, row, column),
+                              coarse[cell]);
+          }
+        });
+    if (is_stopped_) break;
+  }
+  graph.nodes = nodes_.first(size_);
+  graph.flow = flow_;
+  result_.finished = !is_stopped_;
+  return result_;
+}
+
+template <class Costs, class Weights>
+[[gnu::always_inline]] inline void Contraction::take_cell(const Costs& costs,
+                                                          const Weights& weights,
+                                                          std::uint32_t cell, int column,
+                                                          const NeighbourCells& around,
+                                                          frame::Label coarse) noexcept {
+  std::array<std::uint16_t, kDirections> given;
+  weights(cell, around, std::span<std::uint16_t, kDirections>(given));
+  const EightLanes weight = EightLanes::load(given).at_most(kMaxEdgeWeight);
+  const EightLanes seed = seeds_around(around);
+  const auto bit = [](Seed value) { return static_cast<std::int16_t>(value); };
+  const EightLanes open = weight.where(seed, bit(Seed::kUnknown));
+  const LabelCosts cost = costs(cell);
+  const auto clamped = [](std::int32_t any) { return std::clamp(any, 0, kMaxTerminalCost); };
+  const EightLanes to_ground = weight.where(seed, bit(Seed::kGround));
+  const EightLanes to_obstacle = weight.where(seed, bit(Seed::kObstacle));
+  const std::int32_t cost_ground = clamped(cost.ground) + to_obstacle.sum();
+  const std::int32_t cost_obstacle = clamped(cost.obstacle) + to_ground.sum();
+  const std::int32_t excess = cost_ground - cost_obstacle;
+
+  ++result_.unknown;
+  Side side = persistent_side(excess, open.sum());
+  if (side == Side::kFree && size_ < nodes_.size()) {
+    flow_ += std::min(cost_ground, cost_obstacle);
+    add_node(cell, column, {open, excess});
+    return;
+  }
+  if (side != Side::kFree) {
+    flow_ += std::min(cost_ground, cost_obstacle);
+    seeds_[cell] = decided(side);
+    ++result_.decided;
+  } else {
+    // Like a hard seed: what it costs itself, or against hard seeds, is no part of the energy.
+    const bool is_obstacle = coarse == frame::Label::kObstacle;
+    flow_ += (is_obstacle ? to_ground : to_obstacle).where(seed, bit(Seed::kDecided)).sum();
+    seeds_[cell] = is_obstacle ? Seed::kPinnedObstacle : Seed::kPinnedGround;
+    side = is_obstacle ? Side::kObstacle : Side::kGround;
+    ++result_.pinned;
+  }
+  const unsigned edges = open.nonzero() & directions_before(column);
+  if (edges != 0) tell_nodes_before(column, edges, side);
+}
+
+inline EightLanes Contraction::seeds_around(const NeighbourCells& around) const noexcept {
   if (are_next_to_each_other(around)) [[likely]] {
     std::uint32_t below, beside, above;
-    std::memcpy(&below, &seeds[around[0]], sizeof(below));
-    std::memcpy(&beside, &seeds[around[3]], sizeof(beside));
-    std::memcpy(&above, &seeds[around[5] - 1], sizeof(above));
-    return {EightLanes::widened((below & 0xFF'FFFFU) | beside << 24U),
-            EightLanes::widened((beside >> 16U & 0xFFU) | (above & 0xFFFF'FF00U))};
+    std::memcpy(&below, &seeds_[around[0]], sizeof(below));
+    std::memcpy(&beside, &seeds_[around[3]], sizeof(beside));
+    std::memcpy(&above, &seeds_[around[5] - 1], sizeof(above));
+    return EightLanes::widened((below & 0xFF'FFFFU) | beside << 24U,
+                               (beside >> 16U & 0xFFU) | (above & 0xFFFF'FF00U));
   }
-  EightLanes lanes;
-  for (std::size_t d = 0; d < 4; ++d) {
-    lanes.low |= static_cast<std::uint64_t>(seeds[around[d]]) << (16 * d);
-    lanes.high |= static_cast<std::uint64_t>(seeds[around[d + 4]]) << (16 * d);
+  std::array<std::uint32_t, 2> halves{};
+  for (std::size_t d = 0; d < around.size(); ++d) {
+    halves[d / 4] |= static_cast<std::uint32_t>(seeds_[around[d]]) << (8 * (d % 4));
   }
-  return lanes;
+  EightLanes seeds = EightLanes::widened(halves[0], halves[1]);
+  seeds.lanes &= inside_.lanes;
+  return seeds;
 }
 
-/// One node of contract().
-inline void contract_cell(const GridProblem& problem, const UnknownCells& unknown,
-                          std::uint32_t cell, int row, const NeighbourCells& around,
-                          const std::array<std::uint16_t, kDirections>& weight, CutNode& node,
-                          std::int64_t& flow) noexcept {
-  EightLanes w;
-  for (std::size_t d = 0; d < 4; ++d) {
-    const auto allowed = [](std::uint16_t given) {
-      return std::min<std::uint64_t>(given, kMaxEdgeWeight);
-    };
-    w.low |= allowed(weight[d]) << (16 * d);
-    w.high |= allowed(weight[d + 4]) << (16 * d);
-  }
-  EightLanes seed = seeds_around(problem.seeds, around);
-  if (row == 0) seed.low &= ~std::uint64_t{0xFFFF'FFFF'FFFF};             // directions 0, 1, 2
-  if (row + 1 == problem.shape.rows) seed.high &= std::uint64_t{0xFFFF};  // directions 5, 6, 7
+inline std::uint32_t Contraction::node_before(int column, int direction) const noexcept {
+  const int beside = column + kCellSteps[static_cast<std::size_t>(direction)].columns;
+  const int wrapped = beside < 0 ? columns_ - 1 : beside == columns_ ? 0 : beside;
+  return (direction < 3 ? below_ : here_)[static_cast<std::size_t>(wrapped)];
+}
 
-  const auto bit_of = [](Seed value) { return std::countr_zero(static_cast<unsigned>(value)); };
-  const EightLanes open = w.where(seed, bit_of(Seed::kUnknown));
-  int to_ground = w.where(seed, bit_of(Seed::kGround)).sum();
-  int to_obstacle = w.where(seed, bit_of(Seed::kObstacle)).sum();
-  open.store(node.residual);
-  unsigned edges = open.nonzero();
-  for (std::size_t d = 0; d < around.size(); ++d) node.neighbour[d] = unknown.node_of(around[d]);
-  if (unknown.has_pinned()) [[unlikely]] {
-    for (unsigned left = edges; left != 0; left &= left - 1) {
-      const auto d = static_cast<std::size_t>(std::countr_zero(left));
-      if (node.neighbour[d] < UnknownCells::kPinnedGround) continue;
-      (node.neighbour[d] == UnknownCells::kPinnedGround ? to_ground : to_obstacle) +=
-          node.residual[d];
-      node.residual[d] = 0;
-      edges &= ~(1U << d);
-    }
-  }
-
-  const auto clamped = [](std::int32_t cost) { return std::clamp(cost, 0, kMaxTerminalCost); };
-  const std::int32_t cost_ground = clamped(problem.cost_ground[cell]) + to_obstacle;
-  const std::int32_t cost_obstacle = clamped(problem.cost_obstacle[cell]) + to_ground;
-  flow += std::min(cost_ground, cost_obstacle);
-  node.excess = cost_ground - cost_obstacle;
-  node.edges = static_cast<std::uint8_t>(edges);
+inline void Contraction::add_node(std::uint32_t cell, int column, const OpenEnds& ends) noexcept {
+  const std::uint32_t index = size_++;
+  cells_[index] = cell;
+  here_[static_cast<std::size_t>(column)] = index;
+  CutNode& node = nodes_[index];
+  ends.weights.store(node.residual);
+  node.neighbour.fill(index);  // until the one behind it is a node, too
+  node.excess = ends.excess;
+  node.edges = ends.weights.nonzero();
   node.side = Side::kFree;
-}
-
-/// Builds the graph of the unknown cells. An edge to a hard seed is cut exactly when the cell gets
-/// the other label, so its weight is added to the cost of that label: hard seeds never become
-/// nodes, and nothing is approximated. `graph.nodes` has one node per kept cell. False when the
-/// caller's clock expired first: the graph is not whole then.
-template <EdgeWeights Weights>
-[[nodiscard]] bool contract(const GridProblem& problem, const UnknownCells& unknown,
-                            const Weights& weights, OpClock& clock, CutGraph& graph) noexcept {
-  const std::span<const std::uint32_t> cells = unknown.cells();
-  const auto stride = static_cast<std::uint32_t>(problem.shape.stride());
-  std::uint32_t row = 0;
-  graph.flow = 0;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    if (i % CutBudget::kNodesPerClockLook == 0 && clock.expired()) return false;
-    const std::uint32_t cell = cells[i];
-    while (cell >= (row + 1) * stride) ++row;
-    const auto column = static_cast<int>(cell - row * stride);
-    const NeighbourCells around = neighbour_cells(problem.shape, static_cast<int>(row), column);
-    std::array<std::uint16_t, kDirections> weight;
-    weights(cell, around, std::span<std::uint16_t, kDirections>(weight));
-    contract_cell(problem, unknown, cell, static_cast<int>(row), around, weight, graph.nodes[i],
-                  graph.flow);
-  }
-  return true;
+  const unsigned before = node.edges & directions_before(column);
+  for_each_edge(static_cast<std::uint8_t>(before), [&](int direction) {
+    const std::uint32_t other = node_before(column, direction);
+    node.neighbour[static_cast<std::size_t>(direction)] = other;
+    nodes_[other].neighbour[static_cast<std::size_t>(opposite(direction))] = index;
+  });
 }
 
 }  // namespace terracut::min_cut

@@ -10,6 +10,7 @@
 #include <span>
 
 #include "pipeline/min_cut/direction.hpp"
+#include "pipeline/min_cut/grid_problem.hpp"
 
 namespace terracut::min_cut {
 
@@ -19,6 +20,11 @@ enum class Side : std::uint8_t {
   kObstacle = 1,  ///< Source side.
   kGround = 2,    ///< Sink side.
 };
+
+/// What an unknown cell becomes once its side is certain.
+[[nodiscard]] constexpr Seed decided(Side side) noexcept {
+  return side == Side::kObstacle ? Seed::kDecidedObstacle : Seed::kDecidedGround;
+}
 
 /// An unknown cell as a node of the residual graph; one cache line.
 ///

@@ -50,6 +50,13 @@ using NeighbourCells = std::array<std::uint32_t, kDirections>;
   return cells;
 }
 
+/// The same for a cell at no edge of the image, the quick way.
+[[nodiscard]] constexpr NeighbourCells neighbours_inside(std::uint32_t cell,
+                                                         std::uint32_t stride) noexcept {
+  const std::uint32_t below = cell - stride, above = cell + stride;
+  return {below - 1, below, below + 1, cell - 1, cell + 1, above - 1, above, above + 1};
+}
+
 /// Whether they lie in memory as they do around the cell: not at an edge of the image. Then four
 /// cells may be read from neighbours[0], [3] and [5] - 1 on.
 [[nodiscard]] constexpr bool are_next_to_each_other(const NeighbourCells& neighbours) noexcept {

@@ -4,7 +4,6 @@
 
 #include <array>
 #include <bit>
-#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -12,49 +11,59 @@
 
 namespace terracut::min_cut {
 
-/// Eight 16-bit numbers, one a neighbour, worked on four at a time inside plain 64-bit words: the
-/// same on every machine, and without the branch a neighbour that mispredicts every other time.
+/// Eight 16-bit numbers, one a neighbour, worked on all at once: without the branch a neighbour
+/// that mispredicts every other time. Every machine terracut runs on has registers of this width.
 struct EightLanes {
   static_assert(std::endian::native == std::endian::little, "lane d must be at bit 16 * d");
-  static constexpr std::uint64_t kOnes = 0x0001'0001'0001'0001;  ///< 1 in every lane.
-  static constexpr std::uint64_t kSigns = 0x8000'8000'8000'8000;
+  using Numbers = std::int16_t __attribute__((vector_size(16)));
 
-  std::uint64_t low = 0, high = 0;  ///< Lanes 0..3 and 4..7.
+  Numbers lanes = {};
 
   template <class T>
   [[nodiscard]] static EightLanes load(const std::array<T, kDirections>& numbers) noexcept {
-    static_assert(sizeof(T) == 2);
-    EightLanes lanes;
-    std::memcpy(&lanes.low, numbers.data(), sizeof(low));
-    std::memcpy(&lanes.high, numbers.data() + 4, sizeof(high));
-    return lanes;
+    static_assert(sizeof(numbers) == sizeof(Numbers));
+    EightLanes eight;
+    std::memcpy(&eight.lanes, numbers.data(), sizeof(numbers));
+    return eight;
   }
   void store(std::array<std::int16_t, kDirections>& numbers) const noexcept {
-    std::memcpy(numbers.data(), &low, sizeof(low));
-    std::memcpy(numbers.data() + 4, &high, sizeof(high));
+    std::memcpy(numbers.data(), &lanes, sizeof(lanes));
   }
 
-  /// The four bytes of `bytes` as the lanes of a half, the lowest byte first.
-  [[nodiscard]] static std::uint64_t widened(std::uint32_t bytes) noexcept {
-    const std::uint64_t pairs = (bytes | std::uint64_t{bytes} << 16U) & 0x0000'FFFF'0000'FFFF;
-    return (pairs | pairs << 8U) & 0x00FF'00FF'00FF'00FF;
+  /// The four bytes of `low` and the four of `high`, lowest first.
+  [[nodiscard]] static EightLanes widened(std::uint32_t low, std::uint32_t high) noexcept {
+    using Bytes = std::uint8_t __attribute__((vector_size(16)));
+    using Pairs = std::uint32_t __attribute__((vector_size(16)));
+    const auto narrow = reinterpret_cast<Bytes>(Pairs{low, high, 0, 0});
+    return {reinterpret_cast<Numbers>(__builtin_shufflevector(narrow, Bytes{}, 0, 16, 1, 17, 2, 18,
+                                                              3, 19, 4, 20, 5, 21, 6, 22, 7, 23))};
   }
 
-  /// The lanes of `*this` where bit `bit` of the same lane of `flags` is set, 0 in the others.
-  [[nodiscard]] EightLanes where(const EightLanes& flags, int bit) const noexcept {
-    return {low & (((flags.low >> bit) & kOnes) * 0xFFFF),
-            high & (((flags.high >> bit) & kOnes) * 0xFFFF)};
+  /// The lanes of `*this` where `flags` has a bit of `bits` in the same lane, 0 in the others.
+  [[nodiscard]] EightLanes where(const EightLanes& flags, std::int16_t bits) const noexcept {
+    return {lanes & ((flags.lanes & bits) != 0)};
   }
-  /// Sum of all lanes; it must fit 16 bits.
-  [[nodiscard]] int sum() const noexcept { return static_cast<int>(((low + high) * kOnes) >> 48U); }
-  /// Bit d set where lane d is not 0. Lanes must be below 0x8000.
+  /// The lanes, taken as unsigned, or `most` where they are larger.
+  [[nodiscard]] EightLanes at_most(std::uint16_t most) const noexcept {
+    using Unsigned = std::uint16_t __attribute__((vector_size(16)));
+    const auto given = reinterpret_cast<Unsigned>(lanes);
+    const Unsigned limit = most - Unsigned{};
+    return {reinterpret_cast<Numbers>(given < limit ? given : limit)};
+  }
+  /// Sum of all lanes; it must fit 16 bits, and no lane may be negative.
+  [[nodiscard]] int sum() const noexcept {
+    constexpr std::uint64_t kOnes = 0x0001'0001'0001'0001;  // 1 in every lane
+    const auto words = reinterpret_cast<Words>(lanes);
+    return static_cast<int>(((words[0] + words[1]) * kOnes) >> 48U);
+  }
+  /// Bit d set where lane d is not 0.
   [[nodiscard]] std::uint8_t nonzero() const noexcept {
-    const auto signs = [](std::uint64_t half) { return (half + (kSigns - kOnes)) & kSigns; };
-    // Gathers bits 15, 31, 47, 63 in bits 60..63 of the product, which nothing else reaches.
-    constexpr std::uint64_t kGather = (1ULL << 45U) | (1ULL << 30U) | (1ULL << 15U) | 1ULL;
-    return static_cast<std::uint8_t>((signs(low) * kGather) >> 60U |
-                                     (signs(high) * kGather) >> 60U << 4U);
+    constexpr Numbers kBits = {1, 2, 4, 8, 16, 32, 64, 128};
+    return static_cast<std::uint8_t>(EightLanes{kBits & (lanes != 0)}.sum());
   }
+
+ private:
+  using Words = std::uint64_t __attribute__((vector_size(16)));
 };
 
 }  // namespace terracut::min_cut

@@ -8,6 +8,7 @@
 
 #include "pipeline/min_cut/greedy_push.hpp"
 #include "pipeline/min_cut/residual_reach.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::min_cut {
 namespace {
@@ -49,53 +50,62 @@ std::int64_t residual_cost(const CutGraph& graph,
   return cost;
 }
 
+/// Labels of decided cells; others keep theirs.
+TERRACUT_VECTOR_CLONES void take_decisions(std::span<const Seed> seeds,
+                                           std::span<frame::Label> labels) noexcept {
+  static_assert(static_cast<int>(Seed::kGround) == static_cast<int>(frame::Label::kGround) &&
+                static_cast<int>(Seed::kObstacle) == static_cast<int>(frame::Label::kObstacle));
+  const std::size_t cells = labels.size();
+  const Seed* const __restrict seed = seeds.data();
+  frame::Label* const __restrict label = labels.data();
+  constexpr auto kSides =
+      static_cast<std::uint8_t>(Seed::kGround) | static_cast<std::uint8_t>(Seed::kObstacle);
+  for (std::size_t i = 0; i < cells; ++i) {
+    const auto bits = static_cast<std::uint8_t>(seed[i]);
+    const auto side = static_cast<frame::Label>(bits & kSides);
+    label[i] = (bits & static_cast<std::uint8_t>(Seed::kDecided)) != 0 ? side : label[i];
+  }
+}
+
 }  // namespace
 
 GridCut::GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory)
     : config_(checked(shape, config)),
-      unknown_(shape, config_.max_unknown, memory),
-      coarse_{memory.take<std::uint32_t>("min-cut: cell lists", shape.cells())},
-      node_storage_(memory.take<CutNode>("min-cut: nodes", config_.max_unknown)),
+      contraction_(shape, config_.max_unknown, memory),
       queue_(memory.take<std::uint32_t>("min-cut: work lists", config_.max_unknown)),
-      persistency_(config_.max_unknown, memory),
       components_(config_.max_unknown, memory),
       boykov_kolmogorov_(config_.max_unknown, memory),
       push_relabel_(config_.max_unknown, memory) {}
 
-CutReport GridCut::find_unknown(const GridProblem& problem,
-                                std::span<const frame::Label> labels) noexcept {
-  assert(problem.seeds.size() >= problem.shape.cells() && labels.size() >= problem.shape.cells());
-  coarse_.size = 0;
-  unknown_.find(problem, labels, coarse_);
-  graph_.nodes = node_storage_.first(unknown_.cells().size());
-  CutReport report;
-  report.coarse_by_cap = coarse_.size;
-  report.unknown = coarse_.size + static_cast<std::uint32_t>(graph_.nodes.size());
-  return report;
-}
-
 bool GridCut::is_worth_keeping(const CutReport& report) const noexcept {
   return static_cast<float>(report.fixed_by_persistency + report.solved) >=
-         config_.least_finished * static_cast<float>(graph_.nodes.size());
+         config_.least_finished * static_cast<float>(report.unknown - report.coarse_by_cap);
 }
 
 CutReport GridCut::discard(CutReport report) noexcept {
-  for (const std::uint32_t cell : unknown_.cells()) coarse_.push_back(cell);
   report.fixed_by_persistency = report.solved = report.certified = 0;
-  report.coarse_by_budget = static_cast<std::uint32_t>(graph_.nodes.size());
+  report.coarse_by_budget = report.unknown - report.coarse_by_cap;
   report.budget_hit = report.discarded = true;
   return report;
 }
 
-CutReport GridCut::solve_contracted(const GridProblem& problem, OpClock& clock,
-                                    std::span<frame::Label> labels, CutReport report) noexcept {
-  const Persistency::Result persistency = persistency_.fix(graph_, clock);
-  report.fixed_by_persistency = persistency.fixed;
-  report.persistency_ops = persistency.ops;
-  if (!persistency.finished) return discard(report);
+CutReport GridCut::solve_contracted(const GridProblem& problem,
+                                    const Contraction::Result& contracted, OpClock& clock,
+                                    std::span<frame::Label> labels) noexcept {
+  assert(problem.seeds.size() >= problem.shape.cells() && labels.size() >= problem.shape.cells());
+  CutReport report;
+  report.unknown = contracted.unknown;
+  report.coarse_by_cap = contracted.pinned;
+  report.fixed_by_persistency = contracted.decided;
+  report.persistency_ops = contracted.ops;
+  if (!contracted.finished) {
+    report.unknown = contracted.decided + contracted.pinned;
+    for_each_unknown(problem.seeds, [&](std::size_t) noexcept { ++report.unknown; });
+    return discard(report);
+  }
   if (clock.expired() && !is_worth_keeping(report)) return discard(report);
   report.greedy_push_ops = push_one_hop(graph_);
-  components_.find(graph_, unknown_.cells(), problem.ground_range_m);
+  components_.find(graph_, contraction_.cells(), problem.ground_range_m);
   report.components = components_.count();
 
   std::int64_t cost_beyond_flow = 0;
@@ -107,20 +117,22 @@ CutReport GridCut::solve_contracted(const GridProblem& problem, OpClock& clock,
     if (started && solve_component(component, clock, report)) {
       ++report.components_solved;
       report.solved += cells;
+      for (const std::uint32_t index : component) decide(index, problem.seeds);
     } else {
       report.budget_hit = true;
       if (!is_worth_keeping(report)) return discard(report);
-      cost_beyond_flow += finalize_unfinished(component, started, labels, report);
+      cost_beyond_flow += finalize_unfinished(component, started, labels, problem.seeds, report);
     }
   }
 
-  for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
-    const bool obstacle = graph_.nodes[i].side == Side::kObstacle;
-    labels[unknown_.cells()[i]] = obstacle ? frame::Label::kObstacle : frame::Label::kGround;
-  }
+  take_decisions(problem.seeds, labels);
   report.flow = graph_.flow;
   report.energy = graph_.flow + cost_beyond_flow;
   return report;
+}
+
+void GridCut::decide(std::uint32_t index, std::span<Seed> seeds) const noexcept {
+  seeds[contraction_.cells()[index]] = decided(graph_.nodes[index].side);
 }
 
 bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock& clock,
@@ -142,7 +154,7 @@ bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock&
 
 std::int64_t GridCut::finalize_unfinished(std::span<const std::uint32_t> component, bool started,
                                           std::span<const frame::Label> labels,
-                                          CutReport& report) noexcept {
+                                          std::span<Seed> seeds, CutReport& report) noexcept {
   std::uint32_t certified = 0;
   if (started) {
     certified = certify(graph_, component, queue_);
@@ -151,10 +163,12 @@ std::int64_t GridCut::finalize_unfinished(std::span<const std::uint32_t> compone
   }
   for (const std::uint32_t index : component) {
     CutNode& node = graph_.nodes[index];
-    if (node.side != Side::kFree) continue;
-    const std::uint32_t cell = unknown_.cells()[index];
-    node.side = labels[cell] == frame::Label::kObstacle ? Side::kObstacle : Side::kGround;
-    coarse_.push_back(cell);
+    if (node.side != Side::kFree) {
+      decide(index, seeds);
+    } else {
+      const bool is_obstacle = labels[contraction_.cells()[index]] == frame::Label::kObstacle;
+      node.side = is_obstacle ? Side::kObstacle : Side::kGround;
+    }
   }
   report.certified += certified;
   report.coarse_by_budget += static_cast<std::uint32_t>(component.size()) - certified;

@@ -14,9 +14,7 @@
 #include "pipeline/min_cut/cut_graph.hpp"
 #include "pipeline/min_cut/cut_report.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
-#include "pipeline/min_cut/persistency.hpp"
 #include "pipeline/min_cut/push_relabel.hpp"
-#include "pipeline/min_cut/unknown_cells.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -34,7 +32,8 @@ namespace terracut::min_cut {
 class GridCut {
  public:
   struct Config {
-    /// Unknown cells solved at most; beyond, the farthest keep their coarse label. Bounds the time.
+    /// Unknown cells at most that persistency leaves to the solvers, which bounds memory and time.
+    /// Where there are more, those of higher rows keep their coarse label.
     std::uint32_t max_unknown = 16'384;
     /// A component that takes Boykov-Kolmogorov more operations than
     /// `bk_ops_per_node` * its nodes + `bk_ops_base` is finished by push-relabel. Each in [0, 1e9].
@@ -51,35 +50,27 @@ class GridCut {
 
   /// Labels the unknown cells. `labels`: on entry the coarse label of every unknown cell (anything
   /// but kObstacle counts as ground), on return its final one; other cells are left as they are.
-  /// `problem.shape` must be the constructor's. Real-time safe.
-  template <EdgeWeights Weights>
-  [[nodiscard]] CutReport solve(const GridProblem& problem, const Weights& weights,
-                                const CutBudget& budget, std::span<frame::Label> labels) noexcept {
+  /// `problem.shape` must be the constructor's. Unless the cut is discarded, a cell of
+  /// `problem.seeds` that was unknown is decided on return, or its label is the coarse one.
+  /// Real-time safe.
+  template <RegionCosts Costs, EdgeWeights Weights>
+  [[gnu::always_inline, nodiscard]] CutReport solve(const GridProblem& problem, const Costs& costs,
+                                                    const Weights& weights, const CutBudget& budget,
+                                                    std::span<frame::Label> labels) noexcept {
     OpClock clock(budget);
-    const CutReport report = find_unknown(problem, labels);
-    if (!contract(problem, unknown_, weights, clock, graph_)) return discard(report);
-    return solve_contracted(problem, clock, labels, report);
-  }
-
-  /// The cells the last solve() left coarse: first those beyond the cap in row-major order, then
-  /// those the budget did not reach, nearest component first, or where the cut was discarded all
-  /// others in row-major order.
-  [[nodiscard]] std::span<const std::uint32_t> coarse_cells() const noexcept {
-    return coarse_.view();
+    const Contraction::Result contracted =
+        contraction_.run(problem, costs, weights, labels, clock, graph_);
+    return solve_contracted(problem, contracted, clock, labels);
   }
 
  private:
-  /// Counts them.
-  [[nodiscard]] CutReport find_unknown(const GridProblem& problem,
-                                       std::span<const frame::Label> labels) noexcept
-      TERRACUT_NONBLOCKING;
-  [[nodiscard]] CutReport solve_contracted(const GridProblem& problem, OpClock& clock,
-                                           std::span<frame::Label> labels,
-                                           CutReport report) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] CutReport solve_contracted(
+      const GridProblem& problem, const Contraction::Result& contracted, OpClock& clock,
+      std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] bool is_worth_keeping(const CutReport& report) const noexcept;
   /// What `report` says once the labels stay as they came.
-  [[nodiscard]] CutReport discard(CutReport report) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] static CutReport discard(CutReport report) noexcept TERRACUT_NONBLOCKING;
 
   /// False when the budget ran out before the end.
   [[nodiscard]] bool solve_component(std::span<const std::uint32_t> component, OpClock& clock,
@@ -88,15 +79,14 @@ class GridCut {
   /// labels cost beyond the flow.
   [[nodiscard]] std::int64_t finalize_unfinished(std::span<const std::uint32_t> component,
                                                  bool started, std::span<const frame::Label> labels,
-                                                 CutReport& report) noexcept;
+                                                 std::span<Seed> seeds, CutReport& report) noexcept;
+  /// The cell of a node gets the node's side.
+  void decide(std::uint32_t index, std::span<Seed> seeds) const noexcept;
 
   Config config_;
-  UnknownCells unknown_;
-  CellList coarse_;
-  std::span<CutNode> node_storage_;
-  std::span<std::uint32_t> queue_;
+  Contraction contraction_;
   CutGraph graph_;
-  Persistency persistency_;
+  std::span<std::uint32_t> queue_;
   Components components_;
   BoykovKolmogorov boykov_kolmogorov_;
   PushRelabel push_relabel_;

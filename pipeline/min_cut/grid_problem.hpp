@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <array>
 #include <bit>
 #include <concepts>
 #include <cstddef>
@@ -15,31 +16,45 @@
 
 namespace terracut::min_cut {
 
-/// What is known of a cell before the min-cut.
+/// What is known of a cell: before the min-cut one of the first four. Each has a bit of its own, so
+/// that many cells can be tested at once.
 enum class Seed : std::uint8_t {
   kNone = 0,      ///< A hole: no return. Cuts the graph.
   kGround = 1,    ///< High-confidence ground: the "background" terminal of paper section III-C.
   kObstacle = 2,  ///< High-confidence obstacle: the "object" terminal.
-  kUnknown = 4,   ///< To be labelled. A bit of its own, so that the scan can test 8 cells at once.
+  kUnknown = 4,   ///< To be labelled.
+  // What the min-cut makes of unknown cells. To their neighbours they are seeds like the others.
+  kDecided = 8,
+  kDecidedGround = kDecided | kGround,  ///< Has the label of a global optimum.
+  kDecidedObstacle = kDecided | kObstacle,
+  kPinned = 16,
+  kPinnedGround = kPinned | kGround,  ///< Found no room among the nodes: keeps its coarse label.
+  kPinnedObstacle = kPinned | kObstacle,
 };
 
-/// Calls `visit(index)` for each unknown cell, in order. Few cells are, and those lie together:
-/// eight are looked at at once.
+/// Calls `visit(index)` for each unknown cell, in order. Few cells are, and those lie together: 32
+/// are passed over at once, eight looked at together. `visit` may change the cells it was called
+/// for.
 template <class Visit>
-inline void for_each_unknown(std::span<const Seed> seeds, Visit visit) noexcept {
+[[gnu::always_inline]] inline void for_each_unknown(std::span<const Seed> seeds, Visit visit) {
   static_assert(std::endian::native == std::endian::little, "the first cell is in the low byte");
   constexpr std::uint64_t kAnyUnknown =
       0x0101'0101'0101'0101 * static_cast<std::uint64_t>(Seed::kUnknown);
-  const auto look_at = [&](std::size_t first, std::size_t count) noexcept {
-    std::uint64_t eight = 0;
-    std::memcpy(&eight, &seeds[first], count);
-    for (std::uint64_t left = eight & kAnyUnknown; left != 0; left &= left - 1) {
-      visit(first + static_cast<std::size_t>(std::countr_zero(left)) / 8);
+  constexpr std::size_t kMost = 32, kEight = 8;
+  for (std::size_t first = 0; first < seeds.size(); first += kMost) {
+    std::array<std::uint64_t, kMost / kEight> words{};
+    if (first + kMost <= seeds.size()) [[likely]] {
+      std::memcpy(words.data(), &seeds[first], sizeof(words));
+    } else {
+      std::memcpy(words.data(), &seeds[first], seeds.size() - first);
     }
-  };
-  const std::size_t whole = seeds.size() / 8 * 8;
-  for (std::size_t first = 0; first < whole; first += 8) look_at(first, 8);
-  if (whole < seeds.size()) look_at(whole, seeds.size() - whole);
+    if (((words[0] | words[1] | words[2] | words[3]) & kAnyUnknown) == 0) continue;
+    for (std::size_t word = 0; word < words.size(); ++word) {
+      for (std::uint64_t left = words[word] & kAnyUnknown; left != 0; left &= left - 1) {
+        visit(first + kEight * word + static_cast<std::size_t>(std::countr_zero(left)) / 8);
+      }
+    }
+  }
 }
 
 /// Integer capacity of an energy of 1.0. With 1024 the labels equal those of a solution in double
@@ -54,21 +69,27 @@ inline constexpr std::int32_t kMaxTerminalCost = 1 << 28;
 
 /// The energy of paper Eq. 6-15 in integers scaled by kCapacityScale, as views the caller owns.
 ///
-/// All planes are row-major with `shape.stride()` and at least `shape.cells()` long; padding cells
-/// (column >= columns) are never read. `cost_*` and `ground_range_m` are read at unknown cells
-/// only.
+/// Planes are row-major with `shape.stride()` and at least `shape.cells()` long; seeds of padding
+/// cells (column >= columns) are kNone, `ground_range_m` is read at unknown cells only.
 ///
-///   E(labels) = sum over unknown p of cost_<label of p>(p)
+///   E(labels) = sum over unknown p of costs(p).<label of p>
 ///             + sum over 8-neighbours p, q with different labels of weight(p, q)
 ///
 /// Pairs of two hard seeds are no part of E: no choice is left for them.
 struct GridProblem {
   frame::ImageShape shape;  ///< columns >= 3, rows >= 1.
-  std::span<const Seed> seeds;
-  std::span<const std::int32_t> cost_ground;    ///< Cost of calling the cell ground.
-  std::span<const std::int32_t> cost_obstacle;  ///< Cost of calling the cell obstacle.
-  std::span<const float> ground_range_m;        ///< Distance; near cells are solved first.
+  std::span<Seed> seeds;    ///< Worked on: unknown cells become what they are found to be.
+  std::span<const float> ground_range_m;  ///< Distance; near cells are solved first.
 };
+
+/// What it costs to give a cell either label, scaled by kCapacityScale.
+struct LabelCosts {
+  std::int32_t ground, obstacle;
+};
+
+/// Costs of the labels, called once for every unknown cell: costs(cell). Must not throw.
+template <class C>
+concept RegionCosts = std::is_nothrow_invocable_r_v<LabelCosts, const C&, std::uint32_t>;
 
 /// Edge weights, called once for every unknown cell:
 ///   weights(cell, neighbours, out): out[d] = weight of the edge to neighbours[d], in

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "firmware_io/frame/range_image.hpp"
@@ -36,68 +37,78 @@ class BoundaryTerm {
 
   BoundaryTerm(const Config& config, const stage::NegativeExp& negative_exp,
                const frame::RangeImage& image) noexcept
-      : config_(&config),
+      : rule_(config.rule),
+        sigma_(all(config.sigma)),
+        min_distance_m_(all(config.min_distance_m)),
+        scale_m_(all(config.scale_m)),
+        scale_per_two_metres_(all(0.5F * config.scale_per_metre)),
         exp_(&negative_exp),
         x_m_(image.x_m().data()),
         y_m_(image.y_m().data()),
         z_m_(image.z_m().data()),
         ground_range_m_(image.ground_range_m().data()) {}
 
-  void operator()(std::uint32_t cell, const min_cut::NeighbourCells& neighbours,
-                  std::span<std::uint16_t, min_cut::kDirections> out) const noexcept {
+  [[gnu::always_inline]] void operator()(
+      std::uint32_t cell, const min_cut::NeighbourCells& neighbours,
+      std::span<std::uint16_t, min_cut::kDirections> out) const noexcept {
     const Eight x = differences(x_m_, cell, neighbours), y = differences(y_m_, cell, neighbours),
                 z = differences(z_m_, cell, neighbours);
     const Eight range = around(ground_range_m_, neighbours);
     const FourFloats own_range = all(ground_range_m_[cell]);
-    store(weights(x.low, y.low, z.low, own_range + range.low), out.first<4>());
-    store(weights(x.high, y.high, z.high, own_range + range.high), out.last<4>());
+    const FourInts even = weights(x.even, y.even, z.even, own_range + range.even);
+    const FourInts odd = weights(x.odd, y.odd, z.odd, own_range + range.odd);
+    const FourInts interleaved = even | odd << 16;
+    static_assert(sizeof(interleaved) == out.size_bytes());
+    std::memcpy(out.data(), &interleaved, sizeof(interleaved));
   }
 
  private:
   using FourFloats = stage::FourFloats;
   using FourInts = stage::FourInts;
-  /// Of the neighbours in directions 0 .. 3 and 4 .. 7.
+  /// Of the neighbours in directions 0, 2, 4, 6 and 1, 3, 5, 7.
   struct Eight {
-    FourFloats low, high;
+    FourFloats even, odd;
   };
 
   [[nodiscard]] static FourFloats all(float value) noexcept { return value - FourFloats{}; }
   /// A plane at the eight neighbours; away from the image's edges by three loads.
-  [[nodiscard]] static Eight around(const float* plane, const min_cut::NeighbourCells& n) noexcept {
+  [[gnu::always_inline, nodiscard]] static Eight around(const float* plane,
+                                                        const min_cut::NeighbourCells& n) noexcept {
     if (min_cut::are_next_to_each_other(n)) [[likely]] {
       const FourFloats below = stage::load_four(plane + n[0]);
       const FourFloats beside = stage::load_four(plane + n[3]);
       const FourFloats above = stage::load_four(plane + n[5] - 1);
-      return {__builtin_shufflevector(below, beside, 0, 1, 2, 4),
-              __builtin_shufflevector(beside, above, 2, 5, 6, 7)};
+      const FourFloats four_and_six = __builtin_shufflevector(beside, above, 2, 2, 6, 6);
+      const FourFloats one_and_three = __builtin_shufflevector(below, beside, 1, 1, 4, 4);
+      return {__builtin_shufflevector(below, four_and_six, 0, 2, 4, 6),
+              __builtin_shufflevector(one_and_three, above, 0, 2, 5, 7)};
     }
-    return {FourFloats{plane[n[0]], plane[n[1]], plane[n[2]], plane[n[3]]},
-            FourFloats{plane[n[4]], plane[n[5]], plane[n[6]], plane[n[7]]}};
+    return {FourFloats{plane[n[0]], plane[n[2]], plane[n[4]], plane[n[6]]},
+            FourFloats{plane[n[1]], plane[n[3]], plane[n[5]], plane[n[7]]}};
   }
-  [[nodiscard]] static Eight differences(const float* plane, std::uint32_t cell,
-                                         const min_cut::NeighbourCells& n) noexcept {
+  [[gnu::always_inline, nodiscard]] static Eight differences(
+      const float* plane, std::uint32_t cell, const min_cut::NeighbourCells& n) noexcept {
     const Eight there = around(plane, n);
-    return {plane[cell] - there.low, plane[cell] - there.high};
-  }
-  static void store(FourFloats weights, std::span<std::uint16_t, 4> out) noexcept {
-    const FourInts scaled =
-        __builtin_convertvector(weights * static_cast<float>(min_cut::kCapacityScale), FourInts);
-    for (std::size_t d = 0; d < 4; ++d) out[d] = static_cast<std::uint16_t>(scaled[d]);
+    const FourFloats here = all(plane[cell]);
+    return {here - there.even, here - there.odd};
   }
 
-  [[nodiscard]] FourFloats weights(FourFloats dx, FourFloats dy, FourFloats dz,
-                                   FourFloats ranges_m) const noexcept {
+  [[gnu::always_inline, nodiscard]] FourInts weights(FourFloats dx, FourFloats dy, FourFloats dz,
+                                                     FourFloats ranges_m) const noexcept {
     const FourFloats along = dx * dx + dy * dy;
-    if (config_->rule == BoundaryRule::kHeightGradient) {
-      const FourFloats distance_m = stage::square_root(along);
-      const FourFloats least_m = all(config_->min_distance_m);
-      return (*exp_)(config_->sigma * dz * dz / (distance_m < least_m ? least_m : distance_m));
-    }
-    const FourFloats scale_m = config_->scale_m + config_->scale_per_metre * (0.5F * ranges_m);
-    return (*exp_)(stage::square_root(along + dz * dz) / scale_m);
+    const FourFloats weight =
+        rule_ == BoundaryRule::kNearness
+            ? (*exp_)(stage::square_root(along + dz * dz) /
+                      (scale_m_ + scale_per_two_metres_ * ranges_m))
+            : (*exp_)(sigma_ * dz * dz / at_least(stage::square_root(along), min_distance_m_));
+    return __builtin_convertvector(weight * static_cast<float>(min_cut::kCapacityScale), FourInts);
+  }
+  [[nodiscard]] static FourFloats at_least(FourFloats four, FourFloats least) noexcept {
+    return four < least ? least : four;
   }
 
-  const Config* config_;
+  BoundaryRule rule_;
+  FourFloats sigma_, min_distance_m_, scale_m_, scale_per_two_metres_;
   const stage::NegativeExp* exp_;
   const float *x_m_, *y_m_, *z_m_, *ground_range_m_;
 };

@@ -46,6 +46,8 @@ class ConfidenceSeeds {
   void select(const stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] std::span<const min_cut::Seed> seeds() const noexcept { return seeds_; }
+  /// For the cut, which decides the unknown ones in place.
+  [[nodiscard]] std::span<min_cut::Seed> mutable_seeds() noexcept { return seeds_; }
   /// Rows 0 .. cut_rows() - 1 may hold unknown returns.
   [[nodiscard]] int cut_rows() const noexcept { return cut_rows_; }
 

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -9,7 +10,6 @@
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/stage/cell_planes.hpp"
-#include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::random_field {
@@ -39,31 +39,44 @@ class RegionTerm {
     float ramp_m = 0.15F;         ///< Beyond this far from it the cost stays at lambda.
   };
 
-  RegionTerm(const Config& config, frame::ImageShape shape, memory::FixedMemory& memory);
+  explicit RegionTerm(const Config& config) noexcept : config_(config) {}
 
-  /// Costs of all unknown cells, scaled by kCapacityScale; other cells are left as they were.
+  /// Looks at a frame: the cells asked for from now on are those of `image`, whose planes stay.
   /// Real-time safe.
-  void evaluate(const frame::RangeImage& image, const stage::CellPlanes& planes,
-                std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
+  void look_at(const frame::RangeImage& image, const stage::CellPlanes& planes,
+               std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 
-  [[nodiscard]] std::span<const std::int32_t> cost_ground() const noexcept { return cost_ground_; }
-  [[nodiscard]] std::span<const std::int32_t> cost_obstacle() const noexcept {
-    return cost_obstacle_;
+  /// Costs of an unknown cell, scaled by kCapacityScale.
+  [[nodiscard]] min_cut::LabelCosts operator()(std::uint32_t cell) const noexcept {
+    if (config_.rule == RegionRule::kHistogram) {
+      const std::size_t bin = bin_of(z_m_[cell]);
+      return {ground_costs_[bin], obstacle_costs_[bin]};
+    }
+    const float lean =
+        std::clamp((height_m_[cell] - config_.even_height_m) / config_.ramp_m, -1.0F, 1.0F);
+    const float full = config_.lambda * static_cast<float>(min_cut::kCapacityScale);
+    const auto cost = static_cast<std::int32_t>(lean * full);
+    return {std::max(cost, 0), std::max(-cost, 0)};
   }
 
  private:
-  void evaluate_histogram(const frame::RangeImage& image,
-                          std::span<const min_cut::Seed> seeds) noexcept;
-  void evaluate_ramp(const stage::CellPlanes& planes,
-                     std::span<const min_cut::Seed> seeds) noexcept;
-
   using Histogram = std::array<std::uint32_t, kMaxBins>;
   using BinCosts = std::array<std::int32_t, kMaxBins>;
+  void count_seeds(std::span<const min_cut::Seed> seeds) noexcept;
   [[nodiscard]] BinCosts costs_of(const Histogram& counts) const noexcept;
+  /// Eq. 10; heights outside the histogram count in its end bins.
+  [[nodiscard]] std::size_t bin_of(float z_m) const noexcept {
+    const float bin = (z_m - lowest_ground_m_) * config_.bins_per_metre + 0.5F;
+    return static_cast<std::size_t>(std::clamp(bin, 0.0F, static_cast<float>(kMaxBins - 1)));
+  }
 
   Config config_;
-  std::span<std::int32_t> cost_ground_;
-  std::span<std::int32_t> cost_obstacle_;
+  std::span<const float> z_m_, height_m_;
+  // kHistogram
+  float lowest_ground_m_ = 0;
+  BinCosts ground_costs_{}, obstacle_costs_{};
 };
+
+static_assert(min_cut::RegionCosts<RegionTerm>);
 
 }  // namespace terracut::random_field

@@ -116,19 +116,20 @@ test::TestProblem cut_problem(const SegmenterConfig& config, const mount::RingPr
   ground::CoarseStages(config, profile, shape, memory).finish(image, planes);
   random_field::ConfidenceSeeds seeds(config.seeds, profile, shape, memory);
   seeds.select(planes);
-  random_field::RegionTerm region(config.region, shape, memory);
-  region.evaluate(image, planes, seeds.seeds());
+  random_field::RegionTerm region(config.region);
+  region.look_at(image, planes, seeds.seeds());
   const stage::NegativeExp negative_exp;
   const random_field::BoundaryTerm boundary(config.boundary, negative_exp, image);
 
   test::TestProblem problem(shape);
   problem.seeds.assign(seeds.seeds().begin(), seeds.seeds().end());
-  problem.cost_ground.assign(region.cost_ground().begin(), region.cost_ground().end());
-  problem.cost_obstacle.assign(region.cost_obstacle().begin(), region.cost_obstacle().end());
   problem.ground_range_m.assign(image.ground_range_m().begin(), image.ground_range_m().end());
   problem.coarse.assign(planes.label.begin(), planes.label.end());
   problem.for_each_cell([&](int row, int column, std::uint32_t cell) {
     if (image.has_return(cell)) {
+      const min_cut::LabelCosts costs = region(cell);
+      problem.cost_ground[cell] = costs.ground;
+      problem.cost_obstacle[cell] = costs.obstacle;
       boundary(cell, min_cut::neighbour_cells(shape, row, column), problem.weight[cell]);
     }
   });
@@ -146,7 +147,9 @@ TEST(RecordedScansLabelled, AreCutAtTheEnergyOfAnIndependentSolver) {
       frames.for_each([&](const RangeImage& image, const std::vector<std::uint32_t>&) {
         const auto problem = cut_problem(config, frames.profile(), image);
         std::vector<frame::Label> labels = problem.coarse_labelling();
-        const auto report = cut.solve(problem.view(), problem.weights(), {}, labels);
+        std::vector<min_cut::Seed> seeds;
+        const auto report =
+            cut.solve(problem.view(seeds), problem.costs(), problem.weights(), {}, labels);
         EXPECT_TRUE(report.exact());
         EXPECT_EQ(report.energy, problem.energy(labels));
         EXPECT_EQ(report.energy, test::boost_optimum(problem).energy);
@@ -189,7 +192,9 @@ TEST(RecordedScansLabelled, AreCutToNoMoreThanTheCoarseEnergyWhereverItIsStopped
         const std::int64_t coarse_energy = problem.energy(problem.coarse_labelling());
         for (const std::int64_t ops : kStops) {
           std::vector<frame::Label> labels = problem.coarse_labelling();
-          const auto report = cut.solve(problem.view(), problem.weights(), {ops}, labels);
+          std::vector<min_cut::Seed> seeds;
+          const auto report =
+              cut.solve(problem.view(seeds), problem.costs(), problem.weights(), {ops}, labels);
           EXPECT_LE(problem.energy(labels), coarse_energy) << "after " << ops << " operations";
           stopped += report.budget_hit ? 1 : 0;
         }

@@ -25,10 +25,14 @@ TEST(GridCutMemory, SolvingAllocatesNothing) {
   const std::size_t bytes_planned = memory.total_bytes();
   std::vector<frame::Label> labels = problem.coarse_labelling();
   std::vector<frame::Label> again = labels;
+  std::vector<min_cut::Seed> seeds, same_seeds;
+  const min_cut::GridProblem view = problem.view(seeds), same_view = problem.view(same_seeds);
 
   const std::uint64_t before = allocations_of_this_thread();
-  const min_cut::CutReport whole = cut.solve(problem.view(), problem.weights(), kNoLimit, labels);
-  const min_cut::CutReport stopped = cut.solve(problem.view(), problem.weights(), {3000}, again);
+  const min_cut::CutReport whole =
+      cut.solve(view, problem.costs(), problem.weights(), kNoLimit, labels);
+  const min_cut::CutReport stopped =
+      cut.solve(same_view, problem.costs(), problem.weights(), {3000}, again);
   const std::uint64_t after = allocations_of_this_thread();
 
   EXPECT_EQ(after, before);

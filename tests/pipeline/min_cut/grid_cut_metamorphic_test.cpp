@@ -105,7 +105,9 @@ TEST(GridCutMetamorphic, AReusedSolverRemembersNothing) {
     std::vector<frame::Label> labels = problem.coarse_labelling();
     const min_cut::CutBudget budget{i % 3 == 0 ? uniform(random, 0, 300)
                                                : min_cut::CutBudget::kUnlimited};
-    const min_cut::CutReport report = cut.solve(problem.view(), problem.weights(), budget, labels);
+    std::vector<min_cut::Seed> seeds;
+    const min_cut::CutReport report =
+        cut.solve(problem.view(seeds), problem.costs(), problem.weights(), budget, labels);
     const Solution fresh = solve(problem, {}, budget);
     ASSERT_EQ(labels, fresh.labels);
     ASSERT_EQ(report.energy, fresh.report.energy);

@@ -44,7 +44,7 @@ TEST(NeighbourCells, LeadBackToWhereTheyCameFrom) {
 TEST(EightLanes, AgreeWithLoopsOverEightNumbers) {
   Random random(41);
   for (int i = 0; i < 2000; ++i) {
-    std::array<std::int16_t, min_cut::kDirections> numbers{}, flags{}, kept{};
+    std::array<std::int16_t, min_cut::kDirections> numbers{}, flags{}, kept{}, limited{};
     int sum = 0;
     unsigned nonzero = 0;
     for (std::size_t d = 0; d < min_cut::kDirections; ++d) {
@@ -52,17 +52,23 @@ TEST(EightLanes, AgreeWithLoopsOverEightNumbers) {
           static_cast<std::int16_t>(uniform(random, 0, 2) == 0 ? 0 : uniform(random, 0, 8191));
       flags[d] = static_cast<std::int16_t>(1 << uniform(random, 0, 3));
       kept[d] = flags[d] == 4 ? numbers[d] : std::int16_t{0};
+      limited[d] = std::min(numbers[d], std::int16_t{5000});
       sum += kept[d];
       nonzero |= (kept[d] != 0 ? 1U : 0U) << d;
     }
     const min_cut::EightLanes lanes =
-        min_cut::EightLanes::load(numbers).where(min_cut::EightLanes::load(flags), 2);
+        min_cut::EightLanes::load(numbers).where(min_cut::EightLanes::load(flags), 4);
     std::array<std::int16_t, min_cut::kDirections> stored{};
     lanes.store(stored);
     ASSERT_EQ(stored, kept);
     ASSERT_EQ(lanes.sum(), sum);
     ASSERT_EQ(lanes.nonzero(), nonzero);
+    min_cut::EightLanes::load(numbers).at_most(5000).store(stored);
+    ASSERT_EQ(stored, limited);
   }
+  std::array<std::int16_t, min_cut::kDirections> wide{};
+  min_cut::EightLanes::widened(0x04'03'02'01, 0xFF'07'06'05).store(wide);
+  EXPECT_EQ(wide, (std::array<std::int16_t, min_cut::kDirections>{1, 2, 3, 4, 5, 6, 7, 255}));
 }
 
 TEST(NodeQueue, KeepsItsOrderAcrossTheEndOfTheRing) {
@@ -99,73 +105,125 @@ TEST(OpClock, LooksAtTheClockOnlyNowAndThen) {
   EXPECT_EQ(looks, 3);
 }
 
-TEST(UnknownCells, AreFoundInRowMajorOrder) {
+TEST(UnknownCells, AreVisitedInOrder) {
   Random random(42);
-  memory::FixedMemory memory;
-  for (const int columns : {3, 7, 8, 9, 15, 16, 17, 40}) {
-    const TestProblem problem = random_problem({5, columns}, {}, random);
-    min_cut::UnknownCells unknown(problem.shape, 1000, memory);
-    min_cut::CellList dropped{memory.take<std::uint32_t>("dropped", problem.shape.cells())};
-    unknown.find(problem.view(), problem.coarse, dropped);
-    std::vector<std::uint32_t> expected;
-    problem.for_each_cell([&](int, int, std::uint32_t p) {
-      if (problem.seeds[p] == min_cut::Seed::kUnknown) expected.push_back(p);
-    });
-    ASSERT_TRUE(std::ranges::equal(unknown.cells(), expected)) << columns;
-    ASSERT_EQ(dropped.size, 0U);
-    for (std::uint32_t node = 0; node < expected.size(); ++node) {
-      ASSERT_EQ(unknown.node_of(expected[node]), node);
+  for (std::size_t cells = 0; cells < 200; ++cells) {
+    std::vector<min_cut::Seed> seeds(cells);
+    std::vector<std::size_t> expected, visited;
+    for (std::size_t cell = 0; cell < cells; ++cell) {
+      const bool is_unknown = uniform(random, 0, 99) < (cells % 2 == 0 ? 2 : 50);
+      seeds[cell] = is_unknown ? min_cut::Seed::kUnknown : min_cut::Seed::kObstacle;
+      if (is_unknown) expected.push_back(cell);
     }
+    min_cut::for_each_unknown(seeds, [&](std::size_t cell) { visited.push_back(cell); });
+    ASSERT_EQ(visited, expected) << cells;
   }
 }
 
 /// A problem taken as far as its components.
 struct Contracted {
-  explicit Contracted(const TestProblem& problem)
-      : unknown(problem.shape, nodes_at_most(problem), memory),
-        dropped{memory.take<std::uint32_t>("dropped", problem.shape.cells())},
-        components(nodes_at_most(problem), memory) {
-    unknown.find(problem.view(), problem.coarse, dropped);
-    graph.nodes = memory.take<min_cut::CutNode>("nodes", unknown.cells().size());
+  explicit Contracted(const TestProblem& problem, std::size_t most_nodes = 1000)
+      : contraction(problem.shape, most_nodes, memory), components(most_nodes, memory) {
     min_cut::OpClock clock(kNoLimit);
-    EXPECT_TRUE(min_cut::contract(problem.view(), unknown, problem.weights(), clock, graph));
-  }
-  static std::uint32_t nodes_at_most(const TestProblem& problem) {
-    return static_cast<std::uint32_t>(problem.shape.cells());
+    result = contraction.run(problem.view(seeds), problem.costs(), problem.weights(),
+                             problem.coarse, clock, graph);
+    EXPECT_TRUE(result.finished);
   }
 
   memory::FixedMemory memory;
-  min_cut::UnknownCells unknown;
-  min_cut::CellList dropped;
+  std::vector<min_cut::Seed> seeds;
+  min_cut::Contraction contraction;
+  min_cut::Contraction::Result result;
   min_cut::Components components;
   min_cut::CutGraph graph;
 };
 
-TEST(Contraction, KeepsTheEnergyOfEveryLabelling) {
+/// Whether a node's sums leave its side open: what persistency may not leave behind, or take away.
+bool is_open(const min_cut::CutNode& node) {
+  int capacity = 0;
+  min_cut::for_each_edge(node.edges, [&](int direction) {
+    capacity += node.residual[static_cast<std::size_t>(direction)];
+  });
+  return node.excess < capacity && -node.excess <= capacity;
+}
+
+TEST(Contraction, KeepsTheEnergyOfEveryLabellingOfWhatItLeavesOpen) {
   Random random(43);
+  std::uint32_t open = 0;
   for (int i = 0; i < 300; ++i) {
     SCOPED_TRACE(i);
     const TestProblem problem = any_problem(random);
     Contracted contracted(problem);
+    const auto cells = contracted.contraction.cells();
+    const auto nodes = contracted.graph.nodes;
     std::vector<frame::Label> labels = problem.coarse_labelling();
+    for (std::size_t p = 0; p < labels.size(); ++p) {
+      if (contracted.seeds[p] == min_cut::Seed::kDecidedGround) labels[p] = frame::Label::kGround;
+      if (contracted.seeds[p] == min_cut::Seed::kDecidedObstacle)
+        labels[p] = frame::Label::kObstacle;
+    }
     const std::int64_t flow_before_pushes = contracted.graph.flow;
     for (const bool pushed : {false, true}) {
       if (pushed) min_cut::push_one_hop(contracted.graph);
       std::int64_t energy = contracted.graph.flow;
-      for (std::size_t p = 0; p < contracted.graph.nodes.size(); ++p) {
-        const min_cut::CutNode& node = contracted.graph.nodes[p];
-        const bool obstacle = labels[contracted.unknown.cells()[p]] == frame::Label::kObstacle;
+      for (std::size_t p = 0; p < nodes.size(); ++p) {
+        const min_cut::CutNode& node = nodes[p];
+        if (node.side != min_cut::Side::kFree) continue;
+        ++open;
+        const bool obstacle = labels[cells[p]] == frame::Label::kObstacle;
         energy += obstacle ? std::max(0, -node.excess) : std::max(0, node.excess);
         min_cut::for_each_edge(node.edges, [&](int direction) {
-          const auto d = static_cast<std::size_t>(direction);
-          const frame::Label other = labels[contracted.unknown.cells()[node.neighbour[d]]];
-          if (obstacle && other == frame::Label::kGround) energy += node.residual[d];
+          const frame::Label other =
+              labels[cells[node.neighbour[static_cast<std::size_t>(direction)]]];
+          if (obstacle && other == frame::Label::kGround)
+            energy += node.residual[static_cast<std::size_t>(direction)];
         });
       }
       ASSERT_EQ(energy, problem.energy(labels));
     }
     ASSERT_GE(contracted.graph.flow, flow_before_pushes);
   }
+  EXPECT_GT(open, 1000U);
+}
+
+TEST(Contraction, LeavesOnlyNodesThatNoSumDecidesAndEdgesBetweenThem) {
+  Random random(47);
+  std::uint32_t decided = 0, pinned = 0;
+  for (int i = 0; i < 300; ++i) {
+    SCOPED_TRACE(i);
+    const TestProblem problem = any_problem(random);
+    const Contracted contracted(problem, i % 3 == 0 ? 20 : 1000);
+    const auto cells = contracted.contraction.cells();
+    const auto nodes = contracted.graph.nodes;
+    std::uint32_t open = 0;
+    for (std::uint32_t p = 0; p < nodes.size(); ++p) {
+      const bool is_free = nodes[p].side == min_cut::Side::kFree;
+      ASSERT_EQ(contracted.seeds[cells[p]] == min_cut::Seed::kUnknown, is_free);
+      if (!is_free) {
+        ASSERT_EQ(contracted.seeds[cells[p]], min_cut::decided(nodes[p].side));
+        ASSERT_EQ(nodes[p].edges, 0);
+        continue;
+      }
+      ++open;
+      ASSERT_TRUE(is_open(nodes[p]));
+      min_cut::for_each_edge(nodes[p].edges, [&](int direction) {
+        const auto d = static_cast<std::size_t>(direction);
+        const auto back = static_cast<std::size_t>(min_cut::opposite(direction));
+        const std::uint32_t q = nodes[p].neighbour[d];
+        EXPECT_EQ(nodes[q].side, min_cut::Side::kFree);
+        EXPECT_EQ(nodes[q].neighbour[back], p);
+        EXPECT_EQ(nodes[q].residual[back], nodes[p].residual[d]);
+        EXPECT_GT(nodes[p].residual[d], 0);
+      });
+    }
+    const auto& result = contracted.result;
+    ASSERT_EQ(result.unknown, problem.unknown());
+    ASSERT_EQ(result.unknown, result.decided + result.pinned + open);
+    decided += result.decided;
+    pinned += result.pinned;
+  }
+  EXPECT_GT(decided, 1000U);
+  EXPECT_GT(pinned, 1000U);
 }
 
 TEST(Components, AreConnectedWholeAndNearestFirst) {
@@ -175,8 +233,8 @@ TEST(Components, AreConnectedWholeAndNearestFirst) {
     const TestProblem problem = any_problem(random);
     Contracted contracted(problem);
     const auto nodes = contracted.graph.nodes;
-    contracted.components.find(contracted.graph, contracted.unknown.cells(),
-                               problem.ground_range_m);
+    const auto cells = contracted.contraction.cells();
+    contracted.components.find(contracted.graph, cells, problem.ground_range_m);
 
     std::vector<std::uint32_t> component_of(nodes.size(), 0xFFFFFFFF);
     float last_range_m = -1;
@@ -186,13 +244,13 @@ TEST(Components, AreConnectedWholeAndNearestFirst) {
       for (const std::uint32_t node : contracted.components[c]) {
         ASSERT_EQ(component_of[node], 0xFFFFFFFF) << "in two components";
         component_of[node] = c;
-        range_m = std::min(range_m, problem.ground_range_m[contracted.unknown.cells()[node]]);
+        range_m = std::min(range_m, problem.ground_range_m[cells[node]]);
         ++covered;
       }
       ASSERT_LE(last_range_m, range_m);
       last_range_m = range_m;
     }
-    ASSERT_EQ(covered, nodes.size());
+    ASSERT_EQ(covered, contracted.result.unknown - contracted.result.decided);
 
     // Whole: no edge leaves a component. Connected: labels spread from its first node reach all.
     for (std::uint32_t c = 0; c < contracted.components.count(); ++c) {

@@ -16,7 +16,7 @@ inline constexpr min_cut::CutBudget kNoLimit{min_cut::CutBudget::kUnlimited};
 struct Solution {
   min_cut::CutReport report;
   std::vector<frame::Label> labels;
-  std::vector<std::uint32_t> coarse_cells;
+  std::vector<std::uint32_t> coarse_cells;  ///< Unknown ones that are not decided.
 };
 
 /// Solves with a solver of its own.
@@ -26,8 +26,17 @@ inline Solution solve(const TestProblem& problem, const min_cut::GridCut::Config
   min_cut::GridCut cut(problem.shape, config, memory);
   Solution solution;
   solution.labels = problem.coarse_labelling();
-  solution.report = cut.solve(problem.view(), problem.weights(), budget, solution.labels);
-  solution.coarse_cells.assign(cut.coarse_cells().begin(), cut.coarse_cells().end());
+  std::vector<min_cut::Seed> seeds;
+  solution.report =
+      cut.solve(problem.view(seeds), problem.costs(), problem.weights(), budget, solution.labels);
+  for (std::uint32_t cell = 0; cell < seeds.size(); ++cell) {
+    const bool is_decided = seeds[cell] == min_cut::Seed::kDecidedGround ||
+                            seeds[cell] == min_cut::Seed::kDecidedObstacle;
+    if (problem.seeds[cell] == min_cut::Seed::kUnknown &&
+        (solution.report.discarded || !is_decided)) {
+      solution.coarse_cells.push_back(cell);
+    }
+  }
   return solution;
 }
 

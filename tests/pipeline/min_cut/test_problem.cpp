@@ -40,8 +40,9 @@ std::uint32_t TestProblem::unknown() const {
       std::count(seeds.begin(), seeds.end(), min_cut::Seed::kUnknown));
 }
 
-min_cut::GridProblem TestProblem::view() const {
-  return {shape, seeds, cost_ground, cost_obstacle, ground_range_m};
+min_cut::GridProblem TestProblem::view(std::vector<min_cut::Seed>& work) const {
+  work = seeds;
+  return {shape, work, ground_range_m};
 }
 
 std::int64_t TestProblem::energy(std::span<const frame::Label> labels) const {
@@ -66,19 +67,9 @@ std::int64_t TestProblem::energy(std::span<const frame::Label> labels) const {
 std::vector<frame::Label> TestProblem::coarse_labelling() const {
   std::vector<frame::Label> labels(shape.cells(), frame::Label::kNone);
   for_each_cell([&](int, int, std::uint32_t p) {
-    switch (seeds[p]) {
-      case min_cut::Seed::kNone:
-        break;
-      case min_cut::Seed::kGround:
-        labels[p] = frame::Label::kGround;
-        break;
-      case min_cut::Seed::kObstacle:
-        labels[p] = frame::Label::kObstacle;
-        break;
-      case min_cut::Seed::kUnknown:
-        labels[p] = coarse[p];
-        break;
-    }
+    if (seeds[p] == min_cut::Seed::kGround) labels[p] = frame::Label::kGround;
+    if (seeds[p] == min_cut::Seed::kObstacle) labels[p] = frame::Label::kObstacle;
+    if (seeds[p] == min_cut::Seed::kUnknown) labels[p] = coarse[p];
   });
   return labels;
 }

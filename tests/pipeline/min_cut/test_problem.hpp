@@ -40,11 +40,20 @@ struct TestProblem {
     }
   }
   [[nodiscard]] std::uint32_t unknown() const;
-  [[nodiscard]] min_cut::GridProblem view() const;
+  /// The problem to be worked on in `work`, which becomes a copy of the seeds.
+  [[nodiscard]] min_cut::GridProblem view(std::vector<min_cut::Seed>& work) const;
   /// E as GridProblem defines it, straight from the definition.
   [[nodiscard]] std::int64_t energy(std::span<const frame::Label> labels) const;
   /// Hard seeds as labels, the coarse label where unknown.
   [[nodiscard]] std::vector<frame::Label> coarse_labelling() const;
+
+  struct Costs {
+    const TestProblem* problem;
+    min_cut::LabelCosts operator()(std::uint32_t cell) const noexcept {
+      return {problem->cost_ground[cell], problem->cost_obstacle[cell]};
+    }
+  };
+  [[nodiscard]] Costs costs() const { return {this}; }
 
   struct Weights {
     const TestProblem* problem;

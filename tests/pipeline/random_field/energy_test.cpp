@@ -33,18 +33,18 @@ TEST_F(FourCells, RampCostsNothingAtTheEvenHeightAndLambdaBeyondTheRamp) {
   config.lambda = 2.0F;
   config.even_height_m = 0.1F;
   config.ramp_m = 0.2F;
-  RegionTerm region(config, kShape, memory);
+  RegionTerm region(config);
   put(0, 0, 5, 0, min_cut::Seed::kUnknown, 0.1F);
   put(0, 1, 5, 0, min_cut::Seed::kUnknown, 0.2F);
   put(0, 2, 5, 0, min_cut::Seed::kUnknown, 5.0F);
   put(0, 3, 5, 0, min_cut::Seed::kUnknown, -5.0F);
-  region.evaluate(image, planes, seeds);
-  EXPECT_EQ(region.cost_ground()[0], 0);
-  EXPECT_EQ(region.cost_obstacle()[0], 0);
-  EXPECT_NEAR(region.cost_ground()[1], min_cut::kCapacityScale, 1) << "half way up: lambda / 2";
-  EXPECT_EQ(region.cost_ground()[2], 2 * min_cut::kCapacityScale);
-  EXPECT_EQ(region.cost_obstacle()[2], 0);
-  EXPECT_EQ(region.cost_obstacle()[3], 2 * min_cut::kCapacityScale);
+  region.look_at(image, planes, seeds);
+  EXPECT_EQ(region(0).ground, 0);
+  EXPECT_EQ(region(0).obstacle, 0);
+  EXPECT_NEAR(region(1).ground, min_cut::kCapacityScale, 1) << "half way up: lambda / 2";
+  EXPECT_EQ(region(2).ground, 2 * min_cut::kCapacityScale);
+  EXPECT_EQ(region(2).obstacle, 0);
+  EXPECT_EQ(region(3).obstacle, 2 * min_cut::kCapacityScale);
 }
 
 TEST_F(FourCells, HistogramCostIsTheNegativeLogOfTheSeedsShareAtThatHeight) {
@@ -53,43 +53,43 @@ TEST_F(FourCells, HistogramCostIsTheNegativeLogOfTheSeedsShareAtThatHeight) {
   config.lambda = 1.0F;
   config.bins_per_metre = 10.0F;
   config.empty_bin_count = 1.0F;
-  RegionTerm region(config, kShape, memory);
+  RegionTerm region(config);
   for (int i = 0; i < 3; ++i) put(0, i, 5, 0.0F, min_cut::Seed::kGround, 0);
   put(0, 3, 5, 1.0F, min_cut::Seed::kObstacle, 1);
   put(1, 0, 5, 0.0F, min_cut::Seed::kUnknown, 0);
   put(1, 1, 5, 1.0F, min_cut::Seed::kUnknown, 1);
-  region.evaluate(image, planes, seeds);
-  const auto stride = static_cast<std::size_t>(kShape.stride());
+  region.look_at(image, planes, seeds);
+  const auto stride = static_cast<std::uint32_t>(kShape.stride());
   const auto cost = [](double count, double total) {
     return min_cut::kCapacityScale * -std::log((count + 1) / (total + RegionTerm::kMaxBins));
   };
-  EXPECT_NEAR(region.cost_ground()[stride], cost(3, 3), 1);
-  EXPECT_NEAR(region.cost_obstacle()[stride], cost(0, 1), 1);
-  EXPECT_NEAR(region.cost_ground()[stride + 1], cost(0, 3), 1);
-  EXPECT_NEAR(region.cost_obstacle()[stride + 1], cost(1, 1), 1);
+  EXPECT_NEAR(region(stride).ground, cost(3, 3), 1);
+  EXPECT_NEAR(region(stride).obstacle, cost(0, 1), 1);
+  EXPECT_NEAR(region(stride + 1).ground, cost(0, 3), 1);
+  EXPECT_NEAR(region(stride + 1).obstacle, cost(1, 1), 1);
 }
 
 TEST_F(FourCells, HistogramBinsLieAroundWholeTenthsAboveTheLowestGroundSeed) {
   RegionTerm::Config config;
   config.rule = RegionRule::kHistogram;
   config.bins_per_metre = 10.0F;
-  RegionTerm region(config, kShape, memory);
+  RegionTerm region(config);
   put(0, 0, 5, -0.3F, min_cut::Seed::kGround, 0);
   put(0, 1, 5, -0.26F, min_cut::Seed::kUnknown, 0);  // 4 cm above it
   put(0, 2, 5, -0.24F, min_cut::Seed::kUnknown, 0);  // 6 cm
   put(0, 3, 5, -0.34F, min_cut::Seed::kUnknown, 0);  // 4 cm below
-  region.evaluate(image, planes, seeds);
-  EXPECT_LT(region.cost_ground()[1], region.cost_ground()[2]);
-  EXPECT_EQ(region.cost_ground()[1], region.cost_ground()[3]);
+  region.look_at(image, planes, seeds);
+  EXPECT_LT(region(1).ground, region(2).ground);
+  EXPECT_EQ(region(1).ground, region(3).ground);
 }
 
 TEST_F(FourCells, HistogramWithoutAnySeedIsFiniteAndFair) {
   RegionTerm::Config config;
   config.rule = RegionRule::kHistogram;
-  RegionTerm region(config, kShape, memory);
+  RegionTerm region(config);
   put(0, 0, 5, -300.0F, min_cut::Seed::kUnknown, 0);
-  region.evaluate(image, planes, seeds);
-  EXPECT_EQ(region.cost_ground()[0], region.cost_obstacle()[0]);
+  region.look_at(image, planes, seeds);
+  EXPECT_EQ(region(0).ground, region(0).obstacle);
 }
 
 /// The weight of the edge between two cells, [0, 1], in whole steps.
@@ -126,7 +126,8 @@ TEST_F(FourCells, NearnessWeightFallsWithDistanceOverAScaleThatGrowsWithTheMeanR
   EXPECT_NEAR(weight(boundary, 0, 1), std::exp(-0.5 / (0.2 + 0.01 * 5.15)), kStep);
   EXPECT_EQ(weight(boundary, 0, 2), 0.0);
   config.scale_m = 50;
-  EXPECT_NEAR(weight(boundary, 0, 2), std::exp(-50 / (50 + 0.01 * 30)), kStep);
+  EXPECT_NEAR(weight(BoundaryTerm(config, negative_exp, image), 0, 2),
+              std::exp(-50 / (50 + 0.01 * 30)), kStep);
 }
 
 TEST_F(FourCells, EdgesToAllNeighboursGetTheirWeightInWholeNumbers) {

@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -54,11 +55,28 @@ ExitCode refuse_figures(const Reader& page, const std::string& name) {
                             name, page.publisher_pid()));
 }
 
+/// Waits for a publisher that was held up while it wrote, as happens on a machine under load.
+std::optional<status::MonitorSnapshot> read_patiently(const Reader& page) {
+  constexpr int kLooks = 100;
+  constexpr std::chrono::milliseconds kPause{10};
+  auto figures = page.read();
+  for (int look = 1; !figures && page.publications() > 0 && look < kLooks; ++look) {
+    std::this_thread::sleep_for(kPause);
+    figures = page.read();
+  }
+  return figures;
+}
+
 ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
-  const auto figures = page.read();
+  const auto figures = read_patiently(page);
   if (!figures) {
-    return refuse(kInputRefused, fmt::format("process {} has not published any figures yet",
-                                             page.publisher_pid()));
+    return refuse(
+        kInputRefused,
+        page.publications() == 0
+            ? fmt::format("process {} has not published any figures yet", page.publisher_pid())
+            : fmt::format("process {} is held up, or has ended, while it writes its "
+                          "figures",
+                          page.publisher_pid()));
   }
   if (!status::are_possible(*figures)) return refuse_figures(page, name);
   fmt::print("{}", as_json ? json_text(live_summary(*figures))

@@ -175,19 +175,17 @@ class Live:
 
     def settled(self) -> dict:
         """Figures once all that was sent is taken in: they stand still, and so does what waits for it."""
-        before: list[object] = [None]
 
-        def still() -> bool:
-            figures = self.figures()
-            now = figures and (figures["link"]["packets"], figures["frames"]["count"], figures["losses"])
-            last, before[0] = before[0], now
-            return now is not None and now == last and not self.unread_bytes()
+        def counts(figures: dict | None) -> object:
+            return figures and (figures["link"]["packets"], figures["frames"]["count"], figures["losses"])
 
-        while not still():
+        before, now = None, self.figures()
+        while not now or counts(now) != counts(before) or self.unread_bytes():
             if not self.runs():
                 raise TrialError(f"terracut live has ended:\n{self.messages()}")
             time.sleep(0.3)
-        return self.figures()
+            before, now = now, self.figures()
+        return now
 
     def unread_bytes(self) -> int:
         """Of packets in its socket."""

@@ -11,11 +11,6 @@
 
 namespace terracut::scan {
 
-std::uint8_t intensity_of(float remission) noexcept {
-  if (!(remission > 0.0F)) return 0;  // NaN too
-  return static_cast<std::uint8_t>(std::lround(std::min(remission, 1.0F) * 255.0F));
-}
-
 Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan) {
   static_assert(sizeof(ScanPoint) == 16);
   const files::RecordLayout layout{"point of 4 float32 (x y z remission)", sizeof(ScanPoint),

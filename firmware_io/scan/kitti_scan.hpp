@@ -9,17 +9,15 @@
 #include <vector>
 
 #include "rt/error.hpp"
+#include "terracut/frame.hpp"
 
 namespace terracut::scan {
 
 /// More points than any HDL-64E frame can hold (64 lasers x 4167 firings at 5 Hz, two returns).
 inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
 
-/// One point of a KITTI `.bin` file, in the sensor frame: x forward, y left, z up.
-struct ScanPoint {
-  float x_m = 0, y_m = 0, z_m = 0;
-  float remission = 0;  ///< 0..1
-};
+/// One point of a KITTI `.bin` file.
+using ScanPoint = CloudPoint;
 
 /// False for points that are no place: NaN, infinite, farther than any return can be (10 km), or
 /// the null point (0, 0, 0), which many programs write where a beam had no return.
@@ -41,7 +39,11 @@ struct ScanPoint {
 }
 
 /// Intensity as the sensor sends it, 0..255, from a remission of 0..1; anything else is clamped.
-[[nodiscard]] std::uint8_t intensity_of(float remission) noexcept;
+[[nodiscard]] inline std::uint8_t intensity_of(float remission) noexcept {
+  const float dark_or_more = remission > 0.0F ? remission : 0.0F;  // NaN is dark
+  const float share = dark_or_more < 1.0F ? dark_or_more : 1.0F;
+  return static_cast<std::uint8_t>(double{share * 255.0F} + 0.5);
+}
 
 /// One recorded frame. Buffers are kept from scan to scan.
 struct KittiScan {

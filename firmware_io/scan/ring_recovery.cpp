@@ -11,6 +11,8 @@
 #include <numbers>
 #include <utility>
 
+#include "firmware_io/frame/azimuths.hpp"
+
 namespace terracut::scan {
 namespace {
 
@@ -28,8 +30,9 @@ class FallCounter {
  public:
   explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}
 
-  int ring_at(const ScanPoint& point) {
-    const double azimuth = 2 * kHalfRevolution_rad - azimuth_rad(point.x_m, point.y_m);
+  /// `azimuth_rad`: of the next point.
+  int ring_at(float azimuth_rad) {
+    const double azimuth = 2 * kHalfRevolution_rad - double{azimuth_rad};
     const double counter_clockwise = azimuth < 2 * kHalfRevolution_rad ? azimuth : 0.0;
     if (started_) {
       const double step = counter_clockwise - last_rad_;
@@ -183,13 +186,19 @@ Status split_at_falls(std::span<const ScanPoint> points, double fall_rad, RingRe
   FallCounter counter(fall_rad);
   std::size_t in_first = 0;
   int last = -1;
+  std::array<float, 512> azimuths_rad;  // of as many points at once
   for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t in_block = i % azimuths_rad.size();
+    if (in_block == 0) {
+      frame::find_azimuths(points.subspan(i, std::min(azimuths_rad.size(), points.size() - i)),
+                           azimuths_rad);
+    }
     if (!is_place(points[i])) {
       recovery.ring_of_point[i] = kNoRing;
       ++recovery.no_ring;
       continue;
     }
-    const int ring = counter.ring_at(points[i]);
+    const int ring = counter.ring_at(azimuths_rad[in_block]);
     if (ring >= kMaxSegments) {
       return fail(ErrorCode::kMalformed,
                   fmt::format("more than {} rings by the order of the points, at point {} of {}; "

@@ -20,16 +20,28 @@ std::optional<fs::path> if_file(const fs::path& path) {
   return path;
 }
 
+ScanFile scan_file(const fs::path& path, const fs::path& labels) {
+  std::string name = path.stem().string();
+  if (name.ends_with(".pcd")) name.resize(name.size() - 4);  // of .pcd.bin
+  return {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)};
+}
+
 }  // namespace
 
-Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
+bool is_kitti_bin(const fs::path& path) {
+  return path.extension() == ".bin";
+}
+
+Expected<ScanFolder> list_scan_folder(const fs::path& folder, IsScan is_scan) {
   std::error_code error;
+  if (fs::is_regular_file(folder, error) && is_scan(folder)) {
+    return ScanFolder{{scan_file(folder, folder.parent_path())}, {}, {}, {}};
+  }
   if (!fs::is_directory(folder, error)) {
-    return fail(
-        ErrorCode::kNotFound,
-        fmt::format("{}: no such folder; expected a folder of .bin scans or a SemanticKITTI "
-                    "sequence folder with velodyne/",
-                    folder.string()));
+    return fail(ErrorCode::kNotFound,
+                fmt::format("{}: no such folder; expected a folder of scans or a SemanticKITTI "
+                            "sequence folder with velodyne/",
+                            folder.string()));
   }
   const bool sequence = fs::is_directory(folder / "velodyne", error);
   const fs::path points = sequence ? folder / "velodyne" : folder;
@@ -40,12 +52,10 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const fs::path& path = entry->path();
     std::error_code ignored;
-    if (path.extension() != ".bin") continue;
+    if (!is_scan(path)) continue;
     // A link that leads nowhere is a scan all the same: reading it says what is wrong.
     if (!entry->is_regular_file(ignored) && !entry->is_symlink(ignored)) continue;
-    const std::string name = path.stem().string();
-    found.scans.push_back(
-        {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)});
+    found.scans.push_back(scan_file(path, labels));
   }
   if (error) {
     return fail(ErrorCode::kUnreadable,
@@ -54,9 +64,9 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder) {
   if (found.scans.empty()) {
     return fail(
         ErrorCode::kNotFound,
-        fmt::format("{}: no .bin file in it; expected KITTI scans (float32 x y z remission), "
-                    "or a SemanticKITTI sequence folder with velodyne/",
-                    points.string()));
+        fmt::format("{}: no scan in it; expected KITTI's .bin (float32 x y z remission){}, or a "
+                    "SemanticKITTI sequence folder with velodyne/",
+                    points.string(), is_scan(".pcd") ? ", nuScenes' .pcd.bin, .pcd or .ply" : ""));
   }
   std::sort(found.scans.begin(), found.scans.end(),
             [](const ScanFile& a, const ScanFile& b) { return a.name < b.name; });

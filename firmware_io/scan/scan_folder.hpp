@@ -14,10 +14,10 @@ namespace terracut::scan {
 
 /// One recorded frame on disk.
 struct ScanFile {
-  std::filesystem::path points;  ///< The `.bin`.
+  std::filesystem::path points;  ///< The scan itself.
   std::optional<std::filesystem::path>
       labels;        ///< The `.label` of the same name, where there is one.
-  std::string name;  ///< "000009" of 000009.bin.
+  std::string name;  ///< "000009" of 000009.bin and of 000009.pcd.bin.
   /// The frame number the name spells, for poses and times; none when the name is not a number.
   std::optional<std::uint32_t> frame;
 };
@@ -30,10 +30,16 @@ struct ScanFolder {
   std::optional<std::filesystem::path> calib;  ///< calib.txt
 };
 
-/// Lists a SemanticKITTI sequence folder (velodyne/ with .bin, labels/ with .label, poses.txt,
-/// times.txt, calib.txt; all but velodyne/ optional) or a plain folder of .bin with .label files
-/// beside them. Labels are taken for the scans that have them.
-/// Errors: kNotFound (no such folder, no .bin in it), kUnreadable.
-[[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder);
+/// Which files of a folder are scans.
+using IsScan = bool (*)(const std::filesystem::path&);
+/// `.bin`
+[[nodiscard]] bool is_kitti_bin(const std::filesystem::path& path);
+
+/// Lists a SemanticKITTI sequence folder (velodyne/ with scans, labels/ with .label, poses.txt,
+/// times.txt, calib.txt; all but velodyne/ optional) or a plain folder of scans with .label files
+/// beside them; or takes a scan alone. Labels are taken for the scans that have them.
+/// Errors: kNotFound (no such folder, no scan in it), kUnreadable.
+[[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder,
+                                                    IsScan is_scan = is_kitti_bin);
 
 }  // namespace terracut::scan

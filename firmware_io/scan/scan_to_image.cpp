@@ -3,49 +3,93 @@
 #include "firmware_io/scan/scan_to_image.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <numbers>
 
+#include "firmware_io/frame/azimuths.hpp"
 #include "firmware_io/scan/ring_table.hpp"
+#include "rt/vector_clones.hpp"
 
 namespace terracut::scan {
+namespace {
 
-ScanToImage::ScanToImage(const mount::Mount& mount)
-    : T_vehicle_lidar_(mount::T_vehicle_lidar(mount)) {}
+/// So many points at once, which stay in the cache next to the core.
+constexpr std::size_t kBlock = 512;
+
+/// Where a block's points lie in the vehicle frame and in the image; anything for points that are
+/// no place.
+struct Block {
+  std::array<float, kBlock> x_m, y_m, z_m, ground_range_m, azimuth_rad;
+  std::array<std::int32_t, kBlock> column;
+};
+
+TERRACUT_VECTOR_CLONES void move(const mount::RigidTransform& T, const ScanPoint* __restrict points,
+                                 std::size_t count, Block& block) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double px = double{points[i].x_m}, py = double{points[i].y_m}, pz = double{points[i].z_m};
+    const double x = T[0] * px + T[1] * py + T[2] * pz + T[3];
+    const double y = T[4] * px + T[5] * py + T[6] * pz + T[7];
+    const double z = T[8] * px + T[9] * py + T[10] * pz + T[11];
+    block.x_m[i] = static_cast<float>(x);
+    block.y_m[i] = static_cast<float>(y);
+    block.z_m[i] = static_cast<float>(z);
+    block.ground_range_m[i] = static_cast<float>(std::sqrt(x * x + y * y));
+  }
+}
+
+TERRACUT_VECTOR_CLONES void find_columns(float columns_per_rad, int last_column, std::size_t count,
+                                         Block& block) noexcept {
+  for (std::size_t i = 0; i < count; ++i) {
+    const float azimuth_rad = block.azimuth_rad[i] >= 0 ? block.azimuth_rad[i] : 0.0F;  // no NaN
+    const auto column = static_cast<std::int32_t>(azimuth_rad * columns_per_rad);
+    block.column[i] = column < last_column ? column : last_column;
+  }
+}
+
+}  // namespace
+
+ScanToImage::ScanToImage(const mount::Mount& mount, std::size_t points_expected)
+    : T_vehicle_lidar_(mount::T_vehicle_lidar(mount)) {
+  point_of_return_.reserve(points_expected);
+  label_without_return_.reserve(points_expected);
+}
 
 ScanToImage::Summary ScanToImage::place(std::span<const ScanPoint> points,
                                         std::span<const std::int16_t> ring_of_point,
                                         frame::RangeImage& image) {
   Summary summary;
   image.clear();
-  point_of_return_.clear();
+  point_of_return_.resize(points.size());
   label_without_return_.assign(points.size(), frame::Label::kObstacle);
   const int rows = image.shape().rows, columns = image.shape().columns;
-  const double columns_per_rad = columns / (2 * std::numbers::pi);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const ScanPoint& p = points[i];
-    if (!is_place(p)) {
-      ++summary.no_place;
-      label_without_return_[i] = frame::Label::kNone;
-      continue;
+  const float columns_per_rad = static_cast<float>(columns / (2 * std::numbers::pi));
+  Block block;
+  for (std::size_t first = 0; first < points.size(); first += kBlock) {
+    const std::size_t count = std::min(kBlock, points.size() - first);
+    move(T_vehicle_lidar_, &points[first], count, block);
+    frame::find_azimuths(points.subspan(first, count), block.azimuth_rad);
+    find_columns(columns_per_rad, columns - 1, count, block);
+    for (std::size_t i = 0; i < count; ++i) {
+      const ScanPoint& p = points[first + i];
+      const std::int16_t ring = ring_of_point[first + i];
+      if (ring == kNoRing) [[unlikely]] {
+        const bool place = is_place(p);
+        ++(place ? summary.no_ring : summary.no_place);
+        if (!place) label_without_return_[first + i] = frame::Label::kNone;
+        continue;
+      }
+      const frame::Return point{block.x_m[i], block.y_m[i], block.z_m[i], block.ground_range_m[i],
+                                intensity_of(p.remission)};
+      if (!image.place(rows - 1 - ring, block.column[i], point, frame::CellOwner::kNearest)) {
+        ++summary.overflow_full;
+        continue;
+      }
+      point_of_return_[summary.placed++] = static_cast<std::uint32_t>(first + i);
     }
-    if (ring_of_point[i] == kNoRing) {
-      ++summary.no_ring;
-      continue;
-    }
-    const auto [x, y, z] = mount::apply(T_vehicle_lidar_, p.x_m, p.y_m, p.z_m);
-    const frame::Return point{static_cast<float>(x), static_cast<float>(y), static_cast<float>(z),
-                              static_cast<float>(std::sqrt(x * x + y * y)),
-                              intensity_of(p.remission)};
-    const int column =
-        std::min(static_cast<int>(azimuth_rad(p.x_m, p.y_m) * columns_per_rad), columns - 1);
-    if (!image.place(rows - 1 - ring_of_point[i], column, point)) {
-      ++summary.overflow_full;
-      continue;
-    }
-    point_of_return_.push_back(static_cast<std::uint32_t>(i));
   }
-  summary.placed = point_of_return_.size();
+  point_of_return_.resize(summary.placed);
   return summary;
 }
 

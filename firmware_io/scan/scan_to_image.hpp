@@ -15,15 +15,16 @@
 
 namespace terracut::scan {
 
-/// Puts recorded scans into range images without packets (`terracut segment`), and brings the
-/// labels of the returns back into the file's order.
+/// Puts clouds into range images without packets (`terracut segment`), and brings the labels of the
+/// returns back into the cloud's order.
 ///
 /// Row = rows - 1 - ring (row 0 is the lowest), column = azimuth / pitch clockwise from straight
-/// ahead, the decoder's rule; coordinates are the scan's own, moved into the vehicle frame by the
-/// mount. Returns are numbered in the file's order. Points without a ring and points beyond the
-/// overflow list's end are counted and not placed.
+/// ahead, the decoder's rule; coordinates are the cloud's own, moved into the vehicle frame by the
+/// mount. Of several points in a cell the nearest owns it, so that their order does not matter.
+/// Returns are numbered in the cloud's order. Points without a ring and points beyond the overflow
+/// list's end are counted and not placed.
 ///
-/// Not for the real-time path: one atan2 a point, and buffers grow with the largest scan.
+/// Allocates nothing for clouds no larger than the largest before, or than `points_expected`.
 class ScanToImage {
  public:
   struct Summary {
@@ -33,20 +34,21 @@ class ScanToImage {
     std::size_t overflow_full = 0;  ///< Their cell and the overflow list were taken; kObstacle.
   };
 
-  explicit ScanToImage(const mount::Mount& mount);
+  explicit ScanToImage(const mount::Mount& mount, std::size_t points_expected = 0);
 
-  /// Clears `image`, which must have a row for every ring, and fills it with a scan.
-  /// `ring_of_point`: the ring, 0 is the highest, or kNoRing for each point.
+  /// Clears `image`, which must have a row for every ring, and fills it with a cloud.
+  /// `ring_of_point`: the ring, 0 is the highest, or kNoRing for each point; kNoRing for what is no
+  /// place.
   Summary place(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point,
                 frame::RangeImage& image);
 
-  /// The point, as its index in the file, of every return of the last place().
+  /// The point, as its index in the cloud, of every return of the last place().
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return point_of_return_;
   }
 
-  /// Labels of all points of the last scan in the file's order from the labels of its returns, by
-  /// the rules of Summary. `of_returns` has one label for every placed point.
+  /// Labels of all points of the last cloud in its order from the labels of its returns, by the
+  /// rules of Summary. `of_returns` has one label for every placed point.
   void labels_of_points(std::span<const frame::Label> of_returns,
                         std::vector<frame::Label>& of_points) const;
 

@@ -29,6 +29,12 @@ struct Point {
   std::uint8_t intensity = 0;  ///< As the sensor sends it.
 };
 
+/// A point of a cloud in the sensor frame: x ahead, y left, z up.
+struct CloudPoint {
+  float x_m = 0, y_m = 0, z_m = 0;
+  float remission = 0;  ///< 0..1
+};
+
 /// One revolution of the sensor. points and labels have one entry a return, in order of arrival,
 /// and are valid as long as whoever handed the frame out says.
 struct Frame {

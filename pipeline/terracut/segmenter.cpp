@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "terracut/segmenter.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -9,47 +11,81 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/terracut/calibration_table.hpp"
+#include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "firmware_io/scan/ring_recovery.hpp"
-#include "firmware_io/scan/ring_table_fit.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "firmware_io/terracut/points.hpp"
 #include "pipeline/ground/segmenter.hpp"
+#include "pipeline/terracut/point_buffer.hpp"
 #include "pipeline/terracut/profile.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {
 
-struct Segmenter::Engine {
-  explicit Engine(const Config& wanted)
-      : config(wanted),
-        mount(mount_of(wanted.mount)),
+/// All that labels clouds of one sensor, taken when its first cloud is known.
+struct Segmenter::Labeller {
+  Labeller(const Config& config, const mount::Mount& mount, cloud::SensorRows rows,
+           std::size_t first_points)
+      : shape(rows.shape()),
+        finder(std::move(rows)),
         image(shape, shape.cells(), memory),
-        to_image(mount) {}
+        most_points(std::max(2 * first_points, image.return_capacity())),
+        to_image(mount, most_points),
+        segmenter(config_of(config.profile), scan::ring_profile(finder.rows().rings.table, mount),
+                  shape, image.return_capacity(), memory) {
+    rings.ring_of_point.reserve(most_points);
+    labels.reserve(most_points);
+  }
 
-  /// Which elevations the rings have, by the first cloud.
-  Status learn_rings() {
-    scan::RingTableFit fit;
-    fit.add(points, rings.ring_of_point);
-    const auto fitted = fit.fit();
-    if (!fitted) return tl::unexpected(fitted.error());
-    table = fitted->table;
-    segmenter.emplace(config_of(config.profile), scan::ring_profile(*table, mount), shape,
-                      image.return_capacity(), memory);
+  Status label(const cloud::CloudView& cloud) {
+    if (cloud.points.size() > most_points) {
+      return fail(ErrorCode::kCapacityExceeded,
+                  fmt::format("{} points; the first cloud made room for {}", cloud.points.size(),
+                              most_points));
+    }
+    if (Status found = finder.find(cloud, rings); !found) return found;
+    (void)to_image.place(cloud.points, rings.ring_of_point, image);
+    (void)segmenter.segment(image);
+    to_image.labels_of_points(segmenter.labels(), labels);
     return {};
+  }
+
+  memory::FixedMemory memory;
+  frame::ImageShape shape;
+  cloud::RowFinder finder;
+  frame::RangeImage image;
+  std::size_t most_points;
+  scan::ScanToImage to_image;
+  ground::Segmenter segmenter;
+  scan::RingRecovery rings;
+  std::vector<Label> labels;
+};
+
+struct Segmenter::Engine {
+  explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {}
+
+  Expected<std::span<const Label>> label(const cloud::CloudView& view) {
+    const bool is_first = !labeller;
+    if (is_first) {
+      auto rows =
+          cloud::learn_rows(1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
+      if (!rows) return tl::unexpected(rows.error());
+      labeller.emplace(config, mount, *std::move(rows), view.points.size());
+    }
+    if (const Status labelled = labeller->label(view); !labelled) {
+      return tl::unexpected(labelled.error());
+    }
+    if (is_first) {  // not before: the view may look into these
+      cloud.points.reserve(labeller->most_points);
+      cloud.laser.reserve(labeller->most_points);
+    }
+    return std::span<const Label>(labeller->labels);
   }
 
   Config config;
   mount::Mount mount;
-  memory::FixedMemory memory;
-  frame::ImageShape shape;
-  frame::RangeImage image;
-  scan::ScanToImage to_image;
-  scan::RingRecovery rings;
-  std::optional<scan::RingTable> table;  ///< Known from the first cloud on, as segmenter.
-  std::optional<ground::Segmenter> segmenter;
-  std::vector<scan::ScanPoint> points;
-  std::vector<Label> labels;
+  cloud::Cloud cloud;  ///< What is taken out of drivers' memory.
+  std::optional<Labeller> labeller;
 };
 
 Segmenter::Segmenter(std::unique_ptr<Engine> engine) noexcept : engine_(std::move(engine)) {}
@@ -61,21 +97,19 @@ Expected<Segmenter> Segmenter::make(const Config& config) {
   return made([&] { return Segmenter(std::make_unique<Engine>(config)); });
 }
 
-Expected<std::span<const Label>> Segmenter::label(std::span<const CloudPoint> cloud) {
-  Engine& of = *engine_;
-  of.points.resize(cloud.size());
-  std::ranges::transform(cloud, of.points.begin(), [](const CloudPoint& point) {
-    return scan::ScanPoint{point.x_m, point.y_m, point.z_m, point.remission};
-  });
-  const Status split = recover_rings(of.points, of.table ? &*of.table : nullptr, of.rings);
-  if (!split) return tl::unexpected(split.error());
-  if (!of.segmenter) {
-    if (const Status learnt = of.learn_rings(); !learnt) return tl::unexpected(learnt.error());
+Expected<std::span<const Label>> Segmenter::label(const Cloud& cloud) {
+  if (cloud.rows == 0 || cloud.points.size() % cloud.rows != 0) {
+    return fail(ErrorCode::kMalformed, fmt::format("{} points do not make {} rows of equal length",
+                                                   cloud.points.size(), cloud.rows));
   }
-  (void)of.to_image.place(of.points, of.rings.ring_of_point, of.image);
-  (void)of.segmenter->segment(of.image);
-  of.to_image.labels_of_points(of.segmenter->labels(), of.labels);
-  return std::span<const Label>(of.labels);
+  return engine_->label({cloud.points, cloud.laser, cloud.rows});
+}
+
+Expected<std::span<const Label>> Segmenter::label(const PointBuffer& buffer) {
+  if (const Status unpacked = unpack(buffer, engine_->cloud); !unpacked) {
+    return tl::unexpected(unpacked.error());
+  }
+  return engine_->label(engine_->cloud.view());
 }
 
 }  // namespace terracut

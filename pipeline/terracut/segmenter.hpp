@@ -2,8 +2,11 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <string_view>
 
 #include "terracut/calibration.hpp"
 #include "terracut/error.hpp"
@@ -17,17 +20,56 @@ enum class Profile : std::uint8_t {
   kPaper,     ///< The published method, as it was published.
 };
 
-/// A point of a cloud in the sensor frame: x ahead, y left, z up.
-struct CloudPoint {
-  float x_m = 0, y_m = 0, z_m = 0;
-  float remission = 0;  ///< 0..1
+/// One revolution of a spinning LiDAR with 8 to 256 lasers, its points in any order.
+struct Cloud {
+  std::span<const CloudPoint> points;
+  /// Which laser measured each point, in any numbering from 0 to 255; empty where that is not
+  /// known.
+  std::span<const std::uint16_t> laser = {};
+  /// Of an organised cloud, whose points stand row after row, as many in each; 1: not organised.
+  std::size_t rows = 1;
 };
 
-/// Labels clouds of a 64-ring sensor in the order of KITTI's .bin files: ring after ring from the
-/// top, each counter-clockwise from straight ahead.
+/// What a field of a point is made of; the numbers are those of sensor_msgs/PointField.
+enum class FieldType : std::uint8_t {
+  kInt8 = 1,
+  kUint8 = 2,
+  kInt16 = 3,
+  kUint16 = 4,
+  kInt32 = 5,
+  kUint32 = 6,
+  kFloat32 = 7,
+  kFloat64 = 8,
+};
+
+/// A field of a point.
+struct PointField {
+  std::string_view name;
+  std::size_t offset = 0;  ///< From the point's beginning, bytes.
+  FieldType type = FieldType::kFloat32;
+};
+
+/// A cloud as drivers hand it out, and as sensor_msgs/PointCloud2 has it: little-endian points with
+/// named fields. Looked for are x, y, z (metres); the laser in ring, channel, laser or row; and
+/// intensity, which pictures alone need. So PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT, Ouster's and
+/// others' layouts serve as they are; azimuth, time and whatever else they hold is not needed.
+struct PointBuffer {
+  std::span<const std::byte> data;
+  std::span<const PointField> fields;
+  std::size_t point_step = 0;  ///< From one point to the next, bytes.
+  std::size_t width = 0;       ///< Points of a row.
+  std::size_t height = 1;      ///< Rows; above 1 the cloud is organised.
+  std::size_t row_step = 0;    ///< From one row to the next, bytes; 0: width * point_step.
+};
+
+/// Labels clouds of one sensor. What tells the laser of a point is, in this order: its number; the
+/// rows of an organised cloud (its columns, where these are fewer); the order of KITTI's .bin
+/// files, 64 rings from the top, each counter-clockwise from straight ahead; the elevations of the
+/// points.
 ///
-/// The first cloud decides which elevation each ring has; it allocates, and so may a cloud that is
-/// larger than all before. One thread; not for threads with a deadline.
+/// The first cloud decides which of them it is, which elevation each laser has and how often it
+/// fires in a revolution. It allocates and takes some 100 ms; later ones do not, unless they are in
+/// KITTI's order with rings missing. One thread; not for threads with a deadline.
 class Segmenter {
  public:
   struct Config {
@@ -42,11 +84,22 @@ class Segmenter {
   ~Segmenter();
 
   /// One label a point, in the cloud's order, valid until the next call; kNone for points that are
-  /// no return (not finite, null). kMalformed or kUnsupported where the order is another one.
-  [[nodiscard]] Expected<std::span<const Label>> label(std::span<const CloudPoint> cloud);
+  /// no return (not finite, null, beyond 10 km); kObstacle, the safe side, for those of a laser
+  /// that the first cloud had nothing of. Errors leave the segmenter as it was: kUnsupported or
+  /// kMalformed where nothing tells the lasers apart, or not what told them in the first cloud;
+  /// kCapacityExceeded for a cloud of more than twice the first one's points and of more than two
+  /// for each direction of each laser.
+  [[nodiscard]] Expected<std::span<const Label>> label(const Cloud& cloud);
+  [[nodiscard]] Expected<std::span<const Label>> label(std::span<const CloudPoint> points) {
+    return label(Cloud{points});
+  }
+  /// The same of points as they lie in a driver's memory. kMalformed also for a missing x, y or z,
+  /// or data too short for what is said of them.
+  [[nodiscard]] Expected<std::span<const Label>> label(const PointBuffer& buffer);
 
  private:
   struct Engine;
+  struct Labeller;
   explicit Segmenter(std::unique_ptr<Engine> engine) noexcept;
   std::unique_ptr<Engine> engine_;
 };

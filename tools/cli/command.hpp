@@ -37,7 +37,7 @@ struct CommandText {
 /// By Command.
 inline constexpr std::array kCommands{
     CommandText{"replay", "Label every return of a capture, frame by frame"},
-    CommandText{"segment", "Label recorded scans (.bin) without packets"},
+    CommandText{"segment", "Label clouds of any spinning LiDAR: .bin, .pcd.bin, .pcd, .ply"},
     CommandText{"simulate", "Drive a simulated sensor: capture, table and truth"},
     CommandText{"encode", "Frame recorded scans into packets with their truth"},
     CommandText{"calibrate",

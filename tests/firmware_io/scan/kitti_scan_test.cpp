@@ -196,7 +196,7 @@ TEST(ScanFolder, SaysWhatItExpectedWhereThereIsNoScan) {
   const ScratchFolder folder;
   const auto empty = list_scan_folder(folder.path());
   ASSERT_FALSE(empty);
-  EXPECT_THAT(empty.error().message, HasSubstr("no .bin file"));
+  EXPECT_THAT(empty.error().message, HasSubstr("no scan in it; expected KITTI's .bin"));
   const auto missing = list_scan_folder(folder.path() / "missing");
   ASSERT_FALSE(missing);
   EXPECT_EQ(missing.error().code, ErrorCode::kNotFound);

@@ -160,7 +160,7 @@ TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {
   EXPECT_EQ(ids_of(folder_ / "with" / "000000.label"), expected);
 }
 
-TEST_F(CliScans, ThatAreNotInRingOrderAreTakenWithTheUnitsTableOrRefusedWithACure) {
+TEST_F(CliScans, ThatAreCroppedOrInAnotherOrderAreTakenAllTheSameOrRefusedWithACure) {
   expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   fs::remove_all(folder_ / "scans/labels");
@@ -182,10 +182,51 @@ TEST_F(CliScans, ThatAreNotInRingOrderAreTakenWithTheUnitsTableOrRefusedWithACur
   std::string reversed;
   for (std::size_t i = file.size(); i > 0; i -= 16) reversed += file.substr(i - 16, 16);
   std::ofstream(bin, std::ios::binary) << reversed;
-  const Outcome refused = run("segment scans");
+  const Outcome by_elevations = run("segment scans --labels labels");
+  ASSERT_EQ(by_elevations.exit_code, 0) << by_elevations.err;
+  EXPECT_THAT(by_elevations.err, HasSubstr("by the elevations of the points"));
+  EXPECT_EQ(ids_of(folder_ / "labels" / "000000.label").size(), reversed.size() / 16);
+  const Outcome refused = run("encode scans -o drive.pcap");
   EXPECT_EQ(refused.exit_code, 3);
   EXPECT_THAT(refused.err, HasSubstr("000000.bin"));
   EXPECT_THAT(refused.err, HasSubstr("--calibration"));
+}
+
+/// The frame that a PCD file of `replay` holds, as another program might write it.
+TEST_F(CliScans, OfOtherFormatsGetTheSameLabelsInTheOrderOfTheirPoints) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  const std::vector<PcdPoint> points = points_of(folder_ / "clouds" / "000000.pcd");
+  for (const char* folder : {"pcd", "nuscenes", "ply"}) fs::create_directories(folder_ / folder);
+  std::ofstream pcd(folder_ / "pcd/7.pcd"), ply(folder_ / "ply/7.ply");
+  std::ofstream nuscenes(folder_ / "nuscenes/7.pcd.bin", std::ios::binary);
+  const std::string count = std::to_string(points.size());
+  pcd << "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH " << count
+      << "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " << count << "\nDATA ascii\n";
+  ply << "ply\nformat ascii 1.0\nelement vertex " << count
+      << "\nproperty float x\nproperty float y\nproperty float z\nproperty ushort ring\n"
+         "end_header\n";
+  pcd.precision(9);
+  ply.precision(9);
+  for (const PcdPoint& p : points) {
+    const float z = p.z - 1.73F;
+    pcd << p.x << ' ' << p.y << ' ' << z << ' ' << p.ring << '\n';
+    ply << p.x << ' ' << p.y << ' ' << z << ' ' << p.ring << '\n';
+    const float record[5] = {-p.y, p.x, z, 0, static_cast<float>(p.ring)};
+    nuscenes.write(reinterpret_cast<const char*>(record), sizeof(record));
+  }
+  pcd.close();
+  ply.close();
+  nuscenes.close();
+  expect_done("segment pcd --labels by_pcd");
+  expect_done("segment ply/7.ply --labels by_ply");
+  expect_done("segment nuscenes --labels by_nuscenes");
+  const auto labels = ids_of(folder_ / "by_pcd" / "7.label");
+  ASSERT_EQ(labels.size(), points.size());
+  std::size_t as_the_packets = 0;
+  for (std::size_t i = 0; i < labels.size(); ++i) as_the_packets += labels[i] == points[i].label;
+  EXPECT_GT(static_cast<double>(as_the_packets) / static_cast<double>(labels.size()), 0.99);
+  EXPECT_EQ(ids_of(folder_ / "by_ply" / "7.label"), labels);
+  EXPECT_EQ(ids_of(folder_ / "by_nuscenes" / "7.label"), labels);
 }
 
 TEST_F(CliScans, AreEncodedWithTheirMotionPutBackWherePosesLieBesideThem) {

@@ -4,10 +4,15 @@
 
 #include <algorithm>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_file.hpp"
-#include "firmware_io/scan/scan_reader.hpp"
+#include "firmware_io/cloud/cloud_file.hpp"
+#include "firmware_io/cloud/sensor_rows.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "firmware_io/scan/scan_folder.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/run/stage_clock.hpp"
 #include "tools/cli/commands.hpp"
@@ -21,104 +26,156 @@
 namespace terracut::cli {
 namespace {
 
-/// Labels one scan after the other; everything that is kept between them.
-struct ScanLabeller {
+/// The clouds of a folder, read one by one.
+class CloudReader {
+ public:
+  explicit CloudReader(std::vector<scan::ScanFile> files) : files_(std::move(files)) {}
+
+  [[nodiscard]] std::size_t size() const { return files_.size(); }
+  [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return files_[index]; }
+
+  /// Valid until the next one is read.
+  Expected<cloud::CloudView> read(std::size_t index) {
+    if (const Status read = cloud::read_cloud(files_[index].points, cloud_); !read) {
+      return tl::unexpected(read.error());
+    }
+    return cloud_.view();
+  }
+  /// The truth of a cloud of so many points, where there is one.
+  Status read_labels(std::size_t index, std::size_t points, std::vector<std::uint32_t>& labels) {
+    labels.clear();
+    if (!files_[index].labels) return {};
+    return scan::read_label_file(*files_[index].labels, points, labels);
+  }
+
+ private:
+  std::vector<scan::ScanFile> files_;
+  cloud::Cloud cloud_;
+};
+
+/// Labels one cloud after the other; everything that is kept between them.
+struct CloudLabeller {
   memory::FixedMemory memory;
-  frame::ImageShape shape;
+  cloud::RowFinder finder;
   frame::RangeImage image;
   ground::GroundMethod segmenter;
   scan::ScanToImage scan_to_image;
   scan::RingRecovery rings;
-  scan::KittiScan scan;
+  std::vector<std::uint32_t> truth;
   run::StageClock clock;
   std::vector<frame::Label> point_labels;
   std::vector<std::uint32_t> return_truth;
   MountWatch mount;
   Report::ScanPoints points;  ///< Of all scans.
 
-  ScanLabeller(const ground::MethodConfig& config, const mount::RingProfile& profile)
-      : image(shape, shape.cells(), memory),
-        segmenter(config, profile, shape, image.return_capacity(), memory),
+  CloudLabeller(const ground::MethodConfig& config, const cloud::SensorRows& rows,
+                const mount::RingProfile& profile)
+      : finder(rows),
+        image(rows.shape(), rows.shape().cells(), memory),
+        segmenter(config, profile, rows.shape(), image.return_capacity(), memory),
         scan_to_image(profile.mount),
         mount(profile.mount) {}
 
-  /// Labels the scan and the rings that were just read.
-  void label(status::FrameRecord& record) {
-    const auto placed = scan_to_image.place(scan.points, rings.ring_of_point, image);
+  Status label(const cloud::CloudView& cloud, status::FrameRecord& record) {
+    if (Status found = finder.find(cloud, rings); !found) return found;
+    const auto placed = scan_to_image.place(cloud.points, rings.ring_of_point, image);
     mount.add_frame(image);
     record.segmentation = segmenter.segment(image, &clock);
     record.stages = clock.take();
     scan_to_image.labels_of_points(segmenter.labels(), point_labels);
     record.segmentation.count(point_labels);
-    record.info.returns = static_cast<std::uint32_t>(scan.points.size() - placed.no_place);
+    // Points that are no return have kNone, which is counted as neither.
+    const auto no_place = static_cast<std::uint32_t>(placed.no_place);
+    record.segmentation.returns -= no_place;
+    record.segmentation.obstacles -= no_place;
+    record.info.returns = static_cast<std::uint32_t>(cloud.points.size() - placed.no_place);
     record.info.losses.overflow_full_returns = placed.overflow_full;
     points.no_place += placed.no_place;
     points.no_ring += placed.no_ring;
+    return {};
   }
 
-  /// The scan's truth in the order of the image's returns; empty without labels.
+  /// The cloud's truth in the order of the image's returns; empty without labels.
   std::span<const std::uint32_t> truth_of_returns() {
     return_truth.clear();
-    if (scan.labels.empty()) return return_truth;
+    if (truth.empty()) return return_truth;
     for (const std::uint32_t point : scan_to_image.point_of_return()) {
-      return_truth.push_back(scan.labels[point]);
+      return_truth.push_back(truth[point]);
     }
     return return_truth;
   }
 };
 
-/// The unit's table, which the reader then tells rings by: the file's, else fitted to the scans.
-Expected<hdl64e::Hdl64eCalibration> calibration_of(const Options& options,
-                                                   scan::ScanReader& reader) {
+/// How the clouds tell their lasers, and the lasers' elevations: of the calibration, whose unit's
+/// scans are in KITTI's order, else learnt from the clouds.
+Expected<cloud::SensorRows> rows_of(const Options& options, CloudReader& reader) {
   if (!options.capture.calibration.empty()) {
-    auto calibration = hdl64e::load_hdl64e_calibration(options.capture.calibration);
-    if (calibration) reader.use_rings(scan::ring_table(*calibration));
-    return calibration;
+    const auto calibration = hdl64e::load_hdl64e_calibration(options.capture.calibration);
+    if (!calibration) return tl::unexpected(calibration.error());
+    return cloud::SensorRows{cloud::RowSource::kKittiOrder,
+                             {scan::ring_table(*calibration), {}, {}, false},
+                             {},
+                             frame::ImageShape{}.columns};
   }
-  const auto fitted = reader.fit_rings();
-  if (!fitted) return tl::unexpected(fitted.error());
-  say(fmt::format("calibration: fitted to the scans, height residual {:.1f} cm (p95)",
-                  100 * fitted->residual.p95_m));
-  if (fitted->from_nominal_table) {
-    say("             no scan has all rings, so they were told apart by a nominal unit's table; "
+  auto rows =
+      cloud::learn_rows(reader.size(), [&](std::size_t index) { return reader.read(index); });
+  if (!rows) return rows;
+  const scan::RingTable& table = rows->rings.table;
+  say(fmt::format("sensor: {} rows from {:.1f} to {:.1f} degrees, {} columns, by {}", table.size(),
+                  beams::rad_to_deg(table.back().elevation_rad),
+                  beams::rad_to_deg(table.front().elevation_rad), rows->columns,
+                  description_of(rows->source)));
+  if (rows->rings.residual.points > 0) {
+    say(fmt::format("        points lie within {:.1f} cm of their row's line (95 %)",
+                    100 * rows->rings.residual.p95_m));
+  }
+  if (rows->rings.from_nominal_table) {
+    say("        no scan has all rows, so they were told apart by a nominal HDL-64E's table; "
         "--calibration takes the unit's own");
   }
-  hdl64e::Hdl64eCalibration calibration = scan::hdl64e_calibration(fitted->table);
-  calibration.origin = "fitted to the scans";
-  return calibration;
+  return rows;
 }
 
 }  // namespace
 
 ExitCode run_segment(const Options& options) {
   catch_stop_signals();
-  auto reader = scan::ScanReader::open(options.scans);
-  if (!reader) return refuse(reader.error());
-  const auto calibration = calibration_of(options, *reader);
-  if (!calibration) return refuse(calibration.error());
-  const auto profile = ring_profile_of(*calibration, options.mount);
+  auto folder = scan::list_scan_folder(options.scans, cloud::is_cloud_file);
+  if (!folder) return refuse(folder.error());
+  CloudReader reader(std::move(folder->scans));
+  const auto rows = rows_of(options, reader);
+  if (!rows) return refuse(rows.error());
+  const auto profile = ring_profile_of(rows->rings.table, options.mount);
   if (!profile) return refuse(profile.error());
-  const std::string calibration_line =
-      fmt::format("{}, fingerprint {:016x}", calibration->origin, fingerprint(*calibration));
+  const std::string sensor_line = fmt::format(
+      "{} rows by {}", rows->rings.table.size(),
+      options.capture.calibration.empty() ? description_of(rows->source) : "the calibration given");
 
-  ScanLabeller labeller(method_config_of(options.method), *profile);
+  CloudLabeller labeller(method_config_of(options.method), *rows, *profile);
   FrameOutputs outputs(options.output);
-  Report report{"segment", options.scans.string(), "", calibration_line, options.method};
-  Progress progress("labelling", "scans", static_cast<double>(reader->size()));
-  for (std::size_t i = 0; i < reader->size(); ++i) {
+  Report report{"segment", options.scans.string(), "", sensor_line, options.method};
+  Progress progress("labelling", "scans", static_cast<double>(reader.size()));
+  for (std::size_t i = 0; i < reader.size(); ++i) {
     if (stop_wanted()) {
       report.interrupted = true;
       break;
     }
-    const scan::ScanFile& file = reader->file(i);
-    const Status read = reader->read(i, labeller.scan, labeller.rings);
-    if (!read) return refuse(read.error());
+    const scan::ScanFile& file = reader.file(i);
+    const auto cloud = reader.read(i);
+    if (!cloud) return refuse(cloud.error());
+    if (const Status read = reader.read_labels(i, cloud->points.size(), labeller.truth); !read) {
+      return refuse(read.error());
+    }
     status::FrameRecord record;
     record.info.complete = true;
     record.info.number = file.frame.value_or(static_cast<std::uint32_t>(i));
-    labeller.label(record);
+    Status labelled = labeller.label(*cloud, record);
+    if (!labelled) {
+      labelled.error().message = file.points.string() + ": " + labelled.error().message;
+      return refuse(labelled.error());
+    }
     report.add(record);
-    if (!labeller.scan.labels.empty()) report.score(labeller.point_labels, labeller.scan.labels);
+    if (!labeller.truth.empty()) report.score(labeller.point_labels, labeller.truth);
     Status written = outputs.write_labels(file.name, labeller.point_labels);
     if (written) {
       written = outputs.write_frame(file.name, labeller.image, labeller.segmenter.labels(),

@@ -65,7 +65,7 @@ constexpr std::array kSettings{
     // What a run is about
     Setting{.option = "FILE", .commands = kCaptures | C::kInfo | C::kSend, .required_by = kCaptures | C::kInfo | C::kSend, .help = "Capture, pcap or pcapng",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
-    Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of .bin scans, or a SemanticKITTI sequence folder",
+    Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder",
             .field = [](O& o) -> F { return &o.scans; }},
     Setting{.option = "DATASET", .commands = C::kEval, .required_by = C::kEval, .help = "Which dataset, or own clouds, or drives to simulate",
             .field = [](O& o) -> F { return dataset_choice(o.eval.dataset); }},

@@ -31,6 +31,18 @@ Expected<mount::SensorSetup> setup_of(const MountOptions& options) {
   return setup;
 }
 
+/// `at_mount` answers a unit's profile at a mount.
+template <class AtMount>
+Expected<mount::RingProfile> profile_by(const AtMount& at_mount, const MountOptions& options) {
+  const Expected<mount::SensorSetup> setup = setup_of(options);
+  if (!setup) return tl::unexpected(setup.error());
+  mount::RingProfile profile = at_mount(setup->mount);
+  if (Status applied = mount::apply_setup(*setup, profile); !applied) {
+    return tl::unexpected(applied.error());
+  }
+  return profile;
+}
+
 }  // namespace
 
 Expected<mount::Mount> mount_of(const MountOptions& options) {
@@ -39,13 +51,14 @@ Expected<mount::Mount> mount_of(const MountOptions& options) {
 
 Expected<mount::RingProfile> ring_profile_of(const calib::SensorCalibration& calibration,
                                              const MountOptions& options) {
-  const Expected<mount::SensorSetup> setup = setup_of(options);
-  if (!setup) return tl::unexpected(setup.error());
-  mount::RingProfile profile = calib::ring_profile(calibration, setup->mount);
-  if (Status applied = mount::apply_setup(*setup, profile); !applied) {
-    return tl::unexpected(applied.error());
-  }
-  return profile;
+  return profile_by(
+      [&](const mount::Mount& mount) { return calib::ring_profile(calibration, mount); }, options);
+}
+
+Expected<mount::RingProfile> ring_profile_of(const scan::RingTable& rings,
+                                             const MountOptions& options) {
+  return profile_by([&](const mount::Mount& mount) { return scan::ring_profile(rings, mount); },
+                    options);
 }
 
 Status check_used(std::span<const std::string> settings,

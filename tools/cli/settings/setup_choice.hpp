@@ -8,6 +8,7 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
+#include "firmware_io/scan/ring_table.hpp"
 #include "pipeline/ground/ground_method.hpp"
 #include "pipeline/ground/profile.hpp"
 #include "rt/error.hpp"
@@ -22,6 +23,8 @@ namespace terracut::cli {
 /// as no --mount-... option moves the sensor away from where they were measured.
 [[nodiscard]] Expected<mount::RingProfile> ring_profile_of(
     const calib::SensorCalibration& calibration, const MountOptions& options);
+[[nodiscard]] Expected<mount::RingProfile> ring_profile_of(const scan::RingTable& rings,
+                                                           const MountOptions& options);
 
 /// That each setting, checked, is of a method among `kinds`: one that nothing looks at would be
 /// silently without effect. kInvalidArgument, naming it and whose it is.

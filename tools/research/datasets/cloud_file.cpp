@@ -12,8 +12,9 @@
 #include <string>
 #include <string_view>
 
+#include "firmware_io/cloud/cloud_file.hpp"
+#include "firmware_io/cloud/pcd_file.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "pcd_cloud.hpp"
 #include "rt/files/record_file.hpp"
 
 namespace terracut::datasets {
@@ -37,12 +38,13 @@ Status check_whole(std::span<const T> values, const std::string& file, std::stri
   return {};
 }
 
-Expected<std::span<const double>> whole_numbers(const PcdCloud& cloud, const std::string& file,
-                                                std::string_view name, double most) {
+Expected<std::span<const double>> whole_numbers(const cloud::FieldTable& cloud,
+                                                const std::string& file, std::string_view name,
+                                                double most) {
   const auto values = cloud.field(name);
   if (!values) {
     return fail(ErrorCode::kMalformed, fmt::format("{}: there is no field '{}'; it has: {}", file,
-                                                   name, fmt::join(cloud.fields(), " ")));
+                                                   name, fmt::join(cloud.names, " ")));
   }
   const Status whole = check_whole(*values, file, name, most);
   if (!whole) return tl::unexpected(whole.error());
@@ -50,13 +52,13 @@ Expected<std::span<const double>> whole_numbers(const PcdCloud& cloud, const std
 }
 
 Status read_pcd(const CloudLayout& layout, const fs::path& path, LabelledScan& to) {
-  const auto cloud = PcdCloud::read(path);
+  const auto cloud = cloud::read_pcd(path);
   if (!cloud) return tl::unexpected(cloud.error());
   const std::string file = path.string();
   const auto x = cloud->field("x"), y = cloud->field("y"), z = cloud->field("z");
   if (!x || !y || !z) {
     return fail(ErrorCode::kMalformed, fmt::format("{}: expected the fields x, y and z; it has: {}",
-                                                   file, fmt::join(cloud->fields(), " ")));
+                                                   file, fmt::join(cloud->names, " ")));
   }
   to.laser_of_point.clear();
   if (layout.rings_from == RingSource::kField) {
@@ -73,8 +75,8 @@ Status read_pcd(const CloudLayout& layout, const fs::path& path, LabelledScan& t
     to.scan.labels.assign(label->begin(), label->end());
   }
   const auto intensity = cloud->field("intensity");
-  to.scan.points.resize(cloud->points());
-  for (std::size_t i = 0; i < cloud->points(); ++i) {
+  to.scan.points.resize(cloud->points);
+  for (std::size_t i = 0; i < cloud->points; ++i) {
     to.scan.points[i] = {static_cast<float>((*x)[i]), static_cast<float>((*y)[i]),
                          static_cast<float>((*z)[i]),
                          intensity ? static_cast<float>((*intensity)[i] / 255) : 0.0F};
@@ -83,27 +85,13 @@ Status read_pcd(const CloudLayout& layout, const fs::path& path, LabelledScan& t
 }
 
 Status read_nuscenes_bin(const CloudLayout& layout, const fs::path& path, LabelledScan& to) {
-  struct Record {
-    float x_m, y_m, z_m, intensity, ring;
-  };
-  std::vector<Record> records;
-  const Status read = files::read_records(
-      path, {"point of 5 float32 (x y z intensity ring)", sizeof(Record), scan::kMaxScanPoints},
-      records);
-  if (!read) return read;
-  to.scan.points.clear();
-  std::vector<float> rings;
-  for (const Record& record : records) {
-    // In these files x points to the right, y ahead.
-    to.scan.points.push_back({record.y_m, -record.x_m, record.z_m, record.intensity / 255});
-    rings.push_back(record.ring);
-  }
+  cloud::Cloud cloud;
+  if (Status read = cloud::read_nuscenes_bin(path, cloud); !read) return read;
+  to.scan.points = std::move(cloud.points);
   to.laser_of_point.clear();
   if (layout.rings_from != RingSource::kField) return {};
-  const Status whole =
-      check_whole<float>(rings, path.string(), "ring", static_cast<double>(layout.rings - 1));
-  if (whole) to.laser_of_point.assign(rings.begin(), rings.end());
-  return whole;
+  to.laser_of_point = std::move(cloud.laser);
+  return check_whole<std::uint16_t>(to.laser_of_point, path.string(), "ring", layout.rings - 1);
 }
 
 Status read_file(const CloudLayout& layout, const fs::path& path, LabelledScan& to) {
@@ -125,7 +113,7 @@ Status read_points(const CloudLayout& layout, const fs::path& file, LabelledScan
   if (const Status read = read_file(layout, file, to); !read) return read;
   const std::vector<ScanPoint>& points = to.scan.points;
   to.scan.no_place = static_cast<std::size_t>(
-      std::ranges::count_if(points, [](const ScanPoint& point) { return !is_place(point); }));
+      std::ranges::count_if(points, [](const ScanPoint& point) { return !scan::is_place(point); }));
   if (to.scan.no_place < points.size()) return {};
   return fail(ErrorCode::kMalformed, file.string() + ": no point is finite");
 }

@@ -15,9 +15,9 @@ namespace terracut::datasets {
 
 /// One labelled frame. Buffers are kept from frame to frame.
 struct LabelledScan {
-  scan::KittiScan scan;                      ///< Sensor frame; as many labels as points.
-  std::vector<std::int16_t> laser_of_point;  ///< Empty unless the layout's rings are a field.
-  scan::RingRecovery rings;                  ///< The ring of every point.
+  scan::KittiScan scan;                       ///< Sensor frame; as many labels as points.
+  std::vector<std::uint16_t> laser_of_point;  ///< Empty unless the layout's rings are a field.
+  scan::RingRecovery rings;                   ///< The ring of every point.
 };
 
 /// Reads the points of a file, their lasers, and the labels that are a field of it. Errors name the

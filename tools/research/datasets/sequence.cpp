@@ -12,6 +12,29 @@
 namespace terracut::datasets {
 
 namespace fs = std::filesystem;
+namespace {
+
+/// Finds `rings` of a scan whose points have the numbers of their lasers.
+void find_rings(const cloud::RingOfLaser& ring_of_laser, LabelledScan& scan) {
+  scan::RingRecovery& rings = scan.rings;
+  std::vector<bool> met(ring_of_laser.size());
+  rings = {.ring_of_point = std::move(rings.ring_of_point)};
+  rings.ring_of_point.resize(scan.scan.points.size());
+  for (std::size_t i = 0; i < scan.scan.points.size(); ++i) {
+    const std::size_t laser = scan.laser_of_point[i];
+    const std::int16_t ring =
+        scan::is_place(scan.scan.points[i]) ? ring_of_laser[laser] : scan::kNoRing;
+    rings.ring_of_point[i] = ring;
+    if (ring == scan::kNoRing) {
+      ++rings.no_ring;
+    } else {
+      met[laser] = true;
+    }
+  }
+  rings.rings = static_cast<int>(std::ranges::count(met, true));
+}
+
+}  // namespace
 
 Expected<Sequence> Sequence::open(const CloudLayout& layout, fs::path folder) {
   Sequence sequence;
@@ -88,41 +111,27 @@ Status Sequence::fit_rings() {
 }
 
 Status Sequence::fit_lasers() {
-  // Far beyond noise and motion, far below what a map's frame or wrong numbers do.
-  constexpr double kWidestCone_m = 1.0;
   LabelledScan scan;
-  LaserElevations elevations(layout_.rings);
-  const Status looked = scan::read_some_scans(size(), [&](std::size_t index) {
-    Status read = read_points(layout_, file(index), scan);
-    if (read) elevations.add(scan);
+  auto fitted =
+      cloud::fit_numbered_lasers(static_cast<std::size_t>(layout_.rings), size(),
+                                 [&](std::size_t index) -> Expected<cloud::CloudView> {
+                                   const Status read = read_points(layout_, file(index), scan);
+                                   if (!read) return tl::unexpected(read.error());
+                                   return cloud::CloudView{scan.scan.points, scan.laser_of_point};
+                                 });
+  if (!fitted) {
+    // Errors of reading name their file.
+    const bool of_file = fitted.error().message.starts_with(folder_.string());
+    return fail(fitted.error().code,
+                (of_file ? "" : folder_.string() + ": ") + fitted.error().message);
+  }
+  ring_of_laser_ = std::move(fitted->ring_of_laser);
+  table_ = std::move(fitted->rings.table);
+  return scan::read_some_scans(size(), [&](std::size_t index) {
+    Status read = this->read(index, nullptr, scan);
+    if (read) spin_.add(scan.rings.ring_of_point);
     return read;
   });
-  if (!looked) return looked;
-  ring_of_laser_ = elevations.order();
-
-  scan::RingTableFit fit(layout_.rings);
-  const Status read = scan::read_some_scans(size(), [&](std::size_t index) {
-    Status one = this->read(index, nullptr, scan);
-    if (!one) return one;
-    fit.add(scan.scan.points, scan.rings.ring_of_point);
-    spin_.add(scan.rings.ring_of_point);
-    return one;
-  });
-  if (!read) return read;
-  // Lasers of an HDL-64E start up to 0.2 m above the origin, those of other sensors next to it.
-  // Their lowest ones see little but near ground, which would not tell offset and elevation apart.
-  const scan::RingTable from_origin(static_cast<std::size_t>(layout_.rings));
-  auto fitted = fit.fit(layout_.rings == scan::kScanRings ? nullptr : &from_origin);
-  if (!fitted) return tl::unexpected(fitted.error());
-  if (fitted->residual.p95_m > kWidestCone_m) {
-    return fail(ErrorCode::kMalformed,
-                fmt::format("{}: the points of a laser do not lie on a cone around the origin "
-                            "(5 % of them are off by more than {:.1f} m): expected are points in "
-                            "the sensor's own frame, one revolution a file, and the laser of each",
-                            folder_.string(), fitted->residual.p95_m));
-  }
-  table_ = std::move(fitted->table);
-  return {};
 }
 
 }  // namespace terracut::datasets

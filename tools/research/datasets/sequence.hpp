@@ -9,9 +9,9 @@
 
 #include "cloud_file.hpp"
 #include "cloud_layout.hpp"
+#include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/scan/ring_table.hpp"
-#include "laser_order.hpp"
 #include "rt/error.hpp"
 #include "tools/lab/encode/recorded_spin.hpp"
 
@@ -53,7 +53,7 @@ class Sequence {
   CloudLayout layout_;
   std::filesystem::path folder_;
   std::vector<std::string> frames_;
-  RingOfLaser ring_of_laser_;  ///< Where the points have the numbers of their lasers.
+  cloud::RingOfLaser ring_of_laser_;  ///< Where the points have the numbers of their lasers.
   scan::RingTable table_;
   encode::RecordedSpin spin_;
 };

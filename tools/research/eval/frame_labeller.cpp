@@ -48,7 +48,7 @@ FrameResult FrameLabeller::label(std::size_t index) {
 
   labels_.resize(scan_->points.size());
   for (std::size_t i = 0; i < labels_.size(); ++i) {
-    labels_[i] = is_place(scan_->points[i]) ? Label::kObstacle : Label::kNone;
+    labels_[i] = scan::is_place(scan_->points[i]) ? Label::kObstacle : Label::kNone;
   }
   const auto of_returns = bench_->labels(index);
   for (std::size_t i = 0; i < placed_.point_of_return.size(); ++i) {

@@ -1,43 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "laser_order.hpp"
+#include "firmware_io/cloud/laser_order.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
+#include <functional>
+#include <numeric>
 
 #include "firmware_io/scan/ring_table.hpp"
 
-namespace terracut::datasets {
+namespace terracut::cloud {
 
 using scan::kNoRing;
-using scan::RingRecovery;
 using scan::ScanPoint;
 
-void find_rings(const RingOfLaser& ring_of_laser, LabelledScan& scan) {
-  RingRecovery& rings = scan.rings;
-  std::vector<bool> met(ring_of_laser.size());
-  rings = {.ring_of_point = std::move(rings.ring_of_point)};
-  rings.ring_of_point.resize(scan.scan.points.size());
-  for (std::size_t i = 0; i < scan.scan.points.size(); ++i) {
-    const auto laser = static_cast<std::size_t>(scan.laser_of_point[i]);
-    const std::int16_t ring = is_place(scan.scan.points[i]) ? ring_of_laser[laser] : kNoRing;
-    rings.ring_of_point[i] = ring;
-    if (ring == kNoRing) {
-      ++rings.no_ring;
-    } else {
-      met[laser] = true;
-    }
-  }
-  rings.rings = static_cast<int>(std::ranges::count(met, true));
-}
-
-void LaserElevations::add(const LabelledScan& scan) {
+void LaserElevations::add(std::span<const ScanPoint> points,
+                          std::span<const std::uint16_t> laser_of_point) {
   constexpr std::size_t kEvery = 7;  // Of the points of each laser: enough for a median.
-  for (std::size_t i = 0; i < scan.scan.points.size(); ++i) {
-    const ScanPoint& point = scan.scan.points[i];
-    const auto laser = static_cast<std::size_t>(scan.laser_of_point[i]);
-    if (!is_place(point) || seen_[laser]++ % kEvery != 0) continue;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ScanPoint& point = points[i];
+    const std::size_t laser = laser_of_point[i];
+    if (!scan::is_place(point) || seen_[laser]++ % kEvery != 0) continue;
     const double distance_m = std::hypot(double{point.x_m}, double{point.y_m});
     samples_[laser].push_back({distance_m, std::atan2(double{point.z_m}, distance_m)});
   }
@@ -54,6 +37,15 @@ RingOfLaser LaserElevations::order() {
   std::ranges::sort(lasers, [&](std::size_t a, std::size_t b) {
     return elevation_rad[a] != elevation_rad[b] ? elevation_rad[a] > elevation_rad[b] : a < b;
   });
+  // Where the numbers go up or down with the elevation, lasers without a point have their place,
+  // too.
+  const bool goes_down = std::ranges::is_sorted(lasers),
+             goes_up = std::ranges::is_sorted(lasers, std::greater{});
+  if (goes_down || goes_up) {
+    lasers.resize(samples_.size());
+    std::iota(lasers.begin(), lasers.end(), std::size_t{0});
+    if (!goes_down) std::ranges::reverse(lasers);
+  }
   RingOfLaser ring_of_laser(samples_.size(), kNoRing);
   for (std::size_t ring = 0; ring < lasers.size(); ++ring) {
     ring_of_laser[lasers[ring]] = static_cast<std::int16_t>(ring);
@@ -71,4 +63,4 @@ double LaserElevations::typical_elevation_rad(std::vector<Sample>& samples) {
   return far_middle->elevation_rad;
 }
 
-}  // namespace terracut::datasets
+}  // namespace terracut::cloud

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pcd_cloud.hpp"
+#include "firmware_io/cloud/pcd_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,18 +11,16 @@
 #include <charconv>
 #include <cstdint>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <optional>
+#include <span>
 #include <utility>
+#include <vector>
 
+#include "firmware_io/cloud/cloud_bytes.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 
-namespace terracut::datasets {
-
-namespace fs = std::filesystem;
+namespace terracut::cloud {
 namespace {
-
-constexpr std::uintmax_t kMostBytes = std::uintmax_t{1} << 28;  // 256 bytes a point of any frame
 
 /// LZF: runs of bytes as they are (their count less one in a byte below 32), and runs that stood
 /// before (length less two in the upper three bits, 7 adds the next byte; how far back less one in
@@ -56,22 +54,21 @@ std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t byt
   return data;
 }
 
-}  // namespace
-
 /// Reads one file; what is wrong with it ends the reading.
 class PcdReader {
  public:
   PcdReader(std::string_view content, const std::string& name) : rest_(content), name_(name) {}
 
-  Expected<PcdCloud> read() {
+  Expected<FieldTable> read() {
     if (const Status header = read_header(); !header) return tl::unexpected(header.error());
     if (const Status checked = check_header(); !checked) return tl::unexpected(checked.error());
-    PcdCloud cloud;
-    cloud.points_ = points_;
+    FieldTable cloud;
+    cloud.points = points_;
+    cloud.rows = rows_;
     for (const Field& field : fields_) {
       if (field.count != 1) continue;
-      cloud.names_.push_back(field.name);
-      cloud.values_.emplace_back();
+      cloud.names.push_back(field.name);
+      cloud.values.emplace_back();
     }
     const Status data = data_ == "ascii"    ? read_ascii(cloud)
                         : data_ == "binary" ? read_binary(cloud)
@@ -88,29 +85,9 @@ class PcdReader {
     std::size_t count = 1;
   };
 
-  static bool is_printable(char c) { return c >= ' ' && c <= '~'; }
-
-  /// `what` may quote the file, which may hold anything.
   [[nodiscard]] tl::unexpected<Error> refuse(std::string what,
                                              ErrorCode code = ErrorCode::kMalformed) const {
-    constexpr std::size_t kMostCharacters = 200;
-    if (what.size() > kMostCharacters) what.replace(kMostCharacters, std::string::npos, "...");
-    std::ranges::replace_if(
-        what, [](char c) { return !is_printable(c); }, '?');
-    return fail(code, name_ + ": " + what);
-  }
-
-  static std::vector<std::string_view> words_of(std::string_view line) {
-    constexpr std::string_view kBlank = " \t\r";
-    std::vector<std::string_view> words;
-    while (true) {
-      const std::size_t first = line.find_first_not_of(kBlank);
-      if (first == std::string_view::npos) return words;
-      line.remove_prefix(first);
-      const std::size_t end = std::min(line.find_first_of(kBlank), line.size());
-      words.push_back(line.substr(0, end));
-      line.remove_prefix(end);
-    }
+    return fail(code, name_ + ": " + quotable(std::move(what)));
   }
 
   std::string_view next_line() {
@@ -119,11 +96,6 @@ class PcdReader {
     rest_.remove_prefix(std::min(end + 1, rest_.size()));
     ++line_;
     return line;
-  }
-
-  static bool number(std::string_view word, std::size_t& value) {
-    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return error == std::errc{} && end == word.data() + word.size();
   }
 
   Status read_header() {
@@ -140,7 +112,7 @@ class PcdReader {
   Status take_header_line(std::string_view key, std::span<const std::string_view> values) {
     if (key == "FIELDS") {
       for (const std::string_view value : values) {
-        if (value.size() > kLongestName || !std::ranges::all_of(value, is_printable)) {
+        if (value.size() > kLongestFieldName || !std::ranges::all_of(value, is_printable)) {
           return refuse(fmt::format("line {}: a field is named '{}'", line_, value));
         }
         fields_.push_back({.name = std::string(value)});
@@ -149,8 +121,10 @@ class PcdReader {
     }
     if (key == "SIZE" || key == "TYPE" || key == "COUNT") return take_field_line(key, values);
     if (key == "POINTS") {
-      has_points_ = values.size() == 1 && number(values[0], points_);
-      if (!has_points_) return refuse(fmt::format("line {}: POINTS is no number", line_));
+      const auto points = values.size() == 1 ? whole_number(values[0]) : std::nullopt;
+      if (!points) return refuse(fmt::format("line {}: POINTS is no number", line_));
+      points_ = *points;
+      has_points_ = true;
       return {};
     }
     if (key == "DATA") {
@@ -160,9 +134,13 @@ class PcdReader {
                                 line_, fmt::join(values, " ")),
                     ErrorCode::kUnsupported);
     }
-    for (const std::string_view known : {"VERSION", "WIDTH", "HEIGHT", "VIEWPOINT"}) {
-      if (key == known) return {};
+    if (key == "WIDTH" || key == "HEIGHT") {
+      std::optional<std::size_t>& side = key == "WIDTH" ? width_ : height_;
+      side = values.size() == 1 ? whole_number(values[0]) : std::nullopt;
+      if (!side) return refuse(fmt::format("line {}: {} is no number", line_, key));
+      return {};
     }
+    if (key == "VERSION" || key == "VIEWPOINT") return {};
     return refuse(fmt::format("no PCD file: line {} of its header is none", line_));
   }
 
@@ -178,10 +156,11 @@ class PcdReader {
         field.type = values[i].front();
         good = values[i] == "I" || values[i] == "U" || values[i] == "F";
       } else if (key == "SIZE") {
-        good =
-            number(values[i], field.bytes) && field.bytes <= 8 && std::has_single_bit(field.bytes);
+        field.bytes = whole_number(values[i]).value_or(0);
+        good = field.bytes <= 8 && std::has_single_bit(field.bytes);
       } else {
-        good = number(values[i], field.count) && field.count >= 1 && field.count <= kMostValues;
+        field.count = whole_number(values[i]).value_or(0);
+        good = field.count >= 1 && field.count <= kMostValues;
       }
       if (!good) {
         return refuse(
@@ -191,7 +170,7 @@ class PcdReader {
     return {};
   }
 
-  Status check_header() const {
+  Status check_header() {
     if (fields_.empty()) return refuse("its header names no FIELDS");
     if (fields_.size() > kMostFields) {
       return refuse(fmt::format("{} FIELDS, expected at most {}", fields_.size(), kMostFields));
@@ -201,6 +180,14 @@ class PcdReader {
     if (points_ > scan::kMaxScanPoints) {
       return refuse(
           fmt::format("{} points, expected at most {}, one frame", points_, scan::kMaxScanPoints));
+    }
+    if (width_ && height_) {
+      const bool fits = *height_ > 0 && points_ % *height_ == 0 && points_ / *height_ == *width_;
+      if (!fits) {
+        return refuse(
+            fmt::format("{} POINTS, but WIDTH {} and HEIGHT {}", points_, *width_, *height_));
+      }
+      rows_ = *height_;
     }
     for (const Field& field : fields_) {
       if (field.bytes == 0 || field.type == '\0') {
@@ -219,40 +206,21 @@ class PcdReader {
     return bytes;
   }
 
-  template <class T>
-  static double value_of(const char* at) {
-    T value;
-    std::memcpy(&value, at, sizeof(T));
-    return static_cast<double>(value);
-  }
-
   static double binary_value(const Field& field, const char* at) {
-    static_assert(std::endian::native == std::endian::little, "values are used as they stand");
-    if (field.type == 'F') return field.bytes == 4 ? value_of<float>(at) : value_of<double>(at);
-    const bool is_signed = field.type == 'I';
-    switch (field.bytes) {
-      case 1:
-        return is_signed ? value_of<std::int8_t>(at) : value_of<std::uint8_t>(at);
-      case 2:
-        return is_signed ? value_of<std::int16_t>(at) : value_of<std::uint16_t>(at);
-      case 4:
-        return is_signed ? value_of<std::int32_t>(at) : value_of<std::uint32_t>(at);
-      default:
-        return is_signed ? value_of<std::int64_t>(at) : value_of<std::uint64_t>(at);
-    }
+    return cloud::binary_value(at, field.type, field.bytes);
   }
 
   /// Values that stand point by point, or all of a field before those of the next.
   enum class Order { kByPoint, kByField };
 
-  void take_values(std::string_view data, Order order, PcdCloud& cloud) const {
+  void take_values(std::string_view data, Order order, FieldTable& cloud) const {
     const char* first = data.data();
     std::size_t kept = 0;
     for (const Field& field : fields_) {
       const std::size_t bytes = field.bytes * field.count;
       const std::size_t step = order == Order::kByPoint ? point_bytes() : bytes;
       if (field.count == 1) {
-        std::vector<double>& values = cloud.values_[kept++];
+        std::vector<double>& values = cloud.values[kept++];
         for (std::size_t i = 0; i < points_; ++i) {
           values.push_back(binary_value(field, first + i * step));
         }
@@ -261,7 +229,7 @@ class PcdReader {
     }
   }
 
-  Status read_binary(PcdCloud& cloud) const {
+  Status read_binary(FieldTable& cloud) const {
     if (rest_.size() < points_ * point_bytes()) {
       return refuse(
           fmt::format("truncated: {} bytes of data, expected {} for {} points of {} bytes",
@@ -272,7 +240,7 @@ class PcdReader {
   }
 
   /// The sizes of the data as they stand and as they were, as uint32, then the data.
-  Status read_compressed(PcdCloud& cloud) const {
+  Status read_compressed(FieldTable& cloud) const {
     std::array<std::uint32_t, 2> sizes{};
     if (rest_.size() < sizeof(sizes)) return refuse("truncated: its data have no sizes");
     std::memcpy(sizes.data(), rest_.data(), sizeof(sizes));
@@ -281,7 +249,7 @@ class PcdReader {
       return refuse(
           fmt::format("truncated: {} bytes of data, expected {}", packed.size(), sizes[0]));
     }
-    if (sizes[1] != points_ * point_bytes() || sizes[1] > kMostBytes) {
+    if (sizes[1] != points_ * point_bytes() || sizes[1] > kMostCloudBytes) {
       return refuse(fmt::format("{} bytes unpacked, expected {} for {} points of {} bytes",
                                 sizes[1], points_ * point_bytes(), points_, point_bytes()));
     }
@@ -291,7 +259,7 @@ class PcdReader {
     return {};
   }
 
-  Status read_ascii(PcdCloud& cloud) {
+  Status read_ascii(FieldTable& cloud) {
     std::size_t values = 0;
     for (const Field& field : fields_) values += field.count;
     // A digit and what separates it from the next, but for the last.
@@ -310,13 +278,12 @@ class PcdReader {
       std::size_t word = 0, kept = 0;
       for (const Field& field : fields_) {
         if (field.count == 1) {
-          double value = 0;
-          const std::string_view text = words[word];
-          const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-          if (error != std::errc{} || end != text.data() + text.size()) {
-            return refuse(fmt::format("line {}: {} is '{}', no number", line_, field.name, text));
+          const auto value = number(words[word]);
+          if (!value) {
+            return refuse(
+                fmt::format("line {}: {} is '{}', no number", line_, field.name, words[word]));
           }
-          cloud.values_[kept++].push_back(value);
+          cloud.values[kept++].push_back(*value);
         }
         word += field.count;
       }
@@ -324,8 +291,6 @@ class PcdReader {
     return {};
   }
 
-  static constexpr std::size_t kLongestName = 64;
-  static constexpr std::size_t kMostFields = 64;
   static constexpr std::size_t kMostValues = 4096;  ///< Of one field; a histogram has hundreds.
 
   std::string_view rest_;
@@ -334,36 +299,21 @@ class PcdReader {
   std::vector<Field> fields_;
   std::size_t points_ = 0;
   bool has_points_ = false;
+  std::optional<std::size_t> width_, height_;
+  std::size_t rows_ = 1;
   std::string data_;
 };
 
-Expected<PcdCloud> PcdCloud::read(const fs::path& path) {
-  std::error_code error;
-  if (!fs::is_regular_file(path, error)) {
-    return fail(ErrorCode::kNotFound, path.string() + ": no such file");
-  }
-  const std::uintmax_t bytes = fs::file_size(path, error);
-  if (error) return fail(ErrorCode::kUnreadable, path.string() + ": " + error.message());
-  if (bytes > kMostBytes) {
-    return fail(ErrorCode::kMalformed, fmt::format("{}: {} bytes, expected at most {}, one frame",
-                                                   path.string(), bytes, kMostBytes));
-  }
-  std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file || content.size() != bytes) {
-    return fail(ErrorCode::kUnreadable, path.string() + ": cannot be read; check its permissions");
-  }
-  return parse(content, path.string());
+}  // namespace
+
+Expected<FieldTable> read_pcd(const std::filesystem::path& path) {
+  const auto content = read_cloud_bytes(path);
+  if (!content) return tl::unexpected(content.error());
+  return parse_pcd(*content, path.string());
 }
 
-Expected<PcdCloud> PcdCloud::parse(std::string_view content, const std::string& name) {
+Expected<FieldTable> parse_pcd(std::string_view content, const std::string& name) {
   return PcdReader(content, name).read();
 }
 
-std::optional<std::span<const double>> PcdCloud::field(std::string_view name) const {
-  const auto found = std::ranges::find(names_, name);
-  if (found == names_.end()) return std::nullopt;
-  return values_[static_cast<std::size_t>(found - names_.begin())];
-}
-
-}  // namespace terracut::datasets
+}  // namespace terracut::cloud

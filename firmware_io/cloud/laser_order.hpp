@@ -4,29 +4,28 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
-#include "cloud_file.hpp"
+#include "firmware_io/cloud/cloud.hpp"
 
-namespace terracut::datasets {
+namespace terracut::cloud {
 
-/// The ring that each laser's number stands for; scan::kNoRing for lasers of which nothing is
-/// known.
+/// The ring that each laser's number stands for, 0 the highest; scan::kNoRing for lasers of which
+/// nothing is known.
 using RingOfLaser = std::vector<std::int16_t>;
-
-/// Finds `rings` of a scan whose points have the numbers of their lasers.
-void find_rings(const RingOfLaser& ring_of_laser, LabelledScan& scan);
 
 /// Elevations of what each laser measured, from which the order of the lasers follows, whatever
 /// their numbers.
 class LaserElevations {
  public:
-  explicit LaserElevations(int lasers)
-      : seen_(static_cast<std::size_t>(lasers)), samples_(seen_.size()) {}
+  explicit LaserElevations(std::size_t lasers) : seen_(lasers), samples_(lasers) {}
 
-  void add(const LabelledScan& scan);
+  /// `laser`: below the number given at construction, one a point.
+  void add(std::span<const scan::ScanPoint> points, std::span<const std::uint16_t> laser);
 
-  /// The highest laser is ring 0; lasers without any point have no ring.
+  /// Lasers without any point have the ring between their neighbours' where the numbers go up or
+  /// down with the elevation; else none, and the others have all rings from 0 on.
   [[nodiscard]] RingOfLaser order();
 
  private:
@@ -40,4 +39,4 @@ class LaserElevations {
   std::vector<std::vector<Sample>> samples_;
 };
 
-}  // namespace terracut::datasets
+}  // namespace terracut::cloud

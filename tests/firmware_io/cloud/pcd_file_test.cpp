@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "tools/research/datasets/pcd_cloud.hpp"
+#include "firmware_io/cloud/pcd_file.hpp"
 
 #include <gmock/gmock.h>
 
@@ -11,7 +11,7 @@
 
 #include "tests/firmware_io/scan/scratch_folder.hpp"
 
-namespace terracut::datasets {
+namespace terracut::cloud {
 namespace {
 
 using testing::Each;
@@ -26,25 +26,25 @@ std::string header(const std::string& data) {
 }
 
 std::string error_of(const std::string& content) {
-  const auto cloud = PcdCloud::parse(content, "a.pcd");
+  const auto cloud = parse_pcd(content, "a.pcd");
   if (cloud) return "";
   EXPECT_THAT(cloud.error().message, HasSubstr("a.pcd: "));
   return cloud.error().message;
 }
 
-TEST(PcdCloud, GivesTheFieldsOfTextByName) {
-  const auto cloud = PcdCloud::parse(header("ascii") + "1.5 7 8 -3\r\nnan 9 9 4", "a.pcd");
+TEST(PcdFile, GivesTheFieldsOfTextByName) {
+  const auto cloud = parse_pcd(header("ascii") + "1.5 7 8 -3\r\nnan 9 9 4", "a.pcd");
   ASSERT_TRUE(cloud) << cloud.error().message;
-  EXPECT_EQ(cloud->points(), 2U);
+  EXPECT_EQ(cloud->points, 2U);
   EXPECT_THAT(*cloud->field("n"), ElementsAre(-3, 4));
   EXPECT_EQ(cloud->field("x")->front(), 1.5);
   EXPECT_TRUE(std::isnan(cloud->field("x")->back()));
 }
 
-TEST(PcdCloud, GivesTheFieldsOfBinaryDataByName) {
+TEST(PcdFile, GivesTheFieldsOfBinaryDataByName) {
   const std::string one("\x00\x00\xC0\x3F\x07\x08\xFD\xFF", 8),
       two("\x00\x00\x00\xC0\x09\x09\x04\x00", 8);
-  const auto cloud = PcdCloud::parse(header("binary") + one + two, "a.pcd");
+  const auto cloud = parse_pcd(header("binary") + one + two, "a.pcd");
   ASSERT_TRUE(cloud) << cloud.error().message;
   EXPECT_THAT(*cloud->field("x"), ElementsAre(1.5, -2));
   EXPECT_THAT(*cloud->field("n"), ElementsAre(-3, 4));
@@ -59,7 +59,7 @@ std::string packed(std::uint32_t unpacked_bytes, const std::string& data) {
   return header("binary_compressed") + sizes + data;
 }
 
-TEST(PcdCloud, GivesTheFieldsOfCompressedDataByName) {
+TEST(PcdFile, GivesTheFieldsOfCompressedDataByName) {
   // Four bytes as they are, then the same once more; h is four times 7, then n.
   const std::string data(
       "\x03\x00\x00\xC0\x3F"
@@ -68,13 +68,13 @@ TEST(PcdCloud, GivesTheFieldsOfCompressedDataByName) {
       "\x20\x00"
       "\x03\xFD\xFF\x04\x00",
       16);
-  const auto cloud = PcdCloud::parse(packed(16, data), "a.pcd");
+  const auto cloud = parse_pcd(packed(16, data), "a.pcd");
   ASSERT_TRUE(cloud) << cloud.error().message;
   EXPECT_THAT(*cloud->field("x"), ElementsAre(1.5, 1.5));
   EXPECT_THAT(*cloud->field("n"), ElementsAre(-3, 4));
 }
 
-TEST(PcdCloud, UnpacksRunsOfMoreThanEightBytes) {
+TEST(PcdFile, UnpacksRunsOfMoreThanEightBytes) {
   // 1200 times the same byte: one as it is, then runs of 264, 264, 264, 264 and 143.
   std::string data("\x00\x05", 2);
   for (int i = 0; i < 4; ++i) data += std::string("\xE0\xFF\x00", 3);
@@ -83,13 +83,13 @@ TEST(PcdCloud, UnpacksRunsOfMoreThanEightBytes) {
   sizes[0] = static_cast<char>(data.size());
   sizes[4] = static_cast<char>(1200 & 255);
   sizes[5] = static_cast<char>(1200 >> 8);
-  const auto cloud = PcdCloud::parse(
+  const auto cloud = parse_pcd(
       "FIELDS n\nSIZE 1\nTYPE U\nPOINTS 1200\nDATA binary_compressed\n" + sizes + data, "a.pcd");
   ASSERT_TRUE(cloud) << cloud.error().message;
   EXPECT_THAT(*cloud->field("n"), Each(5));
 }
 
-TEST(PcdCloud, SaysWhereCompressedDataAreBroken) {
+TEST(PcdFile, SaysWhereCompressedDataAreBroken) {
   EXPECT_THAT(error_of(header("binary_compressed") + "1234"), HasSubstr("have no sizes"));
   EXPECT_THAT(error_of(packed(16, "1234").substr(0, packed(16, "").size() + 2)),
               HasSubstr("truncated: 2 bytes of data, expected 4"));
@@ -102,15 +102,15 @@ TEST(PcdCloud, SaysWhereCompressedDataAreBroken) {
   }
 }
 
-TEST(PcdCloud, HasNoFieldThatIsNotThereOrHasSeveralValues) {
-  const auto cloud = PcdCloud::parse(header("ascii") + "1 1 1 1\n2 2 2 2\n", "a.pcd");
+TEST(PcdFile, HasNoFieldThatIsNotThereOrHasSeveralValues) {
+  const auto cloud = parse_pcd(header("ascii") + "1 1 1 1\n2 2 2 2\n", "a.pcd");
   ASSERT_TRUE(cloud);
   EXPECT_FALSE(cloud->field("h"));
   EXPECT_FALSE(cloud->field("label"));
-  EXPECT_THAT(cloud->fields(), ElementsAre("x", "n"));
+  EXPECT_THAT(cloud->names, ElementsAre("x", "n"));
 }
 
-TEST(PcdCloud, SaysWhereDataAreBroken) {
+TEST(PcdFile, SaysWhereDataAreBroken) {
   EXPECT_THAT(error_of(header("ascii") + "1 1 1 1\n"), HasSubstr("truncated: 8 bytes"));
   EXPECT_THAT(error_of(header("ascii") + "1.2345678 1 1 1"),
               HasSubstr("1 lines of data, expected 2"));
@@ -119,7 +119,7 @@ TEST(PcdCloud, SaysWhereDataAreBroken) {
   EXPECT_THAT(error_of(header("binary") + "1234567"), HasSubstr("truncated: 7 bytes"));
 }
 
-TEST(PcdCloud, SaysWhatIsWrongWithAHeader) {
+TEST(PcdFile, SaysWhatIsWrongWithAHeader) {
   EXPECT_THAT(error_of("\x89PNG\r\n"), HasSubstr("no PCD file"));
   EXPECT_THAT(error_of(""), HasSubstr("no PCD file"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 4 4\n"), HasSubstr("SIZE has 2 entries for 1 fields"));
@@ -140,13 +140,13 @@ TEST(PcdCloud, SaysWhatIsWrongWithAHeader) {
   EXPECT_THAT(error_of(header("binary_packed")), HasSubstr("expected ascii, binary or binary_c"));
 }
 
-TEST(PcdCloud, SaysThatAFileIsNotThere) {
-  const auto cloud = PcdCloud::read("nowhere/a.pcd");
+TEST(PcdFile, SaysThatAFileIsNotThere) {
+  const auto cloud = read_pcd("nowhere/a.pcd");
   ASSERT_FALSE(cloud);
   EXPECT_EQ(cloud.error().code, ErrorCode::kNotFound);
   const scan::ScratchFolder folder;
-  EXPECT_TRUE(PcdCloud::read(folder.write("a.pcd", header("ascii") + "1 1 1 1\n2 2 2 2\n")));
+  EXPECT_TRUE(read_pcd(folder.write("a.pcd", header("ascii") + "1 1 1 1\n2 2 2 2\n")));
 }
 
 }  // namespace
-}  // namespace terracut::datasets
+}  // namespace terracut::cloud

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "firmware_io/scan/kitti_scan.hpp"
+
+namespace terracut::cloud {
+
+/// How many lasers a sensor may have.
+inline constexpr int kFewestLasers = 8;
+inline constexpr int kMostLasers = 256;
+
+/// One frame of any spinning LiDAR, in the sensor frame (x ahead, y left, z up, metres), its points
+/// in any order. Belongs to somebody else.
+struct CloudView {
+  std::span<const scan::ScanPoint> points;
+  /// The number of each point's laser, whatever the numbering; empty where it is not known.
+  std::span<const std::uint16_t> laser = {};
+  /// Of an organised cloud, whose points stand row after row, as many in each; 1: not organised.
+  std::size_t rows = 1;
+
+  [[nodiscard]] bool is_organised() const noexcept {
+    return rows > 1 && points.size() > rows && points.size() % rows == 0;
+  }
+};
+
+/// The laser of a point of a cloud that is organised. A sensor has fewer lasers than directions:
+/// most drivers write a row for each laser, some a column.
+class OrganisedLasers {
+ public:
+  explicit OrganisedLasers(const CloudView& cloud) noexcept
+      : columns_(cloud.points.size() / cloud.rows), by_row_(cloud.rows <= columns_) {
+    lasers_ = std::min(cloud.rows, columns_);
+  }
+  [[nodiscard]] std::size_t lasers() const noexcept { return lasers_; }
+  [[nodiscard]] std::size_t of(std::size_t point) const noexcept {
+    return by_row_ ? point / columns_ : point % columns_;
+  }
+
+ private:
+  std::size_t columns_, lasers_ = 0;
+  bool by_row_;
+};
+
+/// A frame that was read. Buffers are kept from one to the next.
+struct Cloud {
+  std::vector<scan::ScanPoint> points;
+  std::vector<std::uint16_t> laser;
+  std::size_t rows = 1;
+
+  [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows}; }
+};
+
+}  // namespace terracut::cloud

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "rt/error.hpp"
+
+/// What the readers of cloud files share.
+namespace terracut::cloud {
+
+/// 256 bytes a point of any frame.
+inline constexpr std::uintmax_t kMostCloudBytes = std::uintmax_t{1} << 28;
+
+/// The whole file. kNotFound, kUnreadable, kMalformed (larger than any frame), naming it.
+[[nodiscard]] Expected<std::string> read_cloud_bytes(const std::filesystem::path& path);
+
+[[nodiscard]] constexpr bool is_printable(char c) noexcept {
+  return c >= ' ' && c <= '~';
+}
+/// A message that may quote a file, which may hold anything: printable and not too long.
+[[nodiscard]] std::string quotable(std::string message);
+
+/// What blanks separate.
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
+/// The word must be nothing but the number.
+[[nodiscard]] std::optional<std::size_t> whole_number(std::string_view word) noexcept;
+[[nodiscard]] std::optional<double> number(std::string_view word) noexcept;
+
+/// A number of `bytes` bytes (1, 2, 4, 8; floats 4, 8) at any address. `type`: 'I' signed, 'U'
+/// unsigned, 'F' float, as in PCD files.
+[[nodiscard]] double binary_value(const char* at, char type, std::size_t bytes,
+                                  std::endian order = std::endian::little) noexcept;
+
+}  // namespace terracut::cloud

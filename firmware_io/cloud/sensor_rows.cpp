@@ -1,0 +1,322 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/cloud/sensor_rows.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "firmware_io/cloud/azimuth_step.hpp"
+#include "firmware_io/cloud/elevation_comb.hpp"
+#include "firmware_io/scan/ring_fit_of_scans.hpp"
+
+namespace terracut::cloud {
+namespace {
+
+using scan::kNoRing;
+using scan::RingRecovery;
+using scan::RingTable;
+using scan::RingTableFit;
+
+/// Where two tables explain the points alike, the one whose beams start at the origin is taken:
+/// most sensors' do, and their lowest beams see little but near ground, which would not tell a
+/// start above the origin from an elevation.
+constexpr double kAlike_m = 0.01;
+
+Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t lasers) {
+  const RingTable from_origin(lasers);
+  auto plain = fit.fit(&from_origin);
+  if (!plain) return plain;
+  auto free = fit.fit();
+  if (free && free->residual.p95_m + kAlike_m < plain->residual.p95_m) return free;
+  return plain;
+}
+
+/// Calls `use` with some of the clouds.
+Status for_some(std::size_t clouds, const ReadCloud& read,
+                const std::function<Status(const CloudView&)>& use) {
+  return scan::read_some_scans(clouds, [&](std::size_t index) -> Status {
+    const auto cloud = read(index);
+    if (!cloud) return tl::unexpected(cloud.error());
+    return use(*cloud);
+  });
+}
+
+void find_by_number(std::span<const scan::ScanPoint> points,
+                    std::span<const std::uint16_t> laser_of_point, const RingOfLaser& ring_of_laser,
+                    std::vector<std::int16_t>& ring_of_point) {
+  ring_of_point.resize(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::size_t laser = laser_of_point[i];
+    const bool known = laser < ring_of_laser.size() && scan::is_place(points[i]);
+    ring_of_point[i] = known ? ring_of_laser[laser] : kNoRing;
+  }
+}
+
+Expected<SensorRows> learn_by_number(RowSource source, std::size_t lasers, std::size_t clouds,
+                                     const ReadCloud& read) {
+  if (lasers < kFewestLasers || lasers > kMostLasers) {
+    return fail(ErrorCode::kUnsupported,
+                fmt::format("{} lasers by {}; expected {} to {}", lasers, description_of(source),
+                            kFewestLasers, kMostLasers));
+  }
+  std::vector<std::uint16_t> by_place;
+  auto fitted = fit_numbered_lasers(lasers, clouds, [&](std::size_t index) -> Expected<CloudView> {
+    auto cloud = read(index);
+    if (!cloud || source == RowSource::kLaserNumbers) return cloud;
+    by_place.resize(cloud->points.size());
+    if (!cloud->is_organised()) {
+      return fail(ErrorCode::kMalformed, "a cloud that is not organised among others that are");
+    }
+    const OrganisedLasers organised(*cloud);
+    for (std::size_t i = 0; i < by_place.size(); ++i) {
+      by_place[i] = static_cast<std::uint16_t>(organised.of(i));
+    }
+    return CloudView{cloud->points, by_place, cloud->rows};
+  });
+  if (!fitted) return tl::unexpected(fitted.error());
+  return SensorRows{source, std::move(fitted->rings), std::move(fitted->ring_of_laser), 0};
+}
+
+Expected<SensorRows> learn_by_order(std::size_t clouds, const ReadCloud& read) {
+  RingRecovery rings;
+  auto fitted = scan::fit_rings_of_scans(
+      clouds, [&](std::size_t index, const RingTable* table, RingTableFit& fit) -> Status {
+        const auto cloud = read(index);
+        if (!cloud) return tl::unexpected(cloud.error());
+        Status recovered = scan::recover_rings(cloud->points, table, rings);
+        if (recovered) fit.add(cloud->points, rings.ring_of_point);
+        return recovered;
+      });
+  if (!fitted) return tl::unexpected(fitted.error());
+  return SensorRows{RowSource::kKittiOrder, *std::move(fitted), {}, 0};
+}
+
+Expected<SensorRows> learn_by_comb(std::size_t clouds, const ReadCloud& read) {
+  ElevationComb comb;
+  const Status looked = for_some(clouds, read, [&](const CloudView& cloud) -> Status {
+    comb.add(cloud.points);
+    return {};
+  });
+  if (!looked) return tl::unexpected(looked.error());
+  const auto elevations = comb.elevations_rad();
+  if (!elevations) return tl::unexpected(elevations.error());
+  SensorRows rows{RowSource::kElevations, {}, {}, 0};
+  for (const double elevation_rad : *elevations) rows.rings.table.push_back({elevation_rad, 0});
+  return rows;
+}
+
+/// An HDL-64E's beams start in two places above each other, so that its points form no comb; but
+/// its lines are known well enough to be found.
+Expected<SensorRows> learn_by_hdl64e_lines(std::size_t clouds, const ReadCloud& read) {
+  const RingTable nominal = scan::ring_table(hdl64e::nominal_hdl64e());
+  SensorRows rows{RowSource::kElevations, {nominal, {}, {}, true}, {}, 0};
+  for (int round = 0; round < 3; ++round) {
+    const NearestRing nearest(rows.rings.table);
+    RingTableFit fit;
+    std::vector<std::int16_t> ring_of_point;
+    const Status looked = for_some(clouds, read, [&](const CloudView& cloud) -> Status {
+      ring_of_point.clear();
+      for (const scan::ScanPoint& point : cloud.points) ring_of_point.push_back(nearest(point));
+      fit.add(cloud.points, ring_of_point);
+      return {};
+    });
+    if (!looked) return tl::unexpected(looked.error());
+    auto fitted = fit.fit(&nominal);
+    if (!fitted) return tl::unexpected(fitted.error());
+    rows.rings = *std::move(fitted);
+    rows.rings.from_nominal_table = true;
+  }
+  return rows;
+}
+
+/// Points whose angle to the nearest line is less than a quarter of the lines' distance: half of
+/// them where there are no lines at all.
+double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint> points) {
+  const NearestRing nearest(table);
+  std::size_t near = 0, all = 0;
+  for (const scan::ScanPoint& point : points) {
+    if (!scan::is_place(point)) continue;
+    ++all;
+    const std::int16_t ring = nearest(point);
+    if (ring == kNoRing) continue;
+    const auto i = static_cast<std::size_t>(ring);
+    const std::size_t beside = i + 1 < table.size() ? i + 1 : i - 1;
+    const double above_m = table[i].height_above_m(point);
+    const double apart_m = std::abs(above_m - table[beside].height_above_m(point));
+    near += 4 * std::abs(above_m) < apart_m ? 1U : 0U;
+  }
+  return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(all, 1));
+}
+
+/// `first`: a cloud that can be read.
+Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds,
+                                       const ReadCloud& read) {
+  RingRecovery rings;
+  const bool in_kittis_order = scan::split_into_rings(read(first)->points, rings).has_value();
+  if (in_kittis_order && rings.rings == scan::kScanRings) return learn_by_order(clouds, read);
+  auto comb = learn_by_comb(clouds, read);
+  if (comb) return comb;
+  if (in_kittis_order) {
+    if (auto torn = learn_by_order(clouds, read)) return torn;
+  }
+  constexpr double kLeastNearLines = 0.56;
+  auto lines = learn_by_hdl64e_lines(clouds, read);
+  if (lines && share_near_lines(lines->rings.table, read(first)->points) >= kLeastNearLines)
+    return lines;
+  return fail(ErrorCode::kUnsupported,
+              fmt::format("nothing tells which laser measured a point: no field ring, channel, "
+                          "laser or row, not organised, not in the order of KITTI's files, and {}; "
+                          "give a cloud of one revolution with the number of each point's laser",
+                          comb.error().message));
+}
+
+void find_by_place(const NearestRing& nearest, std::span<const scan::ScanPoint> points,
+                   std::vector<std::int16_t>& ring_of_point) {
+  ring_of_point.resize(points.size());
+  std::ranges::transform(points, ring_of_point.begin(), std::cref(nearest));  // not a copy
+}
+
+}  // namespace
+
+std::string_view description_of(RowSource source) noexcept {
+  switch (source) {
+    case RowSource::kLaserNumbers:
+      return "the field of the laser's number";
+    case RowSource::kOrganisation:
+      return "the rows of the organised cloud";
+    case RowSource::kKittiOrder:
+      return "the order of the points";
+    case RowSource::kElevations:
+      return "the elevations of the points";
+  }
+  return "";
+}
+
+Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clouds,
+                                             const ReadCloud& name_lasers) {
+  // Far beyond noise and motion, far below what a map's frame or wrong numbers do.
+  constexpr double kWidestCone_m = 1.0;
+  LaserElevations elevations(lasers);
+  const Status looked = for_some(clouds, name_lasers, [&](const CloudView& cloud) -> Status {
+    elevations.add(cloud.points, cloud.laser);
+    return {};
+  });
+  if (!looked) return tl::unexpected(looked.error());
+  NumberedLasers found{elevations.order(), {}};
+
+  RingTableFit fit(static_cast<int>(lasers));
+  std::vector<std::int16_t> ring_of_point;
+  const Status read = for_some(clouds, name_lasers, [&](const CloudView& cloud) -> Status {
+    find_by_number(cloud.points, cloud.laser, found.ring_of_laser, ring_of_point);
+    fit.add(cloud.points, ring_of_point);
+    return {};
+  });
+  if (!read) return tl::unexpected(read.error());
+  auto fitted = simplest_fit(fit, lasers);
+  if (!fitted) return tl::unexpected(fitted.error());
+  if (fitted->residual.p95_m > kWidestCone_m) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("the points of a laser do not lie on a cone around the origin (5 % of "
+                            "them are off by more than {:.1f} m): expected are points in the "
+                            "sensor's own frame, one revolution a file, and the laser of each",
+                            fitted->residual.p95_m));
+  }
+  found.rings = *std::move(fitted);
+  return found;
+}
+
+Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
+  const ReadCloud read = [&](std::size_t index) -> Expected<CloudView> {
+    auto cloud = read_any(index);
+    if (!cloud || cloud->laser.empty() || cloud->laser.size() == cloud->points.size()) return cloud;
+    return fail(ErrorCode::kMalformed, fmt::format("{} points, but {} numbers of lasers",
+                                                   cloud->points.size(), cloud->laser.size()));
+  };
+  // The first that can be read says how the others tell their lasers.
+  std::size_t first = 0;
+  Expected<CloudView> cloud = read(first);
+  while (!cloud && first + 1 < clouds) cloud = read(++first);
+  if (!cloud) return tl::unexpected(cloud.error());
+
+  Expected<SensorRows> rows = SensorRows{};
+  if (!cloud->laser.empty()) {
+    std::size_t most = 0;
+    const Status looked = for_some(clouds, read, [&](const CloudView& some) -> Status {
+      for (const std::uint16_t laser : some.laser) most = std::max<std::size_t>(most, laser);
+      return {};
+    });
+    if (!looked) return tl::unexpected(looked.error());
+    rows = learn_by_number(RowSource::kLaserNumbers, most + 1, clouds, read);
+  } else if (cloud->is_organised()) {
+    rows =
+        learn_by_number(RowSource::kOrganisation, OrganisedLasers(*cloud).lasers(), clouds, read);
+  } else {
+    rows = learn_from_places(first, clouds, read);
+  }
+  if (!rows) return rows;
+
+  const RowFinder finder(*rows);
+  AzimuthStep step;
+  RingRecovery found;
+  const Status looked = for_some(clouds, read, [&](const CloudView& some) -> Status {
+    Status status = finder.find(some, found);
+    if (status) step.add(some.points, found.ring_of_point);
+    return status;
+  });
+  if (!looked) return tl::unexpected(looked.error());
+  rows->columns = step.columns();
+  return rows;
+}
+
+RowFinder::RowFinder(SensorRows rows) : rows_(std::move(rows)) {
+  if (rows_.source == RowSource::kElevations) nearest_.emplace(rows_.rings.table);
+}
+
+Status RowFinder::find(const CloudView& cloud, RingRecovery& found) const {
+  if (rows_.source == RowSource::kKittiOrder) {
+    return scan::recover_rings(cloud.points, &rows_.rings.table, found);
+  }
+  found.aligned = false;
+  found.rings = static_cast<int>(rows_.rings.table.size());
+  switch (rows_.source) {
+    case RowSource::kLaserNumbers:
+      if (cloud.laser.size() != cloud.points.size()) {
+        return fail(ErrorCode::kMalformed,
+                    fmt::format("{} points, but {} numbers of lasers; the first cloud had one a "
+                                "point",
+                                cloud.points.size(), cloud.laser.size()));
+      }
+      find_by_number(cloud.points, cloud.laser, rows_.ring_of_laser, found.ring_of_point);
+      break;
+    case RowSource::kOrganisation: {
+      const std::size_t lasers = rows_.ring_of_laser.size();
+      if (!cloud.is_organised() || OrganisedLasers(cloud).lasers() != lasers) {
+        return fail(ErrorCode::kMalformed,
+                    fmt::format("{} points in {} rows; the first cloud was organised, of {} lasers",
+                                cloud.points.size(), cloud.rows, lasers));
+      }
+      const OrganisedLasers organised(cloud);
+      found.ring_of_point.resize(cloud.points.size());
+      for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+        found.ring_of_point[i] =
+            scan::is_place(cloud.points[i]) ? rows_.ring_of_laser[organised.of(i)] : kNoRing;
+      }
+      break;
+    }
+    case RowSource::kElevations:
+      find_by_place(*nearest_, cloud.points, found.ring_of_point);
+      break;
+    case RowSource::kKittiOrder:
+      break;
+  }
+  found.no_ring = static_cast<std::size_t>(std::ranges::count(found.ring_of_point, kNoRing));
+  return {};
+}
+
+}  // namespace terracut::cloud

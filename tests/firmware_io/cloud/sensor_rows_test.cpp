@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/cloud/sensor_rows.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "calib/beams/angle.hpp"
+#include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "tests/firmware_io/scan/synthetic_scan.hpp"
+
+namespace terracut::cloud {
+namespace {
+
+using scan::kNoRing;
+using scan::RingTable;
+using scan::ScanPoint;
+using testing::HasSubstr;
+
+/// Beams from the origin, unevenly apart.
+RingTable uneven_rings(int rings, double top_deg, double step_deg) {
+  RingTable table;
+  double elevation_deg = top_deg;
+  for (int ring = 0; ring < rings; ++ring) {
+    table.push_back({beams::deg_to_rad(elevation_deg), 0});
+    elevation_deg -= step_deg * (1 + ring % 3);
+  }
+  return table;
+}
+
+/// A cloud that says which ring each point is of.
+struct KnownCloud {
+  std::vector<ScanPoint> points;
+  std::vector<std::uint16_t> laser;  ///< By any numbering.
+  std::vector<std::int16_t> ring;
+
+  void shuffle() {
+    std::vector<std::size_t> order(points.size());
+    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+    std::ranges::shuffle(order, std::mt19937(1));
+    const KnownCloud before = *this;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+      points[i] = before.points[order[i]];
+      laser[i] = before.laser[order[i]];
+      ring[i] = before.ring[order[i]];
+    }
+  }
+};
+
+template <class LaserOfRing>
+KnownCloud known_cloud(const RingTable& table, int points_per_ring, LaserOfRing laser_of_ring) {
+  KnownCloud cloud{
+      synthetic::scan(table, {.ground_m = -1.73, .points_per_ring = points_per_ring}), {}, {}};
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const auto ring = static_cast<std::int16_t>(i / static_cast<std::size_t>(points_per_ring));
+    cloud.ring.push_back(ring);
+    cloud.laser.push_back(static_cast<std::uint16_t>(laser_of_ring(ring)));
+  }
+  return cloud;
+}
+
+Expected<SensorRows> learnt_from(const CloudView& cloud) {
+  return learn_rows(1, [&](std::size_t) -> Expected<CloudView> { return cloud; });
+}
+
+void expect_rings(const Expected<SensorRows>& rows, const CloudView& cloud,
+                  const std::vector<std::int16_t>& rings) {
+  ASSERT_TRUE(rows) << rows.error().message;
+  scan::RingRecovery found;
+  ASSERT_TRUE(RowFinder(*rows).find(cloud, found));
+  EXPECT_EQ(found.ring_of_point, rings);
+}
+
+void expect_table(const RingTable& found, const RingTable& expected) {
+  ASSERT_EQ(found.size(), expected.size());
+  for (std::size_t ring = 0; ring < found.size(); ++ring) {
+    EXPECT_NEAR(beams::rad_to_deg(found[ring].elevation_rad),
+                beams::rad_to_deg(expected[ring].elevation_rad), 0.02)
+        << ring;
+  }
+}
+
+TEST(SensorRows, ComeFromTheLasersNumbersWhateverTheNumberingAndTheOrderOfPoints) {
+  const RingTable table = uneven_rings(32, 8, 0.5);
+  KnownCloud cloud = known_cloud(table, 1800, [](int ring) { return ring * 11 % 32; });
+  cloud.shuffle();
+  const CloudView view{cloud.points, cloud.laser};
+  const auto rows = learnt_from(view);
+  expect_rings(rows, view, cloud.ring);
+  EXPECT_EQ(rows->source, RowSource::kLaserNumbers);
+  EXPECT_EQ(rows->columns, 1800);
+  expect_table(rows->rings.table, table);
+}
+
+TEST(SensorRows, ComeFromTheOrganisationWithARowOrAColumnForEachLaser) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  const KnownCloud cloud = known_cloud(table, 900, [](int) { return 0; });
+  expect_rings(learnt_from({cloud.points, {}, 16}), {cloud.points, {}, 16}, cloud.ring);
+
+  KnownCloud by_column = cloud;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    const std::size_t to = i % 900 * 16 + i / 900;
+    by_column.points[to] = cloud.points[i];
+    by_column.ring[to] = cloud.ring[i];
+  }
+  const CloudView view{by_column.points, {}, 900};
+  const auto rows = learnt_from(view);
+  expect_rings(rows, view, by_column.ring);
+  EXPECT_EQ(rows->source, RowSource::kOrganisation);
+  EXPECT_EQ(rows->columns, 900);
+}
+
+TEST(SensorRows, ComeFromTheElevationsWhereNothingElseTellsThem) {
+  for (const int rings : {8, 16, 40, 128}) {
+    const RingTable table = uneven_rings(rings, 12, rings == 128 ? 0.12 : 0.4);
+    KnownCloud cloud = known_cloud(table, 1024, [](int) { return 0; });
+    cloud.shuffle();
+    const auto rows = learnt_from({cloud.points});
+    expect_rings(rows, {cloud.points}, cloud.ring);
+    EXPECT_EQ(rows->source, RowSource::kElevations);
+    expect_table(rows->rings.table, table);
+  }
+}
+
+TEST(SensorRows, OfAnHdl64eAreFoundInAnyOrder) {
+  // A unit of its own, not the nominal one that its lines are looked for with.
+  RingTable table = scan::ring_table(hdl64e::nominal_hdl64e());
+  for (std::size_t ring = 0; ring < table.size(); ++ring) {
+    table[ring].elevation_rad += beams::deg_to_rad(ring % 3 == 0 ? 0.05 : -0.03);
+  }
+  KnownCloud cloud = known_cloud(table, 2000, [](int) { return 0; });
+  auto rows = learnt_from({cloud.points});
+  expect_rings(rows, {cloud.points}, cloud.ring);
+  EXPECT_EQ(rows->source, RowSource::kKittiOrder);
+  EXPECT_EQ(rows->columns, 2083);
+
+  cloud.shuffle();
+  rows = learnt_from({cloud.points});
+  ASSERT_TRUE(rows) << rows.error().message;
+  EXPECT_EQ(rows->source, RowSource::kElevations);
+  scan::RingRecovery found;
+  ASSERT_TRUE(RowFinder(*rows).find({cloud.points}, found));
+  std::size_t same = 0;
+  for (std::size_t i = 0; i < cloud.ring.size(); ++i)
+    same += found.ring_of_point[i] == cloud.ring[i];
+  EXPECT_GT(static_cast<double>(same) / static_cast<double>(cloud.ring.size()), 0.99);
+}
+
+TEST(SensorRows, AreUpToTheMostLasersThereMayBe) {
+  const RingTable table = uneven_rings(kMostLasers, 20, 0.06);
+  const KnownCloud cloud = known_cloud(table, 600, [](int ring) { return kMostLasers - 1 - ring; });
+  const CloudView view{cloud.points, cloud.laser};
+  expect_rings(learnt_from(view), view, cloud.ring);
+}
+
+TEST(SensorRows, LeavePointsThatAreNoReturnsAndOfLasersNeverSeenWithoutOne) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  KnownCloud cloud = known_cloud(table, 900, [](int ring) { return 15 - ring; });
+  const auto rows = learnt_from({cloud.points, cloud.laser});
+  ASSERT_TRUE(rows) << rows.error().message;
+  cloud.points[3].x_m = std::numeric_limits<float>::quiet_NaN();
+  cloud.points[4] = {};
+  cloud.laser[5] = 16;
+  scan::RingRecovery found;
+  ASSERT_TRUE(RowFinder(*rows).find({cloud.points, cloud.laser}, found));
+  for (const std::size_t point : {3, 4, 5}) EXPECT_EQ(found.ring_of_point[point], kNoRing);
+  EXPECT_EQ(found.no_ring, 3U);
+}
+
+TEST(SensorRows, OfALaserWithoutReturnsInTheFirstCloudHaveTheirPlaceByItsNumber) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  const KnownCloud whole = known_cloud(table, 900, [](int ring) { return 15 - ring; });
+  std::vector<ScanPoint> points;
+  std::vector<std::uint16_t> laser;
+  for (std::size_t i = 0; i < whole.points.size(); ++i) {
+    if (whole.laser[i] == 9) continue;
+    points.push_back(whole.points[i]);
+    laser.push_back(whole.laser[i]);
+  }
+  expect_rings(learnt_from({points, laser}), {whole.points, whole.laser}, whole.ring);
+}
+
+TEST(SensorRows, AreRefusedWhereThereAreNone) {
+  std::vector<ScanPoint> points;
+  std::mt19937 random(1);
+  for (int i = 0; i < 50'000; ++i) {
+    const auto unit = [&] { return static_cast<float>(random()) / 4294967296.0F; };
+    points.push_back({40 * unit() - 20, 40 * unit() - 20, 6 * unit() - 2, 0});
+  }
+  const auto rows = learnt_from({points});
+  ASSERT_FALSE(rows);
+  EXPECT_EQ(rows.error().code, ErrorCode::kUnsupported);
+  EXPECT_THAT(rows.error().message, HasSubstr("nothing tells which laser measured a point"));
+
+  std::vector<std::uint16_t> laser(points.size());
+  for (std::size_t i = 0; i < laser.size(); ++i) laser[i] = static_cast<std::uint16_t>(i % 16);
+  const auto no_cones = learnt_from({points, laser});
+  ASSERT_FALSE(no_cones);
+  EXPECT_THAT(no_cones.error().message, HasSubstr("do not lie on a cone around the origin"));
+  for (std::uint16_t& number : laser) number %= 4;
+  EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("4 lasers by the field"));
+  laser.pop_back();
+  EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("49999 numbers of lasers"));
+}
+
+TEST(SensorRows, AreRefusedToACloudThatLacksWhatToldThemInTheFirst) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  const KnownCloud cloud = known_cloud(table, 900, [](int ring) { return ring; });
+  scan::RingRecovery found;
+  const auto numbered = learnt_from({cloud.points, cloud.laser});
+  EXPECT_EQ(RowFinder(*numbered).find({cloud.points}, found).error().code, ErrorCode::kMalformed);
+  const auto organised = learnt_from({cloud.points, {}, 16});
+  EXPECT_EQ(RowFinder(*organised).find({cloud.points}, found).error().code, ErrorCode::kMalformed);
+  EXPECT_EQ(RowFinder(*organised).find({cloud.points, {}, 8}, found).error().code,
+            ErrorCode::kMalformed);
+}
+
+}  // namespace
+}  // namespace terracut::cloud

@@ -98,6 +98,7 @@ def run(program: Program, report: Report, drive: Drive, undisturbed: Undisturbed
     options = ["--labels", labels, "--recorder-folder", dumps, "--recorder-seconds", RECORDER_S]
     with Live(program, drive, *options, deadline_ms=DEADLINE_MS, limit_s=120) as live:
         sent = live.send("--faults", script, *stranger).wait()
+        live.settled()  # the last packets may still gather
         program.must("dump", live.name)
         summary = live.stop()
 

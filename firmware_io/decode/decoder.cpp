@@ -42,8 +42,20 @@ Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibr
 FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {
   const frame::ImageShape shape{model.rows, model.columns};
   const auto spare = static_cast<std::size_t>(std::max(0, model.returns_per_cell - 1));
-  return {shape, spare * static_cast<std::size_t>(model.rows * model.columns), config.images,
-          kRevolution_ticks};
+  // Tiles are cut where frames begin, where packets were lost and where the return mode changes.
+  constexpr std::size_t kCutTiles = 8;
+  const auto firings = static_cast<std::size_t>(model.returns_per_cell * model.columns);
+  const bool keeps_measured = config.keeps_measured && config.motion == nullptr;
+  return {.shape = shape,
+          .overflow_capacity = spare * static_cast<std::size_t>(model.rows * model.columns),
+          .images = config.images,
+          .revolution_ticks = kRevolution_ticks,
+          .measured_tiles = keeps_measured ? firings / kTileFirings + kCutTiles : 0};
+}
+
+std::unique_ptr<frame::TileReader> Decoder::make_reader(memory::FixedMemory& memory) const {
+  if (!frames_.keeps_measured()) return nullptr;
+  return std::visit([&](const auto& returns) { return returns.make_reader(memory); }, sensor_);
 }
 
 Decoder::Decoder(const calib::SensorCalibration& calibration, const mount::Mount& mount,
@@ -54,8 +66,6 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
                  const mount::Mount& mount, const Config& config, memory::FixedMemory& memory)
     : reorder_packets_(config.reorder_packets),
       dual_owner_(config.dual_owner),
-      return_capacity_(frame::ImageShape{model.rows, model.columns}.cells() +
-                       frame_config(model, config).overflow_capacity),
       packet_bytes_(model.packet_bytes),
       sensor_(sensor_of(calibration, mount, config, model.columns, memory)),
       tracker_(model.clock_wrap_us, memory),

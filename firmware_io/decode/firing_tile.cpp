@@ -2,22 +2,29 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/decode/firing_tile.hpp"
 
-#include <bit>
 #include <limits>
 
 #include "rt/vector_clones.hpp"
 
 namespace terracut::decode {
 
-TERRACUT_VECTOR_CLONES void measure(std::span<const std::uint16_t> raw, float metres_per_count,
-                                    float* __restrict measured_m) noexcept {
-  constexpr std::int32_t kNan = 0x7FC0'0000;
-  const std::uint16_t* const __restrict from = raw.data();
-  const std::size_t count = raw.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::int32_t counts = from[i];
-    const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(counts) * metres_per_count);
-    measured_m[i] = std::bit_cast<float>(bits | (-std::int32_t{counts == 0} & kNan));
+TERRACUT_VECTOR_CLONES void spread_rows(std::span<const float> values,
+                                        const frame::TileRow<std::int32_t>& mask,
+                                        float* __restrict rows) noexcept {
+  const std::int32_t* const __restrict is_meant = mask.data();
+  for (std::size_t i = 0; i < values.size(); ++i, rows += kTileFirings) {
+    const float value = values[i];
+    for (std::size_t f = 0; f < kTileFirings; ++f) rows[f] = is_meant[f] != 0 ? value : rows[f];
+  }
+}
+
+TERRACUT_VECTOR_CLONES void spread_rows(std::span<const std::int32_t> values,
+                                        const frame::TileRow<std::int32_t>& mask,
+                                        std::int32_t* __restrict rows) noexcept {
+  const std::int32_t* const __restrict is_meant = mask.data();
+  for (std::size_t i = 0; i < values.size(); ++i, rows += kTileFirings) {
+    const std::int32_t value = values[i];
+    for (std::size_t f = 0; f < kTileFirings; ++f) rows[f] = is_meant[f] != 0 ? value : rows[f];
   }
 }
 

@@ -17,7 +17,12 @@ FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
   }
   images_.reserve(static_cast<std::size_t>(config.images));
   for (int i = 0; i < config.images; ++i) {
-    images_.emplace_back(config.shape, config.overflow_capacity, memory);
+    if (config.measured_tiles > 0) {
+      images_.emplace_back(config.shape,
+                           frame::MeasuredReturns(config.shape, config.measured_tiles, memory));
+    } else {
+      images_.emplace_back(config.shape, config.overflow_capacity, memory);
+    }
   }
   open_[0].image = &images_[0];
   open_[1].image = &images_[1];

@@ -47,6 +47,8 @@ class FrameBuilder {
     std::size_t overflow_capacity = 0;  ///< Returns of a frame that find their cell taken.
     int images = 3;                     ///< >= 3: two open, one with whoever it was handed to.
     std::int64_t revolution_ticks = 0;  ///< Ticks in 360 degrees.
+    /// Frames are kept as measured, with room for so many tiles; 0: as points.
+    std::size_t measured_tiles = 0;
   };
 
   /// Throws std::invalid_argument on a setting outside its range.
@@ -73,6 +75,9 @@ class FrameBuilder {
   [[nodiscard]] frame::RangeImage& image(std::int64_t frame) noexcept {
     return *open_[static_cast<std::size_t>(frame - oldest_)].image;
   }
+
+  /// All images keep their returns as they were measured (RangeImage::measured()).
+  [[nodiscard]] bool keeps_measured() const noexcept { return images_[0].measured() != nullptr; }
 
   /// Where the sensor is blind, nothing is missing: of the intervals given from now on, of the
   /// stream's beginning and of its end.
@@ -109,6 +114,10 @@ class FrameBuilder {
   [[nodiscard]] frame::LossCounters total_losses() const noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_; }
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return shape_; }
+  /// RangeImage::return_capacity() of each.
+  [[nodiscard]] std::size_t return_capacity() const noexcept {
+    return images_[0].return_capacity();
+  }
   /// All images; the first two are open at the start.
   [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return images_; }
 

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -14,6 +15,8 @@
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/decode/rotor_directions.hpp"
+#include "firmware_io/decode/sensor_tile_reader.hpp"
+#include "firmware_io/decode/tile_columns.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
@@ -56,18 +59,15 @@ class PacketReturns {
       : sensor_(calibration, mount, config),
         columns_(columns),
         directions_(memory),
+        columns_of_(sensor_, columns, memory),
+        reader_(sensor_, directions_, memory),
         tile_(memory.take<FiringTile<kLasers>>("decoder tables", 1)),
-        heads_(memory.take<TileHeads<Sensor::kGroups>>("decoder tables", 1)),
-        known_advance_(
-            memory.take<GroupAdvance<Sensor::kGroups>>("decoder tables", kKnownAdvances)),
-        measured_m_(memory.take<TileRow<float>>("decoder tables", kLasers)),
         beams_(memory.take<BeamColumns>("decoder tables", kLasers)),
-        points_(memory.take<TilePoints>("decoder tables", kLasers)) {
-    advance_key_.fill(kNoAdvance);
-    known_key_.fill(kNoAdvance);
-    for (std::size_t i = 0; i < kLasers; ++i) {
-      offset_[i] = column_angle(sensor_.beam_ticks(static_cast<int>(i)), columns);
-    }
+        points_(memory.take<TilePoints>("decoder tables", kLasers)) {}
+
+  /// For whoever makes points of frames that are kept as they were measured; on any one thread.
+  [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const {
+    return std::make_unique<SensorTileReader<Sensor>>(sensor_, directions_, memory);
   }
 
   [[nodiscard]] Sensor& trait() noexcept { return sensor_; }
@@ -85,7 +85,9 @@ class PacketReturns {
       const std::size_t firing = firings_ + c;
       sensor_.read_column(payload, c, tile_[0].firing(firing));
       rotor_cdeg_[firing] = place.rotor_cdeg + azimuths.advance_cdeg(static_cast<int>(c));
-      set_advance(firing, sensor_.step_ticks(azimuths, c), azimuths.dual_return);
+      heads_.step_ticks[firing] = sensor_.step_ticks(azimuths, c);
+      const std::uint32_t bit = 1U << firing;
+      heads_.is_dual = azimuths.dual_return ? heads_.is_dual | bit : heads_.is_dual & ~bit;
     }
     if (place.late_columns > 0) leave_out(place.late_columns, azimuths, frames.losses());
     firings_ += columns;
@@ -97,9 +99,8 @@ class PacketReturns {
     const std::size_t firings = std::exchange(firings_, 0);
     complete(firings);
     tile_[0].turn();
-    measure({tile_[0].raw[0].data(), kLasers * kTileFirings}, sensor_.metres_per_count(),
-            measured_m_[0].data());
-    const Tile tile = find_cells(firings, frames);
+    if (frames.keeps_measured()) return keep(find_cells(firings, frames, false), frames);
+    const Tile tile = find_cells(firings, frames, true);
     if (!place_by_laser(tile)) place_by_firing(tile, frames);
   }
   /// All that was added is placed.
@@ -107,8 +108,6 @@ class PacketReturns {
 
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kRows);
-  static constexpr std::int64_t kNoAdvance = -1;
-  static constexpr std::size_t kKnownAdvances = 8;
 
   /// What is being placed, where.
   struct Tile {
@@ -132,55 +131,27 @@ class PacketReturns {
         azimuths.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
   }
 
-  /// A tile's firings take the place of those of the tile before, mostly with the same step.
-  void set_advance(std::size_t firing, std::int32_t step_ticks, bool dual_return) noexcept {
-    const std::int64_t key = std::int64_t{step_ticks} * 2 + (dual_return ? 1 : 0);
-    if (std::exchange(advance_key_[firing], key) == key) return;
-    heads_[0].set_advance(firing, advance_of(key, step_ticks, dual_return));
-  }
-  /// Wire azimuths are rounded, so that a few steps come again and again.
-  [[nodiscard]] const GroupAdvance<Sensor::kGroups>& advance_of(std::int64_t key,
-                                                                std::int32_t step_ticks,
-                                                                bool dual_return) noexcept {
-    for (std::size_t i = 0; i < kKnownAdvances; ++i) {
-      if (known_key_[i] == key) return known_advance_[i];
-    }
-    const std::size_t oldest = std::exchange(next_known_, (next_known_ + 1) % kKnownAdvances);
-    known_key_[oldest] = key;
-    for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
-      known_advance_[oldest].set(group, sensor_.advance_ticks(step_ticks, group, dual_return),
-                                 columns_);
-    }
-    return known_advance_[oldest];
-  }
-
   /// The rest of a tile that is not full: without returns.
   void complete(std::size_t firings) noexcept {
     if (firings == kTileFirings) return;
     for (std::size_t f = firings; f < kTileFirings; ++f) {
       tile_[0].arrived_raw[f].fill(0);
       rotor_cdeg_[f] = rotor_cdeg_[firings - 1];
-      advance_key_[f] = kNoAdvance;
-      heads_[0].set_advance(f, {});
+      heads_.step_ticks[f] = heads_.step_ticks[firings - 1];
     }
   }
 
-  [[nodiscard]] Tile find_cells(std::size_t firings, FrameBuilder& frames) noexcept {
+  [[nodiscard]] Tile find_cells(std::size_t firings, FrameBuilder& frames,
+                                bool makes_points) noexcept {
     const std::int64_t first_frame = frames.oldest();
-    TileHeads<Sensor::kGroups>& heads = heads_[0];
     for (std::size_t f = 0; f < kTileFirings; ++f) {
-      const std::int32_t azimuth_cdeg = beams::wrap_cdeg(rotor_cdeg_[f]);
-      const std::int64_t revolution =
-          (rotor_cdeg_[f] - azimuth_cdeg) / beams::kRevolution_cdeg - first_frame;
-      ColumnAngle angle = column_angle(std::int64_t{azimuth_cdeg} * kTicksPerCdeg, columns_);
-      angle.whole += static_cast<std::int32_t>(revolution) * columns_;
-      heads.set_head(f, directions_.at(azimuth_cdeg), angle);
+      heads_.head_cdeg[f] =
+          static_cast<std::int32_t>(rotor_cdeg_[f] - first_frame * beams::kRevolution_cdeg);
     }
+    if (makes_points) reader_.open(heads_, tile_[0].raw[0].data());
+    columns_of_.find(sensor_, heads_, beams_);
     std::int32_t least = 0, most = 0;
     for (std::size_t i = 0; i < kLasers; ++i) {
-      const std::size_t group = sensor_.group(i);
-      find_columns(heads.column.data(), heads.rest.data(), heads.advance_column[group].data(),
-                   heads.advance_rest[group].data(), offset_[i], beams_[i]);
       least = i == 0 ? beams_[i].least : std::min(least, beams_[i].least);
       most = i == 0 ? beams_[i].most : std::max(most, beams_[i].most);
     }
@@ -189,6 +160,24 @@ class PacketReturns {
             .images = {&frames.image(first_frame), &frames.image(first_frame + 1)},
             .is_in_one_frame = most < columns_ || least >= columns_,
             .frame = most < columns_ ? 0U : 1U};
+  }
+
+  /// As measured, in each of the two frames that it has returns of.
+  void keep(const Tile& tile, FrameBuilder& frames) noexcept {
+    for (std::size_t n = 0; n < 2; ++n) {
+      if (tile.is_in_one_frame && tile.frame != n) continue;
+      frame::TileHeads heads = heads_;
+      if (n == 1) {
+        for (std::int32_t& head_cdeg : heads.head_cdeg) head_cdeg -= beams::kRevolution_cdeg;
+      }
+      frames.losses().overflow_full_returns += tile.images[n]->measured()->add(
+          {.heads = heads,
+           .raw = tile_[0].raw[0].data(),
+           .intensity = tile_[0].intensity[0].data(),
+           .beams = beams_,
+           .first_column = n == 0 ? 0 : columns_},
+          owner_, reader_);
+    }
   }
 
   /// How many returns of each firing belong to each of the frames.
@@ -243,11 +232,6 @@ class PacketReturns {
     return true;
   }
 
-  void compute_points(std::size_t laser, const PointsOut& out) noexcept {
-    sensor_.compute_points(laser, heads_of_group(heads_[0], sensor_.group(laser)),
-                           measured_m_[laser], out);
-  }
-
   /// A laser's returns in columns next to each other, if those are empty.
   [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
                                TileRow<std::uint32_t>& numbers) noexcept {
@@ -257,14 +241,14 @@ class PacketReturns {
     if (!image.is_empty_from(row, column)) return false;
     image.fetch_to_write(row, column + int{kTileFirings});
     const frame::RangeImage::Cells cells = image.take_cells(row, column, kTileFirings);
-    compute_points(laser, {cells.x_m, cells.y_m, cells.z_m, cells.ground_range_m});
+    reader_.compute_points(laser, {cells.x_m, cells.y_m, cells.z_m, cells.ground_range_m});
     fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, numbers);
     return true;
   }
 
   /// Firings that share a column or leave one out, late ones, and the seam.
   void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
-    compute_points(laser, all_of(points_[laser]));
+    reader_.compute_points(laser, all_of(points_[laser]));
     const TileRow<std::int32_t>& column = beams_[laser].column;
     const int row = sensor_.rows()[laser];
     const std::size_t newest = frame_of(beams_[laser].most);
@@ -286,7 +270,7 @@ class PacketReturns {
 
   /// In the order of arrival.
   void place_by_firing(const Tile& tile, FrameBuilder& frames) noexcept {
-    for (std::size_t i = 0; i < kLasers; ++i) compute_points(i, all_of(points_[i]));
+    for (std::size_t i = 0; i < kLasers; ++i) reader_.compute_points(i, all_of(points_[i]));
     const std::span<const std::int32_t, kLasers> rows = sensor_.rows();
     for (std::size_t f = 0; f < tile.firings; ++f) {
       for (std::size_t i = 0; i < kLasers; ++i) {
@@ -308,16 +292,13 @@ class PacketReturns {
   Sensor sensor_;
   int columns_;
   RotorDirections directions_;
-  std::array<ColumnAngle, kLasers> offset_;      ///< Of each beam from the head.
-  std::span<FiringTile<kLasers>> tile_;          ///< One element.
-  std::span<TileHeads<Sensor::kGroups>> heads_;  ///< One element.
-  std::span<GroupAdvance<Sensor::kGroups>> known_advance_;
-  std::array<std::int64_t, kKnownAdvances> known_key_;
-  std::size_t next_known_ = 0;                        ///< To be replaced.
-  std::span<TileRow<float>> measured_m_;              ///< By laser.
+  TileColumns<Sensor> columns_of_;
+  SensorTileReader<Sensor> reader_;
+  std::span<FiringTile<kLasers>> tile_;  ///< One element.
   std::span<BeamColumns> beams_;                      ///< By laser.
   std::span<TilePoints> points_;                      ///< By laser, where they have no cells.
-  TileRow<std::int64_t> rotor_cdeg_{}, advance_key_;  ///< Of each firing.
+  TileRow<std::int64_t> rotor_cdeg_{};  ///< Of each firing.
+  frame::TileHeads heads_{};
   std::size_t firings_ = 0;                           ///< Added and not placed yet.
   frame::CellOwner owner_{};
 };

@@ -19,11 +19,4 @@ enum class ByteOrder : std::uint8_t { kLittle, kBig };
 void split_returns(const std::uint8_t* bytes, ByteOrder order, std::span<std::uint16_t> raw,
                    std::uint8_t* intensity) noexcept TERRACUT_NONBLOCKING;
 
-/// Rows to columns, eight by eight: `to` has `columns` rows of `rows` values. Both are multiples of
-/// 8.
-void transpose(const std::uint16_t* from, std::size_t rows, std::size_t columns,
-               std::uint16_t* to) noexcept TERRACUT_NONBLOCKING;
-void transpose(const std::uint8_t* from, std::size_t rows, std::size_t columns,
-               std::uint8_t* to) noexcept TERRACUT_NONBLOCKING;
-
 }  // namespace terracut::decode

@@ -4,14 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace terracut::frame {
-namespace {
-
-constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
-
-}  // namespace
 
 RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory)
     : shape_(shape),
@@ -29,18 +23,22 @@ RangeImage::RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::
   };
   planes_ = {plane(x_m_),       plane(y_m_),         plane(z_m_), plane(ground_range_m_),
              plane(intensity_), plane(return_index_)};
-  std::ranges::fill(z_m_, kNone);
+  std::ranges::fill(z_m_, kNoHeight_m);
 }
+
+RangeImage::RangeImage(ImageShape shape, MeasuredReturns measured) noexcept
+    : shape_(shape), stride_(shape.stride()), measured_(measured) {}
 
 void RangeImage::clear() noexcept {
   ++generation_;
+  if (measured_) return measured_->clear();
   returns_ = 0;
   overflow_used_ = 0;
   for (int row = 0; row < shape_.rows; ++row) {
     std::int32_t& empty_from = empty_from_[static_cast<std::size_t>(row)];
     std::ranges::fill(
         z_m_.subspan(shape_.cell(row, 0), static_cast<std::size_t>(std::exchange(empty_from, 0))),
-        kNone);
+        kNoHeight_m);
   }
 }
 

@@ -7,40 +7,18 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 
+#include "firmware_io/frame/cell_owner.hpp"
+#include "firmware_io/frame/image_shape.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::frame {
-
-/// Size of a range image.
-struct ImageShape {
-  int rows = 64;  ///< Lasers; row 0 is the lowest elevation.
-  int columns =
-      2083;  ///< Per revolution of 360 degrees; column 0 starts straight ahead, then clockwise.
-
-  /// Cells from one row to the next: columns rounded up to a multiple of 16, for SIMD loads.
-  [[nodiscard]] constexpr int stride() const noexcept { return (columns + 15) / 16 * 16; }
-  [[nodiscard]] constexpr std::size_t cells() const noexcept {
-    return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride());
-  }
-  [[nodiscard]] constexpr std::size_t cell(int row, int column) const noexcept {
-    return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride()) +
-           static_cast<std::size_t>(column);
-  }
-  /// Degrees of azimuth a column covers.
-  [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
-};
-
-/// Columns next to each other, [begin, end); not across the seam.
-struct ColumnRange {
-  int begin, end;
-  [[nodiscard]] constexpr std::size_t size() const noexcept {
-    return static_cast<std::size_t>(end - begin);
-  }
-};
 
 /// One return in the vehicle frame (calib/mount/mount.hpp).
 struct Return {
@@ -48,15 +26,6 @@ struct Return {
   float z_m = 0;             ///< Height above the mount's ground plane.
   float ground_range_m = 0;  ///< Horizontal distance from the frame's origin, sqrt(x^2 + y^2).
   std::uint8_t intensity = 0;
-};
-
-/// Which of several returns in one cell owns it, that is stands for it in the segmentation. The
-/// others are labelled, too (return_labels.hpp).
-enum class CellOwner : std::uint8_t {
-  kFirstArrived,  ///< No preference.
-  kStrongest,     ///< The highest intensity.
-  kNearest,       ///< The smallest horizontal distance: the first surface a beam meets.
-  kFarthest,      ///< The last one.
 };
 
 /// A return that shares its cell with the one that owns it (dual return, two firings in a column).
@@ -83,6 +52,19 @@ class RangeImage {
  public:
   /// `overflow_capacity`: how many returns beyond one a cell a frame may have.
   RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory);
+  /// One whose returns are kept as they were measured, not as points: planes and overflow list are
+  /// empty, and nothing is place()d.
+  RangeImage(ImageShape shape, MeasuredReturns measured) noexcept;
+
+  /// The returns as they were measured; null where they are points.
+  [[nodiscard]] MeasuredReturns* measured() noexcept { return measured_ ? &*measured_ : nullptr; }
+  [[nodiscard]] const MeasuredReturns* measured() const noexcept {
+    return measured_ ? &*measured_ : nullptr;
+  }
+  /// All points; measured() is null.
+  [[nodiscard]] PointPlanes points() const noexcept {
+    return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
+  }
 
   /// Removes all returns. Real-time safe.
   void clear() noexcept TERRACUT_NONBLOCKING;
@@ -158,28 +140,17 @@ class RangeImage {
   /// `by_row` for each row. Real-time safe.
   void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
 
-  /// Asks for a part of a row to be brought next to the core: parts too short for the processor to
-  /// foresee what comes next. Places and ranges.
-  void fetch(int row, ColumnRange columns) const noexcept {
-    constexpr std::size_t kCellsPerLine = 16;
-    const std::size_t end = shape_.cell(row, columns.end);
-    for (std::size_t cell = shape_.cell(row, columns.begin); cell < end; cell += kCellsPerLine) {
-      __builtin_prefetch(&x_m_[cell]);
-      __builtin_prefetch(&y_m_[cell]);
-      __builtin_prefetch(&z_m_[cell]);
-      __builtin_prefetch(&ground_range_m_[cell]);
-    }
-  }
-
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
   /// Another one after every clear().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
   [[nodiscard]] bool has_return(std::size_t cell) const noexcept { return !std::isnan(z_m_[cell]); }
   /// Returns placed since clear(), those on the overflow list included.
-  [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
+  [[nodiscard]] std::uint32_t returns() const noexcept {
+    return measured_ ? measured_->returns() : returns_;
+  }
   /// The most returns a frame may have: cells + overflow capacity.
   [[nodiscard]] std::size_t return_capacity() const noexcept {
-    return shape_.cells() + overflow_.size();
+    return measured_ ? measured_->return_capacity() : shape_.cells() + overflow_.size();
   }
 
   [[nodiscard]] std::span<const float> x_m() const noexcept { return x_m_; }
@@ -224,7 +195,8 @@ class RangeImage {
   std::span<std::uint32_t> return_index_;
   std::span<OverflowReturn> overflow_;
   std::span<std::int32_t> empty_from_;  ///< Of each row.
-  std::array<Plane, 6> planes_;
+  std::array<Plane, 6> planes_{};
+  std::optional<MeasuredReturns> measured_;
 };
 
 }  // namespace terracut::frame

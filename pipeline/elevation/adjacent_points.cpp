@@ -220,11 +220,11 @@ void AdjacentPoints::mark(frame::ColumnRange columns, stage::CellPlanes& planes)
 }
 
 template <class Visit>
-void AdjacentPoints::for_each_row_pair(const frame::RangeImage& image, stage::CellPlanes& planes,
+void AdjacentPoints::for_each_row_pair(const frame::PointPlanes& points, stage::CellPlanes& planes,
                                        Visit visit) const noexcept {
   const auto row_of = [&](int row) noexcept {
     const std::size_t first = shape_.cell(row, 0);
-    return Row{&image.x_m()[first], &image.y_m()[first], &image.z_m()[first],
+    return Row{&points.x_m[first], &points.y_m[first], &points.z_m[first],
                &planes.height_m[first], &planes.steep[first]};
   };
   for (int row = 0; row < shape_.rows; ++row) {
@@ -236,24 +236,24 @@ void AdjacentPoints::for_each_row_pair(const frame::RangeImage& image, stage::Ce
   }
 }
 
-void AdjacentPoints::compare(const frame::RangeImage& image, frame::ColumnRange columns,
+void AdjacentPoints::compare(const frame::PointPlanes& points, frame::ColumnRange columns,
                              stage::CellPlanes& planes) noexcept {
   // Whole vectors: to compare columns to the left once more changes nothing.
   const int whole = (columns.end - columns.begin + kTogether - 1) / kTogether * kTogether;
   columns.begin = std::max(columns.end - whole, 0);
   if (config_.rule == AdjacentRule::kSlope) {
     const SlopeRule rule{config_.min_rise_m, tan_max_slope_squared_};
-    for_each_row_pair(image, planes, [&](const RowPair& rows, float) noexcept {
+    for_each_row_pair(points, planes, [&](const RowPair& rows, float) noexcept {
       mark_by_slope(rows, columns, reach(), rule);
     });
   } else {
-    for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
+    for_each_row_pair(points, planes, [&](const RowPair& rows, float bound_m) noexcept {
       mark_by_spacing(rows, columns, reach(), SpacingRule{bound_m});
     });
   }
 }
 
-void AdjacentPoints::compare_across_seam(const frame::RangeImage& image,
+void AdjacentPoints::compare_across_seam(const frame::PointPlanes& points,
                                          stage::CellPlanes& planes) noexcept {
   const auto mark = [&](const RowPair& rows, auto rule) noexcept {
     for (int offset = 1; offset <= reach(); ++offset) {
@@ -263,7 +263,7 @@ void AdjacentPoints::compare_across_seam(const frame::RangeImage& image,
     }
   };
   const SlopeRule slope{config_.min_rise_m, tan_max_slope_squared_};
-  for_each_row_pair(image, planes, [&](const RowPair& rows, float bound_m) noexcept {
+  for_each_row_pair(points, planes, [&](const RowPair& rows, float bound_m) noexcept {
     if (config_.rule == AdjacentRule::kSlope) {
       mark(rows, slope);
     } else {

@@ -3,7 +3,8 @@
 #pragma once
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/image_shape.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -50,10 +51,10 @@ class AdjacentPoints {
              stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
   /// Fills `steep` for the pairs of returns of which one is in these columns and the other in the
   /// same column or one to the left of it.
-  void compare(const frame::RangeImage& image, frame::ColumnRange columns,
+  void compare(const frame::PointPlanes& points, frame::ColumnRange columns,
                stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
   /// The pairs of which one is in the first columns and the other in the last ones.
-  void compare_across_seam(const frame::RangeImage& image,
+  void compare_across_seam(const frame::PointPlanes& points,
                            stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
   /// Frames labels in these columns to kObstacle where they are steep.
   void mark(frame::ColumnRange columns,
@@ -68,7 +69,7 @@ class AdjacentPoints {
  private:
   /// Calls `visit(rows, Eq. 5's bound)` for all pairs of rows that are compared.
   template <class Visit>
-  void for_each_row_pair(const frame::RangeImage& image, stage::CellPlanes& planes,
+  void for_each_row_pair(const frame::PointPlanes& points, stage::CellPlanes& planes,
                          Visit visit) const noexcept;
 
   Config config_;

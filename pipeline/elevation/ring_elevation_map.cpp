@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 
 #include "rt/vector_clones.hpp"
 
@@ -38,15 +37,11 @@ TERRACUT_VECTOR_CLONES void find_heights(const float* __restrict z_m,
 
 /// Heights above the lowest return of the grid cell.
 void find_heights_above(std::span<const GroundSurface::LowestReturn> lowest, const RingGrid& grid,
-                        const frame::RangeImage& image, int row, frame::ColumnRange columns,
+                        const float* z_m, const float* range_m, int first_column,
                         std::span<float> height_m) noexcept {
-  for (int column = columns.begin; column < columns.end; ++column) {
-    const std::size_t cell = image.shape().cell(row, column);
-    float& height = height_m[static_cast<std::size_t>(column - columns.begin)];
-    height = std::numeric_limits<float>::quiet_NaN();
-    if (!image.has_return(cell)) continue;
-    const int band = grid.band_of(image.ground_range_m()[cell]);
-    height = image.z_m()[cell] - lowest[grid.cell(grid.sector_of(column), band)].height_m;
+  for (std::size_t i = 0; i < height_m.size(); ++i) {
+    const int sector = grid.sector_of(first_column + static_cast<int>(i));
+    height_m[i] = z_m[i] - lowest[grid.cell(sector, grid.band_of(range_m[i]))].height_m;
   }
 }
 
@@ -98,6 +93,7 @@ TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
 RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfile& profile,
                                    frame::ImageShape shape, memory::FixedMemory& memory)
     : config_(config),
+      shape_(shape),
       grid_(config.grid, profile, shape, memory),
       surface_(config.surface, grid_, memory),
       lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())),
@@ -113,11 +109,13 @@ void RingElevationMap::reset() noexcept {
   surface_.reset();
 }
 
-void RingElevationMap::trace_to(int end, const frame::RangeImage& image) noexcept {
+void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
+                                frame::FramePoints* points) noexcept {
   const RingGrid::Sectors sectors{traced_, end};
-  take_overflow(image);
+  if (points == nullptr) take_overflow(image);
   if (traced_ == end) return;
-  take_columns(image, sectors);
+  if (points != nullptr) take_extras(image, grid_.columns_of(sectors), *points);
+  take_columns(points != nullptr ? points->planes() : image.points(), sectors);
   for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
     lowest_[i] = return_of(lowest_key_[i]);
   }
@@ -125,15 +123,15 @@ void RingElevationMap::trace_to(int end, const frame::RangeImage& image) noexcep
   traced_ = end;
 }
 
-void RingElevationMap::take_columns(const frame::RangeImage& image,
+void RingElevationMap::take_columns(const frame::PointPlanes& points,
                                     RingGrid::Sectors sectors) noexcept {
   const frame::ColumnRange columns = grid_.columns_of(sectors);
   const std::span<std::int64_t> keys = row_keys_.first(columns.size());
   const std::span<std::uint16_t> steps = row_steps_.first(columns.size());
-  for (int row = 0; row < image.shape().rows; ++row) {
-    const std::size_t first = image.shape().cell(row, columns.begin);
-    seen_ += find_keys(&image.z_m()[first], &image.ground_range_m()[first], keys);
-    grid_.find_steps(image.ground_range_m().subspan(first, steps.size()), steps);
+  for (int row = 0; row < shape_.rows; ++row) {
+    const std::size_t first = shape_.cell(row, columns.begin);
+    seen_ += find_keys(&points.z_m[first], &points.ground_range_m[first], keys);
+    grid_.find_steps({&points.ground_range_m[first], steps.size()}, steps);
     std::size_t i = 0;
     for (int sector = sectors.begin; sector < sectors.end; ++sector) {
       const std::size_t ground = grid_.cell(sector, 0);
@@ -147,16 +145,27 @@ void RingElevationMap::take_columns(const frame::RangeImage& image,
   }
 }
 
+void RingElevationMap::take_extra(int sector, float z_m, float ground_range_m) noexcept {
+  std::int64_t& lowest = lowest_key_[grid_.cell(sector, grid_.band_of(ground_range_m))];
+  lowest = std::min(lowest, key_of(z_m, ground_range_m));
+}
+
 void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
   const auto stride = static_cast<std::uint32_t>(image.shape().stride());
   for (const frame::OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
     const int sector = grid_.sector_of(static_cast<int>(extra.cell % stride));
     was_overtaken_ |= sector < traced_;
-    std::int64_t& lowest =
-        lowest_key_[grid_.cell(sector, grid_.band_of(extra.point.ground_range_m))];
-    lowest = std::min(lowest, key_of(extra.point.z_m, extra.point.ground_range_m));
+    take_extra(sector, extra.point.z_m, extra.point.ground_range_m);
   }
   seen_overflow_ = image.overflow().size();
+}
+
+void RingElevationMap::take_extras(const frame::RangeImage& image, frame::ColumnRange columns,
+                                   frame::FramePoints& points) noexcept {
+  seen_overflow_ += points.for_each_extra(
+      image, columns, [this](int column, float z_m, float ground_range_m) noexcept {
+        take_extra(grid_.sector_of(column), z_m, ground_range_m);
+      });
 }
 
 void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
@@ -170,24 +179,27 @@ void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcep
   }
 }
 
-void RingElevationMap::label(const frame::RangeImage& image, frame::ColumnRange columns,
+void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,
                              stage::CellPlanes& planes) const noexcept {
   constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
-  const frame::ImageShape& shape = image.shape();
   const RingGrid::BandMixes mixes = grid_.mixes();
-  for (int row = 0; row < shape.rows; ++row) {
-    if (row + 1 < shape.rows && columns.size() < kShort) image.fetch(row + 1, columns);
-    const std::size_t first = shape.cell(row, columns.begin);
-    const std::span<float> height_m = planes.height_m.subspan(first, columns.size());
+  for (int row = 0; row < shape_.rows; ++row) {
+    const std::size_t cell = shape_.cell(row, columns.begin);
+    if (row + 1 < shape_.rows && columns.size() < kShort) {
+      const std::size_t above = cell + static_cast<std::size_t>(shape_.stride());
+      points.fetch(above, above + columns.size());
+    }
+    const std::span<float> height_m = planes.height_m.subspan(cell, columns.size());
     if (config_.reference == GroundReference::kLocalSurface) {
-      find_heights(&image.z_m()[first], &image.ground_range_m()[first],
+      find_heights(&points.z_m[cell], &points.ground_range_m[cell],
                    &grid_.first_cell_of_column()[static_cast<std::size_t>(columns.begin)],
                    surface_.height_m().data(), mixes.bands, mixes.outer_share, mixes.last_step,
                    height_m);
     } else {
-      find_heights_above(lowest_, grid_, image, row, columns, height_m);
+      find_heights_above(lowest_, grid_, &points.z_m[cell], &points.ground_range_m[cell],
+                         columns.begin, height_m);
     }
-    label_heights(height_m, config_.obstacle_height_m, &planes.label[first]);
+    label_heights(height_m, config_.obstacle_height_m, &planes.label[cell]);
   }
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <span>
 
+#include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/ground_surface.hpp"
 #include "pipeline/elevation/ring_grid.hpp"
@@ -39,8 +41,10 @@ class RingElevationMap {
 
   /// A new frame. Real-time safe, as all of this.
   void reset() noexcept TERRACUT_NONBLOCKING;
-  /// All columns of the sectors from traced() to `end` are there.
-  void trace_to(int end, const frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  /// All columns of the sectors from traced() to `end` are there. `points`: made of the image so
+  /// far, where it keeps its returns as they were measured; else null.
+  void trace_to(int end, const frame::RangeImage& image,
+                frame::FramePoints* points) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int traced() const noexcept { return traced_; }
   /// False where a return came after its sector had been traced: what was found is of no use then.
   /// Once all sectors have been traced.
@@ -55,21 +59,26 @@ class RingElevationMap {
     return config_.reference == GroundReference::kLocalSurface ? surface_.reach() : 0;
   }
   /// Fills `height_m` and `label` of some columns.
-  void label(const frame::RangeImage& image, frame::ColumnRange columns,
+  void label(const frame::PointPlanes& points, frame::ColumnRange columns,
              stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
 
  private:
   void take_overflow(const frame::RangeImage& image) noexcept;
-  void take_columns(const frame::RangeImage& image, RingGrid::Sectors sectors) noexcept;
+  void take_extras(const frame::RangeImage& image, frame::ColumnRange columns,
+                   frame::FramePoints& points) noexcept;
+  void take_extra(int sector, float z_m, float ground_range_m) noexcept;
+  void take_columns(const frame::PointPlanes& points, RingGrid::Sectors sectors) noexcept;
 
   Config config_;
+  frame::ImageShape shape_;
   RingGrid grid_;
   GroundSurface surface_;
   int traced_ = 0;                 // sectors
   std::size_t seen_ = 0;           // returns that own a cell of these
-  std::size_t seen_overflow_ = 0;  // returns of the overflow list, wherever they are
+  // Returns that own none: of these sectors, or all of the overflow list.
+  std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
   std::span<GroundSurface::LowestReturn> lowest_;  // per grid cell
   std::span<std::int64_t> lowest_key_;             // the same while it is being found

@@ -18,7 +18,8 @@ void done(stage::StageObserver* observer, stage::Stage stage) noexcept TERRACUT_
 }  // namespace
 
 CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
-                           frame::ImageShape shape, memory::FixedMemory& memory)
+                           frame::ImageShape shape, memory::FixedMemory& memory,
+                           frame::FramePoints* made)
     : last_stage_(config.last_stage),
       shape_(shape),
       map_(config.elevation_map, profile, shape, memory),
@@ -26,6 +27,7 @@ CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfi
           config.adjacent_points,
           std::max(config.elevation_map.obstacle_height_m, config.seeds.min_obstacle_height_m),
           profile, shape, memory),
+      made_(made),
       is_current_(memory.take<std::uint8_t>("coarse stages",
                                             static_cast<std::size_t>(map_.grid().sectors()))) {}
 
@@ -35,6 +37,12 @@ void CoarseStages::begin(const frame::RangeImage& image) noexcept {
   labelled_ = 0;
   std::ranges::fill(is_current_, std::uint8_t{0});
   map_.reset();
+  if (made_ != nullptr) made_->begin(image);
+}
+
+void CoarseStages::trace_to(int end, const frame::RangeImage& image) noexcept {
+  if (made_ != nullptr) made_->make_until(map_.grid().columns_of({0, end}).end, image);
+  map_.trace_to(end, image, made_);
 }
 
 void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
@@ -47,7 +55,7 @@ void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
                       grid.columns_of({0, map_.traced() + kBlock}).end <= complete_columns;
        ++block) {
     if (observer != nullptr) observer->resumed();
-    map_.trace_to(map_.traced() + kBlock, image);
+    trace_to(map_.traced() + kBlock, image);
     // The first sectors wait for the last ones: ground is interpolated across the seam.
     const elevation::RingGrid::Sectors next{std::max(labelled_, map_.reach()),
                                             map_.traced() - map_.reach()};
@@ -65,17 +73,17 @@ void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& pla
   const int sectors = map_.grid().sectors();
   if (observer != nullptr) observer->resumed();
   if (!has_begun(image)) begin(image);
-  map_.trace_to(sectors, image);
+  trace_to(sectors, image);
   if (!map_.saw_all_of(image)) {
     begin(image);
-    map_.trace_to(sectors, image);
+    trace_to(sectors, image);
   }
   map_.finalize_rest(is_current_);
   const int labelled_ahead = labelled_;
   if (labelled_ < sectors) label({labelled_, sectors}, image, planes, observer);
   label_changed(labelled_ahead, image, planes);
   if (uses_adjacent_points() && adjacent_.reach() > 0) {
-    adjacent_.compare_across_seam(image, planes);
+    adjacent_.compare_across_seam(points_of(image), planes);
     adjacent_.mark({0, adjacent_.reach()}, planes);
     adjacent_.mark({shape_.columns - adjacent_.reach(), shape_.columns}, planes);
   }
@@ -86,11 +94,11 @@ void CoarseStages::finish(const frame::RangeImage& image, stage::CellPlanes& pla
 void CoarseStages::label(elevation::RingGrid::Sectors sectors, const frame::RangeImage& image,
                          stage::CellPlanes& planes, stage::StageObserver* observer) noexcept {
   const frame::ColumnRange columns = map_.grid().columns_of(sectors);
-  map_.label(image, columns, planes);
+  map_.label(points_of(image), columns, planes);
   done(observer, stage::Stage::kElevationMap);
   if (uses_adjacent_points()) {
     adjacent_.reset(columns, planes);
-    adjacent_.compare(image, columns, planes);
+    adjacent_.compare(points_of(image), columns, planes);
     adjacent_.mark({std::max(columns.begin - adjacent_.reach(), 0), columns.end}, planes);
     done(observer, stage::Stage::kAdjacentPoints);
   }
@@ -121,13 +129,13 @@ void CoarseStages::label_again(elevation::RingGrid::Sectors sectors, const frame
   };
   const frame::ColumnRange changed = map_.grid().columns_of(sectors);
   if (!uses_adjacent_points()) {
-    map_.label(image, changed, planes);
+    map_.label(points_of(image), changed, planes);
     return;
   }
   const frame::ColumnRange columns = widened(changed);
-  map_.label(image, columns, planes);
+  map_.label(points_of(image), columns, planes);
   adjacent_.reset(columns, planes);
-  adjacent_.compare(image, {columns.begin, widened(columns).end}, planes);
+  adjacent_.compare(points_of(image), {columns.begin, widened(columns).end}, planes);
   adjacent_.mark(columns, planes);
 }
 

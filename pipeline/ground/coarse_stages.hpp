@@ -7,6 +7,8 @@
 #include <span>
 
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/adjacent_points.hpp"
 #include "pipeline/elevation/ring_elevation_map.hpp"
@@ -34,9 +36,11 @@ namespace terracut::ground {
 /// Memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
  public:
-  /// `profile` must have shape.rows rings.
+  /// `profile` must have shape.rows rings. `made`: for images that keep their returns as they were
+  /// measured; filled ahead as columns are needed, and with all points by finish(). Else null.
   CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
-               frame::ImageShape shape, memory::FixedMemory& memory);
+               frame::ImageShape shape, memory::FixedMemory& memory,
+               frame::FramePoints* made = nullptr);
 
   /// Does what can be done ahead for a frame that is still arriving: labels columns in blocks, at
   /// most `most_blocks` of them in this call. Columns [0, complete_columns) of `image` are complete
@@ -62,6 +66,10 @@ class CoarseStages {
   static constexpr int kAnyNumber = std::numeric_limits<int>::max();
 
   void begin(const frame::RangeImage& image) noexcept;
+  void trace_to(int end, const frame::RangeImage& image) noexcept;
+  [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image) const noexcept {
+    return made_ != nullptr ? made_->planes() : image.points();
+  }
   [[nodiscard]] bool has_begun(const frame::RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
   }
@@ -82,6 +90,7 @@ class CoarseStages {
   frame::ImageShape shape_;
   elevation::RingElevationMap map_;
   elevation::AdjacentPoints adjacent_;
+  frame::FramePoints* made_;
   const frame::RangeImage* image_ = nullptr;  // of the frame that has begun
   std::uint32_t generation_ = 0;
   int labelled_ = 0;                    // sectors

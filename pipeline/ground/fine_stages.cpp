@@ -27,14 +27,36 @@ TERRACUT_VECTOR_CLONES min_cut::CutReport solve(min_cut::GridCut& cut,
 
 FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
                        frame::ImageShape shape, std::size_t return_capacity,
-                       memory::FixedMemory& memory)
+                       memory::FixedMemory& memory, frame::FramePoints* made)
     : config_(config),
       shape_(shape),
       seeds_(config.seeds, profile, shape, memory),
       region_(config.region),
+      made_(made),
+      near_unknown_(shape, memory),
       min_cut_(shape, config.min_cut, memory),
       return_labels_(config.returns, return_capacity, memory) {
   if (config.road.enabled) road_surface_.emplace(config.road, shape, memory);
+}
+
+frame::PointPlanes FineStages::points_of(const frame::RangeImage& image, bool has_cut) noexcept {
+  if (made_ == nullptr) return image.points();
+  const frame::MeasuredReturns& returns = *image.measured();
+  if (has_cut) near_unknown_.find(seeds_.seeds());
+  made_->make_where(image, [&](int row, frame::ColumnRange columns) noexcept {
+    return (has_cut && near_unknown_.is_near(row, columns)) || returns.has_shared(row, columns);
+  });
+  return made_->planes();
+}
+
+void FineStages::take_near_ground(const frame::RangeImage& image, const stage::CellPlanes& planes,
+                                  NearGround& ground) noexcept {
+  if (made_ == nullptr) return ground::take_near_ground(image, ground);
+  made_->make_where(image, [this](int, frame::ColumnRange columns) noexcept {
+    return is_near_ground_column(columns.begin, shape_) ||
+           is_near_ground_column(columns.end - 1, shape_);
+  });
+  ground::take_near_ground(made_->planes(), planes.height_m, shape_, ground);
 }
 
 stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
@@ -52,16 +74,24 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   if (config_.last_stage >= stage::Stage::kMinCut && has_expired(budget)) {
     report.last_stage = stage::Stage::kAdjacentPoints;
   }
+  frame::PointPlanes points{};
   if (report.last_stage >= stage::Stage::kMinCut) {
     seeds_.select(planes);
-    region_.look_at(image, planes, seeds_.seeds());
+    points = points_of(image, true);
+    region_.look_at(points, planes, seeds_.seeds());
     done(stage::Stage::kSeeds);
-    report.cut = cut(image, planes, budget);
+    report.cut = cut(points, planes, budget);
     done(stage::Stage::kMinCut);
     if (report.cut.discarded) report.last_stage = stage::Stage::kAdjacentPoints;
+  } else {
+    points = points_of(image, false);
   }
 
-  return_labels_.assign(image, planes);
+  if (made_ != nullptr) {
+    return_labels_.assign(*image.measured(), points, made_->reader(), planes);
+  } else {
+    return_labels_.assign(image, planes);
+  }
   if (road_surface_) road_surface_->mark(image, planes, return_labels_.mutable_labels());
   done(stage::Stage::kLabels);
 
@@ -69,10 +99,11 @@ stage::SegmentationReport FineStages::refine(const frame::RangeImage& image,
   return report;
 }
 
-min_cut::CutReport FineStages::cut(const frame::RangeImage& image, stage::CellPlanes& planes,
+min_cut::CutReport FineStages::cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
                                    const min_cut::CutBudget& budget) noexcept {
-  const min_cut::GridProblem problem{shape_, seeds_.mutable_seeds(), image.ground_range_m()};
-  const random_field::BoundaryTerm boundary(config_.boundary, negative_exp_, image);
+  const min_cut::GridProblem problem{
+      shape_, seeds_.mutable_seeds(), {points.ground_range_m, shape_.cells()}};
+  const random_field::BoundaryTerm boundary(config_.boundary, negative_exp_, points);
   return solve(min_cut_, problem, region_, boundary, budget, planes.label);
 }
 

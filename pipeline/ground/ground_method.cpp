@@ -61,4 +61,9 @@ Expected<MethodConfig> method_named(std::string_view name) {
       fmt::format("there is no method '{}'; expected one of {}", name, fmt::join(names, ", ")));
 }
 
+bool needs_all_points(const MethodConfig& config) noexcept {
+  return config.kind != MethodKind::kSegmenter || config.segmenter.road.enabled ||
+         config.segmenter.region.rule == random_field::RegionRule::kHistogram;
+}
+
 }  // namespace terracut::ground

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <utility>
 
 #include "pipeline/baselines/column_angles.hpp"
 #include "pipeline/baselines/fixed_grid_elevation_map.hpp"
@@ -46,15 +47,21 @@ struct MethodName {
 /// for any other name.
 [[nodiscard]] Expected<MethodConfig> method_named(std::string_view name);
 
+/// Whether the method looks at points of an image, which must have them.
+[[nodiscard]] bool needs_all_points(const MethodConfig& config) noexcept;
+
 /// Segmenter or a baseline, chosen at run time. Has Segmenter's interface and contracts, and costs
 /// one switch a frame.
 class GroundMethod {
  public:
+  /// `reader`: as Segmenter; null where needs_all_points().
   GroundMethod(const MethodConfig& config, const mount::RingProfile& profile,
-               frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory) {
+               frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
+               std::unique_ptr<frame::TileReader> reader = nullptr) {
     switch (config.kind) {
       case MethodKind::kSegmenter:
-        segmenter_.emplace(config.segmenter, profile, shape, return_capacity, memory);
+        segmenter_.emplace(config.segmenter, profile, shape, return_capacity, memory,
+                           std::move(reader));
         return;
       case MethodKind::kPfaff:
         baseline_ = std::make_unique<baselines::FixedGridElevationMap>(config.pfaff, profile, shape,
@@ -83,6 +90,12 @@ class GroundMethod {
     if (segmenter_) return segmenter_->segment(image, {}, observer);
     if (observer != nullptr) observer->resumed();
     return baseline_->segment(image, observer);
+  }
+
+  /// Of the frame labelled last.
+  void take_near_ground(const frame::RangeImage& image, NearGround& ground) noexcept {
+    if (segmenter_) return segmenter_->take_near_ground(image, ground);
+    ground::take_near_ground(image, ground);
   }
 
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept {

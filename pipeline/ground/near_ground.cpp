@@ -3,6 +3,8 @@
 #include "pipeline/ground/near_ground.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 
 namespace terracut::ground {
 namespace {
@@ -12,14 +14,19 @@ constexpr int kSectorsAFrame = 6;
 
 }  // namespace
 
-void take_near_ground(const frame::RangeImage& image,
-                      NearGround& ground) noexcept TERRACUT_NONBLOCKING {
-  const frame::ImageShape& shape = image.shape();
+bool is_near_ground_column(int column, const frame::ImageShape& shape) noexcept {
+  const int half = (shape.columns / kSectorsAFrame + 1) / 2;
+  const int from_ahead = std::min(column, shape.columns - column);
+  return from_ahead <= half || std::abs(column - shape.columns / 2) <= half;
+}
+
+void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
+                      const frame::ImageShape& shape, NearGround& ground) noexcept {
   const int sector = shape.columns / kSectorsAFrame;
   const auto cells = 2 * static_cast<std::size_t>(sector) * static_cast<std::size_t>(shape.rows);
   const int step = static_cast<int>((cells + NearGround::kMostCellsLookedAt - 1) /
                                     NearGround::kMostCellsLookedAt);
-  const auto x_m = image.x_m(), y_m = image.y_m(), z_m = image.z_m();
+  const float *x_m = points.x_m, *y_m = points.y_m, *z_m = points.z_m;
   ground.count = 0;
   for (int row = 0; row < shape.rows; ++row) {
     // Rows begin in turn at other columns, so that thinned rows do not look along the same rays.
@@ -28,7 +35,7 @@ void take_near_ground(const frame::RangeImage& image,
           at < sector ? at - sector / 2 : shape.columns / 2 + at - sector * 3 / 2;
       const int column = from_ahead < 0 ? from_ahead + shape.columns : from_ahead;
       const std::size_t cell = shape.cell(row, column);
-      if (!image.has_return(cell) || !is_near_ground_place(x_m[cell], y_m[cell])) continue;
+      if (std::isnan(height_m[cell]) || !is_near_ground_place(x_m[cell], y_m[cell])) continue;
       if (ground.count == NearGround::kMost) return;
       ground.points[ground.count++] = {x_m[cell], y_m[cell], z_m[cell]};
     }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <span>
 
+#include "firmware_io/frame/image_shape.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -38,10 +40,22 @@ struct NearGround {
          range2_m2 <= NearGround::kFarthest_m * NearGround::kFarthest_m;
 }
 
+/// Whether the strip may have a return in a column: 30 degrees to either side of straight ahead and
+/// of straight behind.
+[[nodiscard]] bool is_near_ground_column(int column,
+                                         const frame::ImageShape& shape) noexcept
+    TERRACUT_NONBLOCKING;
+
 /// Fills `ground` with returns of the strip, evenly thinned out. Looks at kMostCellsLookedAt cells
-/// at most, those 30 degrees to either side of straight ahead and of straight behind. Real-time
-/// safe.
-void take_near_ground(const frame::RangeImage& image,
+/// of those columns at most. `points`: of the whole image, good there; `height_m`: any height of each
+/// cell that is NaN where it has no return. Real-time safe.
+void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
+                      const frame::ImageShape& shape,
                       NearGround& ground) noexcept TERRACUT_NONBLOCKING;
+/// Of an image that has points.
+inline void take_near_ground(const frame::RangeImage& image, NearGround& ground) noexcept
+    TERRACUT_NONBLOCKING {
+  take_near_ground(image.points(), image.z_m(), image.shape(), ground);
+}
 
 }  // namespace terracut::ground

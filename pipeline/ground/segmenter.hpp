@@ -2,7 +2,9 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <memory>
 #include <span>
+#include <utility>
 
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
@@ -17,12 +19,17 @@ namespace terracut::ground {
 /// themselves.
 class Segmenter {
  public:
-  /// `profile` must have shape.rows rings. `return_capacity`: of the images to come.
+  /// `profile` must have shape.rows rings. `return_capacity`: of the images to come. `reader`: of
+  /// their sensor where they keep their returns as they were measured; else null.
   Segmenter(const SegmenterConfig& config, const mount::RingProfile& profile,
-            frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory)
+            frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
+            std::unique_ptr<frame::TileReader> reader = nullptr)
       : planes_(shape, memory),
-        coarse_(config, profile, shape, memory),
-        fine_(config, profile, shape, return_capacity, memory) {}
+        made_(reader == nullptr ? nullptr
+                                : std::make_unique<frame::FramePoints>(shape, std::move(reader),
+                                                                       memory)),
+        coarse_(config, profile, shape, memory, made_.get()),
+        fine_(config, profile, shape, return_capacity, memory, made_.get()) {}
 
   /// Does ahead what can be done of a frame that is still arriving: CoarseStages::advance(). Never
   /// necessary; labels are the same without it. Overwrites planes(), not labels().
@@ -40,6 +47,12 @@ class Segmenter {
     return fine_.refine(image, planes_, budget, observer);
   }
 
+  /// Of the frame labelled last.
+  void take_near_ground(const frame::RangeImage& image,
+                        NearGround& ground) noexcept TERRACUT_NONBLOCKING {
+    fine_.take_near_ground(image, planes_, ground);
+  }
+
   /// One label a return, in order of arrival (RangeImage::return_index()). kGround is all ground,
   /// unless the road surface is asked for; then what is none of it is kOtherGround.
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return fine_.labels(); }
@@ -48,6 +61,7 @@ class Segmenter {
 
  private:
   stage::CellPlanes planes_;
+  std::unique_ptr<frame::FramePoints> made_;  // where images have no points
   CoarseStages coarse_;
   FineStages fine_;
 };

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <span>
 
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/stage/four_lanes.hpp"
 #include "pipeline/stage/portable_math.hpp"
@@ -35,18 +35,19 @@ class BoundaryTerm {
     float scale_per_metre = 0.01F;  ///< ... and how much it grows per metre of range.
   };
 
+  /// `points`: of the whole image, good at unknown cells and next to them.
   BoundaryTerm(const Config& config, const stage::NegativeExp& negative_exp,
-               const frame::RangeImage& image) noexcept
+               const frame::PointPlanes& points) noexcept
       : rule_(config.rule),
         sigma_(all(config.sigma)),
         min_distance_m_(all(config.min_distance_m)),
         scale_m_(all(config.scale_m)),
         scale_per_two_metres_(all(0.5F * config.scale_per_metre)),
         exp_(&negative_exp),
-        x_m_(image.x_m().data()),
-        y_m_(image.y_m().data()),
-        z_m_(image.z_m().data()),
-        ground_range_m_(image.ground_range_m().data()) {}
+        x_m_(points.x_m),
+        y_m_(points.y_m),
+        z_m_(points.z_m),
+        ground_range_m_(points.ground_range_m) {}
 
   [[gnu::always_inline]] void operator()(
       std::uint32_t cell, const min_cut::NeighbourCells& neighbours,

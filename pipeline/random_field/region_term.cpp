@@ -9,9 +9,9 @@
 
 namespace terracut::random_field {
 
-void RegionTerm::look_at(const frame::RangeImage& image, const stage::CellPlanes& planes,
+void RegionTerm::look_at(const frame::PointPlanes& points, const stage::CellPlanes& planes,
                          std::span<const min_cut::Seed> seeds) noexcept {
-  z_m_ = image.z_m();
+  z_m_ = points.z_m;
   height_m_ = planes.height_m;
   if (config_.rule == RegionRule::kHistogram) count_seeds(seeds);
 }

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/point_planes.hpp"
 #include "pipeline/min_cut/grid_problem.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -41,9 +41,9 @@ class RegionTerm {
 
   explicit RegionTerm(const Config& config) noexcept : config_(config) {}
 
-  /// Looks at a frame: the cells asked for from now on are those of `image`, whose planes stay.
-  /// Real-time safe.
-  void look_at(const frame::RangeImage& image, const stage::CellPlanes& planes,
+  /// Looks at a frame: the cells asked for from now on are its. kHistogram needs `points` of all
+  /// seeds, kHeightRamp none. Real-time safe.
+  void look_at(const frame::PointPlanes& points, const stage::CellPlanes& planes,
                std::span<const min_cut::Seed> seeds) noexcept TERRACUT_NONBLOCKING;
 
   /// Costs of an unknown cell, scaled by kCapacityScale.
@@ -71,7 +71,8 @@ class RegionTerm {
   }
 
   Config config_;
-  std::span<const float> z_m_, height_m_;
+  const float* z_m_ = nullptr;
+  std::span<const float> height_m_;
   // kHistogram
   float lowest_ground_m_ = 0;
   BinCosts ground_costs_{}, obstacle_costs_{};

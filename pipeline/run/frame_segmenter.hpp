@@ -84,7 +84,9 @@ class FrameSegmenter {
     const stage::StageTimes times = stage_clock_.take();
     degradation_.end(times, record.segmentation, handed_on_cpu_ns - labelled_cpu_ns);
     if (to_.near_ground != nullptr && record.info.number % LatestNearGround::kFramesApart == 0) {
-      to_.near_ground->take(*frame.image);
+      to_.near_ground->publish([&](ground::NearGround& ground) noexcept {
+        pipeline_.fine.take_near_ground(*frame.image, planes, ground);
+      });
     }
     record.stages += times;
   }

@@ -22,9 +22,10 @@ class LatestNearGround {
   explicit LatestNearGround(memory::FixedMemory& memory)
       : slots_(memory.take<ground::NearGround>("near ground", queues::LatestSlot::kSlots)) {}
 
-  /// Segmenting thread: copies the near ground of this frame.
-  void take(const frame::RangeImage& image) noexcept TERRACUT_NONBLOCKING {
-    ground::take_near_ground(image, slots_[slot_.writer_slot()]);
+  /// Segmenting thread: `take(NearGround&)` fills in that of a frame.
+  template <class Take>
+  void publish(Take take) noexcept {
+    take(slots_[slot_.writer_slot()]);
     (void)slot_.publish();
   }
   /// Checking thread: the newest, where it has not been returned yet; else null. Valid until the

@@ -3,16 +3,28 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
+#include <utility>
 #include <vector>
 
 #include "calib/mount/ring_profile.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/decoder.hpp"
+#include "firmware_io/frame/frame_points.hpp"
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
 #include "pipeline/run/frame_exchange.hpp"
 
 namespace terracut::run {
+
+/// For one thread that needs points of frames which keep their returns as they were measured; null
+/// where they have points. Takes memory.
+[[nodiscard]] inline std::unique_ptr<frame::FramePoints> points_made_of(
+    const decode::Decoder& decoder, memory::FixedMemory& memory) {
+  auto reader = decoder.make_reader(memory);
+  if (reader == nullptr) return nullptr;
+  return std::make_unique<frame::FramePoints>(decoder.shape(), std::move(reader), memory);
+}
 
 /// What two threads need to make labels of packets. The receiving thread decodes and does the
 /// coarse stages, most of them before the frame has ended; their result travels with the frame's
@@ -20,6 +32,8 @@ namespace terracut::run {
 /// them.
 struct LivePipeline {
   decode::Decoder decoder;  ///< Receiving thread, as coarse.
+  /// Made of frames that are kept as measured, on each thread where it needs them; else null.
+  std::unique_ptr<frame::FramePoints> receiving_points, segmenting_points;
   ground::CoarseStages coarse;
   ground::CoarseStages late_coarse;  ///< Segmenting thread, as fine.
   ground::FineStages fine;
@@ -28,9 +42,12 @@ struct LivePipeline {
                const decode::Decoder::Config& decoder_config, const ground::SegmenterConfig& config,
                memory::FixedMemory& memory)
       : decoder(calibration, profile.mount, live(decoder_config), memory),
-        coarse(config, profile, decoder.shape(), memory),
-        late_coarse(config, profile, decoder.shape(), memory),
-        fine(config, profile, decoder.shape(), decoder.return_capacity(), memory) {
+        receiving_points(points_made_of(decoder, memory)),
+        segmenting_points(points_made_of(decoder, memory)),
+        coarse(config, profile, decoder.shape(), memory, receiving_points.get()),
+        late_coarse(config, profile, decoder.shape(), memory, segmenting_points.get()),
+        fine(config, profile, decoder.shape(), decoder.return_capacity(), memory,
+             segmenting_points.get()) {
     planes_.reserve(decoder.images().size());
     for (std::size_t i = 0; i < decoder.images().size(); ++i) {
       planes_.emplace_back(decoder.shape(), memory);

@@ -39,7 +39,8 @@ class PacketPipeline {
                  const decode::Decoder::Config& decoder, const ground::MethodConfig& method,
                  memory::FixedMemory& memory, Timing timing = Timing::kPackets)
       : decoder_(calibration, profile.mount, decoder, memory),
-        method_(method, profile, decoder_.shape(), decoder_.return_capacity(), memory),
+        method_(method, profile, decoder_.shape(), decoder_.return_capacity(), memory,
+                decoder_.make_reader(memory)),
         timing_(timing) {}
 
   void push(const decode::Datagram& datagram) noexcept;
@@ -58,6 +59,11 @@ class PacketPipeline {
   /// done ahead.
   void label(Frame& frame) noexcept;
   [[nodiscard]] std::span<const frame::Label> labels() const noexcept { return method_.labels(); }
+
+  /// Of the frame labelled last.
+  void take_near_ground(const Frame& frame, ground::NearGround& ground) noexcept {
+    method_.take_near_ground(*frame.image, ground);
+  }
 
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return decoder_; }
 

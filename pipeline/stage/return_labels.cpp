@@ -2,13 +2,49 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/stage/return_labels.hpp"
 
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstring>
+#include <utility>
 
 namespace terracut::stage {
+namespace {
+
+void copy_where_measured(const frame::Label* __restrict from, const std::uint16_t* __restrict raw,
+                         std::uint8_t* __restrict to) noexcept {
+  for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
+    const auto mask = static_cast<std::uint8_t>(raw[f] != 0 ? 0xFF : 0);
+    to[f] = static_cast<std::uint8_t>(static_cast<std::uint8_t>(from[f]) & mask);
+  }
+}
+
+/// The labels of a firing's returns, one after the other; kNone, which is 0, where there is none.
+void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) noexcept {
+  static_assert(static_cast<int>(frame::Label::kNone) == 0);
+  constexpr std::uint64_t kOnes = 0x0101'0101'0101'0101, kHighest = kOnes << 7U;
+  for (std::size_t i = 0; i < of_firing.size(); i += sizeof(std::uint64_t)) {
+    std::uint64_t eight;
+    std::memcpy(&eight, &of_firing[i], sizeof(eight));
+    if (((eight - kOnes) & ~eight & kHighest) == 0) {
+      std::memcpy(next, &eight, sizeof(eight));
+      next += sizeof(eight);
+      continue;
+    }
+    // Which found nothing is as good as random: the next label is written over kNone.
+    for (; eight != 0; eight >>= 8U) {
+      *next = static_cast<frame::Label>(eight & 0xFFU);
+      next += (eight & 0xFFU) != 0 ? 1 : 0;
+    }
+  }
+}
+
+}  // namespace
 
 ReturnLabels::ReturnLabels(const Config& config, std::size_t return_capacity,
                            memory::FixedMemory& memory)
-    : config_(config), labels_(memory.take<frame::Label>("return labels", return_capacity + 1)) {}
+    : config_(config),
+      labels_(memory.take<frame::Label>("return labels", return_capacity + 1)) {}
 
 void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& planes) noexcept {
   returns_ = image.returns();
@@ -20,15 +56,73 @@ void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& plan
     labels_[label != frame::Label::kNone ? index[cell] : nowhere] = label;
   }
   for (const frame::OverflowReturn& extra : image.overflow()) {
-    const float above_owner_m = extra.point.z_m - image.z_m()[extra.cell];
-    const float behind_owner_m = extra.point.ground_range_m - image.ground_range_m()[extra.cell];
-    const bool same_surface = std::fabs(behind_owner_m) < config_.same_surface_range_m &&
-                              std::fabs(above_owner_m) < config_.same_surface_height_m;
-    const float height_m = planes.height_m[extra.cell] + above_owner_m;
-    const frame::Label by_height =
-        height_m < config_.obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
-    labels_[extra.return_index] = same_surface ? planes.label[extra.cell] : by_height;
+    labels_[extra.return_index] =
+        label_of_extra(extra.point.z_m - image.z_m()[extra.cell],
+                       extra.point.ground_range_m - image.ground_range_m()[extra.cell], extra.cell,
+                       planes);
   }
+}
+
+frame::Label ReturnLabels::label_of_extra(float above_owner_m, float behind_owner_m,
+                                          std::size_t cell,
+                                          const CellPlanes& planes) const noexcept {
+  const bool same_surface = std::fabs(behind_owner_m) < config_.same_surface_range_m &&
+                            std::fabs(above_owner_m) < config_.same_surface_height_m;
+  const float height_m = planes.height_m[cell] + above_owner_m;
+  const frame::Label by_height =
+      height_m < config_.obstacle_height_m ? frame::Label::kGround : frame::Label::kObstacle;
+  return same_surface ? planes.label[cell] : by_height;
+}
+
+void ReturnLabels::assign(const frame::MeasuredReturns& returns, const frame::PointPlanes& points,
+                          frame::TileReader& reader, const CellPlanes& planes) noexcept {
+  returns_ = returns.returns();
+  const std::size_t lasers = returns.lasers();
+  std::array<TileLabels, frame::MeasuredReturns::kMostLasers> of_laser;
+  std::array<std::uint8_t, of_laser.size() * frame::kTileFirings> of_firing;
+  for (std::size_t t = 0; t < returns.tiles(); ++t) {
+    const frame::MeasuredReturns::Tile& tile = returns.tile(t);
+    bool is_open = false;
+    for (std::size_t i = 0; i < lasers; ++i) {
+      const frame::MeasuredReturns::LaserRow& row = returns.row(t, i);
+      if (row.is_run && row.owned == row.returns) {
+        const std::size_t cell = returns.shape().cell(reader.rows()[i], row.least);
+        copy_where_measured(&planes.label[cell], returns.raw(t) + i * frame::kTileFirings,
+                            of_laser[i].data());
+        continue;
+      }
+      if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(tile.heads, returns.raw(t));
+      of_laser[i] = labels_of_row(returns, t, i, points, reader, planes);
+    }
+    frame::transpose(of_laser[0].data(), lasers, frame::kTileFirings, of_firing.data());
+    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
+      write_labels({&of_firing[f * lasers], lasers}, &labels_[tile.first_return[f]]);
+    }
+  }
+}
+
+ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturns& returns,
+                                                     std::size_t tile, std::size_t laser,
+                                                     const frame::PointPlanes& points,
+                                                     frame::TileReader& reader,
+                                                     const CellPlanes& planes) const noexcept {
+  TileLabels labels{};
+  const frame::MeasuredReturns::LaserRow& row = returns.row(tile, laser);
+  if (row.returns == 0) return labels;
+  frame::TilePoints extra;
+  if (row.owned != row.returns) reader.compute_points(laser, all_of(extra));
+  for (std::uint32_t left = row.returns; left != 0; left &= left - 1) {
+    const auto f = static_cast<std::size_t>(std::countr_zero(left));
+    const std::size_t cell = returns.shape().cell(reader.rows()[laser], returns.column(tile, laser, f));
+    const frame::Label label =
+        (row.owned >> f & 1U) != 0
+                    ? planes.label[cell]
+                    : label_of_extra(extra.z_m[f] - points.z_m[cell],
+                                     extra.ground_range_m[f] - points.ground_range_m[cell], cell,
+                                     planes);
+    labels[f] = static_cast<std::uint8_t>(label);
+  }
+  return labels;
 }
 
 }  // namespace terracut::stage

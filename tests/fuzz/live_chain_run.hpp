@@ -3,10 +3,12 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -14,6 +16,7 @@
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/frame/frame_points.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "input.hpp"
 #include "packet_account.hpp"
@@ -21,6 +24,7 @@
 #include "pipeline/ground/fine_stages.hpp"
 #include "pipeline/ground/profile.hpp"
 #include "pipeline/run/frame_exchange.hpp"
+#include "pipeline/run/live_pipeline.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/hand_out.hpp"
@@ -46,6 +50,7 @@ class LiveChainRun {
     int columns = 64;
     int reorder_packets = 0;
     bool deskew = false;
+    bool keeps_measured = false;  ///< Not where it deskews.
   };
   /// `returns_in(payload)`: how many returns a decoded payload carries.
   using ReturnsIn = std::uint64_t (*)(std::span<const std::uint8_t> payload);
@@ -54,10 +59,12 @@ class LiveChainRun {
       : returns_in_(returns_in),
         decoder_(calibration, {}, decoder_config(config, motion_), memory_),
         exchange_(decoder_.images()),
+        coarse_points_(run::points_made_of(decoder_, memory_)),
+        fine_points_(run::points_made_of(decoder_, memory_)),
         coarse_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
-                decoder_.shape(), memory_),
+                decoder_.shape(), memory_, coarse_points_.get()),
         fine_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
-              decoder_.shape(), decoder_.return_capacity(), memory_) {
+              decoder_.shape(), decoder_.return_capacity(), memory_, fine_points_.get()) {
     planes_.reserve(decoder_.images().size());
     for (std::size_t i = 0; i < decoder_.images().size(); ++i) {
       planes_.emplace_back(decoder_.shape(), memory_);
@@ -118,6 +125,7 @@ class LiveChainRun {
     result.reorder_packets = config.reorder_packets;
     result.images = Exchange::kImages;
     result.returns_per_cell = 3;
+    result.keeps_measured = config.keeps_measured;
     if (config.deskew) result.motion = &motion;
     return result;
   }
@@ -130,6 +138,7 @@ class LiveChainRun {
 
   /// Of all that an image holds.
   static std::uint64_t sum_of(const frame::RangeImage& image) {
+    if (const frame::MeasuredReturns* measured = image.measured()) return sum_of(*measured);
     double sum = static_cast<double>(image.returns());
     for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
       if (!image.has_return(cell)) continue;
@@ -140,6 +149,28 @@ class LiveChainRun {
              static_cast<double>(image.return_index()[cell]);
     }
     return static_cast<std::uint64_t>(std::llround(sum * 1e3));
+  }
+
+  static std::uint64_t sum_of(const frame::MeasuredReturns& returns) {
+    std::uint64_t sum = returns.returns(), owned = 0;
+    for (std::size_t tile = 0; tile < returns.tiles(); ++tile) {
+      for (std::size_t laser = 0; laser < returns.lasers(); ++laser) {
+        const frame::MeasuredReturns::LaserRow& row = returns.row(tile, laser);
+        require((row.owned & ~row.returns) == 0, "what is no return owns a cell");
+        owned += static_cast<std::uint64_t>(std::popcount(row.owned));
+        for (std::uint32_t left = row.returns; left != 0; left &= left - 1) {
+          const auto firing = static_cast<std::size_t>(std::countr_zero(left));
+          const int column = returns.column(tile, laser, firing);
+          require(column >= row.least && column <= row.most && column >= 0 &&
+                      column < returns.shape().columns,
+                  "a return lies nowhere");
+          sum = sum * 31 + static_cast<std::uint64_t>(column);
+        }
+        sum = sum * 31 + row.owned;
+      }
+    }
+    require(owned <= returns.returns() && owned > 0, "cells have more owners than returns");
+    return sum;
   }
 
   [[nodiscard]] auto hand_over() {
@@ -184,6 +215,7 @@ class LiveChainRun {
   Decoder decoder_;
   const frame::RangeImage* first_image_ = decoder_.images().data();
   Exchange exchange_;
+  std::unique_ptr<frame::FramePoints> coarse_points_, fine_points_;
   ground::CoarseStages coarse_;
   ground::FineStages fine_;
   std::vector<stage::CellPlanes> planes_;

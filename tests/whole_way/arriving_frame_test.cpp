@@ -5,30 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <vector>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tests/support/hand_out.hpp"
-#include "tests/support/scratch_folder.hpp"
-#include "tools/lab/drive/drive_writer.hpp"
-#include "tools/lab/simulator/drive.hpp"
+#include "tests/whole_way/simulated_packets.hpp"
 
 namespace terracut::whole_way {
 namespace {
-
-namespace fs = std::filesystem;
-
-struct Packet {
-  std::vector<std::uint8_t> payload;
-  std::int64_t stamp_ns;
-  [[nodiscard]] decode::Datagram datagram() const { return {payload, stamp_ns}; }
-};
 
 /// Bits of what a column holds.
 struct ColumnHash {
@@ -63,23 +51,7 @@ struct ArrivingFrame : testing::Test {
         at_once(segmenter()) {}
 
   void SetUp() override {
-    const fs::path folder = terracut::test::make_scratch_folder();
-    const fs::path pcap = folder / "drive.pcap";
-    auto writer = drive::DriveWriter<EncoderTraits>::create(pcap, setup.calibration, setup.sensor);
-    ASSERT_TRUE(writer) << writer.error().message;
-    ASSERT_TRUE(simulator::simulate_drive(
-        setup, [&](const simulator::SimulatedColumn<EncoderTraits>& column) {
-          return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
-                                    column.wire.by_laser);
-        }));
-    ASSERT_TRUE(writer->finish());
-    auto source = capture::PcapSource::open(pcap);
-    ASSERT_TRUE(source);
-    for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
-      const auto payload = (*datagram)->payload;
-      sent.push_back({{payload.begin(), payload.end()}, (*datagram)->stamp_ns});
-    }
-    fs::remove_all(folder);
+    sent = simulated_packets(setup);
     ASSERT_GT(sent.size(), 300U);
   }
 

@@ -117,9 +117,9 @@ test::TestProblem cut_problem(const SegmenterConfig& config, const mount::RingPr
   random_field::ConfidenceSeeds seeds(config.seeds, profile, shape, memory);
   seeds.select(planes);
   random_field::RegionTerm region(config.region);
-  region.look_at(image, planes, seeds.seeds());
+  region.look_at(image.points(), planes, seeds.seeds());
   const stage::NegativeExp negative_exp;
-  const random_field::BoundaryTerm boundary(config.boundary, negative_exp, image);
+  const random_field::BoundaryTerm boundary(config.boundary, negative_exp, image.points());
 
   test::TestProblem problem(shape);
   problem.seeds.assign(seeds.seeds().begin(), seeds.seeds().end());

@@ -92,7 +92,7 @@ TEST(FiringTile, MeasuresNothingWhereThereIsNoReturn) {
   raw[3] = 1;
   raw[4] = 65'535;
   TileRow<float> measured_m{};
-  measure(raw, 0.002F, measured_m.data());
+  measure(raw.data(), 0.002F, measured_m.data());
   EXPECT_EQ(measured_m[3], 0.002F);
   EXPECT_EQ(measured_m[4], 65'535 * 0.002F);
   EXPECT_EQ(std::ranges::count_if(measured_m, [](float m) { return m != m; }), 22);

@@ -31,17 +31,20 @@ double worst_error_m(const Hdl64eCalibration& calibration, GeometryModel model,
       any_step(2'000, 100'000);
   double worst_m = 0;
   for (int tile = 0; tile < 20; ++tile) {
-    decode::TileHeads<kLasersPerBlock> heads{};
+    decode::GroupHeads<kLasersPerBlock> heads{};
     decode::TileRow<std::int32_t> azimuth_cdeg{}, step_ticks{};
     for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
       azimuth_cdeg[f] = any_cdeg(random);
       step_ticks[f] = any_step(random);
-      heads.set_head(f, directions.at(azimuth_cdeg[f]), {});
-      decode::GroupAdvance<kLasersPerBlock> advance;
+      const decode::SinCos head = directions.at(azimuth_cdeg[f]);
+      heads.sin_rotor[f] = head.sin;
+      heads.cos_rotor[f] = head.cos;
       for (std::size_t group = 0; group < kLasersPerBlock; ++group) {
-        advance.set(group, firing_advance_ticks(step_ticks[f], static_cast<int>(group)), 2083);
+        const decode::SinCos advance =
+            decode::small_advance(firing_advance_ticks(step_ticks[f], static_cast<int>(group)));
+        heads.sin_advance[group][f] = advance.sin;
+        heads.cos_advance[group][f] = advance.cos;
       }
-      heads.set_advance(f, advance);
     }
     for (int laser = 0; laser < kHdl64eLasers; ++laser) {
       const auto i = static_cast<std::size_t>(laser);
@@ -50,11 +53,11 @@ double worst_error_m(const Hdl64eCalibration& calibration, GeometryModel model,
         counts = static_cast<std::uint16_t>(tile % 2 == 0 ? any_raw(random) : near_raw(random));
       }
       decode::TileRow<float> measured_m{};
-      decode::measure(raw, static_cast<float>(calibration.distance_resolution_m),
+      decode::measure(raw.data(), static_cast<float>(calibration.distance_resolution_m),
                       measured_m.data());
       decode::TilePoints points{};
       kernel.compute(i, decode::heads_of_group(heads, i % kLasersPerBlock), measured_m,
-                     decode::all_of(points));
+                     frame::all_of(points));
       for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
         const double azimuth_rad =
             decode::firing_azimuth_rad(azimuth_cdeg[f], firing_advance_ticks(step_ticks[f], laser));
@@ -106,14 +109,12 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealUnit,
 TEST(PointKernel, TurnsClockwiseAndLeavesOutWhatWasNotMeasured) {
   const Hdl64eCalibration flat;
   const PointKernel kernel(flat, GeometryModel::kManual, {.height_m = 2.0});
-  decode::TileHeads<kLasersPerBlock> heads{};
-  for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
-    heads.set_head(f, {.sin = 1, .cos = 0}, {});  // clockwise: to the right, which is -y
-    heads.set_advance(f, {.sin = {}, .cos = {1.0F}, .column = {}, .rest = {}});
-  }
+  decode::GroupHeads<kLasersPerBlock> heads{};
+  heads.sin_rotor.fill(1);  // clockwise: to the right, which is -y
+  heads.cos_advance[0].fill(1);
   decode::TileRow<float> measured_m{20.0F, std::numeric_limits<float>::quiet_NaN()};
   decode::TilePoints points{};
-  kernel.compute(0, decode::heads_of_group(heads, 0), measured_m, decode::all_of(points));
+  kernel.compute(0, decode::heads_of_group(heads, 0), measured_m, frame::all_of(points));
   EXPECT_NEAR(points.x_m[0], 0.0, 1e-5);
   EXPECT_NEAR(points.y_m[0], -20.0, 1e-5);
   EXPECT_NEAR(points.z_m[0], 2.0, 1e-6);

@@ -38,7 +38,7 @@ TEST_F(FourCells, RampCostsNothingAtTheEvenHeightAndLambdaBeyondTheRamp) {
   put(0, 1, 5, 0, min_cut::Seed::kUnknown, 0.2F);
   put(0, 2, 5, 0, min_cut::Seed::kUnknown, 5.0F);
   put(0, 3, 5, 0, min_cut::Seed::kUnknown, -5.0F);
-  region.look_at(image, planes, seeds);
+  region.look_at(image.points(), planes, seeds);
   EXPECT_EQ(region(0).ground, 0);
   EXPECT_EQ(region(0).obstacle, 0);
   EXPECT_NEAR(region(1).ground, min_cut::kCapacityScale, 1) << "half way up: lambda / 2";
@@ -58,7 +58,7 @@ TEST_F(FourCells, HistogramCostIsTheNegativeLogOfTheSeedsShareAtThatHeight) {
   put(0, 3, 5, 1.0F, min_cut::Seed::kObstacle, 1);
   put(1, 0, 5, 0.0F, min_cut::Seed::kUnknown, 0);
   put(1, 1, 5, 1.0F, min_cut::Seed::kUnknown, 1);
-  region.look_at(image, planes, seeds);
+  region.look_at(image.points(), planes, seeds);
   const auto stride = static_cast<std::uint32_t>(kShape.stride());
   const auto cost = [](double count, double total) {
     return min_cut::kCapacityScale * -std::log((count + 1) / (total + RegionTerm::kMaxBins));
@@ -78,7 +78,7 @@ TEST_F(FourCells, HistogramBinsLieAroundWholeTenthsAboveTheLowestGroundSeed) {
   put(0, 1, 5, -0.26F, min_cut::Seed::kUnknown, 0);  // 4 cm above it
   put(0, 2, 5, -0.24F, min_cut::Seed::kUnknown, 0);  // 6 cm
   put(0, 3, 5, -0.34F, min_cut::Seed::kUnknown, 0);  // 4 cm below
-  region.look_at(image, planes, seeds);
+  region.look_at(image.points(), planes, seeds);
   EXPECT_LT(region(1).ground, region(2).ground);
   EXPECT_EQ(region(1).ground, region(3).ground);
 }
@@ -88,7 +88,7 @@ TEST_F(FourCells, HistogramWithoutAnySeedIsFiniteAndFair) {
   config.rule = RegionRule::kHistogram;
   RegionTerm region(config);
   put(0, 0, 5, -300.0F, min_cut::Seed::kUnknown, 0);
-  region.look_at(image, planes, seeds);
+  region.look_at(image.points(), planes, seeds);
   EXPECT_EQ(region(0).ground, region(0).obstacle);
 }
 
@@ -109,7 +109,7 @@ TEST_F(FourCells, HeightGradientWeightIsEquationFourteen) {
   put(0, 0, 5.0F, 0.0F, min_cut::Seed::kUnknown, 0);
   put(0, 1, 5.5F, 0.2F, min_cut::Seed::kUnknown, 0);
   const stage::NegativeExp negative_exp;
-  const BoundaryTerm boundary(config, negative_exp, image);
+  const BoundaryTerm boundary(config, negative_exp, image.points());
   EXPECT_NEAR(weight(boundary, 0, 1), std::exp(-10 * 0.04 / 0.5), kStep);
 }
 
@@ -122,11 +122,11 @@ TEST_F(FourCells, NearnessWeightFallsWithDistanceOverAScaleThatGrowsWithTheMeanR
   put(0, 1, 5.3F, 0.4F, min_cut::Seed::kUnknown, 0);   // 0.5 m away, along and up
   put(0, 2, 55.0F, 0.0F, min_cut::Seed::kUnknown, 0);  // 50 m away
   const stage::NegativeExp negative_exp;
-  const BoundaryTerm boundary(config, negative_exp, image);
+  const BoundaryTerm boundary(config, negative_exp, image.points());
   EXPECT_NEAR(weight(boundary, 0, 1), std::exp(-0.5 / (0.2 + 0.01 * 5.15)), kStep);
   EXPECT_EQ(weight(boundary, 0, 2), 0.0);
   config.scale_m = 50;
-  EXPECT_NEAR(weight(BoundaryTerm(config, negative_exp, image), 0, 2),
+  EXPECT_NEAR(weight(BoundaryTerm(config, negative_exp, image.points()), 0, 2),
               std::exp(-50 / (50 + 0.01 * 30)), kStep);
 }
 
@@ -145,7 +145,7 @@ TEST_F(FourCells, EdgesToAllNeighboursGetTheirWeightInWholeNumbers) {
     config.rule = rule;
     config.sigma = 0.5F;  // no weight is 0
     config.scale_m = 1;
-    const BoundaryTerm boundary(config, negative_exp, image);
+    const BoundaryTerm boundary(config, negative_exp, image.points());
     for (const int column : {0, 7, kShape.columns - 1}) {
       const auto cell = static_cast<std::uint32_t>(kShape.cell(1, column));
       const min_cut::NeighbourCells around = min_cut::neighbour_cells(kShape, 1, column);
@@ -171,7 +171,7 @@ TEST_F(FourCells, WeightsAreTheSameBothWaysBitForBit) {
     BoundaryTerm::Config config;
     config.rule = rule;
     config.scale_m = 10;
-    const BoundaryTerm boundary(config, negative_exp, image);
+    const BoundaryTerm boundary(config, negative_exp, image.points());
     for (std::size_t p = 0; p < 16; ++p) {
       for (std::size_t q = 0; q < 16; ++q) {
         EXPECT_EQ(weight(boundary, p, q), weight(boundary, q, p));

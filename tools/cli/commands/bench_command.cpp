@@ -182,7 +182,8 @@ ExitCode run_bench(const Options& options) {
 
   warn_of_other_senders(*capture, options.capture);
   memory::FixedMemory memory;
-  const auto decoder_config = decoder_config_of(options, capture->sensor.columns);
+  const auto decoder_config =
+      decoder_config_of(options, capture->sensor.columns, FramesAreFor::kLabels);
   run::PacketPipeline pipeline(capture->calibration, *profile, decoder_config,
                                method_config_of(options.method), memory,
                                run::PacketPipeline::Timing::kFrames);

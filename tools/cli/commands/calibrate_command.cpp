@@ -60,7 +60,7 @@ Expected<mount::MountEstimate> estimate(OpenCapture& capture, const Options& opt
   const mount::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
   memory::FixedMemory memory;
   decode::Decoder decoder(capture.calibration, at_the_sensor,
-                          decoder_config_of(options, capture.sensor.columns), memory);
+                          decoder_config_of(options, capture.sensor.columns, FramesAreFor::kPoints), memory);
   const Status decoded =
       decode_frames(capture, options.capture, decoder, [&](const RangeImage& image) {
         frame::for_each_return(image, [&](const PlacedReturn& placed) {
@@ -78,7 +78,7 @@ Expected<mount::RingProfileEstimate> measure_rings(OpenCapture& capture, const O
                                                    const mount::RingProfile& geometry) {
   memory::FixedMemory memory;
   decode::Decoder decoder(capture.calibration, geometry.mount,
-                          decoder_config_of(options, capture.sensor.columns), memory);
+                          decoder_config_of(options, capture.sensor.columns, FramesAreFor::kPoints), memory);
   ground::Segmenter segmenter(method_config_of(options.method).segmenter, geometry, decoder.shape(),
                               decoder.return_capacity(), memory);
   mount::RingProfileEstimate rings(geometry);

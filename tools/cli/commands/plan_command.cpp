@@ -10,6 +10,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
@@ -23,8 +24,9 @@ ExitCode run_plan(const Options& options) {
           : calib::SensorCalibration(hdl64e::nominal_hdl64e());
   const auto profile = ring_profile_of(calibration, {});
   if (!profile) return refuse(profile.error());
-  const run::PacketPipeline pipeline(calibration, *profile, {}, method_config_of(options.method),
-                                     memory);
+  const run::PacketPipeline pipeline(calibration, *profile,
+                                     decoder_config_of(options, 0, FramesAreFor::kLabels),
+                                     method_config_of(options.method), memory);
 
   nlohmann::ordered_json json;
   fmt::print("{:<24}{:>14}\n", "part", "bytes");

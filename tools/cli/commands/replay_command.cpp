@@ -101,6 +101,9 @@ class Replay {
         motion_(motion),
         pipeline_(capture.calibration, profile,
                   decoder_config_of(options, capture.sensor.columns,
+                                    FrameOutputs::need_points(options.output)
+                                        ? FramesAreFor::kPoints
+                                        : FramesAreFor::kLabels,
                                     motion != nullptr ? &motion->motion() : nullptr),
                   method_config_of(options.method), memory_),
         clock_of_device_(options.capture.clock_offset_s),
@@ -167,7 +170,10 @@ class Replay {
     const frame::RangeImage& image = *frame.image;
     pipeline_.label(frame);
     report_.add(frame.record);
-    if (info.number % run::LatestNearGround::kFramesApart == 0) mount_.add_frame(image);
+    if (info.number % run::LatestNearGround::kFramesApart == 0) {
+      pipeline_.take_near_ground(frame, *near_ground_);
+      mount_.add_frame(*near_ground_);
+    };
 
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
@@ -218,6 +224,7 @@ class Replay {
   hdl64e::StatusStreamReader status_;
   DeviceClock clock_of_device_;
   FrameOutputs outputs_;
+  std::unique_ptr<ground::NearGround> near_ground_ = std::make_unique<ground::NearGround>();
   MountWatch mount_;
   FrameTruth truth_;
   Report report_;

@@ -26,11 +26,17 @@ class FrameOutputs {
         pcd_(options.pcd, ".pcd"),
         png_(options.png, ".png") {}
 
+  /// Whether any of them is made of points, not of labels alone.
+  [[nodiscard]] static bool need_points(const OutputOptions& options) {
+    return !options.pcd.empty() || !options.png.empty();
+  }
+
   /// NAME.label, in the order of `labels`.
   [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
 
   /// NAME.pcd, and NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
-  /// `labels` and `truth` (SemanticKITTI ids, or empty) go by return index.
+  /// `image` has points where need_points(); `labels` and `truth` (SemanticKITTI ids, or empty) go
+  /// by return index.
   [[nodiscard]] Status write_frame(const std::string& name, const frame::RangeImage& image,
                                    std::span<const frame::Label> labels,
                                    std::span<const std::uint32_t> truth);

@@ -2,10 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "decoder_choice.hpp"
 
+#include "pipeline/ground/ground_method.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+
 namespace terracut::cli {
 
 decode::Decoder::Config decoder_config_of(const Options& options, int columns,
-                                          vehicle::EgoMotion* motion) {
+                                          FramesAreFor purpose, vehicle::EgoMotion* motion) {
   const CaptureOptions& capture = options.capture;
   decode::Decoder::Config config;
   config.columns = columns;
@@ -13,6 +16,8 @@ decode::Decoder::Config decoder_config_of(const Options& options, int columns,
   config.dual_owner = capture.cell_owner;
   config.hdl64e.geometry = capture.geometry;
   config.ruby128.timestamp = capture.timestamp;
+  config.keeps_measured = purpose == FramesAreFor::kLabels &&
+                          !ground::needs_all_points(method_config_of(options.method));
   config.motion = motion;
   config.deskew_at = options.motion.deskew_to;
   return config;

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "calib/beams/angle.hpp"
+#include "firmware_io/decode/firing_tile.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/rotor_directions.hpp"
+#include "firmware_io/decode/step_advances.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::decode {
+
+/// Makes points of tiles of one sensor model; `Sensor` is its trait (packet_returns.hpp).
+template <class Sensor>
+class SensorTileReader final : public frame::TileReader {
+ public:
+  /// What `directions` looks at must outlive this.
+  SensorTileReader(const Sensor& sensor, const RotorDirections& directions,
+                   memory::FixedMemory& memory)
+      : sensor_(sensor),
+        directions_(directions),
+        heads_(memory.take<GroupHeads<Sensor::kGroups>>("decoder tables", 1)),
+        advances_(memory) {}
+
+  void open(const frame::TileHeads& heads,
+            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
+    raw_ = raw;
+    GroupHeads<Sensor::kGroups>& found = heads_[0];
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      const SinCos direction = directions_.at(beams::wrap_cdeg(heads.head_cdeg[f]));
+      found.sin_rotor[f] = direction.sin;
+      found.cos_rotor[f] = direction.cos;
+    }
+    advances_.spread(
+        heads,
+        [this](Directions& of, std::int32_t step_ticks, bool is_dual) noexcept {
+          for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
+            const SinCos advance =
+                small_advance(sensor_.advance_ticks(step_ticks, group, is_dual));
+            of.sin[group] = advance.sin;
+            of.cos[group] = advance.cos;
+          }
+        },
+        [&found](const Directions& of, const FiringMask& mask) noexcept {
+          spread_rows(of.sin, mask, found.sin_advance[0].data());
+          spread_rows(of.cos, mask, found.cos_advance[0].data());
+        });
+  }
+  void compute_points(std::size_t laser,
+                      const frame::PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
+    TileRow<float> measured_m;
+    measure(raw_ + laser * kTileFirings, sensor_.metres_per_count(), measured_m.data());
+    sensor_.compute_points(laser, heads_of_group(heads_[0], sensor_.group(laser)), measured_m,
+                           out);
+  }
+  [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
+    return sensor_.rows();
+  }
+
+ private:
+  /// How far the head has rotated since a firing's azimuth when each group of lasers fires.
+  struct Directions {
+    std::array<float, Sensor::kGroups> sin{}, cos{};
+  };
+
+  Sensor sensor_;
+  RotorDirections directions_;
+  std::span<GroupHeads<Sensor::kGroups>> heads_;  ///< One element.
+  StepAdvances<Directions> advances_;
+  const std::uint16_t* raw_ = nullptr;
+};
+
+}  // namespace terracut::decode

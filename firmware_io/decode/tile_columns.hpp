@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "calib/beams/angle.hpp"
+#include "firmware_io/decode/firing_tile.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/decode/step_advances.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::decode {
+
+/// Finds the columns of the beams of a tile. `Sensor` is a trait (packet_returns.hpp).
+template <class Sensor>
+class TileColumns {
+ public:
+  /// columns: of the range image, [16, 36000].
+  TileColumns(const Sensor& sensor, int columns, memory::FixedMemory& memory)
+      : columns_(columns),
+        advance_column_(memory.take<TileRow<std::int32_t>>("decoder tables", Sensor::kGroups)),
+        advance_rest_(memory.take<TileRow<std::int32_t>>("decoder tables", Sensor::kGroups)),
+        advances_(memory) {
+    for (std::size_t i = 0; i < offset_.size(); ++i) {
+      offset_[i] = column_angle(sensor.beam_ticks(static_cast<int>(i)), columns);
+    }
+  }
+
+  /// Fills `beams` in, one a laser, counted from the frame that `heads` are counted from. Real-time
+  /// safe.
+  void find(const Sensor& sensor, const frame::TileHeads& heads,
+            std::span<BeamColumns> beams) noexcept TERRACUT_NONBLOCKING {
+    alignas(64) TileRow<std::int32_t> head_column, head_rest;
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      const std::int32_t azimuth_cdeg = beams::wrap_cdeg(heads.head_cdeg[f]);
+      const std::int32_t revolution =
+          (heads.head_cdeg[f] - azimuth_cdeg) / beams::kRevolution_cdeg;
+      const ColumnAngle angle = column_angle(std::int64_t{azimuth_cdeg} * kTicksPerCdeg, columns_);
+      head_column[f] = angle.whole + revolution * columns_;
+      head_rest[f] = angle.rest;
+    }
+    advances_.spread(
+        heads,
+        [&](Columns& of, std::int32_t step_ticks, bool is_dual) noexcept {
+          for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
+            const ColumnAngle angle =
+                column_angle(sensor.advance_ticks(step_ticks, group, is_dual), columns_);
+            of.whole[group] = angle.whole;
+            of.rest[group] = angle.rest;
+          }
+        },
+        [this](const Columns& of, const FiringMask& mask) noexcept {
+          spread_rows(of.whole, mask, advance_column_[0].data());
+          spread_rows(of.rest, mask, advance_rest_[0].data());
+        });
+    for (std::size_t i = 0; i < offset_.size(); ++i) {
+      const std::size_t group = sensor.group(i);
+      find_columns(head_column.data(), head_rest.data(), advance_column_[group].data(),
+                   advance_rest_[group].data(), offset_[i], beams[i]);
+    }
+  }
+
+ private:
+  /// How far the head has rotated since a firing's azimuth when each group of lasers fires.
+  struct Columns {
+    std::array<std::int32_t, Sensor::kGroups> whole{}, rest{};
+  };
+
+  int columns_;
+  std::array<ColumnAngle, static_cast<std::size_t>(Sensor::kRows)> offset_;  ///< From the head.
+  std::span<TileRow<std::int32_t>> advance_column_, advance_rest_;           ///< By group.
+  StepAdvances<Columns> advances_;
+};
+
+}  // namespace terracut::decode

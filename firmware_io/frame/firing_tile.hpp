@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::frame {
+
+/// Firings that are worked on together: enough to fill vectors with what one laser found, and few
+/// enough that all of them stay in the cache next to the core.
+inline constexpr std::size_t kTileFirings = 24;
+/// One value of each firing of a tile.
+template <class Value>
+using TileRow = std::array<Value, kTileFirings>;
+
+/// Points of one laser of a tile, vehicle frame, metres; NaN where it has no return.
+struct TilePoints {
+  alignas(64) TileRow<float> x_m;
+  alignas(64) TileRow<float> y_m;
+  alignas(64) TileRow<float> z_m;
+  alignas(64) TileRow<float> ground_range_m;
+};
+/// Where they are to be written, kTileFirings of each.
+struct PointsOut {
+  float *x_m, *y_m, *z_m, *ground_range_m;
+};
+[[nodiscard]] inline PointsOut all_of(TilePoints& points) noexcept {
+  return {points.x_m.data(), points.y_m.data(), points.z_m.data(), points.ground_range_m.data()};
+}
+
+/// Columns of one laser's beams, counted from the first column of some frame: those of the n-th
+/// frame behind it begin at n times the columns of a frame.
+struct BeamColumns {
+  alignas(64) TileRow<std::int32_t> column;
+  std::int32_t least = 0, most = 0;
+  bool is_one_run = false;  ///< Each firing's column is next to that of the firing before.
+};
+
+/// Where the head was at each firing of a tile.
+struct TileHeads {
+  TileRow<std::int32_t> head_cdeg;   ///< Azimuth, unwrapped, from the beginning of some frame.
+  TileRow<std::int32_t> step_ticks;  ///< From this firing to the next, 1e-5 degrees.
+  std::uint32_t is_dual = 0;         ///< A bit for each firing that is one of two returns.
+};
+
+/// Makes points of the distances that one sensor model measured: the calibration, the mount and the
+/// times at which lasers fire are in it. Has the memory of one tile at work; one thread.
+class TileReader {
+ public:
+  virtual ~TileReader() = default;
+
+  /// The tile whose points will be asked for. `raw`: its wire distances, laser by laser,
+  /// kTileFirings each, 0 for no return; must stay until another one is open.
+  virtual void open(const TileHeads& heads,
+                    const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING = 0;
+  virtual void compute_points(std::size_t laser,
+                              const PointsOut& out) noexcept TERRACUT_NONBLOCKING = 0;
+  /// The range image row of each laser.
+  [[nodiscard]] virtual std::span<const std::int32_t> rows() const noexcept
+      TERRACUT_NONBLOCKING = 0;
+
+ protected:
+  TileReader() = default;
+  TileReader(const TileReader&) = default;
+  TileReader& operator=(const TileReader&) = default;
+};
+
+}  // namespace terracut::frame

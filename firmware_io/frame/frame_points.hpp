@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "firmware_io/frame/firing_tile.hpp"
+#include "firmware_io/frame/measured_returns.hpp"
+#include "firmware_io/frame/point_planes.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::frame {
+
+/// Points of frames that keep their returns as they were measured: made when they are asked for, in
+/// planes of a whole image, one frame after the other.
+///
+/// Takes its memory in the constructor. One thread; real-time safe.
+class FramePoints {
+ public:
+  /// `reader`: of the sensor.
+  FramePoints(ImageShape shape, std::unique_ptr<TileReader> reader, memory::FixedMemory& memory);
+
+  /// A frame, maybe one that was begun already. No point of it is made.
+  void begin(const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  /// Makes the points of the columns before `end`, as far as their returns have come: to be asked
+  /// for from left to right, after begin(). The height of a cell without a return is NaN.
+  void make_until(int end, const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  /// Makes points wherever `is_wanted(row, ColumnRange)`, unless all of the frame's are made; other
+  /// cells, and cells without a return, hold anything. Ends what begin() began.
+  template <class IsWanted>
+  void make_where(const RangeImage& image, IsWanted is_wanted) noexcept;
+  [[nodiscard]] PointPlanes planes() const noexcept {
+    return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
+  }
+
+  /// Calls `visit(column, z_m, ground_range_m)` for the returns in these columns that do not own
+  /// their cells; returns their number.
+  template <class Visit>
+  std::size_t for_each_extra(const RangeImage& image, ColumnRange columns, Visit visit) noexcept;
+  /// For whoever reads tiles on the same thread.
+  [[nodiscard]] TileReader& reader() noexcept { return *reader_; }
+
+ private:
+  [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
+    return image_ == &image && generation_ == image.generation();
+  }
+  [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
+    return has_begun(image) && next_ == image.measured()->tiles();
+  }
+  void make_row(const MeasuredReturns& returns, std::size_t tile,
+                std::size_t laser) noexcept TERRACUT_NONBLOCKING;
+  /// About a cache line and a half of each plane.
+  void fetch_to_write(std::size_t cell) const noexcept;
+
+  ImageShape shape_;
+  std::unique_ptr<TileReader> reader_;
+  std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
+  const RangeImage* image_ = nullptr;  ///< Of the frame that has begun.
+  std::uint32_t generation_ = 0;
+  std::size_t next_ = 0;  ///< The first tile whose points are not made.
+  TilePoints points_;
+};
+
+template <class IsWanted>
+void FramePoints::make_where(const RangeImage& image, IsWanted is_wanted) noexcept {
+  if (has_all_of(image)) return;
+  image_ = nullptr;
+  const MeasuredReturns& returns = *image.measured();
+  const std::span<const std::int32_t> rows = reader_->rows();
+  for (std::size_t t = 0; t < returns.tiles(); ++t) {
+    bool is_open = false;
+    for (std::size_t i = 0; i < returns.lasers(); ++i) {
+      const MeasuredReturns::LaserRow& row = returns.row(t, i);
+      if (row.owned == 0 || !is_wanted(rows[i], ColumnRange{row.least, row.most + 1})) continue;
+      if (!std::exchange(is_open, true)) reader_->open(returns.tile(t).heads, returns.raw(t));
+      make_row(returns, t, i);
+    }
+  }
+}
+
+template <class Visit>
+std::size_t FramePoints::for_each_extra(const RangeImage& image, ColumnRange columns,
+                                        Visit visit) noexcept {
+  const MeasuredReturns& returns = *image.measured();
+  std::size_t found = 0;
+  for (std::size_t t = 0; t < returns.tiles(); ++t) {
+    const MeasuredReturns::Tile& tile = returns.tile(t);
+    if (!tile.has_extras || tile.least >= columns.end || tile.most < columns.begin) continue;
+    reader_->open(tile.heads, returns.raw(t));
+    for (std::size_t i = 0; i < returns.lasers(); ++i) {
+      const MeasuredReturns::LaserRow& row = returns.row(t, i);
+      std::uint32_t extras = row.returns & ~row.owned;
+      if (extras == 0) continue;
+      reader_->compute_points(i, all_of(points_));
+      for (; extras != 0; extras &= extras - 1) {
+        const auto f = static_cast<std::size_t>(std::countr_zero(extras));
+        const int column = returns.column(t, i, f);
+        if (column < columns.begin || column >= columns.end) continue;
+        visit(column, points_.z_m[f], points_.ground_range_m[f]);
+        ++found;
+      }
+    }
+  }
+  return found;
+}
+
+}  // namespace terracut::frame

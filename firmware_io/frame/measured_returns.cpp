@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/frame/measured_returns.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+
+#include "rt/vector_clones.hpp"
+
+namespace terracut::frame {
+namespace {
+
+constexpr std::size_t kWordBits = 64;
+constexpr std::uint32_t kAllFirings = (1U << kTileFirings) - 1;
+
+/// A bit for each of the firings that found something.
+[[gnu::always_inline]] inline std::uint32_t hits_of(const std::uint16_t* raw) noexcept {
+  static_assert(kTileFirings == 24 && std::endian::native == std::endian::little);
+  std::uint8_t is_hit[kTileFirings];
+  for (std::size_t f = 0; f < kTileFirings; ++f) is_hit[f] = raw[f] != 0;
+  std::uint32_t bits = 0;
+  for (unsigned eighth = 0; eighth < 3; ++eighth) {
+    std::uint64_t bytes;
+    std::memcpy(&bytes, is_hit + 8 * eighth, sizeof(bytes));
+    // Byte i, which is 0 or 1, goes to bit 56 + i.
+    const std::uint64_t gathered = bytes * 0x0102'0408'1020'4080U >> 56U;
+    bits |= static_cast<std::uint32_t>(gathered) << (8 * eighth);
+  }
+  return bits;
+}
+
+/// The firings whose columns are in [begin, end).
+std::uint32_t inside(const BeamColumns& beam, std::int32_t begin, std::int32_t end) noexcept {
+  std::uint32_t bits = 0;
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    const bool is_inside = beam.column[f] >= begin && beam.column[f] < end;
+    bits |= std::uint32_t{is_inside} << f;
+  }
+  return bits;
+}
+
+template <class Visit>
+void for_each_bit(std::uint32_t bits, Visit visit) noexcept {
+  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
+}
+
+/// The bits of the 64 columns from this one on.
+std::uint64_t bits_from(std::span<const std::uint64_t> bits, std::size_t column) noexcept {
+  const std::size_t word = column / kWordBits, shift = column % kWordBits;
+  return shift == 0 ? bits[word] : bits[word] >> shift | bits[word + 1] << (kWordBits - shift);
+}
+void add_bits(std::span<std::uint64_t> bits, std::size_t column, std::uint64_t added) noexcept {
+  const std::size_t word = column / kWordBits, shift = column % kWordBits;
+  bits[word] |= added << shift;
+  if (shift != 0) bits[word + 1] |= added >> (kWordBits - shift);
+}
+
+TERRACUT_VECTOR_CLONES void find_hits(const std::uint16_t* raw, std::size_t lasers,
+                                      std::uint32_t* hits) noexcept {
+  for (std::size_t i = 0; i < lasers; ++i) hits[i] = hits_of(raw + i * kTileFirings);
+}
+
+/// Where all lasers' returns are of one frame.
+TERRACUT_VECTOR_CLONES void count_all(const std::uint16_t* __restrict raw, std::size_t lasers,
+                                      std::uint16_t* __restrict counts) noexcept {
+  for (std::size_t i = 0; i < lasers; ++i) {
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      const bool is_hit = raw[i * kTileFirings + f] != 0;
+      counts[f] = static_cast<std::uint16_t>(counts[f] + std::uint16_t{is_hit});
+    }
+  }
+}
+
+}  // namespace
+
+MeasuredReturns::MeasuredReturns(ImageShape shape, std::size_t tiles, memory::FixedMemory& memory)
+    : shape_(shape),
+      lasers_(static_cast<std::size_t>(shape.rows)),
+      words_(static_cast<std::size_t>(shape.columns) / kWordBits + 2),
+      tiles_(memory.take<Tile>("measured returns", tiles)),
+      rows_(memory.take<LaserRow>("measured returns", tiles * lasers_)),
+      raw_(memory.take<std::uint16_t>("measured returns", tiles * lasers_ * kTileFirings)),
+      columns_(memory.take<std::uint16_t>("measured returns", raw_.size())),
+      intensity_(memory.take<std::uint8_t>("measured returns", raw_.size())),
+      taken_(memory.take<std::uint64_t>("measured returns", lasers_ * words_)),
+      shared_(memory.take<std::uint64_t>("measured returns", taken_.size())) {}
+
+void MeasuredReturns::clear() noexcept {
+  used_ = 0;
+  returns_ = 0;
+  std::fill(taken_.begin(), taken_.end(), std::uint64_t{0});
+  std::fill(shared_.begin(), shared_.end(), std::uint64_t{0});
+}
+
+std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
+                                   TileReader& reader) noexcept {
+  if (used_ == tiles_.size()) {
+    std::uint32_t lost = 0;
+    for (std::size_t i = 0; i < lasers_; ++i) {
+      const std::uint32_t in_frame =
+          inside(tile.beams[i], tile.first_column, tile.first_column + shape_.columns);
+      lost += static_cast<std::uint32_t>(
+          std::popcount(hits_of(tile.raw + i * kTileFirings) & in_frame));
+    }
+    return lost;
+  }
+  const std::size_t values = lasers_ * kTileFirings;
+  std::memcpy(&raw_[used_ * values], tile.raw, values * sizeof(tile.raw[0]));
+  std::memcpy(&intensity_[used_ * values], tile.intensity, values);
+  Tile& added = tiles_[used_];
+  added = {.heads = tile.heads,
+           .first_return = {},
+           .least = shape_.columns,
+           .most = -1,
+           .has_extras = false};
+  const std::size_t number = used_++;
+  const std::span<const std::int32_t> rows = reader.rows();
+  std::array<std::uint32_t, kMostLasers> hits;
+  find_hits(tile.raw, lasers_, hits.data());
+  for (std::size_t i = 0; i < lasers_; ++i) {
+    take_cells(tile, i, hits[i], rows[i], owner, reader);
+    const LaserRow& row = rows_[number * lasers_ + i];
+    if (row.returns == 0) continue;
+    added.least = std::min(added.least, row.least);
+    added.most = std::max(added.most, row.most);
+  }
+  const std::uint32_t before = returns_;
+  fetch_next();
+  number_returns(tile, added, rows_.subspan(number * lasers_, lasers_));
+  if (returns_ == before) --used_;  // the tile is all of another frame
+  return 0;
+}
+
+void MeasuredReturns::fetch_next() const noexcept {
+  constexpr std::size_t kLineBytes = 64;
+  if (used_ == tiles_.size()) return;
+  const auto fetch = [](const auto& of, std::size_t begin, std::size_t count) noexcept {
+    const auto* const bytes = reinterpret_cast<const std::byte*>(&of[begin]);
+    for (std::size_t at = 0; at < count * sizeof(of[0]); at += kLineBytes) {
+      __builtin_prefetch(bytes + at, 1, 2);
+    }
+  };
+  const std::size_t values = lasers_ * kTileFirings;
+  fetch(tiles_, used_, 1);
+  fetch(rows_, used_ * lasers_, lasers_);
+  fetch(raw_, used_ * values, values);
+  fetch(intensity_, used_ * values, values);
+}
+
+void MeasuredReturns::number_returns(const NewTile& tile, Tile& added,
+                                     std::span<const LaserRow> rows) noexcept {
+  TileRow<std::uint16_t> counts{};
+  bool is_whole = true;
+  for (const BeamColumns& beam : tile.beams) {
+    is_whole &= beam.least >= tile.first_column &&
+                beam.most < tile.first_column + shape_.columns;
+  }
+  if (is_whole) {
+    count_all(tile.raw, lasers_, counts.data());
+  } else {
+    for (const LaserRow& row : rows) {
+      for_each_bit(row.returns, [&](std::size_t f) noexcept { ++counts[f]; });
+    }
+  }
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    added.first_return[f] = returns_;
+    returns_ += counts[f];
+  }
+}
+
+void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::uint32_t hits,
+                                 int row, CellOwner owner, TileReader& reader) noexcept {
+  const BeamColumns& beam = tile.beams[laser];
+  const std::int32_t first = tile.first_column, end = first + shape_.columns;
+  LaserRow& taken = row_at(used_ - 1, laser);
+  const std::span<std::uint64_t> cells = bits_of(taken_, row);
+  const bool is_whole = beam.least >= first && beam.most < end;
+  const std::int32_t least = std::max(beam.least, first) - first;
+  if (is_whole && beam.is_one_run) [[likely]] {
+    const auto column = static_cast<std::size_t>(least);
+    if ((bits_from(cells, column) & kAllFirings) == 0) [[likely]] {
+      add_bits(cells, column, hits);
+      taken = {least, beam.most - first, hits, hits, true};
+      return;
+    }
+  }
+  taken = {.least = least,
+           .most = std::min(beam.most, end - 1) - first,
+           .returns = is_whole ? hits : hits & inside(beam, first, end),
+           .owned = 0,
+           .is_run = false};
+  std::uint16_t* const columns = &columns_[((used_ - 1) * lasers_ + laser) * kTileFirings];
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    columns[f] = static_cast<std::uint16_t>(beam.column[f] - first);
+  }
+  std::uint32_t left = taken.returns;
+  // Mostly all are within 64 columns, and their bits at hand.
+  if (taken.most - least < static_cast<std::int32_t>(kWordBits)) [[likely]] {
+    const auto column = static_cast<std::size_t>(least);
+    const std::uint64_t before = bits_from(cells, column);
+    std::uint64_t now = before;
+    for_each_bit(left, [&](std::size_t f) noexcept {
+      const std::uint64_t bit = std::uint64_t{1} << (columns[f] - static_cast<unsigned>(least));
+      const bool is_free = (now & bit) == 0;
+      now |= bit;
+      taken.owned |= std::uint32_t{is_free} << f;
+    });
+    add_bits(cells, column, now & ~before);
+    left &= ~taken.owned;
+  }
+  for_each_bit(left, [&](std::size_t f) noexcept {
+    take_cell({used_ - 1, laser, f}, row, columns[f], owner, reader);
+  });
+}
+
+void MeasuredReturns::take_cell(const Place& at, int row, int column, CellOwner owner,
+                                TileReader& reader) noexcept {
+  const auto bit = static_cast<std::size_t>(column);
+  const std::uint64_t mask = std::uint64_t{1} << (bit % kWordBits);
+  std::uint64_t& word = bits_of(taken_, row)[bit / kWordBits];
+  LaserRow& mine = row_at(at.tile, at.laser);
+  const std::uint32_t firing = 1U << at.firing;
+  if ((word & mask) == 0) {
+    word |= mask;
+    mine.owned |= firing;
+    return;
+  }
+  bits_of(shared_, row)[bit / kWordBits] |= mask;
+  std::size_t beaten = at.tile;
+  if (owner != CellOwner::kFirstArrived) {
+    const Place other = owner_of(at.laser, column);
+    if (goes_before(at, other, owner, reader)) {
+      mine.owned |= firing;
+      row_at(other.tile, other.laser).owned &= ~(1U << other.firing);
+      beaten = other.tile;
+    }
+  }
+  tiles_[beaten].has_extras = true;
+}
+
+bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
+  constexpr int kBits = int{kWordBits};
+  const std::span<const std::uint64_t> bits = bits_of(shared_, row);
+  for (int column = columns.begin; column < columns.end; column += kBits) {
+    const int left = columns.end - column;
+    const std::uint64_t meant = left < kBits ? (std::uint64_t{1} << left) - 1 : ~std::uint64_t{0};
+    if ((bits_from(bits, static_cast<std::size_t>(column)) & meant) != 0) return true;
+  }
+  return false;
+}
+
+MeasuredReturns::Place MeasuredReturns::owner_of(std::size_t laser,
+                                                 int column) const noexcept {
+  for (std::size_t t = used_; t-- > 0;) {
+    const LaserRow& candidate = row(t, laser);
+    if (candidate.least > column || candidate.most < column || candidate.owned == 0) continue;
+    for (std::uint32_t bits = candidate.owned; bits != 0; bits &= bits - 1) {
+      const auto f = static_cast<std::size_t>(std::countr_zero(bits));
+      if (this->column(t, laser, f) == column) return {t, laser, f};
+    }
+  }
+  return {};
+}
+
+bool MeasuredReturns::goes_before(const Place& newer, const Place& older, CellOwner owner,
+                                  TileReader& reader) const noexcept {
+  const auto intensity = [&](const Place& at) noexcept {
+    return intensity_[(at.tile * lasers_ + at.laser) * kTileFirings + at.firing];
+  };
+  switch (owner) {
+    case CellOwner::kFirstArrived:
+      return false;
+    case CellOwner::kStrongest:
+      return intensity(newer) > intensity(older);
+    case CellOwner::kNearest:
+      return ground_range_m(newer, reader) < ground_range_m(older, reader);
+    case CellOwner::kFarthest:
+      return ground_range_m(newer, reader) > ground_range_m(older, reader);
+  }
+  return false;
+}
+
+float MeasuredReturns::ground_range_m(const Place& at, TileReader& reader) const noexcept {
+  TilePoints points;
+  reader.open(tiles_[at.tile].heads, raw(at.tile));
+  reader.compute_points(at.laser, all_of(points));
+  return points.ground_range_m[at.firing];
+}
+
+}  // namespace terracut::frame

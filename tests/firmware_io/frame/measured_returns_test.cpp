@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/frame/measured_returns.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <memory>
+#include <vector>
+
+#include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/frame/range_image.hpp"
+
+namespace terracut::frame {
+namespace {
+
+constexpr ImageShape kShape{8, 200};
+constexpr auto kLasers = static_cast<std::size_t>(kShape.rows);
+
+/// Points that tell where they were measured: x is the wire distance, y the head's azimuth, z the
+/// laser; the range is x. Laser i is of row 7 - i.
+class PlainReader final : public TileReader {
+ public:
+  void open(const TileHeads& heads,
+            const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
+    heads_ = heads;
+    raw_ = raw;
+  }
+  void compute_points(std::size_t laser,
+                      const PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      const auto raw = static_cast<float>(raw_[laser * kTileFirings + f]);
+      out.x_m[f] = out.ground_range_m[f] = raw;
+      out.y_m[f] = static_cast<float>(heads_.head_cdeg[f]);
+      out.z_m[f] = raw == 0 ? kNoHeight_m : static_cast<float>(laser);
+    }
+  }
+  [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
+    return rows_;
+  }
+
+ private:
+  TileHeads heads_{};
+  const std::uint16_t* raw_ = nullptr;
+  std::array<std::int32_t, kLasers> rows_{7, 6, 5, 4, 3, 2, 1, 0};
+};
+
+/// One tile, of which nothing was measured yet.
+struct Measured {
+  std::array<TileRow<std::uint16_t>, kLasers> raw{};
+  std::array<TileRow<std::uint8_t>, kLasers> intensity{};
+  std::array<BeamColumns, kLasers> beams{};
+  TileHeads heads{};
+
+  explicit Measured(std::int32_t first_column) {
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      const std::int32_t column = first_column + static_cast<std::int32_t>(f);
+      heads.head_cdeg[f] = column;
+      for (BeamColumns& beam : beams) beam.column[f] = column;
+    }
+    settle();
+  }
+  /// After a change of columns.
+  void settle() {
+    for (BeamColumns& beam : beams) {
+      const auto [least, most] = std::ranges::minmax(beam.column);
+      beam.least = least;
+      beam.most = most;
+      beam.is_one_run = true;
+      for (std::size_t f = 1; f < kTileFirings; ++f) {
+        beam.is_one_run &= beam.column[f] == beam.column[f - 1] + 1;
+      }
+    }
+  }
+};
+
+struct MeasuredReturnsTest : testing::Test {
+  std::uint32_t add(const Measured& tile, CellOwner owner = CellOwner::kFirstArrived,
+                    std::int32_t first_column = 0) {
+    return image.measured()->add({.heads = tile.heads,
+                                  .raw = tile.raw[0].data(),
+                                  .intensity = tile.intensity[0].data(),
+                                  .beams = tile.beams,
+                                  .first_column = first_column},
+                                 owner, reader);
+  }
+  /// x of the return that owns a cell of laser 2's row; 0: none.
+  float owner_in(int column) {
+    FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
+    points.begin(image);
+    points.make_until(kShape.columns, image);
+    const std::size_t cell = kShape.cell(5, column);
+    return std::isnan(points.planes().z_m[cell]) ? 0 : points.planes().x_m[cell];
+  }
+  /// Ranges of the returns in all columns that own no cell.
+  std::vector<float> extras() {
+    std::vector<float> found;
+    FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
+    (void)points.for_each_extra(image, {0, kShape.columns}, [&](int, float, float range_m) {
+      found.push_back(range_m);
+    });
+    return found;
+  }
+
+  memory::FixedMemory memory;
+  RangeImage image{kShape, MeasuredReturns(kShape, 4, memory)};
+  PlainReader reader;
+};
+
+TEST_F(MeasuredReturnsTest, AreNumberedFiringByFiringLaserByLaser) {
+  Measured tile(10);
+  tile.raw[0][0] = tile.raw[3][0] = tile.raw[1][5] = tile.raw[7][23] = 100;
+  EXPECT_EQ(add(tile), 0U);
+  const MeasuredReturns& returns = *image.measured();
+  ASSERT_EQ(returns.tiles(), 1U);
+  EXPECT_EQ(image.returns(), 4U);
+  EXPECT_EQ(returns.tile(0).first_return[0], 0U);
+  EXPECT_EQ(returns.tile(0).first_return[1], 2U);
+  EXPECT_EQ(returns.tile(0).first_return[5], 2U);
+  EXPECT_EQ(returns.tile(0).first_return[6], 3U);
+  EXPECT_EQ(returns.row(0, 1).returns, 1U << 5);
+  EXPECT_TRUE(returns.row(0, 1).is_run);
+  add(tile = Measured(40));
+  EXPECT_EQ(returns.tiles(), 1U) << "a tile without a return is none";
+}
+
+TEST_F(MeasuredReturnsTest, OfAnotherFrameAreLeftOut) {
+  Measured tile(190);  // columns 190 .. 213, of which 200 is the next frame's first
+  tile.raw[2].fill(50);
+  EXPECT_EQ(add(tile), 0U);
+  EXPECT_EQ(image.returns(), 10U);
+  EXPECT_EQ(image.measured()->row(0, 2).owned, (1U << 10) - 1);
+  image.clear();
+  EXPECT_EQ(add(tile, CellOwner::kFirstArrived, kShape.columns), 0U);
+  EXPECT_EQ(image.returns(), 14U);
+  EXPECT_EQ(image.measured()->column(0, 2, 10), 0);
+  EXPECT_EQ(image.measured()->column(0, 2, 23), 13);
+}
+
+TEST_F(MeasuredReturnsTest, ThatFindNoRoomAreCounted) {
+  Measured tile(0);
+  tile.raw[4][3] = tile.raw[5][3] = 9;
+  for (int i = 0; i < 4; ++i) EXPECT_EQ(add(tile), 0U);
+  EXPECT_EQ(add(tile), 2U);
+  EXPECT_EQ(image.returns(), 8U);
+}
+
+TEST_F(MeasuredReturnsTest, ShareACellThatOneOfThemOwns) {
+  Measured tile(20);
+  tile.raw[2][0] = 30;
+  tile.raw[2][1] = 40;
+  tile.raw[2][2] = 20;
+  tile.intensity[2][0] = 5;
+  tile.intensity[2][1] = 7;
+  tile.intensity[2][2] = 7;
+  tile.beams[2].column[1] = tile.beams[2].column[2] = 20;
+  tile.settle();
+  const auto owner_by = [&](CellOwner owner) {
+    image.clear();
+    EXPECT_EQ(add(tile, owner), 0U);
+    EXPECT_EQ(extras().size(), 2U);
+    EXPECT_TRUE(image.measured()->has_shared(5, {20, 21}));
+    EXPECT_FALSE(image.measured()->has_shared(5, {21, kShape.columns}));
+    EXPECT_FALSE(image.measured()->has_shared(4, {0, kShape.columns}));
+    return owner_in(20);
+  };
+  EXPECT_EQ(owner_by(CellOwner::kFirstArrived), 30);
+  EXPECT_EQ(owner_by(CellOwner::kStrongest), 40) << "the earlier one of equals";
+  EXPECT_EQ(owner_by(CellOwner::kNearest), 20);
+  EXPECT_EQ(owner_by(CellOwner::kFarthest), 40);
+}
+
+TEST_F(MeasuredReturnsTest, OfALaterTileMayTakeACellFromAnEarlierOne) {
+  Measured early(20), late(30);
+  early.raw[2].fill(30);
+  late.raw[2][0] = 10;  // in column 30, as firing 10 of the early one
+  EXPECT_EQ(add(early, CellOwner::kNearest), 0U);
+  EXPECT_FALSE(image.measured()->tile(0).has_extras);
+  EXPECT_EQ(add(late, CellOwner::kNearest), 0U);
+  EXPECT_TRUE(image.measured()->tile(0).has_extras);
+  EXPECT_EQ(owner_in(30), 10);
+  EXPECT_EQ(owner_in(31), 30);
+  EXPECT_EQ(extras(), std::vector<float>{30});
+}
+
+TEST_F(MeasuredReturnsTest, MayComeToColumnsThatWereLeftOut) {
+  Measured around(40), between(40);
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    (f % 2 == 0 ? around : between).raw[2][f] = static_cast<std::uint16_t>(100 + f);
+  }
+  EXPECT_EQ(add(around), 0U);
+  EXPECT_EQ(add(between), 0U);
+  for (int f = 0; f < int{kTileFirings}; ++f) {
+    EXPECT_EQ(owner_in(40 + f), static_cast<float>(100 + f));
+  }
+  EXPECT_TRUE(extras().empty());
+}
+
+TEST_F(MeasuredReturnsTest, MayLieFarApartInOneTile) {
+  Measured tile(5);
+  tile.raw[2][0] = 11;
+  tile.raw[2][1] = 12;
+  tile.raw[2][2] = 13;
+  tile.beams[2].column[1] = 150;
+  tile.beams[2].column[2] = 150;
+  tile.settle();
+  EXPECT_EQ(add(tile), 0U);
+  EXPECT_EQ(owner_in(5), 11);
+  EXPECT_EQ(owner_in(150), 12);
+  EXPECT_EQ(extras(), std::vector<float>{13});
+}
+
+TEST_F(MeasuredReturnsTest, AreMadePointsOfAsColumnsAreAskedFor) {
+  for (const int first : {0, 24, 48}) {
+    Measured tile(first);
+    for (auto& row : tile.raw) row.fill(static_cast<std::uint16_t>(first + 1));
+    EXPECT_EQ(add(tile), 0U);
+  }
+  FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
+  const auto has = [&](int column) {
+    return !std::isnan(points.planes().z_m[kShape.cell(3, column)]);
+  };
+  points.begin(image);
+  points.make_until(30, image);
+  EXPECT_TRUE(has(0) && has(29));
+  EXPECT_FALSE(has(48));
+  points.make_until(60, image);
+  EXPECT_TRUE(has(59));
+  EXPECT_EQ(points.planes().z_m[kShape.cell(3, 59)], 4);
+  EXPECT_EQ(points.planes().y_m[kShape.cell(3, 59)], 59);
+  bool was_asked = false;
+  points.make_where(image, [&](int, ColumnRange) { return was_asked = true; });
+  EXPECT_FALSE(was_asked) << "all points are made";
+
+  FramePoints some(kShape, std::make_unique<PlainReader>(), memory);
+  some.make_where(image, [](int row, ColumnRange columns) {
+    return row == 3 && columns.begin <= 50 && columns.end > 50;
+  });
+  EXPECT_EQ(some.planes().x_m[kShape.cell(3, 50)], 49);
+  EXPECT_EQ(some.planes().x_m[kShape.cell(3, 10)], 0);
+  EXPECT_EQ(some.planes().x_m[kShape.cell(2, 50)], 0);
+}
+
+}  // namespace
+}  // namespace terracut::frame

@@ -89,8 +89,8 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
 
 void Decoder::push(const Datagram& datagram) noexcept {
   rejected_.reset();
-  auto reason = with_sensor(
-      [&](auto& sensor) noexcept { return sensor.trait().check(datagram.payload, azimuths_); });
+  auto reason =
+      with_sensor([&](auto& sensor) noexcept { return sensor.trait().check(datagram, azimuths_); });
   if (!reason && azimuths_.behind_sector > 0 && !blind_.is_inside(azimuths_)) {
     reason = frame::Reject::kAzimuthJump;
   }

@@ -33,7 +33,7 @@ inline constexpr std::int32_t kPeriodTolerance = 8;
 /// packets and cutting frames needs to know of it. Made by a sensor trait, which vouches for it:
 /// azimuths in range, advancing, and not those of a head that stands still.
 struct PacketAzimuths {
-  static constexpr int kMaxColumns = 6;
+  static constexpr int kMaxColumns = 12;
 
   /// Device clock, [0, Sensor::kClockWrap_us), at the same place of every packet: it advances
   /// evenly from packet to packet.

@@ -40,7 +40,7 @@ struct PacketPlace {
 ///   `kPacketBytes`, the size of a data packet; `kClockWrap_us`, where the device clock wraps;
 ///   `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const mount::Mount&, const Config&);
-/// - `check(payload, PacketAzimuths&)`: the reason to reject a payload, or nothing and its heads;
+/// - `check(Datagram, PacketAzimuths&)`: the reason to reject one, or nothing and its heads;
 /// - `spread(step_ticks)`: the BeamSpread around the head;
 /// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
 /// - `group(laser)`, `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated

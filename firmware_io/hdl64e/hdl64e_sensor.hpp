@@ -10,6 +10,7 @@
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/hdl64e/hdl64e_geometry.hpp"
 #include "calib/mount/mount.hpp"
+#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
@@ -41,8 +42,8 @@ class Hdl64eSensor {
   Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
   [[nodiscard]] std::optional<frame::Reject> check(
-      std::span<const std::uint8_t> payload, decode::PacketAzimuths& azimuths) const noexcept {
-    return check_hdl64e_packet(payload, azimuths);
+      const decode::Datagram& datagram, decode::PacketAzimuths& azimuths) const noexcept {
+    return check_hdl64e_packet(datagram.payload, azimuths);
   }
   [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};

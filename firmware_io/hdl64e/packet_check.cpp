@@ -61,7 +61,7 @@ std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> p
 
   const auto& azimuth_cdeg = azimuths.azimuth_cdeg;
   int sweep_cdeg = 0;
-  for (std::size_t column = 1; column < azimuth_cdeg.size(); ++column) {
+  for (std::size_t column = 1; column < kColumnsPerPacketSingle; ++column) {
     const int step_cdeg = beams::step_cdeg(azimuth_cdeg[column - 1], azimuth_cdeg[column]);
     if (step_cdeg < -kMaxJitter_cdeg || step_cdeg > kMaxColumnStep_cdeg) {
       return frame::Reject::kAzimuthJump;

@@ -24,8 +24,9 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount&
       kernel_(calibration, mount),
       rows_(rows_by_elevation(calibration)) {}
 
-std::optional<frame::Reject> Ruby128Sensor::check(std::span<const std::uint8_t> payload,
+std::optional<frame::Reject> Ruby128Sensor::check(const decode::Datagram& datagram,
                                                   decode::PacketAzimuths& azimuths) noexcept {
+  const std::span<const std::uint8_t> payload = datagram.payload;
   auto reason = check_ruby128_packet(payload, azimuths);
   if (reason == frame::Reject::kAzimuthJump && read_across_sector(azimuths, step_ticks_))
     reason.reset();

@@ -10,6 +10,7 @@
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "calib/ruby128/ruby128_geometry.hpp"
+#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
@@ -45,7 +46,7 @@ class Ruby128Sensor {
 
   Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
-  [[nodiscard]] std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
+  [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
                                                    decode::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
   [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {

@@ -16,6 +16,8 @@
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/hdl64e/point_kernel.hpp"
+#include "firmware_io/hdl64e/s1_packet.hpp"
+#include "firmware_io/hdl64e/s1_reader.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -24,7 +26,8 @@ namespace terracut::hdl64e {
 /// What Decoder needs to know of the HDL-64E (see there).
 ///
 /// Single and dual return packets are told apart by their azimuths: in dual return each comes
-/// twice, for the strongest and the last return. Both returns of a firing are placed.
+/// twice, for the strongest and the last return. Both returns of a firing are placed. The packets
+/// of an S1 are told by their blocks (s1_packet.hpp).
 class Hdl64eSensor {
  public:
   using Calibration = Hdl64eCalibration;
@@ -41,10 +44,9 @@ class Hdl64eSensor {
 
   Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
-  [[nodiscard]] std::optional<frame::Reject> check(
-      const decode::Datagram& datagram, decode::PacketAzimuths& azimuths) const noexcept {
-    return check_hdl64e_packet(datagram.payload, azimuths);
-  }
+  [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
+                                                   decode::PacketAzimuths& azimuths) noexcept
+      TERRACUT_NONBLOCKING;
   [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
@@ -56,13 +58,16 @@ class Hdl64eSensor {
                                                   bool dual_return) noexcept {
     return firing_advance_ticks(step_ticks, static_cast<int>(group), dual_return);
   }
-  void begin_packet(const decode::PacketAzimuths&) noexcept {}
-  [[nodiscard]] static std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
-                                               std::size_t) noexcept {
-    return azimuths.step_ticks;
+  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
+    is_s1_packet_ = azimuths.columns == kColumnsPerPacketS1;
   }
-  static void read_column(std::span<const std::uint8_t> payload, std::size_t column,
-                          const Returns& found) noexcept TERRACUT_NONBLOCKING;
+  /// Within a block of the S1 nothing is known of the head's rotation.
+  [[nodiscard]] std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+                                        std::size_t) const noexcept {
+    return is_s1_packet_ ? 0 : azimuths.step_ticks;
+  }
+  void read_column(std::span<const std::uint8_t> payload, std::size_t column,
+                   const Returns& found) const noexcept TERRACUT_NONBLOCKING;
   void compute_points(std::size_t laser, const decode::LaserHeads& heads,
                       const decode::TileRow<float>& measured_m,
                       const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
@@ -72,6 +77,8 @@ class Hdl64eSensor {
   [[nodiscard]] std::span<const std::int32_t, kHdl64eLasers> rows() const noexcept { return rows_; }
 
  private:
+  S1Reader s1_reader_;
+  bool is_s1_packet_ = false;
   BeamOffsets offsets_;
   PointKernel kernel_;
   float metres_per_count_;

@@ -24,7 +24,7 @@ inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column
 ///
 ///   kWrongModel        another Velodyne's or a RoboSense's data packet, told by its block ids or
 ///                      size and leader (VLP-16, HDL-32E, VLP-32C: upper blocks only; VLS-128: four
-///                      ids in turn; HDL-64E S1: several upper blocks to a lower one; RS-Ruby)
+///                      ids in turn; HDL-64E S1, see s1_packet.hpp; RS-Ruby)
 ///   kWrongSize         not 1206 bytes
 ///   kWrongMagic        block ids that do not alternate upper, lower
 ///   kAzimuthOutOfRange, kAzimuthMismatch (of a pair), kAzimuthJump (steps beyond those above)

@@ -8,6 +8,8 @@
 #include <memory>
 #include <tuple>
 
+#include "firmware_io/sensor/head_reader.hpp"
+
 namespace terracut::sensor {
 namespace {
 
@@ -15,6 +17,26 @@ namespace {
 constexpr std::size_t kMostSizes = 64;
 
 using StreamKey = std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t>;
+
+/// What the data packets of a model tell that send nothing else.
+class HeadSurvey {
+ public:
+  void add(SensorModel model, const decode::Datagram& datagram) {
+    decode::PacketAzimuths azimuths;
+    const auto reject = reader_.read(model, datagram, azimuths);
+    if (reject && azimuths.columns == 0) return;  // not its block ids after all
+    if (reject == frame::Reject::kAzimuthOutOfRange) {
+      stream_.add_out_of_range();
+    } else {
+      stream_.add(azimuths, !reject);
+    }
+  }
+  [[nodiscard]] StreamFacts facts() const { return stream_.facts(); }
+
+ private:
+  HeadReader reader_;
+  StreamSurvey stream_{hdl64e::kDeviceHour_us};
+};
 
 struct StreamUnderSurvey {
   UdpStream stream;
@@ -24,6 +46,7 @@ struct StreamUnderSurvey {
   std::unique_ptr<Hdl64eSurvey> hdl64e;
   std::unique_ptr<Ruby128Survey> ruby128;
   std::unique_ptr<Ruby128DeviceReader> device;
+  std::map<SensorModel, HeadSurvey> heads;
 
   void add(const decode::Datagram& datagram) {
     const bool first = stream.packets == 0;
@@ -48,6 +71,8 @@ struct StreamUnderSurvey {
     } else if (model == SensorModel::kRoboSenseDeviceInfo) {
       if (!device) device = std::make_unique<Ruby128DeviceReader>();
       device->add(datagram.payload);
+    } else if (is_decoded(model)) {
+      heads[model].add(model, datagram);
     }
   }
 
@@ -63,6 +88,7 @@ struct StreamUnderSurvey {
     if (hdl64e) stream.hdl64e = hdl64e->facts();
     if (ruby128) stream.ruby128 = ruby128->facts();
     if (device) stream.device = *device;
+    if (heads.contains(stream.sensor)) stream.head = heads.at(stream.sensor).facts();
     return std::move(stream);
   }
 };

@@ -35,6 +35,7 @@ struct UdpStream {
   std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet.
   std::optional<Hdl64eFacts> hdl64e;    ///< Where any packet is an HDL-64E's.
   std::optional<Ruby128Facts> ruby128;  ///< Where any is an RS-Ruby128's data packet.
+  std::optional<StreamFacts> head;      ///< Where most are of a decoded model that tells no more.
   std::optional<Ruby128DeviceReader> device;  ///< Where any is a DIFOP.
 
   /// Packets a second by the capture stamps; 0 for one packet or none.

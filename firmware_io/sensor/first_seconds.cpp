@@ -106,6 +106,7 @@ Expected<calib::SensorCalibration> FirstSeconds::from_packets(SensorModel model,
                             "--nominal-calibration",
                             config_.device_port, told.error().message));
   }
+  if (model == SensorModel::kHdl64eS1) return fail_for_s1(config_.place);
   const hdl64e::StatusStreamReader& status = senders_.hdl64e_status(address);
   if (!status.has_table()) {
     return fail(ErrorCode::kNoCalibration,

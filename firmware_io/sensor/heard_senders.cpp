@@ -5,24 +5,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <functional>
 
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 
 namespace terracut::sensor {
-namespace {
-
-constexpr std::array kDecoded{SensorModel::kHdl64e, SensorModel::kRuby128};
-
-}  // namespace
 
 void HeardSenders::add(const decode::Datagram& datagram) {
   const auto known = senders_.find(datagram.source_address);
   if (known == senders_.end() && senders_.size() >= kMostSenders) return;
   Sender& sender = senders_[datagram.source_address];
-  sender.probe.add(datagram.payload);
+  sender.probe.add(datagram);
   (void)sender.ruby128_device.add(datagram.payload);
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
@@ -36,7 +30,7 @@ template <class Predicate>
 std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& are) const {
   std::vector<Sensor> found;
   for (const auto& [address, sender] : senders_) {
-    for (const SensorModel model : kDecoded) {
+    for (const SensorModel model : kDecodedModels) {
       if (wants(model) && std::invoke(are, sender.probe, model)) found.push_back({address, model});
     }
   }
@@ -60,7 +54,7 @@ bool HeardSenders::has_told(const Sensor& sensor) const {
 }
 
 std::string HeardSenders::describe(const Sender& sender) const {
-  for (const SensorModel model : kDecoded) {
+  for (const SensorModel model : kDecodedModels) {
     const std::uint64_t packets = sender.probe.packets_of(model);
     if (packets == 0) continue;
     if (!wants(model))
@@ -80,7 +74,7 @@ std::string HeardSenders::others() const {
     const auto is_rotating = [&](SensorModel model) {
       return wants(model) && sender.probe.knows(model);
     };
-    if (std::ranges::any_of(kDecoded, is_rotating)) continue;
+    if (std::ranges::any_of(kDecodedModels, is_rotating)) continue;
     text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", describe(sender),
                         net::ipv4_text(address));
   }

@@ -30,7 +30,7 @@ class HeardSenders {
 
   void add(const decode::Datagram& datagram);
 
-  [[nodiscard]] bool wants(SensorModel model) const { return !wanted_ || *wanted_ == model; }
+  [[nodiscard]] bool wants(SensorModel model) const { return is_wanted(wanted_, model); }
   /// Those whose head is known to rotate.
   [[nodiscard]] std::vector<Sensor> rotating() const;
   /// Those that send data packets steadily, whether their head rotates or not.

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 
+#include "firmware_io/hdl64e/s1_packet.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/ruby128/wire.hpp"
 
@@ -47,16 +48,12 @@ SensorModel product(std::uint8_t number) noexcept {
 }
 
 SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
+  if (hdl64e::is_hdl64e_s1(packet)) return SensorModel::kHdl64eS1;
   if (hdl64e::is_hdl64e(packet)) return SensorModel::kHdl64e;
-  int upper = 0;
-  int lower = 0;
-  for (const hdl64e::wire::Block& block : packet.blocks) {
-    upper += block.id.value() == hdl64e::kUpperBlockId ? 1 : 0;
-    lower += block.id.value() == hdl64e::kLowerBlockId ? 1 : 0;
-  }
-  if (upper == hdl64e::kBlocksPerPacket) return product(packet.status_value);
-  // The S1 sends about three upper blocks for each lower one and nothing else.
-  if (upper + lower == hdl64e::kBlocksPerPacket && lower > 0) return SensorModel::kHdl64eS1;
+  const bool are_upper = std::ranges::all_of(packet.blocks, [](const hdl64e::wire::Block& block) {
+    return block.id.value() == hdl64e::kUpperBlockId;
+  });
+  if (are_upper) return product(packet.status_value);
   constexpr std::uint16_t kThirdVls128Block = 0xCCFF;
   if (packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
       packet.blocks[2].id.value() == kThirdVls128Block) {

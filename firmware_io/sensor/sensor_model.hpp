@@ -2,7 +2,10 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -15,7 +18,7 @@ namespace terracut::sensor {
 enum class SensorModel : std::uint8_t {
   kUnknown,
   kHdl64e,    ///< HDL-64E S2, S2.1 or S3: decoded.
-  kHdl64eS1,  ///< The first HDL-64E: other block order, no firing times.
+  kHdl64eS1,  ///< The first HDL-64E, other block order, no clock: decoded.
   kHdl32e,
   kVlp16,  ///< Also sold as Puck LITE.
   kVlp16HiRes,
@@ -29,6 +32,20 @@ enum class SensorModel : std::uint8_t {
   kOtherRoboSense,      ///< RoboSense's data packet of another model.
   kRoboSenseDeviceInfo  ///< DIFOP, sent about once a second.
 };
+
+/// Those that are decoded.
+inline constexpr std::array kDecodedModels{SensorModel::kHdl64e, SensorModel::kHdl64eS1,
+                                           SensorModel::kRuby128};
+[[nodiscard]] constexpr bool is_decoded(SensorModel model) noexcept {
+  return std::ranges::find(kDecodedModels, model) != kDecodedModels.end();
+}
+
+/// A user who asked for this model, or for none, means that one, too: an HDL-64E of any generation.
+[[nodiscard]] constexpr bool is_wanted(std::optional<SensorModel> asked,
+                                       SensorModel model) noexcept {
+  return !asked || *asked == model ||
+         (*asked == SensorModel::kHdl64e && model == SensorModel::kHdl64eS1);
+}
 
 /// The name people know it by, "Velodyne HDL-64E (S2/S3)".
 [[nodiscard]] std::string_view to_string(SensorModel model) noexcept;

@@ -23,6 +23,7 @@ constexpr double kNominalTolerance = 0.03;
 /// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
 double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
+  if (model == SensorModel::kHdl64eS1) return hdl64e::kS1UpperFiring_ns * 1e-9;
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }
 
@@ -60,17 +61,11 @@ void SensorProbe::Head::add(const decode::PacketAzimuths& azimuths) {
   last = azimuths;
 }
 
-void SensorProbe::add(std::span<const std::uint8_t> payload) {
-  const SensorModel model = recognise_sensor(payload);
+void SensorProbe::add(const decode::Datagram& datagram) {
+  const SensorModel model = recognise_sensor(datagram.payload);
   ++votes_[model];
   decode::PacketAzimuths azimuths;
-  if (model == SensorModel::kHdl64e) {
-    if (!hdl64e::check_hdl64e_packet(payload, azimuths)) azimuths_[model].add(azimuths);
-  } else if (model == SensorModel::kRuby128) {
-    const auto* packet = ruby128::packet_in(payload);
-    if (packet == nullptr || ruby128::check_ruby128_packet(payload, azimuths)) return;
-    const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp);
-    azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp, encoding) / 1000;
+  if (is_decoded(model) && !reader_.read(model, datagram, azimuths)) {
     azimuths_[model].add(azimuths);
   }
 }
@@ -116,9 +111,8 @@ int SensorProbe::columns(SensorModel model) const {
 std::string SensorProbe::foreign_models() const {
   std::string text;
   for (const auto& [model, packets] : votes_) {
-    if (model == SensorModel::kHdl64e || model == SensorModel::kRuby128 ||
-        model == SensorModel::kUnknown || model == SensorModel::kRoboSenseDeviceInfo ||
-        model == SensorModel::kVelodynePosition) {
+    if (is_decoded(model) || model == SensorModel::kUnknown ||
+        model == SensorModel::kRoboSenseDeviceInfo || model == SensorModel::kVelodynePosition) {
       continue;
     }
     text +=

@@ -5,11 +5,11 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 
+#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/sensor/head_reader.hpp"
 #include "firmware_io/sensor/sensor_model.hpp"
 
 namespace terracut::sensor {
@@ -18,8 +18,7 @@ namespace terracut::sensor {
 /// that a decoder can be made for it. Not for the receive thread: allocates.
 class SensorProbe {
  public:
-  /// Any datagram's payload.
-  void add(std::span<const std::uint8_t> payload);
+  void add(const decode::Datagram& datagram);
 
   /// Datagrams by what they are; device information and unknown ones included.
   [[nodiscard]] const std::map<SensorModel, std::uint64_t>& votes() const noexcept {
@@ -55,7 +54,7 @@ class SensorProbe {
 
   std::map<SensorModel, std::uint64_t> votes_;
   std::map<SensorModel, Head> azimuths_;  ///< Of decoded models.
-  ruby128::RubyTimestampDetector ruby_timestamp_;
+  HeadReader reader_;
 };
 
 }  // namespace terracut::sensor

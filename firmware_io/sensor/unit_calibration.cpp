@@ -111,6 +111,14 @@ Expected<calib::SensorCalibration> from_packets_of_ruby128(PcapSource& source) {
 
 }  // namespace
 
+tl::unexpected<Error> fail_for_s1(const std::string& place) {
+  return fail(
+      ErrorCode::kNoCalibration,
+      fmt::format("{}: no calibration: none was given, and an HDL-64E S1 does not send one. "
+                  "Give the unit's db.xml or yaml with --calibration FILE",
+                  place));
+}
+
 Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                     SensorModel model,
                                                     const FromPackets& from_packets) {
@@ -127,9 +135,10 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
 
 Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                     SensorModel model, PcapSource& source) {
-  return unit_calibration(choice, model, [&] {
-    return model == SensorModel::kRuby128 ? from_packets_of_ruby128(source)
-                                          : from_packets_of_hdl64e(source);
+  return unit_calibration(choice, model, [&]() -> Expected<calib::SensorCalibration> {
+    if (model == SensorModel::kRuby128) return from_packets_of_ruby128(source);
+    if (model == SensorModel::kHdl64eS1) return fail_for_s1(source.name());
+    return from_packets_of_hdl64e(source);
   });
 }
 

@@ -32,6 +32,9 @@ using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
                                                                   SensorModel model,
                                                                   const FromPackets& from_packets);
 
+/// kNoCalibration for an HDL-64E S1 at `place`, whose packets never hold one.
+[[nodiscard]] tl::unexpected<Error> fail_for_s1(const std::string& place);
+
 /// The same for a capture, whose packets say it in the HDL-64E's status stream and in DIFOP
 /// packets. Where they do not: kNoCalibration, with what was found instead. Leaves `source`
 /// anywhere.

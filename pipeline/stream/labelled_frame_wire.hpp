@@ -37,6 +37,7 @@ enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 =
 [[nodiscard]] constexpr StreamedSensor streamed_sensor(sensor::SensorModel model) noexcept {
   switch (model) {
     case sensor::SensorModel::kHdl64e:
+    case sensor::SensorModel::kHdl64eS1:
       return StreamedSensor::kHdl64e;
     case sensor::SensorModel::kRuby128:
       return StreamedSensor::kRuby128;

@@ -36,19 +36,23 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::uint32_t azimuth_cdeg = input.next(2) % 36'000;
   std::uint32_t stamp_us = input.next(4);
   std::uint32_t step_cdeg = 17;
+  bool is_s1 = false;
   const auto send = [&] {
     for (std::uint32_t block = 0; block < packet.blocks.size(); ++block) {
+      const bool is_upper = is_s1 ? block % 4 != 0 : block % 2 == 0;
+      packet.blocks[block].id = is_upper ? hdl64e::kUpperBlockId : hdl64e::kLowerBlockId;
+      const std::uint32_t column = is_s1 ? block : block / 2;
       packet.blocks[block].azimuth_cdeg =
-          static_cast<std::uint16_t>((azimuth_cdeg + block / 2 * step_cdeg) % 36'000);
+          static_cast<std::uint16_t>((azimuth_cdeg + column * step_cdeg) % 36'000);
     }
     packet.stamp_us = stamp_us;
     run.feed(hdl64e::payload_of(packet));
-    azimuth_cdeg = (azimuth_cdeg + 6 * step_cdeg) % 36'000;
+    azimuth_cdeg = (azimuth_cdeg + (is_s1 ? 12 : 6) * step_cdeg) % 36'000;
     stamp_us += 288;
     run.advance(288'000);
   };
   for (int fed = 0; fed < kMaxPackets && !input.empty(); ++fed) {
-    switch (input.next(1) % 10) {
+    switch (input.next(1) % 11) {
       case 0:  // the stream goes on
         send();
         break;
@@ -84,6 +88,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         run.feed(bent);
         break;
       }
+      case 9:  // another generation
+        is_s1 = !is_s1;
+        break;
       case 8:  // anything
         run.feed(input.take(input.next(2) % 1'300));
         break;

@@ -15,7 +15,7 @@ int columns_of(double spin_hz, std::int64_t column_ns, std::size_t every = 1) {
                             .column_ns = column_ns,
                             .share_of_returns = 0});
   SensorProbe probe;
-  for (std::size_t n = 0; n < packets.size(); n += every) probe.add(packets[n].bytes);
+  for (std::size_t n = 0; n < packets.size(); n += every) probe.add({.payload = packets[n].bytes});
   EXPECT_NEAR(probe.spin_hz(SensorModel::kHdl64e), spin_hz, 0.02);
   return probe.columns(SensorModel::kHdl64e);
 }

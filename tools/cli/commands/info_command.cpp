@@ -68,7 +68,7 @@ std::string text_of(const StreamFacts& facts) {
   std::string text = fmt::format(
       "  head         {:.1f} rpm, {:.1f} frames, {:.4f} deg a column\n"
       "  mode         {} return, a packet every {:.1f} us\n"
-      "  lost         {} packets by the device's stamps; {} repeated, {} out of order, {} clock "
+      "  lost         {} packets by stamps and azimuths; {} repeated, {} out of order, {} clock "
       "jumps\n",
       facts.spin_rpm, facts.frames, facts.step_deg, to_string(facts.return_mode),
       facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
@@ -169,6 +169,7 @@ std::string text_of(const CaptureSurvey& survey) {
     };
     if (stream.hdl64e) describe("HDL-64E", text_of(*stream.hdl64e));
     if (stream.ruby128) describe("RS-Ruby128", text_of(*stream.ruby128));
+    if (stream.head) describe(to_string(stream.sensor), text_of(*stream.head));
     if (stream.device) describe("RS-Ruby128 device information", text_of(*stream.device));
   }
   return text;
@@ -250,6 +251,7 @@ Json json_of(const CaptureSurvey& survey) {
              {"hints", stream.sensor_hints}});
     if (stream.hdl64e) entry["hdl64e"] = json_of(*stream.hdl64e);
     if (stream.ruby128) entry["ruby128"] = json_of(*stream.ruby128);
+    if (stream.head) entry["head"] = json_of(*stream.head);
     if (stream.device) entry["ruby128_device"] = json_of(*stream.device);
   }
   if (survey.broke_off) json["broke_off"] = survey.broke_off->message;

@@ -154,7 +154,8 @@ class Replay {
     take_frames();
     if (pipeline_.rejected()) return;
     clock_of_device_.note(pipeline_.decoder(), datagram.stamp_ns);
-    if (const auto* packet = hdl64e::packet_in(datagram.payload)) {
+    const auto* packet = hdl64e::packet_in(datagram.payload);
+    if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
       status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
     }
   }

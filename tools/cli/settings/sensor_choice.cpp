@@ -60,9 +60,9 @@ std::vector<Unit> units_among(const std::map<std::uint32_t, sensor::SensorProbe>
   std::vector<Unit> units;
   std::uint64_t most = 0;
   for (const auto& [address, probe] : by_sender) {
-    for (const SensorModel model : {SensorModel::kHdl64e, SensorModel::kRuby128}) {
+    for (const SensorModel model : sensor::kDecodedModels) {
       const std::uint64_t packets = probe.packets_of(model);
-      const bool wanted = !options.sensor || options.sensor == model;
+      const bool wanted = sensor::is_wanted(options.sensor, model);
       if (wanted && packets > 0) units.push_back({address, model, packets});
     }
   }
@@ -107,13 +107,13 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::Pca
   for (std::uint64_t i = 0; i < kDatagramsToProbe; ++i) {
     const auto next = source.next();
     if (!next || !*next) break;
-    all.add((*next)->payload);
-    by_sender[(*next)->source_address].add((*next)->payload);
+    all.add(**next);
+    by_sender[(*next)->source_address].add(**next);
   }
   const std::vector<Unit> units = units_among(by_sender, options);
   if (units.empty()) {
     const std::string expected = options.sensor ? fmt::format("a {}", to_string(*options.sensor))
-                                                : "an HDL-64E (S2, S2.1, S3) or an RS-Ruby128";
+                                                : "an HDL-64E or an RS-Ruby128";
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
                             expected, found_instead(all, source)));

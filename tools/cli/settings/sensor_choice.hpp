@@ -16,7 +16,7 @@ namespace terracut::cli {
 /// The sensor of a capture, and how it rotates.
 struct SensorChoice {
   std::uint32_t address = 0;                                 ///< IPv4 of the unit, as in Datagram.
-  sensor::SensorModel model = sensor::SensorModel::kHdl64e;  ///< kHdl64e or kRuby128.
+  sensor::SensorModel model = sensor::SensorModel::kHdl64e;  ///< A decoded one.
   int columns = 0;  ///< For the range image: firings a frame.
   double spin_hz = 0;
   bool dual_return = false;

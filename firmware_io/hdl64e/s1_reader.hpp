@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/hdl64e/s1_packet.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::hdl64e {
+
+/// Reads the packets of one HDL-64E S1, and stands in for the clock that it lacks, so that they are
+/// ordered and counted like another sensor's. Packets are numbered by how far the head has rotated
+/// since the one before, over how far it rotates in one: exact up to a revolution; how many whole
+/// revolutions are missing beyond that is told by the host's stamps. The stamp is the number times
+/// the packets' period.
+///
+/// What it cannot see: packets lost while the head stands still.
+///
+/// One stream, one thread. noexcept, O(1).
+class S1Reader {
+ public:
+  /// As check_hdl64e_s1_packet(), of a packet that came at `host_ns`, and the stamp: that of the
+  /// next packet where the azimuths say nothing.
+  [[nodiscard]] std::optional<frame::Reject> read(const wire::Packet& packet, std::int64_t host_ns,
+                                                  decode::PacketAzimuths& azimuths) noexcept
+      TERRACUT_NONBLOCKING;
+
+ private:
+  /// Number of the packet of a rotating head.
+  [[nodiscard]] std::int64_t number_of(const decode::PacketAzimuths& azimuths,
+                                       std::int64_t host_ns) noexcept;
+  void take(std::int64_t packet, std::int32_t azimuth_cdeg, std::int64_t host_ns) noexcept {
+    packet_ = packet;
+    azimuth_cdeg_ = azimuth_cdeg;
+    host_ns_ = host_ns;
+  }
+  [[nodiscard]] std::int64_t mean_pace(std::int32_t pace_ticks) noexcept;
+  [[nodiscard]] std::int64_t missing_revolutions(std::int64_t rotated_ticks,
+                                                 std::int64_t pace_ticks,
+                                                 std::int64_t host_ns) const noexcept;
+
+  bool has_begun_ = false;
+  std::int64_t packet_ = 0;
+  std::int32_t azimuth_cdeg_ = 0;
+  std::int64_t host_ns_ = 0;
+  std::int64_t paces_ticks_ = 0, paces_ = 0;  ///< Of some hundred packets: marks are coarse.
+};
+
+}  // namespace terracut::hdl64e

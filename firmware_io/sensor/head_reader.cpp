@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/sensor/head_reader.hpp"
+
+#include "firmware_io/hdl64e/packet_check.hpp"
+#include "firmware_io/ruby128/packet_check.hpp"
+#include "firmware_io/ruby128/wire.hpp"
+
+namespace terracut::sensor {
+
+std::optional<frame::Reject> HeadReader::read(SensorModel model, const decode::Datagram& datagram,
+                                              decode::PacketAzimuths& azimuths) noexcept {
+  if (model == SensorModel::kRuby128) {
+    const auto reason = ruby128::check_ruby128_packet(datagram.payload, azimuths);
+    const auto* packet = ruby128::packet_in(datagram.payload);
+    if (reason || packet == nullptr) return reason;
+    const ruby128::RubyTimestamp encoding = ruby_timestamp_.add(packet->stamp);
+    azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp, encoding) / 1000;
+    return std::nullopt;
+  }
+  const auto* packet = hdl64e::packet_in(datagram.payload);
+  if (model == SensorModel::kHdl64eS1 && packet != nullptr) {
+    return s1_.read(*packet, datagram.stamp_ns, azimuths);
+  }
+  return hdl64e::check_hdl64e_packet(datagram.payload, azimuths);
+}
+
+}  // namespace terracut::sensor

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <optional>
+
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/hdl64e/s1_reader.hpp"
+#include "firmware_io/ruby128/timestamp.hpp"
+#include "firmware_io/sensor/sensor_model.hpp"
+
+namespace terracut::sensor {
+
+/// Reads from the data packets of any decoded model where the head stood and when, without a
+/// decoder. One stream, one thread.
+class HeadReader {
+ public:
+  /// As the check() of the model's trait. An RS-Ruby128's packets with a blind sector inside are
+  /// rejected.
+  [[nodiscard]] std::optional<frame::Reject> read(SensorModel model,
+                                                  const decode::Datagram& datagram,
+                                                  decode::PacketAzimuths& azimuths) noexcept;
+
+ private:
+  hdl64e::S1Reader s1_;
+  ruby128::RubyTimestampDetector ruby_timestamp_;
+};
+
+}  // namespace terracut::sensor

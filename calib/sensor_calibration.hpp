@@ -10,11 +10,13 @@
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
+#include "calib/velodyne/velodyne_calibration.hpp"
 
 namespace terracut::calib {
 
 /// The calibration of one unit of any sensor that terracut decodes.
-using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration>;
+using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration,
+                                       velodyne::VelodyneCalibration>;
 
 /// fingerprint(), `origin` and ring_profile() of whichever it is.
 [[nodiscard]] inline std::uint64_t fingerprint(const SensorCalibration& calibration) {

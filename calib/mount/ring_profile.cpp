@@ -57,4 +57,16 @@ RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration, const M
   return profile;
 }
 
+RingProfile ring_profile(const velodyne::VelodyneCalibration& calibration, const Mount& mount,
+                         double range_limit_m) {
+  const auto rows = rows_by_elevation(calibration);
+  RingProfile profile{std::vector<Ring>(rows.size()), mount};
+  for (std::size_t laser = 0; laser < rows.size(); ++laser) {
+    profile.rings[static_cast<std::size_t>(rows[laser])] =
+        ring(calibration.lasers[laser].elevation_rad, calibration.lasers[laser].vert_offset_m,
+             mount, range_limit_m);
+  }
+  return profile;
+}
+
 }  // namespace terracut::mount

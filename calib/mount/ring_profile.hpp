@@ -7,6 +7,7 @@
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
+#include "calib/velodyne/velodyne_calibration.hpp"
 
 namespace terracut::mount {
 
@@ -36,6 +37,8 @@ struct RingProfile {
 [[nodiscard]] RingProfile ring_profile(const hdl64e::Hdl64eCalibration& calibration,
                                        const Mount& mount, double range_limit_m = 120.0);
 [[nodiscard]] RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration,
+                                       const Mount& mount, double range_limit_m = 120.0);
+[[nodiscard]] RingProfile ring_profile(const velodyne::VelodyneCalibration& calibration,
                                        const Mount& mount, double range_limit_m = 120.0);
 
 }  // namespace terracut::mount

@@ -24,11 +24,24 @@ Expected<Calibration> Calibration::load(const std::filesystem::path& file) {
 }
 
 Calibration Calibration::nominal(Sensor sensor) {
-  if (sensor == Sensor::kRuby128) return calibration_of(ruby128::nominal_ruby128());
+  switch (sensor) {
+    case Sensor::kHdl64e:
+      break;
+    case Sensor::kRuby128:
+      return calibration_of(ruby128::nominal_ruby128());
+    case Sensor::kVlp16:
+      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVlp16));
+  }
   return calibration_of(hdl64e::nominal_hdl64e());
 }
 
 Sensor Calibration::sensor() const noexcept {
+  if (const auto* velodyne = std::get_if<velodyne::VelodyneCalibration>(&table_->unit)) {
+    switch (velodyne->model) {
+      case velodyne::VelodyneModel::kVlp16:
+        return Sensor::kVlp16;
+    }
+  }
   return std::holds_alternative<ruby128::Ruby128Calibration>(table_->unit) ? Sensor::kRuby128
                                                                            : Sensor::kHdl64e;
 }

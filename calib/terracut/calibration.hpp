@@ -11,7 +11,11 @@
 
 namespace terracut {
 
-enum class Sensor : std::uint8_t { kHdl64e, kRuby128 };
+enum class Sensor : std::uint8_t {
+  kHdl64e,  ///< Any generation.
+  kRuby128,
+  kVlp16
+};
 
 /// How the sensor stands above the ground. The vehicle frame has x ahead, y to the left, z up, and
 /// its origin on the ground below the sensor.
@@ -27,7 +31,8 @@ class Calibration {
   /// Velodyne's db.xml or the ROS driver's yaml for an HDL-64E, RoboSense's angle.csv for an
   /// RS-Ruby128. kNotFound, kUnreadable or kMalformed, with file and line.
   [[nodiscard]] static Expected<Calibration> load(const std::filesystem::path& file);
-  /// The model's table, when the unit's own is not at hand: heights are some centimetres off.
+  /// The model's table, when the unit's own is not at hand: heights of an HDL-64E and an RS-Ruby128
+  /// are some centimetres off. Of a VLP-16 there is no other.
   [[nodiscard]] static Calibration nominal(Sensor sensor);
 
   [[nodiscard]] Sensor sensor() const noexcept;

@@ -10,19 +10,46 @@
 
 namespace terracut::decode {
 
+namespace {
+
+/// Calls `use` with the trait's type, the unit's table and the trait's settings.
+template <class Use>
+auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Config& config,
+                const Use& use) {
+  if (const auto* unit = std::get_if<hdl64e::Hdl64eCalibration>(&calibration)) {
+    return use(std::type_identity<hdl64e::Hdl64eSensor>{}, *unit, config.hdl64e);
+  }
+  if (const auto* unit = std::get_if<ruby128::Ruby128Calibration>(&calibration)) {
+    return use(std::type_identity<ruby128::Ruby128Sensor>{}, *unit, config.ruby128);
+  }
+  const auto& unit = std::get<velodyne::VelodyneCalibration>(calibration);
+  const auto of = [&]<class Sensor>(std::type_identity<Sensor> trait) {
+    if (unit.lasers.size() != std::size_t{Sensor::kRows}) {
+      throw std::invalid_argument("Decoder: the table has other lasers than the sensor");
+    }
+    return use(trait, unit, typename Sensor::Config());
+  };
+  switch (unit.model) {
+    case velodyne::VelodyneModel::kVlp16:
+      break;
+  }
+  return of(std::type_identity<vlp16::Vlp16Sensor>{});
+}
+
+}  // namespace
+
 Decoder::Model Decoder::model_of(const calib::SensorCalibration& calibration,
                                  const Config& config) {
-  const auto model = [&]<class Sensor>(std::type_identity<Sensor>) -> Model {
-    const auto or_default = [](int given, int usual) { return given != 0 ? given : usual; };
+  const auto or_default = [](int given, int usual) { return given != 0 ? given : usual; };
+  const auto model = [&]<class Sensor>(std::type_identity<Sensor>, const auto&,
+                                       const auto&) -> Model {
     return {.rows = Sensor::kRows,
             .columns = or_default(config.columns, Sensor::kDefaultColumns),
             .returns_per_cell = or_default(config.returns_per_cell, Sensor::kDefaultReturnsPerCell),
             .packet_bytes = Sensor::kPacketBytes,
             .clock_wrap_us = Sensor::kClockWrap_us};
   };
-  const Model found = std::holds_alternative<hdl64e::Hdl64eCalibration>(calibration)
-                          ? model(std::type_identity<hdl64e::Hdl64eSensor>{})
-                          : model(std::type_identity<ruby128::Ruby128Sensor>{});
+  const Model found = with_trait(calibration, config, model);
   if (found.columns < 16 || found.columns > beams::kRevolution_cdeg) {
     throw std::invalid_argument("Decoder: columns per frame must be in [16, 36000]");
   }
@@ -32,11 +59,11 @@ Decoder::Model Decoder::model_of(const calib::SensorCalibration& calibration,
 Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibration,
                                           const mount::Mount& mount, const Config& config,
                                           int columns, memory::FixedMemory& memory) {
-  if (const auto* hdl64e = std::get_if<hdl64e::Hdl64eCalibration>(&calibration)) {
-    return PacketReturns<hdl64e::Hdl64eSensor>(*hdl64e, mount, config.hdl64e, columns, memory);
-  }
-  return PacketReturns<ruby128::Ruby128Sensor>(std::get<ruby128::Ruby128Calibration>(calibration),
-                                               mount, config.ruby128, columns, memory);
+  return with_trait(calibration, config,
+                    [&]<class Sensor>(std::type_identity<Sensor>, const auto& unit,
+                                      const auto& settings) -> SensorReturns {
+                      return PacketReturns<Sensor>(unit, mount, settings, columns, memory);
+                    });
 }
 
 FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {

@@ -24,6 +24,7 @@
 #include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
+#include "firmware_io/vlp16/vlp16_sensor.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -142,7 +143,8 @@ class Decoder {
 
  private:
   using SensorReturns =
-      std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>>;
+      std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>,
+                   PacketReturns<vlp16::Vlp16Sensor>>;
 
   /// What the sensors differ in beside their traits' work.
   struct Model {
@@ -160,11 +162,13 @@ class Decoder {
           const mount::Mount& mount, const Config& config, memory::FixedMemory& memory);
 
   /// One switch a call, and no virtual one.
-  template <class Function>
+  template <std::size_t kIndex = 0, class Function>
   decltype(auto) with_sensor(Function&& function) noexcept {
-    if (auto* hdl64e = std::get_if<PacketReturns<hdl64e::Hdl64eSensor>>(&sensor_))
-      return function(*hdl64e);
-    return function(*std::get_if<PacketReturns<ruby128::Ruby128Sensor>>(&sensor_));
+    auto* sensor = std::get_if<kIndex>(&sensor_);
+    if constexpr (kIndex + 1 < std::variant_size_v<SensorReturns>) {
+      if (sensor == nullptr) return with_sensor<kIndex + 1>(function);
+    }
+    return function(*sensor);
   }
 
   [[nodiscard]] static std::int64_t frame_of(std::int64_t ticks) noexcept {

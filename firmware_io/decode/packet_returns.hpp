@@ -36,9 +36,11 @@ struct PacketPlace {
 ///   tile    --a laser's constants, 24 firings in vectors-->  points, next to each other in a row
 ///
 /// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
-/// - `Calibration`, `Config`; `kRows` lasers, of which those of a group fire together, `kGroups`;
-///   `kPacketBytes`, the size of a data packet; `kClockWrap_us`, where the device clock wraps;
-///   `kDefaultColumns`, `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
+/// - `Calibration`, `Config`; `kRows` of the image; `kChannels` readings of lasers in a column: as
+///   many, or more where a laser fires more than once for one azimuth, a multiple of 8. They are
+///   the lasers below. Those of a group fire together, `kGroups`; `kPacketBytes`, the size of a
+///   data packet; `kClockWrap_us`, where the device clock wraps; `kDefaultColumns`,
+///   `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const mount::Mount&, const Config&);
 /// - `check(Datagram, PacketAzimuths&)`: the reason to reject one, or nothing and its heads;
 /// - `spread(step_ticks)`: the BeamSpread around the head;
@@ -49,7 +51,8 @@ struct PacketPlace {
 ///   column)` and `read_column(payload, column, FiringReturns<kRows>)`, which fills them in;
 /// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, PointsOut)`;
 /// - `rows()`: the range image row of each laser.
-/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp.
+/// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp,
+/// velodyne/velodyne_sensor.hpp.
 template <class Sensor>
 class PacketReturns {
  public:
@@ -107,7 +110,7 @@ class PacketReturns {
   [[nodiscard]] bool is_flushed() const noexcept { return firings_ == 0; }
 
  private:
-  static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kRows);
+  static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kChannels);
 
   /// What is being placed, where.
   struct Tile {

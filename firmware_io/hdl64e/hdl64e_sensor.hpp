@@ -34,7 +34,7 @@ class Hdl64eSensor {
   struct Config {
     GeometryModel geometry = GeometryModel::kManual;
   };
-  static constexpr int kRows = kHdl64eLasers;
+  static constexpr int kRows = kHdl64eLasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
   static constexpr std::size_t kGroups = kLasersPerBlock;  ///< Both blocks fire together.
   using Returns = decode::FiringReturns<static_cast<std::size_t>(kRows)>;

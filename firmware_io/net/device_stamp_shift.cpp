@@ -22,8 +22,8 @@ void write_at(std::span<std::uint8_t> payload, std::size_t offset, const Bytes& 
   std::copy(bytes.begin(), bytes.end(), field.begin());
 }
 
-void shift_hdl64e(std::span<std::uint8_t> payload, const hdl64e::wire::Packet& packet,
-                  std::int64_t shift_ns) noexcept {
+void shift_velodyne(std::span<std::uint8_t> payload, const hdl64e::wire::Packet& packet,
+                    std::int64_t shift_ns) noexcept {
   constexpr std::int64_t kHour_us = hdl64e::kDeviceHour_us;
   const std::int64_t shifted_us =
       (std::int64_t{packet.stamp_us.value()} + rounded_us(shift_ns)) % kHour_us;
@@ -45,10 +45,10 @@ void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire:
 
 bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept {
   const sensor::SensorModel model = sensor::recognise_sensor(payload);
-  if (model == sensor::SensorModel::kHdl64e) {
+  if (model == sensor::SensorModel::kHdl64e || sensor::velodyne_model_of(model)) {
     const auto* packet = hdl64e::packet_in(payload);
     if (packet == nullptr) return false;
-    shift_hdl64e(payload, *packet, shift_ns);
+    shift_velodyne(payload, *packet, shift_ns);
     return true;
   }
   if (model == sensor::SensorModel::kRuby128 || model == sensor::SensorModel::kRubyPlus) {

@@ -13,7 +13,7 @@ namespace terracut::net {
 class DeviceStampShift {
  public:
   /// Adds `shift_ns`, rounded to the device's unit, to the device stamp of a data packet; the hour
-  /// of an HDL-64E wraps. False, and the packet untouched, for payloads that are no data packet of
+  /// of a Velodyne wraps. False, and the packet untouched, for payloads that are no data packet of
   /// a sensor whose stamp is known.
   ///
   /// Wants to see the stream from its beginning, with shift 0 before the jump: that is how the

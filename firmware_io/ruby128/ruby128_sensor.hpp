@@ -34,7 +34,7 @@ class Ruby128Sensor {
     /// How stamps are to be read; nothing: found out from the packets.
     std::optional<RubyTimestamp> timestamp;
   };
-  static constexpr int kRows = kRuby128Lasers;
+  static constexpr int kRows = kRuby128Lasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
   using Returns = decode::FiringReturns<static_cast<std::size_t>(kRows)>;

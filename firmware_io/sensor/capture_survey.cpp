@@ -23,7 +23,10 @@ class HeadSurvey {
  public:
   void add(SensorModel model, const decode::Datagram& datagram) {
     decode::PacketAzimuths azimuths;
-    const auto reject = reader_.read(model, datagram, azimuths);
+    auto reject = reader_.read(model, datagram, azimuths);
+    if (!reject && azimuths.behind_sector > 0 && !stream_.blind().is_inside(azimuths)) {
+      reject = frame::Reject::kAzimuthJump;
+    }
     if (reject && azimuths.columns == 0) return;  // not its block ids after all
     if (reject == frame::Reject::kAzimuthOutOfRange) {
       stream_.add_out_of_range();

@@ -72,7 +72,7 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
 }
 
 std::string FirstSeconds::wanted_name() const {
-  return config_.model ? std::string(to_string(*config_.model)) : "an HDL-64E or RS-Ruby128";
+  return config_.model ? std::string(to_string(*config_.model)) : "a Velodyne or RS-Ruby128";
 }
 
 std::string FirstSeconds::heard_instead() const {

@@ -10,6 +10,8 @@
 #include "firmware_io/hdl64e/s1_reader.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
 #include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/velodyne/packet_reader.hpp"
+#include "firmware_io/vlp16/vlp16_sensor.hpp"
 
 namespace terracut::sensor {
 
@@ -26,6 +28,7 @@ class HeadReader {
  private:
   hdl64e::S1Reader s1_;
   ruby128::RubyTimestampDetector ruby_timestamp_;
+  velodyne::PacketReader vlp16_{vlp16::Vlp16::kLayout};
 };
 
 }  // namespace terracut::sensor

@@ -39,7 +39,7 @@ class HeardSenders {
   [[nodiscard]] std::int64_t known_for_ns() const {
     return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
   }
-  /// The sensor has told its own calibration.
+  /// The sensor has told its own calibration, or needs none.
   [[nodiscard]] bool has_told(const Sensor& sensor) const;
 
   [[nodiscard]] const SensorProbe& probe(std::uint32_t address) const {

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "calib/velodyne/velodyne_calibration.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::sensor {
@@ -20,7 +21,7 @@ enum class SensorModel : std::uint8_t {
   kHdl64e,    ///< HDL-64E S2, S2.1 or S3: decoded.
   kHdl64eS1,  ///< The first HDL-64E, other block order, no clock: decoded.
   kHdl32e,
-  kVlp16,  ///< Also sold as Puck LITE.
+  kVlp16,  ///< Also sold as Puck LITE: decoded.
   kVlp16HiRes,
   kVlp32c,
   kVls128,              ///< Alpha Prime.
@@ -35,9 +36,16 @@ enum class SensorModel : std::uint8_t {
 
 /// Those that are decoded.
 inline constexpr std::array kDecodedModels{SensorModel::kHdl64e, SensorModel::kHdl64eS1,
-                                           SensorModel::kRuby128};
+                                           SensorModel::kRuby128, SensorModel::kVlp16};
 [[nodiscard]] constexpr bool is_decoded(SensorModel model) noexcept {
   return std::ranges::find(kDecodedModels, model) != kDecodedModels.end();
+}
+
+/// The model of the family whose table is built in; nothing for others.
+[[nodiscard]] constexpr std::optional<velodyne::VelodyneModel> velodyne_model_of(
+    SensorModel model) noexcept {
+  if (model == SensorModel::kVlp16) return velodyne::VelodyneModel::kVlp16;
+  return std::nullopt;
 }
 
 /// A user who asked for this model, or for none, means that one, too: an HDL-64E of any generation.

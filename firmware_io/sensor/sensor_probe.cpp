@@ -23,6 +23,7 @@ constexpr double kNominalTolerance = 0.03;
 /// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
 double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
+  if (model == SensorModel::kVlp16) return vlp16::Vlp16::kFiring_ns * 1e-9;
   if (model == SensorModel::kHdl64eS1) return hdl64e::kS1UpperFiring_ns * 1e-9;
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }
@@ -100,8 +101,8 @@ bool SensorProbe::dual_return(SensorModel model) const {
 int SensorProbe::columns(SensorModel model) const {
   const std::optional<double> hz = head_spin_hz(spin_hz(model));
   if (!knows(model) || !hz) {
-    return model == SensorModel::kRuby128 ? ruby128::Ruby128Sensor::kDefaultColumns
-                                          : hdl64e::Hdl64eSensor::kDefaultColumns;
+    constexpr double kUsual_hz = 10;
+    return static_cast<int>(1 / (kUsual_hz * firing_s(model, false)));
   }
   const Head& head = *head_of(model);
   const bool fires_slowly = dual_return(model) || 2 * head.slow_steps > head.packets;

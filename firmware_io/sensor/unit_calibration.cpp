@@ -124,6 +124,12 @@ Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& cho
                                                     const FromPackets& from_packets) {
   const bool ruby128 = model == SensorModel::kRuby128;
   if (choice.unit) return *choice.unit;
+  if (const auto family = velodyne_model_of(model)) {
+    if (choice.file.empty()) return velodyne::factory_table(*family);
+    return fail(ErrorCode::kUnsupported,
+                fmt::format("{}: the table of a {} is built in; leave --calibration away",
+                            choice.file.string(), to_string(model)));
+  }
   if (!choice.file.empty()) {
     if (ruby128) return ruby128::read_ruby128_csv(choice.file);
     return hdl64e::load_hdl64e_calibration(choice.file);

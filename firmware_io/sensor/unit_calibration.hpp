@@ -25,9 +25,10 @@ struct CalibrationChoice {
 /// What the unit's packets say of its calibration; else why they do not, and what to do.
 using FromPackets = std::function<Expected<calib::SensorCalibration>()>;
 
-/// The unit's calibration: what is known already; the file; else what its packets say; else, where
-/// that is allowed, the model's nominal table. `from_packets` is only asked where there is neither;
-/// its error is returned where there is nothing.
+/// The unit's calibration: what is known already; of a model whose table is built in, that; the
+/// file; else what its packets say; else, where that is allowed, the model's nominal table.
+/// `from_packets` is only asked where there is neither; its error is returned where there is
+/// nothing.
 [[nodiscard]] Expected<calib::SensorCalibration> unit_calibration(const CalibrationChoice& choice,
                                                                   SensorModel model,
                                                                   const FromPackets& from_packets);

@@ -5,6 +5,7 @@
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/sensor/first_seconds.hpp"
+#include "firmware_io/terracut/public_sensor.hpp"
 #include "terracut/decoder.hpp"
 
 namespace terracut {
@@ -55,8 +56,7 @@ Expected<Capture> Capture::open(const std::filesystem::path& file) {
   if (!source) return tl::unexpected(source.error());
   auto unit = sensor::unit_calibration({}, sender->model, *source);
   if (Status status = source->rewind(); !status) return tl::unexpected(status.error());
-  const Sensor model =
-      sender->model == sensor::SensorModel::kRuby128 ? Sensor::kRuby128 : Sensor::kHdl64e;
+  const Sensor model = public_sensor(sender->model);
   return Capture(std::make_unique<Engine>(
       Engine{*std::move(source), model, std::move(unit).map([](calib::SensorCalibration&& found) {
                return calibration_of(std::move(found));

@@ -32,7 +32,7 @@ static_assert(offsetof(LabelledPoint, intensity) == 12 && offsetof(LabelledPoint
               offsetof(LabelledPoint, row) == 14);
 
 /// Numbers of FrameWireHeader::sensor; they never change their meaning.
-enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 = 2 };
+enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 = 2, kVlp16 = 3 };
 
 [[nodiscard]] constexpr StreamedSensor streamed_sensor(sensor::SensorModel model) noexcept {
   switch (model) {
@@ -41,6 +41,8 @@ enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 =
       return StreamedSensor::kHdl64e;
     case sensor::SensorModel::kRuby128:
       return StreamedSensor::kRuby128;
+    case sensor::SensorModel::kVlp16:
+      return StreamedSensor::kVlp16;
     default:
       return StreamedSensor::kUnknown;
   }

@@ -12,6 +12,7 @@
 #include "firmware_io/net/live_source.hpp"
 #include "firmware_io/sensor/first_seconds.hpp"
 #include "firmware_io/terracut/points.hpp"
+#include "firmware_io/terracut/public_sensor.hpp"
 #include "pipeline/ground/profile.hpp"
 #include "pipeline/output/label_sink.hpp"
 #include "pipeline/run/live_pipeline.hpp"
@@ -36,9 +37,7 @@ Expected<sensor::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Con
   sensor::FirstSeconds::Config of_first;
   of_first.place = source.name();
   if (config.calibration) {
-    of_first.model = config.calibration->sensor() == Sensor::kRuby128
-                         ? sensor::SensorModel::kRuby128
-                         : sensor::SensorModel::kHdl64e;
+    of_first.model = model_of(config.calibration->sensor());
     of_first.calibration.unit = config.calibration->table().unit;
   }
   sensor::FirstSeconds first(std::move(of_first));
@@ -171,8 +170,7 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
 }
 
 Sensor LiveRun::sensor() const noexcept {
-  return engine_->sensor.model == sensor::SensorModel::kRuby128 ? Sensor::kRuby128
-                                                                : Sensor::kHdl64e;
+  return public_sensor(engine_->sensor.model);
 }
 
 const std::string& LiveRun::refusals() const noexcept {

@@ -14,9 +14,10 @@
 #include "hdl64e_reference.hpp"
 #include "rotating_head.hpp"
 #include "ruby128_reference.hpp"
+#include "velodyne_reference.hpp"
 
-/// Both sensors under the same names, for tests and fuzzers that compare the product's decoder with
-/// the reference and are the same for either.
+/// Sensors under the same names, for tests and fuzzers that compare the product's decoder with
+/// the reference and are the same for all.
 namespace terracut::reference {
 
 using PayloadBytes = std::vector<std::uint8_t>;
@@ -86,6 +87,48 @@ struct Ruby128 {
     return ruby128::check_ruby128_packet(payload, azimuths);
   }
 };
+
+/// Of Velodyne's smaller models.
+template <velodyne::VelodyneModel kModel, int kFiringsAPacket, int kLasersOfModel, class Layout>
+struct Velodyne {
+  using Decoder = decode::Decoder;
+  using Calibration = velodyne::VelodyneCalibration;
+  using Reference = VelodyneReference;
+  static constexpr int kColumns = kFiringsAPacket, kLasers = kLasersOfModel;
+  static constexpr int kFirstBlock = 0, kBlockBytes = 100, kBlocks = 12;
+
+  static const VelodyneSheet& sheet() { return sheet_of(kModel); }
+  static double firing_us(bool) { return sheet().firing_us; }
+  static double firings_per_packet(bool dual_return) {
+    return dual_return ? kColumns / 2.0 : kColumns;
+  }
+  static Calibration random_unit(std::mt19937& random) { return random_velodyne(kModel, random); }
+  static std::vector<double> elevations(const Calibration& calibration) {
+    std::vector<double> elevations;
+    for (const auto& laser : calibration.lasers) elevations.push_back(laser.elevation_rad);
+    return elevations;
+  }
+  static std::vector<Payload> payloads(const RotatingHead& head) {
+    return velodyne_payloads(sheet(), head);
+  }
+  static void set_azimuth(PayloadBytes& payload, int column, unsigned cdeg) {
+    set_velodyne_azimuth(sheet(), payload, column, cdeg);
+  }
+  static void set_return(PayloadBytes& payload, int column, int laser, unsigned raw,
+                         unsigned intensity) {
+    set_velodyne_return(sheet(), payload, column, laser, raw, intensity);
+  }
+  static void set_clock(PayloadBytes& payload, std::int64_t time_ns) {
+    set_velodyne_clock(payload, time_ns);
+  }
+  static void reset(Reference&) {}
+  static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
+                                            decode::PacketAzimuths& azimuths) {
+    return velodyne::PacketReader(layout()).read(payload, azimuths);
+  }
+  static const velodyne::PacketLayout& layout() { return Layout::kLayout; }
+};
+using Vlp16 = Velodyne<velodyne::VelodyneModel::kVlp16, 24, 16, vlp16::Vlp16>;
 
 /// Takes the returns off whose beam is so near a seam that it may be of either frame.
 template <class Sensor>

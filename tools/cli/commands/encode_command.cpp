@@ -10,6 +10,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/command_files.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/encode/scan_drive.hpp"
 
@@ -122,6 +123,9 @@ ExitCode encode_by(const Options& options, DriveOptions drive, const char* task,
 
 ExitCode run_encode(const Options& options) {
   catch_stop_signals();
+  if (const Status made = can_be_made(options.capture.sensor); !made) {
+    return refuse(kUsage, made.error().message);
+  }
   if (options.capture.sensor != sensor::SensorModel::kRuby128) {
     encode::ScanDriveOptions drive;
     drive.can_log = options.can_log;

@@ -17,6 +17,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/settings/words.hpp"
 #include "tools/cli/stop_signal.hpp"
@@ -261,6 +262,9 @@ Expected<eval::EvaluationOutcome> evaluate_scans(const EvaluationConfig& config,
 Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                                   const EvaluationConfig& config,
                                                   std::optional<eval::Journal>& journal) {
+  if (const Status made = can_be_made(options.capture.sensor); !made) {
+    return tl::unexpected(made.error());
+  }
   std::optional<Progress> simulating, evaluating;
   const eval::SimulatedProgress progress{[&](double done_s, double of_s) {
                                            evaluating.reset();

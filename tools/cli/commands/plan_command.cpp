@@ -14,14 +14,23 @@
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
+namespace {
+
+calib::SensorCalibration nominal_of(sensor::SensorModel model) {
+  if (const auto velodyne = sensor::velodyne_model_of(model)) {
+    return velodyne::factory_table(*velodyne);
+  }
+  if (model == sensor::SensorModel::kRuby128) return ruby128::nominal_ruby128();
+  return hdl64e::nominal_hdl64e();
+}
+
+}  // namespace
 
 /// Builds the very objects a replay builds, so the figures are those of a replay, not an estimate.
 ExitCode run_plan(const Options& options) {
   memory::FixedMemory memory;
   const calib::SensorCalibration calibration =
-      options.capture.sensor == sensor::SensorModel::kRuby128
-          ? calib::SensorCalibration(ruby128::nominal_ruby128())
-          : calib::SensorCalibration(hdl64e::nominal_hdl64e());
+      nominal_of(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e));
   const auto profile = ring_profile_of(calibration, {});
   if (!profile) return refuse(profile.error());
   const run::PacketPipeline pipeline(calibration, *profile,

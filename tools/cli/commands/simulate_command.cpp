@@ -16,6 +16,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/command_files.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/cli/temporary_folder.hpp"
@@ -117,6 +118,9 @@ ExitCode simulate_to(const Options& options, const std::filesystem::path& output
 
 ExitCode run_simulate(const Options& options) {
   catch_stop_signals();
+  if (const Status made = can_be_made(options.capture.sensor); !made) {
+    return refuse(kUsage, made.error().message);
+  }
   if (options.send.to.empty()) {
     if (options.written.empty()) {
       return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");

@@ -6,6 +6,7 @@
 
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
+#include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/vehicle/dbc_file.hpp"
 #include "pipeline/stream/listening_socket.hpp"
 #include "pipeline/stream/stream_address.hpp"
@@ -22,6 +23,9 @@ Status status_of(const Expected<Calibration>& read) {
 Status check_calibration(const CaptureOptions& capture) {
   const std::filesystem::path& file = capture.calibration;
   if (file.empty()) return {};
+  if (capture.sensor && sensor::velodyne_model_of(*capture.sensor)) {
+    return status_of(sensor::unit_calibration({{}, file, false}, *capture.sensor, {}));
+  }
   const auto hdl64e = [&] { return status_of(hdl64e::load_hdl64e_calibration(file)); };
   const auto ruby128 = [&] { return status_of(ruby128::read_ruby128_csv(file)); };
   if (capture.sensor == sensor::SensorModel::kHdl64e) return hdl64e();

@@ -78,11 +78,15 @@ void DumpWriter::work() {
 
 void DumpWriter::add_table(recorder::DumpReport& dump) const {
   const Status written = std::visit(
-      [&]<class Calibration>(const Calibration& unit) {
-        using EncoderTraits = EncoderTraitsOf<Calibration>;
-        dump.calibration =
-            recorder::dump_calibration_path(dump.capture, EncoderTraits::kCalibrationSuffix);
-        return EncoderTraits::write_calibration(dump.calibration, unit);
+      [&]<class Calibration>(const Calibration& unit) -> Status {
+        if constexpr (std::is_same_v<Calibration, velodyne::VelodyneCalibration>) {
+          return {};  // built in
+        } else {
+          using EncoderTraits = EncoderTraitsOf<Calibration>;
+          dump.calibration =
+              recorder::dump_calibration_path(dump.capture, EncoderTraits::kCalibrationSuffix);
+          return EncoderTraits::write_calibration(dump.calibration, unit);
+        }
       },
       calibration_);
   if (written) return;

@@ -113,7 +113,7 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::Pca
   const std::vector<Unit> units = units_among(by_sender, options);
   if (units.empty()) {
     const std::string expected = options.sensor ? fmt::format("a {}", to_string(*options.sensor))
-                                                : "an HDL-64E or an RS-Ruby128";
+                                                : "a Velodyne or RS-Ruby128";
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
                             expected, found_instead(all, source)));
@@ -130,12 +130,19 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::Pca
   return choice;
 }
 
+Status can_be_made(std::optional<SensorModel> model) {
+  if (!model || !sensor::velodyne_model_of(*model)) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("packets of a {} are read, not made: --sensor hdl64e or ruby128",
+                          to_string(*model)));
+}
+
 void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model) {
   if (model == sensor::SensorModel::kRuby128) return;
   const auto warn_of = [&](bool given, const char* option) {
     if (!given) return;
-    warn(fmt::format("{} is without effect: it is of an RS-Ruby128, and the sensor is an {}",
-                     option, to_string(model)));
+    warn(fmt::format("{} is without effect: it is of an RS-Ruby128, and the sensor is a {}", option,
+                     to_string(model)));
   };
   warn_of(options.nominal_calibration, "--nominal-calibration");
   warn_of(options.timestamp.has_value(), "--timestamp");

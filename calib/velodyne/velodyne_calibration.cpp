@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "calib/velodyne/velodyne_calibration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "calib/beams/angle.hpp"
+#include "calib/text/fnv1a.hpp"
+
+namespace terracut::velodyne {
+
+std::uint64_t fingerprint(const VelodyneCalibration& calibration) {
+  const auto mdeg = [](double rad) { return std::llround(beams::rad_to_deg(rad) * 1e3); };
+  text::Fnv1a hash;
+  hash.add(static_cast<std::int64_t>(calibration.model));
+  for (const VelodyneLaser& laser : calibration.lasers) {
+    hash.add(mdeg(laser.elevation_rad));
+    hash.add(mdeg(laser.azimuth_offset_rad));
+    hash.add(std::llround(laser.vert_offset_m * 1e4));
+  }
+  return hash.value();
+}
+
+std::vector<int> rows_by_elevation(const VelodyneCalibration& calibration) {
+  std::vector<std::size_t> order(calibration.lasers.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(
+      order, {}, [&](std::size_t laser) { return calibration.lasers[laser].elevation_rad; });
+  std::vector<int> rows(order.size());
+  for (std::size_t row = 0; row < order.size(); ++row) rows[order[row]] = static_cast<int>(row);
+  return rows;
+}
+
+}  // namespace terracut::velodyne

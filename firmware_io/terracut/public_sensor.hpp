@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "firmware_io/sensor/sensor_model.hpp"
+#include "terracut/calibration.hpp"
+
+/// A sensor as programs that embed terracut name it, and as packets tell it; not installed.
+namespace terracut {
+
+/// A decoded model.
+[[nodiscard]] constexpr Sensor public_sensor(sensor::SensorModel model) noexcept {
+  switch (model) {
+    case sensor::SensorModel::kRuby128:
+      return Sensor::kRuby128;
+    case sensor::SensorModel::kVlp16:
+      return Sensor::kVlp16;
+    default:
+      return Sensor::kHdl64e;
+  }
+}
+
+/// Of an HDL-64E that of the S2 and S3, which stands for all (sensor::is_wanted()).
+[[nodiscard]] constexpr sensor::SensorModel model_of(Sensor sensor) noexcept {
+  switch (sensor) {
+    case Sensor::kRuby128:
+      return sensor::SensorModel::kRuby128;
+    case Sensor::kVlp16:
+      return sensor::SensorModel::kVlp16;
+    case Sensor::kHdl64e:
+      break;
+  }
+  return sensor::SensorModel::kHdl64e;
+}
+
+}  // namespace terracut

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/velodyne/packet_reader.hpp"
+
+namespace terracut::velodyne {
+namespace {
+
+std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload,
+                                          sensor::SensorModel expected) noexcept {
+  const sensor::SensorModel model = sensor::recognise_sensor(payload);
+  if (model == expected) return std::nullopt;
+  if (model == sensor::SensorModel::kVelodynePosition) return frame::Reject::kDeviceInfo;
+  if (model != sensor::SensorModel::kUnknown) return frame::Reject::kWrongModel;
+  return payload.size() == kPacketBytes ? frame::Reject::kWrongMagic : frame::Reject::kWrongSize;
+}
+
+}  // namespace
+
+std::optional<frame::Reject> PacketReader::read(std::span<const std::uint8_t> payload,
+                                                decode::PacketAzimuths& azimuths) noexcept {
+  if (const auto reason = reject_model(payload, layout_.model)) return reason;
+  const auto* packet = hdl64e::packet_in(payload);
+  if (packet == nullptr) return frame::Reject::kWrongSize;
+  if (const auto reason = read_blocks(*packet, azimuths)) return reason;
+  const auto reason = judge_steps(azimuths);
+  last_ = {azimuths.device_stamp_us, azimuths.first_cdeg(), true};
+  if (!reason) complete(azimuths);
+  return reason;
+}
+
+std::optional<frame::Reject> PacketReader::read_blocks(
+    const hdl64e::wire::Packet& packet, decode::PacketAzimuths& azimuths) const noexcept {
+  const std::uint8_t mode = packet.status_type;
+  if (mode != kStrongest && mode != kLast && mode != kDual) return frame::Reject::kWrongMagic;
+  const bool dual_return = mode == kDual;
+  const int columns = layout_.columns(dual_return);
+  bool ids_right = true, in_range = true, blocks_agree = true;
+  for (int column = 0; column < columns; ++column) {
+    std::int32_t& azimuth_cdeg = azimuths.azimuth_cdeg[static_cast<std::size_t>(column)];
+    for (int part = 0; part < layout_.blocks_per_column; ++part) {
+      const hdl64e::wire::Block& block = packet.blocks[layout_.block(column, part, dual_return)];
+      const std::int32_t block_cdeg = block.azimuth_cdeg.value();
+      if (part == 0) azimuth_cdeg = block_cdeg;
+      ids_right &= block.id.value() == layout_.block_ids[static_cast<std::size_t>(part)];
+      in_range &= block_cdeg < beams::kRevolution_cdeg;
+      blocks_agree &= block_cdeg == azimuth_cdeg;
+    }
+    const bool is_second = dual_return && column % 2 == 1;
+    blocks_agree &=
+        !is_second || azimuth_cdeg == azimuths.azimuth_cdeg[static_cast<std::size_t>(column - 1)];
+  }
+  if (!ids_right) return frame::Reject::kWrongMagic;
+  azimuths.columns = columns;
+  azimuths.behind_sector = 0;
+  azimuths.dual_return = dual_return;
+  azimuths.device_stamp_us = packet.stamp_us.value() % kClockWrap_us;
+  if (!in_range) return frame::Reject::kAzimuthOutOfRange;
+  return blocks_agree ? std::nullopt : std::optional(frame::Reject::kAzimuthMismatch);
+}
+
+std::optional<frame::Reject> PacketReader::judge_steps(decode::PacketAzimuths& azimuths) noexcept {
+  const int most_cdeg = layout_.most_step_cdeg();
+  std::int32_t advance_cdeg = 0;
+  for (int column = 1; column < azimuths.columns; ++column) {
+    const auto c = static_cast<std::size_t>(column);
+    const std::int32_t step_cdeg =
+        beams::step_cdeg(azimuths.azimuth_cdeg[c - 1], azimuths.azimuth_cdeg[c]);
+    advance_cdeg += step_cdeg;
+    if (step_cdeg >= -kMaxJitter_cdeg && step_cdeg <= most_cdeg) continue;
+    if (azimuths.behind_sector > 0 || step_ticks_ == 0) return frame::Reject::kAzimuthJump;
+    azimuths.behind_sector = column;
+  }
+  if (azimuths.behind_sector > 0) {
+    azimuths.step_ticks = step_ticks_;
+    return std::nullopt;
+  }
+  if (advance_cdeg < -kMaxJitter_cdeg) return frame::Reject::kAzimuthJump;
+  azimuths.step_ticks = step_of(azimuths, advance_cdeg);
+  if (azimuths.step_ticks < kMinStep_cdeg * decode::kTicksPerCdeg) {
+    return frame::Reject::kStationary;
+  }
+  step_ticks_ = azimuths.step_ticks;
+  return std::nullopt;
+}
+
+/// From firing to firing.
+std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
+                                   std::int32_t advance_cdeg) noexcept {
+  const int firings = layout_.firings(azimuths.dual_return);
+  if (firings > 1) return advance_cdeg * decode::kTicksPerCdeg / (firings - 1);
+  // One firing a packet tells no step: it is the way from the packet before, if that is the one
+  // before; at 10 turns a second until there was one.
+  const std::int64_t since_us =
+      decode::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
+  const bool follows =
+      last_.is_known && since_us > 0 && since_us * 1000 < layout_.column_ns * 3 / 2;
+  if (follows) {
+    const std::int32_t step_cdeg = beams::step_cdeg(last_.azimuth_cdeg, azimuths.first_cdeg());
+    if (step_cdeg <= layout_.most_step_cdeg()) return step_cdeg * decode::kTicksPerCdeg;
+  }
+  if (step_ticks_ > 0) return step_ticks_;
+  return static_cast<std::int32_t>(std::int64_t{decode::kRevolution_ticks} * 10 *
+                                   layout_.column_ns / 1'000'000'000);
+}
+
+void PacketReader::complete(decode::PacketAzimuths& azimuths) const noexcept {
+  const std::int32_t firings = layout_.firings(azimuths.dual_return);
+  azimuths.pace_ticks = azimuths.widest_ticks = azimuths.step_ticks * firings;
+  azimuths.sweep_ticks = azimuths.behind_sector > 0
+                             ? azimuths.advance_cdeg(azimuths.columns - 1) * decode::kTicksPerCdeg +
+                                   azimuths.step_ticks
+                             : azimuths.pace_ticks;
+  azimuths.nominal_period_ns = layout_.column_ns * firings;
+  azimuths.shortest_period_ns =
+      azimuths.nominal_period_ns - azimuths.nominal_period_ns / decode::kPeriodTolerance;
+  azimuths.longest_period_ns =
+      azimuths.nominal_period_ns + azimuths.nominal_period_ns / decode::kPeriodTolerance;
+}
+
+}  // namespace terracut::velodyne

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/velodyne/packet_layout.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::velodyne {
+
+/// Checks the packets of one sensor, and reads where its head stood. The checks, in this order:
+///
+///   kDeviceInfo         a position packet, 512 bytes
+///   kWrongModel         another sensor's data packet
+///   kWrongSize          not 1206 bytes
+///   kWrongMagic         other block ids, or a return mode other than strongest, last and dual
+///   kAzimuthOutOfRange, kAzimuthMismatch (of a firing's blocks, or of a pair in dual return)
+///   kAzimuthJump        steps beyond those of packet_layout.hpp. A packet that was begun before
+///   the
+///                       head went out of a limited field of view goes on behind it: one such step
+///                       is taken for that (PacketAzimuths::behind_sector) once the rate is known,
+///                       and it is for the caller to know whether there is such a sector
+///   kStationary
+///
+/// `azimuths` holds stamp and azimuths for the azimuth reasons and kStationary, too. One stream,
+/// one thread; real-time safe.
+class PacketReader {
+ public:
+  explicit PacketReader(const PacketLayout& layout) noexcept : layout_(layout) {}
+
+  [[nodiscard]] std::optional<frame::Reject> read(std::span<const std::uint8_t> payload,
+                                                  decode::PacketAzimuths& azimuths) noexcept
+      TERRACUT_NONBLOCKING;
+
+ private:
+  [[nodiscard]] std::optional<frame::Reject> read_blocks(
+      const hdl64e::wire::Packet& packet, decode::PacketAzimuths& azimuths) const noexcept;
+  [[nodiscard]] std::optional<frame::Reject> judge_steps(decode::PacketAzimuths& azimuths) noexcept;
+  [[nodiscard]] std::int32_t step_of(const decode::PacketAzimuths& azimuths,
+                                     std::int32_t advance_cdeg) noexcept;
+  void complete(decode::PacketAzimuths& azimuths) const noexcept;
+
+  PacketLayout layout_;
+  std::int32_t step_ticks_ = 0;  ///< Of the last packet that had one; 0: none yet.
+  struct {
+    std::int64_t stamp_us = 0;
+    std::int32_t azimuth_cdeg = 0;
+    bool is_known = false;
+  } last_;  ///< The packet before.
+};
+
+}  // namespace terracut::velodyne

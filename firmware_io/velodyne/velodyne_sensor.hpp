@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "calib/mount/mount.hpp"
+#include "calib/velodyne/velodyne_calibration.hpp"
+#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/decode/firing_tile.hpp"
+#include "firmware_io/decode/frame_builder.hpp"
+#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/velodyne/packet_layout.hpp"
+#include "firmware_io/velodyne/packet_reader.hpp"
+#include "firmware_io/velodyne/point_kernel.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::velodyne {
+
+/// What Decoder needs to know of a Velodyne sensor (see there), but for the numbers of `Model`:
+/// - `kModel`, `kLayout`, `kMetresPerCount`, `kDefaultColumns`;
+/// - `kLasers`, and `kChannels`, the readings of a column: a multiple of kLasers where these fire
+///   more than once for one reading of the head's azimuth;
+/// - `kGroups`, `group(channel)` and `group_ns(group)`: which channels fire together, and when
+/// after
+///   the column's first firing, [0, kLayout.column_ns).
+template <class Model>
+class VelodyneSensor {
+ public:
+  using Calibration = VelodyneCalibration;
+  struct Config {};
+  static constexpr VelodyneModel kModel = Model::kModel;
+  static constexpr int kRows = Model::kLasers;
+  static constexpr int kChannels = Model::kChannels;
+  static constexpr std::size_t kPacketBytes = velodyne::kPacketBytes;
+  static constexpr std::size_t kGroups = Model::kGroups;
+  static constexpr std::int64_t kClockWrap_us = velodyne::kClockWrap_us;
+  static constexpr int kDefaultColumns = Model::kDefaultColumns;
+  /// Dual return and the columns that two firings share: more than two for some cells.
+  static constexpr int kDefaultReturnsPerCell = 3;
+  using Returns = decode::FiringReturns<static_cast<std::size_t>(kChannels)>;
+
+  VelodyneSensor(const Calibration& calibration, const mount::Mount& mount, const Config&)
+      : reader_(Model::kLayout), kernel_(calibration, mount) {
+    const std::vector<int> rows = rows_by_elevation(calibration);
+    for (std::size_t channel = 0; channel < rows_.size(); ++channel) {
+      rows_[channel] = rows[laser_of(channel)];
+      offset_ticks_[channel] = static_cast<std::int32_t>(std::lround(
+          calibration.lasers[laser_of(channel)].azimuth_offset_rad / decode::kRadPerTick));
+    }
+    const auto [least, most] = std::ranges::minmax(offset_ticks_);
+    least_ticks_ = least;
+    most_ticks_ = most;
+  }
+
+  [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
+                                                   decode::PacketAzimuths& azimuths) noexcept
+      TERRACUT_NONBLOCKING {
+    return reader_.read(datagram.payload, azimuths);
+  }
+  [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
+    return {least_ticks_, step_ticks + most_ticks_};
+  }
+  [[nodiscard]] std::int32_t beam_ticks(int channel) const noexcept {
+    return offset_ticks_[static_cast<std::size_t>(channel)];
+  }
+  [[nodiscard]] static std::size_t group(std::size_t channel) noexcept {
+    return Model::group(channel);
+  }
+  [[nodiscard]] static std::int32_t advance_ticks(std::int32_t step_ticks, std::size_t group,
+                                                  bool /*dual_return*/) noexcept {
+    return velodyne::advance_ticks<Model>(step_ticks, group);
+  }
+  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
+    is_dual_packet_ = azimuths.dual_return;
+  }
+  [[nodiscard]] static std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+                                               std::size_t) noexcept {
+    return azimuths.step_ticks;
+  }
+  void read_column(std::span<const std::uint8_t> payload, std::size_t column,
+                   const Returns& found) const noexcept TERRACUT_NONBLOCKING {
+    const auto* packet = hdl64e::packet_in(payload);
+    if (packet == nullptr) return;  // check() has seen to it
+    for (int part = 0; part < Model::kLayout.blocks_per_column; ++part) {
+      const std::size_t block =
+          Model::kLayout.block(static_cast<int>(column), part, is_dual_packet_);
+      const auto first = static_cast<std::size_t>(part * kBlockReturns);
+      decode::split_returns(&packet->blocks[block].returns[0].distance.bytes[0],
+                            decode::ByteOrder::kLittle, found.raw.subspan(first, kBlockReturns),
+                            &found.intensity[first]);
+    }
+  }
+  void compute_points(std::size_t channel, const decode::LaserHeads& heads,
+                      const decode::TileRow<float>& measured_m,
+                      const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
+    kernel_.compute(laser_of(channel), heads, measured_m, out);
+  }
+  [[nodiscard]] static float metres_per_count() noexcept {
+    return static_cast<float>(Model::kMetresPerCount);
+  }
+  [[nodiscard]] std::span<const std::int32_t, static_cast<std::size_t>(kChannels)> rows()
+      const noexcept {
+    return rows_;
+  }
+
+ private:
+  [[nodiscard]] static std::size_t laser_of(std::size_t channel) noexcept {
+    return channel % Model::kLasers;
+  }
+
+  PacketReader reader_;
+  PointKernel kernel_;
+  std::array<std::int32_t, kChannels> rows_{}, offset_ticks_{};
+  std::int32_t least_ticks_ = 0, most_ticks_ = 0;
+  bool is_dual_packet_ = false;
+};
+
+}  // namespace terracut::velodyne

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Velodyne's models with a built-in table: streams made here and real captures (data not part of
+// the project; skipped where absent) beside a plain decoder written from the manuals.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <random>
+
+#include "firmware_io/capture/pcap_source.hpp"
+#include "tests/support/hand_out.hpp"
+#include "tests/support/places.hpp"
+#include "tests/support/reference/agreement.hpp"
+#include "tests/support/reference/sensors.hpp"
+
+namespace terracut::reference {
+namespace {
+
+/// What both decoders make of a stream.
+struct Both {
+  std::string difference;
+  frame::LossCounters losses;
+  std::vector<frame::FrameInfo> frames;
+  std::size_t returns = 0;
+  std::uint64_t decoded = 0;
+  bool dual_return = false;
+};
+
+/// Packets that the reference refuses must be refused, unless a blind sector may lie in them: those
+/// are not compared.
+Both decode_both(const std::vector<Payload>& payloads, const velodyne::VelodyneCalibration& table,
+                 int columns) {
+  const mount::Mount mount{.height_m = 1.9, .roll_rad = -0.02, .pitch_rad = 0.04};
+  std::vector<double> elevations;
+  for (const auto& laser : table.lasers) elevations.push_back(laser.elevation_rad);
+  const VelodyneReference reference(table);
+  ExpectedFrames expected(elevations, mount, columns);
+  Frames frames;
+  memory::FixedMemory memory;
+  decode::Decoder::Config config;
+  config.columns = columns;
+  decode::Decoder decoder(table, mount, config, memory);
+  HandedFrames handed;
+  Both both;
+  const auto keep = handed.keep();
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+    both.frames.push_back(info);
+    keep(info, image);
+  };
+  for (const Payload& payload : payloads) {
+    const Packet plain = reference.decode(payload.bytes);
+    if (plain.refusal == Refusal::kNone) expected.add(plain, frames.unwrap(plain));
+    const auto reason = test::decode(
+        decoder, decode::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
+        on_frame);
+    EXPECT_EQ(reason.has_value(), plain.refusal != Refusal::kNone);
+  }
+  both.dual_return = decoder.dual_return();
+  test::end_stream(decoder, on_frame);
+  both.difference = first_difference(expected, handed, columns);
+  both.losses = decoder.losses();
+  both.returns = handed.returns();
+  both.decoded = decoder.packets_decoded();
+  return both;
+}
+
+template <class Sensor>
+class VelodyneStream : public testing::Test {};
+using Models = testing::Types<Vlp16>;
+TYPED_TEST_SUITE(VelodyneStream, Models);
+
+TYPED_TEST(VelodyneStream, AgreesWithAPlainSlowDecoderAtEverySpinAndInEitherReturnMode) {
+  for (const bool dual_return : {false, true}) {
+    for (const double spin_hz : {5.0, 9.3, 10.0, 20.0}) {
+      SCOPED_TRACE(testing::Message() << spin_hz << " Hz, dual " << dual_return);
+      std::mt19937 random(7);
+      const auto unit = TypeParam::random_unit(random);
+      const double firings = 1e6 / TypeParam::firing_us(dual_return) / spin_hz;
+      RotatingHead head{.spin_hz = spin_hz, .dual_return = dual_return, .seed = 3};
+      head.packets = static_cast<int>(3.2 * firings / TypeParam::firings_per_packet(dual_return));
+      auto payloads = TypeParam::payloads(head);
+      const VelodyneReference reference(unit);
+      for (Payload& payload : payloads) {
+        erase_returns_on_the_seam<TypeParam>(payload.bytes, reference.decode(payload.bytes));
+      }
+      const Both both = decode_both(payloads, unit, static_cast<int>(std::lround(firings)));
+      EXPECT_EQ(both.difference, "");
+      EXPECT_EQ(both.decoded, payloads.size());
+      EXPECT_EQ(both.dual_return, dual_return);
+      EXPECT_EQ(both.losses.network_gap_packets, 0U);
+      EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+      EXPECT_EQ(both.losses.overflow_full_returns, 0U);
+      EXPECT_EQ(both.losses.clock_jumps, 0U);
+      ASSERT_GE(both.frames.size(), 4U);
+      for (std::size_t n = 1; n + 1 < both.frames.size(); ++n) {
+        EXPECT_TRUE(both.frames[n].complete) << n;
+      }
+    }
+  }
+}
+
+TYPED_TEST(VelodyneStream, CountsLostPacketsByTheDevicesStamps) {
+  std::mt19937 random(7);
+  const auto payloads = TypeParam::payloads({.packets = 400});
+  for (const std::size_t lost : {1U, 3U, 50U}) {
+    std::vector<Payload> arrived = payloads;
+    arrived.erase(arrived.begin() + 200, arrived.begin() + 200 + static_cast<std::ptrdiff_t>(lost));
+    const Both both = decode_both(arrived, TypeParam::random_unit(random), 1808);
+    EXPECT_EQ(both.losses.network_gap_packets, lost);
+    EXPECT_EQ(both.losses.azimuth_hole_columns,
+              lost * static_cast<std::size_t>(TypeParam::kColumns) /
+                  static_cast<std::size_t>(TypeParam::sheet().firings_a_block));
+  }
+}
+
+TYPED_TEST(VelodyneStream, RefusesWhatIsNoDataPacketOfTheModel) {
+  velodyne::PacketReader reader(TypeParam::layout());
+  const auto good = TypeParam::payloads({.packets = 1})[0].bytes;
+  decode::PacketAzimuths azimuths;
+  const auto read = [&](std::size_t at, int value) {
+    PayloadBytes bytes = good;
+    bytes[at] = static_cast<std::uint8_t>(value);
+    return reader.read(bytes, azimuths);
+  };
+  EXPECT_EQ(reader.read(good, azimuths), std::nullopt);
+  EXPECT_EQ(read(1204, 0x38), std::nullopt);                     // last return
+  EXPECT_EQ(read(1204, 0x3A), frame::Reject::kWrongMagic);       // dual return with confidence
+  EXPECT_EQ(read(1204, 0x39), frame::Reject::kAzimuthMismatch);  // dual return has pairs
+  EXPECT_EQ(read(1205, 0x77), frame::Reject::kWrongModel);
+  EXPECT_EQ(read(103, 0xA0), frame::Reject::kAzimuthOutOfRange);
+  EXPECT_EQ(reader.read(std::span(good).first(1205), azimuths), frame::Reject::kWrongSize);
+  const PayloadBytes position(512, 0);
+  EXPECT_EQ(reader.read(position, azimuths), frame::Reject::kDeviceInfo);
+  const PayloadBytes nothing(1206, 0);
+  EXPECT_EQ(reader.read(nothing, azimuths), frame::Reject::kWrongMagic);
+}
+
+// --- Real captures ---
+
+struct RealCapture {
+  const char* file;
+  velodyne::VelodyneModel model;
+  std::uint64_t packets, returns;
+  bool dual_return;
+  std::size_t frames;  ///< By hand: seams that the head passes, and one.
+};
+
+class RealVelodyne : public testing::TestWithParam<RealCapture> {};
+
+TEST_P(RealVelodyne, EqualsAPlainSlowDecoderAndLosesNothing) {
+  const auto path = test::shared_data("pcap") / GetParam().file;
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not here";
+  auto source = capture::PcapSource::open(path, {.port = 2368});
+  ASSERT_TRUE(source);
+  std::vector<Payload> payloads;
+  for (auto next = source->next(); next && *next; next = source->next()) {
+    payloads.push_back({{(*next)->payload.begin(), (*next)->payload.end()}, (*next)->stamp_ns});
+  }
+  ASSERT_EQ(payloads.size(), GetParam().packets);
+  const Both both = decode_both(payloads, velodyne::factory_table(GetParam().model), 1808);
+  EXPECT_EQ(both.difference, "");
+  EXPECT_EQ(both.returns, GetParam().returns);
+  EXPECT_EQ(both.decoded, GetParam().packets);
+  EXPECT_EQ(both.frames.size(), GetParam().frames);
+  EXPECT_EQ(both.dual_return, GetParam().dual_return);
+  EXPECT_EQ(both.losses.rejected_total(), 0U);
+  EXPECT_EQ(both.losses.network_gap_packets, 0U);
+  EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+  EXPECT_EQ(both.losses.overflow_full_returns, 0U);
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Shared, RealVelodyne,
+    testing::Values(RealCapture{"sample_velodyne_vlp16_gps.pcap", velodyne::VelodyneModel::kVlp16,
+                                293, 73'486, false, 5},
+                    RealCapture{"vlp16_nebula.pcap", velodyne::VelodyneModel::kVlp16, 603, 116'827,
+                                true, 5}),
+    [](const auto& capture) {
+      std::string name = capture.param.file;
+      return name.substr(0, name.find('.'));
+    });
+
+}  // namespace
+}  // namespace terracut::reference

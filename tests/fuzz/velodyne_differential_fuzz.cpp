@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// Velodyne decoders beside the plain reference on packets that the input makes and bends: the same
+// refusals, and the same frame, cell and place of every return.
+#include "differential.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  terracut::fuzz::Input input({data, size});
+  terracut::fuzz::Differential<terracut::reference::Vlp16>(input).run();
+  return 0;
+}

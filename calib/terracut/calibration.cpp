@@ -31,6 +31,12 @@ Calibration Calibration::nominal(Sensor sensor) {
       return calibration_of(ruby128::nominal_ruby128());
     case Sensor::kVlp16:
       return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVlp16));
+    case Sensor::kHdl32e:
+      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kHdl32e));
+    case Sensor::kVlp32c:
+      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVlp32c));
+    case Sensor::kVls128:
+      return calibration_of(velodyne::factory_table(velodyne::VelodyneModel::kVls128));
   }
   return calibration_of(hdl64e::nominal_hdl64e());
 }
@@ -40,6 +46,12 @@ Sensor Calibration::sensor() const noexcept {
     switch (velodyne->model) {
       case velodyne::VelodyneModel::kVlp16:
         return Sensor::kVlp16;
+      case velodyne::VelodyneModel::kHdl32e:
+        return Sensor::kHdl32e;
+      case velodyne::VelodyneModel::kVlp32c:
+        return Sensor::kVlp32c;
+      case velodyne::VelodyneModel::kVls128:
+        return Sensor::kVls128;
     }
   }
   return std::holds_alternative<ruby128::Ruby128Calibration>(table_->unit) ? Sensor::kRuby128

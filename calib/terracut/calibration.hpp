@@ -14,7 +14,10 @@ namespace terracut {
 enum class Sensor : std::uint8_t {
   kHdl64e,  ///< Any generation.
   kRuby128,
-  kVlp16
+  kVlp16,
+  kHdl32e,
+  kVlp32c,
+  kVls128
 };
 
 /// How the sensor stands above the ground. The vehicle frame has x ahead, y to the left, z up, and
@@ -32,7 +35,7 @@ class Calibration {
   /// RS-Ruby128. kNotFound, kUnreadable or kMalformed, with file and line.
   [[nodiscard]] static Expected<Calibration> load(const std::filesystem::path& file);
   /// The model's table, when the unit's own is not at hand: heights of an HDL-64E and an RS-Ruby128
-  /// are some centimetres off. Of a VLP-16 there is no other.
+  /// are some centimetres off. Of the others there is none else.
   [[nodiscard]] static Calibration nominal(Sensor sensor);
 
   [[nodiscard]] Sensor sensor() const noexcept;

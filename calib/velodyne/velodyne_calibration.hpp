@@ -11,7 +11,8 @@ namespace terracut::velodyne {
 
 /// Velodyne's models whose directions are those of the model, to a few hundredths of a degree. The
 /// HDL-64E, of which each unit has a table of its own, is none of them.
-enum class VelodyneModel : std::uint8_t { kVlp16 };
+enum class VelodyneModel : std::uint8_t { kVlp16, kHdl32e, kVlp32c, kVls128 };
+inline constexpr int kVelodyneModels = 4;
 /// "VLP-16"
 [[nodiscard]] std::string_view to_string(VelodyneModel model) noexcept;
 

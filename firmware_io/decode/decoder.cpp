@@ -32,6 +32,12 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
   switch (unit.model) {
     case velodyne::VelodyneModel::kVlp16:
       break;
+    case velodyne::VelodyneModel::kHdl32e:
+      return of(std::type_identity<hdl32e::Hdl32eSensor>{});
+    case velodyne::VelodyneModel::kVlp32c:
+      return of(std::type_identity<vlp32c::Vlp32cSensor>{});
+    case velodyne::VelodyneModel::kVls128:
+      return of(std::type_identity<vls128::Vls128Sensor>{});
   }
   return of(std::type_identity<vlp16::Vlp16Sensor>{});
 }

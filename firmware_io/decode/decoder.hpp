@@ -22,9 +22,12 @@
 #include "firmware_io/decode/stream_tracker.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/hdl32e/hdl32e_sensor.hpp"
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
 #include "firmware_io/vlp16/vlp16_sensor.hpp"
+#include "firmware_io/vlp32c/vlp32c_sensor.hpp"
+#include "firmware_io/vls128/vls128_sensor.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -144,7 +147,8 @@ class Decoder {
  private:
   using SensorReturns =
       std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>,
-                   PacketReturns<vlp16::Vlp16Sensor>>;
+                   PacketReturns<vlp16::Vlp16Sensor>, PacketReturns<hdl32e::Hdl32eSensor>,
+                   PacketReturns<vlp32c::Vlp32cSensor>, PacketReturns<vls128::Vls128Sensor>>;
 
   /// What the sensors differ in beside their traits' work.
   struct Model {

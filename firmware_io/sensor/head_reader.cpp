@@ -18,7 +18,9 @@ std::optional<frame::Reject> HeadReader::read(SensorModel model, const decode::D
     azimuths.device_stamp_us = ruby128::read_ruby_timestamp(packet->stamp, encoding) / 1000;
     return std::nullopt;
   }
-  if (model == SensorModel::kVlp16) return vlp16_.read(datagram.payload, azimuths);
+  if (const auto family = velodyne_model_of(model)) {
+    return velodyne_[static_cast<std::size_t>(*family)].read(datagram.payload, azimuths);
+  }
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (model == SensorModel::kHdl64eS1 && packet != nullptr) {
     return s1_.read(*packet, datagram.stamp_ns, azimuths);

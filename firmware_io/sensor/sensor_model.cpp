@@ -54,11 +54,12 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
     return block.id.value() == hdl64e::kUpperBlockId;
   });
   if (are_upper) return product(packet.status_value);
-  constexpr std::uint16_t kThirdVls128Block = 0xCCFF;
-  if (packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
-      packet.blocks[2].id.value() == kThirdVls128Block) {
-    return SensorModel::kVls128;
-  }
+  // In dual return both returns of a block are side by side.
+  const bool is_single = packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
+                         packet.blocks[2].id.value() == kVls128ThirdId;
+  const bool is_dual = packet.blocks[2].id.value() == hdl64e::kLowerBlockId &&
+                       packet.blocks[4].id.value() == kVls128ThirdId;
+  if (is_single || is_dual) return SensorModel::kVls128;
   return SensorModel::kUnknown;
 }
 

@@ -20,11 +20,11 @@ enum class SensorModel : std::uint8_t {
   kUnknown,
   kHdl64e,    ///< HDL-64E S2, S2.1 or S3: decoded.
   kHdl64eS1,  ///< The first HDL-64E, other block order, no clock: decoded.
-  kHdl32e,
-  kVlp16,  ///< Also sold as Puck LITE: decoded.
+  kHdl32e,    ///< Decoded.
+  kVlp16,     ///< Also sold as Puck LITE: decoded.
   kVlp16HiRes,
-  kVlp32c,
-  kVls128,              ///< Alpha Prime.
+  kVlp32c,              ///< Decoded.
+  kVls128,              ///< Alpha Prime: decoded.
   kOtherVelodyne,       ///< Velodyne's data packet with a product number not known here.
   kVelodynePosition,    ///< 512 bytes with NMEA text, of the models below the HDL-64E.
   kRuby128,             ///< RS-Ruby128: decoded.
@@ -35,8 +35,11 @@ enum class SensorModel : std::uint8_t {
 };
 
 /// Those that are decoded.
-inline constexpr std::array kDecodedModels{SensorModel::kHdl64e, SensorModel::kHdl64eS1,
-                                           SensorModel::kRuby128, SensorModel::kVlp16};
+inline constexpr std::array kDecodedModels{
+    SensorModel::kHdl64e, SensorModel::kHdl64eS1, SensorModel::kRuby128, SensorModel::kVlp16,
+    SensorModel::kHdl32e, SensorModel::kVlp32c,   SensorModel::kVls128};
+/// Ids of the VLS-128's blocks of lasers 64..95 and 96..127; the others have an HDL-64E's.
+inline constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF;
 [[nodiscard]] constexpr bool is_decoded(SensorModel model) noexcept {
   return std::ranges::find(kDecodedModels, model) != kDecodedModels.end();
 }
@@ -44,8 +47,18 @@ inline constexpr std::array kDecodedModels{SensorModel::kHdl64e, SensorModel::kH
 /// The model of the family whose table is built in; nothing for others.
 [[nodiscard]] constexpr std::optional<velodyne::VelodyneModel> velodyne_model_of(
     SensorModel model) noexcept {
-  if (model == SensorModel::kVlp16) return velodyne::VelodyneModel::kVlp16;
-  return std::nullopt;
+  switch (model) {
+    case SensorModel::kVlp16:
+      return velodyne::VelodyneModel::kVlp16;
+    case SensorModel::kHdl32e:
+      return velodyne::VelodyneModel::kHdl32e;
+    case SensorModel::kVlp32c:
+      return velodyne::VelodyneModel::kVlp32c;
+    case SensorModel::kVls128:
+      return velodyne::VelodyneModel::kVls128;
+    default:
+      return std::nullopt;
+  }
 }
 
 /// A user who asked for this model, or for none, means that one, too: an HDL-64E of any generation.

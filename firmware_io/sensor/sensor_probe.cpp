@@ -23,7 +23,9 @@ constexpr double kNominalTolerance = 0.03;
 /// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
 double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
-  if (model == SensorModel::kVlp16) return vlp16::Vlp16::kFiring_ns * 1e-9;
+  if (const auto family = velodyne_model_of(model)) {
+    return kVelodyneLayouts[static_cast<std::size_t>(*family)].firing_ns * 1e-9;
+  }
   if (model == SensorModel::kHdl64eS1) return hdl64e::kS1UpperFiring_ns * 1e-9;
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }

@@ -15,6 +15,12 @@ namespace terracut {
       return Sensor::kRuby128;
     case sensor::SensorModel::kVlp16:
       return Sensor::kVlp16;
+    case sensor::SensorModel::kHdl32e:
+      return Sensor::kHdl32e;
+    case sensor::SensorModel::kVlp32c:
+      return Sensor::kVlp32c;
+    case sensor::SensorModel::kVls128:
+      return Sensor::kVls128;
     default:
       return Sensor::kHdl64e;
   }
@@ -27,6 +33,12 @@ namespace terracut {
       return sensor::SensorModel::kRuby128;
     case Sensor::kVlp16:
       return sensor::SensorModel::kVlp16;
+    case Sensor::kHdl32e:
+      return sensor::SensorModel::kHdl32e;
+    case Sensor::kVlp32c:
+      return sensor::SensorModel::kVlp32c;
+    case Sensor::kVls128:
+      return sensor::SensorModel::kVls128;
     case Sensor::kHdl64e:
       break;
   }

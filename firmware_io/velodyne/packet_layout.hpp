@@ -30,6 +30,7 @@ struct PacketLayout {
   int blocks_per_column = 1;
   int columns_dual = kBlocks;  ///< In dual return, where both of a pair are counted.
   std::int32_t column_ns = 0;  ///< From a column's first firing to the next column's.
+  std::int32_t firing_ns = 0;  ///< From a firing of all lasers to the next.
 
   [[nodiscard]] constexpr int columns(bool dual_return) const noexcept {
     return dual_return ? columns_dual : kBlocks / blocks_per_column;

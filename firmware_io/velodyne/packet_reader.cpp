@@ -87,6 +87,7 @@ std::optional<frame::Reject> PacketReader::judge_steps(decode::PacketAzimuths& a
 std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
                                    std::int32_t advance_cdeg) noexcept {
   const int firings = layout_.firings(azimuths.dual_return);
+  is_step_guessed_ = false;
   if (firings > 1) return advance_cdeg * decode::kTicksPerCdeg / (firings - 1);
   // One firing a packet tells no step: it is the way from the packet before, if that is the one
   // before; at 10 turns a second until there was one.
@@ -99,6 +100,7 @@ std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
     if (step_cdeg <= layout_.most_step_cdeg()) return step_cdeg * decode::kTicksPerCdeg;
   }
   if (step_ticks_ > 0) return step_ticks_;
+  is_step_guessed_ = true;
   return static_cast<std::int32_t>(std::int64_t{decode::kRevolution_ticks} * 10 *
                                    layout_.column_ns / 1'000'000'000);
 }
@@ -110,6 +112,8 @@ void PacketReader::complete(decode::PacketAzimuths& azimuths) const noexcept {
                              ? azimuths.advance_cdeg(azimuths.columns - 1) * decode::kTicksPerCdeg +
                                    azimuths.step_ticks
                              : azimuths.pace_ticks;
+  // The next packet is no gap away from it, however fast the head rotates.
+  if (is_step_guessed_) azimuths.sweep_ticks = layout_.most_step_cdeg() * decode::kTicksPerCdeg;
   azimuths.nominal_period_ns = layout_.column_ns * firings;
   azimuths.shortest_period_ns =
       azimuths.nominal_period_ns - azimuths.nominal_period_ns / decode::kPeriodTolerance;

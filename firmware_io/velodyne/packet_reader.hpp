@@ -47,6 +47,7 @@ class PacketReader {
 
   PacketLayout layout_;
   std::int32_t step_ticks_ = 0;  ///< Of the last packet that had one; 0: none yet.
+  bool is_step_guessed_ = false;
   struct {
     std::int64_t stamp_us = 0;
     std::int32_t azimuth_cdeg = 0;

@@ -21,7 +21,8 @@ struct Vlp16 {
   static constexpr int kLasers = 16, kChannels = 2 * kLasers;
   static constexpr velodyne::PacketLayout kLayout{.model = sensor::SensorModel::kVlp16,
                                                   .block_ids = {hdl64e::kUpperBlockId},
-                                                  .column_ns = 2 * kFiring_ns};
+                                                  .column_ns = 2 * kFiring_ns,
+                                                  .firing_ns = kFiring_ns};
   static constexpr int kDefaultColumns = 1808;  ///< 1808.4 firings a frame at 10 Hz.
 
   static constexpr std::size_t kGroups = kChannels;

@@ -32,7 +32,15 @@ static_assert(offsetof(LabelledPoint, intensity) == 12 && offsetof(LabelledPoint
               offsetof(LabelledPoint, row) == 14);
 
 /// Numbers of FrameWireHeader::sensor; they never change their meaning.
-enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 = 2, kVlp16 = 3 };
+enum class StreamedSensor : std::uint8_t {
+  kUnknown = 0,
+  kHdl64e = 1,
+  kRuby128 = 2,
+  kVlp16 = 3,
+  kHdl32e = 4,
+  kVlp32c = 5,
+  kVls128 = 6
+};
 
 [[nodiscard]] constexpr StreamedSensor streamed_sensor(sensor::SensorModel model) noexcept {
   switch (model) {
@@ -43,6 +51,12 @@ enum class StreamedSensor : std::uint8_t { kUnknown = 0, kHdl64e = 1, kRuby128 =
       return StreamedSensor::kRuby128;
     case sensor::SensorModel::kVlp16:
       return StreamedSensor::kVlp16;
+    case sensor::SensorModel::kHdl32e:
+      return StreamedSensor::kHdl32e;
+    case sensor::SensorModel::kVlp32c:
+      return StreamedSensor::kVlp32c;
+    case sensor::SensorModel::kVls128:
+      return StreamedSensor::kVls128;
     default:
       return StreamedSensor::kUnknown;
   }

@@ -13,6 +13,7 @@
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "input.hpp"
+#include "velodyne_returns.hpp"
 
 namespace {
 
@@ -27,12 +28,10 @@ struct Model {
 };
 constexpr std::array kModels{
     Model{velodyne::VelodyneModel::kVlp16, vlp16::Vlp16::kLayout, 0x22},
+    Model{velodyne::VelodyneModel::kHdl32e, hdl32e::Hdl32e::kLayout, 0x21},
+    Model{velodyne::VelodyneModel::kVlp32c, vlp32c::Vlp32c::kLayout, 0x28},
+    Model{velodyne::VelodyneModel::kVls128, vls128::Vls128::kLayout, 0xA1},
 };
-
-std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-  const auto* packet = hdl64e::packet_in(payload);
-  return packet == nullptr ? 0 : fuzz::returns_in(*packet);
-}
 
 /// A head whose azimuth, speed, clock and return mode the input changes at will.
 struct Head {
@@ -74,7 +73,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Input input({data, size});
   Head head{kModels[input.next(1) % kModels.size()]};
   fuzz::DecoderRun<decode::Decoder, velodyne::VelodyneCalibration> run(
-      velodyne::factory_table(head.model.model), returns_in, 400.0F);
+      velodyne::factory_table(head.model.model), fuzz::velodyne_returns_in, 400.0F);
   hdl64e::wire::Packet packet{};
   const auto send = [&] {
     const std::int64_t before_ns = head.stamp_ns;

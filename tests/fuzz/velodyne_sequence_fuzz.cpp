@@ -10,6 +10,7 @@
 #include "calib/velodyne/velodyne_calibration.hpp"
 #include "firmware_io/decode/decoder.hpp"
 #include "packet_sequence.hpp"
+#include "velodyne_returns.hpp"
 
 namespace {
 
@@ -60,15 +61,27 @@ struct Velodyne {
     return bytes;
   }
   static std::uint64_t returns_in(std::span<const std::uint8_t> payload) {
-    const auto* packet = hdl64e::packet_in(payload);
-    return packet == nullptr ? 0 : fuzz::returns_in(*packet);
+    return fuzz::velodyne_returns_in(payload);
   }
 };
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  terracut::fuzz::Input input({data, size});
-  terracut::fuzz::PacketSequence<Velodyne<terracut::vlp16::Vlp16, 0x22>>(input).run();
+  fuzz::Input input({data, size});
+  switch (input.below(4)) {
+    case 0:
+      fuzz::PacketSequence<Velodyne<vlp16::Vlp16, 0x22>>(input).run();
+      break;
+    case 1:
+      fuzz::PacketSequence<Velodyne<hdl32e::Hdl32e, 0x21>>(input).run();
+      break;
+    case 2:
+      fuzz::PacketSequence<Velodyne<vlp32c::Vlp32c, 0x28>>(input).run();
+      break;
+    default:
+      fuzz::PacketSequence<Velodyne<vls128::Vls128, 0xA1>>(input).run();
+      break;
+  }
   return 0;
 }

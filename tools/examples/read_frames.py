@@ -21,7 +21,7 @@ HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_
                  "last_packet_ns", "labels_ns", "point_bytes", "sensor", "level", "flags",
                  "missed", "reserved")
 MOST_POINTS = 4194304
-SENSORS = {1: "hdl64e", 2: "ruby128", 3: "vlp16"}
+SENSORS = {1: "hdl64e", 2: "ruby128", 3: "vlp16", 4: "hdl32e", 5: "vlp32c", 6: "vls128"}
 RUNGS = {0: "full", 1: "cut_stopped", 2: "coarse", 3: "skipped"}
 COMPLETE, LATE, NO_EGO_MOTION = 1, 2, 8
 GROUND, OTHER_GROUND, OBSTACLE = 40, 49, 99

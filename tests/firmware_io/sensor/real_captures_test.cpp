@@ -15,6 +15,7 @@ struct RealCapture {
   SensorModel sensor;
   std::uint64_t data_packets;
   std::uint64_t position_packets;
+  double spin_rpm;
 };
 
 class RealCaptures : public testing::TestWithParam<RealCapture> {
@@ -38,6 +39,9 @@ TEST_P(RealCaptures, AreSurveyedByModelAndCount) {
       << to_string(survey->streams[0].sensor) << ", " << survey->streams[0].sensor_hints;
   EXPECT_EQ(survey->streams[0].packets, GetParam().data_packets);
   EXPECT_FALSE(survey->streams[0].hdl64e);
+  ASSERT_TRUE(survey->streams[0].head);
+  EXPECT_NEAR(survey->streams[0].head->spin_rpm, GetParam().spin_rpm, 1);
+  EXPECT_EQ(survey->streams[0].head->packets_lost, 0U);
   if (GetParam().position_packets != 0) {
     EXPECT_EQ(survey->streams[1].sensor, SensorModel::kVelodynePosition);
     EXPECT_EQ(survey->streams[1].destination_port, 8308);
@@ -79,11 +83,12 @@ TEST_P(RealCaptures, KeepTheirPacketsWhenCutInTheMiddle) {
 
 INSTANTIATE_TEST_SUITE_P(
     Velodyne, RealCaptures,
-    testing::Values(RealCapture{"sample_velodyne_hdl32.pcap", SensorModel::kHdl32e, 500, 0},
-                    RealCapture{"sample_velodyne_vlp16_gps.pcap", SensorModel::kVlp16, 293, 57},
-                    RealCapture{"vlp16_nebula.pcap", SensorModel::kVlp16, 603, 0},
-                    RealCapture{"vlp32_nebula.pcap", SensorModel::kVlp32c, 379, 0},
-                    RealCapture{"vls128_nebula.pcap", SensorModel::kVls128, 2193, 0}),
+    testing::Values(RealCapture{"sample_velodyne_hdl32.pcap", SensorModel::kHdl32e, 500, 0, 542.3},
+                    RealCapture{"sample_velodyne_vlp16_gps.pcap", SensorModel::kVlp16, 293, 57,
+                                599.1},
+                    RealCapture{"vlp16_nebula.pcap", SensorModel::kVlp16, 603, 0, 600},
+                    RealCapture{"vlp32_nebula.pcap", SensorModel::kVlp32c, 379, 0, 600},
+                    RealCapture{"vls128_nebula.pcap", SensorModel::kVls128, 2193, 0, 599.9}),
     [](const auto& capture) {
       std::string name = capture.param.file;
       return name.substr(0, name.find('.'));

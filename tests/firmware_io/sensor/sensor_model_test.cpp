@@ -54,6 +54,10 @@ TEST(SensorModel, TellsTheOtherVelodynesApart) {
   EXPECT_EQ(recognise_sensor(velodyne({0xEEFF}, 0x37, 0x77)), SensorModel::kOtherVelodyne);
   EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF}, 0x37, 0xA1)),
             SensorModel::kVls128);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xEEFF, 0xDDFF, 0xDDFF, 0xCCFF, 0xCCFF, 0xBBFF,
+                                       0xBBFF, 0x0000, 0x0000, 0x0000, 0x0000},
+                                      0x39, 0xA1)),
+            SensorModel::kVls128);
   EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xEEFF, 0xEEFF, 0xDDFF}, 0x37, 0x00)),
             SensorModel::kHdl64eS1);
   EXPECT_EQ(recognise_sensor(Bytes(1206, 0)), SensorModel::kUnknown);

@@ -48,7 +48,9 @@ TEST(LabelledFrameWire, PointHasTheDocumentedBytes) {
 TEST(LabelledFrameWire, OnlyTheSensorsThatAreDecodedHaveANumber) {
   EXPECT_EQ(streamed_sensor(sensor::SensorModel::kHdl64e), StreamedSensor::kHdl64e);
   EXPECT_EQ(streamed_sensor(sensor::SensorModel::kRuby128), StreamedSensor::kRuby128);
-  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kVlp16), StreamedSensor::kUnknown);
+  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kVls128), StreamedSensor::kVls128);
+  EXPECT_EQ(static_cast<int>(StreamedSensor::kVls128), 6);
+  EXPECT_EQ(streamed_sensor(sensor::SensorModel::kVlp16HiRes), StreamedSensor::kUnknown);
 }
 
 }  // namespace

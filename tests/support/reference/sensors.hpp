@@ -100,7 +100,7 @@ struct Velodyne {
   static const VelodyneSheet& sheet() { return sheet_of(kModel); }
   static double firing_us(bool) { return sheet().firing_us; }
   static double firings_per_packet(bool dual_return) {
-    return dual_return ? kColumns / 2.0 : kColumns;
+    return dual_return ? layout().firings(true) * sheet().firings_a_block : kColumns;
   }
   static Calibration random_unit(std::mt19937& random) { return random_velodyne(kModel, random); }
   static std::vector<double> elevations(const Calibration& calibration) {
@@ -129,6 +129,9 @@ struct Velodyne {
   static const velodyne::PacketLayout& layout() { return Layout::kLayout; }
 };
 using Vlp16 = Velodyne<velodyne::VelodyneModel::kVlp16, 24, 16, vlp16::Vlp16>;
+using Hdl32e = Velodyne<velodyne::VelodyneModel::kHdl32e, 12, 32, hdl32e::Hdl32e>;
+using Vlp32c = Velodyne<velodyne::VelodyneModel::kVlp32c, 12, 32, vlp32c::Vlp32c>;
+using Vls128 = Velodyne<velodyne::VelodyneModel::kVls128, 3, 128, vls128::Vls128>;
 
 /// Takes the returns off whose beam is so near a seam that it may be of either frame.
 template <class Sensor>

@@ -22,9 +22,14 @@ struct VelodyneSheet {
   double firing_us = 0;     ///< From a firing of all lasers to the next.
   double step_us = 0;       ///< From lasers that fire together to the next ones ...
   int together = 1;         ///< ... which are so many.
-  int firings_a_block = 1;  ///< Firings of all lasers that a block holds.
+  int firings_a_block = 1;  ///< Firings of all lasers that a block holds, or ...
+  int blocks_a_firing = 1;  ///< ... blocks that one fills.
+  int pause_after = 1'000;  ///< After so many steps two are left out.
 
-  [[nodiscard]] double fired_us(int laser) const { return laser / together * step_us; }
+  [[nodiscard]] double fired_us(int laser) const {
+    const int step = laser / together;
+    return (step + step / pause_after * 2) * step_us;
+  }
 };
 [[nodiscard]] const VelodyneSheet& sheet_of(velodyne::VelodyneModel model);
 
@@ -33,18 +38,22 @@ struct VelodyneSheet {
 /// decoder but the table's struct.
 ///
 /// What no manual says is as terracut fixes it: the step from firing to firing is the packet's
-/// mean.
+/// mean; where it holds one firing, the way from the packet before where that is the one before,
+/// else the last step, else that at 10 turns a second.
 class VelodyneReference {
  public:
   explicit VelodyneReference(const velodyne::VelodyneCalibration& table)
       : table_(table), sheet_(sheet_of(table.model)) {}
 
   /// `column` of a return is its firing in the packet; in dual return those of both blocks count.
-  [[nodiscard]] Packet decode(std::span<const std::uint8_t> payload) const;
+  /// `across_sector`: of a packet that goes on behind a blind sector; its step is the last one.
+  [[nodiscard]] Packet decode(std::span<const std::uint8_t> payload, bool across_sector = false);
 
  private:
   velodyne::VelodyneCalibration table_;
   VelodyneSheet sheet_;
+  double last_step_deg_ = 0, last_us_ = -1;
+  int last_cdeg_ = 0;
 };
 
 /// Data packets, byte by byte as the manuals describe them.

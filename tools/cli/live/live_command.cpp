@@ -44,8 +44,11 @@ namespace {
 
 using SteadyClock = std::chrono::steady_clock;
 
-/// What a sensor sends a second at most: an RS-Ruby128 in dual return.
-constexpr double kMostPacketsPerSecond = 12'001;
+/// What a sensor sends a second at most: a VLS-128 in dual return, a packet a firing, or of the
+/// others an RS-Ruby128.
+constexpr double most_packets_per_second(sensor::SensorModel model) noexcept {
+  return model == sensor::SensorModel::kVls128 ? 18'750 : 12'001;
+}
 constexpr std::size_t kLongestPacketBytes = 1248;
 
 void say_refusals(const std::vector<threads::Grant>& grants) {
@@ -121,7 +124,7 @@ struct LiveParts {
       : motion(motion_of(options, bus, memory)),
         pipeline(sensor.calibration, profile, decoder_config(options, sensor, motion),
                  method_config_of(options.method).segmenter, memory),
-        recorder(recorder_of(options, memory)),
+        recorder(recorder_of(options, sensor.model, memory)),
         threads(threads_config(options, sensor), pipeline, source, std::move(events),
                 recorder ? &*recorder : nullptr, memory),
         watch(options, profile.mount, threads, motion ? &*motion : nullptr, display, memory) {}
@@ -174,10 +177,12 @@ struct LiveParts {
             run::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
   }
   static std::optional<recorder::FlightRecorder> recorder_of(const Options& options,
+                                                             sensor::SensorModel model,
                                                              memory::FixedMemory& memory) {
     if (options.recorder.seconds <= 0 || options.recorder.folder.empty()) return std::nullopt;
     return std::make_optional<recorder::FlightRecorder>(
-        net::packet_ring_size(options.recorder.seconds, kMostPacketsPerSecond, kLongestPacketBytes),
+        net::packet_ring_size(options.recorder.seconds, most_packets_per_second(model),
+                              kLongestPacketBytes),
         memory);
   }
 };

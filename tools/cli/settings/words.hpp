@@ -22,7 +22,10 @@ inline constexpr std::array kSensorWords{
     Word<std::optional<sensor::SensorModel>>{"auto", std::nullopt},
     Word<std::optional<sensor::SensorModel>>{"hdl64e", sensor::SensorModel::kHdl64e},
     Word<std::optional<sensor::SensorModel>>{"ruby128", sensor::SensorModel::kRuby128},
-    Word<std::optional<sensor::SensorModel>>{"vlp16", sensor::SensorModel::kVlp16}};
+    Word<std::optional<sensor::SensorModel>>{"vlp16", sensor::SensorModel::kVlp16},
+    Word<std::optional<sensor::SensorModel>>{"hdl32e", sensor::SensorModel::kHdl32e},
+    Word<std::optional<sensor::SensorModel>>{"vlp32c", sensor::SensorModel::kVlp32c},
+    Word<std::optional<sensor::SensorModel>>{"vls128", sensor::SensorModel::kVls128}};
 inline constexpr std::array kCellOwnerWords{
     Word{"strongest", frame::CellOwner::kStrongest}, Word{"last", frame::CellOwner::kFarthest},
     Word{"first", frame::CellOwner::kNearest}, Word{"both", frame::CellOwner::kFirstArrived}};

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "calib/beams/angle.hpp"
 #include "calib/text/fnv1a.hpp"
@@ -26,8 +27,9 @@ std::uint64_t fingerprint(const VelodyneCalibration& calibration) {
 std::vector<int> rows_by_elevation(const VelodyneCalibration& calibration) {
   std::vector<std::size_t> order(calibration.lasers.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(
-      order, {}, [&](std::size_t laser) { return calibration.lasers[laser].elevation_rad; });
+  std::ranges::sort(order, {}, [&](std::size_t laser) {
+    return std::pair(calibration.lasers[laser].elevation_rad, laser);
+  });
   std::vector<int> rows(order.size());
   for (std::size_t row = 0; row < order.size(); ++row) rows[order[row]] = static_cast<int>(row);
   return rows;

@@ -118,10 +118,11 @@ TEST_F(CliRefusal, OfOtherSensorsNamesTheirModel) {
   if (!fs::exists(kCaptures)) GTEST_SKIP() << "no captures at " << kCaptures;
   for (const auto& entry : fs::directory_iterator(kCaptures)) {
     const std::string capture = quoted(entry.path());
-    for (const std::string option : {"", " --sensor hdl64e", " --sensor ruby128"}) {
+    const std::string with_table = " --calibration " + quoted(kDriveCalibration);
+    expect_refusal("replay " + capture + with_table, kInputRefused, HasSubstr("is built in"));
+    for (const std::string option : {" --sensor hdl64e", " --sensor ruby128"}) {
       expect_refusal(
-          "replay " + capture + option + " --calibration " + quoted(kDriveCalibration),
-          kInputRefused,
+          "replay " + capture + option, kInputRefused,
           AnyOf(HasSubstr("packets of a Velodyne V"), HasSubstr("packets of a Velodyne HDL-32E")));
     }
     const Outcome info = run("info " + capture);

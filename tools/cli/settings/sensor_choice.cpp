@@ -23,10 +23,16 @@ using sensor::SensorModel;
 /// second.
 constexpr std::uint64_t kDatagramsToProbe = 6'000;
 
-/// What there is instead of packets of the sensors that can be decoded.
+/// What there is instead of packets of the sensors that are wanted.
 std::string found_instead(const sensor::SensorProbe& probe, const capture::PcapSource& source) {
-  const std::string foreign = probe.foreign_models();
-  if (!foreign.empty()) return foreign;
+  std::string others = probe.foreign_models();
+  for (const SensorModel model : sensor::kDecodedModels) {
+    const std::uint64_t packets = probe.packets_of(model);
+    if (packets == 0) continue;
+    others +=
+        fmt::format("{}{} packets of a {}", others.empty() ? "" : ", ", packets, to_string(model));
+  }
+  if (!others.empty()) return others;
   const std::uint64_t unknown = probe.packets_of(SensorModel::kUnknown);
   if (unknown > 0) return fmt::format("{} datagrams of no sensor known here", unknown);
   return why_nothing_came(source.counters(), 0, {});

@@ -145,7 +145,7 @@ TEST(Arguments, ValuesThatAreNotAllowedAreRefusedWithThoseThatAre) {
   expect("replay x --from here", "replay: --from: expected an IPv4 address, found 'here'");
   EXPECT_THAT(refusal_of("replay x --start 1e300"), HasSubstr("--start"));
   EXPECT_THAT(refusal_of("replay x --method zang"), HasSubstr("zhang"));
-  EXPECT_THAT(refusal_of("simulate --sensor vlp16 -o x"), HasSubstr("hdl64e"));
+  EXPECT_THAT(refusal_of("simulate --sensor os1 -o x"), HasSubstr("hdl64e"));
   EXPECT_THAT(refusal_of("live --listen lidar:2368"), HasSubstr("ADDRESS:PORT"));
 }
 

@@ -119,8 +119,9 @@ TEST(ConfigurationFile, ValuesOutOfRangeAreRefusedWithTheRange) {
   expect_refused("mount:\n  height_m: 1.7 m\n", "2", {"found '1.7 m'"});
   expect_refused("sensor:\n  columns: 1800.5\n", "2",
                  {"a whole number from 16 to 36000 columns, found '1800.5'"});
-  expect_refused("sensor:\n  model: vlp16\n", "2",
-                 {"sensor.model: expected one of auto, hdl64e, ruby128, found 'vlp16'"});
+  expect_refused("sensor:\n  model: os1\n", "2",
+                 {"sensor.model: expected one of auto, hdl64e, ruby128, vlp16, hdl32e, vlp32c, "
+                  "vls128, found 'os1'"});
   expect_refused("realtime:\n  lock_memory: maybe\n", "2", {"expected yes or no, found 'maybe'"});
   expect_refused("input:\n  from: 192.168.1\n", "2", {"an IPv4 address, found '192.168.1'"});
   expect_refused("input:\n  listen: 0.0.0.0\n", "2", {"an IPv4 ADDRESS:PORT"});

@@ -32,8 +32,9 @@ class BentStream : public testing::Test {
   Head<Sensor> head{.share_of_returns = 1};
 };
 
-using BothSensors = testing::Types<reference::Hdl64e, reference::Ruby128>;
-TYPED_TEST_SUITE(BentStream, BothSensors);
+using EverySensor =
+    testing::Types<reference::Hdl64e, reference::Ruby128, reference::Hdl32e, reference::Vlp32c>;
+TYPED_TEST_SUITE(BentStream, EverySensor);
 
 TYPED_TEST(BentStream, LosesNothingWithoutNamingIt) {
   for (unsigned seed = 1; seed <= 3; ++seed) {

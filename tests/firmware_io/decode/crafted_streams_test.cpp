@@ -38,8 +38,9 @@ class CraftedStream : public testing::Test {
   HeardStream<Sensor> stream{HeardStream<Sensor>::hasty()};
 };
 
-using BothSensors = testing::Types<reference::Hdl64e, reference::Ruby128>;
-TYPED_TEST_SUITE(CraftedStream, BothSensors);
+using EverySensor =
+    testing::Types<reference::Hdl64e, reference::Ruby128, reference::Hdl32e, reference::Vls128>;
+TYPED_TEST_SUITE(CraftedStream, EverySensor);
 
 TYPED_TEST(CraftedStream, OfStampsAMicrosecondApartDividesByNothing) {
   this->stand_still_with_rejections(0);

@@ -50,6 +50,7 @@ Decoder::Model Decoder::model_of(const calib::SensorCalibration& calibration,
   const auto model = [&]<class Sensor>(std::type_identity<Sensor>, const auto&,
                                        const auto&) -> Model {
     return {.rows = Sensor::kRows,
+            .lasers = static_cast<std::size_t>(Sensor::kChannels),
             .columns = or_default(config.columns, Sensor::kDefaultColumns),
             .returns_per_cell = or_default(config.returns_per_cell, Sensor::kDefaultReturnsPerCell),
             .packet_bytes = Sensor::kPacketBytes,
@@ -75,15 +76,18 @@ Decoder::SensorReturns Decoder::sensor_of(const calib::SensorCalibration& calibr
 FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& config) {
   const frame::ImageShape shape{model.rows, model.columns};
   const auto spare = static_cast<std::size_t>(std::max(0, model.returns_per_cell - 1));
-  // Tiles are cut where frames begin, where packets were lost and where the return mode changes.
-  constexpr std::size_t kCutTiles = 8;
+  // Beams point up to 10 degrees before and behind the head, so tiles around the seam are kept in
+  // both frames. Tiles are cut where frames end and where the return mode changes.
+  constexpr std::size_t kAroundSeam = 16, kCutTiles = 8;
   const auto firings = static_cast<std::size_t>(model.returns_per_cell * model.columns);
   const bool keeps_measured = config.keeps_measured && config.motion == nullptr;
   return {.shape = shape,
           .overflow_capacity = spare * static_cast<std::size_t>(model.rows * model.columns),
           .images = config.images,
           .revolution_ticks = kRevolution_ticks,
-          .measured_tiles = keeps_measured ? firings / kTileFirings + kCutTiles : 0};
+          .measured_tiles =
+              keeps_measured ? (firings + firings / kAroundSeam) / kTileFirings + kCutTiles : 0,
+          .lasers = model.lasers};
 }
 
 std::unique_ptr<frame::TileReader> Decoder::make_reader(memory::FixedMemory& memory) const {

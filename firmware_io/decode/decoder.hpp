@@ -152,7 +152,9 @@ class Decoder {
 
   /// What the sensors differ in beside their traits' work.
   struct Model {
-    int rows, columns, returns_per_cell;
+    int rows;
+    std::size_t lasers;
+    int columns, returns_per_cell;
     std::size_t packet_bytes;
     std::int64_t clock_wrap_us;
   };

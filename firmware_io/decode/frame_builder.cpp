@@ -19,7 +19,8 @@ FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
   for (int i = 0; i < config.images; ++i) {
     if (config.measured_tiles > 0) {
       images_.emplace_back(config.shape,
-                           frame::MeasuredReturns(config.shape, config.measured_tiles, memory));
+                           frame::MeasuredReturns(config.shape, config.lasers,
+                                                  config.measured_tiles, memory));
     } else {
       images_.emplace_back(config.shape, config.overflow_capacity, memory);
     }

@@ -49,6 +49,7 @@ class FrameBuilder {
     std::int64_t revolution_ticks = 0;  ///< Ticks in 360 degrees.
     /// Frames are kept as measured, with room for so many tiles; 0: as points.
     std::size_t measured_tiles = 0;
+    std::size_t lasers = 0;  ///< Of a tile.
   };
 
   /// Throws std::invalid_argument on a setting outside its range.

@@ -72,7 +72,7 @@ class TileColumns {
   };
 
   int columns_;
-  std::array<ColumnAngle, static_cast<std::size_t>(Sensor::kRows)> offset_;  ///< From the head.
+  std::array<ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)> offset_;  ///< From the head.
   std::span<TileRow<std::int32_t>> advance_column_, advance_rest_;           ///< By group.
   StepAdvances<Columns> advances_;
 };

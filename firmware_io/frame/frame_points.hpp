@@ -97,7 +97,7 @@ std::size_t FramePoints::for_each_extra(const RangeImage& image, ColumnRange col
     for (std::size_t i = 0; i < returns.lasers(); ++i) {
       const MeasuredReturns::LaserRow& row = returns.row(t, i);
       std::uint32_t extras = row.returns & ~row.owned;
-      if (extras == 0) continue;
+      if (extras == 0 || row.least >= columns.end || row.most < columns.begin) continue;
       reader_->compute_points(i, all_of(points_));
       for (; extras != 0; extras &= extras - 1) {
         const auto f = static_cast<std::size_t>(std::countr_zero(extras));

@@ -75,16 +75,18 @@ TERRACUT_VECTOR_CLONES void count_all(const std::uint16_t* __restrict raw, std::
 
 }  // namespace
 
-MeasuredReturns::MeasuredReturns(ImageShape shape, std::size_t tiles, memory::FixedMemory& memory)
+MeasuredReturns::MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
+                                 memory::FixedMemory& memory)
     : shape_(shape),
-      lasers_(static_cast<std::size_t>(shape.rows)),
+      lasers_(lasers),
       words_(static_cast<std::size_t>(shape.columns) / kWordBits + 2),
       tiles_(memory.take<Tile>("measured returns", tiles)),
       rows_(memory.take<LaserRow>("measured returns", tiles * lasers_)),
       raw_(memory.take<std::uint16_t>("measured returns", tiles * lasers_ * kTileFirings)),
       columns_(memory.take<std::uint16_t>("measured returns", raw_.size())),
       intensity_(memory.take<std::uint8_t>("measured returns", raw_.size())),
-      taken_(memory.take<std::uint64_t>("measured returns", lasers_ * words_)),
+      taken_(memory.take<std::uint64_t>("measured returns",
+                                        static_cast<std::size_t>(shape.rows) * words_)),
       shared_(memory.take<std::uint64_t>("measured returns", taken_.size())) {}
 
 void MeasuredReturns::clear() noexcept {
@@ -230,7 +232,7 @@ void MeasuredReturns::take_cell(const Place& at, int row, int column, CellOwner 
   bits_of(shared_, row)[bit / kWordBits] |= mask;
   std::size_t beaten = at.tile;
   if (owner != CellOwner::kFirstArrived) {
-    const Place other = owner_of(at.laser, column);
+    const Place other = owner_before(at, row, column, reader);
     if (goes_before(at, other, owner, reader)) {
       mine.owned |= firing;
       row_at(other.tile, other.laser).owned &= ~(1U << other.firing);
@@ -251,14 +253,19 @@ bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
   return false;
 }
 
-MeasuredReturns::Place MeasuredReturns::owner_of(std::size_t laser,
-                                                 int column) const noexcept {
-  for (std::size_t t = used_; t-- > 0;) {
-    const LaserRow& candidate = row(t, laser);
-    if (candidate.least > column || candidate.most < column || candidate.owned == 0) continue;
-    for (std::uint32_t bits = candidate.owned; bits != 0; bits &= bits - 1) {
-      const auto f = static_cast<std::size_t>(std::countr_zero(bits));
-      if (this->column(t, laser, f) == column) return {t, laser, f};
+MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int row, int column,
+                                                     TileReader& reader) const noexcept {
+  const std::span<const std::int32_t> rows = reader.rows();
+  for (std::size_t t = newest.tile + 1; t-- > 0;) {
+    const bool is_at_work = t == newest.tile;
+    if (!is_at_work && (tiles_[t].least > column || tiles_[t].most < column)) continue;
+    for (std::size_t i = 0; i < (is_at_work ? newest.laser + 1 : lasers_); ++i) {
+      const LaserRow& candidate = this->row(t, i);
+      if (rows[i] != row || candidate.least > column || candidate.most < column) continue;
+      for (std::uint32_t bits = candidate.owned; bits != 0; bits &= bits - 1) {
+        const auto f = static_cast<std::size_t>(std::countr_zero(bits));
+        if (this->column(t, i, f) == column) return {t, i, f};
+      }
     }
   }
   return {};

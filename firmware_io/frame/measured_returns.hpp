@@ -49,8 +49,9 @@ class MeasuredReturns {
 
   static constexpr std::size_t kMostLasers = 256;
 
-  /// Room for `tiles`. shape.rows lasers, kMostLasers at most.
-  MeasuredReturns(ImageShape shape, std::size_t tiles, memory::FixedMemory& memory);
+  /// Room for `tiles` of `lasers`, kMostLasers at most, a multiple of 8. Several may be of one row.
+  MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
+                  memory::FixedMemory& memory);
 
   void clear() noexcept TERRACUT_NONBLOCKING;
 
@@ -97,8 +98,9 @@ class MeasuredReturns {
                  TileReader& reader) noexcept;
   /// Asks for the memory of the next tile: three frames do not fit the caches next to a core.
   void fetch_next() const noexcept;
-  /// The return that owns the cell of the laser's row in `column`; there is one.
-  [[nodiscard]] Place owner_of(std::size_t laser, int column) const noexcept;
+  /// The return that owns a cell, of those taken up to `newest`; there is one.
+  [[nodiscard]] Place owner_before(const Place& newest, int row, int column,
+                                   TileReader& reader) const noexcept;
   [[nodiscard]] bool goes_before(const Place& newer, const Place& older, CellOwner owner,
                                  TileReader& reader) const noexcept;
   [[nodiscard]] float ground_range_m(const Place& at, TileReader& reader) const noexcept;

@@ -39,6 +39,7 @@ class PlainReader final : public TileReader {
   [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
     return rows_;
   }
+  void set_row(std::size_t laser, std::int32_t row) { rows_[laser] = row; }
 
  private:
   TileHeads heads_{};
@@ -104,7 +105,7 @@ struct MeasuredReturnsTest : testing::Test {
   }
 
   memory::FixedMemory memory;
-  RangeImage image{kShape, MeasuredReturns(kShape, 4, memory)};
+  RangeImage image{kShape, MeasuredReturns(kShape, kLasers, 4, memory)};
   PlainReader reader;
 };
 
@@ -182,6 +183,17 @@ TEST_F(MeasuredReturnsTest, OfALaterTileMayTakeACellFromAnEarlierOne) {
   EXPECT_EQ(owner_in(30), 10);
   EXPECT_EQ(owner_in(31), 30);
   EXPECT_EQ(extras(), std::vector<float>{30});
+}
+
+TEST_F(MeasuredReturnsTest, OfTwoLasersMayShareARow) {
+  reader.set_row(6, 5);  // as laser 2's
+  Measured tile(20);
+  tile.raw[2].fill(30);
+  tile.raw[6].fill(10);
+  EXPECT_EQ(add(tile, CellOwner::kNearest), 0U);
+  EXPECT_EQ(image.measured()->row(0, 2).owned, 0U);
+  EXPECT_EQ(image.measured()->row(0, 6).owned, image.measured()->row(0, 6).returns);
+  EXPECT_EQ(image.measured()->row(0, 6).returns, (1U << kTileFirings) - 1);
 }
 
 TEST_F(MeasuredReturnsTest, MayComeToColumnsThatWereLeftOut) {

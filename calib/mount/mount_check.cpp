@@ -6,15 +6,10 @@
 #include <cmath>
 
 #include "calib/mount/mount_estimate.hpp"
+#include "calib/mount/mount_finder.hpp"
 
 namespace terracut::mount {
 namespace {
-
-/// Any mount that can be configured, whatever the one in use. An RS-Ruby128 3 m up has some 250
-/// points in the strip; a quarter of the candidates where the result is kept finds a plane of 20 %
-/// of the points with 98 %, and there are more frames.
-constexpr MountEstimateConfig kAnyMount{
-    .min_height_m = 0.2, .max_height_m = 6.0, .min_points = 150, .candidates = 500};
 
 /// The mount of a sensor whose ground is seen as by `seen` from a frame that `mount` has already
 /// levelled.
@@ -28,27 +23,25 @@ Mount on_top_of(const Mount& mount, const Mount& seen) {
 }
 
 /// Of the points at places where the two grounds, below a sensor at (0, 0, 0), lie apart: how many
-/// lie on the one for each that lies on the other. 0.06 m is twice the sensor's own noise to either
-/// side, and what 3.5 degrees of roll make 1 m beside the sensor, inside of the strip.
-double support(std::span<const std::array<float, 3>> points, const Mount& of,
-               const Mount& against) {
+/// lie on the one for each that lies on the other. Both bend as the ground does. 0.06 m is twice
+/// the sensor's own noise to either side, and what 3.5 degrees of roll make 1 m beside the sensor,
+/// inside of the strip.
+double support(std::span<const std::array<float, 3>> points, const Mount& of, const Mount& against,
+               double bend_per_m) {
   constexpr double kApart_m = 0.06;
   const RigidTransform T_of = T_vehicle_lidar(of), T_against = T_vehicle_lidar(against);
+  const auto above_ground_m = [&](const RigidTransform& T, const std::array<float, 3>& p) {
+    const auto [x_m, y_m, z_m] = apply(T, double{p[0]}, double{p[1]}, double{p[2]});
+    return z_m - bend_per_m * x_m * x_m;
+  };
   double for_it = 0, against_it = 0;
   for (const auto& p : points) {
-    const double above_m = apply(T_of, double{p[0]}, double{p[1]}, double{p[2]})[2];
-    const double above_other_m = apply(T_against, double{p[0]}, double{p[1]}, double{p[2]})[2];
+    const double above_m = above_ground_m(T_of, p), above_other_m = above_ground_m(T_against, p);
     if (std::abs(above_m - above_other_m) < kApart_m) continue;
     if (std::abs(above_m) < kApart_m / 2) ++for_it;
     if (std::abs(above_other_m) < kApart_m / 2) ++against_it;
   }
   return for_it / std::max(against_it, 1.0);
-}
-
-double median_of(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
@@ -61,12 +54,13 @@ void MountCheck::add_frame(std::span<const std::array<float, 3>> points) {
   std::vector<std::array<float, 3>> levelled(points.begin(), points.end());
   const auto height_m = static_cast<float>(mount_.height_m);
   for (auto& point : levelled) point[2] -= height_m;
-  const auto found = estimate_mount(levelled, kAnyMount);
+  const auto found = estimate_mount(levelled);
   if (!found) return;
   Frame frame{on_top_of(mount_, found->mount), false};
   if (contradicts(frame.seen)) {
     const Mount as_given{.height_m = mount_.height_m, .roll_rad = 0, .pitch_rad = 0};
-    frame.contradicts = support(levelled, as_given, found->mount) < config_.most_support;
+    frame.contradicts =
+        support(levelled, as_given, found->mount, found->bend_per_m) < config_.most_support;
   }
   if (newest_.size() < config_.frames_kept) {
     newest_.push_back(frame);
@@ -83,19 +77,15 @@ bool MountCheck::contradicts(const Mount& seen) const {
 }
 
 std::optional<Mount> MountCheck::contradiction() const {
-  std::vector<double> height_m, roll_rad, pitch_rad;
+  std::vector<Mount> contradicting;
   for (const Frame& frame : newest_) {
-    if (!frame.contradicts) continue;
-    height_m.push_back(frame.seen.height_m);
-    roll_rad.push_back(frame.seen.roll_rad);
-    pitch_rad.push_back(frame.seen.pitch_rad);
+    if (frame.contradicts) contradicting.push_back(frame.seen);
   }
   const bool enough = newest_.size() >= config_.least_frames &&
-                      static_cast<double>(height_m.size()) >=
+                      static_cast<double>(contradicting.size()) >=
                           config_.contradicting_share * static_cast<double>(newest_.size());
   if (!enough) return std::nullopt;
-  const Mount seen{median_of(std::move(height_m)), median_of(std::move(roll_rad)),
-                   median_of(std::move(pitch_rad))};
+  const Mount seen = median_of(contradicting);
   return contradicts(seen) ? std::optional(seen) : std::nullopt;
 }
 

@@ -16,18 +16,47 @@
 namespace terracut::mount {
 namespace {
 
-constexpr std::size_t kScoredPoints =
-    4000;  ///< Of the points, evenly taken, that judge a candidate.
+constexpr double kNearest_m = 3.0;    ///< Nearer points may be the vehicle itself.
+constexpr double kFarthest_m = 15.0;  ///< Farther ones are of another slope, where there is one.
+constexpr double kLowest_m = 0.2,
+                 kHighest_m = 6.0;         ///< Of what is searched: any that can be given.
+constexpr double kSteepest_rad = 0.26;     ///< 15 degrees
+constexpr double kReach_m = 0.10;          ///< Half thickness of the ground while it is searched.
+constexpr double kLeastShare = 0.2;        ///< Of the points, in that thickness.
+constexpr std::size_t kLeastPoints = 150;  ///< An RS-Ruby128 3 m up has some 250 of the strip.
+/// They find a plane of 20 % of the points with 98 %, and there are more frames.
+constexpr int kCandidates = 500;
 constexpr int kMaxRefinements = 50;
 constexpr std::size_t kLeastInliers = 50;
 constexpr double kReachPerRms = 2.0;
 constexpr double kLeastReach_m = 0.03;  ///< The sensor's own noise.
 
-/// The plane with `normal` (unit, upwards) at `height` below the origin: normal . p + height = 0.
-struct Plane {
-  Eigen::Vector3d normal;
-  double height_m;
-  double above_m(const Eigen::Vector3d& p) const { return normal.dot(p) + height_m; }
+/// Ground counts by its area, not by how densely a sensor sees it: so many points a cell at most.
+constexpr double kCell_m = 0.5;
+constexpr int kMostInCell = 8;
+
+/// How far along the road its unevenness hangs together: points of a patch err as one.
+constexpr double kPatch_m = 3.0;
+
+/// A road where a slope begins bends: z = bend x^2. What is usual, before anything is seen: a
+/// radius of 170 m. It keeps what cannot be told apart, bend and height where one ring alone meets
+/// the ground, from running away, and makes the uncertainty say so.
+constexpr double kUsualBend_per_m = 0.003;
+constexpr double kUsualUnevenness_m = 0.02;
+
+/// z = slope_x x + slope_y y + offset_m + bend_per_m x^2, the ground seen from the sensor.
+struct Ground {
+  Eigen::Vector4d terms = Eigen::Vector4d::Zero();  ///< slope_x, slope_y, offset, bend
+
+  static Eigen::Vector4d row(const Eigen::Vector3d& p) { return {p.x(), p.y(), 1, p.x() * p.x()}; }
+  /// Without the bend, which it touches at x.
+  Ground tangent_at(double x_m) const {
+    return {{terms[0] + 2 * terms[3] * x_m, terms[1], terms[2] - terms[3] * x_m * x_m, 0}};
+  }
+  // Of what does not bend: its normal, of unit length, and how far below the sensor it lies.
+  Eigen::Vector3d up() const { return Eigen::Vector3d(-terms[0], -terms[1], 1).normalized(); }
+  double height_m() const { return -terms[2] * up().z(); }
+  double above_m(const Eigen::Vector3d& p) const { return (p.z() - row(p).dot(terms)) * up().z(); }
 };
 
 /// xorshift64*: the same picks on every machine, which standard distributions do not promise.
@@ -44,51 +73,78 @@ class Picker {
   std::uint64_t state_ = 0x9E3779B97F4A7C15ULL;
 };
 
-std::vector<Eigen::Vector3d> points_between(std::span<const std::array<float, 3>> points,
-                                            const MountEstimateConfig& config) {
+std::vector<Eigen::Vector3d> points_in_reach(std::span<const std::array<float, 3>> points) {
   std::vector<Eigen::Vector3d> kept;
   kept.reserve(points.size());
   for (const auto& point : points) {
     const Eigen::Vector3d p(point[0], point[1], point[2]);
     const double range_m = p.head<2>().norm();
-    if (range_m >= config.near_m && range_m <= config.far_m && std::isfinite(p.z())) {
+    if (range_m >= kNearest_m && range_m <= kFarthest_m && std::isfinite(p.z())) {
       kept.push_back(p);
     }
   }
   return kept;
 }
 
-std::optional<Plane> plane_through(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                                   const Eigen::Vector3d& c, const MountEstimateConfig& config) {
+/// Numbers of the square cells, `cell_m` wide, that points in reach lie in.
+class CellOf {
+ public:
+  explicit CellOf(double cell_m)
+      : cell_m_(cell_m), across_(1 + static_cast<std::size_t>(2 * kFarthest_m / cell_m)) {}
+
+  std::size_t cells() const { return across_ * across_; }
+  std::size_t operator()(const Eigen::Vector3d& p) const {
+    return along(p.x()) * across_ + along(p.y());
+  }
+
+ private:
+  std::size_t along(double at_m) const {
+    return static_cast<std::size_t>((at_m + kFarthest_m) / cell_m_);
+  }
+  double cell_m_;
+  std::size_t across_;
+};
+
+/// Every point of a cell with few, and evenly taken ones of the others.
+std::vector<Eigen::Vector3d> evened_out(const std::vector<Eigen::Vector3d>& points) {
+  const CellOf cell_of(kCell_m);
+  std::vector<int> count(cell_of.cells()), seen(cell_of.cells());
+  for (const auto& p : points) ++count[cell_of(p)];
+  std::vector<Eigen::Vector3d> kept;
+  for (const auto& p : points) {
+    const std::size_t cell = cell_of(p);
+    const int step = (count[cell] + kMostInCell - 1) / kMostInCell;
+    if (seen[cell]++ % step == 0) kept.push_back(p);
+  }
+  return kept;
+}
+
+std::optional<Ground> plane_through(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                                    const Eigen::Vector3d& c) {
   Eigen::Vector3d normal = (b - a).cross(c - a);
   const double area = normal.norm();
   if (!(area > 0.5)) return std::nullopt;  // nearly on one line
   normal /= normal.z() < 0 ? -area : area;
-  const Plane plane{normal, -normal.dot(a)};
-  const bool plausible = normal.z() >= std::cos(config.max_tilt_rad) &&
-                         plane.height_m >= config.min_height_m &&
-                         plane.height_m <= config.max_height_m;
-  return plausible ? std::optional(plane) : std::nullopt;
+  const double height_m = -normal.dot(a);
+  const bool plausible =
+      normal.z() >= std::cos(kSteepest_rad) && height_m >= kLowest_m && height_m <= kHighest_m;
+  if (!plausible) return std::nullopt;
+  return Ground{Eigen::Vector4d(-normal.x(), -normal.y(), -height_m, 0) / normal.z()};
 }
 
 /// The candidate plane that holds most of the points.
-std::optional<Plane> search(const std::vector<Eigen::Vector3d>& points,
-                            const MountEstimateConfig& config) {
-  std::vector<Eigen::Vector3d> judges;
-  const std::size_t step = std::max<std::size_t>(1, points.size() / kScoredPoints);
-  for (std::size_t i = 0; i < points.size(); i += step) judges.push_back(points[i]);
-
+std::optional<Ground> search(const std::vector<Eigen::Vector3d>& points) {
   Picker pick;
-  std::optional<Plane> best;
+  std::optional<Ground> best;
   std::size_t best_inliers = 0;
-  for (int i = 0; i < config.candidates; ++i) {
+  for (int i = 0; i < kCandidates; ++i) {
     const auto& a = points[pick.below(points.size())];
     const auto& b = points[pick.below(points.size())];
     const auto& c = points[pick.below(points.size())];
-    const auto plane = plane_through(a, b, c, config);
+    const auto plane = plane_through(a, b, c);
     if (!plane) continue;
     std::size_t inliers = 0;
-    for (const auto& p : judges) inliers += std::abs(plane->above_m(p)) < config.inlier_m ? 1 : 0;
+    for (const auto& p : points) inliers += std::abs(plane->above_m(p)) < kReach_m ? 1 : 0;
     if (inliers > best_inliers) {
       best_inliers = inliers;
       best = plane;
@@ -98,48 +154,56 @@ std::optional<Plane> search(const std::vector<Eigen::Vector3d>& points,
 }
 
 struct Fit {
-  Plane plane;
-  std::size_t inliers;
-  double rms_m;
+  Ground ground;
+  double rms_m = 0;
+  Eigen::Vector4d deviations;  ///< Of ground.terms, standard ones.
 };
 
-/// Least squares z = s . (x, y, 1) over the points within `reach_m` of `plane`.
-std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Plane& plane,
-                       double reach_m) {
-  Eigen::Matrix3d normal_matrix = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right_side = Eigen::Vector3d::Zero();
+/// Least squares over the points within `reach_m` of `ground`. A patch counts as one measurement.
+std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground& ground,
+                       double reach_m, const CellOf& patch_of) {
+  Eigen::Matrix4d normal_matrix = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d right_side = Eigen::Vector4d::Zero();
+  std::vector<bool> has_points(patch_of.cells());
   std::size_t inliers = 0;
   double squares = 0;
   for (const auto& p : points) {
-    const double above_m = plane.above_m(p);
+    const double above_m = ground.above_m(p);
     if (std::abs(above_m) >= reach_m) continue;
-    const Eigen::Vector3d row(p.x(), p.y(), 1.0);
+    const Eigen::Vector4d row = Ground::row(p);
     normal_matrix += row * row.transpose();
     right_side += row * p.z();
     squares += above_m * above_m;
+    has_points[patch_of(p)] = true;
     ++inliers;
   }
+  if (inliers < kLeastInliers) return std::nullopt;
+  const auto patches = std::count(has_points.begin(), has_points.end(), true);
+  const double points_a_patch = static_cast<double>(inliers) / static_cast<double>(patches);
+  const double usual = kUsualUnevenness_m / kUsualBend_per_m;
+  normal_matrix(3, 3) += points_a_patch * usual * usual;
   bool solvable = false;
-  Eigen::Matrix3d inverse;
+  Eigen::Matrix4d inverse;
   normal_matrix.computeInverseWithCheck(inverse, solvable);
-  if (inliers < kLeastInliers || !solvable) return std::nullopt;
-  const Eigen::Vector3d s = inverse * right_side;
-  const Eigen::Vector3d up(-s.x(), -s.y(), 1.0);
-  return Fit{{up.normalized(), -s.z() / up.norm()},
-             inliers,
-             std::sqrt(squares / static_cast<double>(inliers))};
+  if (!solvable) return std::nullopt;
+  const double rms_m = std::sqrt(squares / static_cast<double>(inliers));
+  return Fit{{inverse * right_side},
+             rms_m,
+             std::max(rms_m, kUsualUnevenness_m) *
+                 (points_a_patch * inverse.diagonal()).cwiseMax(0).cwiseSqrt()};
 }
 
-/// Repeats the fit on its own inliers until the plane stands still, reaching less far each time, so
-/// that sidewalks and tyres drop out once the road itself is found.
-std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Plane plane, double reach_m) {
+/// Repeats the fit on its own inliers until the ground stands still, and from then on reaching less
+/// far each time, so that sidewalks and tyres drop out once the road itself is found.
+std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Ground ground) {
+  const CellOf patch_of(kPatch_m);
+  double reach_m = kReach_m;
   std::optional<Fit> result;
   for (int i = 0; i < kMaxRefinements; ++i) {
-    result = fit(points, plane, reach_m);
+    result = fit(points, ground, reach_m, patch_of);
     if (!result) return result;
-    const double moved = (result->plane.normal - plane.normal).norm() +
-                         std::abs(result->plane.height_m - plane.height_m);
-    plane = result->plane;
+    const double moved = (result->ground.terms - ground.terms).norm();
+    ground = result->ground;
     const double next_reach_m = std::clamp(kReachPerRms * result->rms_m, kLeastReach_m, reach_m);
     if (moved < 1e-9 && next_reach_m == reach_m) break;
     reach_m = next_reach_m;
@@ -147,43 +211,48 @@ std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Plane plan
   return result;
 }
 
-double share_within(const std::vector<Eigen::Vector3d>& points, const Plane& plane,
-                    double reach_m) {
+double share_within_reach(const std::vector<Eigen::Vector3d>& points, const Ground& ground) {
   const auto inliers = std::count_if(points.begin(), points.end(), [&](const auto& p) {
-    return std::abs(plane.above_m(p)) < reach_m;
+    return std::abs(ground.above_m(p)) < kReach_m;
   });
   return static_cast<double>(inliers) / static_cast<double>(points.size());
 }
 
 /// Third row of rotate_y(pitch) rotate_x(roll) is the ground's normal seen from the sensor.
-Mount mount_over(const Plane& plane) {
-  return {plane.height_m, std::atan2(plane.normal.y(), plane.normal.z()),
-          std::asin(-plane.normal.x())};
+/// Straight below a tilted one is not where its own z axis points.
+Mount mount_over(const Ground& ground) {
+  const Ground near = ground.tangent_at(0);
+  const Ground below = ground.tangent_at(-near.height_m() * near.up().x());
+  const Eigen::Vector3d up = below.up();
+  return {below.height_m(), std::atan2(up.y(), up.z()), std::asin(-up.x())};
 }
 
 }  // namespace
 
-Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points,
-                                       const MountEstimateConfig& config) {
-  const auto near = points_between(points, config);
-  if (near.size() < config.min_points) {
+Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points) {
+  const auto near = points_in_reach(points);
+  if (near.size() < kLeastPoints) {
     return fail(ErrorCode::kMalformed,
-                fmt::format("mount estimate: expected at least {} points between {:g} and {:g} m, "
-                            "found {}; give more frames",
-                            config.min_points, config.near_m, config.far_m, near.size()));
+                fmt::format("of the ground {:g} to {:g} m before and behind the sensor {} points "
+                            "are seen, {} are needed",
+                            kNearest_m, kFarthest_m, near.size(), kLeastPoints));
   }
-  const auto seed = search(near, config);
-  const auto found = seed ? refine(near, *seed, config.inlier_m) : std::nullopt;
-  const double share = found ? share_within(near, found->plane, config.inlier_m) : 0.0;
-  if (share < config.min_inlier_share) {
-    return fail(ErrorCode::kMalformed,
-                fmt::format("mount estimate: no ground plane {:g} to {:g} m below the sensor holds "
-                            "{:.0f} % of the points (best {:.0f} %); record on level, open ground "
-                            "or give the mount",
-                            config.min_height_m, config.max_height_m, 100 * config.min_inlier_share,
-                            100 * share));
+  const auto even = evened_out(near);
+  const auto seed = search(even);
+  const auto found = seed ? refine(even, *seed) : std::optional<Fit>();
+  const double share = found ? share_within_reach(even, found->ground) : 0.0;
+  if (share < kLeastShare) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("no ground plane {:g} to {:g} m below the sensor holds {:.0f} % of what "
+                    "is seen before and behind it (best {:.0f} %)",
+                    kLowest_m, kHighest_m, 100 * kLeastShare, 100 * share));
   }
-  return MountEstimate{mount_over(found->plane), share, found->rms_m, near.size()};
+  // The tilts are small: slopes are angles, and the height is minus the offset.
+  const Eigen::Vector4d& deviation = found->deviations;
+  return MountEstimate{mount_over(found->ground),
+                       {deviation[2], deviation[1], deviation[0]},
+                       found->ground.terms[3]};
 }
 
 }  // namespace terracut::mount

@@ -319,11 +319,25 @@ std::vector<Figure> figures_of(const MountFigures& f) {
     {"height_m", metres(f.height_m), height("given")},
     {"roll_deg", degrees(f.roll_deg), tilt("given", "roll")},
     {"pitch_deg", degrees(f.pitch_deg), tilt("given", "pitch")},
+    {"found_in_frames", f.found_in_frames},
     {"frames", f.frames},
     {"contradicted", f.contradicted != 0,
      {"terracut_mount_contradicted",
-      "1 where the near ground shows another mount than the one given."}},
+      "1 where the near ground shows another mount than the one in use."}},
     {{}, contradiction_text(f), {}, {"mount", "{}", Shown::kAlarm}}});
+  if (f.found_in_frames != 0) {
+    const auto uncertain_tilt = [](const char* axis) {
+      return Metric{"terracut_mount_uncertain_tilt_degrees",
+                    "Within which of the tilt in use the true one lies in 95 of 100 cases.",
+                    {{"axis", axis}}};
+    };
+    table.add("mount.uncertainty", {
+      {"height_m", metres(f.uncertain_height_m),
+       {"terracut_mount_uncertain_height_metres",
+        "Within which of the height in use the true one lies in 95 of 100 cases."}},
+      {"roll_deg", degrees(f.uncertain_roll_deg), uncertain_tilt("roll")},
+      {"pitch_deg", degrees(f.uncertain_pitch_deg), uncertain_tilt("pitch")}});
+  }
   if (f.contradicted == 0) return std::move(table).take();
   table.add("mount.seen", {
     {"height_m", metres(f.seen_height_m), height("ground")},
@@ -359,10 +373,11 @@ std::string contradiction_text(const MountFigures& mount) {
   if (mount.contradicted == 0) return {};
   return fmt::format(
       "the near ground contradicts the mount: it shows the sensor at height {:.2f} m, roll {:.1f}, "
-      "pitch {:.1f} deg, given is {:.2f} m, {:.1f}, {:.1f} deg; labels suffer. `terracut "
+      "pitch {:.1f} deg, {} is {:.2f} m, {:.1f}, {:.1f} deg; labels suffer. `terracut "
       "calibrate` measures it from a capture, for --setup",
-      mount.seen_height_m, mount.seen_roll_deg, mount.seen_pitch_deg, mount.height_m,
-      mount.roll_deg, mount.pitch_deg);
+      mount.seen_height_m, mount.seen_roll_deg, mount.seen_pitch_deg,
+      mount.found_in_frames != 0 ? "found at the start" : "given", mount.height_m, mount.roll_deg,
+      mount.pitch_deg);
 }
 
 }  // namespace terracut::status

@@ -10,13 +10,13 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/mount/mount_check.hpp"
+#include "drive_near_ground.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
 #include "tools/lab/encode/hdl64e_encoder_traits.hpp"
 #include "tools/lab/encode/ruby128_encoder_traits.hpp"
-#include "tools/lab/simulator/drive.hpp"
 
 namespace terracut::whole_way {
 namespace {
@@ -26,37 +26,10 @@ namespace {
 template <class EncoderTraits>
 std::vector<mount::MountCheck> checks_of_drive(const std::string& scene, const mount::Mount& truth,
                                                const std::vector<mount::Mount>& given) {
-  simulator::SimulationConfig<EncoderTraits> config;
-  config.scene = scene;
-  config.duration_s = 0.3;
-  config.mount = truth;
   std::vector<mount::MountCheck> checks(given.begin(), given.end());
-  std::vector<beams::Point> points;
-  double frame_ends_s = 0.1;
-  const auto end_frame = [&] {
-    for (mount::MountCheck& check : checks) {
-      const mount::RigidTransform T = mount::T_vehicle_lidar(check.mount());
-      std::vector<std::array<float, 3>> near;
-      for (const beams::Point& p : points) {
-        const auto [x, y, z] = mount::apply(T, p.x_m, p.y_m, p.z_m);
-        const auto x_m = static_cast<float>(x), y_m = static_cast<float>(y);
-        if (!ground::is_near_ground_place(x_m, y_m)) continue;
-        near.push_back({x_m, y_m, static_cast<float>(z)});
-      }
-      check.add_frame(near);
-    }
-    points.clear();
-    frame_ends_s += 0.1;
-  };
-  const auto done = simulator::simulate_drive(
-      config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) {
-        if (column.time_s >= frame_ends_s) end_frame();
-        for (std::size_t laser = 0; laser < column.exact.size(); ++laser) {
-          if (column.wire.by_laser[laser].raw != 0) points.push_back(column.exact[laser]);
-        }
-        return Status{};
-      });
-  EXPECT_TRUE(done) << done.error().message;
+  drive_frames<EncoderTraits>(scene, truth, 3, [&](const DriveFrame& points) {
+    for (mount::MountCheck& check : checks) check.add_frame(near_ground_of(points, check.mount()));
+  });
   return checks;
 }
 

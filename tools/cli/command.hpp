@@ -41,8 +41,8 @@ inline constexpr std::array kCommands{
     CommandText{"simulate", "Drive a simulated sensor: capture, table and truth"},
     CommandText{"encode", "Frame recorded scans into packets with their truth"},
     CommandText{"calibrate",
-                "Find the mount and the rings' ground distances from a capture\n"
-                "taken on a straight, level, open road"},
+                "Find the mount and the rings' ground distances from a capture,\n"
+                "or from clouds, taken on a straight, level, open road"},
     CommandText{"info", "What a capture holds: streams, sensor, rate, loss, calibration"},
     CommandText{"plan", "Memory the program takes, part by part"},
     CommandText{"parameters",

@@ -8,6 +8,7 @@
 
 #include "calib/beams/angle.hpp"
 #include "tests/calib/calib_test_support.hpp"
+#include "tests/calib/mount/sensor_view.hpp"
 
 namespace terracut::mount {
 namespace {
@@ -15,43 +16,29 @@ namespace {
 using testing::HasSubstr;
 using Cloud = std::vector<std::array<float, 3>>;
 
-/// Puts points of the vehicle frame into the frame of a sensor on `mount`.
-class Scene {
+class Scene : public test::SensorView {
  public:
-  explicit Scene(const Mount& mount) : T_(T_vehicle_lidar(mount)) {}
+  using SensorView::SensorView;
 
-  void add(double x, double y, double z) {
-    const double d[3] = {x - T_[3], y - T_[7], z - T_[11]};
-    std::array<float, 3> p{};
-    for (std::size_t i = 0; i < 3; ++i) {  // transposed rotation
-      p[i] = static_cast<float>(T_[i] * d[0] + T_[4 + i] * d[1] + T_[8 + i] * d[2]);
-    }
-    points_.push_back(p);
-  }
-
-  /// Ground out to 40 m, as dense as rings make it, with a sidewalk, walls and cars.
+  /// The lane out to 15 m, as dense as rings make it, between the walls of an archway, with the
+  /// boot and the roof of a car ahead.
   void add_street(double noise_m) {
     std::mt19937 random(7);
     std::normal_distribution<double> noise(0.0, noise_m);
-    std::uniform_real_distribution<double> frame(0.0, 6.2831853), share(0.0, 1.0);
-    for (int i = 0; i < 30000; ++i) {
-      const double range = 2.5 + 37.5 * share(random) * share(random), at = frame(random);
-      const double y = range * std::sin(at);
-      add(range * std::cos(at), y, (y > 6 ? 0.15 : 0.0) + noise(random));
+    std::uniform_real_distribution<double> share(0.0, 1.0);
+    for (int i = 0; i < 12000; ++i) {
+      const double range_m = 2.5 + 22.5 * share(random) * share(random);
+      add(i % 2 == 0 ? range_m : -range_m, 3 * share(random) - 1.5, noise(random));
     }
-    for (int i = 0; i < 15000; ++i) {  // walls left and right
-      add(-20 + 40 * share(random), i % 2 == 0 ? 10.0 : -8.0, 6 * share(random));
+    for (int i = 0; i < 3000; ++i) {  // walls left and right
+      add(-20 + 40 * share(random), i % 2 == 0 ? 1.45 : -1.45, 6 * share(random));
     }
-    for (int i = 0; i < 6000; ++i) {  // roofs, bonnets and sides of parked cars
-      add(4 + 16 * share(random), -4.5 + 1.8 * share(random), i % 3 == 0 ? 1.45 : share(random));
+    for (int i = 0; i < 4000; ++i) {  // hides nothing, for it is denser than it would be
+      const bool is_roof = i % 3 == 0;
+      add(is_roof ? 7 + 3 * share(random) : 7, 1.8 * share(random) - 0.9,
+          is_roof ? 1.45 : 0.4 + share(random));
     }
   }
-
-  const Cloud& points() const { return points_; }
-
- private:
-  RigidTransform T_;
-  Cloud points_;
 };
 
 TEST(MountEstimate, FindsHeightRollAndPitchAmongWallsAndCars) {
@@ -66,8 +53,6 @@ TEST(MountEstimate, FindsHeightRollAndPitchAmongWallsAndCars) {
         EXPECT_NEAR(found->mount.height_m, height_m, 0.03);
         EXPECT_NEAR(beams::rad_to_deg(found->mount.roll_rad), roll_deg, 0.3);
         EXPECT_NEAR(beams::rad_to_deg(found->mount.pitch_rad), pitch_deg, 0.3);
-        EXPECT_GT(found->inlier_share, 0.3);
-        EXPECT_LT(found->rms_m, 0.05);
       }
     }
   }
@@ -77,14 +62,31 @@ TEST(MountEstimate, IsExactOnAPerfectPlane) {
   const Mount mount{2.0, beams::deg_to_rad(1.5), beams::deg_to_rad(-2.5)};
   Scene scene(mount);
   for (int x = -20; x <= 20; ++x) {
-    for (int y = -20; y <= 20; ++y) scene.add(x, y, 0);
+    for (double y = -1.5; y <= 1.5; y += 0.25) scene.add(x, y, 0);
   }
   const auto found = estimate_mount(scene.points());
   ASSERT_TRUE(found.has_value()) << found.error().message;
   EXPECT_NEAR(found->mount.height_m, 2.0, 1e-5);
   EXPECT_NEAR(found->mount.roll_rad, mount.roll_rad, 1e-6);
   EXPECT_NEAR(found->mount.pitch_rad, mount.pitch_rad, 1e-6);
-  EXPECT_NEAR(found->inlier_share, 1.0, 1e-9);
+}
+
+TEST(MountEstimate, IsTheOneBelowTheSensorWhereASlopeBegins) {
+  const auto rise_m = [](double x) { return 0.0033 * x * x; };  // 0 to 15 % within 23 m
+  for (const double pitch_deg : {-5.0, 0.0, 5.0}) {
+    const Mount mount{3.0, 0, beams::deg_to_rad(pitch_deg)};
+    Scene scene(mount);
+    for (double y = -1.4; y < 1.5; y += 0.2) {
+      for (double x = 3; x < 15; x += 0.2) scene.add(-x, y, rise_m(x));
+      // A sensor with its rows about the horizon sees far more of what is far.
+      for (double x = 3; x < 15; x += x < 10 ? 0.2 : 0.02) scene.add(x, y, rise_m(x));
+    }
+    const auto found = estimate_mount(scene.points());
+    ASSERT_TRUE(found.has_value()) << found.error().message;
+    EXPECT_NEAR(found->mount.height_m, 3.0, 0.01);
+    EXPECT_NEAR(beams::rad_to_deg(found->mount.roll_rad), 0, 0.1);
+    EXPECT_NEAR(beams::rad_to_deg(found->mount.pitch_rad), pitch_deg, 0.15);
+  }
 }
 
 TEST(MountEstimate, GivesTheSameMountEachTime) {
@@ -111,15 +113,16 @@ TEST(MountEstimate, LeavesOutPointsThatAreNotFinite) {
 }
 
 TEST(MountEstimate, SaysWhenThereAreTooFewPoints) {
-  EXPECT_THAT(estimate_mount({}),
-              calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr("found 0")));
+  EXPECT_THAT(
+      estimate_mount({}),
+      calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr("0 points are seen, 150 are needed")));
 }
 
 TEST(MountEstimate, SaysWhenThereIsNoGround) {
   Scene walls(Mount{});
   std::mt19937 random(1);
   std::uniform_real_distribution<double> at(-20, 20), up(0.0, 30.0);
-  for (int i = 0; i < 20000; ++i) walls.add(at(random), 8.0, up(random));
+  for (int i = 0; i < 20000; ++i) walls.add(at(random), 1.4, up(random));
   EXPECT_THAT(estimate_mount(walls.points()),
               calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr("no ground plane")));
   Scene line(Mount{});
@@ -138,9 +141,9 @@ TEST(MountEstimate, FindsKittisSensorAboutItsPublishedHeight) {
     for (std::size_t i = 0; i < points.size(); ++i) {
       std::copy_n(bytes.data() + 16 * i, 12, reinterpret_cast<char*>(points[i].data()));
     }
+    std::erase_if(points, [](const auto& p) { return std::abs(p[1]) > 1.5F; });
     const auto found = estimate_mount(points);
     ASSERT_TRUE(found.has_value()) << entry.path() << found.error().message;
-    RecordProperty(entry.path().filename().string(), std::to_string(found->mount.height_m));
     EXPECT_NEAR(found->mount.height_m, 1.73, 0.1) << entry.path();
     EXPECT_LT(std::abs(beams::rad_to_deg(found->mount.roll_rad)), 4.0) << entry.path();
     EXPECT_LT(std::abs(beams::rad_to_deg(found->mount.pitch_rad)), 3.0) << entry.path();

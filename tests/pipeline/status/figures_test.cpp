@@ -48,6 +48,7 @@ struct WholeRun : WatchedRun {
                        .height_m = 1.7,
                        .roll_deg = 0,
                        .pitch_deg = 0,
+                       .found_in_frames = 10,
                        .seen_height_m = 2.1,
                        .seen_roll_deg = 1,
                        .seen_pitch_deg = -2};

@@ -84,6 +84,18 @@ class CliLive : public Cli {
   }
 };
 
+TEST_F(CliLive, FindsTheMountBeforeItLabels) {
+  LiveRun run = live_with_table("--json live.json");
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(labels(run, 1));
+  const Outcome outcome = run.interrupted();
+  EXPECT_THAT(outcome.err, HasSubstr("mount: height 1.7"));
+  const auto mount = json("live.json")["mount"];
+  EXPECT_NEAR(mount["height_m"], 1.73, 0.04);
+  EXPECT_GE(mount["found_in_frames"], 10);
+  EXPECT_LT(mount["uncertainty"]["pitch_deg"], 1);
+}
+
 TEST_F(CliLive, LabelsWhatIsSentToIt) {
   LiveRun run = live_with_table("--labels labels --json live.json --trace trace.json");
   const Sensors sender = sensor(run);

@@ -11,7 +11,11 @@
 namespace terracut::cli {
 namespace {
 
+using testing::AllOf;
 using testing::HasSubstr;
+
+/// Of the test drive; clouds are written in its vehicle's frame.
+const std::string kMount = " --mount-height 1.73 --mount-roll 0 --mount-pitch 0";
 
 struct PcdPoint {
   float x, y, z, intensity;
@@ -77,12 +81,33 @@ class CliScans : public Cli {
 };
 
 TEST_F(CliScans, OfASimulatedDriveGiveTheSameAccuracyThroughPackets) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   const BothWays ways = both_ways(folder_ / "scans");
   EXPECT_NEAR(ways.packets_recall_o, ways.direct_recall_o, 0.01);
   EXPECT_EQ(fs::file_size(folder_ / "direct" / "000000.label"),
             fs::file_size(folder_ / "scans" / "labels" / "000000.label"));
+}
+
+TEST_F(CliScans, TellTheMountTheyWereTakenFrom) {
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
+  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
+  const Outcome found = run("segment scans --json found.json");
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  EXPECT_THAT(found.err, HasSubstr("mount: height 1.7"));
+  expect_done("segment scans --json stated.json" + kMount);
+  const auto as_found = json("found.json")["summary"], as_stated = json("stated.json")["summary"];
+  EXPECT_NEAR(as_found["mount"]["height_m"], 1.73, 0.04);
+  EXPECT_NEAR(as_found["iou_g"], as_stated["iou_g"], 0.003);
+
+  const Outcome calibrated = run("calibrate scans -o setup.yaml");
+  EXPECT_EQ(calibrated.exit_code, 0) << calibrated.err;
+  EXPECT_THAT(calibrated.out, AllOf(HasSubstr("mount     height 1.7"), HasSubstr("rings     ")));
+  expect_done("segment scans --setup setup.yaml --json setup.json");
+  EXPECT_EQ(json("setup.json")["summary"]["mount"]["height_m"], as_found["mount"]["height_m"]);
+  EXPECT_NEAR(json("setup.json")["summary"]["iou_g"], as_stated["iou_g"], 0.01);
+  EXPECT_THAT(run("calibrate scans --duration 1 -o other.yaml").err,
+              HasSubstr("--start and --duration are of captures"));
 }
 
 TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
@@ -106,7 +131,7 @@ TEST_F(CliScans, OfSemanticKittiGiveTheSameAccuracyThroughPackets) {
 }
 
 TEST_F(CliScans, AreLabelledByTheBaselineThatIsNamedDirectlyAndThroughPackets) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   for (const std::string method : {"pfaff", "bogoslavskyi", "zhang"}) {
     const std::string quick = method == "zhang" ? " --set zhang.iterations=8" : "";
@@ -125,7 +150,7 @@ TEST_F(CliScans, AreLabelledByTheBaselineThatIsNamedDirectlyAndThroughPackets) {
 }
 
 TEST_F(CliScans, BecomeASyntheticRuby128DriveThatSaysSo) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   const Outcome outcome = run("encode scans --sensor ruby128 -o drive.pcap");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -144,7 +169,7 @@ TEST_F(CliScans, BecomeASyntheticRuby128DriveThatSaysSo) {
 }
 
 TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   expect_done("segment scans --labels without");
   std::ofstream(folder_ / "scans/velodyne/000000.bin", std::ios::binary | std::ios::app)
@@ -161,7 +186,7 @@ TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {
 }
 
 TEST_F(CliScans, ThatAreCroppedOrInAnotherOrderAreTakenAllTheSameOrRefusedWithACure) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   fs::remove_all(folder_ / "scans/labels");
   const fs::path bin = folder_ / "scans/velodyne/000000.bin";
@@ -194,7 +219,7 @@ TEST_F(CliScans, ThatAreCroppedOrInAnotherOrderAreTakenAllTheSameOrRefusedWithAC
 
 /// The frame that a PCD file of `replay` holds, as another program might write it.
 TEST_F(CliScans, OfOtherFormatsGetTheSameLabelsInTheOrderOfTheirPoints) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   const std::vector<PcdPoint> points = points_of(folder_ / "clouds" / "000000.pcd");
   for (const char* folder : {"pcd", "nuscenes", "ply"}) fs::create_directories(folder_ / folder);
   std::ofstream pcd(folder_ / "pcd/7.pcd"), ply(folder_ / "ply/7.ply");
@@ -230,7 +255,7 @@ TEST_F(CliScans, OfOtherFormatsGetTheSameLabelsInTheOrderOfTheirPoints) {
 }
 
 TEST_F(CliScans, AreEncodedWithTheirMotionPutBackWherePosesLieBesideThem) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds");
+  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
   write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
   Outcome outcome = run("encode scans -o drive.pcap");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

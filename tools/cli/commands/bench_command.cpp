@@ -19,7 +19,9 @@
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/figures/report.hpp"
+#include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/open_capture.hpp"
+#include "tools/cli/input/recorded_frames.hpp"
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
@@ -175,12 +177,15 @@ ExitCode run_bench(const Options& options) {
   catch_stop_signals();
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
-  const auto profile = ring_profile_of(capture->calibration, options.mount);
+  CaptureFrames frames(*capture, options);
+  const auto mount = choose_mount(options.mount, frames);
+  if (!mount) return refuse_work(mount.error());
+  const auto profile = ring_profile_of(capture->calibration, mount->options);
   if (!profile) return refuse(profile.error());
   const auto packets = load(*capture, options.capture);
   if (!packets) return refuse_work(packets.error());
 
-  warn_of_other_senders(*capture, options.capture);
+  warn_of_other_senders(*capture, capture->source.counters(), options.capture);
   memory::FixedMemory memory;
   const auto decoder_config =
       decoder_config_of(options, capture->sensor.columns, FramesAreFor::kLabels);

@@ -2,136 +2,102 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
-#include <array>
-#include <functional>
+#include <filesystem>
+#include <optional>
+#include <system_error>
 #include <vector>
 
 #include "calib/beams/angle.hpp"
-#include "calib/mount/mount_estimate.hpp"
+#include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile_estimate.hpp"
 #include "calib/mount/sensor_setup_file.hpp"
+#include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/frame/each_return.hpp"
-#include "pipeline/ground/near_ground.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/input/cloud_input.hpp"
+#include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/open_capture.hpp"
-#include "tools/cli/settings/decoder_choice.hpp"
+#include "tools/cli/input/recorded_frames.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
 
-using frame::FrameInfo;
-using frame::PlacedReturn;
-using frame::RangeImage;
+/// Frames the mount is read off, and that the rings are measured in at most.
+constexpr std::size_t kMountFrames = 100, kRingFrames = 100'000;
 
-/// Frames the mount is read off: two seconds' worth is plenty and bounds the memory.
-constexpr std::uint32_t kMountFrames = 20;
-
-/// Decodes the wanted part of the capture once, from its beginning. `on_frame` answers false when
-/// it has seen enough.
-Status decode_frames(OpenCapture& capture, const CaptureOptions& options, decode::Decoder& decoder,
-                     const std::function<bool(const RangeImage&)>& on_frame) {
-  bool more = true;
-  std::uint64_t offered = 0;
-  const auto hand_out = [&] {
-    while (const frame::Frame* frame = decoder.next()) more = more && on_frame(*frame->image);
-  };
-  if (Status status = capture.source.rewind(); !status) return status;
-  CapturePart part(capture.source, options);
-  for (const decode::Datagram* datagram; more && (datagram = part.next()) != nullptr; ++offered) {
-    decoder.push(*datagram);
-    hand_out();
-  }
-  if (Status status = go_on(); !status) return status;
-  decoder.end_stream();
-  hand_out();
-  if (decoder.frames() > 0) return {};
-  return tl::unexpected(nothing_came_out(capture.source, offered, decoder.losses()));
-}
-
-/// The mount by the ground itself. A sensor at height 0 without tilt: the decoder's vehicle frame
-/// is then the sensor's.
-Expected<mount::MountEstimate> estimate(OpenCapture& capture, const Options& options) {
-  std::vector<std::array<float, 3>> points;
-  std::uint32_t frames = 0;
-  const mount::Mount at_the_sensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
-  memory::FixedMemory memory;
-  decode::Decoder decoder(capture.calibration, at_the_sensor,
-                          decoder_config_of(options, capture.sensor.columns, FramesAreFor::kPoints), memory);
-  const Status decoded =
-      decode_frames(capture, options.capture, decoder, [&](const RangeImage& image) {
-        frame::for_each_return(image, [&](const PlacedReturn& placed) {
-          if (!ground::is_near_ground_place(placed.point.x_m, placed.point.y_m)) return;
-          points.push_back({placed.point.x_m, placed.point.y_m, placed.point.z_m});
-        });
-        return ++frames < kMountFrames;
-      });
-  if (!decoded) return tl::unexpected(decoded.error());
-  return mount::estimate_mount(points);
+/// Clouds and captures go by what the files are named.
+bool holds_clouds(const std::filesystem::path& input) {
+  std::error_code none;
+  return std::filesystem::is_directory(input, none) || cloud::is_cloud_file(input);
 }
 
 /// The mean distance of each ring's ground returns, labelled by the method itself.
-Expected<mount::RingProfileEstimate> measure_rings(OpenCapture& capture, const Options& options,
+Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const Options& options,
                                                    const mount::RingProfile& geometry) {
   memory::FixedMemory memory;
-  decode::Decoder decoder(capture.calibration, geometry.mount,
-                          decoder_config_of(options, capture.sensor.columns, FramesAreFor::kPoints), memory);
-  ground::Segmenter segmenter(method_config_of(options.method).segmenter, geometry, decoder.shape(),
-                              decoder.return_capacity(), memory);
+  std::optional<ground::Segmenter> segmenter;
   mount::RingProfileEstimate rings(geometry);
   std::vector<mount::RingObservation> observations;
   Progress progress("measuring rings", "frames", 0);
-  std::uint32_t frames = 0;
-  const Status decoded =
-      decode_frames(capture, options.capture, decoder, [&](const RangeImage& image) {
-        (void)segmenter.segment(image);
+  std::uint32_t measured = 0;
+  const Status shown =
+      frames.each_frame(geometry.mount, kRingFrames, [&](const frame::RangeImage& image) {
+        if (!segmenter) {
+          segmenter.emplace(method_config_of(options.method).segmenter, geometry, image.shape(),
+                            image.return_capacity(), memory);
+        }
+        (void)segmenter->segment(image);
         observations.clear();
-        frame::for_each_return(image, [&](const PlacedReturn& placed) {
-          const bool is_ground = frame::is_ground(segmenter.labels()[placed.return_index]);
+        frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+          const bool is_ground = frame::is_ground(segmenter->labels()[placed.return_index]);
           observations.push_back({placed.row, placed.point.ground_range_m, is_ground});
         });
         rings.add(observations);
-        progress.update(++frames);
-        return true;
+        progress.update(++measured);
+        return Status{};
       });
-  if (!decoded) return tl::unexpected(decoded.error());
+  if (!shown) return tl::unexpected(shown.error());
   return rings;
 }
 
-/// On level roads, kerbs and cars beside them included, nine returns of ten lie in the plane.
-void warn_of_poor_fit(const mount::MountEstimate& estimated) {
-  constexpr double kUsualShare = 0.85;
-  if (estimated.inlier_share >= kUsualShare) return;
-  warn(
-      fmt::format("only {:.0f} % of the ground before and behind the vehicle lie in one plane; the "
-                  "mount may be wrong: take the capture on a straight, level, open road",
-                  100 * estimated.inlier_share));
+/// The mount as the frames show it, but for what is stated; with --keep-mount as it is stated.
+Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& options) {
+  MountOptions stated = options.mount;
+  if (!options.keep_mount) {
+    stated.setup.clear();  // it is to be measured anew
+    mount::MountFinder finder;
+    if (const Status shown = look_for_mount(frames, kMountFrames, finder); !shown) {
+      return tl::unexpected(shown.error());
+    }
+    const auto found = finder.found();
+    if (!found) {
+      return fail(found.error().code, found.error().message +
+                                          "; record on level, open ground, or give the mount and "
+                                          "--keep-mount");
+    }
+    const MountChoice choice = filled_in(stated, *found);
+    fmt::print("mount     {}\n", text_of(choice));
+    warn_if_uncertain(*choice.found);
+    stated = choice.options;
+  }
+  const auto mount = mount_of(stated);
+  if (mount && options.keep_mount) {
+    fmt::print("mount     height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg, as stated\n",
+               mount->height_m, beams::rad_to_deg(mount->roll_rad),
+               beams::rad_to_deg(mount->pitch_rad));
+  }
+  return mount;
 }
 
-}  // namespace
-
-ExitCode run_calibrate(const Options& options) {
-  catch_stop_signals();
-  auto capture = open_capture(options.capture);
-  if (!capture) return refuse(capture.error());
-  auto mount = mount_of(options.mount);
-  if (!mount) return refuse(mount.error());
-  if (!options.keep_mount) {
-    const auto estimated = estimate(*capture, options);
-    if (!estimated) return refuse_work(estimated.error());
-    mount = estimated->mount;
-    warn_of_poor_fit(*estimated);
-    fmt::print("mount     from {} returns, {:.0f} % of them within {:.1f} cm (rms) of the plane\n",
-               estimated->points_used, 100 * estimated->inlier_share, 100 * estimated->rms_m);
-  }
-  fmt::print("          height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg\n", mount->height_m,
-             beams::rad_to_deg(mount->roll_rad), beams::rad_to_deg(mount->pitch_rad));
-
-  const mount::RingProfile geometry = calib::ring_profile(capture->calibration, *mount);
-  const auto rings = measure_rings(*capture, options, geometry);
+ExitCode calibrate(RecordedFrames& frames, const Options& options) {
+  const auto mount = measured_mount(frames, options);
+  if (!mount) return refuse_work(mount.error());
+  const mount::RingProfile geometry = frames.ring_profile(*mount);
+  const auto rings = measure_rings(frames, options, geometry);
   if (!rings) return refuse_work(rings.error());
   fmt::print("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
              geometry.rings.size());
@@ -139,10 +105,8 @@ ExitCode run_calibrate(const Options& options) {
     return refuse(
         kNothingCameOut,
         "no ring saw enough ground to be measured, so no setup was written; give a longer "
-        "part of the capture, of a level open road");
+        "part of the recording, of a level open road");
   }
-
-  warn_of_other_senders(*capture, options.capture);
   mount::SensorSetup setup{*mount, {}};
   for (const mount::Ring& ring : rings->profile().rings) {
     setup.ring_ground_distance_m.push_back(ring.ground_distance_m);
@@ -150,6 +114,31 @@ ExitCode run_calibrate(const Options& options) {
   const ExitCode written = done_or_refused(mount::write_sensor_setup(options.written, setup));
   if (written == kOk) fmt::print("wrote     {}\n", options.written.string());
   return written;
+}
+
+ExitCode calibrate_clouds(const Options& options) {
+  if (options.capture.start_s > 0 || options.capture.duration_s) {
+    return refuse(kUsage, "--start and --duration are of captures; name the clouds to be used");
+  }
+  auto clouds = CloudReader::open(options.capture.file);
+  if (!clouds) return refuse(clouds.error());
+  const auto rows = rows_of(*clouds, options.capture.calibration);
+  if (!rows) return refuse(rows.error());
+  CloudFrames frames(*clouds, *rows);
+  return calibrate(frames, options);
+}
+
+}  // namespace
+
+ExitCode run_calibrate(const Options& options) {
+  catch_stop_signals();
+  if (holds_clouds(options.capture.file)) return calibrate_clouds(options);
+  auto capture = open_capture(options.capture);
+  if (!capture) return refuse(capture.error());
+  CaptureFrames frames(*capture, options);
+  const ExitCode done = calibrate(frames, options);
+  if (done == kOk) warn_of_other_senders(*capture, frames.counters(), options.capture);
+  return done;
 }
 
 }  // namespace terracut::cli

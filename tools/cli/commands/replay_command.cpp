@@ -22,7 +22,9 @@
 #include "tools/cli/figures/report.hpp"
 #include "tools/cli/input/device_clock.hpp"
 #include "tools/cli/input/frame_outputs.hpp"
+#include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/open_capture.hpp"
+#include "tools/cli/input/recorded_frames.hpp"
 #include "tools/cli/input/recorded_motion.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/motion_choice.hpp"
@@ -95,7 +97,7 @@ class Replay {
  public:
   /// `motion` may be null: returns then lie where the sensor saw them.
   Replay(const Options& options, OpenCapture& capture, const mount::RingProfile& profile,
-         RecordedMotion* motion)
+         const MountChoice& mount, RecordedMotion* motion)
       : options_(options),
         capture_(capture),
         motion_(motion),
@@ -108,7 +110,7 @@ class Replay {
                   method_config_of(options.method), memory_),
         clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
-        mount_(profile.mount),
+        mount_(profile.mount, mount),
         truth_(options.output.truth),
         report_{"replay", options.capture.file.string(), capture.sensor_line,
                 capture.calibration_line, options.method},
@@ -197,7 +199,7 @@ class Replay {
         !other.empty()) {
       warn(other);
     }
-    warn_of_other_senders(capture_, options_.capture);
+    warn_of_other_senders(capture_, capture_.source.counters(), options_.capture);
     report_.losses = losses;
     report_.blind = pipeline_.decoder().blind();
     report_.mount = mount_.figures();
@@ -250,7 +252,10 @@ ExitCode run_replay(const Options& options) {
   }
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
-  const auto profile = ring_profile_of(capture->calibration, options.mount);
+  CaptureFrames frames(*capture, options);
+  const auto mount = choose_mount(options.mount, frames);
+  if (!mount) return refuse_work(mount.error());
+  const auto profile = ring_profile_of(capture->calibration, mount->options);
   if (!profile) return refuse(profile.error());
   memory::FixedMemory motion_memory;
   std::optional<RecordedMotion> motion;
@@ -260,7 +265,7 @@ ExitCode run_replay(const Options& options) {
     motion.emplace(*std::move(opened));
   }
   catch_stop_signals();
-  return Replay(options, *capture, *profile, motion ? &*motion : nullptr).run();
+  return Replay(options, *capture, *profile, *mount, motion ? &*motion : nullptr).run();
 }
 
 }  // namespace terracut::cli

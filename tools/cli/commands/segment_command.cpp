@@ -2,56 +2,26 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "calib/beams/angle.hpp"
-#include "calib/hdl64e/hdl64e_file.hpp"
-#include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
-#include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/scan/scan_folder.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/run/stage_clock.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/mount_watch.hpp"
 #include "tools/cli/figures/report.hpp"
+#include "tools/cli/input/cloud_input.hpp"
 #include "tools/cli/input/frame_outputs.hpp"
+#include "tools/cli/input/mount_choice.hpp"
+#include "tools/cli/input/recorded_frames.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
 namespace {
-
-/// The clouds of a folder, read one by one.
-class CloudReader {
- public:
-  explicit CloudReader(std::vector<scan::ScanFile> files) : files_(std::move(files)) {}
-
-  [[nodiscard]] std::size_t size() const { return files_.size(); }
-  [[nodiscard]] const scan::ScanFile& file(std::size_t index) const { return files_[index]; }
-
-  /// Valid until the next one is read.
-  Expected<cloud::CloudView> read(std::size_t index) {
-    if (const Status read = cloud::read_cloud(files_[index].points, cloud_); !read) {
-      return tl::unexpected(read.error());
-    }
-    return cloud_.view();
-  }
-  /// The truth of a cloud of so many points, where there is one.
-  Status read_labels(std::size_t index, std::size_t points, std::vector<std::uint32_t>& labels) {
-    labels.clear();
-    if (!files_[index].labels) return {};
-    return scan::read_label_file(*files_[index].labels, points, labels);
-  }
-
- private:
-  std::vector<scan::ScanFile> files_;
-  cloud::Cloud cloud_;
-};
 
 /// Labels one cloud after the other; everything that is kept between them.
 struct CloudLabeller {
@@ -69,12 +39,12 @@ struct CloudLabeller {
   Report::ScanPoints points;  ///< Of all scans.
 
   CloudLabeller(const ground::MethodConfig& config, const cloud::SensorRows& rows,
-                const mount::RingProfile& profile)
+                const mount::RingProfile& profile, const MountChoice& choice)
       : finder(rows),
         image(rows.shape(), rows.shape().cells(), memory),
         segmenter(config, profile, rows.shape(), image.return_capacity(), memory),
         scan_to_image(profile.mount),
-        mount(profile.mount) {}
+        mount(profile.mount, choice) {}
 
   Status label(const cloud::CloudView& cloud, status::FrameRecord& record) {
     if (Status found = finder.find(cloud, rings); !found) return found;
@@ -106,52 +76,25 @@ struct CloudLabeller {
   }
 };
 
-/// How the clouds tell their lasers, and the lasers' elevations: of the calibration, whose unit's
-/// scans are in KITTI's order, else learnt from the clouds.
-Expected<cloud::SensorRows> rows_of(const Options& options, CloudReader& reader) {
-  if (!options.capture.calibration.empty()) {
-    const auto calibration = hdl64e::load_hdl64e_calibration(options.capture.calibration);
-    if (!calibration) return tl::unexpected(calibration.error());
-    return cloud::SensorRows{cloud::RowSource::kKittiOrder,
-                             {scan::ring_table(*calibration), {}, {}, false},
-                             {},
-                             frame::ImageShape{}.columns};
-  }
-  auto rows =
-      cloud::learn_rows(reader.size(), [&](std::size_t index) { return reader.read(index); });
-  if (!rows) return rows;
-  const scan::RingTable& table = rows->rings.table;
-  say(fmt::format("sensor: {} rows from {:.1f} to {:.1f} degrees, {} columns, by {}", table.size(),
-                  beams::rad_to_deg(table.back().elevation_rad),
-                  beams::rad_to_deg(table.front().elevation_rad), rows->columns,
-                  description_of(rows->source)));
-  if (rows->rings.residual.points > 0) {
-    say(fmt::format("        points lie within {:.1f} cm of their row's line (95 %)",
-                    100 * rows->rings.residual.p95_m));
-  }
-  if (rows->rings.from_nominal_table) {
-    say("        no scan has all rows, so they were told apart by a nominal HDL-64E's table; "
-        "--calibration takes the unit's own");
-  }
-  return rows;
-}
-
 }  // namespace
 
 ExitCode run_segment(const Options& options) {
   catch_stop_signals();
-  auto folder = scan::list_scan_folder(options.scans, cloud::is_cloud_file);
-  if (!folder) return refuse(folder.error());
-  CloudReader reader(std::move(folder->scans));
-  const auto rows = rows_of(options, reader);
+  auto opened = CloudReader::open(options.scans);
+  if (!opened) return refuse(opened.error());
+  CloudReader& reader = *opened;
+  const auto rows = rows_of(reader, options.capture.calibration);
   if (!rows) return refuse(rows.error());
-  const auto profile = ring_profile_of(rows->rings.table, options.mount);
+  CloudFrames frames(reader, *rows);
+  const auto mount = choose_mount(options.mount, frames);
+  if (!mount) return refuse_work(mount.error());
+  const auto profile = ring_profile_of(rows->rings.table, mount->options);
   if (!profile) return refuse(profile.error());
   const std::string sensor_line = fmt::format(
       "{} rows by {}", rows->rings.table.size(),
       options.capture.calibration.empty() ? description_of(rows->source) : "the calibration given");
 
-  CloudLabeller labeller(method_config_of(options.method), *rows, *profile);
+  CloudLabeller labeller(method_config_of(options.method), *rows, *profile, *mount);
   FrameOutputs outputs(options.output);
   Report report{"segment", options.scans.string(), "", sensor_line, options.method};
   Progress progress("labelling", "scans", static_cast<double>(reader.size()));

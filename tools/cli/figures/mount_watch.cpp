@@ -8,10 +8,15 @@
 
 namespace terracut::cli {
 
-MountWatch::MountWatch(const mount::Mount& mount) : check_(mount) {
+MountWatch::MountWatch(const mount::Mount& mount, const MountChoice& choice) : check_(mount) {
   figures_.height_m = mount.height_m;
   figures_.roll_deg = beams::rad_to_deg(mount.roll_rad);
   figures_.pitch_deg = beams::rad_to_deg(mount.pitch_rad);
+  if (!choice.found) return;
+  figures_.found_in_frames = choice.found->frames;
+  figures_.uncertain_height_m = choice.found->uncertainty.height_m;
+  figures_.uncertain_roll_deg = beams::rad_to_deg(choice.found->uncertainty.roll_rad);
+  figures_.uncertain_pitch_deg = beams::rad_to_deg(choice.found->uncertainty.pitch_rad);
 }
 
 void MountWatch::add_frame(const ground::NearGround& ground) {

@@ -7,14 +7,16 @@
 #include "calib/mount/mount_check.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "pipeline/status/mount_figures.hpp"
+#include "tools/cli/input/mount_choice.hpp"
 
 namespace terracut::cli {
 
-/// Says once that the near ground of a run contradicts the mount it was given, and keeps what there
+/// Says once that the near ground of a run contradicts the mount it has, and keeps what there
 /// is to show of it. One thread without a deadline: a frame that is looked at takes milliseconds.
 class MountWatch {
  public:
-  explicit MountWatch(const mount::Mount& mount);
+  /// `mount`: that of the run; `choice`: what of it was found.
+  MountWatch(const mount::Mount& mount, const MountChoice& choice);
 
   void add_frame(const ground::NearGround& ground);
   void add_frame(const frame::RangeImage& image);

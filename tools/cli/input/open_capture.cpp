@@ -38,6 +38,13 @@ std::string describe(const calib::SensorCalibration& calibration) {
   return text;
 }
 
+/// One unit alone: packets of another would end up in the same frames.
+Expected<PcapSource> open_unit(const CaptureOptions& options, std::uint32_t address) {
+  capture::PcapFilter its_own = filter_of(options);
+  its_own.source_address = address;
+  return PcapSource::open(options.file, its_own);
+}
+
 }  // namespace
 
 capture::PcapFilter filter_of(const CaptureOptions& options) {
@@ -52,10 +59,7 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   const auto sensor = choose_sensor(options, *source);
   if (!sensor) return tl::unexpected(sensor.error());
   warn_of_unused(options, sensor->model);
-  // From here on this unit alone: packets of another would end up in the same frames.
-  capture::PcapFilter its_own = filter_of(options);
-  its_own.source_address = sensor->address;
-  auto unit = PcapSource::open(options.file, its_own);
+  auto unit = open_unit(options, sensor->address);
   if (!unit) return tl::unexpected(unit.error());
   auto calibration = sensor::unit_calibration(
       {{}, options.calibration, options.nominal_calibration}, sensor->model, *unit);
@@ -68,8 +72,13 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
                      std::move(calibration_line)};
 }
 
-void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& options) {
-  const std::uint64_t others = capture.source.counters().other_source;
+Expected<PcapSource> open_again(const OpenCapture& capture, const CaptureOptions& options) {
+  return open_unit(options, capture.sensor.address);
+}
+
+void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
+                           const CaptureOptions& options) {
+  const std::uint64_t others = pass.other_source;
   if (others == 0 || !options.from.empty()) return;
   warn(
       fmt::format("{} datagrams came from other addresses than {}, the sensor's, and were left "

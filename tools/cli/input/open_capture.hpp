@@ -31,9 +31,14 @@ struct OpenCapture {
 /// calibration (sensor_choice.hpp, unit_calibration.hpp). Says on stderr which they are.
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
 
-/// Says how many datagrams were left out because others sent them, where --from did not ask for
-/// that. Once the capture was read.
-void warn_of_other_senders(const OpenCapture& capture, const CaptureOptions& options);
+/// The datagrams of that unit once more, from the beginning and with counters of their own.
+[[nodiscard]] Expected<capture::PcapSource> open_again(const OpenCapture& capture,
+                                                       const CaptureOptions& options);
+
+/// Says how many datagrams of a pass were left out because others sent them, where --from did not
+/// ask for that.
+void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
+                           const CaptureOptions& options);
 
 /// The datagrams of a capture between --start and --duration, which go by its stamps.
 class CapturePart {

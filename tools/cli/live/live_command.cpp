@@ -20,6 +20,7 @@
 #include "listening.hpp"
 #include "live_service.hpp"
 #include "live_watch.hpp"
+#include "mount_on_air.hpp"
 #include "pipeline/run/live_threads.hpp"
 #include "pipeline/run/stream_writer.hpp"
 #include "pipeline/run/vehicle_motion.hpp"
@@ -119,15 +120,17 @@ struct LiveParts {
   LiveWatch watch;
 
   LiveParts(const Options& options, const sensor::SensorOnAir& sensor,
-            const mount::RingProfile& profile, net::LiveSource& source, VehicleBus* bus,
-            run::LiveThreads::Events events, FiguresDisplay& display, memory::FixedMemory& memory)
+            const mount::RingProfile& profile, const MountChoice& mount, net::LiveSource& source,
+            VehicleBus* bus, run::LiveThreads::Events events, FiguresDisplay& display,
+            memory::FixedMemory& memory)
       : motion(motion_of(options, bus, memory)),
         pipeline(sensor.calibration, profile, decoder_config(options, sensor, motion),
                  method_config_of(options.method).segmenter, memory),
         recorder(recorder_of(options, sensor.model, memory)),
         threads(threads_config(options, sensor), pipeline, source, std::move(events),
                 recorder ? &*recorder : nullptr, memory),
-        watch(options, profile.mount, threads, motion ? &*motion : nullptr, display, memory) {}
+        watch(options, profile.mount, mount, threads, motion ? &*motion : nullptr, display,
+              memory) {}
 
   /// Starts every thread; returns what the system granted and refused them.
   [[nodiscard]] std::vector<threads::Grant> start(const Options& options) {
@@ -312,7 +315,10 @@ ExitCode run_live(const Options& options) {
   warn_of_unused(options.capture, sensor->model);
   say(fmt::format("calibration: {}, fingerprint {:016x}", calib::origin_of(sensor->calibration),
                   calib::fingerprint(sensor->calibration)));
-  const auto profile = ring_profile_of(sensor->calibration, options.mount);
+  const MountChoice mount = mount_on_air(
+      *source, *sensor, options, [&](const std::string& what) { waiting.work_round(what); });
+  if (stop_wanted()) return options.capture.duration_s ? kInterrupted : kOk;
+  const auto profile = ring_profile_of(sensor->calibration, mount.options);
   if (!profile) return refuse(profile.error());
 
   // After the first seconds, so that what the bus sent in them does not overflow the socket.
@@ -328,11 +334,11 @@ ExitCode run_live(const Options& options) {
   auto idle = run::LiveThreads::Events::make();
   auto events = run::LiveThreads::Events::make();
   if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
-  LiveParts{options, *sensor, *profile, *source, vehicle, *std::move(idle), display, plan};
+  LiveParts{options, *sensor, *profile, mount, *source, vehicle, *std::move(idle), display, plan};
   const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});
   if (!region) return refuse(region.error());
   say_refusals(*region);
-  LiveParts parts(options, *sensor, *profile, *source, vehicle, *std::move(events), display,
+  LiveParts parts(options, *sensor, *profile, mount, *source, vehicle, *std::move(events), display,
                   memory);
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 

@@ -23,14 +23,14 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
 
 }  // namespace
 
-LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, run::LiveThreads& threads,
-                     run::VehicleMotion* motion, FiguresDisplay& display,
+LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
+                     run::LiveThreads& threads, run::VehicleMotion* motion, FiguresDisplay& display,
                      memory::FixedMemory& memory)
     : options_(options),
       threads_(threads),
       motion_(motion),
       display_(display),
-      mount_(std::make_unique<MountWatch>(mount)),
+      mount_(std::make_unique<MountWatch>(mount, choice)),
       monitor_({.deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6),
                 .stage_names = kStageNames,
                 .kept_frames = kKeptFrames},

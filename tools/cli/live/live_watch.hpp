@@ -34,8 +34,9 @@ class LiveWatch {
       to_string(stage::Stage::kLabels)};
 
   /// All must outlive this. `motion` may be null.
-  LiveWatch(const Options& options, const mount::Mount& mount, run::LiveThreads& threads,
-            run::VehicleMotion* motion, FiguresDisplay& display, memory::FixedMemory& memory);
+  LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
+            run::LiveThreads& threads, run::VehicleMotion* motion, FiguresDisplay& display,
+            memory::FixedMemory& memory);
 
   /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `stream`:
   /// whose losses are shown as well; may be null, and must outlive this.

@@ -23,6 +23,7 @@ constexpr double kMostLoops = std::numeric_limits<int>::max();
 constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to here
 
 constexpr CommandSet kCaptures = C::kReplay | C::kCalibrate | C::kBench;
+constexpr CommandSet kWholeCaptures = C::kReplay | C::kBench | C::kInfo | C::kSend;
 constexpr CommandSet kPackets = kCaptures | C::kLive;
 constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval;
 constexpr CommandSet kMethods = kPackets | C::kSegment | C::kPlan;
@@ -63,7 +64,9 @@ ChoiceField dataset_choice(std::string& dataset) {
 // clang-format off: a table reads better with an entry on two lines than one word a line.
 constexpr std::array kSettings{
     // What a run is about
-    Setting{.option = "FILE", .commands = kCaptures | C::kInfo | C::kSend, .required_by = kCaptures | C::kInfo | C::kSend, .help = "Capture, pcap or pcapng",
+    Setting{.option = "FILE", .commands = kWholeCaptures, .required_by = kWholeCaptures, .help = "Capture, pcap or pcapng",
+            .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
+    Setting{.option = "FILE", .commands = C::kCalibrate, .required_by = C::kCalibrate, .help = "Capture, pcap or pcapng; or clouds, a folder or one file, as segment takes them",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
     Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder",
             .field = [](O& o) -> F { return &o.scans; }},
@@ -124,11 +127,11 @@ constexpr std::array kSettings{
 
     Setting{.key = "mount.setup", .option = "--setup", .commands = kMounted, .help = "Mount and ring distances found by `terracut calibrate`",
             .reads = "the setup", .field = [](O& o) -> F { return &o.mount.setup; }},
-    Setting{.key = "mount.height_m", .option = "--mount-height", .commands = kMounted, .unit = "m", .help = "From the ground to the sensor's origin (default: the setup's, else 1.73)",
+    Setting{.key = "mount.height_m", .option = "--mount-height", .commands = kMounted, .unit = "m", .help = "From the ground to the sensor's origin (default: the setup's, else found in the first frames; simulate, eval: 1.73)",
             .least = 0.2, .most = 6, .field = [](O& o) -> F { return &o.mount.height_m; }},
-    Setting{.key = "mount.roll_deg", .option = "--mount-roll", .commands = kMounted, .unit = "deg", .help = "Left side up (default: the setup's, else 0)",
+    Setting{.key = "mount.roll_deg", .option = "--mount-roll", .commands = kMounted, .unit = "deg", .help = "Left side up (default: the setup's, else found; simulate, eval: 0)",
             .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.roll_deg; }},
-    Setting{.key = "mount.pitch_deg", .option = "--mount-pitch", .commands = kMounted, .unit = "deg", .help = "Looking down in front (default: the setup's, else 0)",
+    Setting{.key = "mount.pitch_deg", .option = "--mount-pitch", .commands = kMounted, .unit = "deg", .help = "Looking down in front (default: the setup's, else found; simulate, eval: 0)",
             .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.pitch_deg; }},
 
     Setting{.key = "method.profile", .option = "--profile", .commands = kMethods | C::kEval, .help = "paper: the method as printed; terracut: what measured better",
@@ -139,7 +142,7 @@ constexpr std::array kSettings{
             .form = TextForm::kParameter, .field = [](O& o) -> F { return &o.method.settings; }},
     Setting{.option = "--method", .commands = C::kReplay | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
             .denied_to = C::kLive | C::kCalibrate, .denial = "it runs our own method, as --profile, --stages and --set choose it", .field = [](O& o) -> F { return method_choice(o.method.method); }},
-    Setting{.option = "--keep-mount", .commands = C::kCalibrate, .help = "Take the mount as given; only measure the rings' ground distances",
+    Setting{.option = "--keep-mount", .commands = C::kCalibrate, .help = "Take the mount as stated, 1.73 m and level where it is not; only measure the rings' ground distances",
             .bare = "yes", .field = [](O& o) -> F { return &o.keep_mount; }},
 
     Setting{.key = "motion.can", .option = "--can", .commands = C::kLive, .help = "CAN interface of the vehicle, whose motion is removed from every frame (default: none)",

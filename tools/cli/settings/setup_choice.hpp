@@ -16,7 +16,8 @@
 
 namespace terracut::cli {
 
-/// Where the sensor stands: --setup, then --mount-... on top, else a level mount at 1.73 m.
+/// Where the sensor stands as it is stated: --setup, then --mount-... on top, and for what is not
+/// a level mount at 1.73 m.
 [[nodiscard]] Expected<mount::Mount> mount_of(const MountOptions& options);
 
 /// The ring profile of a unit so mounted. The measured ring distances of a setup count only as long

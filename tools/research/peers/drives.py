@@ -29,6 +29,9 @@ def kitti_scan(pcd):
     return scan.tobytes()
 
 
+MOUNT = ["--mount-height", SENSOR_HEIGHT_M, "--mount-roll", 0, "--mount-pitch", 0]  # the peers are told it, too
+
+
 class Drive:
     """One capture, the truth of its returns, and its frames as scans. Everything lies in its scratch folder."""
 
@@ -40,7 +43,8 @@ class Drive:
 
     def take(self, program):
         """Decodes it once, for its points."""
-        program.run("replay", self.capture, "--calibration", self.calibration, "--pcd", self.folder / "pcd")
+        program.run("replay", self.capture, "--calibration", self.calibration, "--pcd", self.folder / "pcd",
+                    *MOUNT)  # fmt: skip
         for pcd in sorted((self.folder / "pcd").glob("*.pcd")):
             scan = self.folder / f"{pcd.stem}.bin"
             scan.write_bytes(kitti_scan(pcd.read_bytes()))

@@ -8,6 +8,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+from .drives import MOUNT
+
 PASSES = 2
 # What is told of terracut's own times.
 SEGMENTING = "terracut, without decoding"
@@ -42,7 +44,7 @@ class Terracut:
         """{name: [ms] of every frame of all passes}."""
         report = drive.folder / "bench.json"
         self.run("bench", drive.capture, "--calibration", drive.calibration, "--repeat", PASSES, "--core", self.core,
-                 "--json", report)  # fmt: skip
+                 "--json", report, *MOUNT)  # fmt: skip
         frames = json.loads(report.read_text(encoding="utf-8"))["frames_ms"]
         report.unlink()
         return {
@@ -52,7 +54,7 @@ class Terracut:
         }
 
     def label(self, drive, folder):
-        self.run("replay", drive.capture, "--calibration", drive.calibration, "--labels", folder)
+        self.run("replay", drive.capture, "--calibration", drive.calibration, "--labels", folder, *MOUNT)
 
 
 class Peer:

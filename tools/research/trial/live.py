@@ -20,7 +20,7 @@ from pathlib import Path
 
 from . import machine
 from .capture import Drive, cut_beginning
-from .program import Program, TrialError
+from .program import MOUNT, Program, TrialError
 
 # Enough to know a sensor by, and few enough for the smallest receive buffer.
 WAKE_UP_PACKETS = 120
@@ -73,7 +73,7 @@ class Live:
         self.log = program.scratch / "live.log"
         self.prefix, self.sender_prefix = prefix or [], sender_prefix or []
         self.command = ["live", "--listen", f"{listen}:0", "--calibration", str(drive.calibration), "--deadline",
-                        f"{deadline_ms:g}", "--name", self.name, "--json", str(self.summary_file)]  # fmt: skip
+                        f"{deadline_ms:g}", "--name", self.name, "--json", str(self.summary_file), *MOUNT]  # fmt: skip
         self.command += [str(option) for option in options]
         if "--metrics" not in self.command:
             self.command += ["--metrics", "off"]

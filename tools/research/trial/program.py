@@ -11,6 +11,10 @@ from pathlib import Path
 from .capture import Drive
 
 
+# That of the simulated drives. Stated, because a live run would find it in other frames than the replay it is compared with.
+MOUNT = ["--mount-height", "1.73", "--mount-roll", "0", "--mount-pitch", "0"]
+
+
 class TrialError(Exception):
     """The trial could not be held; the message says why."""
 
@@ -47,7 +51,7 @@ class Program:
     def replay(self, pcap: Path, calibration: Path, labels: Path | None = None, *options: object) -> dict:
         """The report of `terracut replay`."""
         report = self.scratch / "replay.json"
-        arguments = ["replay", pcap, "--calibration", calibration, "--json", report, *options]
+        arguments = ["replay", pcap, "--calibration", calibration, "--json", report, *MOUNT, *options]
         if labels is not None:
             arguments += ["--labels", labels]
         self.must(*arguments)

@@ -141,6 +141,7 @@ TEST(MetricsText, IsWhatTheGuideSays) {
   run.hear_vehicle();
   run.narrow_view();
   run.figures().mount.contradicted = 1;
+  run.figures().mount.found_in_frames = 10;
   std::set<std::string> emitted;
   std::istringstream lines(metrics_text(run.figures()));
   for (std::string line; std::getline(lines, line);) {

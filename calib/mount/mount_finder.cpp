@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "calib/mount/mount_finder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "calib/beams/angle.hpp"
+#include "calib/mount/mount_estimate.hpp"
+
+namespace terracut::mount {
+namespace {
+
+constexpr std::array kFigures{&Mount::height_m, &Mount::roll_rad, &Mount::pitch_rad};
+
+double median_of(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
+}
+
+/// The standard deviation by the median distance from the median, which strays leave alone.
+double spread_of(std::span<const Mount> mounts, double Mount::*figure, double middle) {
+  constexpr double kOfNormal = 1.4826;
+  std::vector<double> distances;
+  for (const Mount& mount : mounts) distances.push_back(std::abs(mount.*figure - middle));
+  return kOfNormal * median_of(std::move(distances));
+}
+
+double rounded_rad(double angle_rad) {
+  return beams::deg_to_rad(std::round(beams::rad_to_deg(angle_rad) * 100) / 100);
+}
+
+}  // namespace
+
+Mount median_of(std::span<const Mount> mounts) {
+  Mount median;
+  for (const auto figure : kFigures) {
+    std::vector<double> values;
+    for (const Mount& mount : mounts) values.push_back(mount.*figure);
+    median.*figure = median_of(std::move(values));
+  }
+  return median;
+}
+
+bool FoundMount::is_certain() const noexcept {
+  const double tilt_rad = std::max(uncertainty.roll_rad, uncertainty.pitch_rad);
+  return uncertainty.height_m <= 0.15 && tilt_rad <= beams::deg_to_rad(2.5);
+}
+
+bool MountFinder::add_frame(std::span<const std::array<float, 3>> points) {
+  ++looked_at_;
+  const auto estimated = estimate_mount(points);
+  if (!estimated) {
+    last_ = estimated.error();
+    return false;
+  }
+  seen_.push_back(estimated->mount);
+  deviations_.push_back(estimated->deviation);
+  return true;
+}
+
+Expected<FoundMount> MountFinder::found() const {
+  if (2 * seen_.size() < looked_at_ || seen_.empty()) {
+    return fail(last_.code, fmt::format("of {} frames {} show a ground; {}", looked_at_,
+                                        seen_.size(), last_.message));
+  }
+  const Mount middle = median_of(std::span(seen_)), deviation = median_of(std::span(deviations_));
+  FoundMount found{{std::round(middle.height_m * 1000) / 1000, rounded_rad(middle.roll_rad),
+                    rounded_rad(middle.pitch_rad)},
+                   {},
+                   seen_.size()};
+  for (const auto figure : kFigures) {
+    found.uncertainty.*figure =
+        2 * std::hypot(deviation.*figure, spread_of(seen_, figure, middle.*figure));
+  }
+  return found;
+}
+
+}  // namespace terracut::mount

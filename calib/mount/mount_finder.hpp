@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "calib/mount/mount.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::mount {
+
+/// Height, roll and pitch, each the median of its own.
+[[nodiscard]] Mount median_of(std::span<const Mount> mounts);
+
+/// The mount that a run's ground shows.
+struct FoundMount {
+  /// In whole millimetres and hundredths of a degree: stated as it is printed it is the same mount,
+  /// and it does not hang on the last bit of a mathematical library.
+  Mount mount;
+  /// Half the width of the interval that holds the true figure in 95 of 100 cases, as the ground's
+  /// unevenness, what of it was seen, and the difference from frame to frame let expect.
+  Mount uncertainty;
+  std::size_t frames = 0;  ///< It was read off.
+
+  /// Whether it is good for labels: to 0.15 m, and 2.5 degrees.
+  [[nodiscard]] bool is_certain() const noexcept;
+};
+
+/// Finds the mount from the first frames of a run, a second of them being enough. The median of
+/// frames, so that one whose road is hidden spoils nothing. Start-up: allocates, takes milliseconds
+/// a frame. Deterministic.
+class MountFinder {
+ public:
+  /// Near points of one frame, in the sensor's frame, of the strip that the vehicle stands on
+  /// (pipeline/ground/near_ground.hpp). Whether they show a ground.
+  bool add_frame(std::span<const std::array<float, 3>> points);
+
+  [[nodiscard]] std::size_t frames() const noexcept { return seen_.size(); }  ///< With a ground.
+  [[nodiscard]] std::size_t frames_looked_at() const noexcept { return looked_at_; }
+
+  /// kMalformed where fewer than half of the frames show a ground, saying why the last of them did
+  /// not.
+  [[nodiscard]] Expected<FoundMount> found() const;
+
+ private:
+  std::vector<Mount> seen_, deviations_;
+  std::size_t looked_at_ = 0;
+  Error last_{ErrorCode::kMalformed, "there was no frame to look at"};
+};
+
+}  // namespace terracut::mount

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "cloud_input.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "calib/beams/angle.hpp"
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "firmware_io/cloud/cloud_file.hpp"
+#include "firmware_io/scan/label_file.hpp"
+#include "tools/cli/console.hpp"
+
+namespace terracut::cli {
+
+Expected<CloudReader> CloudReader::open(const std::filesystem::path& clouds) {
+  auto folder = scan::list_scan_folder(clouds, cloud::is_cloud_file);
+  if (!folder) return tl::unexpected(folder.error());
+  return CloudReader(std::move(folder->scans));
+}
+
+Expected<cloud::CloudView> CloudReader::read(std::size_t index) {
+  if (const Status read = cloud::read_cloud(files_[index].points, cloud_); !read) {
+    return tl::unexpected(read.error());
+  }
+  return cloud_.view();
+}
+
+Status CloudReader::read_labels(std::size_t index, std::size_t points,
+                                std::vector<std::uint32_t>& labels) const {
+  labels.clear();
+  if (!files_[index].labels) return {};
+  return scan::read_label_file(*files_[index].labels, points, labels);
+}
+
+Expected<cloud::SensorRows> rows_of(CloudReader& clouds, const std::filesystem::path& calibration) {
+  if (!calibration.empty()) {
+    const auto of_unit = hdl64e::load_hdl64e_calibration(calibration);
+    if (!of_unit) return tl::unexpected(of_unit.error());
+    return cloud::SensorRows{cloud::RowSource::kKittiOrder,
+                             {scan::ring_table(*of_unit), {}, {}, false},
+                             {},
+                             frame::ImageShape{}.columns};
+  }
+  auto rows =
+      cloud::learn_rows(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
+  if (!rows) return rows;
+  const scan::RingTable& table = rows->rings.table;
+  say(fmt::format("sensor: {} rows from {:.1f} to {:.1f} degrees, {} columns, by {}", table.size(),
+                  beams::rad_to_deg(table.back().elevation_rad),
+                  beams::rad_to_deg(table.front().elevation_rad), rows->columns,
+                  description_of(rows->source)));
+  if (rows->rings.residual.points > 0) {
+    say(fmt::format("        points lie within {:.1f} cm of their row's line (95 %)",
+                    100 * rows->rings.residual.p95_m));
+  }
+  if (rows->rings.from_nominal_table) {
+    say("        no scan has all rows, so they were told apart by a nominal HDL-64E's table; "
+        "--calibration takes the unit's own");
+  }
+  return rows;
+}
+
+}  // namespace terracut::cli

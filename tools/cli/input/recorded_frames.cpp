@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "recorded_frames.hpp"
+
+#include "firmware_io/decode/decoder.hpp"
+#include "firmware_io/scan/scan_to_image.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tools/cli/settings/decoder_choice.hpp"
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+
+Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
+                                 const OnFrame& on_frame) {
+  memory::FixedMemory memory;
+  decode::Decoder decoder(capture_.calibration, mount,
+                          decoder_config_of(options_, capture_.sensor.columns), memory);
+  Status going;
+  std::size_t shown = 0;
+  const auto hand_out = [&] {
+    while (const frame::Frame* frame = decoder.next()) {
+      if (!going || shown == most) continue;
+      going = on_frame(*frame->image);
+      ++shown;
+    }
+  };
+  auto source = open_again(capture_, options_.capture);
+  if (!source) return tl::unexpected(source.error());
+  CapturePart part(*source, options_.capture);
+  std::uint64_t offered = 0;
+  while (going && shown < most) {
+    const decode::Datagram* datagram = part.next();
+    if (datagram == nullptr) break;
+    decoder.push(*datagram);
+    ++offered;
+    hand_out();
+  }
+  counters_ = source->counters();
+  if (going) going = go_on();
+  if (going && shown < most) {
+    decoder.end_stream();
+    hand_out();
+  }
+  if (!going) return going;
+  if (shown == 0) {
+    return tl::unexpected(nothing_came_out(*source, offered, decoder.losses()));
+  }
+  return {};
+}
+
+mount::RingProfile CaptureFrames::ring_profile(const mount::Mount& mount) const {
+  return calib::ring_profile(capture_.calibration, mount);
+}
+
+Status CloudFrames::each_frame(const mount::Mount& mount, std::size_t most,
+                               const OnFrame& on_frame) {
+  memory::FixedMemory memory;
+  frame::RangeImage image(rows_.shape(), rows_.shape().cells(), memory);
+  scan::ScanToImage to_image(mount);
+  scan::RingRecovery rings;
+  const cloud::RowFinder finder(rows_);
+  const std::size_t step = (clouds_.size() + most - 1) / most;
+  for (std::size_t i = 0; i < clouds_.size(); i += step) {
+    if (Status going = go_on(); !going) return going;
+    const auto cloud = clouds_.read(i);
+    if (!cloud) return tl::unexpected(cloud.error());
+    if (Status found = finder.find(*cloud, rings); !found) {
+      found.error().message = clouds_.file(i).points.string() + ": " + found.error().message;
+      return found;
+    }
+    (void)to_image.place(cloud->points, rings.ring_of_point, image);
+    if (Status going = on_frame(image); !going) return going;
+  }
+  return {};
+}
+
+mount::RingProfile CloudFrames::ring_profile(const mount::Mount& mount) const {
+  return scan::ring_profile(rows_.rings.table, mount);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+#include "calib/mount/ring_profile.hpp"
+#include "cloud_input.hpp"
+#include "firmware_io/cloud/sensor_rows.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "open_capture.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// The frames of a recording, whatever it is made of, for work that looks at them in advance.
+class RecordedFrames {
+ public:
+  RecordedFrames() = default;
+  RecordedFrames(const RecordedFrames&) = delete;
+  RecordedFrames& operator=(const RecordedFrames&) = delete;
+  virtual ~RecordedFrames() = default;
+
+  using OnFrame = std::function<Status(const frame::RangeImage&)>;
+
+  /// Shows at most so many frames, as a sensor on `mount` sees them. An error of `on_frame` ends
+  /// it and is handed on; so is go_on()'s. kNothingCameOut where there is no frame.
+  [[nodiscard]] virtual Status each_frame(const mount::Mount& mount, std::size_t most,
+                                          const OnFrame& on_frame) = 0;
+  [[nodiscard]] virtual mount::RingProfile ring_profile(const mount::Mount& mount) const = 0;
+};
+
+/// Of a capture, the first frames between --start and --duration, without the vehicle's motion. The
+/// capture itself is left where it stands.
+class CaptureFrames : public RecordedFrames {
+ public:
+  /// Both must outlive this.
+  CaptureFrames(const OpenCapture& capture, const Options& options)
+      : capture_(capture), options_(options) {}
+
+  [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
+                                  const OnFrame& on_frame) override;
+  [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
+
+  /// Of the last pass.
+  [[nodiscard]] const capture::PcapCounters& counters() const noexcept { return counters_; }
+
+ private:
+  const OpenCapture& capture_;
+  const Options& options_;
+  capture::PcapCounters counters_;
+};
+
+/// Of clouds, evenly taken ones.
+class CloudFrames : public RecordedFrames {
+ public:
+  /// Both must outlive this.
+  CloudFrames(CloudReader& clouds, const cloud::SensorRows& rows) : clouds_(clouds), rows_(rows) {}
+
+  [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
+                                  const OnFrame& on_frame) override;
+  [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
+
+ private:
+  CloudReader& clouds_;
+  const cloud::SensorRows& rows_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "firmware_io/net/live_source.hpp"
+#include "firmware_io/sensor/first_seconds.hpp"
+#include "listening.hpp"
+#include "tools/cli/input/mount_choice.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// The mount of a sensor that is heard: what is not stated as the first frames show it. Listens
+/// for a second, for three where these do not show enough of the ground, and until stop_wanted().
+/// Says what it found, or that it did not.
+[[nodiscard]] MountChoice mount_on_air(net::LiveSource& source, const sensor::SensorOnAir& sensor,
+                                       const Options& options, const OnWaiting& on_waiting);
+
+}  // namespace terracut::cli

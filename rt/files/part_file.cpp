@@ -80,7 +80,10 @@ Part make_part_file(const fs::path& place) {
 Part make_part_folder(const fs::path& place) {
   return make_part(place, [](const char* path) {
     if (::mkdir(path, 0700) != 0) return -1;
-    return ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
+    // Somebody who tidied up has taken it for abandoned: another number, then.
+    if (folder < 0 && errno == ENOENT) errno = EEXIST;
+    return folder;
   });
 }
 

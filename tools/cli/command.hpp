@@ -14,6 +14,8 @@ namespace terracut::cli {
 enum class Command : std::uint8_t {
   kReplay,
   kSegment,
+  kManifest,
+  kRelabel,
   kSimulate,
   kEncode,
   kCalibrate,
@@ -38,6 +40,10 @@ struct CommandText {
 inline constexpr std::array kCommands{
     CommandText{"replay", "Label every return of a capture, frame by frame"},
     CommandText{"segment", "Label clouds of any spinning LiDAR: .bin, .pcd.bin, .pcd, .ply"},
+    CommandText{"manifest", "List a fleet's recordings, with what goes with each, for relabel"},
+    CommandText{"relabel",
+                "Label a fleet's recordings, one shard of them; what is there already\n"
+                "is left alone, so that any number of processes may do so"},
     CommandText{"simulate", "Drive a simulated sensor: capture, table and truth"},
     CommandText{"encode", "Frame recorded scans into packets with their truth"},
     CommandText{"calibrate",

@@ -10,6 +10,8 @@ namespace terracut::cli {
 
 [[nodiscard]] ExitCode run_replay(const Options& options);
 [[nodiscard]] ExitCode run_segment(const Options& options);
+[[nodiscard]] ExitCode run_manifest(const Options& options);
+[[nodiscard]] ExitCode run_relabel(const Options& options);
 [[nodiscard]] ExitCode run_simulate(const Options& options);
 [[nodiscard]] ExitCode run_encode(const Options& options);
 [[nodiscard]] ExitCode run_calibrate(const Options& options);

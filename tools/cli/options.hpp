@@ -159,6 +159,14 @@ struct EvalOptions {
   std::filesystem::path changes;  ///< With it no journal.
 };
 
+/// Recordings of a fleet, labelled by many processes.
+struct FleetOptions {
+  std::filesystem::path root;      ///< To look for drives in.
+  std::filesystem::path manifest;  ///< tools/cli/fleet/manifest.hpp
+  std::string shard = "1/1";       ///< Which part of it, I/N.
+  std::filesystem::path status;    ///< Folder to report on instead of labelling.
+};
+
 /// All of them; a command looks at those that the table of settings gives it.
 struct Options {
   CaptureOptions capture;
@@ -187,11 +195,12 @@ struct Options {
 
   SimulateOptions simulate;
   EncodeOptions encode;
-  std::filesystem::path written;  ///< -o, of what makes one file.
+  std::filesystem::path written;  ///< -o, of what has one output.
   bool can_log = false;           ///< The vehicle's motion beside it, as a CAN log and its DBC.
   SendOptions send;
 
   EvalOptions eval;
+  FleetOptions fleet;
 
   std::string watched;  ///< Name of the process to ask; empty: the only one that runs.
   double wait_s = 30;   ///< For its answer.

@@ -41,6 +41,9 @@ terracut_require(PCAP_FOUND "libpcap" libpcap-dev)
 include(TerracutHttplib)
 terracut_require(HTTPLIB_FOUND "cpp-httplib" libcpp-httplib-dev)
 
+find_package(OpenSSL COMPONENTS Crypto QUIET)
+terracut_require(OPENSSL_FOUND "OpenSSL" libssl-dev)
+
 if(TERRACUT_BUILD_TESTS)
   find_package(GTest QUIET)
   terracut_require(GTest_FOUND "GoogleTest" "libgtest-dev libgmock-dev")

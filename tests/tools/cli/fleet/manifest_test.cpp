@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "tools/cli/fleet/manifest.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+
+#include "tests/support/scratch_folder.hpp"
+#include "tools/cli/fleet/drive_search.hpp"
+
+namespace terracut::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class FleetManifest : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = fs::canonical(test::make_scratch_folder()); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  void write(const std::string& name, const std::string& content = "x") const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name, std::ios::binary) << content;
+  }
+  [[nodiscard]] Expected<Manifest> read(const std::string& content) const {
+    write("m.json", content);
+    return read_manifest(folder_ / "m.json");
+  }
+  [[nodiscard]] std::map<std::string, FleetDrive> found() const {
+    std::map<std::string, FleetDrive> drives;
+    const auto manifest = find_drives(folder_);
+    EXPECT_TRUE(manifest) << manifest.error().message;
+    if (!manifest) return drives;
+    for (const FleetDrive& drive : manifest->drives) drives.emplace(drive.name, drive);
+    return drives;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(FleetManifest, FindsCapturesAndScansAtAnyDepth) {
+  write("a.pcap", "12345");
+  write("day/b.pcapng");
+  write("day/kitti/velodyne/000000.bin", "123");
+  write("day/kitti/velodyne/000001.bin", "1234");
+  write("day/clouds/1.ply");
+  write("day/notes.txt");
+  write(".hidden/c.pcap");
+  const auto drives = found();
+  ASSERT_EQ(drives.size(), 4U);
+  EXPECT_EQ(drives.at("a").capture, folder_ / "a.pcap");
+  EXPECT_EQ(drives.at("a").bytes, 5U);
+  EXPECT_EQ(drives.at("day/b").capture, folder_ / "day/b.pcapng");
+  EXPECT_EQ(drives.at("day/kitti").scans, folder_ / "day/kitti");
+  EXPECT_EQ(drives.at("day/kitti").bytes, 7U);
+  EXPECT_EQ(drives.at("day/clouds").scans, folder_ / "day/clouds");
+}
+
+TEST_F(FleetManifest, TellsCapturesOfOneNameApart) {
+  write("a.pcap");
+  write("a.pcapng");
+  const auto drives = found();
+  EXPECT_TRUE(drives.contains("a.pcap"));
+  EXPECT_TRUE(drives.contains("a.pcapng"));
+}
+
+TEST_F(FleetManifest, TakesWhatHasTheDrivesNameElseTheNearestAbove) {
+  write("db.xml");
+  write("setup.yaml");
+  write("day/vehicle.dbc");
+  write("day/own.pcap");
+  write("day/own.calibration.xml");
+  write("day/own.setup.yaml");
+  write("day/own.can.log");
+  write("day/other.pcap");
+  write("ruby/angle.csv");
+  write("ruby/r.pcap");
+  const auto drives = found();
+  EXPECT_EQ(drives.at("day/own").calibration, folder_ / "day/own.calibration.xml");
+  EXPECT_EQ(drives.at("day/own").setup, folder_ / "day/own.setup.yaml");
+  EXPECT_EQ(drives.at("day/own").can, folder_ / "day/own.can.log");
+  EXPECT_EQ(drives.at("day/own").dbc, folder_ / "day/vehicle.dbc");
+  EXPECT_EQ(drives.at("day/other").calibration, folder_ / "db.xml");
+  EXPECT_EQ(drives.at("day/other").setup, folder_ / "setup.yaml");
+  EXPECT_EQ(drives.at("day/other").dbc, "") << "it has no recording of the bus";
+  EXPECT_EQ(drives.at("ruby/r").calibration, folder_ / "ruby/angle.csv");
+}
+
+TEST_F(FleetManifest, AsksWhereTwoCalibrationsMightBeMeant) {
+  write("a.pcap");
+  write("db.xml");
+  write("angle.csv");
+  const auto manifest = find_drives(folder_);
+  ASSERT_FALSE(manifest);
+  EXPECT_THAT(manifest.error().message, HasSubstr("either might be meant"));
+}
+
+TEST_F(FleetManifest, RefusesACanRecordingThatNothingExplains) {
+  write("a.pcap");
+  write("a.can.log");
+  const auto manifest = find_drives(folder_);
+  ASSERT_FALSE(manifest);
+  EXPECT_THAT(manifest.error().message, HasSubstr("vehicle.dbc"));
+}
+
+TEST_F(FleetManifest, SaysWhereThereIsNoDrive) {
+  write("notes.txt");
+  EXPECT_EQ(find_drives(folder_).error().code, ErrorCode::kNotFound);
+  EXPECT_EQ(find_drives(folder_ / "nowhere").error().code, ErrorCode::kNotFound);
+}
+
+TEST_F(FleetManifest, IsReadAsItWasWritten) {
+  FleetDrive drive;
+  drive.name = "day/a";
+  drive.capture = folder_ / "day/a.pcap";
+  drive.calibration = "/elsewhere/db.xml";
+  drive.arguments = {"--port", "2368"};
+  drive.bytes = 7;
+  ASSERT_TRUE(write_manifest(folder_ / "sub/m.json", {folder_, {drive}}));
+  const auto manifest = read_manifest(folder_ / "sub/m.json");
+  ASSERT_TRUE(manifest) << manifest.error().message;
+  const FleetDrive& read = manifest->drives.at(0);
+  EXPECT_EQ(read.name, drive.name);
+  EXPECT_EQ(read.capture, drive.capture);
+  EXPECT_EQ(read.calibration, drive.calibration);
+  EXPECT_EQ(read.arguments, drive.arguments);
+  EXPECT_EQ(read.bytes, 7U);
+}
+
+TEST_F(FleetManifest, RefusesWhatIsNone) {
+  for (const auto& [content, reason] : std::map<std::string, std::string>{
+           {"", "parse error"},
+           {"[]", "type_error"},
+           {R"({"manifest": 2, "drives": []})", "is to be 1"},
+           {R"({"manifest": 1, "drives": []})", "lists no drive"},
+           {R"({"manifest": 1, "drives": [{"name": "../a", "capture": "a"}]})", "no name"},
+           {R"({"manifest": 1, "drives": [{"name": "/a", "capture": "a"}]})", "no name"},
+           {R"({"manifest": 1, "drives": [{"name": "a"}]})", "one of capture and scans"},
+           {R"({"manifest": 1, "drives": [{"name": "a", "capture": 3}]})", "type_error"},
+           {R"({"manifest": 1, "drives": [{"name": "a", "capture": "a", "can": "l"}]})", "both"},
+           {R"({"manifest": 1, "drives": [{"name": "a", "capture": "a"}, {"name": "a",)"
+            R"( "capture": "b"}]})",
+            "two drives"}}) {
+    const auto manifest = read(content);
+    ASSERT_FALSE(manifest) << content;
+    EXPECT_EQ(manifest.error().code, ErrorCode::kMalformed);
+    EXPECT_THAT(manifest.error().message, HasSubstr(reason));
+  }
+  EXPECT_EQ(read_manifest(folder_ / "none.json").error().code, ErrorCode::kNotFound);
+}
+
+TEST(FleetShards, HoldEveryDriveOnceAndAboutTheSameBytes) {
+  Manifest manifest;
+  std::uint64_t all = 0, greatest = 0;
+  for (std::uint64_t i = 0; i < 200; ++i) {
+    FleetDrive drive;
+    drive.name = std::to_string(i);
+    drive.bytes = 1 + i * i * 7919 % 1000;
+    all += drive.bytes;
+    greatest = std::max(greatest, drive.bytes);
+    manifest.drives.push_back(drive);
+  }
+  std::map<std::string, int> seen;
+  for (std::size_t i = 1; i <= 7; ++i) {
+    std::uint64_t bytes = 0;
+    for (const FleetDrive& drive : drives_of(manifest, {i, 7})) {
+      ++seen[drive.name];
+      bytes += drive.bytes;
+    }
+    EXPECT_NEAR(static_cast<double>(bytes), static_cast<double>(all) / 7,
+                static_cast<double>(greatest));
+  }
+  EXPECT_EQ(seen.size(), 200U);
+  EXPECT_TRUE(std::ranges::all_of(seen, [](const auto& drive) { return drive.second == 1; }));
+}
+
+TEST(FleetShards, AreEmptyWhereThereAreFewerDrives) {
+  FleetDrive drive;
+  drive.name = "a";  // of no bytes
+  const Manifest manifest{{}, {drive}};
+  std::size_t drives = 0;
+  for (std::size_t i = 1; i <= 3; ++i) drives += drives_of(manifest, {i, 3}).size();
+  EXPECT_EQ(drives, 1U);
+}
+
+TEST(FleetShards, AreNamedFromOneOn) {
+  EXPECT_EQ(parse_shard("3/12")->number, 3U);
+  EXPECT_EQ(parse_shard("3/12")->of, 12U);
+  for (const char* const text : {"", "3", "0/4", "5/4", "1/0", "-1/4", "1/4x", "a/b", "1/", "/4"}) {
+    EXPECT_FALSE(parse_shard(text)) << text;
+  }
+}
+
+}  // namespace
+}  // namespace terracut::cli

@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// `terracut manifest` and `terracut relabel`.
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "relabel_fixture.hpp"
+#include "tests/tools/cli/background_program.hpp"
+#include "tools/cli/fleet/content_hash.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+constexpr int kOutputFailedCode = 4, kRefusedCode = 3;
+
+TEST_F(Relabel, WritesTheLabelsOfReplay) {
+  add_drive("day1/a");
+  add_drive("b");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  const auto found = outputs();
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_THAT(*found.begin(), StartsWith("b-"));
+  EXPECT_THAT(*found.rbegin(), StartsWith("day1/a-"));
+  for (const std::string& output : found) expect_labels_of_replay(output);
+  expect_outputs_whole();
+  EXPECT_TRUE(parts_are_gone());
+}
+
+TEST_F(Relabel, DoesNothingTwice) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  const fs::path label = folder_ / "out" / *outputs().begin() / "000003.label";
+  const auto written = fs::last_write_time(label);
+  const Outcome again = run("relabel m.json -o out");
+  EXPECT_EQ(again.exit_code, 0);
+  EXPECT_THAT(again.out, HasSubstr("there     1 drives"));
+  EXPECT_EQ(fs::last_write_time(label), written);
+}
+
+TEST_F(Relabel, FindsLabelsByContentWhereItsRecordsAreLost) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  fs::remove_all(folder_ / "out" / ".relabel");
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("there     1 drives"));
+  EXPECT_EQ(outputs().size(), 1U);
+}
+
+TEST_F(Relabel, DoesAgainWhatIsNoLongerWhole) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  const std::string output = *outputs().begin();
+  fs::resize_file(folder_ / "out" / output / "000003.label", 100);
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("labelled  1 drives"));
+  expect_labels_of_replay(output);
+  expect_outputs_whole();
+}
+
+TEST_F(Relabel, KeepsNamesWhereOnlyATimeHasChanged) {
+  fs::create_directories(folder_ / "fleet");
+  fs::copy_file(kDrive, folder_ / "fleet/a.pcap");
+  fs::copy_file(kDriveCalibration, folder_ / "fleet/a.calibration.xml");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  const auto names = outputs();
+  for (const char* const name : {"fleet/a.pcap", "fleet/a.calibration.xml"}) {
+    fs::last_write_time(folder_ / name, fs::file_time_type::clock::now() + std::chrono::hours(1));
+  }
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("there     1 drives"));
+  EXPECT_EQ(outputs(), names);
+}
+
+TEST_F(Relabel, GivesNewNamesForAnotherParameterCalibrationOrBuild) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  expect_done("relabel m.json -o out --set surface.step_up_m=0.05");
+  EXPECT_EQ(outputs().size(), 2U) << "a parameter";
+
+  std::string table = content_of(folder_ / "fleet/a.calibration.xml");
+  write("fleet/a.calibration.xml", table + "\n");
+  expect_done("relabel m.json -o out");
+  EXPECT_EQ(outputs().size(), 3U) << "the calibration";
+
+  fs::copy_file(test::program(), folder_ / "other_build");
+  std::ofstream(folder_ / "other_build", std::ios::binary | std::ios::app) << "x";
+  const std::string other =
+      "cd " + quoted(folder_) + " && ./other_build relabel m.json -o out >/dev/null 2>&1";
+  EXPECT_EQ(std::system(other.c_str()), 0);
+  EXPECT_EQ(outputs().size(), 4U) << "the build";
+  expect_outputs_whole();
+}
+
+TEST_F(Relabel, TakesSettingsAsReplayDoes) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out --profile paper --mount-height 1.8");
+  expect_done("replay " + quoted(kDrive) + " --calibration " + quoted(kDriveCalibration) +
+              " --profile paper --mount-height 1.8 --labels replayed");
+  expect_labels_of_replay(*outputs().begin());
+}
+
+TEST_F(Relabel, NamesBadInputsAndLabelsTheOthers) {
+  add_drive("good");
+  add_drive("missing");
+  add_drive("notes");
+  fs::create_directories(folder_ / "fleet/cut");
+  fs::copy_file(kDrive, folder_ / "fleet/cut/short.pcap");
+  fs::copy_file(kDriveCalibration, folder_ / "fleet/cut/short.calibration.xml");
+  make_manifest();
+  fs::remove(folder_ / "fleet/missing.pcap");
+  fs::remove(folder_ / "fleet/notes.pcap");
+  write("fleet/notes.pcap", "no capture at all");
+  fs::resize_file(folder_ / "fleet/cut/short.pcap", 3'000'001);
+
+  const Outcome outcome = run("relabel m.json -o out");
+  EXPECT_EQ(outcome.exit_code, kRefusedCode);
+  EXPECT_THAT(outcome.out, HasSubstr("labelled  1 drives"));
+  EXPECT_THAT(outcome.out, HasSubstr("the input breaks off: cut/short"));
+  EXPECT_THAT(outcome.err, HasSubstr("missing.pcap: No such file"));
+  ASSERT_EQ(outputs().size(), 1U);
+  expect_labels_of_replay(*outputs().begin());
+
+  const Outcome status = run("relabel --status out");
+  EXPECT_EQ(status.exit_code, 0);
+  EXPECT_THAT(status.out, HasSubstr("done      1 drives, 13 frames"));
+  EXPECT_THAT(status.out, HasSubstr("missing   0 drives"));
+  EXPECT_THAT(status.out, HasSubstr("failed    3 drives"));
+  EXPECT_THAT(status.out, HasSubstr("the input breaks off: 1"));
+  EXPECT_THAT(status.out, HasSubstr("notes: "));
+}
+
+TEST_F(Relabel, DoesTheRestByTheCommandThatStatusPrints) {
+  add_drive("a");
+  add_drive("b");
+  make_manifest();
+  fs::rename(folder_ / "fleet/b.pcap", folder_ / "b.pcap");
+  EXPECT_EQ(run("relabel m.json -o out --set surface.step_up_m=0.05").exit_code, kRefusedCode);
+  fs::rename(folder_ / "b.pcap", folder_ / "fleet/b.pcap");
+  const std::string status = run("relabel --status out").out;
+  const std::string before = "the rest  terracut ";
+  const std::size_t begin = status.find(before) + before.size();
+  const Outcome rest = run(status.substr(begin, status.find('\n', begin) - begin));
+  EXPECT_EQ(rest.exit_code, 0) << rest.err;
+  EXPECT_THAT(rest.out, HasSubstr("there     1 drives"));
+  EXPECT_THAT(rest.out, HasSubstr("labelled  1 drives"));
+  EXPECT_THAT(run("relabel --status out").out, HasSubstr("done      2 drives"));
+}
+
+TEST_F(Relabel, TakesMoreArgumentsForADriveThatNeedsThem) {
+  add_drive("a");
+  make_manifest();
+  auto manifest = json("m.json");
+  manifest["drives"][0]["arguments"] = {"--port", "1"};
+  write("m.json", manifest.dump());
+  EXPECT_THAT(run("relabel m.json -o out").err, HasSubstr("another port than --port"));
+  manifest["drives"][0]["arguments"] = {"--setup", "s.yaml"};
+  write("m.json", manifest.dump());
+  EXPECT_THAT(run("relabel m.json -o out").err, HasSubstr("--setup"));
+}
+
+TEST_F(Relabel, RefusesWhatIsNoWholeCommand) {
+  EXPECT_EQ(run("relabel").exit_code, 2);
+  EXPECT_EQ(run("relabel m.json").exit_code, 2);
+  EXPECT_EQ(run("relabel m.json -o out --shard 3/2").exit_code, 2);
+  EXPECT_EQ(run("relabel none.json -o out").exit_code, kRefusedCode);
+  EXPECT_EQ(run("relabel --status out").exit_code, kRefusedCode);
+  EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
+TEST_F(Relabel, DividesAManifestIntoShards) {
+  for (const char* const name : {"a", "b", "c", "d", "e"}) add_drive(name);
+  make_manifest();
+  expect_done("relabel m.json --shard 1/3 -o out");
+  EXPECT_EQ(outputs().size(), 2U);
+  expect_done("relabel m.json --shard 3/3 -o out");
+  EXPECT_EQ(outputs().size(), 3U);
+  expect_done("relabel m.json --shard 2/3 -o out");
+  EXPECT_EQ(outputs().size(), 5U);
+}
+
+TEST_F(Relabel, GoesOnAfterKillsAtAnyMoment) {
+  for (const char* const name : {"a", "b", "c"}) add_drive(name);
+  make_manifest();
+  const auto entries = [&] {  // in "out", of whatever is under way there
+    std::error_code vanished;
+    std::size_t count = 0;
+    fs::recursive_directory_iterator entry(folder_ / "out", vanished);
+    for (; !vanished && entry != fs::recursive_directory_iterator(); entry.increment(vanished)) {
+      ++count;
+    }
+    return count;
+  };
+  for (const std::size_t more : {1, 4, 5, 9, 14, 18, 20, 23}) {
+    const std::size_t enough = entries() + more;
+    BackgroundProgram program(folder_, "run", "relabel m.json -o out");
+    while (entries() < enough && !program.has_ended()) std::this_thread::yield();
+    program.interrupt(SIGKILL);
+    (void)program.end();
+    expect_outputs_whole();
+  }
+  expect_done("relabel m.json -o out");
+  EXPECT_EQ(outputs().size(), 3U);
+  for (const std::string& output : outputs()) expect_labels_of_replay(output);
+  EXPECT_TRUE(parts_are_gone()) << "what the killed have left";
+}
+
+TEST_F(Relabel, StopsInAnOrderlyWayAndGoesOn) {
+  for (const char* const name : {"a", "b", "c"}) add_drive(name);
+  make_manifest();
+  BackgroundProgram program(folder_, "run", "relabel m.json -o out");
+  while (outputs().empty() && !program.has_ended()) std::this_thread::yield();
+  program.interrupt(SIGTERM);
+  EXPECT_EQ(program.end().exit_code, 9);
+  EXPECT_TRUE(parts_are_gone());
+  expect_outputs_whole();
+  EXPECT_THAT(run("relabel --status out").out, HasSubstr("failed    0 drives"));
+  expect_done("relabel m.json -o out");
+  EXPECT_EQ(outputs().size(), 3U);
+}
+
+TEST_F(Relabel, IsDoneByManyProcessesAtOnce) {
+  for (const char* const name : {"a", "b", "c", "d"}) add_drive(name);
+  make_manifest();
+  std::vector<std::jthread> processes;
+  for (int i = 0; i < 6; ++i) {
+    processes.emplace_back([this, i] {
+      expect_done("relabel m.json -o out --shard " + std::to_string(i % 2 + 1) + "/2");
+    });
+  }
+  processes.clear();
+  EXPECT_EQ(outputs().size(), 4U);
+  expect_outputs_whole();
+  for (const std::string& output : outputs()) expect_labels_of_replay(output);
+  EXPECT_TRUE(parts_are_gone());
+}
+
+TEST_F(Relabel, NeverTouchesAPartOfAnotherHostNorWaitsForIt) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  std::string job;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/.relabel")) {
+    if (fs::exists(entry.path() / "job.json")) job = entry.path().filename().string();
+  }
+  const std::string name = sha256_of("a").substr(0, 16) + "@" + job + "@other.part-1-0";
+  const fs::path part = folder_ / "out/.relabel/parts" / name;
+  fs::create_directories(part / "labels");
+  fs::remove_all(folder_ / "out" / *outputs().begin());
+  expect_done("relabel m.json -o out");
+  EXPECT_EQ(outputs().size(), 1U);
+  EXPECT_TRUE(fs::exists(part / "labels"));
+}
+
+TEST_F(Relabel, SaysThatAFolderCannotBeWrittenTo) {
+  add_drive("a");
+  make_manifest();
+  write("out", "a file");
+  EXPECT_EQ(run("relabel m.json -o out").exit_code, kOutputFailedCode);
+  fs::remove(folder_ / "out");
+  if (::geteuid() == 0) GTEST_SKIP() << "root may write everywhere";
+  fs::create_directories(folder_ / "out");
+  fs::permissions(folder_ / "out", fs::perms{0555});
+  EXPECT_EQ(run("relabel m.json -o out").exit_code, kOutputFailedCode);
+  EXPECT_TRUE(fs::is_empty(folder_ / "out"));
+}
+
+/// On file systems of its own, where this user may mount some.
+TEST_F(Relabel, LeavesNothingOnAFullDiskAndDoesItOnceThereIsRoom) {
+  add_drive("a");
+  make_manifest();
+  fs::create_directories(folder_ / "disk");
+  const std::string relabel = quoted(test::program()) + " relabel m.json -o disk/out";
+  const std::string script =
+      "mount -t tmpfs -o size=2m none disk || exit 77\n" + relabel +
+      " 2>full.txt; echo $? >full_code\n"
+      "find disk/out \\( -name '*.label' -o -name SHA256SUMS -o -name '*.part-*' \\) >left\n"
+      "mount -o remount,size=100m disk && " +
+      relabel + " && cp -r disk/out out && mount -o remount,ro disk && " + relabel +
+      " 2>readonly.txt; echo $? >readonly_code\n";
+  write("script", script);
+  const std::string command =
+      "cd " + quoted(folder_) + " && unshare --map-root-user --mount sh script >script.txt 2>&1";
+  const int status = std::system(command.c_str());
+  if (!fs::exists(folder_ / "full_code")) GTEST_SKIP() << "no mount: " << status;
+  EXPECT_EQ(content_of(folder_ / "full_code"), "4\n") << content_of(folder_ / "full.txt");
+  EXPECT_THAT(content_of(folder_ / "full.txt"), HasSubstr("No space left"));
+  EXPECT_EQ(content_of(folder_ / "left"), "");
+  ASSERT_EQ(outputs().size(), 1U) << content_of(folder_ / "script.txt");
+  expect_labels_of_replay(*outputs().begin());
+  expect_outputs_whole();
+  EXPECT_EQ(content_of(folder_ / "readonly_code"), "4\n") << content_of(folder_ / "readonly.txt");
+}
+
+}  // namespace
+}  // namespace terracut::cli

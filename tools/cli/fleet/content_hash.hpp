@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "rt/error.hpp"
+
+struct evp_md_ctx_st;  // OpenSSL's EVP_MD_CTX
+
+namespace terracut::cli {
+
+/// SHA-256 (FIPS 180-4) of what it is given bit by bit. One thread.
+class ContentHash {
+ public:
+  /// Throws std::bad_alloc where the library cannot be used.
+  ContentHash();
+
+  void add(std::span<const std::byte> bytes);
+  void add(std::string_view text) { add(std::as_bytes(std::span(text.data(), text.size()))); }
+  /// 64 digits, as sha256sum prints them. Once.
+  [[nodiscard]] std::string digits();
+
+ private:
+  struct Free {
+    void operator()(evp_md_ctx_st* context) const noexcept;
+  };
+  std::unique_ptr<evp_md_ctx_st, Free> context_;
+};
+
+/// Of all that is in a file. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().
+[[nodiscard]] Expected<std::string> sha256_of_file(const std::filesystem::path& path);
+
+[[nodiscard]] std::string sha256_of(std::string_view text);
+
+}  // namespace terracut::cli

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "drive_inputs.hpp"
+
+#include <fmt/format.h>
+#include <sys/stat.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "content_hash.hpp"
+#include "firmware_io/cloud/cloud_file.hpp"
+#include "firmware_io/scan/scan_folder.hpp"
+
+namespace terracut::cli {
+namespace {
+
+Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) {
+    return fail(errno == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
+                fmt::format("{}: {}", path.string(), std::generic_category().message(errno)));
+  }
+  return fmt::format("{} bytes, {}.{:09}", file.st_size, file.st_mtim.tv_sec, file.st_mtim.tv_nsec);
+}
+
+/// One figure of a folder's clouds, from one of each.
+template <class OfFile>
+Expected<std::string> of_clouds(const std::filesystem::path& folder, OfFile&& of_file) {
+  const auto listed = scan::list_scan_folder(folder, cloud::is_cloud_file);
+  if (!listed) return tl::unexpected(listed.error());
+  ContentHash hash;
+  for (const scan::ScanFile& file : listed->scans) {
+    const Expected<std::string> its = of_file(file.points);
+    if (!its) return its;
+    hash.add(fmt::format("{}  {}\n", *its, file.points.filename().string()));
+  }
+  return hash.digits();
+}
+
+}  // namespace
+
+std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
+  std::vector<DriveInput> inputs{
+      {"capture", drive.capture}, {"scans", drive.scans}, {"calibration", drive.calibration},
+      {"setup", drive.setup},     {"can", drive.can},     {"dbc", drive.dbc}};
+  std::erase_if(inputs, [](const DriveInput& input) { return input.path.empty(); });
+  return inputs;
+}
+
+Expected<std::string> stamp_of(const DriveInput& input) {
+  return input.role == "scans" ? of_clouds(input.path, stamp_of_file) : stamp_of_file(input.path);
+}
+
+Expected<std::string> content_of(const DriveInput& input) {
+  return input.role == "scans" ? of_clouds(input.path, sha256_of_file) : sha256_of_file(input.path);
+}
+
+}  // namespace terracut::cli

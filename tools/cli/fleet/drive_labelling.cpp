@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "drive_labelling.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "labelled_drive.hpp"
+#include "program_run.hpp"
+#include "rt/files/part_file.hpp"
+#include "rt/files/whole_file.hpp"
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::string_view kBrokeOff = "the input breaks off";
+
+std::string cause_of(ExitCode code) {
+  switch (code) {
+    case kUsage:
+      return "the settings do not fit the input";
+    case kInputRefused:
+      return "an input was refused";
+    case kOutputFailed:
+      return "the output could not be written";
+    case kNothingCameOut:
+      return "no frame came out";
+    default:
+      return "the program failed";
+  }
+}
+
+/// A part of this process, gone when this is.
+class LabellingFolder {
+ public:
+  LabellingFolder(const RelabelJob& job, const FleetDrive& drive)
+      : part_(files::make_part_folder(job.parts() / (job.part_prefix(drive) + job.host))) {}
+  LabellingFolder(const LabellingFolder&) = delete;
+  LabellingFolder& operator=(const LabellingFolder&) = delete;
+  ~LabellingFolder() {
+    std::error_code gone_or_not;
+    if (part_.lock) fs::remove_all(part_.path, gone_or_not);
+  }
+
+  [[nodiscard]] bool made() const { return static_cast<bool>(part_.lock); }
+  /// What is to become the drive's folder, with the rights that the user gives to new ones.
+  [[nodiscard]] fs::path labels() const { return part_.path / "labels"; }
+  [[nodiscard]] fs::path settings() const { return labels() / "terracut.yaml"; }
+  [[nodiscard]] fs::path report() const { return part_.path / "report.json"; }
+  [[nodiscard]] fs::path log() const { return part_.path / "log.txt"; }
+
+ private:
+  files::Part part_;
+};
+
+std::vector<std::string> words_for(const RelabelJob& job, const FleetDrive& drive,
+                                   const LabellingFolder& folder) {
+  const bool is_capture = !drive.capture.empty();
+  std::vector<std::string> words{"--config", folder.settings().string(),
+                                 is_capture ? "replay" : "segment", drive.input().string()};
+  const auto add = [&](const char* option, const fs::path& path) {
+    if (!path.empty()) words.insert(words.end(), {option, path.string()});
+  };
+  add("--calibration", drive.calibration);
+  add("--setup", drive.setup);
+  add("--can", drive.can);
+  add("--dbc", drive.dbc);
+  words.insert(words.end(), job.mount_words.begin(), job.mount_words.end());
+  words.insert(words.end(), drive.arguments.begin(), drive.arguments.end());
+  add("--labels", folder.labels());
+  add("--json", folder.report());
+  return words;
+}
+
+/// The summary of a run's report without that of its frames, of which an hour has 36,000.
+Json report_without_frames(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return Json::parse(
+      file,
+      [](int depth, Json::parse_event_t event, const Json& parsed) {
+        return depth != 1 || event != Json::parse_event_t::key || parsed != "frames";
+      },
+      false);
+}
+
+/// Its last error, else its last line.
+std::string last_words(const fs::path& log) {
+  std::ifstream file(log);
+  std::string error, last;
+  for (std::string line; std::getline(file, line);) {
+    if (line.starts_with("error: ")) error = line.substr(std::string_view("error: ").size());
+    if (!line.empty()) last = line;
+  }
+  return error.empty() ? last : error;
+}
+
+ExitCode failed(ExitCode code, std::string_view cause, std::string message, RelabelRecord& record) {
+  record.done = false;
+  record.cause = cause;
+  record.message = std::move(message);
+  return code;
+}
+
+ExitCode failed(const Error& error, RelabelRecord& record) {
+  if (stop_wanted()) return kInterrupted;
+  const ExitCode code = exit_code_of(error.code);
+  return failed(code, cause_of(code), error.message, record);
+}
+
+/// Why the run's labels are not to be taken, if so.
+ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder& folder,
+               RelabelRecord& record) {
+  if (run.signal != 0) {
+    return failed(kInternal, fmt::format("signal {} ended the program", run.signal),
+                  last_words(folder.log()), record);
+  }
+  if (run.exit_code != kOk) {
+    const auto code = static_cast<ExitCode>(run.exit_code);
+    return failed(code, cause_of(code), last_words(folder.log()), record);
+  }
+  if (!report.is_object() || !report.contains("summary")) {
+    return failed(kInternal, cause_of(kInternal), "it left no report", record);
+  }
+  if (const std::string fault = report.value("input_warning", ""); !fault.empty()) {
+    return failed(kInputRefused, kBrokeOff, fault, record);
+  }
+  return kOk;
+}
+
+}  // namespace
+
+ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json& recipe,
+                     RelabelRecord& record) {
+  const LabellingFolder folder(job, drive);
+  if (!folder.made()) {
+    const std::error_code error(errno, std::generic_category());
+    return failed(kOutputFailed, cause_of(kOutputFailed),
+                  fmt::format("{}: {}", job.parts().string(), error.message()), record);
+  }
+  if (Status written = files::write_whole_file(folder.settings(), job.settings); !written) {
+    return failed(written.error(), record);
+  }
+  const auto run = run_program(words_for(job, drive, folder), folder.log());
+  if (!run) return failed(run.error(), record);
+  record.run = *run;
+  if (stop_wanted()) return kInterrupted;
+  const Json report = report_without_frames(folder.report());
+  if (const ExitCode judged = judge(*run, report, folder, record); judged != kOk) return judged;
+
+  const Json& summary = report["summary"];
+  Json facts{{"drive", drive.name}, {"recipe", recipe}};
+  for (const char* const key : {"frames", "complete_frames", "returns_labelled", "losses"}) {
+    if (summary.contains(key)) facts[key] = summary[key];
+  }
+  std::error_code error;
+  // The list by which a later `--labels` of the same folder would take them for its own.
+  fs::remove(folder.labels() / ".label.terracut", error);
+  const Status put = seal(folder.labels(), facts).and_then([&] {
+    return put_in_place(folder.labels(), job.folder / record.output);
+  });
+  if (!put) return failed(put.error(), record);
+  const Json whole = facts_of_whole(job.folder / record.output);
+  if (whole.is_null()) {
+    return failed(kOutputFailed, cause_of(kOutputFailed), record.output + " did not stay whole",
+                  record);
+  }
+  take_facts(whole, record);
+  return kOk;
+}
+
+void take_facts(const Json& facts, RelabelRecord& record) {
+  record.done = true;
+  record.cause.clear();
+  record.message.clear();
+  record.frames = facts.value("frames", std::uint64_t{0});
+  record.returns = facts.value("returns_labelled", std::uint64_t{0});
+  record.label_bytes = facts.value("bytes", std::uint64_t{0});
+  record.losses = facts.value("losses", Json::object());
+}
+
+ExitCode note_failure(const Error& error, RelabelRecord& record) {
+  return failed(error, record);
+}
+
+}  // namespace terracut::cli

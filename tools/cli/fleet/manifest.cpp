@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "manifest.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
+#include <tuple>
+#include <utility>
+
+#include "tools/cli/json_text.hpp"
+
+namespace terracut::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr int kVersion = 1;
+
+/// The paths of a drive and their names in the file.
+template <class Drive>
+auto paths_in(Drive& drive) {
+  return std::array{std::pair{"capture", &drive.capture},
+                    std::pair{"scans", &drive.scans},
+                    std::pair{"calibration", &drive.calibration},
+                    std::pair{"setup", &drive.setup},
+                    std::pair{"can", &drive.can},
+                    std::pair{"dbc", &drive.dbc}};
+}
+
+/// Whether outputs can be named so: a path that stays below where it is put.
+bool is_name(const std::string& name) {
+  const fs::path path(name);
+  return !name.empty() && path.is_relative() && path.has_filename() &&
+         std::ranges::none_of(path, [](const fs::path& part) {
+           return part.native().starts_with('.') || part.native().starts_with('@');
+         });
+}
+
+/// Throws nlohmann::json::exception where a member is of another type.
+FleetDrive drive_in(const Json& json, const fs::path& root) {
+  FleetDrive drive;
+  drive.name = json.value("name", "");
+  drive.bytes = json.value("bytes", std::uint64_t{0});
+  drive.arguments = json.value("arguments", std::vector<std::string>{});
+  for (const auto& [key, path] : paths_in(drive)) {
+    if (const auto text = json.value(key, std::string()); !text.empty()) *path = root / text;
+  }
+  return drive;
+}
+
+std::string fault_of(const FleetDrive& drive, std::set<std::string>& names) {
+  if (!is_name(drive.name)) {
+    return fmt::format(
+        "'{}' is no name of a drive: expected a relative path whose parts do not "
+        "begin with '.' or '@'",
+        drive.name);
+  }
+  if (!names.insert(drive.name).second) return fmt::format("two drives are called {}", drive.name);
+  if (drive.capture.empty() == drive.scans.empty()) {
+    return fmt::format("{}: expected one of capture and scans", drive.name);
+  }
+  if (drive.can.empty() != drive.dbc.empty()) {
+    return fmt::format("{}: expected both of can and dbc, or none", drive.name);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<Manifest> read_manifest(const fs::path& path) {
+  const auto malformed = [&](std::string_view what) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("{}: no manifest: {}; `terracut manifest` makes one", path.string(), what));
+  };
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return fail(ErrorCode::kNotFound, path.string() + ": no such file, or not readable");
+  Manifest manifest;
+  try {
+    const Json json = Json::parse(file);
+    if (json.value("manifest", 0) != kVersion) return malformed("manifest is to be 1");
+    manifest.root = (fs::absolute(path).parent_path() / json.value("root", "")).lexically_normal();
+    std::set<std::string> names;
+    for (const Json& drive : json.at("drives")) {
+      manifest.drives.push_back(drive_in(drive, manifest.root));
+      const std::string fault = fault_of(manifest.drives.back(), names);
+      if (!fault.empty()) return malformed(fault);
+    }
+  } catch (const nlohmann::json::exception& error) {
+    return malformed(error.what());
+  }
+  if (manifest.drives.empty()) return malformed("it lists no drive");
+  return manifest;
+}
+
+Status write_manifest(const fs::path& path, const Manifest& manifest) {
+  Json json{{"manifest", kVersion}, {"root", manifest.root.string()}, {"drives", Json::array()}};
+  for (const FleetDrive& drive : manifest.drives) {
+    Json& entry = json["drives"].emplace_back(Json{{"name", drive.name}});
+    for (const auto& [key, of_drive] : paths_in(drive)) {
+      if (of_drive->empty()) continue;
+      const fs::path below = of_drive->lexically_relative(manifest.root);
+      entry[key] = below.empty() || *below.begin() == ".." ? of_drive->string() : below.string();
+    }
+    if (!drive.arguments.empty()) entry["arguments"] = drive.arguments;
+    entry["bytes"] = drive.bytes;
+  }
+  return write_json(path, json);
+}
+
+Expected<Shard> parse_shard(std::string_view text) {
+  Shard shard;
+  const char* const end = text.data() + text.size();
+  const auto number = std::from_chars(text.data(), end, shard.number);
+  if (number.ec == std::errc() && number.ptr != end && *number.ptr == '/') {
+    const auto of = std::from_chars(number.ptr + 1, end, shard.of);
+    if (of.ec == std::errc() && of.ptr == end && shard.number >= 1 && shard.number <= shard.of) {
+      return shard;
+    }
+  }
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("--shard: expected I/N with 1 <= I <= N, as 3/12, found '{}'", text));
+}
+
+std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard) {
+  std::vector<FleetDrive> drives = manifest.drives;
+  std::ranges::sort(drives, [](const FleetDrive& a, const FleetDrive& b) {
+    return std::tie(b.bytes, a.name) < std::tie(a.bytes, b.name);
+  });
+  using Load = std::pair<std::uint64_t, std::size_t>;  // bytes, which shard
+  std::set<Load> loads;
+  for (std::size_t i = 1; i <= shard.of; ++i) loads.emplace(0, i);
+  std::vector<FleetDrive> its_own;
+  for (FleetDrive& drive : drives) {
+    Load emptiest = *loads.begin();
+    loads.erase(loads.begin());
+    emptiest.first += std::max<std::uint64_t>(drive.bytes, 1);
+    loads.insert(emptiest);
+    if (emptiest.second == shard.number) its_own.push_back(std::move(drive));
+  }
+  return its_own;
+}
+
+}  // namespace terracut::cli

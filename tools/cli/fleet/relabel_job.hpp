@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "manifest.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// A manifest labelled by one program with one set of settings, into one folder. Any number of
+/// processes may work at it. What they know of it lies in the folder's .relabel:
+///
+///   ID/job.json           manifest, drives and their bytes, program, when it began
+///   ID/terracut.yaml      the settings
+///   ID/records/NAME.json  what became of a drive (relabel_record.hpp)
+///   parts/                what is under way: a folder each, of a process alone
+struct RelabelJob {
+  std::filesystem::path folder;    ///< Where the drives' folders come to lie.
+  std::filesystem::path manifest;  ///< Absolute.
+  std::string id;                  ///< A hash of manifest, program and settings.
+  std::string program;             ///< SHA-256 of the executable.
+  std::string settings;            ///< As a configuration file.
+  /// What a drive's setup leaves aside where it is in a file: "--mount-height 1.9".
+  std::vector<std::string> mount_words;
+  std::string host;
+
+  [[nodiscard]] std::filesystem::path parts() const { return folder / ".relabel" / "parts"; }
+  [[nodiscard]] std::filesystem::path state() const { return folder / ".relabel" / id; }
+  /// How the parts of a drive begin, "HASH@ID@", whichever host they are of.
+  [[nodiscard]] std::string part_prefix(const FleetDrive& drive) const;
+};
+
+/// Writes job.json and terracut.yaml where they are not there yet. The errors of reading this
+/// program's file and of writing.
+[[nodiscard]] Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest);
+
+/// Everything that a drive's labels depend on, which is what its folder is named by. The errors of
+/// content_of(); kMalformed where an argument of the manifest is none of the program's or names a
+/// file, whose content would not be in it.
+[[nodiscard]] Expected<nlohmann::ordered_json> recipe_of(const RelabelJob& job,
+                                                         const FleetDrive& drive);
+
+/// "NAME-0123456789abcdef", below the job's folder.
+[[nodiscard]] std::string output_name_of(const FleetDrive& drive,
+                                         const nlohmann::ordered_json& recipe);
+
+}  // namespace terracut::cli

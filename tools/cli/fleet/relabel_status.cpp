@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "relabel_status.hpp"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <ctime>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <system_error>
+#include <vector>
+
+#include "labelled_drive.hpp"
+#include "relabel_record.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+
+namespace terracut::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+constexpr std::int64_t kHour_ns = 3'600'000'000'000;
+
+struct Job {
+  fs::path state;
+  Json json;
+};
+
+/// The job that began last; how many there are.
+Expected<Job> newest_job(const fs::path& folder, std::size_t& jobs) {
+  Job newest;
+  std::int64_t began_ns = -1;
+  std::error_code error;
+  fs::directory_iterator entry(folder / ".relabel", error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    std::ifstream file(entry->path() / "job.json", std::ios::binary);
+    Json json = Json::parse(file, nullptr, false);
+    if (!json.is_object() || !json.contains("drives")) continue;
+    ++jobs;
+    const auto its = json.value("began_ns", std::int64_t{0});
+    if (its <= began_ns) continue;
+    began_ns = its;
+    newest = {entry->path(), std::move(json)};
+  }
+  if (jobs > 0) return newest;
+  return fail(ErrorCode::kNotFound,
+              folder.string() + ": `terracut relabel` has begun nothing here");
+}
+
+/// How many drives of a kind there are, and what they hold.
+struct Sum {
+  std::uint64_t drives = 0, bytes = 0, frames = 0, label_bytes = 0;
+};
+
+struct Tally {
+  Sum all, done, lately;  ///< lately: done within the last hour by labelling
+  std::int64_t lately_since_ns = 0;
+  double lately_process_s = 0;
+  std::map<std::string, std::vector<std::string>> failures;  ///< "drive: message" by cause.
+  std::uint64_t failed = 0;
+};
+
+Tally tally_of(const fs::path& folder, const Job& job, std::int64_t now_ns) {
+  Tally tally;
+  tally.lately_since_ns = now_ns;
+  for (const Json& listed : job.json["drives"]) {
+    const auto bytes = listed.value("bytes", std::uint64_t{0});
+    ++tally.all.drives;
+    tally.all.bytes += bytes;
+    const RelabelRecord record = read_record(job.state, listed.value("name", ""));
+    if (record.drive.empty()) continue;
+    if (!record.done) {
+      ++tally.failed;
+      tally.failures[record.cause].push_back(record.drive + ": " + record.message);
+      continue;
+    }
+    if (facts_of_whole(folder / record.output).is_null()) continue;
+    const auto add = [&](Sum& sum) {
+      ++sum.drives;
+      sum.bytes += bytes;
+      sum.frames += record.frames;
+      sum.label_bytes += record.label_bytes;
+    };
+    add(tally.done);
+    if (record.run.seconds == 0 || record.ended_ns < now_ns - kHour_ns) continue;
+    add(tally.lately);
+    tally.lately_since_ns =
+        std::min(tally.lately_since_ns, std::max(record.started_ns, now_ns - kHour_ns));
+    tally.lately_process_s += record.run.seconds;
+  }
+  return tally;
+}
+
+std::string bytes_text(std::uint64_t bytes) {
+  constexpr double kMega = 1e6, kGiga = 1e9;
+  const auto count = static_cast<double>(bytes);
+  return count < kGiga ? fmt::format("{:.1f} MB", count / kMega)
+                       : fmt::format("{:.1f} GB", count / kGiga);
+}
+
+std::string when(std::int64_t ns) {
+  const auto seconds = static_cast<std::time_t>(ns / 1'000'000'000);
+  return fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(seconds));
+}
+
+/// Speed and the end that follows from it, where there is any speed.
+std::string pace_text(const Tally& tally, std::int64_t now_ns) {
+  const double span_s = static_cast<double>(now_ns - tally.lately_since_ns) * 1e-9;
+  if (tally.lately.drives == 0 || span_s <= 0) return {};
+  const double bytes_per_s = static_cast<double>(tally.lately.bytes) / span_s;
+  std::string text = fmt::format(
+      "speed     {:.1f} frames/s and {:.1f} MB/s of input within the last hour, {:.1f} processes "
+      "at "
+      "once\n",
+      static_cast<double>(tally.lately.frames) / span_s, bytes_per_s * 1e-6,
+      tally.lately_process_s / span_s);
+  const std::uint64_t rest = tally.all.bytes - tally.done.bytes;
+  if (rest == 0 || bytes_per_s <= 0) return text;
+  const double left_s = static_cast<double>(rest) / bytes_per_s;
+  return text + fmt::format("end       in {:.1f} h at that speed, {}\n", left_s / 3600,
+                            when(now_ns + static_cast<std::int64_t>(left_s * 1e9)));
+}
+
+}  // namespace
+
+Expected<std::string> relabel_status(const fs::path& folder) {
+  std::size_t jobs = 0;
+  const auto job = newest_job(folder, jobs);
+  if (!job) return tl::unexpected(job.error());
+  const std::int64_t now_ns = measure::realtime_ns();
+  const Tally tally = tally_of(folder, *job, now_ns);
+  const std::string manifest = job->json.value("manifest", "");
+
+  std::string text = fmt::format(
+      "job       {}, the newest of {}: {} drives, {}, of {}; terracut {}, begun {}\n",
+      job->state.filename().string(), jobs, tally.all.drives, bytes_text(tally.all.bytes), manifest,
+      job->json.value("terracut", ""), when(job->json.value("began_ns", std::int64_t{0})));
+  text += fmt::format("done      {} drives, {} frames, {} of labels\n", tally.done.drives,
+                      tally.done.frames, bytes_text(tally.done.label_bytes));
+  text += fmt::format("missing   {} drives\n", tally.all.drives - tally.done.drives - tally.failed);
+  text += fmt::format("failed    {} drives\n", tally.failed);
+  for (const auto& [cause, drives] : tally.failures) {
+    text += fmt::format("          {}: {}\n", cause, drives.size());
+    for (const std::string& drive : drives) text += "            " + drive + "\n";
+  }
+  text += pace_text(tally, now_ns);
+  if (tally.done.drives < tally.all.drives) {
+    text += fmt::format("the rest  terracut --config '{}' relabel '{}' -o '{}'\n",
+                        (job->state / "terracut.yaml").string(), manifest, folder.string());
+  }
+  return text;
+}
+
+}  // namespace terracut::cli

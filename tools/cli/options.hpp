@@ -62,7 +62,8 @@ struct MethodOptions {
 /// Where results go.
 struct OutputOptions {
   std::filesystem::path labels, pcd, png;  ///< Folders.
-  std::filesystem::path json;              ///< File.
+  std::filesystem::path json, parquet;     ///< Files.
+  std::vector<std::string> metadata;       ///< KEY=VALUE, for the Parquet file.
   std::filesystem::path truth;             ///< Folder of NNNNNN.label: scores the labels.
 };
 
@@ -159,11 +160,14 @@ struct EvalOptions {
   std::filesystem::path changes;  ///< With it no journal.
 };
 
+enum class FleetFormat : std::uint8_t { kLabels, kParquet };
+
 /// Recordings of a fleet, labelled by many processes.
 struct FleetOptions {
   std::filesystem::path root;      ///< To look for drives in.
   std::filesystem::path manifest;  ///< tools/cli/fleet/manifest.hpp
   std::string shard = "1/1";       ///< Which part of it, I/N.
+  FleetFormat format = FleetFormat::kLabels;
   std::filesystem::path status;    ///< Folder to report on instead of labelling.
 };
 

@@ -44,6 +44,9 @@ terracut_require(HTTPLIB_FOUND "cpp-httplib" libcpp-httplib-dev)
 find_package(OpenSSL COMPONENTS Crypto QUIET)
 terracut_require(OPENSSL_FOUND "OpenSSL" libssl-dev)
 
+include(TerracutZstd)
+terracut_require(ZSTD_FOUND "libzstd" libzstd-dev)
+
 if(TERRACUT_BUILD_TESTS)
   find_package(GTest QUIET)
   terracut_require(GTest_FOUND "GoogleTest" "libgtest-dev libgmock-dev")

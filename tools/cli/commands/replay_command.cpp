@@ -183,10 +183,15 @@ class Replay {
     if (!truth.empty()) report_.score(pipeline_.labels(), truth);
     if (sinks_) sinks_ = outputs_.write_labels(name, pipeline_.labels());
     if (sinks_) sinks_ = outputs_.write_frame(name, image, pipeline_.labels(), truth);
+    if (sinks_) {
+      sinks_ = outputs_.write_returns(
+          {info.number, info.first_packet_ns, image, pipeline_.height_m(), pipeline_.labels()});
+    }
     progress_.update(static_cast<double>(report_.records.size()));
   }
 
   ExitCode conclude() {
+    if (sinks_) sinks_ = outputs_.finish();
     if (!sinks_) return refuse(sinks_.error());
     const frame::LossCounters losses = pipeline_.decoder().losses();
     if (report_.records.empty() && report_.interrupted) {

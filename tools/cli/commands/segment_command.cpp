@@ -124,9 +124,16 @@ ExitCode run_segment(const Options& options) {
       written = outputs.write_frame(file.name, labeller.image, labeller.segmenter.labels(),
                                     labeller.truth_of_returns());
     }
+    if (written) {
+      written = outputs.write_returns({record.info.number, 0, labeller.image,
+                                       labeller.segmenter.planes().height_m,
+                                       labeller.segmenter.labels(),
+                                       labeller.scan_to_image.point_of_return()});
+    }
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));
   }
+  if (const Status finished = outputs.finish(); !finished) return refuse(finished.error());
   report.mount = labeller.mount.figures();
   report.scan_points = labeller.points;
   return conclude_with(report, options.output.json);

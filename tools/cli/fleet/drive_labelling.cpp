@@ -63,7 +63,7 @@ class LabellingFolder {
 };
 
 std::vector<std::string> words_for(const RelabelJob& job, const FleetDrive& drive,
-                                   const LabellingFolder& folder) {
+                                   const Json& recipe, const LabellingFolder& folder) {
   const bool is_capture = !drive.capture.empty();
   std::vector<std::string> words{"--config", folder.settings().string(),
                                  is_capture ? "replay" : "segment", drive.input().string()};
@@ -76,7 +76,12 @@ std::vector<std::string> words_for(const RelabelJob& job, const FleetDrive& driv
   add("--dbc", drive.dbc);
   words.insert(words.end(), job.mount_words.begin(), job.mount_words.end());
   words.insert(words.end(), drive.arguments.begin(), drive.arguments.end());
-  add("--labels", folder.labels());
+  if (job.format == FleetFormat::kParquet) {
+    add("--parquet", folder.labels() / "returns.parquet");
+    words.insert(words.end(), {"--metadata", "terracut.recipe=" + recipe.dump()});
+  } else {
+    add("--labels", folder.labels());
+  }
   add("--json", folder.report());
   return words;
 }
@@ -149,7 +154,7 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
   if (Status written = files::write_whole_file(folder.settings(), job.settings); !written) {
     return failed(written.error(), record);
   }
-  const auto run = run_program(words_for(job, drive, folder), folder.log());
+  const auto run = run_program(words_for(job, drive, recipe, folder), folder.log());
   if (!run) return failed(run.error(), record);
   record.run = *run;
   if (stop_wanted()) return kInterrupted;

@@ -99,6 +99,7 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
                  .program = *program,
                  .settings = configuration_yaml(options),
                  .mount_words = mount_words_of(options),
+                 .format = options.fleet.format,
                  .host = host_name()};
   job.id = short_hash(*listed + *program + job.settings);
   std::error_code error;

@@ -28,6 +28,7 @@ struct RelabelJob {
   std::string settings;            ///< As a configuration file.
   /// What a drive's setup leaves aside where it is in a file: "--mount-height 1.9".
   std::vector<std::string> mount_words;
+  FleetFormat format = FleetFormat::kLabels;
   std::string host;
 
   [[nodiscard]] std::filesystem::path parts() const { return folder / ".relabel" / "parts"; }

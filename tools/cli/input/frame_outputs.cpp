@@ -82,6 +82,25 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
                    legend_of(judged)));
 }
 
+Status FrameOutputs::write_returns(const LabelledReturns& frame) {
+  if (options_.parquet.empty()) return {};
+  if (!returns_) {
+    ParquetFile::Metadata metadata;
+    for (const std::string& text : options_.metadata) {
+      const std::size_t sign = text.find('=');
+      metadata.emplace_back(text.substr(0, sign), text.substr(sign + 1));
+    }
+    auto file = ReturnsFile::create(options_.parquet, std::move(metadata));
+    if (!file) return tl::unexpected(file.error());
+    returns_.emplace(*std::move(file));
+  }
+  return returns_->add_frame(frame);
+}
+
+Status FrameOutputs::finish() {
+  return returns_ ? returns_->close() : Status{};
+}
+
 Status FrameOutputs::draw(const std::string& name, const pictures::Picture& picture) {
   return png_.place(name).and_then(
       [&](const std::filesystem::path& path) { return picture.write_png(path); });

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,6 +15,7 @@
 #include "pipeline/pictures/png_picture.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/cli/parquet/returns_file.hpp"
 
 namespace terracut::cli {
 
@@ -41,11 +43,17 @@ class FrameOutputs {
                                    std::span<const frame::Label> labels,
                                    std::span<const std::uint32_t> truth);
 
+  /// Its rows of the table.
+  [[nodiscard]] Status write_returns(const LabelledReturns& frame);
+  /// After the last frame, completes the table.
+  [[nodiscard]] Status finish();
+
  private:
   [[nodiscard]] Status draw(const std::string& name, const pictures::Picture& picture);
 
   OutputOptions options_;
   output::FrameFolder labels_, pcd_, png_;
+  std::optional<ReturnsFile> returns_;
   std::vector<pictures::Mistake> mistakes_;
 };
 

@@ -79,7 +79,11 @@ constexpr std::array kForms{
          [](std::string_view text) { return stream::parse_stream_address(text).has_value(); }},
     Form{"NAME", "a name of letters, digits, '-', '_' and '.'", is_name},
     Form{"TEXT,TEXT", "texts with commas between", is_text},
-    Form{"KEY=VALUE", "KEY=VALUE", is_text}};
+    Form{"KEY=VALUE", "KEY=VALUE", is_text},
+    Form{"KEY=VALUE", "KEY=VALUE", [](std::string_view text) {
+           const std::size_t sign = text.find('=');
+           return sign != 0 && sign != std::string_view::npos;
+         }}};
 
 const Form& form_of(const Setting& setting) {
   return kForms[static_cast<std::size_t>(setting.form)];

@@ -53,6 +53,8 @@ inline constexpr std::array kReturnsWords{Word{"single", drive::ReturnMode::kSin
                                           Word{"dual", drive::ReturnMode::kDual}};
 inline constexpr std::array kStreamModeWords{
     Word{"600", ::mode_t{0600}}, Word{"660", ::mode_t{0660}}, Word{"666", ::mode_t{0666}}};
+inline constexpr std::array kFormatWords{Word{"labels", FleetFormat::kLabels},
+                                         Word{"parquet", FleetFormat::kParquet}};
 inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
                                           Word<std::optional<bool>>{"packets", true}};
 

@@ -109,6 +109,30 @@ TEST_F(Relabel, TakesSettingsAsReplayDoes) {
   expect_labels_of_replay(*outputs().begin());
 }
 
+TEST_F(Relabel, WritesATableOfReplayWhereThatIsWanted) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out --format parquet");
+  expect_done("relabel m.json -o out");
+  const auto found = outputs();
+  ASSERT_EQ(found.size(), 2U) << "another format has another name";
+  const bool first = fs::exists(folder_ / "out" / *found.begin() / "returns.parquet");
+  const std::string table =
+      content_of(folder_ / "out" / (first ? *found.begin() : *found.rbegin()) / "returns.parquet");
+  expect_done("replay " + quoted(kDrive) + " --calibration " + quoted(kDriveCalibration) +
+              " --parquet replayed.parquet");
+  const std::string replayed = content_of(folder_ / "replayed.parquet");
+  constexpr std::size_t kFooter = 40'000;  // in it is what the relabelling says of itself
+  ASSERT_GT(replayed.size(), kFooter);
+  EXPECT_EQ(table.substr(0, replayed.size() - kFooter),
+            replayed.substr(0, replayed.size() - kFooter));
+  EXPECT_THAT(table, HasSubstr("terracut.recipe"));
+  EXPECT_THAT(table, HasSubstr(sha256_of(content_of(kDrive)))) << "the content of the capture";
+  EXPECT_THAT(table, HasSubstr(sha256_of(content_of(kDriveCalibration))));
+  EXPECT_THAT(table, HasSubstr(sha256_of(content_of(test::program()))));
+  expect_outputs_whole();
+}
+
 TEST_F(Relabel, NamesBadInputsAndLabelsTheOthers) {
   add_drive("good");
   add_drive("missing");

@@ -59,6 +59,7 @@ struct Sum {
 
 struct Tally {
   Sum all, done, lately;  ///< lately: done within the last hour by labelling
+  std::uint64_t missing_bytes = 0;
   std::int64_t lately_since_ns = 0;
   double lately_process_s = 0;
   std::map<std::string, std::vector<std::string>> failures;  ///< "drive: message" by cause.
@@ -73,13 +74,19 @@ Tally tally_of(const fs::path& folder, const Job& job, std::int64_t now_ns) {
     ++tally.all.drives;
     tally.all.bytes += bytes;
     const RelabelRecord record = read_record(job.state, listed.value("name", ""));
-    if (record.drive.empty()) continue;
+    if (record.drive.empty()) {
+      tally.missing_bytes += bytes;
+      continue;
+    }
     if (!record.done) {
       ++tally.failed;
       tally.failures[record.cause].push_back(record.drive + ": " + record.message);
       continue;
     }
-    if (facts_of_whole(folder / record.output).is_null()) continue;
+    if (facts_of_whole(folder / record.output).is_null()) {
+      tally.missing_bytes += bytes;
+      continue;
+    }
     const auto add = [&](Sum& sum) {
       ++sum.drives;
       sum.bytes += bytes;
@@ -119,9 +126,8 @@ std::string pace_text(const Tally& tally, std::int64_t now_ns) {
       "once\n",
       static_cast<double>(tally.lately.frames) / span_s, bytes_per_s * 1e-6,
       tally.lately_process_s / span_s);
-  const std::uint64_t rest = tally.all.bytes - tally.done.bytes;
-  if (rest == 0 || bytes_per_s <= 0) return text;
-  const double left_s = static_cast<double>(rest) / bytes_per_s;
+  if (tally.missing_bytes == 0 || bytes_per_s <= 0) return text;
+  const double left_s = static_cast<double>(tally.missing_bytes) / bytes_per_s;
   return text + fmt::format("end       in {:.1f} h at that speed, {}\n", left_s / 3600,
                             when(now_ns + static_cast<std::int64_t>(left_s * 1e9)));
 }

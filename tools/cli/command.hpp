@@ -16,6 +16,7 @@ enum class Command : std::uint8_t {
   kSegment,
   kManifest,
   kRelabel,
+  kCompare,
   kSimulate,
   kEncode,
   kCalibrate,
@@ -44,6 +45,8 @@ inline constexpr std::array kCommands{
     CommandText{"relabel",
                 "Label a fleet's recordings, one shard of them; what is there already\n"
                 "is left alone, so that any number of processes may do so"},
+    CommandText{"compare",
+                "Compare two labelings of the same recordings: what changed, where most"},
     CommandText{"simulate", "Drive a simulated sensor: capture, table and truth"},
     CommandText{"encode", "Frame recorded scans into packets with their truth"},
     CommandText{"calibrate",

@@ -12,6 +12,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run_segment(const Options& options);
 [[nodiscard]] ExitCode run_manifest(const Options& options);
 [[nodiscard]] ExitCode run_relabel(const Options& options);
+[[nodiscard]] ExitCode run_compare(const Options& options);
 [[nodiscard]] ExitCode run_simulate(const Options& options);
 [[nodiscard]] ExitCode run_encode(const Options& options);
 [[nodiscard]] ExitCode run_calibrate(const Options& options);

@@ -168,7 +168,13 @@ struct FleetOptions {
   std::filesystem::path manifest;  ///< tools/cli/fleet/manifest.hpp
   std::string shard = "1/1";       ///< Which part of it, I/N.
   FleetFormat format = FleetFormat::kLabels;
-  std::filesystem::path status;    ///< Folder to report on instead of labelling.
+  std::filesystem::path status;  ///< Folder to report on instead of labelling.
+};
+
+/// Two labelings of the same recordings.
+struct CompareOptions {
+  std::filesystem::path before, after;  ///< Folders.
+  int most = 10;                        ///< How many drives and frames to name.
 };
 
 /// All of them; a command looks at those that the table of settings gives it.
@@ -205,6 +211,7 @@ struct Options {
 
   EvalOptions eval;
   FleetOptions fleet;
+  CompareOptions compare;
 
   std::string watched;  ///< Name of the process to ask; empty: the only one that runs.
   double wait_s = 30;   ///< For its answer.

@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -54,7 +56,7 @@ class LabellingFolder {
   [[nodiscard]] bool made() const { return static_cast<bool>(part_.lock); }
   /// What is to become the drive's folder, with the rights that the user gives to new ones.
   [[nodiscard]] fs::path labels() const { return part_.path / "labels"; }
-  [[nodiscard]] fs::path settings() const { return labels() / "terracut.yaml"; }
+  [[nodiscard]] fs::path settings() const { return labels() / kJobSettings; }
   [[nodiscard]] fs::path report() const { return part_.path / "report.json"; }
   [[nodiscard]] fs::path log() const { return part_.path / "log.txt"; }
 
@@ -62,27 +64,17 @@ class LabellingFolder {
   files::Part part_;
 };
 
-std::vector<std::string> words_for(const RelabelJob& job, const FleetDrive& drive,
-                                   const Json& recipe, const LabellingFolder& folder) {
-  const bool is_capture = !drive.capture.empty();
-  std::vector<std::string> words{"--config", folder.settings().string(),
-                                 is_capture ? "replay" : "segment", drive.input().string()};
-  const auto add = [&](const char* option, const fs::path& path) {
-    if (!path.empty()) words.insert(words.end(), {option, path.string()});
-  };
-  add("--calibration", drive.calibration);
-  add("--setup", drive.setup);
-  add("--can", drive.can);
-  add("--dbc", drive.dbc);
-  words.insert(words.end(), job.mount_words.begin(), job.mount_words.end());
-  words.insert(words.end(), drive.arguments.begin(), drive.arguments.end());
+/// Where the run is to write.
+std::vector<std::string> output_words(const RelabelJob& job, const Json& recipe,
+                                      const LabellingFolder& folder) {
+  std::vector<std::string> words{"--json", folder.report().string()};
+  const fs::path table = folder.labels() / "returns.parquet";
   if (job.format == FleetFormat::kParquet) {
-    add("--parquet", folder.labels() / "returns.parquet");
-    words.insert(words.end(), {"--metadata", "terracut.recipe=" + recipe.dump()});
+    words.insert(words.end(),
+                 {"--parquet", table.string(), "--metadata", "terracut.recipe=" + recipe.dump()});
   } else {
-    add("--labels", folder.labels());
+    words.insert(words.end(), {"--labels", folder.labels().string()});
   }
-  add("--json", folder.report());
   return words;
 }
 
@@ -154,7 +146,10 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
   if (Status written = files::write_whole_file(folder.settings(), job.settings); !written) {
     return failed(written.error(), record);
   }
-  const auto run = run_program(words_for(job, drive, recipe, folder), folder.log());
+  auto words = words_for(drive, folder.settings());
+  if (!words) return failed(words.error(), record);
+  std::ranges::move(output_words(job, recipe, folder), std::back_inserter(*words));
+  const auto run = run_program(*words, folder.log());
   if (!run) return failed(run.error(), record);
   record.run = *run;
   if (stop_wanted()) return kInterrupted;

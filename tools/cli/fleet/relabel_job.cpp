@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <fstream>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -16,6 +17,7 @@
 #include "rt/files/whole_file.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/configuration_file.hpp"
 #include "tools/cli/settings/configuration_text.hpp"
 #include "tools/cli/settings/setting.hpp"
 #include "tools/cli/settings/setting_text.hpp"
@@ -26,6 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr std::string_view kJobFile = "job.json";
 constexpr int kRecipeVersion = 1;
 constexpr std::size_t kShownDigits = 16;  // 64 bits of a hash
 
@@ -42,6 +45,7 @@ std::string host_name() {
   return text;
 }
 
+/// What a drive's setup leaves aside where it is in a file: "--mount-height 1.9".
 std::vector<std::string> mount_words_of(const Options& options) {
   std::vector<std::string> words;
   for (const Setting& setting : settings()) {
@@ -98,7 +102,6 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
                  .id = {},
                  .program = *program,
                  .settings = configuration_yaml(options),
-                 .mount_words = mount_words_of(options),
                  .format = options.fleet.format,
                  .host = host_name()};
   job.id = short_hash(*listed + *program + job.settings);
@@ -108,15 +111,57 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
     return fail(ErrorCode::kWriteFailed,
                 fmt::format("{}: {}", job.parts().string(), error.message()));
   }
-  if (fs::exists(job.state() / "job.json", error)) return job;
-  Status written = files::write_whole_file(job.state() / "terracut.yaml", job.settings);
-  if (written) written = write_json(job.state() / "job.json", json_of(job, manifest));
+  if (fs::exists(job.state() / kJobFile, error)) return job;
+  Status written = files::write_whole_file(job.state() / kJobSettings, job.settings);
+  if (written) written = write_json(job.state() / kJobFile, json_of(job, manifest));
   if (!written) return tl::unexpected(written.error());
   return job;
 }
 
-Expected<Json> recipe_of(const RelabelJob& job, const FleetDrive& drive) {
+Expected<KnownJob> read_job(const fs::path& state) {
+  std::ifstream file(state / kJobFile, std::ios::binary);
+  Json json = Json::parse(file, nullptr, false);
+  if (json.is_object() && json.contains("drives")) return KnownJob{state, std::move(json)};
+  return fail(ErrorCode::kMalformed, (state / kJobFile).string() + ": says nothing of a job");
+}
+
+Expected<std::vector<KnownJob>> jobs_in(const fs::path& folder) {
+  std::vector<KnownJob> jobs;
+  std::error_code error;
+  fs::directory_iterator entry(folder / ".relabel", error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    if (auto job = read_job(entry->path())) jobs.push_back(*std::move(job));
+  }
+  if (jobs.empty()) {
+    return fail(ErrorCode::kNotFound,
+                folder.string() + ": `terracut relabel` has begun nothing here");
+  }
+  std::ranges::sort(
+      jobs, {}, [](const KnownJob& job) { return job.json.value("began_ns", std::int64_t{0}); });
+  return jobs;
+}
+
+Expected<std::vector<std::string>> words_for(const FleetDrive& drive, const fs::path& settings) {
   if (const Status known = check_arguments(drive); !known) return tl::unexpected(known.error());
+  const auto options = read_configuration(settings);
+  if (!options) return tl::unexpected(options.error());
+  std::vector<std::string> words{"--config", settings.string(),
+                                 drive.capture.empty() ? "segment" : "replay",
+                                 drive.input().string()};
+  const auto add = [&](const char* option, const fs::path& path) {
+    if (!path.empty()) words.insert(words.end(), {option, path.string()});
+  };
+  add("--calibration", drive.calibration);
+  add("--setup", drive.setup);
+  add("--can", drive.can);
+  add("--dbc", drive.dbc);
+  const std::vector<std::string> mount = mount_words_of(*options);
+  words.insert(words.end(), mount.begin(), mount.end());
+  words.insert(words.end(), drive.arguments.begin(), drive.arguments.end());
+  return words;
+}
+
+Expected<Json> recipe_of(const RelabelJob& job, const FleetDrive& drive) {
   Json recipe{{"recipe", kRecipeVersion},     {"terracut", TERRACUT_VERSION},
               {"program", job.program},       {"settings", sha256_of(job.settings)},
               {"arguments", drive.arguments}, {"inputs", Json::object()}};

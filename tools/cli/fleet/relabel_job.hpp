@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "manifest.hpp"
@@ -26,8 +27,6 @@ struct RelabelJob {
   std::string id;                  ///< A hash of manifest, program and settings.
   std::string program;             ///< SHA-256 of the executable.
   std::string settings;            ///< As a configuration file.
-  /// What a drive's setup leaves aside where it is in a file: "--mount-height 1.9".
-  std::vector<std::string> mount_words;
   FleetFormat format = FleetFormat::kLabels;
   std::string host;
 
@@ -41,9 +40,26 @@ struct RelabelJob {
 /// program's file and of writing.
 [[nodiscard]] Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest);
 
+inline constexpr std::string_view kJobSettings = "terracut.yaml";
+
+/// A job as its folder says.
+struct KnownJob {
+  std::filesystem::path state;  ///< Its folder.
+  nlohmann::ordered_json json;  ///< job.json
+};
+/// kMalformed where job.json is none.
+[[nodiscard]] Expected<KnownJob> read_job(const std::filesystem::path& state);
+/// Of a folder for drives, by when they began. kNotFound where there is none.
+[[nodiscard]] Expected<std::vector<KnownJob>> jobs_in(const std::filesystem::path& folder);
+
+/// The words that label a drive by `terracut replay` or `segment` with the settings of that file,
+/// but for what is written. kMalformed where an argument of the manifest is none of the program's
+/// or names a file, whose content would not be in the recipe; the errors of the settings.
+[[nodiscard]] Expected<std::vector<std::string>> words_for(const FleetDrive& drive,
+                                                           const std::filesystem::path& settings);
+
 /// Everything that a drive's labels depend on, which is what its folder is named by. The errors of
-/// content_of(); kMalformed where an argument of the manifest is none of the program's or names a
-/// file, whose content would not be in it.
+/// content_of().
 [[nodiscard]] Expected<nlohmann::ordered_json> recipe_of(const RelabelJob& job,
                                                          const FleetDrive& drive);
 

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cstdint>
 #include <ctime>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -26,32 +25,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
 
-struct Job {
-  fs::path state;
-  Json json;
-};
-
-/// The job that began last; how many there are.
-Expected<Job> newest_job(const fs::path& folder, std::size_t& jobs) {
-  Job newest;
-  std::int64_t began_ns = -1;
-  std::error_code error;
-  fs::directory_iterator entry(folder / ".relabel", error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    std::ifstream file(entry->path() / "job.json", std::ios::binary);
-    Json json = Json::parse(file, nullptr, false);
-    if (!json.is_object() || !json.contains("drives")) continue;
-    ++jobs;
-    const auto its = json.value("began_ns", std::int64_t{0});
-    if (its <= began_ns) continue;
-    began_ns = its;
-    newest = {entry->path(), std::move(json)};
-  }
-  if (jobs > 0) return newest;
-  return fail(ErrorCode::kNotFound,
-              folder.string() + ": `terracut relabel` has begun nothing here");
-}
-
 /// How many drives of a kind there are, and what they hold.
 struct Sum {
   std::uint64_t drives = 0, bytes = 0, frames = 0, label_bytes = 0;
@@ -66,7 +39,7 @@ struct Tally {
   std::uint64_t failed = 0;
 };
 
-Tally tally_of(const fs::path& folder, const Job& job, std::int64_t now_ns) {
+Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns) {
   Tally tally;
   tally.lately_since_ns = now_ns;
   for (const Json& listed : job.json["drives"]) {
@@ -135,17 +108,17 @@ std::string pace_text(const Tally& tally, std::int64_t now_ns) {
 }  // namespace
 
 Expected<std::string> relabel_status(const fs::path& folder) {
-  std::size_t jobs = 0;
-  const auto job = newest_job(folder, jobs);
-  if (!job) return tl::unexpected(job.error());
+  const auto jobs = jobs_in(folder);
+  if (!jobs) return tl::unexpected(jobs.error());
+  const KnownJob& job = jobs->back();
   const std::int64_t now_ns = measure::realtime_ns();
-  const Tally tally = tally_of(folder, *job, now_ns);
-  const std::string manifest = job->json.value("manifest", "");
+  const Tally tally = tally_of(folder, job, now_ns);
+  const std::string manifest = job.json.value("manifest", "");
 
   std::string text = fmt::format(
       "job       {}, the newest of {}: {} drives, {}, of {}; terracut {}, begun {}\n",
-      job->state.filename().string(), jobs, tally.all.drives, bytes_text(tally.all.bytes), manifest,
-      job->json.value("terracut", ""), when(job->json.value("began_ns", std::int64_t{0})));
+      job.state.filename().string(), jobs->size(), tally.all.drives, bytes_text(tally.all.bytes),
+      manifest, job.json.value("terracut", ""), when(job.json.value("began_ns", std::int64_t{0})));
   text += fmt::format("done      {} drives, {} frames, {} of labels\n", tally.done.drives,
                       tally.done.frames, bytes_text(tally.done.label_bytes));
   text += fmt::format("missing   {} drives\n", tally.all.drives - tally.done.drives - tally.failed);
@@ -157,7 +130,7 @@ Expected<std::string> relabel_status(const fs::path& folder) {
   text += pace_text(tally, now_ns);
   if (tally.done.drives < tally.all.drives) {
     text += fmt::format("the rest  terracut --config '{}' relabel '{}' -o '{}'\n",
-                        (job->state / "terracut.yaml").string(), manifest, folder.string());
+                        (job.state / kJobSettings).string(), manifest, folder.string());
   }
   return text;
 }

@@ -328,6 +328,16 @@ constexpr std::array kSettings{
             .writes = Kind::kFolder, .field = [](O& o) -> F { return &o.eval.changes; }},
 
     // A fleet's recordings
+    Setting{.option = "BEFORE", .commands = C::kCompare, .required_by = C::kCompare, .help = "Folder of label files, or of relabel (its newest job), or FOLDER/.relabel/JOB",
+            .reads = "the labels before", .field = [](O& o) -> F { return &o.compare.before; }},
+    Setting{.option = "AFTER", .commands = C::kCompare, .required_by = C::kCompare, .help = "The same, to be compared with it",
+            .reads = "the labels after", .field = [](O& o) -> F { return &o.compare.after; }},
+    Setting{.option = "--most", .commands = C::kCompare, .help = "How many of the most changed drives and frames to name and to draw",
+            .least = 1, .most = 10000, .field = [](O& o) -> F { return &o.compare.most; }},
+    Setting{.option = "--png", .commands = C::kCompare, .help = "Folder for pictures of the most changed frames, from above; of relabel's folders",
+            .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
+    Setting{.option = "--json", .commands = C::kCompare, .help = "The same as a file for programs",
+            .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
     Setting{.option = "--shard", .commands = C::kRelabel, .help = "I/N: the I-th of N parts of about the same size",
             .field = [](O& o) -> F { return &o.fleet.shard; }},
     Setting{.option = "--status", .commands = C::kRelabel, .help = "Folder: say what is done there, missing and failed, and when it will end",

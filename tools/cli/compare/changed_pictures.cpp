@@ -57,7 +57,7 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
   }
   decode::Decoder decoder(
       capture->calibration, *mount,
-      decoder_config_of(options, capture->sensor.columns, motion ? &motion->motion() : nullptr),
+      decoder_config_of(options, capture->sensor.columns, FramesAreFor::kPoints, motion ? &motion->motion() : nullptr),
       memory);
   const auto take_frames = [&]() -> Status {
     while (const frame::Frame* const frame = decoder.next()) {

@@ -12,6 +12,7 @@
 #include "firmware_io/hdl64e/s1_reader.hpp"
 #include "firmware_io/sensor/first_seconds.hpp"
 #include "random_drive.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/support/places.hpp"
 
 namespace terracut::hdl64e {
@@ -122,6 +123,23 @@ TEST(Hdl64eS1, AStandingHeadIsNoLoss) {
   recorder.flush();
   EXPECT_EQ(recorder.decoder.losses().network_gap_packets, 0U);
   EXPECT_EQ(recorder.returns(), packets.size() * kReturnsAPacket);
+}
+
+TEST(Hdl64eS1, IsDecodedWithoutAllocating) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  std::vector<Packet> packets = s1_packets(4);
+  packets.erase(packets.begin() + 200, packets.begin() + 210);
+  memory::FixedMemory memory;
+  decode::Decoder decoder(nominal_hdl64e(), {}, {}, memory);
+  std::uint64_t returns = 0;
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+    returns += info.returns;
+  };
+  const std::uint64_t before = test::allocations_of_this_thread();
+  for (const Packet& packet : packets) test::decode(decoder, packet.datagram(), on_frame);
+  test::end_stream(decoder, on_frame);
+  EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+  EXPECT_EQ(returns, packets.size() * kReturnsAPacket);
 }
 
 TEST(Hdl64eS1, IsFoundByItselfAndWhereAnHdl64eIsWanted) {

@@ -11,6 +11,7 @@
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/sensor/first_seconds.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/reference/agreement.hpp"
@@ -157,6 +158,33 @@ TYPED_TEST(VelodyneStream, RefusesWhatIsNoDataPacketOfTheModel) {
   EXPECT_EQ(reader.read(position, azimuths), frame::Reject::kDeviceInfo);
   const PayloadBytes nothing(1206, 0);
   EXPECT_EQ(reader.read(nothing, azimuths), frame::Reject::kWrongMagic);
+}
+
+TYPED_TEST(VelodyneStream, IsDecodedWithoutAllocating) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
+  for (const bool dual_return : {false, true}) {
+    auto payloads = TypeParam::payloads({.dual_return = dual_return, .packets = 500});
+    payloads.erase(payloads.begin() + 200, payloads.begin() + 210);
+    std::swap(payloads[300], payloads[301]);
+    TypeParam::set_azimuth(payloads[400].bytes, 0, 36'000);
+    memory::FixedMemory memory;
+    decode::Decoder decoder(velodyne::factory_table(TypeParam::sheet().model), {}, {}, memory);
+    std::uint64_t returns = 0;
+    const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage&) noexcept {
+      returns += info.returns;
+    };
+    const std::size_t planned = memory.total_bytes();
+    const std::uint64_t before = test::allocations_of_this_thread();
+    for (int loop = 0; loop < 3; ++loop) {
+      for (const Payload& payload : payloads) {
+        test::decode(decoder, {.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, on_frame);
+      }
+    }
+    test::end_stream(decoder, on_frame);
+    EXPECT_EQ(test::allocations_of_this_thread() - before, 0U);
+    EXPECT_EQ(memory.total_bytes(), planned);
+    EXPECT_GT(returns, 80'000U);
+  }
 }
 
 TYPED_TEST(VelodyneStream, IsFoundByItselfWithItsTable) {

@@ -48,7 +48,7 @@ struct PacketPlace {
 /// - `group(laser)`, `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated
 ///   since its firing's azimuth when the group fires, [0, 1e5];
 /// - `begin_packet(azimuths)`, for each packet in order of arrival, then `step_ticks(azimuths,
-///   column)` and `read_column(payload, column, FiringReturns<kRows>)`, which fills them in;
+///   column)` and `read_column(payload, column, FiringReturns<kChannels>)`, which fills them in;
 /// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, PointsOut)`;
 /// - `rows()`: the range image row of each laser.
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp,

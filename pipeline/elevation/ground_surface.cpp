@@ -147,7 +147,9 @@ GroundSurface::Detour GroundSurface::find_ground_again(
   for (int band = lost_band + 1; band < grid.bands(); ++band) {
     const LowestReturn& here = lowest[grid.cell(sector, band)];
     if (here.height_m == kEmpty) continue;
-    if (start_band < 0 || !passable(last, here)) {
+    const bool leads_on =
+        passable(last, here) && here.range_m - last.range_m <= config_.regain_gap_m;
+    if (start_band < 0 || !leads_on) {
       start = here;
       start_band = band;
       connected = passable(lost, here);

@@ -156,7 +156,11 @@ class PlainSurface {
     for (int band = lost_band + 1; band < grid_.bands(); ++band) {
       if (!at(lowest, band)) continue;
       const Place& here = *at(lowest, band);
-      if (!chain.empty() && !passable(*at(lowest, chain.back()), here)) chain.clear();
+      if (!chain.empty()) {
+        const Place& before = *at(lowest, chain.back());
+        const bool is_gap = here.range_m - before.range_m > double{config_.regain_gap_m};
+        if (is_gap || !passable(before, here)) chain.clear();
+      }
       chain.push_back(band);
       const Place& start = *at(lowest, chain.front());
       const double length_m = here.range_m - start.range_m;

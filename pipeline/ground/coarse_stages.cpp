@@ -20,13 +20,18 @@ void done(stage::StageObserver* observer, stage::Stage stage) noexcept TERRACUT_
 CoarseStages::CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
                            frame::ImageShape shape, memory::FixedMemory& memory,
                            frame::FramePoints* made)
-    : last_stage_(config.last_stage),
+    : CoarseStages(Suited{suited_to_rows(config, profile)}, profile, shape, memory, made) {}
+
+CoarseStages::CoarseStages(const Suited& suited, const mount::RingProfile& profile,
+                           frame::ImageShape shape, memory::FixedMemory& memory,
+                           frame::FramePoints* made)
+    : last_stage_(suited.config.last_stage),
       shape_(shape),
-      map_(config.elevation_map, profile, shape, memory),
-      adjacent_(
-          config.adjacent_points,
-          std::max(config.elevation_map.obstacle_height_m, config.seeds.min_obstacle_height_m),
-          profile, shape, memory),
+      map_(suited.config.elevation_map, profile, shape, memory),
+      adjacent_(suited.config.adjacent_points,
+                std::max(suited.config.elevation_map.obstacle_height_m,
+                         suited.config.seeds.min_obstacle_height_m),
+                profile, shape, memory),
       made_(made),
       is_current_(memory.take<std::uint8_t>("coarse stages",
                                             static_cast<std::size_t>(map_.grid().sectors()))) {}

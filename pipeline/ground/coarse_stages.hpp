@@ -36,8 +36,9 @@ namespace terracut::ground {
 /// Memory is taken in the constructor. One thread at a time; real-time safe if the observer is.
 class CoarseStages {
  public:
-  /// `profile` must have shape.rows rings. `made`: for images that keep their returns as they were
-  /// measured; filled ahead as columns are needed, and with all points by finish(). Else null.
+  /// `profile` must have shape.rows rings, which `config` is suited to first (suited_to_rows()).
+  /// `made`: for images that keep their returns as they were measured; filled ahead as columns are
+  /// needed, and with all points by finish(). Else null.
   CoarseStages(const SegmenterConfig& config, const mount::RingProfile& profile,
                frame::ImageShape shape, memory::FixedMemory& memory,
                frame::FramePoints* made = nullptr);
@@ -63,6 +64,13 @@ class CoarseStages {
               stage::StageObserver* observer = nullptr) noexcept TERRACUT_NONBLOCKING;
 
  private:
+  /// A configuration that is suited to the rows.
+  struct Suited {
+    SegmenterConfig config;
+  };
+  CoarseStages(const Suited& suited, const mount::RingProfile& profile, frame::ImageShape shape,
+               memory::FixedMemory& memory, frame::FramePoints* made);
+
   static constexpr int kAnyNumber = std::numeric_limits<int>::max();
 
   void begin(const frame::RangeImage& image) noexcept;

@@ -181,6 +181,15 @@ constexpr std::array kParameters{
     Parameter{"road.terrain_square_m", "m", "The terrain's slope is a plane over three by three such squares", 1, 60, {},
               TERRACUT_FIELD(road.terrain.square_m)},
 
+    Parameter{"sparse.from_deg", "deg", "Rows so far apart, 2 to 10 degrees below the horizon, are sparse: what follows holds for them", 0, 90, {},
+              TERRACUT_FIELD(sparse.from_deg)},
+    Parameter{"sparse.step_up_limit_m", "m", "In place of surface.step_up_limit_m", 0, 5, {},
+              TERRACUT_FIELD(sparse.step_up_limit_m)},
+    Parameter{"sparse.regain_gap_m", "m", "In place of surface.regain_gap_m", 0.5, kFar, {},
+              TERRACUT_FIELD(sparse.regain_gap_m)},
+    Parameter{"sparse.min_lower_height_m", "m", "In place of adjacent.min_lower_height_m", -1, kFar, {},
+              TERRACUT_FIELD(sparse.min_lower_height_m)},
+
     Parameter{"pfaff.cell_m", "m", "Side of a square of the fixed grid", 0.05, 10, {},
               TERRACUT_FIELD_OF(pfaff.cell_m)},
     Parameter{"pfaff.extent_m", "m", "Half the side of the map; farther returns belong to its edge", 10, 250, {},

@@ -6,6 +6,7 @@
 
 #include "pipeline/elevation/adjacent_points.hpp"
 #include "pipeline/elevation/ring_elevation_map.hpp"
+#include "pipeline/ground/sparse_rows.hpp"
 #include "pipeline/min_cut/cut_budget.hpp"
 #include "pipeline/min_cut/grid_cut.hpp"
 #include "pipeline/random_field/boundary_term.hpp"
@@ -29,6 +30,7 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
+  SparseRows sparse;  ///< Taken in place of the others by suited_to_rows().
 };
 
 /// The default: whatever was measured better, on the paper's skeleton (docs/reference/method.md).

@@ -9,6 +9,9 @@ install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION share/doc/terracut
   COMPONENT service EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_frames.py
   DESTINATION share/doc/terracut/examples COMPONENT service EXCLUDE_FROM_ALL)
+install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/fleet/parallel ${PROJECT_SOURCE_DIR}/tools/fleet/relabel.sbatch
+  ${PROJECT_SOURCE_DIR}/tools/fleet/submit
+  DESTINATION share/doc/terracut/fleet COMPONENT service EXCLUDE_FROM_ALL)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION share/doc/terracut
   COMPONENT service EXCLUDE_FROM_ALL)
 

@@ -78,7 +78,7 @@ class DeltaReader {
 
 TEST(ColumnEncoding, DeltasAreReadBackByTheirDescription) {
   std::mt19937 random(3);
-  for (const std::size_t count : {0, 1, 2, 32, 33, 128, 129, 130, 257, 5000}) {
+  for (const std::size_t count : {0U, 1U, 2U, 32U, 33U, 128U, 129U, 130U, 257U, 5000U}) {
     for (const std::int64_t spread : {0LL, 1LL, 100LL, 4294967295LL}) {
       std::vector<std::int32_t> values(count);
       std::uniform_int_distribution<std::int64_t> any(-spread / 2, spread / 2);

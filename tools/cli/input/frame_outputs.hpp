@@ -30,7 +30,7 @@ class FrameOutputs {
 
   /// Whether any of them is made of points, not of labels alone.
   [[nodiscard]] static bool need_points(const OutputOptions& options) {
-    return !options.pcd.empty() || !options.png.empty();
+    return !options.pcd.empty() || !options.png.empty() || !options.parquet.empty();
   }
 
   /// NAME.label, in the order of `labels`.

@@ -120,9 +120,7 @@ class Decoder {
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
   /// The most returns a frame may have, as RangeImage::return_capacity().
-  [[nodiscard]] std::size_t return_capacity() const noexcept {
-    return frames_.return_capacity();
-  }
+  [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
   /// Device time between packets, measured; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
   /// Device clock of the last packet that passed the sensor's checks (PacketAzimuths).

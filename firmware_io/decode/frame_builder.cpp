@@ -18,9 +18,8 @@ FrameBuilder::FrameBuilder(const Config& config, memory::FixedMemory& memory)
   images_.reserve(static_cast<std::size_t>(config.images));
   for (int i = 0; i < config.images; ++i) {
     if (config.measured_tiles > 0) {
-      images_.emplace_back(config.shape,
-                           frame::MeasuredReturns(config.shape, config.lasers,
-                                                  config.measured_tiles, memory));
+      images_.emplace_back(config.shape, frame::MeasuredReturns(config.shape, config.lasers,
+                                                                config.measured_tiles, memory));
     } else {
       images_.emplace_back(config.shape, config.overflow_capacity, memory);
     }

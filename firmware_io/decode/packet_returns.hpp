@@ -173,13 +173,13 @@ class PacketReturns {
       if (n == 1) {
         for (std::int32_t& head_cdeg : heads.head_cdeg) head_cdeg -= beams::kRevolution_cdeg;
       }
-      frames.losses().overflow_full_returns += tile.images[n]->measured()->add(
-          {.heads = heads,
-           .raw = tile_[0].raw[0].data(),
-           .intensity = tile_[0].intensity[0].data(),
-           .beams = beams_,
-           .first_column = n == 0 ? 0 : columns_},
-          owner_, reader_);
+      frames.losses().overflow_full_returns +=
+          tile.images[n]->measured()->add({.heads = heads,
+                                           .raw = tile_[0].raw[0].data(),
+                                           .intensity = tile_[0].intensity[0].data(),
+                                           .beams = beams_,
+                                           .first_column = n == 0 ? 0 : columns_},
+                                          owner_, reader_);
     }
   }
 
@@ -298,11 +298,11 @@ class PacketReturns {
   TileColumns<Sensor> columns_of_;
   SensorTileReader<Sensor> reader_;
   std::span<FiringTile<kLasers>> tile_;  ///< One element.
-  std::span<BeamColumns> beams_;                      ///< By laser.
-  std::span<TilePoints> points_;                      ///< By laser, where they have no cells.
-  TileRow<std::int64_t> rotor_cdeg_{};  ///< Of each firing.
+  std::span<BeamColumns> beams_;         ///< By laser.
+  std::span<TilePoints> points_;         ///< By laser, where they have no cells.
+  TileRow<std::int64_t> rotor_cdeg_{};   ///< Of each firing.
   frame::TileHeads heads_{};
-  std::size_t firings_ = 0;                           ///< Added and not placed yet.
+  std::size_t firings_ = 0;  ///< Added and not placed yet.
   frame::CellOwner owner_{};
 };
 

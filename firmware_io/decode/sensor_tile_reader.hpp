@@ -42,8 +42,7 @@ class SensorTileReader final : public frame::TileReader {
         heads,
         [this](Directions& of, std::int32_t step_ticks, bool is_dual) noexcept {
           for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
-            const SinCos advance =
-                small_advance(sensor_.advance_ticks(step_ticks, group, is_dual));
+            const SinCos advance = small_advance(sensor_.advance_ticks(step_ticks, group, is_dual));
             of.sin[group] = advance.sin;
             of.cos[group] = advance.cos;
           }
@@ -57,8 +56,7 @@ class SensorTileReader final : public frame::TileReader {
                       const frame::PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
     TileRow<float> measured_m;
     measure(raw_ + laser * kTileFirings, sensor_.metres_per_count(), measured_m.data());
-    sensor_.compute_points(laser, heads_of_group(heads_[0], sensor_.group(laser)), measured_m,
-                           out);
+    sensor_.compute_points(laser, heads_of_group(heads_[0], sensor_.group(laser)), measured_m, out);
   }
   [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
     return sensor_.rows();

@@ -71,8 +71,8 @@ class StepAdvances {
 
   std::span<Entry> entries_;
   std::array<std::int64_t, kKnown> keys_;
-  std::size_t next_ = 0;                      ///< To be replaced.
-  frame::TileRow<std::int64_t> in_tile_;      ///< Of each firing.
+  std::size_t next_ = 0;                  ///< To be replaced.
+  frame::TileRow<std::int64_t> in_tile_;  ///< Of each firing.
 };
 
 }  // namespace terracut::decode

@@ -38,8 +38,7 @@ class TileColumns {
     alignas(64) TileRow<std::int32_t> head_column, head_rest;
     for (std::size_t f = 0; f < kTileFirings; ++f) {
       const std::int32_t azimuth_cdeg = beams::wrap_cdeg(heads.head_cdeg[f]);
-      const std::int32_t revolution =
-          (heads.head_cdeg[f] - azimuth_cdeg) / beams::kRevolution_cdeg;
+      const std::int32_t revolution = (heads.head_cdeg[f] - azimuth_cdeg) / beams::kRevolution_cdeg;
       const ColumnAngle angle = column_angle(std::int64_t{azimuth_cdeg} * kTicksPerCdeg, columns_);
       head_column[f] = angle.whole + revolution * columns_;
       head_rest[f] = angle.rest;
@@ -73,7 +72,7 @@ class TileColumns {
 
   int columns_;
   std::array<ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)> offset_;  ///< From the head.
-  std::span<TileRow<std::int32_t>> advance_column_, advance_rest_;           ///< By group.
+  std::span<TileRow<std::int32_t>> advance_column_, advance_rest_;               ///< By group.
   StepAdvances<Columns> advances_;
 };
 

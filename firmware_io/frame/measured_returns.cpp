@@ -156,8 +156,7 @@ void MeasuredReturns::number_returns(const NewTile& tile, Tile& added,
   TileRow<std::uint16_t> counts{};
   bool is_whole = true;
   for (const BeamColumns& beam : tile.beams) {
-    is_whole &= beam.least >= tile.first_column &&
-                beam.most < tile.first_column + shape_.columns;
+    is_whole &= beam.least >= tile.first_column && beam.most < tile.first_column + shape_.columns;
   }
   if (is_whole) {
     count_all(tile.raw, lasers_, counts.data());

@@ -39,8 +39,8 @@ class MeasuredReturns {
   };
   /// A tile that is to be added.
   struct NewTile {
-    TileHeads heads;              ///< From the beginning of this frame.
-    const std::uint16_t* raw;     ///< Laser by laser, kTileFirings each; 0: no return.
+    TileHeads heads;           ///< From the beginning of this frame.
+    const std::uint16_t* raw;  ///< Laser by laser, kTileFirings each; 0: no return.
     const std::uint8_t* intensity;
     /// By laser; those of this frame begin at `first_column`.
     std::span<const BeamColumns> beams;

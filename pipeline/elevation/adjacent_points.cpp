@@ -224,8 +224,8 @@ void AdjacentPoints::for_each_row_pair(const frame::PointPlanes& points, stage::
                                        Visit visit) const noexcept {
   const auto row_of = [&](int row) noexcept {
     const std::size_t first = shape_.cell(row, 0);
-    return Row{&points.x_m[first], &points.y_m[first], &points.z_m[first],
-               &planes.height_m[first], &planes.steep[first]};
+    return Row{&points.x_m[first], &points.y_m[first], &points.z_m[first], &planes.height_m[first],
+               &planes.steep[first]};
   };
   for (int row = 0; row < shape_.rows; ++row) {
     for (int step = config_.first_row_step; step <= config_.last_row_step; ++step) {

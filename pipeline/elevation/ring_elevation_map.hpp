@@ -75,8 +75,8 @@ class RingElevationMap {
   frame::ImageShape shape_;
   RingGrid grid_;
   GroundSurface surface_;
-  int traced_ = 0;                 // sectors
-  std::size_t seen_ = 0;           // returns that own a cell of these
+  int traced_ = 0;        // sectors
+  std::size_t seen_ = 0;  // returns that own a cell of these
   // Returns that own none: of these sectors, or all of the overflow list.
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;

@@ -6,13 +6,13 @@
 #include <span>
 
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/point_planes.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
-#include "pipeline/min_cut/near_unknown.hpp"
 #include "pipeline/ground/profile.hpp"
+#include "pipeline/min_cut/near_unknown.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "pipeline/stage/segmentation_report.hpp"
 #include "pipeline/stage/stage.hpp"
@@ -30,8 +30,8 @@ class FineStages {
   /// `profile` must have shape.rows rings. `return_capacity`: of the images to come. `made`: as
   /// CoarseStages, on this thread; filled where it is needed, unless it has the frame's points.
   FineStages(const SegmenterConfig& config, const mount::RingProfile& profile,
-             frame::ImageShape shape, std::size_t return_capacity,
-             memory::FixedMemory& memory, frame::FramePoints* made = nullptr);
+             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
+             frame::FramePoints* made = nullptr);
 
   /// Labels the returns of a frame. `planes`: what CoarseStages::finish() made of it; labels in
   /// them become final. Where `budget` has expired before the random field, or too soon in its cut,

@@ -42,19 +42,18 @@ struct NearGround {
 
 /// Whether the strip may have a return in a column: 30 degrees to either side of straight ahead and
 /// of straight behind.
-[[nodiscard]] bool is_near_ground_column(int column,
-                                         const frame::ImageShape& shape) noexcept
+[[nodiscard]] bool is_near_ground_column(int column, const frame::ImageShape& shape) noexcept
     TERRACUT_NONBLOCKING;
 
 /// Fills `ground` with returns of the strip, evenly thinned out. Looks at kMostCellsLookedAt cells
-/// of those columns at most. `points`: of the whole image, good there; `height_m`: any height of each
-/// cell that is NaN where it has no return. Real-time safe.
+/// of those columns at most. `points`: of the whole image, good there; `height_m`: any height of
+/// each cell that is NaN where it has no return. Real-time safe.
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,
                       const frame::ImageShape& shape,
                       NearGround& ground) noexcept TERRACUT_NONBLOCKING;
 /// Of an image that has points.
-inline void take_near_ground(const frame::RangeImage& image, NearGround& ground) noexcept
-    TERRACUT_NONBLOCKING {
+inline void take_near_ground(const frame::RangeImage& image,
+                             NearGround& ground) noexcept TERRACUT_NONBLOCKING {
   take_near_ground(image.points(), image.z_m(), image.shape(), ground);
 }
 

@@ -25,9 +25,9 @@ class Segmenter {
             frame::ImageShape shape, std::size_t return_capacity, memory::FixedMemory& memory,
             std::unique_ptr<frame::TileReader> reader = nullptr)
       : planes_(shape, memory),
-        made_(reader == nullptr ? nullptr
-                                : std::make_unique<frame::FramePoints>(shape, std::move(reader),
-                                                                       memory)),
+        made_(reader == nullptr
+                  ? nullptr
+                  : std::make_unique<frame::FramePoints>(shape, std::move(reader), memory)),
         coarse_(config, profile, shape, memory, made_.get()),
         fine_(config, profile, shape, return_capacity, memory, made_.get()) {}
 

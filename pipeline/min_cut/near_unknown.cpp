@@ -26,9 +26,9 @@ void NearUnknown::find(std::span<const Seed> seeds) noexcept {
     const std::size_t below = row == 0 ? row : row - 1;
     const std::size_t above = row + 1 == rows_ ? row : row + 1;
     for (std::size_t group = 0; group < groups_; ++group) {
-      near_[row * groups_ + group] = static_cast<std::uint8_t>(
-          unknown_[row * groups_ + group] | unknown_[below * groups_ + group] |
-          unknown_[above * groups_ + group]);
+      near_[row * groups_ + group] = static_cast<std::uint8_t>(unknown_[row * groups_ + group] |
+                                                               unknown_[below * groups_ + group] |
+                                                               unknown_[above * groups_ + group]);
     }
   }
 }

@@ -43,8 +43,7 @@ void write_labels(std::span<const std::uint8_t> of_firing, frame::Label* next) n
 
 ReturnLabels::ReturnLabels(const Config& config, std::size_t return_capacity,
                            memory::FixedMemory& memory)
-    : config_(config),
-      labels_(memory.take<frame::Label>("return labels", return_capacity + 1)) {}
+    : config_(config), labels_(memory.take<frame::Label>("return labels", return_capacity + 1)) {}
 
 void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& planes) noexcept {
   returns_ = image.returns();
@@ -56,10 +55,9 @@ void ReturnLabels::assign(const frame::RangeImage& image, const CellPlanes& plan
     labels_[label != frame::Label::kNone ? index[cell] : nowhere] = label;
   }
   for (const frame::OverflowReturn& extra : image.overflow()) {
-    labels_[extra.return_index] =
-        label_of_extra(extra.point.z_m - image.z_m()[extra.cell],
-                       extra.point.ground_range_m - image.ground_range_m()[extra.cell], extra.cell,
-                       planes);
+    labels_[extra.return_index] = label_of_extra(
+        extra.point.z_m - image.z_m()[extra.cell],
+        extra.point.ground_range_m - image.ground_range_m()[extra.cell], extra.cell, planes);
   }
 }
 
@@ -91,7 +89,8 @@ void ReturnLabels::assign(const frame::MeasuredReturns& returns, const frame::Po
                             of_laser[i].data());
         continue;
       }
-      if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(tile.heads, returns.raw(t));
+      if (row.owned != row.returns && !std::exchange(is_open, true))
+        reader.open(tile.heads, returns.raw(t));
       of_laser[i] = labels_of_row(returns, t, i, points, reader, planes);
     }
     frame::transpose(of_laser[0].data(), lasers, frame::kTileFirings, of_firing.data());
@@ -113,13 +112,13 @@ ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturn
   if (row.owned != row.returns) reader.compute_points(laser, all_of(extra));
   for (std::uint32_t left = row.returns; left != 0; left &= left - 1) {
     const auto f = static_cast<std::size_t>(std::countr_zero(left));
-    const std::size_t cell = returns.shape().cell(reader.rows()[laser], returns.column(tile, laser, f));
+    const std::size_t cell =
+        returns.shape().cell(reader.rows()[laser], returns.column(tile, laser, f));
     const frame::Label label =
         (row.owned >> f & 1U) != 0
-                    ? planes.label[cell]
-                    : label_of_extra(extra.z_m[f] - points.z_m[cell],
-                                     extra.ground_range_m[f] - points.ground_range_m[cell], cell,
-                                     planes);
+            ? planes.label[cell]
+            : label_of_extra(extra.z_m[f] - points.z_m[cell],
+                             extra.ground_range_m[f] - points.ground_range_m[cell], cell, planes);
     labels[f] = static_cast<std::uint8_t>(label);
   }
   return labels;

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/firing_tile.hpp"
+#include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/measured_returns.hpp"
 #include "firmware_io/frame/point_planes.hpp"
 #include "firmware_io/frame/range_image.hpp"

@@ -98,9 +98,8 @@ struct MeasuredReturnsTest : testing::Test {
   std::vector<float> extras() {
     std::vector<float> found;
     FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
-    (void)points.for_each_extra(image, {0, kShape.columns}, [&](int, float, float range_m) {
-      found.push_back(range_m);
-    });
+    (void)points.for_each_extra(image, {0, kShape.columns},
+                                [&](int, float, float range_m) { found.push_back(range_m); });
     return found;
   }
 

@@ -101,13 +101,13 @@ class Replay {
       : options_(options),
         capture_(capture),
         motion_(motion),
-        pipeline_(capture.calibration, profile,
-                  decoder_config_of(options, capture.sensor.columns,
-                                    FrameOutputs::need_points(options.output)
-                                        ? FramesAreFor::kPoints
-                                        : FramesAreFor::kLabels,
-                                    motion != nullptr ? &motion->motion() : nullptr),
-                  method_config_of(options.method), memory_),
+        pipeline_(
+            capture.calibration, profile,
+            decoder_config_of(options, capture.sensor.columns,
+                              FrameOutputs::need_points(options.output) ? FramesAreFor::kPoints
+                                                                        : FramesAreFor::kLabels,
+                              motion != nullptr ? &motion->motion() : nullptr),
+            method_config_of(options.method), memory_),
         clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
         mount_(profile.mount, mount),

@@ -125,10 +125,9 @@ ExitCode run_segment(const Options& options) {
                                     labeller.truth_of_returns());
     }
     if (written) {
-      written = outputs.write_returns({record.info.number, 0, labeller.image,
-                                       labeller.segmenter.planes().height_m,
-                                       labeller.segmenter.labels(),
-                                       labeller.scan_to_image.point_of_return()});
+      written = outputs.write_returns(
+          {record.info.number, 0, labeller.image, labeller.segmenter.planes().height_m,
+           labeller.segmenter.labels(), labeller.scan_to_image.point_of_return()});
     }
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));

@@ -55,10 +55,10 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
     if (!opened) return tl::unexpected(opened.error());
     motion.emplace(*std::move(opened));
   }
-  decode::Decoder decoder(
-      capture->calibration, *mount,
-      decoder_config_of(options, capture->sensor.columns, FramesAreFor::kPoints, motion ? &motion->motion() : nullptr),
-      memory);
+  decode::Decoder decoder(capture->calibration, *mount,
+                          decoder_config_of(options, capture->sensor.columns, FramesAreFor::kPoints,
+                                            motion ? &motion->motion() : nullptr),
+                          memory);
   const auto take_frames = [&]() -> Status {
     while (const frame::Frame* const frame = decoder.next()) {
       const auto its = wanted.find(fmt::format("{:06}", frame->info.number));

@@ -13,8 +13,9 @@ namespace terracut::cli {
 Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
                                  const OnFrame& on_frame) {
   memory::FixedMemory memory;
-  decode::Decoder decoder(capture_.calibration, mount,
-                          decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kPoints), memory);
+  decode::Decoder decoder(
+      capture_.calibration, mount,
+      decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kPoints), memory);
   Status going;
   std::size_t shown = 0;
   const auto hand_out = [&] {

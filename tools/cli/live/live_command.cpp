@@ -156,10 +156,10 @@ struct LiveParts {
   static decode::Decoder::Config decoder_config(const Options& options,
                                                 const sensor::SensorOnAir& sensor,
                                                 std::optional<run::VehicleMotion>& motion) {
-    auto config = decoder_config_of(
-        options, sensor.columns,
-        options.stream.empty() ? FramesAreFor::kLabels : FramesAreFor::kPoints,
-        motion ? &motion->motion() : nullptr);
+    auto config =
+        decoder_config_of(options, sensor.columns,
+                          options.stream.empty() ? FramesAreFor::kLabels : FramesAreFor::kPoints,
+                          motion ? &motion->motion() : nullptr);
     config.reorder_packets = options.capture.reorder_packets.value_or(0);
     return config;
   }

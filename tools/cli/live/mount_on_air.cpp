@@ -18,7 +18,8 @@ MountChoice mount_on_air(net::LiveSource& source, const sensor::SensorOnAir& sen
   if (!is_mount_open(options.mount)) return {options.mount, {}};
   memory::FixedMemory memory;
   decode::Decoder decoder(sensor.calibration, kAtTheSensor,
-                          decoder_config_of(options, sensor.columns, FramesAreFor::kPoints), memory);
+                          decoder_config_of(options, sensor.columns, FramesAreFor::kPoints),
+                          memory);
   const auto ground = std::make_unique<ground::NearGround>();
   mount::MountFinder finder;
   const auto is_enough = [&] {

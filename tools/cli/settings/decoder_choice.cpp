@@ -7,8 +7,8 @@
 
 namespace terracut::cli {
 
-decode::Decoder::Config decoder_config_of(const Options& options, int columns,
-                                          FramesAreFor purpose, vehicle::EgoMotion* motion) {
+decode::Decoder::Config decoder_config_of(const Options& options, int columns, FramesAreFor purpose,
+                                          vehicle::EgoMotion* motion) {
   const CaptureOptions& capture = options.capture;
   decode::Decoder::Config config;
   config.columns = columns;

@@ -168,7 +168,8 @@ TEST(SensorRows, LeavePointsThatAreNoReturnsAndOfLasersNeverSeenWithoutOne) {
   cloud.laser[5] = 16;
   scan::RingRecovery found;
   ASSERT_TRUE(RowFinder(*rows).find({cloud.points, cloud.laser}, found));
-  for (const std::size_t point : {3, 4, 5}) EXPECT_EQ(found.ring_of_point[point], kNoRing);
+  for (const std::size_t point : {std::size_t{3}, std::size_t{4}, std::size_t{5}})
+    EXPECT_EQ(found.ring_of_point[point], kNoRing);
   EXPECT_EQ(found.no_ring, 3U);
 }
 

@@ -192,6 +192,10 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
            .returns = is_whole ? hits : hits & inside(beam, first, end),
            .owned = 0,
            .is_run = false};
+  if (taken.returns == 0) {
+    taken.most = -1;
+    return;
+  }
   std::uint16_t* const columns = &columns_[((used_ - 1) * lasers_ + laser) * kTileFirings];
   for (std::size_t f = 0; f < kTileFirings; ++f) {
     columns[f] = static_cast<std::uint16_t>(beam.column[f] - first);

@@ -53,8 +53,7 @@ void FineStages::take_near_ground(const frame::RangeImage& image, const stage::C
                                   NearGround& ground) noexcept {
   if (made_ == nullptr) return ground::take_near_ground(image, ground);
   made_->make_where(image, [this](int, frame::ColumnRange columns) noexcept {
-    return is_near_ground_column(columns.begin, shape_) ||
-           is_near_ground_column(columns.end - 1, shape_);
+    return has_near_ground_columns(columns, shape_);
   });
   ground::take_near_ground(made_->planes(), planes.height_m, shape_, ground);
 }

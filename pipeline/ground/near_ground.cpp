@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 namespace terracut::ground {
 namespace {
@@ -14,10 +13,14 @@ constexpr int kSectorsAFrame = 6;
 
 }  // namespace
 
-bool is_near_ground_column(int column, const frame::ImageShape& shape) noexcept {
+bool has_near_ground_columns(frame::ColumnRange columns, const frame::ImageShape& shape) noexcept {
   const int half = (shape.columns / kSectorsAFrame + 1) / 2;
-  const int from_ahead = std::min(column, shape.columns - column);
-  return from_ahead <= half || std::abs(column - shape.columns / 2) <= half;
+  const auto reaches = [&](int begin, int end) noexcept {
+    return columns.begin < end && columns.end > begin;
+  };
+  const int behind = shape.columns / 2;
+  return reaches(0, half + 1) || reaches(shape.columns - half, shape.columns) ||
+         reaches(behind - half, behind + half + 1);
 }
 
 void take_near_ground(const frame::PointPlanes& points, std::span<const float> height_m,

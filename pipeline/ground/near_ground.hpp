@@ -40,10 +40,10 @@ struct NearGround {
          range2_m2 <= NearGround::kFarthest_m * NearGround::kFarthest_m;
 }
 
-/// Whether the strip may have a return in a column: 30 degrees to either side of straight ahead and
-/// of straight behind.
-[[nodiscard]] bool is_near_ground_column(int column, const frame::ImageShape& shape) noexcept
-    TERRACUT_NONBLOCKING;
+/// Whether the strip may have a return in one of these columns: 30 degrees to either side of
+/// straight ahead and of straight behind.
+[[nodiscard]] bool has_near_ground_columns(
+    frame::ColumnRange columns, const frame::ImageShape& shape) noexcept TERRACUT_NONBLOCKING;
 
 /// Fills `ground` with returns of the strip, evenly thinned out. Looks at kMostCellsLookedAt cells
 /// of those columns at most. `points`: of the whole image, good there; `height_m`: any height of

@@ -138,6 +138,18 @@ TEST_F(MeasuredReturnsTest, OfAnotherFrameAreLeftOut) {
   EXPECT_EQ(image.measured()->column(0, 2, 23), 13);
 }
 
+TEST_F(MeasuredReturnsTest, OfALaserThatIsAheadOfTheOthersMayAllBeOfTheNextFrame) {
+  Measured tile(190);
+  tile.raw[2].fill(50);
+  tile.raw[7].fill(60);
+  for (std::int32_t& column : tile.beams[7].column) column += 150;
+  tile.settle();
+  EXPECT_EQ(add(tile), 0U);
+  EXPECT_EQ(image.returns(), 10U);
+  EXPECT_EQ(image.measured()->row(0, 7).returns, 0U);
+  EXPECT_EQ(image.measured()->tile(0).most, 199);
+}
+
 TEST_F(MeasuredReturnsTest, ThatFindNoRoomAreCounted) {
   Measured tile(0);
   tile.raw[4][3] = tile.raw[5][3] = 9;

@@ -195,6 +195,7 @@ class LiveFrames : public testing::Test {
     decode::Decoder::Config config;
     config.columns = 2083;
     config.reorder_packets = 0;
+    config.keeps_measured = true;
     return config;
   }
   LivePipeline chain_{calibration_, profile_, decoder_config(), {}, memory_};

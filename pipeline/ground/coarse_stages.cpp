@@ -3,6 +3,7 @@
 #include "pipeline/ground/coarse_stages.hpp"
 
 #include <algorithm>
+#include <cassert>
 
 namespace terracut::ground {
 namespace {
@@ -37,6 +38,7 @@ CoarseStages::CoarseStages(const Suited& suited, const mount::RingProfile& profi
                                             static_cast<std::size_t>(map_.grid().sectors()))) {}
 
 void CoarseStages::begin(const frame::RangeImage& image) noexcept {
+  assert((image.measured() != nullptr) == (made_ != nullptr));
   image_ = &image;
   generation_ = image.generation();
   labelled_ = 0;

@@ -417,7 +417,8 @@ TEST_F(LiveFrames, CoarseStagesThatWereNotFarEnoughAreDoneByTheSegmentingHalf) {
   send(packets);
   send(later);
   ground::Segmenter at_once(ground::terracut_profile(), profile_, chain_.decoder.shape(),
-                            chain_.decoder.return_capacity(), memory_);
+                            chain_.decoder.return_capacity(), memory_,
+                            chain_.decoder.make_reader(memory_));
   int ahead = 0, late = 0;
   while (source_.has_more()) {
     if (receiver_->work_round(100 * kMs).frames == 0) continue;

@@ -13,3 +13,11 @@
 #else
 #define TERRACUT_VECTOR_CLONES
 #endif
+
+/// The same for a function that many inline functions are compiled into. With clang it is compiled
+/// once, see above.
+#if defined(__clang__)
+#define TERRACUT_VECTOR_CLONES_OF_INLINED
+#else
+#define TERRACUT_VECTOR_CLONES_OF_INLINED TERRACUT_VECTOR_CLONES
+#endif

@@ -13,13 +13,11 @@ bool has_expired(const min_cut::CutBudget& budget) noexcept {
 }
 
 /// The weights of the cut's edges, most of its work, are compiled into this.
-TERRACUT_VECTOR_CLONES min_cut::CutReport solve(min_cut::GridCut& cut,
-                                                const min_cut::GridProblem& problem,
-                                                const random_field::RegionTerm& region,
-                                                const random_field::BoundaryTerm& boundary,
-                                                const min_cut::CutBudget& budget,
-                                                std::span<frame::Label> labels) noexcept
-    TERRACUT_NONBLOCKING {
+TERRACUT_VECTOR_CLONES_OF_INLINED min_cut::CutReport solve(
+    min_cut::GridCut& cut, const min_cut::GridProblem& problem,
+    const random_field::RegionTerm& region, const random_field::BoundaryTerm& boundary,
+    const min_cut::CutBudget& budget,
+    std::span<frame::Label> labels) noexcept TERRACUT_NONBLOCKING {
   return cut.solve(problem, region, boundary, budget, labels);
 }
 

@@ -58,8 +58,8 @@ class Decoder {
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
     /// Frames keep their returns as they were measured, for whoever makes points of them where they
-    /// are needed (make_reader()): a third of the memory and half of the time. Not where `motion`
-    /// is taken out of them.
+    /// are needed (make_reader()): less than a third of the memory. Not where `motion` is taken out
+    /// of them.
     bool keeps_measured = false;
     /// Packets that come late by so many still find their frame: it is handed over when the
     /// hindmost beam of the packet so many before the newest begins past the seam. Costs their time

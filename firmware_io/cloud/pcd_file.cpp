@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "firmware_io/cloud/cloud_bytes.hpp"
+#include "firmware_io/cloud/header_lines.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 
 namespace terracut::cloud {
@@ -57,7 +58,7 @@ std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t byt
 /// Reads one file; what is wrong with it ends the reading.
 class PcdReader {
  public:
-  PcdReader(std::string_view content, const std::string& name) : rest_(content), name_(name) {}
+  PcdReader(std::string_view content, const std::string& name) : lines_{content}, name_(name) {}
 
   Expected<FieldTable> read() {
     if (const Status header = read_header(); !header) return tl::unexpected(header.error());
@@ -90,17 +91,9 @@ class PcdReader {
     return fail(code, name_ + ": " + quotable(std::move(what)));
   }
 
-  std::string_view next_line() {
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++line_;
-    return line;
-  }
-
   Status read_header() {
-    while (!rest_.empty()) {
-      const auto words = words_of(next_line());
+    while (!lines_.rest.empty()) {
+      const auto words = words_of(lines_.next());
       if (words.empty() || words[0].starts_with('#')) continue;
       const std::span<const std::string_view> values(words.begin() + 1, words.end());
       if (const Status taken = take_header_line(words[0], values); !taken) return taken;
@@ -113,7 +106,7 @@ class PcdReader {
     if (key == "FIELDS") {
       for (const std::string_view value : values) {
         if (value.size() > kLongestFieldName || !std::ranges::all_of(value, is_printable)) {
-          return refuse(fmt::format("line {}: a field is named '{}'", line_, value));
+          return refuse(fmt::format("line {}: a field is named '{}'", lines_.number, value));
         }
         fields_.push_back({.name = std::string(value)});
       }
@@ -122,7 +115,7 @@ class PcdReader {
     if (key == "SIZE" || key == "TYPE" || key == "COUNT") return take_field_line(key, values);
     if (key == "POINTS") {
       const auto points = values.size() == 1 ? whole_number(values[0]) : std::nullopt;
-      if (!points) return refuse(fmt::format("line {}: POINTS is no number", line_));
+      if (!points) return refuse(fmt::format("line {}: POINTS is no number", lines_.number));
       points_ = *points;
       has_points_ = true;
       return {};
@@ -131,22 +124,22 @@ class PcdReader {
       data_ = values.size() == 1 ? std::string(values[0]) : "";
       if (data_ == "ascii" || data_ == "binary" || data_ == "binary_compressed") return {};
       return refuse(fmt::format("line {}: DATA {}; expected ascii, binary or binary_compressed",
-                                line_, fmt::join(values, " ")),
+                                lines_.number, fmt::join(values, " ")),
                     ErrorCode::kUnsupported);
     }
     if (key == "WIDTH" || key == "HEIGHT") {
       std::optional<std::size_t>& side = key == "WIDTH" ? width_ : height_;
       side = values.size() == 1 ? whole_number(values[0]) : std::nullopt;
-      if (!side) return refuse(fmt::format("line {}: {} is no number", line_, key));
+      if (!side) return refuse(fmt::format("line {}: {} is no number", lines_.number, key));
       return {};
     }
     if (key == "VERSION" || key == "VIEWPOINT") return {};
-    return refuse(fmt::format("no PCD file: line {} of its header is none", line_));
+    return refuse(fmt::format("no PCD file: line {} of its header is none", lines_.number));
   }
 
   Status take_field_line(std::string_view key, std::span<const std::string_view> values) {
     if (values.size() != fields_.size()) {
-      return refuse(fmt::format("line {}: {} has {} entries for {} fields", line_, key,
+      return refuse(fmt::format("line {}: {} has {} entries for {} fields", lines_.number, key,
                                 values.size(), fields_.size()));
     }
     for (std::size_t i = 0; i < fields_.size(); ++i) {
@@ -163,8 +156,8 @@ class PcdReader {
         good = field.count >= 1 && field.count <= kMostValues;
       }
       if (!good) {
-        return refuse(
-            fmt::format("line {}: {} of field {} is '{}'", line_, key, field.name, values[i]));
+        return refuse(fmt::format("line {}: {} of field {} is '{}'", lines_.number, key, field.name,
+                                  values[i]));
       }
     }
     return {};
@@ -230,21 +223,21 @@ class PcdReader {
   }
 
   Status read_binary(FieldTable& cloud) const {
-    if (rest_.size() < points_ * point_bytes()) {
+    if (lines_.rest.size() < points_ * point_bytes()) {
       return refuse(
           fmt::format("truncated: {} bytes of data, expected {} for {} points of {} bytes",
-                      rest_.size(), points_ * point_bytes(), points_, point_bytes()));
+                      lines_.rest.size(), points_ * point_bytes(), points_, point_bytes()));
     }
-    take_values(rest_, Order::kByPoint, cloud);
+    take_values(lines_.rest, Order::kByPoint, cloud);
     return {};
   }
 
   /// The sizes of the data as they stand and as they were, as uint32, then the data.
   Status read_compressed(FieldTable& cloud) const {
     std::array<std::uint32_t, 2> sizes{};
-    if (rest_.size() < sizeof(sizes)) return refuse("truncated: its data have no sizes");
-    std::memcpy(sizes.data(), rest_.data(), sizeof(sizes));
-    const std::string_view packed = rest_.substr(sizeof(sizes));
+    if (lines_.rest.size() < sizeof(sizes)) return refuse("truncated: its data have no sizes");
+    std::memcpy(sizes.data(), lines_.rest.data(), sizeof(sizes));
+    const std::string_view packed = lines_.rest.substr(sizeof(sizes));
     if (packed.size() < sizes[0]) {
       return refuse(
           fmt::format("truncated: {} bytes of data, expected {}", packed.size(), sizes[0]));
@@ -263,25 +256,26 @@ class PcdReader {
     std::size_t values = 0;
     for (const Field& field : fields_) values += field.count;
     // A digit and what separates it from the next, but for the last.
-    if (rest_.size() + 1 < points_ * values * 2) {
+    if (lines_.rest.size() + 1 < points_ * values * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
-                                rest_.size(), points_, values));
+                                lines_.rest.size(), points_, values));
     }
     for (std::size_t i = 0; i < points_; ++i) {
-      if (rest_.empty()) {
+      if (lines_.rest.empty()) {
         return refuse(fmt::format("truncated: {} lines of data, expected {}", i, points_));
       }
-      const auto words = words_of(next_line());
+      const auto words = words_of(lines_.next());
       if (words.size() != values) {
-        return refuse(fmt::format("line {}: {} values, expected {}", line_, words.size(), values));
+        return refuse(
+            fmt::format("line {}: {} values, expected {}", lines_.number, words.size(), values));
       }
       std::size_t word = 0, kept = 0;
       for (const Field& field : fields_) {
         if (field.count == 1) {
           const auto value = number(words[word]);
           if (!value) {
-            return refuse(
-                fmt::format("line {}: {} is '{}', no number", line_, field.name, words[word]));
+            return refuse(fmt::format("line {}: {} is '{}', no number", lines_.number, field.name,
+                                      words[word]));
           }
           cloud.values[kept++].push_back(*value);
         }
@@ -293,9 +287,8 @@ class PcdReader {
 
   static constexpr std::size_t kMostValues = 4096;  ///< Of one field; a histogram has hundreds.
 
-  std::string_view rest_;
+  HeaderLines lines_;
   const std::string& name_;
-  std::size_t line_ = 0;
   std::vector<Field> fields_;
   std::size_t points_ = 0;
   bool has_points_ = false;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "firmware_io/cloud/cloud_bytes.hpp"
+#include "firmware_io/cloud/header_lines.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 
 namespace terracut::cloud {
@@ -29,7 +30,7 @@ constexpr TypeName kTypes[] = {
 /// Reads one file; what is wrong with it ends the reading.
 class PlyReader {
  public:
-  PlyReader(std::string_view content, const std::string& name) : rest_(content), name_(name) {}
+  PlyReader(std::string_view content, const std::string& name) : lines_{content}, name_(name) {}
 
   Expected<FieldTable> read() {
     if (const Status header = read_header(); !header) return tl::unexpected(header.error());
@@ -55,20 +56,12 @@ class PlyReader {
     return fail(code, name_ + ": " + quotable(std::move(what)));
   }
 
-  std::string_view next_line() {
-    const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-    const std::string_view line = rest_.substr(0, end);
-    rest_.remove_prefix(std::min(end + 1, rest_.size()));
-    ++line_;
-    return line;
-  }
-
   Status read_header() {
-    if (words_of(next_line()) != std::vector<std::string_view>{"ply"}) {
+    if (words_of(lines_.next()) != std::vector<std::string_view>{"ply"}) {
       return refuse("no PLY file: it does not begin with the line ply");
     }
-    while (!rest_.empty()) {
-      const auto words = words_of(next_line());
+    while (!lines_.rest.empty()) {
+      const auto words = words_of(lines_.next());
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") return {};
       if (const Status taken = take_header_line(words); !taken) return taken;
@@ -85,30 +78,31 @@ class PlyReader {
       if (has_format_ && words[2] == "1.0") return {};
       return refuse(fmt::format("line {}: format {} {}; expected ascii, binary_little_endian or "
                                 "binary_big_endian, 1.0",
-                                line_, words[1], words[2]),
+                                lines_.number, words[1], words[2]),
                     ErrorCode::kUnsupported);
     }
     if (words[0] == "element" && words.size() == 3) {
       ++elements_;
       if (elements_ > 1) return {};
       if (words[1] != "vertex") {
-        return refuse(
-            fmt::format("line {}: its first element is '{}', expected vertex", line_, words[1]),
-            ErrorCode::kUnsupported);
+        return refuse(fmt::format("line {}: its first element is '{}', expected vertex",
+                                  lines_.number, words[1]),
+                      ErrorCode::kUnsupported);
       }
       const auto points = whole_number(words[2]);
-      if (!points) return refuse(fmt::format("line {}: the vertices' number is none", line_));
+      if (!points)
+        return refuse(fmt::format("line {}: the vertices' number is none", lines_.number));
       points_ = *points;
       return {};
     }
     if (words[0] == "property" && elements_ > 1) return {};
     if (words[0] == "property" && words.size() == 3) return take_property(words[1], words[2]);
     if (words[0] == "property" && words.size() == 5 && words[1] == "list") {
-      return refuse(
-          fmt::format("line {}: a vertex has the list '{}'; expected numbers", line_, words[4]),
-          ErrorCode::kUnsupported);
+      return refuse(fmt::format("line {}: a vertex has the list '{}'; expected numbers",
+                                lines_.number, words[4]),
+                    ErrorCode::kUnsupported);
     }
-    return refuse(fmt::format("no PLY file: line {} of its header is none", line_));
+    return refuse(fmt::format("no PLY file: line {} of its header is none", lines_.number));
   }
 
   Status take_property(std::string_view type, std::string_view property) {
@@ -116,10 +110,10 @@ class PlyReader {
       return type == candidate.name || type == candidate.other_name;
     });
     if (known == std::end(kTypes)) {
-      return refuse(fmt::format("line {}: '{}' is no type of a property", line_, type));
+      return refuse(fmt::format("line {}: '{}' is no type of a property", lines_.number, type));
     }
     if (property.size() > kLongestFieldName || !std::ranges::all_of(property, is_printable)) {
-      return refuse(fmt::format("line {}: a property is named '{}'", line_, property));
+      return refuse(fmt::format("line {}: a property is named '{}'", lines_.number, property));
     }
     properties_.push_back({std::string(property), known->type, known->bytes});
     return {};
@@ -142,12 +136,12 @@ class PlyReader {
   Status read_binary(FieldTable& table) const {
     std::size_t point_bytes = 0;
     for (const Property& property : properties_) point_bytes += property.bytes;
-    if (rest_.size() < points_ * point_bytes) {
+    if (lines_.rest.size() < points_ * point_bytes) {
       return refuse(
           fmt::format("truncated: {} bytes of data, expected {} for {} points of {} bytes",
-                      rest_.size(), points_ * point_bytes, points_, point_bytes));
+                      lines_.rest.size(), points_ * point_bytes, points_, point_bytes));
     }
-    const char* first = rest_.data();
+    const char* first = lines_.rest.data();
     for (std::size_t i = 0; i < properties_.size(); ++i) {
       const Property& property = properties_[i];
       table.values[i].reserve(points_);
@@ -162,21 +156,21 @@ class PlyReader {
 
   Status read_text(FieldTable& table) {
     // A digit and what separates it from the next, but for the last.
-    if (rest_.size() + 1 < points_ * properties_.size() * 2) {
+    if (lines_.rest.size() + 1 < points_ * properties_.size() * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
-                                rest_.size(), points_, properties_.size()));
+                                lines_.rest.size(), points_, properties_.size()));
     }
     for (std::size_t point = 0; point < points_; ++point) {
-      const auto words = words_of(next_line());
+      const auto words = words_of(lines_.next());
       if (words.size() != properties_.size()) {
-        return refuse(fmt::format("line {}: {} values, expected {}", line_, words.size(),
+        return refuse(fmt::format("line {}: {} values, expected {}", lines_.number, words.size(),
                                   properties_.size()));
       }
       for (std::size_t i = 0; i < words.size(); ++i) {
         const auto value = number(words[i]);
         if (!value) {
-          return refuse(
-              fmt::format("line {}: {} is '{}', no number", line_, properties_[i].name, words[i]));
+          return refuse(fmt::format("line {}: {} is '{}', no number", lines_.number,
+                                    properties_[i].name, words[i]));
         }
         table.values[i].push_back(*value);
       }
@@ -184,9 +178,8 @@ class PlyReader {
     return {};
   }
 
-  std::string_view rest_;
+  HeaderLines lines_;
   const std::string& name_;
-  std::size_t line_ = 0;
   std::vector<Property> properties_;
   int elements_ = 0;
   std::size_t points_ = 0;

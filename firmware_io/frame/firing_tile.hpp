@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,14 @@ inline constexpr std::size_t kTileFirings = 24;
 /// One value of each firing of a tile.
 template <class Value>
 using TileRow = std::array<Value, kTileFirings>;
+
+/// Calls `visit(firing)` for each bit that is set, in order.
+template <class Visit>
+void for_each_firing(std::uint32_t firings, Visit visit) noexcept {
+  for (; firings != 0; firings &= firings - 1) {
+    visit(static_cast<std::size_t>(std::countr_zero(firings)));
+  }
+}
 
 /// Points of one laser of a tile, vehicle frame, metres; NaN where it has no return.
 struct TilePoints {

@@ -53,14 +53,13 @@ void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile,
     return;
   }
   reader_->compute_points(laser, all_of(points_));
-  for (std::uint32_t owned = row.owned; owned != 0; owned &= owned - 1) {
-    const auto f = static_cast<std::size_t>(std::countr_zero(owned));
+  for_each_firing(row.owned, [&](std::size_t f) noexcept {
     const std::size_t cell = first + static_cast<std::size_t>(returns.column(tile, laser, f));
     x_m_[cell] = points_.x_m[f];
     y_m_[cell] = points_.y_m[f];
     z_m_[cell] = points_.z_m[f];
     ground_range_m_[cell] = points_.ground_range_m[f];
-  }
+  });
 }
 
 }  // namespace terracut::frame

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -96,16 +95,15 @@ std::size_t FramePoints::for_each_extra(const RangeImage& image, ColumnRange col
     reader_->open(tile.heads, returns.raw(t));
     for (std::size_t i = 0; i < returns.lasers(); ++i) {
       const MeasuredReturns::LaserRow& row = returns.row(t, i);
-      std::uint32_t extras = row.returns & ~row.owned;
+      const std::uint32_t extras = row.returns & ~row.owned;
       if (extras == 0 || row.least >= columns.end || row.most < columns.begin) continue;
       reader_->compute_points(i, all_of(points_));
-      for (; extras != 0; extras &= extras - 1) {
-        const auto f = static_cast<std::size_t>(std::countr_zero(extras));
+      for_each_firing(extras, [&](std::size_t f) noexcept {
         const int column = returns.column(t, i, f);
-        if (column < columns.begin || column >= columns.end) continue;
+        if (column < columns.begin || column >= columns.end) return;
         visit(column, points_.z_m[f], points_.ground_range_m[f]);
         ++found;
-      }
+      });
     }
   }
   return found;

@@ -41,11 +41,6 @@ std::uint32_t inside(const BeamColumns& beam, std::int32_t begin, std::int32_t e
   return bits;
 }
 
-template <class Visit>
-void for_each_bit(std::uint32_t bits, Visit visit) noexcept {
-  for (; bits != 0; bits &= bits - 1) visit(static_cast<std::size_t>(std::countr_zero(bits)));
-}
-
 /// The bits of the 64 columns from this one on.
 std::uint64_t bits_from(std::span<const std::uint64_t> bits, std::size_t column) noexcept {
   const std::size_t word = column / kWordBits, shift = column % kWordBits;
@@ -162,7 +157,7 @@ void MeasuredReturns::number_returns(const NewTile& tile, Tile& added,
     count_all(tile.raw, lasers_, counts.data());
   } else {
     for (const LaserRow& row : rows) {
-      for_each_bit(row.returns, [&](std::size_t f) noexcept { ++counts[f]; });
+      for_each_firing(row.returns, [&](std::size_t f) noexcept { ++counts[f]; });
     }
   }
   for (std::size_t f = 0; f < kTileFirings; ++f) {
@@ -206,7 +201,7 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     const auto column = static_cast<std::size_t>(least);
     const std::uint64_t before = bits_from(cells, column);
     std::uint64_t now = before;
-    for_each_bit(left, [&](std::size_t f) noexcept {
+    for_each_firing(left, [&](std::size_t f) noexcept {
       const std::uint64_t bit = std::uint64_t{1} << (columns[f] - static_cast<unsigned>(least));
       const bool is_free = (now & bit) == 0;
       now |= bit;
@@ -215,7 +210,7 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     add_bits(cells, column, now & ~before);
     left &= ~taken.owned;
   }
-  for_each_bit(left, [&](std::size_t f) noexcept {
+  for_each_firing(left, [&](std::size_t f) noexcept {
     take_cell({used_ - 1, laser, f}, row, columns[f], owner, reader);
   });
 }

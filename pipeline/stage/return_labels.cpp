@@ -3,7 +3,6 @@
 #include "pipeline/stage/return_labels.hpp"
 
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <utility>
@@ -110,8 +109,7 @@ ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturn
   if (row.returns == 0) return labels;
   frame::TilePoints extra;
   if (row.owned != row.returns) reader.compute_points(laser, all_of(extra));
-  for (std::uint32_t left = row.returns; left != 0; left &= left - 1) {
-    const auto f = static_cast<std::size_t>(std::countr_zero(left));
+  frame::for_each_firing(row.returns, [&](std::size_t f) noexcept {
     const std::size_t cell =
         returns.shape().cell(reader.rows()[laser], returns.column(tile, laser, f));
     const frame::Label label =
@@ -120,7 +118,7 @@ ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturn
             : label_of_extra(extra.z_m[f] - points.z_m[cell],
                              extra.ground_range_m[f] - points.ground_range_m[cell], cell, planes);
     labels[f] = static_cast<std::uint8_t>(label);
-  }
+  });
   return labels;
 }
 

@@ -13,7 +13,7 @@
 namespace terracut::scan {
 namespace {
 
-using Pose = std::array<double, 12>;
+using Pose = RigidMotion;
 
 constexpr Pose kDrawnT_camera_lidar{0, -1, 0,  0,      //
                                     0, 0,  -1, -0.08,  //
@@ -158,6 +158,12 @@ Expected<SensorMotion> SensorMotion::read(const std::filesystem::path& poses,
   return motion;
 }
 
+std::optional<RigidMotion> SensorMotion::between(std::uint32_t from, std::uint32_t to) const {
+  if (from >= camera_poses_.size() || to >= camera_poses_.size()) return std::nullopt;
+  const Pose T_to_from = product(inverse(camera_poses_[to]), camera_poses_[from]);
+  return product(inverse(T_camera_lidar_), product(T_to_from, T_camera_lidar_));
+}
+
 Expected<SensorTwist> SensorMotion::twist(std::uint32_t frame) const {
   if (frame >= times_s_.size()) {
     return fail(ErrorCode::kInvalidArgument,
@@ -166,11 +172,10 @@ Expected<SensorTwist> SensorMotion::twist(std::uint32_t frame) const {
   }
   const std::size_t before = frame == 0 ? 0 : frame - 1;
   const std::size_t after = std::min<std::size_t>(frame + 1, times_s_.size() - 1);
-  const Pose T_before_after = product(inverse(camera_poses_[before]), camera_poses_[after]);
-  const Pose in_sensor_frame =
-      product(inverse(T_camera_lidar_), product(T_before_after, T_camera_lidar_));
+  const Pose T_before_after =
+      *between(static_cast<std::uint32_t>(after), static_cast<std::uint32_t>(before));
   SensorTwist twist;
-  logarithm(in_sensor_frame, twist.angular_velocity_rad_s, twist.velocity_m_s);
+  logarithm(T_before_after, twist.angular_velocity_rad_s, twist.velocity_m_s);
   const double seconds = times_s_[after] - times_s_[before];
   for (double& w : twist.angular_velocity_rad_s) w /= seconds;
   double squares = 0;

@@ -19,6 +19,9 @@ struct SensorTwist {
   double frame_duration_s = 0.1;  ///< Of one frame of the head.
 };
 
+/// A rigid motion, row-major 3x4: p_to = rotation * p_from + translation.
+using RigidMotion = std::array<double, 12>;
+
 /// How the sensor moved during a recorded KITTI / SemanticKITTI sequence.
 class SensorMotion {
  public:
@@ -38,12 +41,14 @@ class SensorMotion {
   /// Error kInvalidArgument for a frame that the files do not have.
   [[nodiscard]] Expected<SensorTwist> twist(std::uint32_t frame) const;
 
- private:
-  using Pose = std::array<double, 12>;  // row-major 3x4
+  /// Takes what the sensor sees in frame `from` to where it is seen in frame `to`. Nothing for a
+  /// frame that the files do not have.
+  [[nodiscard]] std::optional<RigidMotion> between(std::uint32_t from, std::uint32_t to) const;
 
-  std::vector<Pose> camera_poses_;
+ private:
+  std::vector<RigidMotion> camera_poses_;
   std::vector<double> times_s_;
-  Pose T_camera_lidar_{};
+  RigidMotion T_camera_lidar_{};
   std::filesystem::path poses_path_;
 };
 

@@ -18,12 +18,14 @@ constexpr std::array kMethods{
     MethodName{"ring_map", "Ring-based elevation map, as printed"},
     MethodName{"ring_map_adjacent", "+ spatiotemporal adjacent points, as printed"},
     MethodName{"paper", "+ random field: the whole method as printed"},
+    MethodName{"terracut_ring_map", "Elevation map of the default profile"},
+    MethodName{"terracut_ring_map_adjacent", "+ adjacent points of the default profile"},
     MethodName{"terracut", "The default profile"},
     MethodName{"terracut_road", "The default profile, road surface told from other ground"},
 };
 
-MethodConfig paper_up_to(stage::Stage last) {
-  MethodConfig config(paper_profile());
+MethodConfig up_to(stage::Stage last, const SegmenterConfig& profile) {
+  MethodConfig config(profile);
   config.segmenter.last_stage = last;
   return config;
 }
@@ -44,9 +46,13 @@ Expected<MethodConfig> method_named(std::string_view name) {
   if (name == "pfaff") return baseline(MethodKind::kPfaff);
   if (name == "bogoslavskyi") return baseline(MethodKind::kBogoslavskyi);
   if (name == "zhang") return baseline(MethodKind::kZhang);
-  if (name == "ring_map") return paper_up_to(stage::Stage::kElevationMap);
-  if (name == "ring_map_adjacent") return paper_up_to(stage::Stage::kAdjacentPoints);
-  if (name == "paper") return paper_up_to(stage::Stage::kMinCut);
+  if (name == "ring_map") return up_to(stage::Stage::kElevationMap, paper_profile());
+  if (name == "ring_map_adjacent") return up_to(stage::Stage::kAdjacentPoints, paper_profile());
+  if (name == "paper") return up_to(stage::Stage::kMinCut, paper_profile());
+  if (name == "terracut_ring_map") return up_to(stage::Stage::kElevationMap, terracut_profile());
+  if (name == "terracut_ring_map_adjacent") {
+    return up_to(stage::Stage::kAdjacentPoints, terracut_profile());
+  }
   if (name == "terracut") return MethodConfig(terracut_profile());
   if (name == "terracut_road") {
     MethodConfig config(terracut_profile());

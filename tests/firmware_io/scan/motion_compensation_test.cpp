@@ -121,6 +121,18 @@ TEST(SensorMotion, TakesTheSensorsPlaceFromTheCalibration) {
   EXPECT_NEAR(motion->twist(1)->velocity_m_s[2], 10, 1e-9);
 }
 
+TEST(SensorMotion, TakesWhatOneFrameSeesToWhereAnotherSeesIt) {
+  const ScratchFolder folder;
+  const auto calib = folder.write("calib.txt", "Tr: 1 0 0 0 0 1 0 0 0 0 1 0\n");
+  const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),
+                                         folder.write("times.txt", kTimes), calib);
+  ASSERT_TRUE(motion);
+  const RigidMotion onward = motion->between(0, 1).value(), back = motion->between(1, 0).value();
+  EXPECT_LT(onward[11], -0.5);  // what stands comes nearer
+  EXPECT_NEAR(onward[11], -back[11], 1e-9);
+  EXPECT_FALSE(motion->between(0, 1000));
+}
+
 TEST(SensorMotion, RefusesFramesItHasNoPoseOf) {
   const ScratchFolder folder;
   const auto motion = SensorMotion::read(folder.write("poses.txt", kPoses),

@@ -201,6 +201,12 @@ std::string settings_line(const Options& options, const EvaluationConfig& config
                   TERRACUT_VERSION, identity_of_this_build(), options.eval.dataset,
                   datasets::to_string(config.layout), config.root.string(), config.through_packets,
                   config.mount.height_m, config.mount.roll_rad, config.mount.pitch_rad);
+  if (options.eval.dataset == "own") {
+    for (const datasets::ClassEntry& entry : config.classes->entries()) {
+      line += fmt::format(" class={}:{}:{}", entry.id, entry.name,
+                          static_cast<int>(entry.role(datasets::GroundDefinition::kAll)));
+    }
+  }
   if (!config.predictions.empty()) line += " predictions=" + config.predictions.string();
   if (is_simulated(options)) {
     const auto drives = drives_of(options);
@@ -306,6 +312,9 @@ ExitCode run_eval(const Options& options) {
   if (!classes) return refuse(classes.error());
   auto config = config_of(options, *classes);
   if (!config) return refuse(config.error());
+  // What stands tall and what moves is the dataset's matter: another table needs no second run.
+  const auto built_in = datasets::built_in_table(options.eval.dataset);
+  config->classes = built_in ? &*built_in : &*classes;
   std::optional<report::ChangedFrames> changed;
   if (!options.eval.changes.empty()) {
     config->changed_frames = &changed.emplace(config->methods, *classes);

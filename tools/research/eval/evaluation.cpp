@@ -10,13 +10,17 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/scan/sensor_motion.hpp"
+#include "frame_judge.hpp"
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
 #include "result_keeper.hpp"
+#include "rt/number_of.hpp"
 #include "rt/threads/thread_setup.hpp"
 
 namespace terracut::eval {
@@ -29,6 +33,16 @@ struct OpenSequence {
   std::string name;
   datasets::Sequence scans;
   mount::RingProfile profile;
+  std::optional<scan::SensorMotion> motion;  ///< Where poses lie beside the frames.
+
+  /// Takes what frame `scan` sees to frame `before`; nothing unless they follow each other.
+  [[nodiscard]] std::optional<scan::RigidMotion> motion_since(std::size_t before,
+                                                              std::size_t scan) const {
+    const auto from = rt::number_of<std::uint32_t>(scans.frame(scan));
+    const auto to = rt::number_of<std::uint32_t>(scans.frame(before));
+    if (!motion || !from || !to || *from != *to + 1) return std::nullopt;
+    return motion->between(*from, *to);
+  }
 };
 
 struct Work {
@@ -38,6 +52,11 @@ struct Work {
   [[nodiscard]] std::string frame() const { return sequence->scans.frame(scan); }
   [[nodiscard]] fs::path file() const { return sequence->scans.file(scan); }
 };
+
+/// Frames that one thread labels in their order: what one of them says of the next does not depend
+/// on who does what.
+using FrameRun = std::vector<Work>;
+constexpr std::size_t kLongestRun = 32;
 
 class Run {
  public:
@@ -60,7 +79,7 @@ class Run {
     label_all();
     if (const auto failure = keeper_.failure()) return tl::unexpected(*failure);
     EvaluationOutcome outcome;
-    outcome.interrupted = next_ < work_.size() && stop_wanted_();
+    outcome.interrupted = done_ < frames_ && stop_wanted_();
     outcome.results = keeper_.take_results();
     for (auto& [key, fault] : faults_) outcome.faults.push_back(std::move(fault));
     return outcome;
@@ -81,8 +100,20 @@ class Run {
       faults_[{name, ""}] = {dataset_.folder(name).string(), whole.error().message};
     }
     const auto profile = scan::ring_profile(scans->rings(), config_.mount);
-    sequences_.push_back(
-        std::make_unique<OpenSequence>(OpenSequence{name, *std::move(scans), profile}));
+    sequences_.push_back(std::make_unique<OpenSequence>(
+        OpenSequence{name, *std::move(scans), profile, motion_of(name)}));
+  }
+
+  /// Poses that are not there are no fault; some that cannot be read are.
+  std::optional<scan::SensorMotion> motion_of(const std::string& name) {
+    const fs::path folder = dataset_.folder(name);
+    const fs::path poses = folder / "poses.txt", times = folder / "times.txt";
+    std::error_code ignored;
+    if (!fs::exists(poses, ignored) || !fs::exists(times, ignored)) return std::nullopt;
+    auto motion = scan::SensorMotion::read(poses, times, folder / "calib.txt");
+    if (motion) return *std::move(motion);
+    faults_[{name, ""}] = {poses.string(), motion.error().message};
+    return std::nullopt;
   }
 
   void list_work() {
@@ -90,8 +121,10 @@ class Run {
       const FrameRange& frames = config_.frames;
       for (std::size_t i = frames.first; i < sequence->scans.size() && i <= frames.last;
            i += frames.step) {
-        work_.push_back({sequence.get(), i});
+        if (i == frames.first || runs_.back().size() == kLongestRun) runs_.emplace_back();
+        runs_.back().push_back({sequence.get(), i});
         keeper_.expect(sequence->name, sequence->scans.frame(i));
+        ++frames_;
       }
     }
   }
@@ -101,7 +134,7 @@ class Run {
     const std::size_t most = std::max<std::size_t>(1, cores.size());
     const std::size_t jobs = config_.jobs > 0 ? static_cast<std::size_t>(config_.jobs) : most;
     std::vector<std::jthread> threads;
-    for (std::size_t i = 0; i < std::min(jobs, work_.size()); ++i) {
+    for (std::size_t i = 0; i < std::min(jobs, runs_.size()); ++i) {
       threads.emplace_back([this, i, &cores] {
         pin_this_thread(fmt::format("tc-eval-{}", i), cores, i);
         label_some();
@@ -110,37 +143,64 @@ class Run {
   }
 
   void label_some() {
-    const OpenSequence* at = nullptr;
-    std::unique_ptr<FrameLabeller> labeller;
-    datasets::LabelledScan scan;
     while (!stop_ && !stop_wanted_()) {
       const std::size_t i = next_++;
-      if (i >= work_.size()) return;
-      const Work& work = work_[i];
-      const auto wanted = keeper_.methods_left(work.sequence->name, work.frame());
-      if (!wanted.empty()) {
-        if (at != work.sequence) {
-          at = work.sequence;
-          labeller = std::make_unique<FrameLabeller>(config_.methods, at->scans, at->profile,
-                                                     config_.through_packets);
-        }
-        label_frame(work, wanted, *labeller, scan);
-      }
-      const std::scoped_lock lock(mutex_);
-      on_progress_(++done_, work_.size());
+      if (i >= runs_.size()) return;
+      label_run(runs_[i]);
     }
   }
 
-  void label_frame(const Work& work, const std::vector<std::size_t>& methods,
-                   FrameLabeller& labeller, datasets::LabelledScan& scan) {
+  [[nodiscard]] bool is_done(const FrameRun& run) const {
+    return std::ranges::all_of(run, [this](const Work& work) {
+      return keeper_.methods_left(work.sequence->name, work.frame()).empty();
+    });
+  }
+
+  void label_run(const FrameRun& run) {
+    const OpenSequence& sequence = *run.front().sequence;
+    std::unique_ptr<FrameLabeller> labeller;
+    std::optional<FrameJudge> judge;
+    if (!is_done(run)) {
+      labeller = std::make_unique<FrameLabeller>(config_.methods, sequence.scans, sequence.profile,
+                                                 config_.through_packets);
+      if (config_.classes != nullptr) judge.emplace(*config_.classes, config_.methods.size());
+    }
+    datasets::LabelledScan scan;
+    std::optional<std::size_t> before;  // the frame labelled last
+    for (const Work& work : run) {
+      if (stop_ || stop_wanted_()) return;
+      if (labeller != nullptr && read_and_place(work, *labeller, scan)) {
+        if (judge) {
+          judge->look_at(scan.scan,
+                         before ? sequence.motion_since(*before, work.scan) : std::nullopt);
+        }
+        label_frame(work, *labeller, judge ? &*judge : nullptr, scan);
+        before = work.scan;
+      }
+      const std::scoped_lock lock(mutex_);
+      on_progress_(++done_, frames_);
+    }
+  }
+
+  bool read_and_place(const Work& work, FrameLabeller& labeller, datasets::LabelledScan& scan) {
     if (const Status read = work.sequence->scans.read(work.scan, scan); !read) {
-      return note(work, read.error().message);
+      note(work, read.error().message);
+      return false;
     }
     if (const Status placed = labeller.place(scan.scan, scan.rings); !placed) {
-      return note(work, work.file().string() + ": " + placed.error().message);
+      note(work, work.file().string() + ": " + placed.error().message);
+      return false;
     }
-    for (const std::size_t i : methods) {
+    return true;
+  }
+
+  void label_frame(const Work& work, FrameLabeller& labeller, FrameJudge* judge,
+                   const datasets::LabelledScan& scan) {
+    const std::vector<std::size_t> left = keeper_.methods_left(work.sequence->name, work.frame());
+    for (std::size_t i = 0; i < config_.methods.size(); ++i) {
       FrameResult result = labeller.label(i);
+      if (judge != nullptr) judge->judge(i, labeller.points(), result);
+      if (std::ranges::find(left, i) == left.end()) continue;
       result.rings_realigned = scan.rings.aligned;
       if (!keeper_.keep({work.sequence->name, work.frame(), config_.methods[i].name},
                         labeller.points(), std::move(result))) {
@@ -148,7 +208,7 @@ class Run {
         return;
       }
     }
-    if (config_.changed_frames != nullptr && methods.size() == config_.methods.size()) {
+    if (config_.changed_frames != nullptr && left.size() == config_.methods.size()) {
       show_changes(work, labeller, scan.scan);
     }
   }
@@ -174,8 +234,9 @@ class Run {
   ResultKeeper keeper_;
 
   std::vector<std::unique_ptr<OpenSequence>> sequences_;
-  std::vector<Work> work_;
-  std::atomic<std::size_t> next_ = 0;
+  std::vector<FrameRun> runs_;
+  std::size_t frames_ = 0;             ///< Of all runs.
+  std::atomic<std::size_t> next_ = 0;  ///< Run.
   std::atomic<bool> stop_ = false;
 
   std::mutex mutex_;  ///< Guards what follows.

@@ -15,6 +15,7 @@
 #include "journal.hpp"
 #include "method_choice.hpp"
 #include "rt/error.hpp"
+#include "tools/research/datasets/class_table.hpp"
 #include "tools/research/datasets/dataset.hpp"
 #include "tools/research/report/changed_frames.hpp"
 
@@ -35,7 +36,9 @@ struct EvaluationConfig {
   std::vector<MethodChoice> methods;
   mount::Mount mount;
   bool through_packets = false;
-  int jobs = 0;                       ///< Threads, each on a core of its own; 0: one a core.
+  int jobs = 0;  ///< Threads, each on a core of its own; 0: one a core.
+  /// Says what stands tall and what does not move; null: neither is counted. Must outlive the run.
+  const datasets::ClassTable* classes = nullptr;
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
   /// Is shown every frame that all methods label; may be null.
   report::ChangedFrames* changed_frames = nullptr;
@@ -54,8 +57,10 @@ struct EvaluationOutcome {
 };
 
 /// Labels every frame of a dataset with every method and counts what came of it.
-/// A file that cannot be read is a fault, and the rest goes on. Frames that `journal` has are not
-/// done again; those that were faulty are not in it. Predictions are at
+/// A file that cannot be read is a fault, and the rest goes on. Results that `journal` has are
+/// kept; frames among others of their run (32 that follow each other, labelled in their order by
+/// one thread) are labelled again for what they mean to these. Faulty ones are not in it.
+/// Predictions are at
 /// `<predictions>/<method>/sequences/NN/predictions/NNNNNN.label`.
 ///
 /// `on_progress(done, of)`, from any thread, one at a time; `stop_wanted()` is asked between

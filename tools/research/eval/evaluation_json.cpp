@@ -53,6 +53,25 @@ Json measures_json(const Quality& q) {
           {"f1", share(has_ground(q), statistics::f1_ground(q))}};
 }
 
+Json tall_json(const TallCounts& tall) {
+  return {{"returns", tall.returns},
+          {"as_ground", tall.as_ground},
+          {"share", share(tall.returns > 0, static_cast<double>(tall.as_ground) /
+                                                static_cast<double>(tall.returns))}};
+}
+
+Json flips_json(const FlipCounts& flips) {
+  const auto of_returns = [&](std::uint64_t count) {
+    return share(flips.returns > 0,
+                 static_cast<double>(count) / static_cast<double>(flips.returns));
+  };
+  return {{"returns", flips.returns},
+          {"flips", flips.flips},
+          {"true_flips", flips.true_flips},
+          {"share", of_returns(flips.flips)},
+          {"true_share", of_returns(flips.true_flips)}};
+}
+
 /// Mean of those that are defined; null without any.
 Json mean(const std::vector<Json>& values) {
   double sum = 0;
@@ -111,9 +130,11 @@ BySequence frames_of(const FrameResults& results, const std::string& method) {
   return frames;
 }
 
-FrameCounts sum_of(std::span<const FrameResults::value_type* const> frames) {
-  FrameCounts sum;
-  for (const auto* frame : frames) sum += frame->second.counts;
+template <class Counts>
+Counts sum_of(std::span<const FrameResults::value_type* const> frames,
+              Counts FrameResult::* counts) {
+  Counts sum;
+  for (const auto* frame : frames) sum += frame->second.*counts;
   return sum;
 }
 
@@ -124,7 +145,7 @@ class MethodJson {
              const FrameResults& results)
       : method_(method), classes_(classes), frames_(frames_of(results, method.name)) {
     for (const auto& [name, frames] : frames_) {
-      counts_[name] = sum_of(frames);
+      counts_[name] = sum_of(std::span(frames), &FrameResult::counts);
       total_ += counts_[name];
     }
   }
@@ -143,6 +164,14 @@ class MethodJson {
       json["pooled"][std::string(named.name)] =
           measures_json(statistics::quality_of(total_, classes_, named.scope));
     }
+    TallCounts tall;
+    FlipCounts flips;
+    for (const auto& [name, frames] : frames_) {
+      tall += sum_of(std::span(frames), &FrameResult::tall);
+      flips += sum_of(std::span(frames), &FrameResult::flips);
+    }
+    json["pooled"]["tall"] = tall_json(tall);
+    json["pooled"]["flips"] = flips_json(flips);
     json["by_range"] = by_range(datasets::GroundDefinition::kAll);
     json["by_range_road"] = by_range(datasets::GroundDefinition::kRoad);
     json["by_class"] = by_class();
@@ -282,6 +311,8 @@ class MethodJson {
       }
       sequence["frames"] = frames.size();
       sequence["points"] = points;
+      sequence["tall"] = tall_json(sum_of(std::span(frames), &FrameResult::tall));
+      sequence["flips"] = flips_json(sum_of(std::span(frames), &FrameResult::flips));
       for (const NamedScope& named : kScopes) {
         sequence[std::string(named.name)] =
             measures_json(statistics::quality_of(counts_.at(name), classes_, named.scope));

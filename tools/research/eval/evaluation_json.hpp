@@ -29,11 +29,15 @@ struct EvaluationFacts {
 ///     about, parameters{key}
 ///     mean_over_sequences, pooled   {all, road, all_vegetation_ignored}, each {iou_g, recall_o,
 ///                                   precision, recall, f1}
+///                                   pooled also tall and flips, as sequences{}
 ///     by_range{"<20m"}              the measures under `all`; by_range_road{} under `road`
 ///     by_class[]                    id, name, points, as_ground, share_as_ground,
 ///                                   as_other_ground, share_as_other_ground: of it no road surface
 ///     sequences{name}               frames, points, the measures, and over frames
 ///                                   frame_iou_g, frame_iou_road, frame_recall_o {min, mean, max}
+///                                   tall {returns, as_ground, share}: more than 0.30 m above the
+///                                   true ground; flips {returns, flips, true_flips, share,
+///                                   true_share}: label changes since the frame before
 ///     frames[]                      sequence, frame, points, iou_g, recall_o, iou_road, ms{}
 ///     ms{stage}                     {mean, p50, p99, max}
 ///     lost                          points no_ring, not_placed, non_finite; frames realigned

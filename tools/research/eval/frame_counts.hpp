@@ -35,6 +35,33 @@ struct LabelCounts {
   friend bool operator==(const LabelCounts&, const LabelCounts&) = default;
 };
 
+/// Points of key obstacles that stand more than 0.30 m above the true ground around them, where
+/// there is some to tell: how many, and how many of them were called ground.
+struct TallCounts {
+  std::uint64_t returns = 0, as_ground = 0;
+
+  TallCounts& operator+=(const TallCounts& other) noexcept {
+    returns += other.returns;
+    as_ground += other.as_ground;
+    return *this;
+  }
+  friend bool operator==(const TallCounts&, const TallCounts&) = default;
+};
+
+/// Points that the frame before saw, too, within 10 cm, of classes that do not move: how many, and
+/// how many changed from ground to obstacle or back, as labelled and in truth.
+struct FlipCounts {
+  std::uint64_t returns = 0, flips = 0, true_flips = 0;
+
+  FlipCounts& operator+=(const FlipCounts& other) noexcept {
+    returns += other.returns;
+    flips += other.flips;
+    true_flips += other.true_flips;
+    return *this;
+  }
+  friend bool operator==(const FlipCounts&, const FlipCounts&) = default;
+};
+
 /// The points of a frame, or of many, by true class, range band and label: all measures, under any
 /// class table, follow from these numbers alone.
 class FrameCounts {

@@ -31,7 +31,9 @@ struct FrameTimes {
 /// What came of one frame under one method.
 struct FrameResult {
   FrameCounts counts;
-  std::uint64_t points = 0;      ///< Of the file.
+  TallCounts tall;
+  FlipCounts flips;          ///< Zero where the frame before, or the motion since, is not known.
+  std::uint64_t points = 0;  ///< Of the file.
   std::uint64_t non_finite = 0;  ///< Of them, no place: not labelled, count nowhere.
   std::uint64_t no_ring = 0;     ///< Of them, of no laser that could be told: called obstacle.
   std::uint64_t not_placed = 0;  ///< Of them, lost otherwise on the way: called obstacle.

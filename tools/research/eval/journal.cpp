@@ -24,7 +24,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kKind = "terracut evaluation journal";
-constexpr int kVersion = 2;
+constexpr int kVersion = 3;
 
 Error write_failed(const std::filesystem::path& path) {
   return {ErrorCode::kWriteFailed, fmt::format("{}: {}", path.string(), std::strerror(errno))};
@@ -113,6 +113,8 @@ std::string journal_line(const FrameKey& key, const FrameResult& result) {
   json["not_placed"] = result.not_placed;
   json["rings_realigned"] = result.rings_realigned;
   json["counts"] = counts_json(result.counts);
+  json["tall"] = {result.tall.returns, result.tall.as_ground};
+  json["flips"] = {result.flips.returns, result.flips.flips, result.flips.true_flips};
   json["stage_ns"] = result.times.stage_ns;
   json["decode_ns"] = result.times.decode_ns;
   json["segment_ns"] = result.times.segment_ns;
@@ -132,6 +134,11 @@ Expected<std::pair<FrameKey, FrameResult>> parse_journal_line(const std::string&
     result.not_placed = json.at("not_placed").get<std::uint64_t>();
     result.rings_realigned = json.at("rings_realigned").get<bool>();
     result.counts = counts_of(json.at("counts"));
+    const Json& tall = json.at("tall");
+    result.tall = {tall.at(0).get<std::uint64_t>(), tall.at(1).get<std::uint64_t>()};
+    const Json& flips = json.at("flips");
+    result.flips = {flips.at(0).get<std::uint64_t>(), flips.at(1).get<std::uint64_t>(),
+                    flips.at(2).get<std::uint64_t>()};
     json.at("stage_ns").get_to(result.times.stage_ns);
     result.times.decode_ns = json.at("decode_ns").get<std::int64_t>();
     result.times.segment_ns = json.at("segment_ns").get<std::int64_t>();

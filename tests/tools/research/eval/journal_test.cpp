@@ -40,6 +40,8 @@ FrameResult result(std::uint64_t points) {
   result.not_placed = 3;
   result.rings_realigned = true;
   result.counts.add({40, 2}, {points, 7, 3});
+  result.tall = {points, 8};
+  result.flips = {points, 10, 9};
   result.times.stage_ns = {1, 2, 3, 4, 5};
   result.times.decode_ns = 6;
   result.times.segment_ns = 15;
@@ -59,6 +61,8 @@ TEST_F(JournalTest, GivesBackWhatWasAdded) {
   const FrameResult& second = found.at({"00", "000002", "paper"});
   const FrameResult expected = result(200);
   EXPECT_EQ(second.counts, expected.counts);
+  EXPECT_EQ(second.tall, expected.tall);
+  EXPECT_EQ(second.flips, expected.flips);
   EXPECT_EQ(second.points, expected.points);
   EXPECT_EQ(second.non_finite, expected.non_finite);
   EXPECT_EQ(second.no_ring, expected.no_ring);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/sensor_motion.hpp"
+#include "frame_result.hpp"
+#include "tools/research/datasets/class_table.hpp"
+#include "tools/research/statistics/label_flips.hpp"
+#include "tools/research/statistics/true_ground.hpp"
+
+namespace terracut::eval {
+
+/// Counts what a point's class alone does not tell: how tall it stands above the true ground, and
+/// whether its label is that of the frame before. One thread, one frame after the other.
+class FrameJudge {
+ public:
+  /// `classes` must outlive this.
+  FrameJudge(const datasets::ClassTable& classes, std::size_t methods)
+      : classes_(classes), ground_(classes), flips_(classes, methods) {}
+
+  /// `scan` stays as it is until the next call. `before_this`: LabelFlips::look_at().
+  void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
+
+  /// Fills `tall` and `flips`. `labels`: one a point. Once a method and frame.
+  void judge(std::size_t method, std::span<const frame::Label> labels, FrameResult& result);
+
+ private:
+  const datasets::ClassTable& classes_;
+  statistics::TrueGround ground_;
+  statistics::LabelFlips flips_;
+  std::vector<std::size_t> tall_;  ///< Points.
+};
+
+}  // namespace terracut::eval

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/sensor_motion.hpp"
+#include "tools/research/datasets/class_table.hpp"
+#include "tools/research/eval/frame_counts.hpp"
+
+namespace terracut::statistics {
+
+/// How steady labels are from frame to frame: every point is compared with the point of the frame
+/// before that lies nearest to it, within 10 cm, once the sensor's motion between them is removed.
+/// Both must be of a class that the table has, is not ignored and does not move (SemanticKITTI's
+/// "moving-..." do).
+class LabelFlips {
+ public:
+  LabelFlips(const datasets::ClassTable& classes, std::size_t methods);
+
+  /// The next frame. `before_this`: takes its points to the frame before; none where there is none,
+  /// or its motion is not known.
+  void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
+
+  /// By one method, a label a point of the frame looked at last.
+  [[nodiscard]] eval::FlipCounts count(std::size_t method, std::span<const frame::Label> labels);
+
+ private:
+  static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
+  enum class Truth : std::uint8_t { kLeftOut, kGround, kObstacle };
+  struct Place {
+    double x_m, y_m, z_m;
+  };
+
+  void find_truth(const scan::KittiScan& scan);
+  void sort_into_voxels();
+  [[nodiscard]] std::uint32_t nearest_before(const Place& place) const;
+
+  const datasets::ClassTable& classes_;
+  std::vector<Place> places_, places_before_;
+  std::vector<Truth> truth_, truth_before_;
+  std::vector<std::vector<frame::Label>> labels_;  ///< By method, of the frame counted last.
+  std::vector<std::uint32_t> partners_;            ///< In the frame before, by point.
+
+  // Points of the frame before by voxel: lists, each beginning where its voxel's hash points.
+  std::vector<std::uint32_t> first_in_voxel_, next_in_voxel_;
+};
+
+}  // namespace terracut::statistics

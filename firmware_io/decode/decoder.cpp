@@ -110,7 +110,6 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
       clock_(model.clock_wrap_us),
       kept_(memory.take<KeptPacket>("packets in doubt", kMostKept)),
       kept_bytes_(memory.take<std::uint8_t>("packets in doubt", kMostKept * packet_bytes_)) {
-  if (config.motion == nullptr) return;
   std::vector<std::int32_t> beam_ticks(static_cast<std::size_t>(model.rows));
   with_sensor([&](auto& sensor) noexcept {
     const auto rows = sensor.trait().rows();
@@ -119,6 +118,11 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
           sensor.trait().beam_ticks(static_cast<int>(i));
     }
   });
+  beam_turns_ = memory.take<float>("beams off the head", beam_ticks.size());
+  std::ranges::transform(beam_ticks, beam_turns_.begin(), [](std::int32_t ticks) {
+    return static_cast<float>(ticks) / static_cast<float>(kRevolution_ticks);
+  });
+  if (config.motion == nullptr) return;
   deskewer_.emplace(
       Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), kRevolution_ticks},
       beam_ticks, memory);
@@ -333,8 +337,12 @@ void Decoder::place() noexcept {
   // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
   // frame unevenly.
   const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
-  frames_.note_packet(job_.stamp_ns, job_.first_frame, job_.last_frame, next_ticks, job_.step_ticks,
-                      job_.spread);
+  frames_.note_packet({.stamp_ns = job_.stamp_ns,
+                       .rotor_ticks = job_.swept.from_ticks,
+                       .first_frame = job_.first_frame,
+                       .last_frame = job_.last_frame,
+                       .frontier_ticks = next_ticks},
+                      job_.step_ticks, job_.spread);
   const PacketPlace place{
       .rotor_cdeg = job_.placed.rotor_cdeg,
       .late_columns = job_.late_columns,

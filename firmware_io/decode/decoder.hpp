@@ -121,6 +121,8 @@ class Decoder {
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
   /// The most returns a frame may have, as RangeImage::return_capacity().
   [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
+  /// By row: how far its beam is ahead of the head when it fires, in revolutions.
+  [[nodiscard]] std::span<const float> beam_turns() const noexcept { return beam_turns_; }
   /// Device time between packets, measured; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
   /// Device clock of the last packet that passed the sensor's checks (PacketAzimuths).
@@ -319,6 +321,7 @@ class Decoder {
   FrameBuilder frames_;
   BlindSector blind_{kRevolution_ticks};
   HostClock clock_;
+  std::span<float> beam_turns_;
   std::optional<Deskewer> deskewer_;
   std::span<KeptPacket> kept_;
   std::span<std::uint8_t> kept_bytes_;  ///< Their payloads.

@@ -79,22 +79,33 @@ void FrameBuilder::regain(RotorInterval found, const BeamSpread& spread) noexcep
   add_missing(open_[1], oldest_ + 1, {found}, -1, spread);
 }
 
-void FrameBuilder::note_packet(std::int64_t stamp_ns, std::int64_t first_frame,
-                               std::int64_t last_frame, std::int64_t frontier_ticks,
-                               std::int64_t step_ticks, const BeamSpread& spread) noexcept {
+void FrameBuilder::note_packet(const PacketNote& packet, std::int64_t step_ticks,
+                               const BeamSpread& spread) noexcept {
   ++packets_;
-  frontier_ticks_ = frontier_ticks;
+  frontier_ticks_ = packet.frontier_ticks;
   step_ticks_ = step_ticks;
   spread_ = spread;
-  for (std::int64_t frame = std::max(first_frame, oldest_);
-       frame <= std::min(last_frame, oldest_ + 1); ++frame) {
+  for (std::int64_t frame = std::max(packet.first_frame, oldest_);
+       frame <= std::min(packet.last_frame, oldest_ + 1); ++frame) {
     OpenFrame& touched = open_[static_cast<std::size_t>(frame - oldest_)];
-    touched.first_packet_ns =
-        touched.touched ? std::min(touched.first_packet_ns, stamp_ns) : stamp_ns;
-    touched.last_packet_ns =
-        touched.touched ? std::max(touched.last_packet_ns, stamp_ns) : stamp_ns;
+    if (!touched.touched || packet.stamp_ns < touched.first_packet_ns) {
+      touched.first_packet_ns = packet.stamp_ns;
+      touched.first_ticks = packet.rotor_ticks;
+    }
+    if (!touched.touched || packet.stamp_ns > touched.last_packet_ns) {
+      touched.last_packet_ns = packet.stamp_ns;
+      touched.last_ticks = packet.rotor_ticks;
+    }
     touched.touched = true;
   }
+}
+
+frame::HeadSweep FrameBuilder::head_of(const OpenFrame& frame) const noexcept {
+  const auto turns = [&](std::int64_t rotor_ticks) noexcept {
+    return static_cast<float>(rotor_ticks - oldest_ * revolution_ticks_) /
+           static_cast<float>(revolution_ticks_);
+  };
+  return {turns(frame.first_ticks), turns(frame.last_ticks)};
 }
 
 bool FrameBuilder::seen_whole(const OpenFrame& frame) const noexcept {
@@ -133,6 +144,7 @@ bool FrameBuilder::close_oldest() noexcept {
     frame_.info = frame::FrameInfo{.number = frames_++,
                                    .first_packet_ns = closing.first_packet_ns,
                                    .last_packet_ns = closing.last_packet_ns,
+                                   .head = head_of(closing),
                                    .packets = packets_,
                                    .returns = closing.image->returns(),
                                    .complete = seen_whole(closing),

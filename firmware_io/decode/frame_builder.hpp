@@ -90,11 +90,14 @@ class FrameBuilder {
             bool is_counted = true) noexcept TERRACUT_NONBLOCKING;
   void regain(RotorInterval found, const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
-  /// A packet with this datagram stamp was decoded; its beams touch frames [first, last].
-  /// `step_ticks` and `spread` as they are now; the head has been seen up to `frontier_ticks`, or
-  /// is blind before.
-  void note_packet(std::int64_t stamp_ns, std::int64_t first_frame, std::int64_t last_frame,
-                   std::int64_t frontier_ticks, std::int64_t step_ticks,
+  struct PacketNote {
+    std::int64_t stamp_ns = 0;                     ///< Of its datagram.
+    std::int64_t rotor_ticks = 0;                  ///< Of the head at its first firing.
+    std::int64_t first_frame = 0, last_frame = 0;  ///< Its beams touch these and those between.
+    std::int64_t frontier_ticks = 0;  ///< The head has been seen up to here, or is blind before.
+  };
+  /// A packet was decoded. `step_ticks` and `spread` as they are now.
+  void note_packet(const PacketNote& packet, std::int64_t step_ticks,
                    const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
   /// The frames before `frame` are over. next() must be called until it returns null.
@@ -126,8 +129,9 @@ class FrameBuilder {
   struct OpenFrame {
     frame::RangeImage* image = nullptr;
     std::int64_t first_packet_ns = 0, last_packet_ns = 0;
-    std::int64_t missing_ticks = 0;  ///< Lost where any beam of the frame fires.
-    std::int64_t hole_ticks = 0;     ///< Lost in the head's own revolution; these tile the stream.
+    std::int64_t first_ticks = 0, last_ticks = 0;  ///< Of the head at these.
+    std::int64_t missing_ticks = 0;                ///< Lost where any beam of the frame fires.
+    std::int64_t hole_ticks = 0;  ///< Lost in the head's own revolution; these tile the stream.
     bool touched = false;
   };
 
@@ -144,6 +148,7 @@ class FrameBuilder {
   /// The open frames have nothing in them; opens `frame` and the next instead.
   void pass_over(std::int64_t frame) noexcept TERRACUT_NONBLOCKING;
   void count_holes(std::int64_t hole_ticks) noexcept;
+  [[nodiscard]] frame::HeadSweep head_of(const OpenFrame& frame) const noexcept;
   [[nodiscard]] bool seen_whole(const OpenFrame& frame) const noexcept;
   /// Fills frame_, or returns false when the frame has no returns.
   [[nodiscard]] bool close_oldest() noexcept TERRACUT_NONBLOCKING;

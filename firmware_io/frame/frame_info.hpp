@@ -22,12 +22,20 @@ struct BlindAzimuths {
   }
 };
 
+/// Where the head stood when the first firing of a frame's first and of its last packet was made:
+/// revolutions from straight ahead on, about 0 and 1, less and more by how far beams point off the
+/// head. The same where there are no packets.
+struct HeadSweep {
+  float first_turns = 0, last_turns = 0;
+};
+
 /// What is known of one frame besides its returns.
 struct FrameInfo {
   std::uint32_t number = 0;  ///< 0.. in order of hand-over.
   std::int64_t first_packet_ns =
       0;  ///< Datagram stamp of the first and last packet that touched the frame.
   std::int64_t last_packet_ns = 0;
+  HeadSweep head;
   std::uint32_t packets = 0;  ///< Packets decoded since the frame before was handed over.
   std::uint32_t returns = 0;  ///< Returns placed; equals RangeImage::returns().
   /// Every firing of the frame was seen, from seam to seam, but where the sensor is blind.

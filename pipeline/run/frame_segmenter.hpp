@@ -100,7 +100,9 @@ class FrameSegmenter {
     }
     if (to_.points != nullptr) {
       to_.points->pass_on(frame.record, [&](std::span<stream::LabelledPoint> room) noexcept {
-        (void)stream::pack_labelled_points(*frame.image, labels, room);
+        (void)stream::pack_labelled_points(
+            *frame.image, labels, room,
+            stream::FrameTiming::of(frame.record.info, pipeline_.decoder.beam_turns()));
       });
       to_.points_ready->wake();
     }

@@ -52,8 +52,8 @@ struct ThreadStatus {
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
   /// To be raised with every change of what lies where.
-  static constexpr std::uint32_t kLayout = 6;
-  static constexpr std::size_t kMaxLosses = 40;
+  static constexpr std::uint32_t kLayout = 7;
+  static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
   static constexpr std::size_t kMaxStages = stage::kStages;

@@ -24,12 +24,13 @@ struct LabelledPoint {
   std::uint8_t intensity = 0;
   std::uint8_t label = 0;
   std::uint16_t row = 0;
+  float time_s = 0;  ///< When it was measured, after the first firing of the frame's first packet.
 
   bool operator==(const LabelledPoint&) const = default;
 };
-static_assert(sizeof(LabelledPoint) == 16 && std::is_trivially_copyable_v<LabelledPoint>);
+static_assert(sizeof(LabelledPoint) == 20 && std::is_trivially_copyable_v<LabelledPoint>);
 static_assert(offsetof(LabelledPoint, intensity) == 12 && offsetof(LabelledPoint, label) == 13 &&
-              offsetof(LabelledPoint, row) == 14);
+              offsetof(LabelledPoint, row) == 14 && offsetof(LabelledPoint, time_s) == 16);
 
 /// Numbers of FrameWireHeader::sensor; they never change their meaning.
 enum class StreamedSensor : std::uint8_t {

@@ -17,40 +17,63 @@ namespace {
 /// half times to twice as much on 128 rows, strips of 16 columns three times as much on 64.
 constexpr int kColumnsAtOnce = 256;
 
-LabelledPoint labelled_point(const frame::Return& point, int row,
-                             frame::Label label) noexcept TERRACUT_NONBLOCKING {
+LabelledPoint labelled_point(const frame::Return& point, int row, frame::Label label,
+                             float time_s) noexcept TERRACUT_NONBLOCKING {
   return {point.x_m,
           point.y_m,
           point.z_m,
           point.intensity,
           static_cast<std::uint8_t>(output::semantic_kitti_class(label)),
-          static_cast<std::uint16_t>(row)};
+          static_cast<std::uint16_t>(row),
+          time_s};
+}
+
+/// Of a row: its beam is in a column this long after the one before.
+struct RowTimes {
+  float first_s = 0, step_s = 0;
+
+  [[nodiscard]] float at(int column) const noexcept {
+    return std::max(first_s + static_cast<float>(column) * step_s, 0.0F);
+  }
+};
+
+RowTimes times_of(int row, int columns, const FrameTiming& timing) noexcept TERRACUT_NONBLOCKING {
+  const float swept_turns = timing.head.last_turns - timing.head.first_turns;
+  const auto n = static_cast<std::size_t>(row);
+  if (n >= timing.beam_turns.size() || swept_turns <= 0) return {};
+  const float turn_s = static_cast<float>(timing.duration_s) / swept_turns;
+  const float column_turns = 1.0F / static_cast<float>(columns);
+  const float head_turns = column_turns / 2 - timing.beam_turns[n];
+  return {(head_turns - timing.head.first_turns) * turn_s, column_turns * turn_s};
 }
 
 }  // namespace
 
 bool pack_labelled_points(const frame::RangeImage& image, std::span<const frame::Label> labels,
-                          std::span<LabelledPoint> points) noexcept TERRACUT_NONBLOCKING {
+                          std::span<LabelledPoint> points,
+                          const FrameTiming& timing) noexcept TERRACUT_NONBLOCKING {
   if (labels.size() != image.returns() || points.size() < labels.size()) return false;
   const int rows = image.shape().rows, columns = image.shape().columns;
   const int stride = image.shape().stride();
   for (int left = 0; left < columns; left += kColumnsAtOnce) {
     const int right = std::min(left + kColumnsAtOnce, columns);
     for (int row = 0; row < rows; ++row) {
-      const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride);
-      for (std::size_t cell = first + static_cast<std::size_t>(left);
-           cell < first + static_cast<std::size_t>(right); ++cell) {
+      const RowTimes times = times_of(row, columns, timing);
+      for (int column = left; column < right; ++column) {
+        const std::size_t cell = image.shape().cell(row, column);
         if (!image.has_return(cell)) continue;
         const std::uint32_t n = image.return_index()[cell];
         points[n] = labelled_point({image.x_m()[cell], image.y_m()[cell], image.z_m()[cell],
                                     image.ground_range_m()[cell], image.intensity()[cell]},
-                                   row, labels[n]);
+                                   row, labels[n], times.at(column));
       }
     }
   }
   for (const frame::OverflowReturn& extra : image.overflow()) {
-    points[extra.return_index] = labelled_point(extra.point, static_cast<int>(extra.cell) / stride,
-                                                labels[extra.return_index]);
+    const auto cell = static_cast<int>(extra.cell);
+    const int row = cell / stride;
+    points[extra.return_index] = labelled_point(extra.point, row, labels[extra.return_index],
+                                                times_of(row, columns, timing).at(cell % stride));
   }
   return true;
 }

@@ -4,6 +4,7 @@
 
 #include <span>
 
+#include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/label.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
@@ -11,12 +12,29 @@
 
 namespace terracut::stream {
 
+/// When the returns of a frame were measured, as its packets tell: the head turned evenly from its
+/// first packet to its last. Of the default, all at 0: a cloud without times.
+struct FrameTiming {
+  frame::HeadSweep head;
+  double duration_s = 0;              ///< From the first packet to the last.
+  std::span<const float> beam_turns;  ///< decode::Decoder::beam_turns(); one a row, or empty.
+
+  /// Of a frame of the decoder whose beams these are.
+  [[nodiscard]] static FrameTiming of(const frame::FrameInfo& info,
+                                      std::span<const float> beam_turns) noexcept {
+    constexpr double kSecond_ns = 1e9;
+    return {info.head, static_cast<double>(info.last_packet_ns - info.first_packet_ns) / kSecond_ns,
+            beam_turns};
+  }
+};
+
 /// Writes the returns of a labelled frame to the first `image.returns()` elements of `points`, in
 /// order of arrival: the n-th is the n-th of a .label file. `labels` has one entry a return, by
 /// return index. False, and nothing written, when there are not as many labels as returns or not
-/// room for all of them. Real-time safe.
+/// room for all of them. Times are right to half a column and to how unevenly the head turns; of
+/// the default `timing`, 0. Real-time safe.
 [[nodiscard]] bool pack_labelled_points(
     const frame::RangeImage& image, std::span<const frame::Label> labels,
-    std::span<LabelledPoint> points) noexcept TERRACUT_NONBLOCKING;
+    std::span<LabelledPoint> points, const FrameTiming& timing = {}) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::stream

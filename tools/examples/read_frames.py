@@ -14,9 +14,9 @@ import struct
 import sys
 
 HEADER = struct.Struct("<4sHHIIqqqHBBIII")
-POINT = struct.Struct("<fffBBH")
+POINT = struct.Struct("<fffBBHf")
 POINT_DTYPE = [("x", "<f4"), ("y", "<f4"), ("z", "<f4"),
-               ("intensity", "u1"), ("label", "u1"), ("row", "<u2")]
+               ("intensity", "u1"), ("label", "u1"), ("row", "<u2"), ("time", "<f4")]
 HEADER_FIELDS = ("magic", "version", "header_bytes", "number", "points", "first_packet_ns",
                  "last_packet_ns", "labels_ns", "point_bytes", "sensor", "level", "flags",
                  "missed", "reserved")
@@ -113,11 +113,11 @@ def describe(header, points):
 
 
 def write_pcd(path, points):
-    """Binary PCD v0.7 with the fields x y z intensity label ring; whole or not at all."""
+    """Binary PCD v0.7 with the fields x y z intensity label ring time; whole or not at all."""
     count = len(points) // POINT.size
     header = ("# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n"
-              "FIELDS x y z intensity label ring\nSIZE 4 4 4 1 1 2\nTYPE F F F U U U\n"
-              "COUNT 1 1 1 1 1 1\nWIDTH %d\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
+              "FIELDS x y z intensity label ring time\nSIZE 4 4 4 1 1 2 4\nTYPE F F F U U U F\n"
+              "COUNT 1 1 1 1 1 1 1\nWIDTH %d\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\n"
               "POINTS %d\nDATA binary\n" % (count, count))
     with open(path + ".part", "wb") as file:
         file.write(header.encode("ascii"))

@@ -133,7 +133,7 @@ TEST_F(FrameBuilderTest, CountsReturnsThatOverflowTheOverflowList) {
 TEST_F(FrameBuilderTest, AFrameSeenFromSeamToSeamIsComplete) {
   builder.start(-1, -200);
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, kRevolution + 100, kStep, kSpread);
+  builder.note_packet({5, 0, -1, 0, kRevolution + 100}, kStep, kSpread);
   roll(builder, keep());
   roll(builder, keep());
   ASSERT_EQ(handed.size(), 1U);
@@ -144,11 +144,11 @@ TEST_F(FrameBuilderTest, AFrameSeenFromSeamToSeamIsComplete) {
 TEST_F(FrameBuilderTest, AFrameWhoseStartOrEndWasNotSeenIsIncomplete) {
   builder.start(-1, -50);  // the foremost beam was 60 past the seam already
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, kRevolution + 100, kStep, kSpread);
+  builder.note_packet({5, 0, -1, 0, kRevolution + 100}, kStep, kSpread);
   flush(builder, keep());
   builder.start(-1, -200);
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, kRevolution + 80, kStep, kSpread);
+  builder.note_packet({5, 0, -1, 0, kRevolution + 80}, kStep, kSpread);
   flush(builder, keep());
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_FALSE(handed[0].info.complete);
@@ -183,7 +183,7 @@ TEST_F(FrameBuilderTest, AHoleMakesAFrameIncompleteUntilItIsFilled) {
     builder.place(0, 0, 0, {});
     builder.lose({1000, 1060}, kSpread, kStep);
     if (filled) builder.regain({1000, 1060}, kSpread);
-    builder.note_packet(5, -1, 0, kRevolution + 100, kStep, kSpread);
+    builder.note_packet({5, 0, -1, 0, kRevolution + 100}, kStep, kSpread);
     flush(builder, keep());
     EXPECT_EQ(handed.back().info.complete, filled);
     EXPECT_EQ(handed.back().info.losses.azimuth_hole_columns, filled ? 0U : 6U);
@@ -193,13 +193,13 @@ TEST_F(FrameBuilderTest, AHoleMakesAFrameIncompleteUntilItIsFilled) {
 TEST_F(FrameBuilderTest, AHoleAtTheSeamCountsOnceButSpoilsBothFrames) {
   builder.start(-1, -200);
   builder.place(0, 0, 0, {});
-  builder.note_packet(5, -1, 0, 0, kStep, kSpread);
+  builder.note_packet({5, 0, -1, 0, 0}, kStep, kSpread);
   roll(builder, keep());  // frame -1, without returns
   builder.place(1, 0, 0, {});
   builder.lose({kRevolution - 30, kRevolution + 30}, kSpread, kStep);
-  builder.note_packet(6, 0, 1, kRevolution + 100, kStep, kSpread);
+  builder.note_packet({6, 0, 0, 1, kRevolution + 100}, kStep, kSpread);
   roll(builder, keep());
-  builder.note_packet(7, 1, 1, 2 * kRevolution + 100, kStep, kSpread);
+  builder.note_packet({7, 0, 1, 1, 2 * kRevolution + 100}, kStep, kSpread);
   roll(builder, keep());
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_FALSE(handed[0].info.complete);
@@ -223,16 +223,20 @@ TEST_F(FrameBuilderTest, KeepsThePacketStampsOfEachFrame) {
   builder.start(0, 0);
   builder.place(0, 0, 0, {});
   builder.place(1, 0, 0, {});
-  builder.note_packet(10, 0, 0, 100, kStep, kSpread);
-  builder.note_packet(20, 0, 1, 200, kStep, kSpread);
-  builder.note_packet(15, 0, 1, 200, kStep, kSpread);  // out of order
-  builder.note_packet(30, 1, 1, 300, kStep, kSpread);
+  builder.note_packet({10, 0, 0, 0, 100}, kStep, kSpread);
+  builder.note_packet({20, kRevolution, 0, 1, 200}, kStep, kSpread);
+  builder.note_packet({15, kRevolution / 2, 0, 1, 200}, kStep, kSpread);  // out of order
+  builder.note_packet({30, 2 * kRevolution, 1, 1, 300}, kStep, kSpread);
   flush(builder, keep());
   ASSERT_EQ(handed.size(), 2U);
   EXPECT_EQ(handed[0].info.first_packet_ns, 10);
   EXPECT_EQ(handed[0].info.last_packet_ns, 20);
   EXPECT_EQ(handed[1].info.first_packet_ns, 15);
   EXPECT_EQ(handed[1].info.last_packet_ns, 30);
+  EXPECT_EQ(handed[0].info.head.first_turns, 0.0F);
+  EXPECT_EQ(handed[0].info.head.last_turns, 1.0F);
+  EXPECT_EQ(handed[1].info.head.first_turns, -0.5F) << "of the frame's own revolution";
+  EXPECT_EQ(handed[1].info.head.last_turns, 1.0F);
   EXPECT_EQ(handed[0].info.packets + handed[1].info.packets, 4U);
 }
 

@@ -473,7 +473,7 @@ TEST(FrameStreamServer, TellsWhatSendBufferItGot) {
   memory::FixedMemory memory;
   const auto server = FrameStreamServer::open({.max_points = 1000}, memory);
   ASSERT_TRUE(server.has_value());
-  EXPECT_THAT(server->send_buffer().asked, testing::HasSubstr("16056 bytes"));
+  EXPECT_THAT(server->send_buffer().asked, testing::HasSubstr("20056 bytes"));
   EXPECT_TRUE(server->send_buffer().granted) << "every system lets a program have so little";
 }
 

@@ -32,17 +32,17 @@ TEST(LabelledFrameWire, HeaderHasTheDocumentedBytes) {
       0x18, 0x17, 0x16, 0x15, 0x14, 0x13, 0x12, 0x11,  // first packet
       0x28, 0x27, 0x26, 0x25, 0x24, 0x23, 0x22, 0x21,  // last packet
       0x38, 0x37, 0x36, 0x35, 0x34, 0x33, 0x32, 0x31,  // labels
-      16,   0,    2,    1,    3,    0,    0,    0,     // point size, sensor, level, flags
+      20,   0,    2,    1,    3,    0,    0,    0,     // point size, sensor, level, flags
       0x44, 0x43, 0x42, 0x41, 0,    0,    0,    0,     // missed, reserved
   };
   EXPECT_EQ(std::bit_cast<HeaderBytes>(some_header()), expected);
 }
 
 TEST(LabelledFrameWire, PointHasTheDocumentedBytes) {
-  const LabelledPoint point{1.0F, -2.0F, 0.5F, 200, 99, 0x0102};
-  const std::array<std::uint8_t, 16> expected{0, 0, 0x80, 0x3F, 0,   0,  0,    0xC0,
-                                              0, 0, 0,    0x3F, 200, 99, 0x02, 0x01};
-  EXPECT_EQ((std::bit_cast<std::array<std::uint8_t, 16>>(point)), expected);
+  const LabelledPoint point{1.0F, -2.0F, 0.5F, 200, 99, 0x0102, 0.0625F};
+  const std::array<std::uint8_t, 20> expected{0, 0,    0x80, 0x3F, 0,    0,    0, 0xC0, 0,    0,
+                                              0, 0x3F, 200,  99,   0x02, 0x01, 0, 0,    0x80, 0x3D};
+  EXPECT_EQ((std::bit_cast<std::array<std::uint8_t, 20>>(point)), expected);
 }
 
 TEST(LabelledFrameWire, OnlyTheSensorsThatAreDecodedHaveANumber) {

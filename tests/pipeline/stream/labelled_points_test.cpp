@@ -59,6 +59,29 @@ TEST(LabelledPoints, OfAWholeFrameAreThoseOfTheImageOneByOne) {
   EXPECT_EQ(wrong, 0U);
 }
 
+TEST(LabelledPoints, HaveTheTimeAtWhichTheHeadSentTheirBeam) {
+  output::SmallFrame small;
+  const int columns = small.image.shape().columns;
+  small.add(0, 0, 1.0F, 2.0F, 3.0F, Label::kGround);
+  small.add(0, columns / 2, 1.0F, 2.0F, 3.0F, Label::kGround);
+  small.add(1, columns / 2, 1.0F, 2.0F, 3.0F, Label::kGround);
+  small.add(1, columns / 2, 1.0F, 2.0F, 3.0F, Label::kGround);  // overflow list
+  const std::vector<float> beam_turns{0.0F, 0.125F, 0.0F, 0.0F};
+  frame::FrameInfo info;
+  info.first_packet_ns = 1'000'000'000;
+  info.last_packet_ns = 1'150'000'000;
+  info.head = {-0.25F, 1.25F};  // a revolution takes 100 ms
+  std::vector<LabelledPoint> points(4);
+  ASSERT_TRUE(
+      pack_labelled_points(small.image, small.labels, points, FrameTiming::of(info, beam_turns)));
+  const float half_a_column_s = 0.05F / static_cast<float>(columns);
+  EXPECT_NEAR(points[0].time_s, 0.025F + half_a_column_s, 1e-6F);
+  EXPECT_NEAR(points[1].time_s, 0.075F + half_a_column_s, 1e-6F);
+  EXPECT_NEAR(points[2].time_s, 0.0625F + half_a_column_s, 1e-6F)
+      << "its beam is ahead of the head";
+  EXPECT_EQ(points[3].time_s, points[2].time_s);
+}
+
 TEST(LabelledPoints, OfAFrameWithoutReturnsAreNone) {
   output::SmallFrame small;
   EXPECT_TRUE(pack_labelled_points(small.image, {}, {}));

@@ -85,7 +85,7 @@ TEST_P(ReadFramesScript, WritesPcdFilesWithThePointsAsTheyWere) {
   const std::string content{std::istreambuf_iterator<char>(file), {}};
   const std::string_view bytes(reinterpret_cast<const char*>(points.data()),
                                points.size() * sizeof(LabelledPoint));
-  EXPECT_THAT(content, testing::HasSubstr("\nSIZE 4 4 4 1 1 2\n"));
+  EXPECT_THAT(content, testing::HasSubstr("\nSIZE 4 4 4 1 1 2 4\n"));
   ASSERT_GT(content.size(), bytes.size());
   EXPECT_EQ(content.substr(content.size() - bytes.size()), bytes);
 }

@@ -110,6 +110,7 @@ class Replay {
             method_config_of(options.method), memory_),
         clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
+        sensor_mount_(profile.mount),
         mount_(profile.mount, mount),
         truth_(options.output.truth),
         report_{"replay", options.capture.file.string(), capture.sensor_line,
@@ -117,6 +118,10 @@ class Replay {
         progress_("replaying", "frames", 0) {}
 
   ExitCode run() {
+    sinks_ = outputs_.open({.sensor = capture_.sensor_line,
+                            .rows = pipeline_.decoder().shape().rows,
+                            .mount = sensor_mount_});
+    if (!sinks_) return refuse(sinks_.error());
     Pace pace(options_.replay.rate);
     for (int pass = 0; options_.replay.loops == 0 || pass < options_.replay.loops; ++pass) {
       if (pass > 0) {
@@ -184,6 +189,11 @@ class Replay {
     if (sinks_) sinks_ = outputs_.write_labels(name, pipeline_.labels());
     if (sinks_) sinks_ = outputs_.write_frame(name, image, pipeline_.labels(), truth);
     if (sinks_) {
+      sinks_ = outputs_.publish(
+          frame.record, image, pipeline_.labels(),
+          stream::FrameTiming::of(frame.record.info, pipeline_.decoder().beam_turns()));
+    }
+    if (sinks_) {
       sinks_ = outputs_.write_returns(
           {info.number, info.first_packet_ns, image, pipeline_.height_m(), pipeline_.labels()});
     }
@@ -233,6 +243,7 @@ class Replay {
   DeviceClock clock_of_device_;
   FrameOutputs outputs_;
   std::unique_ptr<ground::NearGround> near_ground_ = std::make_unique<ground::NearGround>();
+  mount::Mount sensor_mount_;
   MountWatch mount_;
   FrameTruth truth_;
   Report report_;

@@ -96,6 +96,9 @@ ExitCode run_segment(const Options& options) {
 
   CloudLabeller labeller(method_config_of(options.method), *rows, *profile, *mount);
   FrameOutputs outputs(options.output);
+  const Status outputs_open = outputs.open(
+      {.sensor = sensor_line, .rows = labeller.image.shape().rows, .mount = profile->mount});
+  if (!outputs_open) return refuse(outputs_open.error());
   Report report{"segment", options.scans.string(), "", sensor_line, options.method};
   Progress progress("labelling", "scans", static_cast<double>(reader.size()));
   for (std::size_t i = 0; i < reader.size(); ++i) {
@@ -123,6 +126,9 @@ ExitCode run_segment(const Options& options) {
     if (written) {
       written = outputs.write_frame(file.name, labeller.image, labeller.segmenter.labels(),
                                     labeller.truth_of_returns());
+    }
+    if (written) {
+      written = outputs.publish(record, labeller.image, labeller.segmenter.labels());
     }
     if (written) {
       written = outputs.write_returns(

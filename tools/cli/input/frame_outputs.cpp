@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "pipeline/output/label_sink.hpp"
 #include "pipeline/output/pcd_writer.hpp"
@@ -97,7 +98,30 @@ Status FrameOutputs::write_returns(const LabelledReturns& frame) {
   return returns_->add_frame(frame);
 }
 
+Status FrameOutputs::open(const publish::Stream& stream) {
+  if (!wants_sinks(options_)) return {};
+  auto sinks = open_sinks(options_, stream);
+  if (!sinks) return tl::unexpected(sinks.error());
+  publisher_.emplace(*std::move(sinks), publish::WhenFull::kWait, warn_of_failure);
+  return {};
+}
+
+Status FrameOutputs::publish(const status::FrameRecord& record, const frame::RangeImage& image,
+                             std::span<const Label> labels, const stream::FrameTiming& timing) {
+  if (!publisher_) return {};
+  const auto shared = publisher_->buffer();
+  shared->record = record;
+  shared->points.resize(labels.size());
+  (void)stream::pack_labelled_points(image, labels, shared->points, timing);
+  publisher_->put(shared);
+  return publisher_->outcome();
+}
+
 Status FrameOutputs::finish() {
+  if (publisher_) {
+    (void)publisher_->finish(std::nullopt);
+    if (const Status outcome = publisher_->outcome(); !outcome) return outcome;
+  }
   return returns_ ? returns_->close() : Status{};
 }
 

@@ -13,7 +13,11 @@
 #include "pipeline/output/frame_folder.hpp"
 #include "pipeline/pictures/frame_colours.hpp"
 #include "pipeline/pictures/png_picture.hpp"
+#include "pipeline/publish/publisher.hpp"
+#include "pipeline/publish/stream.hpp"
+#include "pipeline/stream/labelled_points.hpp"
 #include "rt/error.hpp"
+#include "tools/cli/export/output_sinks.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/parquet/returns_file.hpp"
 
@@ -30,8 +34,12 @@ class FrameOutputs {
 
   /// Whether any of them is made of points, not of labels alone.
   [[nodiscard]] static bool need_points(const OutputOptions& options) {
-    return !options.pcd.empty() || !options.png.empty() || !options.parquet.empty();
+    return !options.pcd.empty() || !options.png.empty() || !options.parquet.empty() ||
+           wants_sinks(options);
   }
+
+  /// Before the first frame: the outputs that get frames as they come (export/output_sinks.hpp).
+  [[nodiscard]] Status open(const publish::Stream& stream);
 
   /// NAME.label, in the order of `labels`.
   [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
@@ -43,9 +51,15 @@ class FrameOutputs {
                                    std::span<const frame::Label> labels,
                                    std::span<const std::uint32_t> truth);
 
+  /// Hands the frame to the outputs that open() opened, and waits where one is slow. Their first
+  /// error. `timing`: when its returns were measured.
+  [[nodiscard]] Status publish(const status::FrameRecord& record, const frame::RangeImage& image,
+                               std::span<const frame::Label> labels,
+                               const stream::FrameTiming& timing = {});
+
   /// Its rows of the table.
   [[nodiscard]] Status write_returns(const LabelledReturns& frame);
-  /// After the last frame, completes the table.
+  /// After the last frame, completes the table and the other outputs.
   [[nodiscard]] Status finish();
 
  private:
@@ -55,6 +69,7 @@ class FrameOutputs {
   output::FrameFolder labels_, pcd_, png_;
   std::optional<ReturnsFile> returns_;
   std::vector<pictures::Mistake> mistakes_;
+  std::optional<publish::Publisher> publisher_;  ///< Where any of its outputs is asked for.
 };
 
 }  // namespace terracut::cli

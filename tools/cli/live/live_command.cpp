@@ -21,14 +21,15 @@
 #include "live_service.hpp"
 #include "live_watch.hpp"
 #include "mount_on_air.hpp"
+#include "pipeline/run/frame_outlet.hpp"
 #include "pipeline/run/live_threads.hpp"
-#include "pipeline/run/stream_writer.hpp"
 #include "pipeline/run/vehicle_motion.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/locked_memory.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/chrome_trace.hpp"
+#include "tools/cli/export/output_sinks.hpp"
 #include "tools/cli/figures/dashboard.hpp"
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/input/input_check.hpp"
@@ -111,6 +112,11 @@ class Waiting {
   std::int64_t say_at_ns_ = measure::monotonic_ns() + kSayFirst_ns;
 };
 
+/// Whether an output is asked for that labels alone are not enough for.
+bool wants_points(const Options& options) {
+  return !options.stream.empty() || wants_sinks(options.output);
+}
+
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {
   std::optional<run::VehicleMotion> motion;
@@ -158,7 +164,7 @@ struct LiveParts {
                                                 std::optional<run::VehicleMotion>& motion) {
     auto config =
         decoder_config_of(options, sensor.columns,
-                          options.stream.empty() ? FramesAreFor::kLabels : FramesAreFor::kPoints,
+                          wants_points(options) ? FramesAreFor::kPoints : FramesAreFor::kLabels,
                           motion ? &motion->motion() : nullptr);
     config.reorder_packets = options.capture.reorder_packets.value_or(0);
     return config;
@@ -172,7 +178,7 @@ struct LiveParts {
         .frame_period_ns = static_cast<std::int64_t>(1e9 / std::max(sensor.spin_hz, kSlowest_hz)),
         .longest_gathering_ns = static_cast<std::int64_t>(options.listen.gather_ms * 1e6),
         .keeps_labels = !options.output.labels.empty(),
-        .keeps_points = !options.stream.empty(),
+        .keeps_points = wants_points(options),
         .compares_tables = !options.capture.calibration.empty(),
         .receive =
             run::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
@@ -193,20 +199,24 @@ struct LiveParts {
 /// What leaves a run, on threads that nothing waits for.
 class Writers {
  public:
-  /// The errors of FrameStreamServer::open().
+  /// The errors of FrameStreamServer::open() and open_sinks().
   [[nodiscard]] Status open(const Options& options, const sensor::SensorOnAir& sensor,
-                            LiveParts& parts) {
+                            const mount::Mount& mount, LiveParts& parts) {
+    const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
+    auto sinks = open_sinks(options.output, {.sensor = describe(sensor),
+                                             .rows = parts.pipeline.decoder.shape().rows,
+                                             .mount = mount,
+                                             .deadline_ns = deadline_ns});
+    if (!sinks) return tl::unexpected(sinks.error());
+    publisher_.emplace(*std::move(sinks), publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.threads.points()) {
-      auto server = stream::FrameStreamServer::open(
-          {.address = stream::parse_stream_address(options.stream).value(),
-           .unix_mode = options.stream_mode,
-           .max_points = parts.pipeline.decoder.return_capacity()},
-          stream_memory_);
-      if (!server) return tl::unexpected(server.error());
-      if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
-      say("labelled points at " + to_string(server->address()));
-      stream_.emplace(*std::move(server), stream::streamed_sensor(sensor.model),
-                      static_cast<std::int64_t>(options.deadline_ms * 1e6), *parts.threads.points(),
+      std::optional<run::FrameOutlet::Stream> stream;
+      if (!options.stream.empty()) {
+        auto server = open_stream(options, parts);
+        if (!server) return tl::unexpected(server.error());
+        stream = {*std::move(server), stream::streamed_sensor(sensor.model), deadline_ns};
+      }
+      outlet_.emplace(std::move(stream), *publisher_, *parts.threads.points(),
                       parts.threads.points_ready());
     }
     if (parts.threads.labels()) labels_.emplace(options.output.labels, *parts.threads.labels());
@@ -218,8 +228,9 @@ class Writers {
     return {};
   }
 
-  /// Null where nothing is streamed.
-  [[nodiscard]] const run::StreamWriter* stream() const { return stream_ ? &*stream_ : nullptr; }
+  /// Null where only labels leave. After open().
+  [[nodiscard]] const run::FrameOutlet* outlet() const { return outlet_ ? &*outlet_ : nullptr; }
+  [[nodiscard]] publish::Publisher& publisher() { return *publisher_; }
 
   void want_dump(recorder::DumpReason reason, const LiveWatch& watch) {
     if (dumps_) dumps_->want(reason, watch.newest());
@@ -231,20 +242,37 @@ class Writers {
     if (!told) warn(told.error().message);
   }
 
-  /// False when the disk does not answer.
+  /// False when the disk does not answer, or another output.
   [[nodiscard]] bool finish() {
     constexpr std::chrono::seconds kPatience{3};
-    const bool stream_done = !stream_ || stream_->finish(kPatience);
+    const bool frames_done = !outlet_ || outlet_->finish(kPatience);
+    const bool outputs_done = frames_done && publisher_->finish(kPatience);
     const bool labels_done = !labels_ || labels_->finish(kPatience);
     const bool dumps_done = !dumps_ || dumps_->finish(kPatience);
-    return stream_done && labels_done && dumps_done;
+    return outputs_done && labels_done && dumps_done;
   }
   /// After finish().
-  [[nodiscard]] bool wrote_all() const { return !labels_ || labels_->outcome().has_value(); }
+  [[nodiscard]] bool wrote_all() const {
+    return publisher_->outcome() && (!labels_ || labels_->outcome());
+  }
 
  private:
+  [[nodiscard]] Expected<stream::FrameStreamServer> open_stream(const Options& options,
+                                                                const LiveParts& parts) {
+    auto server = stream::FrameStreamServer::open(
+        {.address = stream::parse_stream_address(options.stream).value(),
+         .unix_mode = options.stream_mode,
+         .max_points = parts.pipeline.decoder.return_capacity()},
+        stream_memory_);
+    if (!server) return server;
+    if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
+    say("labelled points at " + to_string(server->address()));
+    return server;
+  }
+
   memory::FixedMemory stream_memory_;  ///< Not locked: no thread with a deadline touches it.
-  std::optional<run::StreamWriter> stream_;
+  std::optional<publish::Publisher> publisher_;
+  std::optional<run::FrameOutlet> outlet_;
   std::optional<LabelWriter> labels_;
   std::optional<DumpWriter> dumps_;
   std::optional<DumpAnswers> refusals_;  ///< Where there is nothing to dump.
@@ -343,11 +371,11 @@ ExitCode run_live(const Options& options) {
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 
   Writers writers;
-  if (const Status opened = writers.open(options, *sensor, parts); !opened) {
+  if (const Status opened = writers.open(options, *sensor, profile->mount, parts); !opened) {
     return refuse(opened.error());
   }
   say_refusals(parts.start(options));
-  parts.watch.open(describe(*sensor), source->name(), writers.stream());
+  parts.watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());
   run_until_stopped(options, *sensor, parts, writers, dump_wanted, service);
   service.stopping();
   parts.stop();

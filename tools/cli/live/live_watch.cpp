@@ -2,6 +2,8 @@
 // Copyright 2026 The terracut authors
 #include "live_watch.hpp"
 
+#include <algorithm>
+#include <iterator>
 #include <string>
 #include <utility>
 
@@ -39,8 +41,9 @@ LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, const Mo
 }
 
 void LiveWatch::open(const std::string& sensor, const std::string& input,
-                     const run::StreamWriter* stream) {
-  stream_ = stream;
+                     const run::FrameOutlet* outlet, publish::Publisher& publisher) {
+  outlet_ = outlet;
+  publisher_ = &publisher;
   status::MonitorSnapshot& figures = monitor_.snapshot();
   figures.version = {TERRACUT_VERSION};
   figures.sensor = {sensor};
@@ -100,6 +103,15 @@ void LiveWatch::refresh() {
     health_->show(figures.health);
   }
   display_.show(figures);
+  publish_figures();
+}
+
+void LiveWatch::publish_figures() {
+  constexpr std::int64_t kEvery_ns = 1'000'000'000;
+  const std::int64_t now_ns = measure::monotonic_ns();
+  if (publisher_ == nullptr || now_ns < publish_figures_at_ns_) return;
+  publish_figures_at_ns_ = now_ns + kEvery_ns;
+  publisher_->put_figures(monitor_.snapshot());
 }
 
 void LiveWatch::refresh_threads(status::MonitorSnapshot& figures) {
@@ -129,14 +141,15 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   };
   if (threads_.labels()) more.push_back({"unwritten_label_frames", lost(threads_.labels())});
   if (threads_.points()) more.push_back({"unstreamed_frames", lost(threads_.points())});
-  if (stream_ != nullptr) {
-    const stream::FrameStreamFigures& stream = stream_->figures();
+  if (outlet_ != nullptr && outlet_->has_stream()) {
+    const stream::FrameStreamFigures& stream = outlet_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},
                              {"stream_frames_cut_short", stream.cut_short},
                              {"stream_frames_too_large", stream.frames_too_large},
                              {"stream_readers_refused", stream.refused},
                              {"stream_readers_stalled", stream.stalled}});
   }
+  if (publisher_ != nullptr) std::ranges::move(publisher_->losses(over_), std::back_inserter(more));
   status::show_losses(more, figures);
 }
 

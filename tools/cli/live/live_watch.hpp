@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,8 +13,8 @@
 #include "figures_display.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/health/health_reporter.hpp"
+#include "pipeline/run/frame_outlet.hpp"
 #include "pipeline/run/live_threads.hpp"
-#include "pipeline/run/stream_writer.hpp"
 #include "pipeline/run/vehicle_motion.hpp"
 #include "pipeline/status/deadline_monitor.hpp"
 #include "pipeline/status/input_status.hpp"
@@ -38,9 +40,11 @@ class LiveWatch {
             run::LiveThreads& threads, run::VehicleMotion* motion, FiguresDisplay& display,
             memory::FixedMemory& memory);
 
-  /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `stream`:
-  /// whose losses are shown as well; may be null, and must outlive this.
-  void open(const std::string& sensor, const std::string& input, const run::StreamWriter* stream);
+  /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `outlet`,
+  /// which may be null, and `publisher`: whose losses are shown as well, and to whose outputs the
+  /// figures go every second; both must outlive this.
+  void open(const std::string& sensor, const std::string& input, const run::FrameOutlet* outlet,
+            publish::Publisher& publisher);
 
   struct Round {
     int frames = 0;  ///< Judged.
@@ -64,6 +68,7 @@ class LiveWatch {
 
   void open_health();
   void refresh();
+  void publish_figures();
   void refresh_input(status::MonitorSnapshot& figures);
   void refresh_losses(status::MonitorSnapshot& figures);
   void refresh_threads(status::MonitorSnapshot& figures);
@@ -71,7 +76,9 @@ class LiveWatch {
   const Options& options_;
   run::LiveThreads& threads_;
   run::VehicleMotion* motion_;
-  const run::StreamWriter* stream_ = nullptr;
+  const run::FrameOutlet* outlet_ = nullptr;
+  publish::Publisher* publisher_ = nullptr;
+  std::int64_t publish_figures_at_ns_ = 0;  ///< CLOCK_MONOTONIC
   FiguresDisplay& display_;
   std::unique_ptr<MountWatch> mount_;
   status::InputStatus input_;

@@ -4,8 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
+#include <optional>
 
 #include "frame_pool.hpp"
+#include "pipeline/publish/publisher.hpp"
 #include "pipeline/stream/frame_stream_server.hpp"
 #include "rt/queues/latest_value.hpp"
 #include "rt/threads/background_thread.hpp"
@@ -13,19 +16,28 @@
 
 namespace terracut::run {
 
-/// Hands labelled points to other processes, on a thread of its own.
-class StreamWriter {
+/// Takes labelled points from the segmenting thread and hands them out, on a thread of its own
+/// that waits for nobody: to the readers of the stream, and to every other output by its queue. The
+/// stream has no queue: its server makes no call that waits, and a reader that is busy misses the
+/// frame, so it is served right here.
+class FrameOutlet {
  public:
   using Slots = FramePool<stream::LabelledPoint>;
+  struct Stream {
+    stream::FrameStreamServer server;
+    stream::StreamedSensor sensor;
+    std::int64_t deadline_ns;
+  };
 
   /// `ready` is woken when there is something in `slots`, and at finish(). All must outlive this.
-  StreamWriter(stream::FrameStreamServer server, stream::StreamedSensor sensor,
-               std::int64_t deadline_ns, Slots& slots, const threads::WakeEvent& ready);
+  FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
+              const threads::WakeEvent& ready);
 
   /// After LiveThreads::stop(). False when it does not end in time, which no peer can bring about.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
-  /// As of the last frame or second. From one other thread.
+  [[nodiscard]] bool has_stream() const noexcept { return stream_.has_value(); }
+  /// Of the stream, as of the last frame or second. From one other thread.
   [[nodiscard]] const stream::FrameStreamFigures& figures() const noexcept {
     (void)figures_.take_if_new();
     return figures_.newest_taken();
@@ -33,11 +45,11 @@ class StreamWriter {
 
  private:
   void work();
-  [[nodiscard]] bool serve(const Slots::Frame& frame);
+  /// Whether it got where it was to go, or is counted there.
+  [[nodiscard]] bool hand_out(const Slots::Frame& frame);
 
-  stream::FrameStreamServer server_;
-  stream::StreamedSensor sensor_;
-  std::int64_t deadline_ns_;
+  std::optional<Stream> stream_;
+  publish::Publisher& publisher_;
   Slots& slots_;
   const threads::WakeEvent& ready_;
   std::atomic<bool> finish_{false};

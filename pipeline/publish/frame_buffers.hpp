@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <condition_variable>
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "pipeline/publish/labelled_frame.hpp"
+
+namespace terracut::publish {
+
+/// Frames that are used again, with the memory of their points, when nobody holds them any more.
+/// Threads without a deadline.
+class FrameBuffers {
+ public:
+  /// So many at most at the same time.
+  explicit FrameBuffers(std::size_t count);
+
+  /// One that nobody else has, with points of a former frame perhaps; waits for it where all are
+  /// in use. May outlive this.
+  [[nodiscard]] std::shared_ptr<LabelledFrame> take();
+
+ private:
+  struct Free {
+    std::mutex mutex;
+    std::condition_variable came_back;
+    std::vector<std::unique_ptr<LabelledFrame>> frames;
+  };
+  std::shared_ptr<Free> free_ = std::make_shared<Free>();
+};
+
+}  // namespace terracut::publish

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "pipeline/status/frame_record.hpp"
+#include "pipeline/stream/labelled_frame_wire.hpp"
+
+namespace terracut::publish {
+
+/// A labelled frame on its way to outputs without a deadline.
+struct LabelledFrame {
+  status::FrameRecord record;                 ///< As far as it was known: up to the labels.
+  std::vector<stream::LabelledPoint> points;  ///< In order of arrival.
+};
+
+/// One frame for all outputs; nobody changes it any more.
+using SharedFrame = std::shared_ptr<const LabelledFrame>;
+
+}  // namespace terracut::publish

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/publish/publisher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace terracut::publish {
+
+/// Queues hold the newest frames, as many as the longest has room for; besides them each output has
+/// one in work, and one is being filled.
+std::size_t Publisher::buffers_for(const Sinks& sinks) noexcept {
+  std::size_t longest = 0;
+  for (const auto& sink : sinks) longest = std::max(longest, sink->queue_frames());
+  return longest + sinks.size() + 1;
+}
+
+Publisher::Publisher(Sinks sinks, WhenFull when_full, SinkWorker::OnFailure on_failure)
+    : buffers_(buffers_for(sinks)) {
+  for (auto& sink : sinks) {
+    workers_.push_back(std::make_unique<SinkWorker>(std::move(sink), when_full, on_failure));
+  }
+}
+
+void Publisher::put(const SharedFrame& frame) {
+  for (const auto& worker : workers_) worker->put(frame);
+}
+
+void Publisher::put_figures(const status::MonitorSnapshot& figures) {
+  if (workers_.empty()) return;
+  const auto shared = std::make_shared<const status::MonitorSnapshot>(figures);
+  for (const auto& worker : workers_) worker->put_figures(shared);
+}
+
+bool Publisher::finish(std::optional<std::chrono::milliseconds> patience) {
+  for (const auto& worker : workers_) worker->begin_to_finish();
+  constexpr std::chrono::hours kAsLongAsItTakes{24 * 365};
+  const auto until = std::chrono::steady_clock::now() + patience.value_or(kAsLongAsItTakes);
+  return std::ranges::all_of(workers_, [&](const auto& worker) {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
+        until - std::chrono::steady_clock::now());
+    return worker->ends_within(std::max(left, std::chrono::milliseconds(0)));
+  });
+}
+
+Status Publisher::outcome() const {
+  for (const auto& worker : workers_) {
+    if (const auto failure = worker->failure()) return tl::unexpected(*failure);
+  }
+  return {};
+}
+
+std::vector<status::NamedCount> Publisher::losses(bool over) const {
+  std::vector<status::NamedCount> losses;
+  for (const auto& worker : workers_) {
+    const std::string name = fmt::format("{}_frames_left_out", worker->sink().name());
+    losses.push_back({{name}, worker->left_out() + (over ? worker->waiting() : 0)});
+    std::ranges::move(worker->sink().losses(), std::back_inserter(losses));
+  }
+  return losses;
+}
+
+}  // namespace terracut::publish

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "frame_outlet.hpp"
+
+#include <utility>
+
+namespace terracut::run {
+
+FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
+                         const threads::WakeEvent& ready)
+    : stream_(std::move(stream)),
+      publisher_(publisher),
+      slots_(slots),
+      ready_(ready),
+      thread_([this] { work(); }) {}
+
+bool FrameOutlet::finish(std::chrono::milliseconds patience) {
+  finish_ = true;
+  ready_.wake();
+  return thread_.ends_within(patience);
+}
+
+void FrameOutlet::work() {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  while (true) {
+    const bool last_round = finish_;
+    for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(hand_out(frame));
+    if (stream_) {
+      stream_->server.work_round();
+      figures_.publish(stream_->server.figures());
+    }
+    if (last_round) return;
+    (void)ready_.wait(stream_ ? stream_->server.descriptor() : -1, kSecond_ns);
+  }
+}
+
+bool FrameOutlet::hand_out(const Slots::Frame& frame) {
+  bool served = true;
+  if (stream_) {
+    const std::int64_t latency_ns = frame.record.labels_ns - frame.record.info.last_packet_ns;
+    served = stream_->server.serve({.record = frame.record,
+                                    .sensor = stream_->sensor,
+                                    .late = latency_ns > stream_->deadline_ns,
+                                    .points = frame.items});
+  }
+  if (publisher_.has_sinks()) {
+    const auto shared = publisher_.buffer();
+    shared->record = frame.record;
+    shared->points.assign(frame.items.begin(), frame.items.end());
+    publisher_.put(shared);
+  }
+  return served;
+}
+
+}  // namespace terracut::run

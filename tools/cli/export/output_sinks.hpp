@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "pipeline/publish/publisher.hpp"
+#include "pipeline/publish/stream.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// Whether an output is asked for that gets every frame with its points, labels alone are not
+/// enough for.
+[[nodiscard]] bool wants_sinks(const OutputOptions& options);
+
+/// These outputs, open: files created, ports bound, which is said. The first one's error where one
+/// cannot be.
+[[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
+                                                             const publish::Stream& stream);
+
+/// Warns that an output gets nothing more.
+void warn_of_failure(std::string_view sink, const Error& error);
+
+}  // namespace terracut::cli

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "pipeline/status/monitor_snapshot.hpp"
+
+namespace terracut::status {
+
+/// How one part of a run does now, as diagnostic_msgs/DiagnosticStatus has it.
+struct Diagnosis {
+  enum class Severity : std::uint8_t { kOk = 0, kWarn = 1, kError = 2, kStale = 3 };
+
+  Severity level = Severity::kOk;
+  std::string name{};         ///< "terracut: deadline"
+  std::string message{};      ///< For people.
+  std::string hardware_id{};  ///< The sensor.
+  std::vector<std::pair<std::string, std::string>> values{};
+};
+
+/// Judges the figures of a run, about once a second: what was lost is a warning in the second in
+/// which it was, not for ever after. One thread.
+class Diagnoses {
+ public:
+  /// Of deadline, input, losses, clock, threads and mount.
+  [[nodiscard]] std::vector<Diagnosis> of(const MonitorSnapshot& figures);
+
+ private:
+  std::uint64_t lost_before_ = 0, unclear_before_ = 0;
+};
+
+}  // namespace terracut::status

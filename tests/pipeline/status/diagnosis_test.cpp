@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "pipeline/status/diagnosis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+#include <string>
+
+namespace terracut::status {
+namespace {
+
+using Severity = Diagnosis::Severity;
+
+/// A run that does well: a frame, and real-time threads.
+std::unique_ptr<MonitorSnapshot> good_figures() {
+  auto figures = std::make_unique<MonitorSnapshot>();
+  figures->sensor = {"hdl64e, 10 Hz"};
+  figures->link = LinkState::kReceiving;
+  figures->frames = 1;
+  figures->loss_count = 1;
+  figures->losses[0] = {"kernel_drops", 0};
+  figures->thread_count = 1;
+  figures->threads[0].name = {"segment"};
+  figures->threads[0].scheduling = {"SCHED_FIFO 70, core 1"};
+  return figures;
+}
+
+Severity severity_of(const std::vector<Diagnosis>& all, const std::string& name) {
+  const auto found = std::ranges::find(all, "terracut: " + name, &Diagnosis::name);
+  return found == all.end() ? Severity::kStale : found->level;
+}
+
+TEST(Diagnoses, AreAllOkOfARunThatDoesWell) {
+  for (const Diagnosis& each : Diagnoses().of(*good_figures())) {
+    EXPECT_EQ(each.level, Severity::kOk) << each.name << ": " << each.message;
+    EXPECT_EQ(each.hardware_id, "hdl64e, 10 Hz");
+  }
+}
+
+TEST(Diagnoses, NameWhatIsWrongNow) {
+  Diagnoses diagnoses;
+  auto figures = good_figures();
+  figures->consecutive_misses = 1;
+  figures->link = LinkState::kSilent;
+  figures->threads[0].scheduling = {"SCHED_OTHER, core 1"};
+  figures->mount.contradicted = 1;
+  auto all = diagnoses.of(*figures);
+  EXPECT_EQ(severity_of(all, "deadline"), Severity::kWarn);
+  EXPECT_EQ(severity_of(all, "input"), Severity::kError);
+  EXPECT_EQ(severity_of(all, "threads"), Severity::kWarn);
+  EXPECT_EQ(severity_of(all, "mount"), Severity::kWarn);
+  figures->consecutive_misses = 3;
+  EXPECT_EQ(severity_of(diagnoses.of(*figures), "deadline"), Severity::kError);
+}
+
+TEST(Diagnoses, WarnOfLossesInTheSecondInWhichTheyHappened) {
+  Diagnoses diagnoses;
+  auto figures = good_figures();
+  figures->losses[0].count = 5;
+  figures->unjudged = 1;
+  auto all = diagnoses.of(*figures);
+  EXPECT_EQ(severity_of(all, "losses"), Severity::kWarn);
+  EXPECT_EQ(severity_of(all, "clock"), Severity::kWarn);
+  all = diagnoses.of(*figures);
+  EXPECT_EQ(severity_of(all, "losses"), Severity::kOk);
+  EXPECT_EQ(severity_of(all, "clock"), Severity::kOk);
+  const auto losses = std::ranges::find(all, std::string("terracut: losses"), &Diagnosis::name);
+  ASSERT_EQ(losses->values.size(), 1U) << "the count stays to be seen";
+  EXPECT_EQ(losses->values[0].second, "5");
+}
+
+}  // namespace
+}  // namespace terracut::status

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "pipeline/status/diagnosis.hpp"
+#include "pipeline/publish/diagnosis.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,16 +8,16 @@
 #include <memory>
 #include <string>
 
-namespace terracut::status {
+namespace terracut::publish {
 namespace {
 
 using Severity = Diagnosis::Severity;
 
 /// A run that does well: a frame, and real-time threads.
-std::unique_ptr<MonitorSnapshot> good_figures() {
-  auto figures = std::make_unique<MonitorSnapshot>();
+std::unique_ptr<status::MonitorSnapshot> good_figures() {
+  auto figures = std::make_unique<status::MonitorSnapshot>();
   figures->sensor = {"hdl64e, 10 Hz"};
-  figures->link = LinkState::kReceiving;
+  figures->link = status::LinkState::kReceiving;
   figures->frames = 1;
   figures->loss_count = 1;
   figures->losses[0] = {"kernel_drops", 0};
@@ -43,7 +43,7 @@ TEST(Diagnoses, NameWhatIsWrongNow) {
   Diagnoses diagnoses;
   auto figures = good_figures();
   figures->consecutive_misses = 1;
-  figures->link = LinkState::kSilent;
+  figures->link = status::LinkState::kSilent;
   figures->threads[0].scheduling = {"SCHED_OTHER, core 1"};
   figures->mount.contradicted = 1;
   auto all = diagnoses.of(*figures);
@@ -72,4 +72,4 @@ TEST(Diagnoses, WarnOfLossesInTheSecondInWhichTheyHappened) {
 }
 
 }  // namespace
-}  // namespace terracut::status
+}  // namespace terracut::publish

@@ -9,7 +9,7 @@
 
 #include "pipeline/status/monitor_snapshot.hpp"
 
-namespace terracut::status {
+namespace terracut::publish {
 
 /// How one part of a run does now, as diagnostic_msgs/DiagnosticStatus has it.
 struct Diagnosis {
@@ -27,10 +27,10 @@ struct Diagnosis {
 class Diagnoses {
  public:
   /// Of deadline, input, losses, clock, threads and mount.
-  [[nodiscard]] std::vector<Diagnosis> of(const MonitorSnapshot& figures);
+  [[nodiscard]] std::vector<Diagnosis> of(const status::MonitorSnapshot& figures);
 
  private:
   std::uint64_t lost_before_ = 0, unclear_before_ = 0;
 };
 
-}  // namespace terracut::status
+}  // namespace terracut::publish

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include "diagnosis.hpp"
+#include "pipeline/publish/diagnosis.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include "pipeline/status/figures.hpp"
 #include "rt/measure/milliseconds.hpp"
 
-namespace terracut::status {
+namespace terracut::publish {
 namespace {
 
 using Severity = Diagnosis::Severity;
@@ -19,7 +19,7 @@ std::string ms(std::int64_t ns) {
   return fmt::format("{:.3f}", measure::milliseconds(ns));
 }
 
-Diagnosis of_deadline(const MonitorSnapshot& f) {
+Diagnosis of_deadline(const status::MonitorSnapshot& f) {
   constexpr std::uint64_t kManyInARow = 3;
   Diagnosis deadline{.name = "terracut: deadline", .message = "frames are labelled in time"};
   if (f.consecutive_misses > 0) {
@@ -37,24 +37,24 @@ Diagnosis of_deadline(const MonitorSnapshot& f) {
                      {"missed", std::to_string(f.all_misses())}};
   for (std::size_t i = 0; i < f.misses.size(); ++i) {
     deadline.values.emplace_back(
-        fmt::format("missed_{}", to_string(static_cast<FrameMissCause>(i))),
+        fmt::format("missed_{}", to_string(static_cast<status::FrameMissCause>(i))),
         std::to_string(f.misses[i]));
   }
   for (std::size_t i = 0; i < f.levels.size(); ++i) {
-    deadline.values.emplace_back(fmt::format("level_{}", to_string(static_cast<Level>(i))),
+    deadline.values.emplace_back(fmt::format("level_{}", to_string(static_cast<status::Level>(i))),
                                  std::to_string(f.levels[i]));
   }
   return deadline;
 }
 
-Diagnosis of_input(const MonitorSnapshot& f) {
+Diagnosis of_input(const status::MonitorSnapshot& f) {
   Diagnosis input{.name = "terracut: input", .message = std::string(to_string(f.link))};
   if (f.head_stands != 0) {
     input.level = Severity::kError;
     input.message = "the sensor's head does not rotate";
-  } else if (f.link == LinkState::kWaiting) {
+  } else if (f.link == status::LinkState::kWaiting) {
     input.level = Severity::kStale;
-  } else if (f.link != LinkState::kReceiving) {
+  } else if (f.link != status::LinkState::kReceiving) {
     input.level = Severity::kError;
   }
   input.values = {{"from", std::string(f.input.view())},
@@ -65,12 +65,12 @@ Diagnosis of_input(const MonitorSnapshot& f) {
 
 }  // namespace
 
-std::vector<Diagnosis> Diagnoses::of(const MonitorSnapshot& f) {
+std::vector<Diagnosis> Diagnoses::of(const status::MonitorSnapshot& f) {
   std::vector<Diagnosis> all{of_deadline(f), of_input(f)};
 
   Diagnosis losses{.name = "terracut: losses", .message = "none in the last second"};
   std::uint64_t lost = 0, clock_jumps = 0;
-  for (const NamedCount& cause : f.losses_in_use()) {
+  for (const status::NamedCount& cause : f.losses_in_use()) {
     lost += cause.count;
     if (cause.name.view() == "rejected_clock_jump") clock_jumps = cause.count;
     if (cause.count > 0) {
@@ -94,7 +94,7 @@ std::vector<Diagnosis> Diagnoses::of(const MonitorSnapshot& f) {
   all.push_back(std::move(clock));
 
   Diagnosis threads{.name = "terracut: threads", .message = "as asked for"};
-  for (const ThreadStatus& thread : f.threads_in_use()) {
+  for (const status::ThreadStatus& thread : f.threads_in_use()) {
     const std::string name(thread.name.view());
     threads.values.emplace_back(name, thread.scheduling.view());
     threads.values.emplace_back(name + "_major_faults", std::to_string(thread.major_faults));
@@ -107,15 +107,15 @@ std::vector<Diagnosis> Diagnoses::of(const MonitorSnapshot& f) {
   Diagnosis mount{.name = "terracut: mount", .message = "fits the ground that is seen"};
   if (f.mount.contradicted != 0) {
     mount.level = Severity::kWarn;
-    mount.message = contradiction_text(f.mount);
+    mount.message = status::contradiction_text(f.mount);
   }
   mount.values = {{"height_m", fmt::format("{:.3f}", f.mount.height_m)},
                   {"roll_deg", fmt::format("{:.2f}", f.mount.roll_deg)},
                   {"pitch_deg", fmt::format("{:.2f}", f.mount.pitch_deg)}};
   all.push_back(std::move(mount));
 
-  for (Diagnosis& each : all) each.hardware_id = printable(f.sensor.view());
+  for (Diagnosis& each : all) each.hardware_id = status::printable(f.sensor.view());
   return all;
 }
 
-}  // namespace terracut::status
+}  // namespace terracut::publish

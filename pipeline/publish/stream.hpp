@@ -13,7 +13,7 @@ namespace terracut::publish {
 struct Stream {
   std::string sensor;  ///< For people: "hdl64e at 192.168.1.201, 10.0 Hz, single return".
   int rows = 0;        ///< Of the range image; points have rows [0, rows).
-  mount::Mount mount;
+  mount::Mount mount{};
   std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels; 0: there is none.
 
   /// Names of coordinate frames in ROS' tree of transforms. Points lie in the vehicle frame

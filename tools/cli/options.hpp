@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calib/hdl64e/hdl64e_geometry.hpp"
@@ -59,13 +60,36 @@ struct MethodOptions {
   std::vector<std::string> settings;  ///< KEY=VALUE, checked; docs/reference/parameters.md
 };
 
+enum class McapClouds : std::uint8_t { kAll, kPoints };
+
+/// A recording for ROS 2 and its viewers.
+struct McapOptions {
+  std::filesystem::path path;  ///< NAME.mcap, or the folder of a bag; empty: none.
+  McapClouds clouds = McapClouds::kAll;
+  double split_mb = 0, split_s = 0;  ///< Of a bag's files; 0: not for that.
+};
+
 /// Where results go.
 struct OutputOptions {
   std::filesystem::path labels, pcd, png;  ///< Folders.
   std::filesystem::path json, parquet;     ///< Files.
-  std::vector<std::string> metadata;       ///< KEY=VALUE, for the Parquet file.
-  std::filesystem::path truth;             ///< Folder of NNNNNN.label: scores the labels.
+  std::vector<std::string> metadata;       ///< KEY=VALUE, for the Parquet and the MCAP file.
+  McapOptions mcap;
+  /// Names of coordinate frames (pipeline/publish/stream.hpp); the sensor's "off": none.
+  std::string frame_id = "terracut_ground", sensor_frame_id = "terracut_lidar";
+  std::filesystem::path truth;  ///< Folder of NNNNNN.label: scores the labels.
 };
+
+/// Each KEY=VALUE in two.
+[[nodiscard]] inline std::vector<std::pair<std::string, std::string>> key_values_of(
+    const std::vector<std::string>& texts) {
+  std::vector<std::pair<std::string, std::string>> pairs;
+  for (const std::string& text : texts) {
+    const std::size_t sign = text.find('=');
+    pairs.emplace_back(text.substr(0, sign), text.substr(sign + 1));
+  }
+  return pairs;
+}
 
 /// The vehicle's motion on its CAN bus. The signals are named as in the DBC file that simulated
 /// drives have beside them.
@@ -160,7 +184,7 @@ struct EvalOptions {
   std::filesystem::path changes;  ///< With it no journal.
 };
 
-enum class FleetFormat : std::uint8_t { kLabels, kParquet };
+enum class FleetFormat : std::uint8_t { kLabels, kParquet, kMcap };
 
 /// Recordings of a fleet, labelled by many processes.
 struct FleetOptions {

@@ -44,6 +44,9 @@ terracut_require(HTTPLIB_FOUND "cpp-httplib" libcpp-httplib-dev)
 find_package(OpenSSL COMPONENTS Crypto QUIET)
 terracut_require(OPENSSL_FOUND "OpenSSL" libssl-dev)
 
+find_package(ZLIB QUIET)
+terracut_require(ZLIB_FOUND "zlib" zlib1g-dev)
+
 include(TerracutZstd)
 terracut_require(ZSTD_FOUND "libzstd" libzstd-dev)
 

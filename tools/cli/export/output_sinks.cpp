@@ -4,17 +4,44 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
+#include "pipeline/mcap/mcap_sink.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
+namespace {
 
-bool wants_sinks(const OutputOptions& /*options*/) {
-  return false;
+Expected<std::unique_ptr<publish::FrameSink>> open_mcap(const OutputOptions& options,
+                                                        const publish::Stream& stream) {
+  auto sink =
+      mcap::McapSink::open({.path = options.mcap.path,
+                            .split_bytes = static_cast<std::uint64_t>(options.mcap.split_mb * 1e6),
+                            .split_ns = static_cast<std::int64_t>(options.mcap.split_s * 1e9),
+                            .points_alone = options.mcap.clouds == McapClouds::kPoints,
+                            .metadata = key_values_of(options.metadata)},
+                           stream);
+  if (!sink) return tl::unexpected(sink.error());
+  return *std::move(sink);
 }
 
-Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& /*options*/,
-                                               const publish::Stream& /*stream*/) {
-  return publish::Publisher::Sinks{};
+}  // namespace
+
+bool wants_sinks(const OutputOptions& options) {
+  return !options.mcap.path.empty();
+}
+
+Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
+                                               publish::Stream stream) {
+  stream.frame_id = options.frame_id;
+  stream.sensor_frame_id = options.sensor_frame_id == "off" ? "" : options.sensor_frame_id;
+  publish::Publisher::Sinks sinks;
+  if (!options.mcap.path.empty()) {
+    auto sink = open_mcap(options, stream);
+    if (!sink) return tl::unexpected(sink.error());
+    sinks.push_back(*std::move(sink));
+  }
+  return sinks;
 }
 
 void warn_of_failure(std::string_view sink, const Error& error) {

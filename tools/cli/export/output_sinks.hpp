@@ -14,9 +14,9 @@ namespace terracut::cli {
 [[nodiscard]] bool wants_sinks(const OutputOptions& options);
 
 /// These outputs, open: files created, ports bound, which is said. The first one's error where one
-/// cannot be.
+/// cannot be. `stream` gets its names of coordinate frames from `options`.
 [[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
-                                                             const publish::Stream& stream);
+                                                             publish::Stream stream);
 
 /// Warns that an output gets nothing more.
 void warn_of_failure(std::string_view sink, const Error& error);

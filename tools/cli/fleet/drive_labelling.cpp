@@ -68,13 +68,19 @@ class LabellingFolder {
 std::vector<std::string> output_words(const RelabelJob& job, const Json& recipe,
                                       const LabellingFolder& folder) {
   std::vector<std::string> words{"--json", folder.report().string()};
-  const fs::path table = folder.labels() / "returns.parquet";
-  if (job.format == FleetFormat::kParquet) {
-    words.insert(words.end(),
-                 {"--parquet", table.string(), "--metadata", "terracut.recipe=" + recipe.dump()});
-  } else {
-    words.insert(words.end(), {"--labels", folder.labels().string()});
+  switch (job.format) {
+    case FleetFormat::kLabels:
+      words.insert(words.end(), {"--labels", folder.labels().string()});
+      return words;
+    case FleetFormat::kParquet:
+      words.insert(words.end(), {"--parquet", (folder.labels() / "returns.parquet").string()});
+      break;
+    case FleetFormat::kMcap:
+      words.insert(words.end(), {"--mcap", (folder.labels() / "returns.mcap").string(),
+                                 "--mcap-clouds", "points"});
+      break;
   }
+  words.insert(words.end(), {"--metadata", "terracut.recipe=" + recipe.dump()});
   return words;
 }
 

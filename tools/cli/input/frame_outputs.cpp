@@ -86,12 +86,7 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
 Status FrameOutputs::write_returns(const LabelledReturns& frame) {
   if (options_.parquet.empty()) return {};
   if (!returns_) {
-    ParquetFile::Metadata metadata;
-    for (const std::string& text : options_.metadata) {
-      const std::size_t sign = text.find('=');
-      metadata.emplace_back(text.substr(0, sign), text.substr(sign + 1));
-    }
-    auto file = ReturnsFile::create(options_.parquet, std::move(metadata));
+    auto file = ReturnsFile::create(options_.parquet, key_values_of(options_.metadata));
     if (!file) return tl::unexpected(file.error());
     returns_.emplace(*std::move(file));
   }

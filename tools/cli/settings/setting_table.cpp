@@ -30,6 +30,7 @@ constexpr CommandSet kMethods = kPackets | C::kSegment | C::kRelabel | C::kPlan;
 constexpr CommandSet kDriven = C::kReplay | C::kLive;
 constexpr CommandSet kMoved = kDriven | C::kRelabel;
 constexpr CommandSet kFrames = C::kReplay | C::kSegment;
+constexpr CommandSet kPublished = kDriven | C::kSegment;
 constexpr CommandSet kDrives = C::kSimulate | C::kEval;
 constexpr CommandSet kSending = C::kSend | C::kSimulate;
 constexpr CommandSet kResults = C::kInfo | C::kPlan | C::kBench;
@@ -203,9 +204,9 @@ constexpr std::array kSettings{
             .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
     Setting{.key = "output.parquet", .option = "--parquet", .commands = kFrames, .help = "File for a table of all returns, Parquet: frame return stamp ring column x y z intensity label height",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.parquet; }},
-    Setting{.option = "--metadata", .commands = kFrames, .help = "KEY=VALUE: what the table is to say of itself; repeatable",
-            .form = TextForm::kKeyValue, .needs = "--parquet", .field = [](O& o) -> F { return &o.output.metadata; }},
-    Setting{.key = "output.format", .option = "--format", .commands = C::kRelabel, .help = "Of a drive: labels, a file a frame; parquet: one table of all its returns",
+    Setting{.option = "--metadata", .commands = kFrames, .help = "KEY=VALUE: what the table, and the recording, are to say of themselves; repeatable",
+            .form = TextForm::kKeyValue, .field = [](O& o) -> F { return &o.output.metadata; }},
+    Setting{.key = "output.format", .option = "--format", .commands = C::kRelabel, .help = "Of a drive: labels, a file a frame; parquet: one table of all its returns; mcap: one recording of its points",
             .field = [](O& o) -> F { return choice(o.fleet.format, kFormatWords); }},
     Setting{.key = "output.json", .option = "--json", .commands = kFrames | C::kLive, .help = "File for the report: returns, losses and times",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
@@ -221,6 +222,18 @@ constexpr std::array kSettings{
             .form = TextForm::kStream, .field = [](O& o) -> F { return &o.stream; }},
     Setting{.key = "output.stream_mode", .option = "--stream-mode", .commands = C::kLive, .help = "Rights of that socket's path: 600 its owner may read, 660 its group too, 666 all",
             .field = [](O& o) -> F { return choice(o.stream_mode, kStreamModeWords); }},
+    Setting{.key = "output.mcap", .option = "--mcap", .commands = kPublished, .help = "Recording for ROS 2, Foxglove, Lichtblick and Rerun: NAME.mcap is one file, else the folder of a bag for `ros2 bag` (docs/guide/mcap.md)",
+            .field = [](O& o) -> F { return &o.output.mcap.path; }},
+    Setting{.key = "output.mcap_clouds", .option = "--mcap-clouds", .commands = kPublished, .help = "Clouds in it: all, with ground and obstacles apart; points: one a frame, whose labels tell them apart, in half the room",
+            .field = [](O& o) -> F { return choice(o.output.mcap.clouds, kMcapCloudsWords); }},
+    Setting{.key = "output.mcap_split_mb", .option = "--mcap-split-mb", .commands = kPublished, .unit = "MB", .help = "A bag's file ends when it is so large; 0: not for that",
+            .least = 0, .most = 1e6, .field = [](O& o) -> F { return &o.output.mcap.split_mb; }},
+    Setting{.key = "output.mcap_split_s", .option = "--mcap-split-s", .commands = kPublished, .unit = "s", .help = "A bag's file ends when it spans so much; 0: not for that",
+            .least = 0, .most = kLongest_s, .field = [](O& o) -> F { return &o.output.mcap.split_s; }},
+    Setting{.key = "output.frame_id", .option = "--frame-id", .commands = kPublished, .help = "ROS frame that points lie in: x forward, y left, z up from the ground below the sensor",
+            .field = [](O& o) -> F { return &o.output.frame_id; }},
+    Setting{.key = "output.sensor_frame_id", .option = "--sensor-frame-id", .commands = kPublished, .help = "ROS frame of the sensor, below which the points' frame is told to lie; off: no transform is told",
+            .field = [](O& o) -> F { return &o.output.sensor_frame_id; }},
     Setting{.key = "output.trace", .option = "--trace", .commands = C::kLive, .help = "File for the last frames as a trace, for ui.perfetto.dev",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.trace; }},
 

@@ -54,7 +54,10 @@ inline constexpr std::array kReturnsWords{Word{"single", drive::ReturnMode::kSin
 inline constexpr std::array kStreamModeWords{
     Word{"600", ::mode_t{0600}}, Word{"660", ::mode_t{0660}}, Word{"666", ::mode_t{0666}}};
 inline constexpr std::array kFormatWords{Word{"labels", FleetFormat::kLabels},
-                                         Word{"parquet", FleetFormat::kParquet}};
+                                         Word{"parquet", FleetFormat::kParquet},
+                                         Word{"mcap", FleetFormat::kMcap}};
+inline constexpr std::array kMcapCloudsWords{Word{"all", McapClouds::kAll},
+                                             Word{"points", McapClouds::kPoints}};
 inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
                                           Word<std::optional<bool>>{"packets", true}};
 

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+namespace terracut::mcap {
+
+/// Records of an MCAP file (mcap.dev/spec), one after the other: what they are, how long, then
+/// their fields, little-endian and without padding.
+class RecordWriter {
+ public:
+  static_assert(std::endian::native == std::endian::little, "numbers are copied as they lie");
+
+  enum class Opcode : std::uint8_t {
+    kHeader = 0x01,
+    kFooter = 0x02,
+    kSchema = 0x03,
+    kChannel = 0x04,
+    kMessage = 0x05,
+    kChunk = 0x06,
+    kMessageIndex = 0x07,
+    kChunkIndex = 0x08,
+    kStatistics = 0x0B,
+    kMetadata = 0x0C,
+    kMetadataIndex = 0x0D,
+    kSummaryOffset = 0x0E,
+    kDataEnd = 0x0F,
+  };
+
+  /// The fields of a record follow, up to end().
+  void begin(Opcode opcode) {
+    add(static_cast<std::uint8_t>(opcode));
+    begin_block<std::uint64_t>();
+  }
+  void end() { end_block<std::uint64_t>(); }
+
+  template <class Number>
+    requires std::is_integral_v<Number>
+  void add(Number number) {
+    append(std::as_bytes(std::span(&number, 1)));
+  }
+  void add(std::string_view text) {
+    add(static_cast<std::uint32_t>(text.size()));
+    append(std::as_bytes(std::span(text)));
+  }
+  void append(std::span<const std::byte> more) {
+    bytes_.insert(bytes_.end(), more.begin(), more.end());
+  }
+  /// The elements of an array or a map follow, up to end_elements().
+  void begin_elements() { begin_block<std::uint32_t>(); }
+  void end_elements() { end_block<std::uint32_t>(); }
+
+  [[nodiscard]] std::span<const std::byte> bytes() const noexcept { return bytes_; }
+  [[nodiscard]] std::size_t size() const noexcept { return bytes_.size(); }
+  /// Room stays.
+  void clear() noexcept { bytes_.clear(); }
+
+ private:
+  template <class Length>
+  void begin_block() {
+    blocks_.push_back(bytes_.size());
+    add(Length{0});
+  }
+  template <class Length>
+  void end_block() {
+    const std::size_t at = blocks_.back();
+    blocks_.pop_back();
+    const auto length = static_cast<Length>(bytes_.size() - at - sizeof(Length));
+    std::memcpy(bytes_.data() + at, &length, sizeof length);
+  }
+
+  std::vector<std::byte> bytes_;
+  std::vector<std::size_t> blocks_;  ///< Begun, where their length goes.
+};
+
+}  // namespace terracut::mcap

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "pipeline/ros_messages/cdr_writer.hpp"
+#include "pipeline/status/frame_record.hpp"
+
+namespace terracut::ros_messages {
+
+/// The instant for which a frame's points are true, CLOCK_REALTIME: that to which they were
+/// deskewed, else when its first packet was stamped.
+[[nodiscard]] constexpr std::int64_t stamp_ns_of(const status::FrameRecord& record) noexcept {
+  const frame::DeskewInfo& deskew = record.info.deskew;
+  return deskew.state == frame::DeskewState::kDone ? deskew.reference_ns
+                                                   : record.info.first_packet_ns;
+}
+
+/// builtin_interfaces/Time.
+inline void add_time(CdrWriter& to, std::int64_t time_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  const std::int64_t rest_ns = ((time_ns % kSecond_ns) + kSecond_ns) % kSecond_ns;
+  to.add(static_cast<std::int32_t>((time_ns - rest_ns) / kSecond_ns));
+  to.add(static_cast<std::uint32_t>(rest_ns));
+}
+
+/// std_msgs/Header.
+inline void add_header(CdrWriter& to, std::int64_t stamp_ns, std::string_view frame_id) {
+  add_time(to, stamp_ns);
+  to.add(frame_id);
+}
+
+}  // namespace terracut::ros_messages

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/publish/labelled_frame.hpp"
+#include "pipeline/stream/labelled_frame_wire.hpp"
+
+namespace terracut::ros_messages {
+
+/// A point as our clouds carry it: names and types as ROS' drivers have them (x, y, z, intensity,
+/// ring, time), so that PCL's and LIO packages' point types find theirs, and our label. Packed as
+/// it lies.
+struct CloudPoint {
+  float x_m = 0, y_m = 0, z_m = 0;  ///< Vehicle frame (calib/mount/mount.hpp).
+  float intensity = 0;              ///< 0 to 255.
+  std::uint16_t ring = 0;           ///< Row of the range image, 0 is the lowest laser.
+  std::uint8_t label = 0;           ///< SemanticKITTI class, as of stream::LabelledPoint.
+  std::uint8_t unused = 0;
+  float time_s = 0;  ///< When it was measured, after the header's stamp; before it, negative.
+};
+static_assert(sizeof(CloudPoint) == 24);
+
+/// A field of CloudPoint, as sensor_msgs/PointField.
+struct CloudField {
+  std::string_view name;
+  std::uint32_t offset;
+  std::uint8_t datatype;
+};
+inline constexpr std::uint8_t kUint8 = 2, kUint16 = 4, kFloat32 = 7;  ///< PointField's.
+inline constexpr CloudField kCloudFields[]{{"x", offsetof(CloudPoint, x_m), kFloat32},
+                                           {"y", offsetof(CloudPoint, y_m), kFloat32},
+                                           {"z", offsetof(CloudPoint, z_m), kFloat32},
+                                           {"intensity", offsetof(CloudPoint, intensity), kFloat32},
+                                           {"ring", offsetof(CloudPoint, ring), kUint16},
+                                           {"label", offsetof(CloudPoint, label), kUint8},
+                                           {"time", offsetof(CloudPoint, time_s), kFloat32}};
+
+/// Which of a frame's points.
+enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
+
+/// Whether a point with this SemanticKITTI class is among them. Road is a part of the ground, and
+/// all of it where the road surface is not looked for.
+[[nodiscard]] bool belongs_to(CloudOf which, std::uint8_t label) noexcept;
+
+/// sensor_msgs/PointCloud2 of those points, in order of arrival, in place of what is in `message`.
+void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
+                       std::string_view frame_id, std::vector<std::byte>& message);
+
+}  // namespace terracut::ros_messages

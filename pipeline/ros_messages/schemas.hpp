@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <string_view>
+
+namespace terracut::ros_messages {
+
+/// A message type with its definition and those of what it is made of, as encoding "ros2msg" of
+/// MCAP and Foxglove has them.
+struct Schema {
+  std::string_view type;  ///< "sensor_msgs/msg/PointCloud2"
+  std::string_view definition;
+};
+
+extern const Schema kPointCloud2, kDiagnosticArray, kTfMessage;
+
+}  // namespace terracut::ros_messages

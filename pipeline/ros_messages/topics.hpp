@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "pipeline/ros_messages/point_cloud.hpp"
+#include "pipeline/ros_messages/schemas.hpp"
+
+namespace terracut::ros_messages {
+
+/// What a run tells ROS' tools, a topic each.
+struct Topic {
+  std::string_view name;
+  const Schema& schema;
+  std::optional<CloudOf> cloud;  ///< None: no message a frame.
+};
+
+inline constexpr std::size_t kDiagnosticsTopic = 4, kTransformsTopic = 5;
+inline constexpr std::array<Topic, 6> kTopics{
+    Topic{"/terracut/points", kPointCloud2, CloudOf::kAll},
+    Topic{"/terracut/ground", kPointCloud2, CloudOf::kGround},
+    Topic{"/terracut/obstacles", kPointCloud2, CloudOf::kObstacles},
+    Topic{"/terracut/road", kPointCloud2, CloudOf::kRoad},
+    Topic{"/diagnostics", kDiagnosticArray, std::nullopt},
+    Topic{"/tf_static", kTfMessage, std::nullopt}};
+
+/// CLOCK_REALTIME at which a frame is said to have been published: when its labels were there, or,
+/// in recordings, its last packet.
+[[nodiscard]] constexpr std::int64_t publish_time_ns_of(
+    const status::FrameRecord& record) noexcept {
+  return record.labels_ns != 0 ? record.labels_ns : record.info.last_packet_ns;
+}
+
+}  // namespace terracut::ros_messages

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+// What is written, as far as it can be seen without a reader; that readers which share no code with
+// it read every message is tests/tools/cli/mcap/read_mcap.mjs.
+#include "pipeline/mcap/mcap_sink.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/support/scratch_folder.hpp"
+
+namespace terracut::mcap {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string content_of(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// How many records of each kind a file has, from its magic on, as long as they are whole.
+struct Records {
+  std::map<int, int> of;
+  bool ends_whole = false;  ///< Behind the last one comes nothing, or the magic.
+};
+Records records_of(const fs::path& path) {
+  const std::string content = content_of(path);
+  const std::string magic("\x89MCAP0\r\n", 8);
+  Records records;
+  EXPECT_EQ(content.substr(0, 8), magic) << path;
+  std::size_t at = 8;
+  while (at + 9 <= content.size() && content.substr(at) != magic) {
+    std::uint64_t length = 0;
+    std::memcpy(&length, content.data() + at + 1, sizeof length);
+    if (length > content.size() - at - 9) return records;
+    ++records.of[static_cast<unsigned char>(content[at])];
+    at += 9 + length;
+  }
+  records.ends_whole = at == content.size() || content.substr(at) == magic;
+  return records;
+}
+constexpr int kFooter = 2, kChunk = 6, kStatistics = 11;
+
+class McapSinkTest : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = test::make_scratch_folder(); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::unique_ptr<McapSink> open(McapSink::Config config) {
+    auto sink = McapSink::open(std::move(config), {.sensor = "a sensor"});
+    EXPECT_TRUE(sink) << sink.error().message;
+    return *std::move(sink);
+  }
+  /// Frames of `points`, ten a second, from `first` on.
+  static void put_frames(McapSink& sink, int first, int count, std::size_t points) {
+    for (int n = first; n < first + count; ++n) {
+      publish::LabelledFrame frame;
+      frame.record.info.number = static_cast<std::uint32_t>(n);
+      frame.record.info.first_packet_ns = 1'000'000'000'000 + n * 100'000'000LL;
+      frame.record.info.last_packet_ns = frame.record.info.first_packet_ns + 100'000'000;
+      frame.points.resize(points);
+      for (std::size_t i = 0; i < points; ++i) {
+        frame.points[i].x_m = static_cast<float>(i) * 0.37F;
+        frame.points[i].label = i % 3 == 0 ? 99 : 40;
+      }
+      ASSERT_TRUE(sink.put(frame));
+    }
+  }
+  std::set<std::string> names_in(const fs::path& folder) const {
+    std::set<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      names.insert(entry.path().filename().string());
+    }
+    return names;
+  }
+
+  fs::path folder_;
+};
+
+TEST_F(McapSinkTest, AFileIsWholeWhenItHasItsName) {
+  const auto sink = open({.path = folder_ / "drive.mcap"});
+  put_frames(*sink, 0, 3, 50'000);
+  EXPECT_FALSE(fs::exists(folder_ / "drive.mcap"));
+  ASSERT_TRUE(sink->finish());
+  EXPECT_EQ(names_in(folder_), (std::set<std::string>{"drive.mcap"}));
+  const Records records = records_of(folder_ / "drive.mcap");
+  EXPECT_TRUE(records.ends_whole);
+  EXPECT_EQ(records.of.at(kFooter), 1);
+  EXPECT_EQ(records.of.at(kStatistics), 1);
+}
+
+TEST_F(McapSinkTest, OneThatIsNotFinishedIsOnTheDiskUpToTheFrameInWork) {
+  const auto sink = open({.path = folder_ / "drive.mcap"});
+  put_frames(*sink, 0, 5, 50'000);
+  const auto names = names_in(folder_);  // as a process that is killed here leaves it
+  ASSERT_EQ(names.size(), 1U);
+  EXPECT_THAT(*names.begin(), testing::StartsWith("drive.mcap.part-"));
+  const Records records = records_of(folder_ / *names.begin());
+  EXPECT_TRUE(records.ends_whole) << "no chunk is in pieces";
+  EXPECT_GE(records.of.at(kChunk), 5);
+  EXPECT_EQ(records.of.count(kFooter), 0U);
+  ASSERT_TRUE(sink->finish());
+}
+
+TEST_F(McapSinkTest, ABagIsSplitBySizeAndByTimeAndLosesNothingInBetween) {
+  const auto by_size = open({.path = folder_ / "size", .split_bytes = 1'000'000});
+  put_frames(*by_size, 0, 20, 20'000);
+  ASSERT_TRUE(by_size->finish());
+  const auto names = names_in(folder_ / "size");
+  EXPECT_GT(names.size(), 3U);
+  EXPECT_TRUE(names.contains("size_0.mcap") && names.contains("size_1.mcap") &&
+              names.contains("metadata.yaml"));
+  for (const std::string& name : names) {
+    if (name != "metadata.yaml") {
+      EXPECT_EQ(records_of(folder_ / "size" / name).of.at(kFooter), 1);
+    }
+  }
+
+  const auto by_time = open({.path = folder_ / "time", .split_ns = 500'000'000});
+  put_frames(*by_time, 0, 12, 10);
+  ASSERT_TRUE(by_time->finish());
+  EXPECT_EQ(names_in(folder_ / "time"),
+            (std::set<std::string>{"metadata.yaml", "time_0.mcap", "time_1.mcap", "time_2.mcap"}));
+  const std::string metadata = content_of(folder_ / "time/metadata.yaml");
+  EXPECT_THAT(metadata, testing::HasSubstr("name: /terracut/points\n        type: "
+                                           "sensor_msgs/msg/PointCloud2\n"));
+  EXPECT_THAT(metadata, testing::HasSubstr("message_count: 12\n")) << "of a topic";
+  EXPECT_THAT(metadata, testing::HasSubstr("  message_count: 39\n"))
+      << "three clouds a frame, and a transform a file";
+  EXPECT_THAT(metadata, testing::HasSubstr("path: \"time_2.mcap\""));
+  EXPECT_THAT(metadata, testing::HasSubstr("nanoseconds: 1100000000\n"));
+}
+
+TEST_F(McapSinkTest, RefusesWhatCannotBe) {
+  const auto refusal = [&](McapSink::Config config) {
+    const auto sink = McapSink::open(std::move(config), {});
+    return sink ? std::string() : sink.error().message;
+  };
+  EXPECT_THAT(refusal({.path = folder_ / "a.mcap", .split_bytes = 1}),
+              testing::HasSubstr("expected a folder"));
+  fs::create_directory(folder_ / "full");
+  std::ofstream(folder_ / "full/something") << "else";
+  EXPECT_THAT(refusal({.path = folder_ / "full"}), testing::HasSubstr("there is something in it"));
+  EXPECT_THAT(refusal({.path = folder_ / "nowhere/a.mcap"}), testing::HasSubstr("nowhere"));
+}
+
+TEST_F(McapSinkTest, FiguresAreDiagnostics) {
+  const auto sink = open({.path = folder_ / "drive", .points_alone = true});
+  put_frames(*sink, 0, 1, 10);
+  const auto figures = std::make_unique<status::MonitorSnapshot>();
+  figures->taken_ns = 1'000'200'000'000;
+  ASSERT_TRUE(sink->put_figures(*figures));
+  ASSERT_TRUE(sink->finish());
+  EXPECT_THAT(content_of(folder_ / "drive/metadata.yaml"),
+              testing::HasSubstr("type: diagnostic_msgs/msg/DiagnosticArray\n"));
+  EXPECT_THAT(content_of(folder_ / "drive/metadata.yaml"),
+              testing::HasSubstr("  message_count: 3\n"))
+      << "points, diagnostics, transform";
+}
+
+}  // namespace
+}  // namespace terracut::mcap

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "pipeline/ros_messages/cdr_writer.hpp"
+#include "pipeline/ros_messages/diagnostic_array.hpp"
+#include "pipeline/ros_messages/point_cloud.hpp"
+#include "pipeline/ros_messages/transform.hpp"
+
+namespace terracut::ros_messages {
+namespace {
+
+using Bytes = std::vector<std::byte>;
+
+/// Reads a number where it is said to lie.
+template <class Number>
+Number at(const Bytes& message, std::size_t offset) {
+  Number number;
+  std::memcpy(&number, message.data() + offset, sizeof number);
+  return number;
+}
+
+std::vector<int> numbers_of(const Bytes& message) {
+  std::vector<int> numbers;
+  for (const std::byte byte : message) numbers.push_back(std::to_integer<int>(byte));
+  return numbers;
+}
+
+TEST(CdrWriter, AlignsNumbersBehindTheEncapsulationAndEndsTextsWithAZero) {
+  Bytes message{std::byte{7}};
+  CdrWriter to(message);
+  to.add(std::uint8_t{1});
+  to.add(std::string_view("ab"));
+  to.add(std::uint16_t{2});
+  to.add(1.0);
+  to.add(true);
+  const std::vector<int> expected{0,   1, 0, 0,  // encapsulation
+                                  1,   0, 0, 0, 3, 0, 0,    0,    'a',
+                                  'b', 0,           // padding behind the 1
+                                  0,   2, 0, 0, 0,  // and around the 2
+                                  0,   0, 0, 0, 0, 0, 0xF0, 0x3F, 1};
+  EXPECT_EQ(numbers_of(message), expected);
+}
+
+publish::LabelledFrame small_frame() {
+  publish::LabelledFrame frame;
+  frame.record.info.first_packet_ns = 5'250'000'000;
+  frame.record.info.last_packet_ns = 5'350'000'000;
+  frame.points = {{1, 2, 3, 200, 99, 63, 0.5F},
+                  {4, 5, 6, 100, 40, 0, 0.25F},
+                  {7, 8, 9, 50, 49, 1, 0.125F},
+                  {0, 0, 0, 0, 0, 2, 0}};
+  return frame;
+}
+
+constexpr std::size_t kWidthAt = 4 + 8 + 4 + 8 + 4;  // behind stamp, frame_id "vehicle", height
+
+TEST(PointCloud, HoldsThePointsThatBelongToIt) {
+  const publish::LabelledFrame frame = small_frame();
+  const auto width_of = [&](CloudOf which) {
+    Bytes message;
+    write_point_cloud(frame, which, "vehicle", message);
+    return at<std::uint32_t>(message, kWidthAt);
+  };
+  EXPECT_EQ(width_of(CloudOf::kAll), 4U);
+  EXPECT_EQ(width_of(CloudOf::kGround), 2U) << "road and other ground";
+  EXPECT_EQ(width_of(CloudOf::kRoad), 1U);
+  EXPECT_EQ(width_of(CloudOf::kObstacles), 1U);
+}
+
+/// Of a cloud that ends with it.
+CloudPoint last_point(const Bytes& message) {
+  return at<CloudPoint>(message, message.size() - 1 - sizeof(CloudPoint));
+}
+
+TEST(PointCloud, PointsHaveTheirTimeAfterTheStamp) {
+  publish::LabelledFrame frame = small_frame();
+  Bytes message;
+  write_point_cloud(frame, CloudOf::kObstacles, "vehicle", message);
+  EXPECT_EQ(at<std::int32_t>(message, 4), 5);
+  EXPECT_EQ(at<std::uint32_t>(message, 8), 250'000'000U);
+  const CloudPoint point = last_point(message);
+  EXPECT_EQ(point.x_m, 1.0F);
+  EXPECT_EQ(point.intensity, 200.0F);
+  EXPECT_EQ(point.ring, 63);
+  EXPECT_EQ(point.label, 99);
+  EXPECT_EQ(point.time_s, 0.5F);
+
+  frame.record.info.deskew.state = frame::DeskewState::kDone;
+  frame.record.info.deskew.reference_ns = 6'250'000'000;
+  write_point_cloud(frame, CloudOf::kObstacles, "vehicle", message);
+  EXPECT_EQ(at<std::int32_t>(message, 4), 6) << "true for the instant it was deskewed to";
+  EXPECT_EQ(last_point(message).time_s, -0.5F);
+}
+
+TEST(PointCloud, OfNoPointsIsOne) {
+  Bytes message;
+  write_point_cloud({}, CloudOf::kAll, "vehicle", message);
+  EXPECT_EQ(at<std::uint32_t>(message, kWidthAt), 0U);
+}
+
+TEST(DiagnosticArray, HoldsEachDiagnosisWithItsValues) {
+  const std::vector<publish::Diagnosis> diagnoses{
+      {publish::Diagnosis::Severity::kWarn, "n", "m", "h", {{"k", "v"}}}};
+  Bytes message;
+  write_diagnostic_array(3'000'000'004, diagnoses, message);
+  const std::vector<int> expected{
+      0, 1, 0, 0, 3,   0, 0, 0, 4, 0, 0, 0, 1,   0, 0, 0, 0, 0, 0, 0,  // header
+      1, 0, 0, 0, 1,   0, 0, 0, 2, 0, 0, 0, 'n', 0, 0, 0,              // one, level, name
+      2, 0, 0, 0, 'm', 0, 0, 0, 2, 0, 0, 0, 'h', 0, 0, 0, 1, 0, 0, 0,  //
+      2, 0, 0, 0, 'k', 0, 0, 0, 2, 0, 0, 0, 'v', 0};
+  EXPECT_EQ(numbers_of(message), expected);
+}
+
+TEST(Transform, TellsWhereThePointsFrameLiesInTheSensors) {
+  publish::Stream stream;
+  stream.mount.height_m = 2;
+  Bytes message;
+  write_mount_transform(1'000'000'000, stream, message);
+  const std::size_t end = message.size();
+  EXPECT_EQ(at<double>(message, end - 5 * 8), -2.0) << "the ground is below the sensor";
+  EXPECT_EQ(at<double>(message, end - 8), 1.0) << "nothing is turned";
+  const std::string text(reinterpret_cast<const char*>(message.data()), end);
+  EXPECT_LT(text.find("terracut_lidar"), text.find("terracut_ground"));
+}
+
+}  // namespace
+}  // namespace terracut::ros_messages

@@ -17,7 +17,7 @@ std::uint32_t ordered_bits(float range_m) noexcept {
 }  // namespace
 
 Components::Components(std::size_t max_nodes, memory::FixedMemory& memory)
-    : nodes_(memory.take<std::uint32_t>("min-cut: components", max_nodes)),
+    : nodes_(memory.take<std::uint32_t>("min-cut: components", max_nodes + 1)),
       extents_(memory.take<Extent>("min-cut: components", max_nodes)) {}
 
 std::span<const std::uint32_t> Components::operator[](std::uint32_t i) const noexcept {
@@ -43,7 +43,11 @@ void Components::find(CutGraph& graph, std::span<const std::uint32_t> cells,
           std::min(extent.range_bits, ordered_bits(ground_range_m[cells[nodes_[next]]]));
       for_each_edge(node.edges, [&](int direction) {
         const std::uint32_t neighbour = node.neighbour[static_cast<std::size_t>(direction)];
-        if (!graph.nodes[neighbour].queued) reach(neighbour);
+        // Whether it was reached is as good as random: written either way, counted if it was not.
+        bool& reached = graph.nodes[neighbour].queued;
+        nodes_[end] = neighbour;
+        end += reached ? 0 : 1;
+        reached = true;
       });
     }
     extent.end = end;

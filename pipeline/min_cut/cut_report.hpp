@@ -21,7 +21,8 @@ struct CutReport {
 
   std::uint32_t components = 0;         ///< Connected components left after persistency.
   std::uint32_t components_solved = 0;  ///< Of them, solved to the end.
-  std::uint32_t push_relabel_runs = 0;  ///< Components that Boykov-Kolmogorov gave up on.
+  std::uint32_t push_relabel_runs =
+      0;  ///< Components too large for Boykov-Kolmogorov, or too dear.
   std::uint32_t largest_component = 0;  ///< Cells.
 
   std::int64_t persistency_ops = 0;

@@ -72,9 +72,10 @@ TERRACUT_VECTOR_CLONES void take_decisions(std::span<const Seed> seeds,
 GridCut::GridCut(const frame::ImageShape& shape, const Config& config, memory::FixedMemory& memory)
     : config_(checked(shape, config)),
       contraction_(shape, config_.max_unknown, memory),
-      queue_(memory.take<std::uint32_t>("min-cut: work lists", config_.max_unknown)),
+      queue_(
+          memory.take<std::uint32_t>("min-cut: work lists", config_.max_unknown + std::size_t{1})),
       components_(config_.max_unknown, memory),
-      boykov_kolmogorov_(config_.max_unknown, memory),
+      boykov_kolmogorov_(std::min(config_.max_unknown, config_.bk_most_nodes), memory),
       push_relabel_(config_.max_unknown, memory) {}
 
 bool GridCut::is_worth_keeping(const CutReport& report) const noexcept {
@@ -137,13 +138,15 @@ void GridCut::decide(std::uint32_t index, std::span<Seed> seeds) const noexcept 
 
 bool GridCut::solve_component(std::span<const std::uint32_t> component, OpClock& clock,
                               CutReport& report) noexcept {
-  const std::int64_t before = clock.ops();
-  const std::int64_t bk_budget =
-      config_.bk_ops_base + config_.bk_ops_per_node * static_cast<std::int64_t>(component.size());
-  const bool bk_finished = boykov_kolmogorov_.solve(graph_, component, clock, before + bk_budget);
-  report.boykov_kolmogorov_ops += clock.ops() - before;
-  if (bk_finished) return true;
-  if (clock.exhausted()) return false;
+  if (component.size() <= config_.bk_most_nodes) {
+    const std::int64_t before = clock.ops();
+    const std::int64_t bk_budget =
+        config_.bk_ops_base + config_.bk_ops_per_node * static_cast<std::int64_t>(component.size());
+    const bool bk_finished = boykov_kolmogorov_.solve(graph_, component, clock, before + bk_budget);
+    report.boykov_kolmogorov_ops += clock.ops() - before;
+    if (bk_finished) return true;
+    if (clock.exhausted()) return false;
+  }
 
   const std::int64_t handed_over = clock.ops();
   ++report.push_relabel_runs;

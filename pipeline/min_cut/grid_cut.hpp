@@ -35,6 +35,9 @@ class GridCut {
     /// Unknown cells at most that persistency leaves to the solvers, which bounds memory and time.
     /// Where there are more, those of higher rows keep their coarse label.
     std::uint32_t max_unknown = 16'384;
+    /// Components of up to so many nodes are begun by Boykov-Kolmogorov, larger ones by
+    /// push-relabel: rough ground leaves some of 1,000 nodes and more.
+    std::uint32_t bk_most_nodes = 64;
     /// A component that takes Boykov-Kolmogorov more operations than
     /// `bk_ops_per_node` * its nodes + `bk_ops_base` is finished by push-relabel. Each in [0, 1e9].
     std::int64_t bk_ops_per_node = 100;

@@ -22,7 +22,7 @@ PushRelabel::PushRelabel(std::size_t max_nodes, memory::FixedMemory& memory)
       level_previous_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes)),
       active_first_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes + 2)),
       active_next_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes)),
-      queue_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes)) {}
+      queue_(memory.take<std::uint32_t>("min-cut: push-relabel", max_nodes + 1)) {}
 
 bool PushRelabel::solve(CutGraph& graph, std::span<const std::uint32_t> component,
                         OpClock& clock) noexcept {
@@ -31,12 +31,13 @@ bool PushRelabel::solve(CutGraph& graph, std::span<const std::uint32_t> componen
   const auto lift_work_limit = kLiftWorkPerNode * static_cast<std::int64_t>(component.size());
 
   relabel_all(component);
-  bool finished = true;
+  bool finished = true, distances_are_exact = true;
   while (finished) {
     const std::uint32_t index = take_highest_active();
     if (index == kEnd) break;
     discharge(index);
-    if (lift_work_ > lift_work_limit) relabel_all(component);
+    distances_are_exact = lift_work_ > lift_work_limit;
+    if (distances_are_exact) relabel_all(component);
     clock.spend(ops_);
     ops_ = 0;
     finished = !clock.exhausted();
@@ -44,7 +45,7 @@ bool PushRelabel::solve(CutGraph& graph, std::span<const std::uint32_t> componen
   graph.flow += flow_;
 
   if (finished) {
-    measure_way_to_sink(graph, component, queue_, ops_);
+    if (!distances_are_exact) measure_way_to_sink(graph, component, queue_, ops_);
     for (const std::uint32_t index : component) {
       CutNode& node = nodes_[index];
       node.side = node.distance == kNoWayToSink ? Side::kObstacle : Side::kGround;

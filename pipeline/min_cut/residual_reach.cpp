@@ -14,14 +14,17 @@ std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t
   }
   for (std::uint32_t next = 0; next < end; ++next) {
     const CutNode& node = graph.nodes[queue[next]];
+    const std::uint32_t distance = node.distance + 1;
+    ops += std::popcount(node.edges);
     for_each_edge(node.edges, [&](int direction) {
       const std::uint32_t other = node.neighbour[static_cast<std::size_t>(direction)];
       CutNode& neighbour = graph.nodes[other];
-      ++ops;
-      if (neighbour.distance != kNoWayToSink) return;
-      if (neighbour.residual[static_cast<std::size_t>(opposite(direction))] == 0) return;
-      neighbour.distance = node.distance + 1;
-      queue[end++] = other;
+      // Whether it is new is as good as random: written either way, counted if it is.
+      const bool is_new = neighbour.distance == kNoWayToSink &&
+                          neighbour.residual[static_cast<std::size_t>(opposite(direction))] != 0;
+      queue[end] = other;
+      neighbour.distance = is_new ? distance : neighbour.distance;
+      end += is_new ? 1 : 0;
     });
   }
   return end;

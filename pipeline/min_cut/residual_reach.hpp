@@ -15,9 +15,9 @@ namespace terracut::min_cut {
 inline constexpr std::uint32_t kNoWayToSink = std::numeric_limits<std::uint32_t>::max();
 
 /// Sets `distance` of every node of the component to the number of residual arcs to the sink (the
-/// terminal arc included), or kNoWayToSink. `queue` holds at least one entry per node; on return
-/// its first entries are the nodes that reach the sink, nearest first. Adds the arcs visited to
-/// `ops`. Real-time safe. Returns how many nodes reach the sink.
+/// terminal arc included), or kNoWayToSink. `queue` holds an entry per node and one more; on
+/// return its first entries are the nodes that reach the sink, nearest first. Adds the arcs visited
+/// to `ops`. Real-time safe. Returns how many nodes reach the sink.
 std::uint32_t measure_way_to_sink(CutGraph& graph, std::span<const std::uint32_t> component,
                                   std::span<std::uint32_t> queue,
                                   std::int64_t& ops) noexcept TERRACUT_NONBLOCKING;

@@ -296,7 +296,7 @@ TEST(Certify, ProvesWhateverHasNoWayToTheSinkOrNoneFromTheSource) {
         });
       }
     }
-    std::vector<std::uint32_t> all(nodes.size()), queue(nodes.size());
+    std::vector<std::uint32_t> all(nodes.size()), queue(nodes.size() + 1);
     std::iota(all.begin(), all.end(), 0U);
     const std::uint32_t answered = min_cut::certify(contracted.graph, all, queue);
     std::uint32_t expected = 0;

@@ -46,11 +46,9 @@ inline min_cut::GridCut::Config keep_all(min_cut::GridCut::Config config = {}) {
   return config;
 }
 
-/// Boykov-Kolmogorov gives up after its first look at the budget.
 inline min_cut::GridCut::Config push_relabel_only() {
   min_cut::GridCut::Config config;
-  config.bk_ops_per_node = 0;
-  config.bk_ops_base = 1;
+  config.bk_most_nodes = 0;
   return config;
 }
 

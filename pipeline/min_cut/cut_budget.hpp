@@ -20,7 +20,8 @@ struct CutBudget {
   static constexpr std::int64_t kUnlimited = std::numeric_limits<std::int64_t>::max();
   /// 10 to 25 ms; fifty to two hundred times what a typical street frame takes.
   static constexpr std::int64_t kDefaultOps = 2'500'000;
-  /// Operations between two looks at the clock: some 40 microseconds.
+  /// Operations between two looks at the clock: some 40 microseconds. Push-relabel does not look
+  /// while it measures distances, which visits each arc of the component once.
   static constexpr std::int64_t kOpsPerClockLook = 4096;
   /// Nodes between two looks at the clock, where nodes are what is gone through: as long.
   static constexpr std::uint32_t kNodesPerClockLook = 1024;

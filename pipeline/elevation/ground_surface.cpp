@@ -3,10 +3,46 @@
 #include "pipeline/elevation/ground_surface.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <numbers>
 
+#include "rt/vector_clones.hpp"
+
 namespace terracut::elevation {
+namespace {
+
+constexpr auto kMostBands = static_cast<std::size_t>(RingGrid::kMaxBands);
+
+/// Where heights of a sector are asked for and none was found: heights are asked for where returns
+/// are, and between bands only from one to the next.
+TERRACUT_VECTOR_CLONES void find_missing(const GroundSurface::LowestReturn* __restrict lowest,
+                                         const std::uint8_t* __restrict origin, std::size_t bands,
+                                         std::uint8_t* __restrict is_missing) noexcept {
+  std::uint8_t has_return[kMostBands + 2];  // of the bands, and beside them
+  has_return[0] = has_return[bands + 1] = 0;
+  for (std::size_t i = 0; i < bands; ++i) {
+    has_return[i + 1] = lowest[i].height_m != GroundSurface::kEmpty;
+  }
+  for (std::size_t i = 0; i < bands; ++i) {
+    const auto is_asked_for =
+        static_cast<std::uint8_t>(has_return[i] | has_return[i + 1] | has_return[i + 2]);
+    is_missing[i] = static_cast<std::uint8_t>(is_asked_for & (origin[i] == 0 ? 1 : 0));
+  }
+}
+
+/// Puts heights in the place of others; whether one of them is not what was there.
+TERRACUT_VECTOR_CLONES bool replace(const float* __restrict from, std::size_t count,
+                                    float* __restrict to) noexcept {
+  std::int32_t has_changed = 0;
+  for (std::size_t i = 0; i < count; ++i) has_changed |= from[i] != to[i] ? 1 : 0;
+  for (std::size_t i = 0; i < count; ++i) to[i] = from[i];
+  return has_changed != 0;
+}
+
+}  // namespace
 
 GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
                              memory::FixedMemory& memory)
@@ -169,8 +205,8 @@ void GroundSurface::find_donors(const RingGrid& grid, int sector) noexcept {
   const std::span<Origin> origin = of_sector(origin_, grid, sector);
   bool has_changed = false;
   if (has_regained_[static_cast<std::size_t>(sector)] == 0) {
-    has_changed = !std::ranges::equal(found, origin);
-    std::ranges::copy(found, origin.begin());
+    has_changed = std::memcmp(found.data(), origin.data(), found.size_bytes()) != 0;
+    std::memcpy(origin.data(), found.data(), found.size_bytes());
   } else {
     for (int band = 0; band < grid.bands(); ++band) {
       const auto i = static_cast<std::size_t>(band);
@@ -200,25 +236,21 @@ bool GroundSurface::lies_on_wide_strip(const RingGrid& grid, int sector, int ban
 
 bool GroundSurface::interpolate_from_neighbours(const RingGrid& grid, int sector,
                                                 std::span<const LowestReturn> lowest) noexcept {
-  const int bands = grid.bands();
+  static_assert(sizeof(Origin) == 1 && kPredicted == 0);
+  const auto bands = static_cast<std::size_t>(grid.bands());
   const std::size_t first = grid.cell(sector, 0);
-  const auto has_return = [&](int band) {
-    return band >= 0 && band < bands &&
-           lowest[first + static_cast<std::size_t>(band)].height_m != kEmpty;
-  };
-  bool has_changed = false;
-  for (int band = 0; band < bands; ++band) {
-    const std::size_t cell = first + static_cast<std::size_t>(band);
-    // Heights are asked for where returns are, and between bands only from one to the next.
-    const bool is_asked_for = has_return(band - 1) || has_return(band) || has_return(band + 1);
-    const float height_m = origin_[cell] == kPredicted && is_asked_for
-                               ? interpolated_m(grid, sector, band)
-                               : traced_m_[cell];
-    has_changed |= height_m != height_m_[cell];
-    height_m_[cell] = height_m;
+  std::array<std::uint8_t, kMostBands> is_missing;
+  find_missing(&lowest[first], reinterpret_cast<const std::uint8_t*>(&origin_[first]), bands,
+               is_missing.data());
+  std::array<float, kMostBands> height_m;
+  std::memcpy(height_m.data(), &traced_m_[first], bands * sizeof(float));
+  for (std::size_t band = 0; band < bands; ++band) {
+    if (is_missing[band] != 0) {
+      height_m[band] = interpolated_m(grid, sector, static_cast<int>(band));
+    }
   }
   is_open_[static_cast<std::size_t>(sector)] = 0;
-  return has_changed;
+  return replace(height_m.data(), bands, &height_m_[first]);
 }
 
 float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) const noexcept {

@@ -118,6 +118,9 @@ class Page:
             if re.search(pattern, said):
                 self.left_out.append(f"terracut {said}: {reason}")
                 return
+        if {"node", "--dds"} & set(words) and not self.has_dds():
+            self.left_out.append(f"terracut {said}: needs a program that was built with DDS")
+            return
         if {"ROOT", "sequences/00"} & set(words) and not (self.folder / "ROOT").exists():
             self.left_out.append(f"terracut {said}: needs SemanticKITTI's scans")
             return
@@ -127,11 +130,19 @@ class Page:
             self.check([*words[:-1], "config"])
         elif words[0] == "top":
             self.check([*words, "--once"])
+        elif words[0] == "node":
+            self.check([*words, "--metrics", "off", "--duration", "0.3"])
         else:
             self.check(self.shortened(words))
             if words[0] == "simulate" and "drive.pcap" in words:
                 self.take_drive()  # what was made is too short to hold the unit's table, which takes 1.2 s
         self.passed += 1
+
+    def has_dds(self) -> bool:
+        words = ["node", "--metrics", "off", "--duration", "0.01"]
+        said = subprocess.run([self.program, *words], cwd=self.folder, env=self.environment, timeout=PATIENCE_S,
+                              capture_output=True, text=True, check=False)
+        return "built without DDS" not in said.stderr
 
     def run_script(self, name: str, words: list[str]):
         packages = subprocess.run(["/usr/bin/python3", "-c", "import jinja2, matplotlib, scipy"], capture_output=True, check=False)
@@ -152,7 +163,8 @@ class Page:
     def check(self, words: list[str], program: Path | None = None):
         done = subprocess.run([program or self.program, *words], cwd=self.folder, env=self.environment, timeout=PATIENCE_S,
                               capture_output=True, text=True, check=False)
-        ready = (0, 7) if words[-1] == "doctor" else (0,)  # 7: this machine is not a vehicle's
+        # 7: this machine is not a vehicle's; 5: nobody publishes clouds here.
+        ready = (0, 7) if words[-1] == "doctor" else (5,) if words[0] == "node" else (0,)
         if done.returncode not in ready:
             name = program.name if program else "terracut"
             raise Failed(f"{name} {shlex.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")

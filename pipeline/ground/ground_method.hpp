@@ -84,10 +84,12 @@ class GroundMethod {
     if (segmenter_) segmenter_->advance(image, complete_columns, observer);
   }
 
-  /// Baselines report the stage that is most like theirs (their headers say which).
+  /// Baselines report the stage that is most like theirs (their headers say which), and know no
+  /// budget.
   [[nodiscard]] stage::SegmentationReport segment(
-      const frame::RangeImage& image, stage::StageObserver* observer = nullptr) noexcept {
-    if (segmenter_) return segmenter_->segment(image, {}, observer);
+      const frame::RangeImage& image, stage::StageObserver* observer = nullptr,
+      const min_cut::CutBudget& budget = {}) noexcept {
+    if (segmenter_) return segmenter_->segment(image, budget, observer);
     if (observer != nullptr) observer->resumed();
     return baseline_->segment(image, observer);
   }

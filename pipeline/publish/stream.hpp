@@ -15,6 +15,7 @@ struct Stream {
   int rows = 0;        ///< Of the range image; points have rows [0, rows).
   mount::Mount mount{};
   std::int64_t deadline_ns = 0;  ///< From a frame's last packet to its labels; 0: there is none.
+  bool has_road = false;         ///< Ground that is no road has a label of its own.
 
   /// Names of coordinate frames in ROS' tree of transforms. Points lie in the vehicle frame
   /// (calib/mount/mount.hpp), whose place is told below the sensor's, because that one has a parent

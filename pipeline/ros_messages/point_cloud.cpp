@@ -75,13 +75,7 @@ void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
   std::byte* next = to.add_byte_sequence(sizeof(CloudPoint) * points).data();
   for (const stream::LabelledPoint& point : frame.points) {
     if (!belongs[point.label]) continue;
-    const CloudPoint out{.x_m = point.x_m,
-                         .y_m = point.y_m,
-                         .z_m = point.z_m,
-                         .intensity = static_cast<float>(point.intensity),
-                         .ring = point.row,
-                         .label = point.label,
-                         .time_s = point.time_s + time_of_first_s};
+    const CloudPoint out = cloud_point(point, time_of_first_s);
     std::memcpy(next, &out, sizeof out);
     next += sizeof out;
   }

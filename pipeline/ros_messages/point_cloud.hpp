@@ -48,6 +48,19 @@ enum class CloudOf : std::uint8_t { kAll, kGround, kObstacles, kRoad };
 /// all of it where the road surface is not looked for.
 [[nodiscard]] bool belongs_to(CloudOf which, std::uint8_t label) noexcept;
 
+/// `time_of_first_s`: of the frame's first packet, after the stamp of its header.
+[[nodiscard]] constexpr CloudPoint cloud_point(const stream::LabelledPoint& point,
+                                               float time_of_first_s) noexcept {
+  return {.x_m = point.x_m,
+          .y_m = point.y_m,
+          .z_m = point.z_m,
+          .intensity = static_cast<float>(point.intensity),
+          .ring = point.row,
+          .label = point.label,
+          .unused = 0,
+          .time_s = point.time_s + time_of_first_s};
+}
+
 /// sensor_msgs/PointCloud2 of those points, in order of arrival, in place of what is in `message`.
 void write_point_cloud(const publish::LabelledFrame& frame, CloudOf which,
                        std::string_view frame_id, std::vector<std::byte>& message);

@@ -106,8 +106,8 @@ Expected<std::span<const Label>> Segmenter::label(const Cloud& cloud) {
 }
 
 Expected<std::span<const Label>> Segmenter::label(const PointBuffer& buffer) {
-  if (const Status unpacked = unpack(buffer, engine_->cloud); !unpacked) {
-    return tl::unexpected(unpacked.error());
+  if (auto unpacked = unpack(buffer, engine_->cloud); !unpacked) {
+    return fail(ErrorCode::kMalformed, std::move(unpacked.error().message));
   }
   return engine_->label(engine_->cloud.view());
 }

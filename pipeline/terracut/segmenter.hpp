@@ -47,12 +47,13 @@ struct PointField {
   std::string_view name;
   std::size_t offset = 0;  ///< From the point's beginning, bytes.
   FieldType type = FieldType::kFloat32;
+  std::size_t count = 1;  ///< Values of it, next to each other; 0 counts as 1.
 };
 
-/// A cloud as drivers hand it out, and as sensor_msgs/PointCloud2 has it: little-endian points with
-/// named fields. Looked for are x, y, z (metres); the laser in ring, channel, laser or row; and
-/// intensity, which pictures alone need. So PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT, Ouster's and
-/// others' layouts serve as they are; azimuth, time and whatever else they hold is not needed.
+/// A cloud as drivers hand it out, and as sensor_msgs/PointCloud2 has it: points with named fields.
+/// Looked for are x, y, z (metres); the laser in ring, channel, laser or row; and intensity, which
+/// pictures alone need. So PointXYZIRC, PointXYZIRCAEDT, PointXYZIRT, Ouster's and others' layouts
+/// serve as they are; azimuth, time and whatever else they hold is not needed.
 struct PointBuffer {
   std::span<const std::byte> data;
   std::span<const PointField> fields;
@@ -60,6 +61,7 @@ struct PointBuffer {
   std::size_t width = 0;       ///< Points of a row.
   std::size_t height = 1;      ///< Rows; above 1 the cloud is organised.
   std::size_t row_step = 0;    ///< From one row to the next, bytes; 0: width * point_step.
+  bool big_endian = false;     ///< Of every value.
 };
 
 /// Labels clouds of one sensor. What tells the laser of a point is, in this order: its number; the

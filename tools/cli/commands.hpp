@@ -22,6 +22,7 @@ namespace terracut::cli {
 [[nodiscard]] ExitCode run_bench(const Options& options);
 [[nodiscard]] ExitCode run_send(const Options& options);
 [[nodiscard]] ExitCode run_live(const Options& options);
+[[nodiscard]] ExitCode run_node(const Options& options);
 [[nodiscard]] ExitCode run_dump(const Options& options);
 [[nodiscard]] ExitCode run_eval(const Options& options);
 [[nodiscard]] ExitCode run_top(const Options& options);

@@ -69,6 +69,26 @@ struct McapOptions {
   double split_mb = 0, split_s = 0;  ///< Of a bag's files; 0: not for that.
 };
 
+/// Names of DDS topics that suit those who read them.
+enum class DdsPreset : std::uint8_t { kRos, kAutoware, kNav2 };
+
+/// ROS 2 messages over DDS. Names are those of ROS: "~/points" lies below the node's.
+struct DdsOptions {
+  bool publishes = false;  ///< --dds
+  std::string node = "terracut";
+  std::string in = "/points_raw";  ///< Clouds to be labelled.
+  bool in_reliable = false;
+  DdsPreset preset = DdsPreset::kRos;
+  std::string points, ground, obstacles, road;  ///< Empty: the preset's; "off": none.
+  std::string diagnostics = "/diagnostics";     ///< "off": none.
+  bool reliable = true;
+  int depth = 5;
+  std::optional<int> domain;  ///< None: ROS_DOMAIN_ID, else 0.
+  std::string interface;      ///< Empty: Cyclone's choice.
+  int fragment_bytes = 63000;
+  int receive_buffer_kib = 8192;
+};
+
 /// Where results go.
 struct OutputOptions {
   std::filesystem::path labels, pcd, png;  ///< Folders.
@@ -78,6 +98,7 @@ struct OutputOptions {
   /// Names of coordinate frames (pipeline/publish/stream.hpp); the sensor's "off": none.
   std::string frame_id = "terracut_ground", sensor_frame_id = "terracut_lidar";
   std::filesystem::path truth;  ///< Folder of NNNNNN.label: scores the labels.
+  DdsOptions dds;
 };
 
 /// Each KEY=VALUE in two.

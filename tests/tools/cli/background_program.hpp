@@ -20,18 +20,19 @@
 
 namespace terracut::cli {
 
-/// A terracut that runs beside the test, which waits for what it says instead of for a time. Killed
-/// with this object if it has not ended by then.
+/// A terracut, or another program, that runs beside the test, which waits for what it says instead
+/// of for a time. Killed with this object if it has not ended by then.
 class BackgroundProgram {
  public:
-  /// `terracut ARGUMENTS` with `folder` as working directory. `name`: of the file its output goes
+  /// `PROGRAM ARGUMENTS` with `folder` as working directory. `name`: of the file its output goes
   /// to.
-  BackgroundProgram(fs::path folder, const std::string& name, const std::string& arguments)
+  BackgroundProgram(fs::path folder, const std::string& name, const std::string& arguments,
+                    const fs::path& program = test::program())
       : out_(folder / (name + ".stdout.txt")) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
-    const std::string command = "cd " + quoted(folder) + " && exec " + quoted(test::program()) +
-                                " " + arguments + " >" + quoted(out_);
+    const std::string command = "cd " + quoted(folder) + " && exec " + quoted(program) + " " +
+                                arguments + " >" + quoted(out_);
     pid_ = ::fork();
     if (pid_ == 0) {
       ::dup2(ends[1], STDERR_FILENO);

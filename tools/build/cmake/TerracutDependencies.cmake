@@ -50,6 +50,19 @@ terracut_require(ZLIB_FOUND "zlib" zlib1g-dev)
 include(TerracutZstd)
 terracut_require(ZSTD_FOUND "libzstd" libzstd-dev)
 
+# Optional: without it the program says what to install where it is asked for DDS.
+find_package(CycloneDDS 0.10 QUIET)
+find_program(TERRACUT_IDLC idlc)
+mark_as_advanced(TERRACUT_IDLC)
+if(CycloneDDS_FOUND AND TERRACUT_IDLC)
+  set(TERRACUT_HAS_DDS ON)
+  enable_language(C)  # of what idlc generates
+else()
+  set(TERRACUT_HAS_DDS OFF)
+  message(STATUS "No Cyclone DDS 0.10 with idlc, so `terracut node` and --dds are left out. "
+                 "Install it with: apt-get install cyclonedds-dev cyclonedds-tools (or run ./tools/setup --dds)")
+endif()
+
 if(TERRACUT_BUILD_TESTS)
   find_package(GTest QUIET)
   terracut_require(GTest_FOUND "GoogleTest" "libgtest-dev libgmock-dev")

@@ -120,7 +120,8 @@ class Replay {
   ExitCode run() {
     sinks_ = outputs_.open({.sensor = capture_.sensor_line,
                             .rows = pipeline_.decoder().shape().rows,
-                            .mount = sensor_mount_});
+                            .mount = sensor_mount_,
+                            .has_road = method_config_of(options_.method).segmenter.road.enabled});
     if (!sinks_) return refuse(sinks_.error());
     Pace pace(options_.replay.rate);
     for (int pass = 0; options_.replay.loops == 0 || pass < options_.replay.loops; ++pass) {

@@ -8,6 +8,7 @@
 
 #include "pipeline/mcap/mcap_sink.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/export/dds_output.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -28,7 +29,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_mcap(const OutputOptions& opt
 }  // namespace
 
 bool wants_sinks(const OutputOptions& options) {
-  return !options.mcap.path.empty();
+  return !options.mcap.path.empty() || options.dds.publishes;
 }
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
@@ -38,6 +39,11 @@ Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
   publish::Publisher::Sinks sinks;
   if (!options.mcap.path.empty()) {
     auto sink = open_mcap(options, stream);
+    if (!sink) return tl::unexpected(sink.error());
+    sinks.push_back(*std::move(sink));
+  }
+  if (options.dds.publishes) {
+    auto sink = open_dds_sink(options.dds, stream);
     if (!sink) return tl::unexpected(sink.error());
     sinks.push_back(*std::move(sink));
   }

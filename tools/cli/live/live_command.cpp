@@ -203,10 +203,12 @@ class Writers {
   [[nodiscard]] Status open(const Options& options, const sensor::SensorOnAir& sensor,
                             const mount::Mount& mount, LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
-    auto sinks = open_sinks(options.output, {.sensor = describe(sensor),
-                                             .rows = parts.pipeline.decoder.shape().rows,
-                                             .mount = mount,
-                                             .deadline_ns = deadline_ns});
+    auto sinks = open_sinks(options.output,
+                            {.sensor = describe(sensor),
+                             .rows = parts.pipeline.decoder.shape().rows,
+                             .mount = mount,
+                             .deadline_ns = deadline_ns,
+                             .has_road = method_config_of(options.method).segmenter.road.enabled});
     if (!sinks) return tl::unexpected(sinks.error());
     publisher_.emplace(*std::move(sinks), publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.threads.points()) {

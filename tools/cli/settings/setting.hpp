@@ -42,6 +42,7 @@ enum class TextForm : std::uint8_t {
   kList,       ///< Texts with commas between.
   kParameter,  ///< KEY=VALUE, of the method.
   kKeyValue,   ///< KEY=VALUE, of anything.
+  kTopic,      ///< Of ROS, or "off".
 };
 
 /// One thing that a command can be told. From the table of them come the command line's options,

@@ -25,14 +25,15 @@ constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to
 constexpr CommandSet kCaptures = C::kReplay | C::kCalibrate | C::kBench;
 constexpr CommandSet kWholeCaptures = C::kReplay | C::kBench | C::kInfo | C::kSend;
 constexpr CommandSet kPackets = kCaptures | C::kLive;
-constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval;
-constexpr CommandSet kMethods = kPackets | C::kSegment | C::kRelabel | C::kPlan;
+constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval | C::kNode;
+constexpr CommandSet kMethods = kPackets | C::kSegment | C::kRelabel | C::kPlan | C::kNode;
 constexpr CommandSet kDriven = C::kReplay | C::kLive;
 constexpr CommandSet kMoved = kDriven | C::kRelabel;
 constexpr CommandSet kFrames = C::kReplay | C::kSegment;
 constexpr CommandSet kPublished = kDriven | C::kSegment;
 constexpr CommandSet kDrives = C::kSimulate | C::kEval;
 constexpr CommandSet kSending = C::kSend | C::kSimulate;
+constexpr CommandSet kDds = C::kReplay | C::kLive | C::kSegment | C::kNode;
 constexpr CommandSet kResults = C::kInfo | C::kPlan | C::kBench;
 
 template <class Value, class Words>
@@ -114,7 +115,7 @@ constexpr std::array kSettings{
             .form = TextForm::kAddress, .field = [](O& o) -> F { return &o.capture.from; }},
     Setting{.key = "input.start_s", .option = "--start", .commands = kCaptures, .unit = "s", .help = "Skip so much of the capture's beginning",
             .least = 0, .most = kLongest_s, .field = [](O& o) -> F { return &o.capture.start_s; }},
-    Setting{.key = "input.duration_s", .option = "--duration", .commands = kPackets, .unit = "s", .help = "Stop after so much (default: at the end; live: when interrupted)",
+    Setting{.key = "input.duration_s", .option = "--duration", .commands = kPackets | C::kNode, .unit = "s", .help = "Stop after so much (default: at the end; live, node: when interrupted)",
             .least = 1e-6, .most = kLongest_s, .field = [](O& o) -> F { return &o.capture.duration_s; }},
     Setting{.key = "input.reorder_packets", .option = "--reorder-packets", .commands = kPackets | C::kRelabel, .unit = "packets", .help = "How many packets late one may come and still find its frame, which waits for it (default: captures 2, live 0)",
             .least = 0, .most = 16, .field = [](O& o) -> F { return &o.capture.reorder_packets; }},
@@ -151,7 +152,7 @@ constexpr std::array kSettings{
     Setting{.option = "--set", .commands = kMethods | C::kEval, .help = "Any parameter of the method (`terracut parameters` lists them); repeatable",
             .form = TextForm::kParameter, .field = [](O& o) -> F { return &o.method.settings; }},
     Setting{.option = "--method", .commands = C::kReplay | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
-            .denied_to = C::kLive | C::kCalibrate | C::kRelabel, .denial = "it runs our own method, as --profile, --stages and --set choose it", .field = [](O& o) -> F { return method_choice(o.method.method); }},
+            .denied_to = C::kLive | C::kNode | C::kCalibrate | C::kRelabel, .denial = "it runs our own method, as --profile, --stages and --set choose it", .field = [](O& o) -> F { return method_choice(o.method.method); }},
     Setting{.option = "--keep-mount", .commands = C::kCalibrate, .help = "Take the mount as stated, 1.73 m and level where it is not; only measure the rings' ground distances",
             .bare = "yes", .field = [](O& o) -> F { return &o.keep_mount; }},
 
@@ -208,7 +209,7 @@ constexpr std::array kSettings{
             .form = TextForm::kKeyValue, .field = [](O& o) -> F { return &o.output.metadata; }},
     Setting{.key = "output.format", .option = "--format", .commands = C::kRelabel, .help = "Of a drive: labels, a file a frame; parquet: one table of all its returns; mcap: one recording of its points",
             .field = [](O& o) -> F { return choice(o.fleet.format, kFormatWords); }},
-    Setting{.key = "output.json", .option = "--json", .commands = kFrames | C::kLive, .help = "File for the report: returns, losses and times",
+    Setting{.key = "output.json", .option = "--json", .commands = kFrames | C::kLive | C::kNode, .help = "File for the report: returns, losses and times",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
     Setting{.option = "--json", .commands = kResults, .help = "The same as a file for programs",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},
@@ -237,7 +238,40 @@ constexpr std::array kSettings{
     Setting{.key = "output.trace", .option = "--trace", .commands = C::kLive, .help = "File for the last frames as a trace, for ui.perfetto.dev",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.trace; }},
 
-    Setting{.key = "deadline.limit_ms", .option = "--deadline", .commands = C::kLive, .unit = "ms", .help = "From a frame's last packet to its labels",
+    Setting{.key = "dds.publishes", .option = "--dds", .commands = kFrames | C::kLive, .help = "Publish every frame as ROS 2 messages over DDS (docs/guide/ros2.md)",
+            .bare = "yes", .field = [](O& o) -> F { return &o.output.dds.publishes; }},
+    Setting{.key = "dds.in", .option = "--in", .commands = C::kNode, .help = "Topic of the clouds to label",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.in; }},
+    Setting{.key = "dds.in_reliable", .option = "--in-reliable", .commands = C::kNode, .help = "Ask for lost parts of them again; only writers that are reliable are heard then",
+            .bare = "yes", .field = [](O& o) -> F { return &o.output.dds.in_reliable; }},
+    Setting{.key = "dds.node", .option = "--dds-node", .commands = kDds, .help = "Name of the ROS 2 node, under which its topics \"~/...\" lie",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.node; }},
+    Setting{.key = "dds.preset", .option = "--dds-preset", .commands = kDds, .help = "Topics: ros, ~/points ~/ground ~/obstacles ~/road; autoware, /perception/obstacle_segmentation/pointcloud; nav2, /ground_points /nonground_points",
+            .field = [](O& o) -> F { return choice(o.output.dds.preset, kDdsPresetWords); }},
+    Setting{.key = "dds.points", .commands = kDds, .help = "Topic of all points, each with its label; off: none (default: the preset's)",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.points; }},
+    Setting{.key = "dds.ground", .commands = kDds, .help = "Topic of the ground; off: none (default: the preset's)",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.ground; }},
+    Setting{.key = "dds.obstacles", .commands = kDds, .help = "Topic of the obstacles; off: none (default: the preset's)",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.obstacles; }},
+    Setting{.key = "dds.road", .commands = kDds, .help = "Topic of the road surface, where road.enabled asks for it; off: none (default: the preset's)",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.road; }},
+    Setting{.key = "dds.diagnostics", .commands = kDds, .help = "Topic of how the run does, once a second; off: none",
+            .form = TextForm::kTopic, .field = [](O& o) -> F { return &o.output.dds.diagnostics; }},
+    Setting{.key = "dds.reliable", .commands = kDds, .help = "Keep what readers have not acknowledged, and send it again; no: best effort",
+            .field = [](O& o) -> F { return &o.output.dds.reliable; }},
+    Setting{.key = "dds.depth", .commands = kDds, .unit = "messages", .help = "So many of them are kept",
+            .least = 1, .most = 100, .field = [](O& o) -> F { return &o.output.dds.depth; }},
+    Setting{.key = "dds.domain", .option = "--dds-domain", .commands = kDds, .help = "DDS domain (default: ROS_DOMAIN_ID, else 0)",
+            .least = 0, .most = 232, .field = [](O& o) -> F { return &o.output.dds.domain; }},
+    Setting{.key = "dds.interface", .option = "--dds-interface", .commands = kDds, .help = "Network interface of it; lo: this machine alone (default: what Cyclone chooses; with ROS_LOCALHOST_ONLY=1 lo)",
+            .form = TextForm::kName, .field = [](O& o) -> F { return &o.output.dds.interface; }},
+    Setting{.key = "dds.fragment_bytes", .commands = kDds, .unit = "bytes", .help = "Messages go in pieces of so many; large ones are lost less on one machine, 1344 are one Ethernet frame",
+            .least = 1000, .most = 65000, .field = [](O& o) -> F { return &o.output.dds.fragment_bytes; }},
+    Setting{.key = "dds.receive_buffer_kib", .commands = kDds, .unit = "KiB", .help = "Buffer asked of the system for what comes in; net.core.rmem_max bounds it",
+            .least = 64, .most = 262144, .field = [](O& o) -> F { return &o.output.dds.receive_buffer_kib; }},
+
+    Setting{.key = "deadline.limit_ms", .option = "--deadline", .commands = C::kLive | C::kNode, .unit = "ms", .help = "From a frame's last packet, or a cloud, to its labels",
             .least = 1, .most = 10000, .field = [](O& o) -> F { return &o.deadline_ms; }},
 
     Setting{.key = "realtime.receive_priority", .option = "--receive-priority", .commands = C::kLive, .help = "SCHED_FIFO priority of the thread that receives; 0: none",
@@ -258,9 +292,9 @@ constexpr std::array kSettings{
     Setting{.key = "recorder.folder", .option = "--recorder-folder", .commands = C::kLive, .help = "Folder for the last seconds of packets, written when a deadline is missed or `terracut dump` asks (default: none is written)",
             .writes = Kind::kSharedFolder, .field = [](O& o) -> F { return &o.recorder.folder; }},
 
-    Setting{.key = "metrics.address", .option = "--metrics", .commands = C::kLive, .help = "Where Prometheus reads /metrics; a port alone: this machine's programs; off: nowhere",
+    Setting{.key = "metrics.address", .option = "--metrics", .commands = C::kLive | C::kNode, .help = "Where Prometheus reads /metrics; a port alone: this machine's programs; off: nowhere",
             .form = TextForm::kServingOrOff, .field = [](O& o) -> F { return &o.watch.metrics; }},
-    Setting{.key = "metrics.name", .option = "--name", .commands = C::kLive, .help = "Name under which `terracut top` and `dump` find the process",
+    Setting{.key = "metrics.name", .option = "--name", .commands = C::kLive | C::kNode, .help = "Name under which `terracut top` and `dump` find the process",
             .form = TextForm::kName, .field = [](O& o) -> F { return &o.watch.name; }},
     Setting{.key = "metrics.health_can", .option = "--health-can", .commands = C::kLive, .help = "CAN interface on which terracut says how it is, terracut_health.dbc (default: none)",
             .form = TextForm::kName, .field = [](O& o) -> F { return &o.watch.health_can; }},

@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "pipeline/dds/ros_topic.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/stream/stream_address.hpp"
 #include "rt/number_of.hpp"
@@ -80,10 +81,13 @@ constexpr std::array kForms{
     Form{"NAME", "a name of letters, digits, '-', '_' and '.'", is_name},
     Form{"TEXT,TEXT", "texts with commas between", is_text},
     Form{"KEY=VALUE", "KEY=VALUE", is_text},
-    Form{"KEY=VALUE", "KEY=VALUE", [](std::string_view text) {
+    Form{"KEY=VALUE", "KEY=VALUE",
+         [](std::string_view text) {
            const std::size_t sign = text.find('=');
            return sign != 0 && sign != std::string_view::npos;
-         }}};
+         }},
+    Form{"TOPIC", "a ROS name, like /points or ~/points, or off",
+         [](std::string_view text) { return dds::dds_topic(text, "node").has_value(); }}};
 
 const Form& form_of(const Setting& setting) {
   return kForms[static_cast<std::size_t>(setting.form)];

@@ -58,6 +58,9 @@ inline constexpr std::array kFormatWords{Word{"labels", FleetFormat::kLabels},
                                          Word{"mcap", FleetFormat::kMcap}};
 inline constexpr std::array kMcapCloudsWords{Word{"all", McapClouds::kAll},
                                              Word{"points", McapClouds::kPoints}};
+inline constexpr std::array kDdsPresetWords{Word{"ros", DdsPreset::kRos},
+                                            Word{"autoware", DdsPreset::kAutoware},
+                                            Word{"nav2", DdsPreset::kNav2}};
 inline constexpr std::array kThroughWords{Word<std::optional<bool>>{"image", false},
                                           Word<std::optional<bool>>{"packets", true}};
 

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "dds_sink.hpp"
+
+#include <cstring>
+
+#include "calib/mount/mount_pose.hpp"
+#include "pipeline/ros_messages/header.hpp"
+#include "ros_time.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+
+namespace terracut::dds {
+namespace {
+
+using ros_messages::CloudOf;
+using ros_messages::CloudPoint;
+
+/// As the C type has them. Its texts are not const, but nobody writes to them.
+std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields() {
+  std::vector<sensor_msgs_msg_dds__PointField_> fields;
+  for (const ros_messages::CloudField& field : ros_messages::kCloudFields) {
+    fields.push_back({const_cast<char*>(field.name.data()), field.offset, field.datatype, 1});
+  }
+  return fields;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
+                                                 const publish::Stream& stream) {
+  auto participant = Participant::open(config.participant);
+  if (!participant) return tl::unexpected(participant.error());
+  std::unique_ptr<DdsSink> sink(new DdsSink(*std::move(participant)));
+  sink->config_ = config;
+  sink->frame_id_ = stream.frame_id;
+  sink->fields_ = cloud_fields();
+  Writer diagnostics;
+  struct Wanted {
+    Writer& writer;
+    const std::string& topic;
+    const MessageType& type;
+    Quality quality;
+  };
+  const Quality latched{.reliable = true, .depth = 1, .latched = true};
+  for (const Wanted& wanted :
+       {Wanted{sink->points_, config.points, kPointCloud2, config.quality},
+        Wanted{sink->ground_, config.ground, kPointCloud2, config.quality},
+        Wanted{sink->obstacles_, config.obstacles, kPointCloud2, config.quality},
+        Wanted{sink->road_, config.road, kPointCloud2, config.quality},
+        Wanted{diagnostics, config.diagnostics, kDiagnosticArray, {}},
+        Wanted{sink->tf_static_, config.tf_static, kTfMessage, latched}}) {
+    if (wanted.topic.empty()) continue;
+    auto writer = TopicWriter::open(sink->participant_, wanted.topic, wanted.type, wanted.quality);
+    if (!writer) return tl::unexpected(writer.error());
+    wanted.writer.emplace(*std::move(writer));
+  }
+  if (diagnostics) sink->diagnostics_.emplace(*std::move(diagnostics));
+  if (Status told = sink->write_mount(stream); !told) return tl::unexpected(told.error());
+  return sink;
+}
+
+Status DdsSink::write_mount(const publish::Stream& stream) {
+  if (!tf_static_ || stream.sensor_frame_id.empty()) return {};
+  const auto [at_m, turned] = mount::vehicle_in_lidar(stream.mount);
+  std::string parent = stream.sensor_frame_id, child = stream.frame_id;
+  geometry_msgs_msg_dds__TransformStamped_ transform{
+      {ros_time(measure::realtime_ns()), parent.data()},
+      child.data(),
+      {{at_m[0], at_m[1], at_m[2]}, {turned[0], turned[1], turned[2], turned[3]}}};
+  const tf2_msgs_msg_dds__TFMessage_ message{{1, 1, &transform, false}};
+  return tf_static_->write(&message);
+}
+
+Status DdsSink::put(const publish::LabelledFrame& frame) {
+  await_readers();
+  // What a planner stops for goes first.
+  put_points(obstacles_, frame, CloudOf::kObstacles);
+  put_points(ground_, frame, CloudOf::kGround);
+  put_points(road_, frame, CloudOf::kRoad);
+  put_points(points_, frame, CloudOf::kAll);
+  return {};
+}
+
+/// A history that overflows loses a frame for the reader that is behind, and does not say so.
+void DdsSink::await_readers() {
+  const auto all_have_it = [&](Writer& writer) {
+    return !writer || writer->is_acknowledged(config_.patience_ns);
+  };
+  const bool all =
+      all_have_it(points_) && all_have_it(obstacles_) && all_have_it(ground_) && all_have_it(road_);
+  behind_ = all ? 0 : behind_ + 1;
+  if (behind_ > config_.quality.depth) unacknowledged_.fetch_add(1, std::memory_order_relaxed);
+}
+
+void DdsSink::put_points(Writer& writer, const publish::LabelledFrame& frame, CloudOf which) {
+  if (!writer || writer->readers() == 0) return;
+  const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
+  const float time_of_first_s =
+      static_cast<float>(frame.record.info.first_packet_ns - stamp_ns) * 1e-9F;
+  bytes_.resize(frame.points.size() * sizeof(CloudPoint));
+  std::uint8_t* to = bytes_.data();
+  for (const stream::LabelledPoint& point : frame.points) {
+    if (!ros_messages::belongs_to(which, point.label)) continue;
+    const CloudPoint packed = ros_messages::cloud_point(point, time_of_first_s);
+    std::memcpy(to, &packed, sizeof(packed));
+    to += sizeof(packed);
+  }
+  const auto bytes = static_cast<std::uint32_t>(to - bytes_.data());
+  sensor_msgs_msg_dds__PointCloud2_ cloud{};
+  cloud.header = {ros_time(stamp_ns), frame_id_.data()};
+  cloud.height = 1;
+  cloud.width = bytes / sizeof(CloudPoint);
+  cloud.fields._buffer = fields_.data();
+  cloud.fields._length = cloud.fields._maximum = static_cast<std::uint32_t>(fields_.size());
+  cloud.point_step = sizeof(CloudPoint);
+  cloud.row_step = bytes;
+  cloud.data._buffer = bytes_.data();
+  cloud.data._length = cloud.data._maximum = bytes;
+  cloud.is_dense = true;
+  if (!writer->write(&cloud)) refused_.fetch_add(1, std::memory_order_relaxed);
+}
+
+Status DdsSink::put_figures(const status::MonitorSnapshot& figures) {
+  if (diagnostics_ && !diagnostics_->write(figures)) {
+    refused_.fetch_add(1, std::memory_order_relaxed);
+  }
+  return {};
+}
+
+Status DdsSink::finish() {
+  // What was written last is still on its way to reliable readers when the writers go.
+  constexpr std::int64_t kPatience_ns = 1'000'000'000;
+  for (Writer* writer : {&points_, &obstacles_, &ground_, &road_}) {
+    if (*writer) (void)(*writer)->is_acknowledged(kPatience_ns);
+  }
+  return {};
+}
+
+std::vector<status::NamedCount> DdsSink::losses() const {
+  return {{"dds_frames_unacknowledged", unacknowledged_.load()},
+          {"dds_messages_refused", refused_.load()}};
+}
+
+}  // namespace terracut::dds

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "diagnostics_writer.hpp"
+#include "participant.hpp"
+#include "pipeline/publish/frame_sink.hpp"
+#include "pipeline/publish/stream.hpp"
+#include "pipeline/ros_messages/point_cloud.hpp"
+#include "ros_types.h"
+#include "topic_writer.hpp"
+
+namespace terracut::dds {
+
+/// Publishes labelled frames as ROS 2 messages: points, each with its label; ground, obstacles and
+/// road by themselves; diagnostics, and where the sensor stands.
+class DdsSink final : public publish::FrameSink {
+ public:
+  struct Config {
+    Participant::Config participant{};
+    Quality quality{};
+    /// Of dds_topic(); empty: not published.
+    std::string points{}, ground{}, obstacles{}, road{}, diagnostics{}, tf_static{};
+    /// How long a frame waits for reliable readers of those before it; 0: not at all.
+    std::int64_t patience_ns = 0;
+  };
+
+  /// The errors of Participant and TopicWriter.
+  [[nodiscard]] static Expected<std::unique_ptr<DdsSink>> open(const Config& config,
+                                                               const publish::Stream& stream);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "dds"; }
+  [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
+  [[nodiscard]] Status finish() override;
+  [[nodiscard]] std::vector<status::NamedCount> losses() const override;
+
+  /// Of `points`, now.
+  [[nodiscard]] std::uint32_t readers() const { return points_ ? points_->readers() : 0; }
+  [[nodiscard]] int domain() const noexcept { return participant_.domain(); }
+
+ private:
+  using Writer = std::optional<TopicWriter>;
+
+  explicit DdsSink(Participant participant) noexcept : participant_(std::move(participant)) {}
+  [[nodiscard]] Status write_mount(const publish::Stream& stream);
+  void await_readers();
+  void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
+
+  Participant participant_;
+  Config config_;
+  std::string frame_id_;
+  Writer points_, ground_, obstacles_, road_, tf_static_;
+  std::optional<DiagnosticsWriter> diagnostics_;
+  std::vector<sensor_msgs_msg_dds__PointField_> fields_;
+  std::vector<std::uint8_t> bytes_;  ///< Of a message's points.
+  int behind_ = 0;  ///< Frames in a row that some reader had not acknowledged when the next came.
+  std::atomic<std::uint64_t> unacknowledged_{0}, refused_{0};
+};
+
+}  // namespace terracut::dds

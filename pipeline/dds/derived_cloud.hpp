@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "firmware_io/frame/label.hpp"
+#include "ros_types.h"
+
+namespace terracut::dds {
+
+using RosCloud = sensor_msgs_msg_dds__PointCloud2_;
+
+/// The bytes of a point. The cloud must hold what it says: terracut::unpack() was content.
+[[nodiscard]] inline const std::uint8_t* point_of(const RosCloud& cloud, std::size_t row,
+                                                  std::size_t column) noexcept {
+  const std::size_t row_step =
+      cloud.row_step != 0 ? cloud.row_step : std::size_t{cloud.width} * cloud.point_step;
+  return cloud.data._buffer + row * row_step + column * cloud.point_step;
+}
+
+/// An answer to a cloud: of its stamp, its frame and its fields, which lie in that cloud and must
+/// outlive the answer. Points lie here, in memory that is kept from one answer to the next. The
+/// cloud must hold what it says, and have a label a point.
+class DerivedCloud {
+ public:
+  /// The points whose label `takes`, as they are, byte for byte, in one row.
+  template <class Takes>
+  const RosCloud& select(const RosCloud& from, std::span<const frame::Label> labels, Takes takes) {
+    const std::size_t step = from.point_step;
+    data_.resize(labels.size() * step);
+    std::uint8_t* to = data_.data();
+    const frame::Label* label = labels.data();
+    for (std::size_t row = 0; row < from.height; ++row) {
+      const std::uint8_t* point = point_of(from, row, 0);
+      for (std::size_t column = 0; column < from.width; ++column, ++label, point += step) {
+        if (!takes(*label)) continue;
+        std::memcpy(to, point, step);
+        to += step;
+      }
+    }
+    begin(from);
+    const auto points =
+        static_cast<std::uint32_t>(static_cast<std::size_t>(to - data_.data()) / step);
+    set_size(1, points, from.point_step);
+    cloud_.is_dense = true;  // points that are no return have no label that anybody takes
+    return cloud_;
+  }
+
+  /// All points in their order, each with one more field behind its own: label, uint8, classes as
+  /// in .label files (pipeline/output/label_sink.hpp).
+  const RosCloud& with_labels(const RosCloud& from, std::span<const frame::Label> labels);
+
+ private:
+  void begin(const RosCloud& from);
+  void set_size(std::uint32_t height, std::uint32_t width, std::uint32_t point_step);
+
+  RosCloud cloud_{};
+  std::vector<sensor_msgs_msg_dds__PointField_> fields_;
+  std::vector<std::uint8_t> data_;
+};
+
+}  // namespace terracut::dds

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "topic_writer.hpp"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "ros_types.h"
+
+namespace terracut::dds {
+
+const MessageType kPointCloud2{
+    &sensor_msgs_msg_dds__PointCloud2__desc,
+    "RIHS01_9198cabf7da3796ae6fe19c4cb3bdd3525492988c70522628af5daa124bae2b5"};
+const MessageType kDiagnosticArray{
+    &diagnostic_msgs_msg_dds__DiagnosticArray__desc,
+    "RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e"};
+const MessageType kTfMessage{
+    &tf2_msgs_msg_dds__TFMessage__desc,
+    "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"};
+const MessageType kFloat64Stamped{
+    &autoware_internal_debug_msgs_msg_dds__Float64Stamped__desc,
+    "RIHS01_588b194ed7eddc089b6ca098eb093e92f29bdad96ebd906fc9282816335942eb"};
+
+namespace {
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+
+Qos qos_of(const MessageType& type, const Quality& quality) {
+  Qos qos(dds_create_qos(), dds_delete_qos);
+  dds_qset_reliability(qos.get(),
+                       quality.reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
+                       DDS_MSECS(100));
+  dds_qset_durability(qos.get(),
+                      quality.latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, quality.depth);
+  if (type.hash != nullptr) {
+    const std::string told = fmt::format("typehash={};", type.hash);
+    dds_qset_userdata(qos.get(), told.data(), told.size());
+  }
+  return qos;
+}
+
+}  // namespace
+
+Expected<TopicWriter> TopicWriter::open(const Participant& participant, const std::string& topic,
+                                        const MessageType& type, const Quality& quality) {
+  Entity named(
+      dds_create_topic(participant.id(), type.descriptor, topic.c_str(), nullptr, nullptr));
+  if (named.id() < 0) {
+    return refused(ErrorCode::kInvalidArgument, "topic " + topic, named.id());
+  }
+  Entity writer(
+      dds_create_writer(participant.id(), named.id(), qos_of(type, quality).get(), nullptr));
+  if (writer.id() < 0) {
+    return refused(ErrorCode::kInvalidArgument, "a writer of " + topic, writer.id());
+  }
+  return TopicWriter(std::move(named), std::move(writer), topic);
+}
+
+Status TopicWriter::write(const void* message) {
+  const dds_return_t returned = dds_write(writer_.id(), message);
+  if (returned < 0) return refused(ErrorCode::kWriteFailed, "writing to " + name_, returned);
+  return {};
+}
+
+bool TopicWriter::is_acknowledged(std::int64_t patience_ns) {
+  return dds_wait_for_acks(writer_.id(), patience_ns) == DDS_RETCODE_OK;
+}
+
+std::uint32_t TopicWriter::readers() const {
+  dds_publication_matched_status_t matched{};
+  if (dds_get_publication_matched_status(writer_.id(), &matched) < 0) return 0;
+  return matched.current_count;
+}
+
+}  // namespace terracut::dds

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <string>
+
+#include "pipeline/dds/participant.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+[[nodiscard]] dds::Participant::Config participant_config_of(const DdsOptions& options);
+
+/// The DDS topic of a name that was checked as a setting; empty: of none.
+[[nodiscard]] std::string dds_topic_of(const std::string& name, const DdsOptions& options);
+
+/// Of clouds, for people: "/terracut/points, /terracut/ground".
+[[nodiscard]] std::string topic_list(const DdsOptions& options);
+
+}  // namespace terracut::cli

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "cloud_node.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "pipeline/dds/cloud_buffer.hpp"
+#include "rt/measure/milliseconds.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "tools/cli/console.hpp"
+
+namespace terracut::cli {
+namespace {
+
+/// Clouds that may wait to be labelled: some hundred milliseconds. As many answers may wait to be
+/// written, and those of the first clouds, which come together.
+constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + kMountFrames;
+/// Without another cloud for so long, the first ones have to do to learn from.
+constexpr std::chrono::seconds kPatience{1};
+
+}  // namespace
+
+CloudNode::CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers,
+                     NodeNews& news)
+    : news_(news),
+      reader_(std::move(reader)),
+      answers_(std::move(answers)),
+      labeller_(options),
+      came_(kMostWaiting),
+      labelled_(kMostAnswers),
+      taker_([this] { take_clouds(); }),
+      labelling_([this] { label_clouds(); }),
+      writer_([this] { write_answers(); }) {}
+
+CloudNode::~CloudNode() {
+  finish_ = true;
+  taker_.join();
+  labelling_.join();
+  writer_.join();
+  first_clouds_.clear();
+}
+
+void CloudNode::take_clouds() {
+  constexpr std::int64_t kLookAtEnd_ns = 50'000'000;
+  std::uint32_t number = 0;
+  while (!finish_) {
+    reader_.wait(kLookAtEnd_ns);
+    while (dds::TakenCloud cloud = reader_.take()) {
+      Job job{std::move(cloud), {}, {}};
+      job.record.info.number = number++;
+      job.record.info.complete = true;
+      job.record.info.last_packet_ns = measure::realtime_ns();
+      job.record.closing_packet_ns = job.record.info.last_packet_ns;
+      news_.came(job.record.info.last_packet_ns);
+      if (came_.push_out(std::move(job))) news_.count(NoAnswer::kPushedOut);
+    }
+  }
+  came_.close();
+}
+
+void CloudNode::label_clouds() {
+  while (!came_.is_over()) {
+    auto job = came_.pop(kPatience);
+    if (!job) {
+      if (!first_clouds_.empty()) set_up();
+      continue;
+    }
+    if (labeller_.skip_if_late(job->record)) {  // before it costs what the next one needs
+      news_.add(job->record);
+      continue;
+    }
+    if (!read(*job->cloud)) continue;
+    if (labeller_.is_ready()) {
+      label(*std::move(job));
+    } else {
+      learn_from(*std::move(job));
+    }
+  }
+  labelled_.close();
+}
+
+bool CloudNode::read(const dds::RosCloud& cloud) {
+  if (const auto read = labeller_.read(dds::point_buffer_of(cloud, fields_)); !read) {
+    news_.count(read.error().fault);
+    say_once(std::string("clouds are refused: ") + read.error().message);
+    return false;
+  }
+  if (labeller_.has_places()) return true;
+  news_.count(NoAnswer::kNoPlace);
+  say_once("clouds are refused: no point of them is a place");
+  return false;
+}
+
+void CloudNode::learn_from(Job job) {
+  first_clouds_.push_back(std::move(job));
+  if (labeller_.learn_from_cloud()) set_up();
+}
+
+void CloudNode::set_up() {
+  std::vector<Job> first = std::exchange(first_clouds_, {});
+  if (const Status ready = labeller_.set_up(); !ready) {
+    for (std::size_t i = 0; i < first.size(); ++i) refuse_rows(ready.error());
+    return;
+  }
+  news_.set_sensor(labeller_.sensor());
+  for (Job& job : first) {
+    job.record.info.last_packet_ns = 0;  // nobody can label before it knows the sensor
+    if (read(*job.cloud)) label(std::move(job));
+  }
+}
+
+void CloudNode::label(Job job) {
+  if (const Status labelled = labeller_.label(job.record); !labelled) {
+    refuse_rows(labelled.error());
+    return;
+  }
+  news_.add(job.record);
+  if (job.record.level != status::Level::kSkipped) {
+    job.labels = labeller_.point_labels();
+    if (!labelled_.push(std::move(job))) news_.count(NoAnswer::kUnanswered);
+  }
+  labeller_.watch_mount();
+  news_.set_mount(labeller_.mount());
+}
+
+void CloudNode::refuse_rows(const Error& error) {
+  news_.count(NoAnswer::kNoRows);
+  say_once("clouds are refused: " + error.message);
+}
+
+void CloudNode::say_once(const std::string& what) {
+  constexpr std::size_t kMostKinds = 16;  // messages quote numbers of clouds, which may be any
+  if (said_.size() >= kMostKinds || std::ranges::count(said_, what) > 0) return;
+  said_.push_back(what);
+  warn(what + " (counted from now on, as losses)");
+}
+
+void CloudNode::write_answers() {
+  std::int64_t before_ns = 0;
+  bool said = false;
+  while (!labelled_.is_over()) {
+    const auto job = labelled_.pop(kPatience);
+    if (!job) continue;
+    const status::FrameRecord& record = job->record;
+    const auto since = [&](std::int64_t then_ns) {
+      return then_ns == 0 ? 0.0 : measure::milliseconds(record.labels_ns - then_ns);
+    };
+    const Status written = answers_.write(*job->cloud, job->labels,
+                                          {since(record.closing_packet_ns), since(before_ns)});
+    before_ns = record.labels_ns;
+    if (written) continue;
+    news_.count(NoAnswer::kUnwritten);
+    if (!said) warn(written.error().message);
+    said = true;
+  }
+}
+
+}  // namespace terracut::cli

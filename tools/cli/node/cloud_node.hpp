@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "node_labeller.hpp"
+#include "node_news.hpp"
+#include "node_topics.hpp"
+#include "rt/queues/bounded_queue.hpp"
+
+namespace terracut::cli {
+
+/// Clouds in by DDS, their answers out, on three threads with bounded queues between them:
+///
+///   takes  --->  labels, before the deadline  --->  writes
+///
+/// Of clouds that wait to be labelled the oldest are pushed out; where answers are not written in
+/// time, the newest is left out. Both are counted.
+class CloudNode {
+ public:
+  CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers, NodeNews& news);
+  ~CloudNode();
+
+  /// As far as DDS knows. From any thread.
+  [[nodiscard]] std::uint64_t lost_clouds() const { return reader_.lost(); }
+
+ private:
+  struct Job {
+    dds::TakenCloud cloud;
+    status::FrameRecord record;
+    std::vector<frame::Label> labels;
+  };
+
+  void take_clouds();
+  void label_clouds();
+  void write_answers();
+
+  /// False: it is refused, and counted.
+  [[nodiscard]] bool read(const dds::RosCloud& cloud);
+  /// What the first clouds are for; they are answered when there is a labeller, whatever the time.
+  void learn_from(Job job);
+  void set_up();
+  void label(Job job);
+  void refuse_rows(const Error& error);
+  void say_once(const std::string& what);
+
+  NodeNews& news_;
+  dds::CloudReader reader_;  ///< Before the queues, whose clouds lie in it.
+  NodeAnswers answers_;
+  NodeLabeller labeller_;
+  std::vector<PointField> fields_;
+  std::vector<Job> first_clouds_;
+  std::vector<std::string> said_;
+  queues::BoundedQueue<Job> came_, labelled_;
+  std::atomic<bool> finish_{false};
+  std::jthread taker_, labelling_, writer_;  ///< Last: they use all of the above.
+};
+
+}  // namespace terracut::cli

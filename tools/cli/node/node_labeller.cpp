@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "node_labeller.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "calib/beams/angle.hpp"
+#include "pipeline/ground/near_ground.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using measure::SystemClock;
+
+}  // namespace
+
+NodeLabeller::NodeLabeller(const Options& options)
+    : options_(options),
+      deadline_ns_(static_cast<std::int64_t>(options.deadline_ms * 1e6)),
+      degradation_(deadline_ns_) {}
+
+bool NodeLabeller::has_places() const noexcept {
+  return std::ranges::any_of(cloud_.points, scan::is_place);
+}
+
+bool NodeLabeller::learn_from_cloud() {
+  kept_.push_back(cloud_);
+  return kept_.size() >= (is_mount_open(options_.mount) ? kMountFrames : 1);
+}
+
+Status NodeLabeller::set_up() {
+  const std::vector<cloud::Cloud> clouds = std::exchange(kept_, {});
+  const auto rows = cloud::learn_rows(
+      clouds.size(), [&](std::size_t i) -> Expected<cloud::CloudView> { return clouds[i].view(); });
+  if (!rows) return tl::unexpected(rows.error());
+  const scan::RingTable& table = rows->rings.table;
+  sensor_ = fmt::format("{} rows by {}", table.size(), description_of(rows->source));
+  say(fmt::format("sensor: {}, from {:.1f} to {:.1f} degrees, {} columns", sensor_,
+                  beams::rad_to_deg(table.back().elevation_rad),
+                  beams::rad_to_deg(table.front().elevation_rad), rows->columns));
+  MountChoice choice{options_.mount, {}};
+  if (is_mount_open(options_.mount)) {
+    mount::MountFinder finder;
+    show_ground(clouds, *rows, finder);
+    choice = choose_mount(options_.mount, finder);
+  }
+  const auto profile = ring_profile_of(table, choice.options);
+  if (!profile) return tl::unexpected(profile.error());
+  mount_ = profile->mount;
+  labeller_.emplace(method_config_of(options_.method), *rows, *profile);
+  watch_.emplace(profile->mount, choice);
+  return {};
+}
+
+void NodeLabeller::show_ground(const std::vector<cloud::Cloud>& clouds,
+                               const cloud::SensorRows& rows, mount::MountFinder& finder) {
+  memory::FixedMemory memory;
+  frame::RangeImage image(rows.shape(), rows.shape().cells(), memory);
+  scan::ScanToImage to_image(kAtTheSensor);
+  const cloud::RowFinder row_finder(rows);
+  scan::RingRecovery rings;
+  const auto ground = std::make_unique<ground::NearGround>();
+  for (const cloud::Cloud& cloud : clouds) {
+    if (!row_finder.find(cloud.view(), rings)) continue;
+    (void)to_image.place(cloud.points, rings.ring_of_point, image);
+    ground::take_near_ground(image, *ground);
+    finder.add_frame(ground->in_use());
+  }
+}
+
+bool NodeLabeller::skip_if_late(status::FrameRecord& record) const noexcept {
+  const std::int64_t now_ns = SystemClock().realtime_ns();
+  if (!is_ready() || now_ns < record.info.last_packet_ns + deadline_ns_) return false;
+  record.level = status::Level::kSkipped;
+  record.segment_begin_ns = record.labels_ns = now_ns;
+  return true;
+}
+
+Status NodeLabeller::label(status::FrameRecord& record) {
+  const SystemClock clock;
+  const bool is_timed = record.info.last_packet_ns != 0;
+  record.segment_begin_ns = clock.realtime_ns();
+  if (is_timed && !degradation_.begin(record.info.last_packet_ns)) {
+    record.level = status::Level::kSkipped;
+    record.labels_ns = clock.realtime_ns();
+    return {};
+  }
+  const std::int64_t begun_cpu_ns = clock.thread_cpu_ns();
+  const Status labelled = labeller_->label(cloud_.view(), record,
+                                           is_timed ? degradation_.budget() : min_cut::CutBudget{});
+  record.segment_cpu_ns = clock.thread_cpu_ns() - begun_cpu_ns;
+  record.labels_ns = clock.realtime_ns();
+  if (!labelled) return labelled;
+  record.level = decltype(degradation_)::level_of(record.segmentation);
+  if (!is_timed) return {};
+  if (!degradation_.may_hand_on()) record.level = status::Level::kSkipped;
+  // Rows are found before the stages, and points get their labels after them.
+  degradation_.end(record.stages, record.segmentation,
+                   record.segment_cpu_ns - record.stages.sum_ns());
+  return {};
+}
+
+void NodeLabeller::watch_mount() {
+  watch_->add_frame(labeller_->image);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "pipeline/status/frame_record.hpp"
+#include "pipeline/status/mount_figures.hpp"
+#include "pipeline/status/named_count.hpp"
+#include "pipeline/terracut/point_buffer.hpp"
+
+namespace terracut::cli {
+
+/// What became of a cloud that has no answer, beyond the reasons of BufferFault.
+enum class NoAnswer : std::uint8_t {
+  kNoPlace,     ///< None of its points is a place: NaN, null, beyond 10 km.
+  kNoRows,      ///< Nothing tells its lasers, or not what told them in the first clouds.
+  kPushedOut,   ///< Newer ones came before it was looked at.
+  kUnanswered,  ///< Labelled, but the answers before it were not written yet.
+  kUnwritten,   ///< DDS refused an answer.
+  kCount,
+};
+
+/// Carries what a node's threads did to the one that shows it. From any thread; locks.
+class NodeNews {
+ public:
+  void count(BufferFault fault) { count(static_cast<std::size_t>(fault)); }
+  void count(NoAnswer reason) { count(kFaults + static_cast<std::size_t>(reason)); }
+  void came(std::int64_t arrived_ns) {
+    const std::scoped_lock lock(mutex_);
+    ++clouds_;
+    last_cloud_ns_ = arrived_ns;
+  }
+  /// A cloud that was labelled, or skipped for its deadline's sake.
+  void add(const status::FrameRecord& record) {
+    const std::scoped_lock lock(mutex_);
+    records_.push_back(record);
+  }
+  void set_sensor(const std::string& sensor) {
+    const std::scoped_lock lock(mutex_);
+    sensor_ = sensor;
+  }
+  void set_mount(const status::MountFigures& mount) {
+    const std::scoped_lock lock(mutex_);
+    mount_ = mount;
+  }
+
+  struct State {
+    std::uint64_t clouds = 0;        ///< That came.
+    std::int64_t last_cloud_ns = 0;  ///< Time of day; 0: none has come.
+    std::string sensor;              ///< Empty until it is known.
+    status::MountFigures mount;
+    std::vector<status::FrameRecord> records;  ///< Since the last look.
+    std::vector<status::NamedCount> losses;    ///< Every reason by its name, those that are 0 too.
+  };
+  [[nodiscard]] State look() {
+    constexpr std::array<std::string_view, static_cast<std::size_t>(NoAnswer::kCount)> kNames{
+        "refused_clouds_no_place", "refused_clouds_no_rows", "pushed_out_clouds",
+        "unanswered_clouds", "unwritten_answers"};
+    const std::scoped_lock lock(mutex_);
+    State state{clouds_, last_cloud_ns_, sensor_, mount_, std::exchange(records_, {}), {}};
+    for (std::size_t i = 0; i < counts_.size(); ++i) {
+      const std::string name =
+          i < kFaults ? "refused_clouds_" + std::string(to_string(static_cast<BufferFault>(i)))
+                      : std::string(kNames[i - kFaults]);
+      state.losses.push_back({name, counts_[i]});
+    }
+    return state;
+  }
+
+ private:
+  static constexpr auto kFaults = static_cast<std::size_t>(BufferFault::kCount);
+
+  void count(std::size_t i) {
+    const std::scoped_lock lock(mutex_);
+    ++counts_[i];
+  }
+
+  std::mutex mutex_;
+  std::array<std::uint64_t, kFaults + static_cast<std::size_t>(NoAnswer::kCount)> counts_{};
+  std::uint64_t clouds_ = 0;
+  std::int64_t last_cloud_ns_ = 0;
+  std::string sensor_;
+  status::MountFigures mount_;
+  std::vector<status::FrameRecord> records_;
+};
+
+}  // namespace terracut::cli

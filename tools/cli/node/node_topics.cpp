@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "node_topics.hpp"
+
+#include <array>
+#include <string>
+#include <utility>
+
+#include "tools/cli/export/dds_output.hpp"
+#include "tools/cli/export/dds_participant.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+
+namespace terracut::cli {
+namespace {
+
+using frame::Label;
+
+}  // namespace
+
+Expected<std::optional<dds::TopicWriter>> open_writer(const dds::Participant& participant,
+                                                      const std::string& name,
+                                                      const dds::MessageType& type,
+                                                      const DdsOptions& options) {
+  if (name.empty()) return std::optional<dds::TopicWriter>{};
+  auto writer = dds::TopicWriter::open(participant, dds_topic_of(name, options), type,
+                                       {.reliable = options.reliable, .depth = options.depth});
+  if (!writer) return tl::unexpected(writer.error());
+  return std::optional<dds::TopicWriter>(*std::move(writer));
+}
+
+Expected<NodeAnswers> NodeAnswers::open(const dds::Participant& participant,
+                                        const Options& options) {
+  DdsTopics topics = dds_topics_of(options.output.dds);
+  if (!method_config_of(options.method).segmenter.road.enabled) topics.road.clear();
+  struct Wanted {
+    std::optional<dds::TopicWriter> NodeAnswers::* writer;
+    std::string topic;
+    const dds::MessageType& type;
+  };
+  NodeAnswers answers;
+  for (const Wanted& wanted : {
+           Wanted{&NodeAnswers::points_, topics.points, dds::kPointCloud2},
+           Wanted{&NodeAnswers::ground_, topics.ground, dds::kPointCloud2},
+           Wanted{&NodeAnswers::obstacles_, topics.obstacles, dds::kPointCloud2},
+           Wanted{&NodeAnswers::road_, topics.road, dds::kPointCloud2},
+           Wanted{&NodeAnswers::processing_time_, "~/debug/processing_time_ms",
+                  dds::kFloat64Stamped},
+           Wanted{&NodeAnswers::cyclic_time_, "~/debug/cyclic_time_ms", dds::kFloat64Stamped},
+       }) {
+    auto writer = open_writer(participant, wanted.topic, wanted.type, options.output.dds);
+    if (!writer) return tl::unexpected(writer.error());
+    answers.*wanted.writer = *std::move(writer);
+  }
+  return answers;
+}
+
+Status NodeAnswers::write(const dds::RosCloud& cloud, std::span<const Label> labels,
+                          const Times& times) {
+  Status first;
+  const auto put = [&](dds::TopicWriter& writer, const void* message) {
+    Status written = writer.write(message);
+    if (first && !written) first = std::move(written);
+  };
+  // What a planner stops for goes first.
+  if (is_read(obstacles_)) {
+    put(*obstacles_,
+        &derived_.select(cloud, labels, [](Label l) { return l == Label::kObstacle; }));
+  }
+  if (is_read(ground_)) {
+    put(*ground_, &derived_.select(cloud, labels, [](Label l) { return is_ground(l); }));
+  }
+  if (is_read(road_)) {
+    put(*road_, &derived_.select(cloud, labels, [](Label l) { return l == Label::kGround; }));
+  }
+  if (is_read(points_)) put(*points_, &derived_.with_labels(cloud, labels));
+  const auto put_time = [&](std::optional<dds::TopicWriter>& writer, double time_ms) {
+    const autoware_internal_debug_msgs_msg_dds__Float64Stamped_ message{cloud.header.stamp,
+                                                                        time_ms};
+    if (is_read(writer)) put(*writer, &message);
+  };
+  put_time(processing_time_, times.processing_ms);
+  put_time(cyclic_time_, times.cyclic_ms);
+  return first;
+}
+
+}  // namespace terracut::cli

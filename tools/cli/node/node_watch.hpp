@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "node_news.hpp"
+#include "pipeline/status/deadline_monitor.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "tools/cli/live/figures_display.hpp"
+#include "tools/cli/live/live_service.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// Judges the clouds of a node and shows its figures. One thread, the main one.
+class NodeWatch {
+ public:
+  /// `news` must outlive this.
+  NodeWatch(const Options& options, const std::string& input, NodeNews& news);
+
+  /// `lost`: clouds that DDS knows to have lost.
+  void work_round(std::uint64_t lost);
+  void note_interruption() { monitor_.snapshot().interrupted = 1; }
+  /// When the node's threads have ended.
+  void last_round() { work_round(lost_); }
+
+  [[nodiscard]] const status::MonitorSnapshot& figures() const noexcept {
+    return monitor_.snapshot();
+  }
+  /// Of a node that has labelled nothing.
+  [[nodiscard]] std::string why_no_frames() const;
+
+ private:
+  void show_input(const NodeNews::State& state, status::MonitorSnapshot& figures);
+
+  NodeNews& news_;
+  memory::FixedMemory memory_;
+  status::DeadlineMonitor monitor_;
+  FiguresDisplay display_;
+  LiveService service_;
+  std::uint64_t lost_ = 0;
+};
+
+}  // namespace terracut::cli

@@ -163,7 +163,8 @@ frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) 
   frame::DeskewInfo info{.state = frame::DeskewState::kNoEgoMotion,
                          .at = config_.at,
                          .reference_ns = reference_ns(frame),
-                         .newest_motion_ns = 0};
+                         .newest_motion_ns = 0,
+                         .place = {}};
   if (const auto newest_ns = motion.newest_ns()) {
     info.newest_motion_ns = *newest_ns - instant_at((frame + 1) * config_.revolution_ticks);
   }
@@ -172,7 +173,24 @@ frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) 
   spread_poses(first_column, first_node);
   image.move(by_row_);
   info.state = frame::DeskewState::kDone;
+  info.place = go_to(info.reference_ns);
   return info;
+}
+
+frame::Place Deskewer::go_to(std::int64_t reference_ns) noexcept {
+  vehicle::PlanarPose before;  // as the sensor sees where it stood then
+  if (place_.journey == 0 || reference_ns <= place_ns_ ||
+      !config_.motion->poses({&place_ns_, 1}, reference_ns, {&before, 1})) {
+    place_ = {.journey = place_.journey + 1};
+  } else {
+    const vehicle::PlanarPose at =
+        vehicle::PlanarPose{place_.x_m, place_.y_m, place_.cosine, place_.sine} * inverse(before);
+    // Kept of length 1 however long the journey.
+    const double shrink = (3 - at.cosine * at.cosine - at.sine * at.sine) / 2;
+    place_ = {place_.journey, at.x_m, at.y_m, at.cosine * shrink, at.sine * shrink};
+  }
+  place_ns_ = reference_ns;
+  return place_;
 }
 
 }  // namespace terracut::decode

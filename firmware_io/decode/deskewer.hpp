@@ -78,6 +78,8 @@ class Deskewer {
   [[nodiscard]] std::int64_t instant_of(std::int64_t node) const noexcept;
   [[nodiscard]] std::int64_t instant_at(std::int64_t rotor_ticks) const noexcept;
   [[nodiscard]] std::int64_t reference_ns(std::int64_t frame) const noexcept;
+  /// Where the sensor stands at the reference of a deskewed frame.
+  [[nodiscard]] frame::Place go_to(std::int64_t reference_ns) noexcept;
   void spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept;
 
   Config config_;
@@ -92,6 +94,10 @@ class Deskewer {
   /// frames long, more than the ring holds, and the frame that it begins in is still to be handed
   /// over.
   Note before_, newest_;
+
+  // Of the last frame that was deskewed.
+  frame::Place place_;
+  std::int64_t place_ns_ = 0;
 
   // Of the frame in work.
   std::span<std::int64_t> node_ns_;

@@ -32,6 +32,14 @@ enum class DeskewState : std::uint8_t {
   return "unknown";
 }
 
+/// Where the sensor was in the ground plane, seen from where a journey began: p_journey = R p + t.
+/// Places of one journey are known from each other; between two journeys motion was not known.
+struct Place {
+  std::uint32_t journey = 0;  ///< 1.. ; 0: the place is not known.
+  double x_m = 0, y_m = 0;
+  double cosine = 1, sine = 0;  ///< Of the heading.
+};
+
 /// Whether and how a frame was freed of the vehicle's motion.
 struct DeskewInfo {
   DeskewState state = DeskewState::kOff;
@@ -40,6 +48,7 @@ struct DeskewInfo {
   /// Stamp of the newest motion known, less the instant of the frame's last firing; about 0 where
   /// both clocks are one. 0 without any motion.
   std::int64_t newest_motion_ns = 0;
+  Place place;  ///< At that instant; known for kDone.
 };
 
 }  // namespace terracut::frame

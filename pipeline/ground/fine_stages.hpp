@@ -36,6 +36,11 @@ class FineStages {
   /// Labels the returns of a frame. `planes`: what CoarseStages::finish() made of it; labels in
   /// them become final. Where `budget` has expired before the random field, or too soon in its cut,
   /// labels stay as they were.
+  /// Where the sensor stands in the frame that refine() is called for next, whose image has all its
+  /// points: it is labelled by what the frames before saw, too. Without this it is labelled by
+  /// itself, and they are forgotten.
+  void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING { place_ = place; }
+
   [[nodiscard]] stage::SegmentationReport refine(
       const frame::RangeImage& image, stage::CellPlanes& planes,
       const min_cut::CutBudget& budget = {},
@@ -51,7 +56,11 @@ class FineStages {
   }
 
  private:
+  /// What was remembered of the cells that the cut is to label; null without motion.
+  [[nodiscard]] const remembered::StreetMemory* look_back(const frame::RangeImage& image,
+                                                          const stage::CellPlanes& planes) noexcept;
   [[nodiscard]] min_cut::CutReport cut(const frame::PointPlanes& points, stage::CellPlanes& planes,
+                                       const remembered::StreetMemory* memory,
                                        const min_cut::CutBudget& budget) noexcept;
   /// The points that the stages to come look at: next to unknown cells, if there is a cut.
   [[nodiscard]] frame::PointPlanes points_of(const frame::RangeImage& image, bool has_cut) noexcept;
@@ -65,7 +74,9 @@ class FineStages {
   min_cut::NearUnknown near_unknown_;
   min_cut::GridCut min_cut_;
   stage::ReturnLabels return_labels_;
-  std::optional<road::RoadSurface> road_surface_;  // where it is asked for
+  std::optional<remembered::StreetMemory> memory_;  // where it is asked for
+  frame::Place place_;                              // of the frame to come
+  std::optional<road::RoadSurface> road_surface_;   // where it is asked for
 };
 
 }  // namespace terracut::ground

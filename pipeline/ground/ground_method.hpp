@@ -34,6 +34,12 @@ struct MethodConfig {
   MethodConfig(const SegmenterConfig& config) : segmenter(config) {}  // NOLINT: meant to convert
 };
 
+/// As remembering() a SegmenterConfig.
+[[nodiscard]] inline MethodConfig remembering(MethodConfig config, bool motion_is_known) noexcept {
+  config.segmenter = remembering(config.segmenter, motion_is_known);
+  return config;
+}
+
 /// A method that can be chosen by name.
 struct MethodName {
   std::string_view name;   ///< "bogoslavskyi", as in --method and reports.
@@ -92,6 +98,11 @@ class GroundMethod {
     if (segmenter_) return segmenter_->segment(image, budget, observer);
     if (observer != nullptr) observer->resumed();
     return baseline_->segment(image, observer);
+  }
+
+  /// As Segmenter::set_place(); baselines remember nothing.
+  void set_place(const frame::Place& place) noexcept {
+    if (segmenter_) segmenter_->set_place(place);
   }
 
   /// Of the frame labelled last.

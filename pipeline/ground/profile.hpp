@@ -12,6 +12,7 @@
 #include "pipeline/random_field/boundary_term.hpp"
 #include "pipeline/random_field/confidence_seeds.hpp"
 #include "pipeline/random_field/region_term.hpp"
+#include "pipeline/remembered/street_memory.hpp"
 #include "pipeline/road/road_surface.hpp"
 #include "pipeline/stage/return_labels.hpp"
 #include "pipeline/stage/stage.hpp"
@@ -30,8 +31,16 @@ struct SegmenterConfig {
   min_cut::GridCut::Config min_cut;
   stage::ReturnLabels::Config returns;
   road::RoadSurface::Config road;
+  remembered::StreetMemory::Config memory;
   SparseRows sparse;  ///< Taken in place of the others by suited_to_rows().
 };
+
+/// The same, but where the vehicle's motion is not known nothing is remembered, nor memory taken.
+[[nodiscard]] inline SegmenterConfig remembering(SegmenterConfig config,
+                                                 bool motion_is_known) noexcept {
+  config.memory.enabled = config.memory.enabled && motion_is_known;
+  return config;
+}
 
 /// The default: whatever was measured better, on the paper's skeleton (docs/reference/method.md).
 [[nodiscard]] SegmenterConfig terracut_profile() noexcept;

@@ -47,6 +47,11 @@ class Segmenter {
     return fine_.refine(image, planes_, budget, observer);
   }
 
+  /// Of the frame to be labelled next: FineStages::set_place().
+  void set_place(const frame::Place& place) noexcept TERRACUT_NONBLOCKING {
+    fine_.set_place(place);
+  }
+
   /// Of the frame labelled last.
   void take_near_ground(const frame::RangeImage& image,
                         NearGround& ground) noexcept TERRACUT_NONBLOCKING {

@@ -39,8 +39,8 @@ class PacketPipeline {
                  const decode::Decoder::Config& decoder, const ground::MethodConfig& method,
                  memory::FixedMemory& memory, Timing timing = Timing::kPackets)
       : decoder_(calibration, profile.mount, decoder, memory),
-        method_(method, profile, decoder_.shape(), decoder_.return_capacity(), memory,
-                decoder_.make_reader(memory)),
+        method_(ground::remembering(method, decoder.motion != nullptr), profile, decoder_.shape(),
+                decoder_.return_capacity(), memory, decoder_.make_reader(memory)),
         timing_(timing) {}
 
   void push(const decode::Datagram& datagram) noexcept;

@@ -7,6 +7,7 @@
 
 #include "firmware_io/frame/label.hpp"
 #include "pipeline/min_cut/cut_report.hpp"
+#include "pipeline/stage/memory_report.hpp"
 #include "pipeline/stage/stage.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -20,6 +21,7 @@ struct SegmentationReport {
   std::uint32_t obstacles = 0;        ///< Of them, labelled obstacle.
   Stage last_stage = Stage::kMinCut;  ///< How far the labels were refined.
   min_cut::CutReport cut;             ///< All zero where none was tried.
+  MemoryReport memory;                ///< Nothing was remembered where motion is not known.
 
   [[nodiscard]] constexpr std::uint32_t labelled() const noexcept { return ground + obstacles; }
   /// Fills the four counts from one label a return.

@@ -31,8 +31,9 @@ struct Segmenter::Labeller {
         image(shape, shape.cells(), memory),
         most_points(std::max(2 * first_points, image.return_capacity())),
         to_image(mount, most_points),
-        segmenter(config_of(config.profile), scan::ring_profile(finder.rows().rings.table, mount),
-                  shape, image.return_capacity(), memory) {
+        segmenter(ground::remembering(config_of(config.profile), false),
+                  scan::ring_profile(finder.rows().rings.table, mount), shape,
+                  image.return_capacity(), memory) {
     rings.ring_of_point.reserve(most_points);
     labels.reserve(most_points);
   }

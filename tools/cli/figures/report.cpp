@@ -55,12 +55,25 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
                   {"unknown", count(cut.unknown), {}, {}, "min_cut"},
                   {"coarse", count(cut.coarse_by_cap + cut.coarse_by_budget), {}, {}, "min_cut"},
                   {"ops", count(static_cast<std::uint64_t>(cut.operations())), {}, {}, "min_cut"}});
+  if (is_deskewed(frame)) {
+    const stage::MemoryReport& memory = frame.segmentation.memory;
+    figures.insert(figures.end(), {{"used", memory.used, {}, {}, "memory"},
+                                   {"contradicted", memory.contradicted, {}, {}, "memory"},
+                                   {"priors", count(memory.priors), {}, {}, "memory"},
+                                   {"reopened", count(memory.reopened), {}, {}, "memory"}});
+  }
   return figures;
 }
 
 /// How the vehicle's motion and the frames fit together in time.
 std::vector<Figure> motion_figures(std::uint64_t samples, const Report& report) {
   const std::uint64_t deskewed = report.deskewed_frames();
+  const auto frames_that = [&](bool stage::MemoryReport::* did) {
+    return static_cast<std::uint64_t>(std::ranges::count_if(
+        report.records, [&](const FrameRecord& frame) { return frame.segmentation.memory.*did; }));
+  };
+  const std::uint64_t remembering = frames_that(&stage::MemoryReport::used);
+  const std::uint64_t contradicted = frames_that(&stage::MemoryReport::contradicted);
   std::vector<std::int64_t> newest_ns;
   for (const FrameRecord& frame : report.records) {
     newest_ns.push_back(frame.info.deskew.newest_motion_ns);
@@ -75,6 +88,8 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const Report& report) 
   return {{"samples", samples, {}, {"motion", "{} samples"}, "motion"},
           {"deskewed_frames", deskewed, {}, {"motion", ": {} frames deskewed"}, "motion"},
           {{}, report.records.size() - deskewed, {}, {"motion", "{} without ego motion"}},
+          {"remembering_frames", remembering, {}, {}, "motion"},
+          {"contradicted_frames", contradicted, {}, {"motion", "{} contradicted", Shown::kAlarm}, "motion"},
           of("median", newest_ns[newest_ns.size() / 2],
              {line, "newest sample {ms:+.1f} ms from a frame's end (median"}),
           of("min", newest_ns.front(), {line, ": {ms:+.1f}"}),

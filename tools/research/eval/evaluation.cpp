@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -16,6 +17,7 @@
 
 #include "calib/mount/ring_profile.hpp"
 #include "firmware_io/scan/sensor_motion.hpp"
+#include "firmware_io/vehicle/planar_pose.hpp"
 #include "frame_judge.hpp"
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
@@ -57,6 +59,20 @@ struct Work {
 /// on who does what.
 using FrameRun = std::vector<Work>;
 constexpr std::size_t kLongestRun = 32;
+
+constexpr frame::Place kDeparture{.journey = 1};
+
+/// As the vehicle's own motion would tell it: in the plane. `since`: takes what the frame at hand
+/// sees to the frame before; where it is not known another journey begins.
+frame::Place moved(const frame::Place& place, const std::optional<scan::RigidMotion>& since) {
+  if (!since) return {.journey = place.journey + 1};
+  const double length = std::hypot((*since)[0], (*since)[4]);
+  const vehicle::PlanarPose by{(*since)[3], (*since)[7], (*since)[0] / length,
+                               (*since)[4] / length};
+  const vehicle::PlanarPose at =
+      vehicle::PlanarPose{place.x_m, place.y_m, place.cosine, place.sine} * by;
+  return {place.journey, at.x_m, at.y_m, at.cosine, at.sine};
+}
 
 class Run {
  public:
@@ -167,14 +183,14 @@ class Run {
     }
     datasets::LabelledScan scan;
     std::optional<std::size_t> before;  // the frame labelled last
+    frame::Place place = kDeparture;
     for (const Work& work : run) {
       if (stop_ || stop_wanted_()) return;
       if (labeller != nullptr && read_and_place(work, *labeller, scan)) {
-        if (judge) {
-          judge->look_at(scan.scan,
-                         before ? sequence.motion_since(*before, work.scan) : std::nullopt);
-        }
-        label_frame(work, *labeller, judge ? &*judge : nullptr, scan);
+        const auto since = before ? sequence.motion_since(*before, work.scan) : std::nullopt;
+        place = moved(place, since);
+        if (judge) judge->look_at(scan.scan, since);
+        label_frame(work, *labeller, place, judge ? &*judge : nullptr, scan);
         before = work.scan;
       }
       const std::scoped_lock lock(mutex_);
@@ -194,11 +210,11 @@ class Run {
     return true;
   }
 
-  void label_frame(const Work& work, FrameLabeller& labeller, FrameJudge* judge,
-                   const datasets::LabelledScan& scan) {
+  void label_frame(const Work& work, FrameLabeller& labeller, const frame::Place& place,
+                   FrameJudge* judge, const datasets::LabelledScan& scan) {
     const std::vector<std::size_t> left = keeper_.methods_left(work.sequence->name, work.frame());
     for (std::size_t i = 0; i < config_.methods.size(); ++i) {
-      FrameResult result = labeller.label(i);
+      FrameResult result = labeller.label(i, place);
       if (judge != nullptr) judge->judge(i, labeller.points(), result);
       if (std::ranges::find(left, i) == left.end()) continue;
       result.rings_realigned = scan.rings.aligned;

@@ -19,7 +19,7 @@
 namespace terracut::eval {
 
 /// Labels scans of one unit with several methods, and counts what came of it. Every scan stands for
-/// itself: what came before makes no difference. One thread.
+/// itself, unless it is said where the sensor stood. One thread.
 class FrameLabeller {
  public:
   /// `methods` must outlive this. Takes all memory.
@@ -31,7 +31,8 @@ class FrameLabeller {
   [[nodiscard]] Status place(const scan::KittiScan& scan, const scan::RingRecovery& rings);
 
   /// By methods[index]. Its labels are those of points() until the next call.
-  [[nodiscard]] FrameResult label(std::size_t index);
+  /// `place`: of the sensor, for methods that remember the frames before.
+  [[nodiscard]] FrameResult label(std::size_t index, const frame::Place& place = {});
 
   /// One label a point of the file: kNone for what is no place, kObstacle, the safe side, for what
   /// was lost on the way.

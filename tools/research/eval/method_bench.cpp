@@ -16,10 +16,12 @@ MethodBench::MethodBench(std::span<const MethodChoice> methods, const mount::Rin
   }
 }
 
-FrameTimes MethodBench::segment(std::size_t index, const frame::RangeImage& image) {
+FrameTimes MethodBench::segment(std::size_t index, const frame::RangeImage& image,
+                                const frame::Place& place) {
   FrameTimes times;
   run::StageClock clock;
   const std::int64_t begun_ns = measure::thread_cpu_ns();
+  methods_[index]->set_place(place);
   (void)methods_[index]->segment(image, &clock);
   times.segment_ns = measure::thread_cpu_ns() - begun_ns;
   times.stage_ns = clock.take().stage_ns;

@@ -24,7 +24,9 @@ class MethodBench {
               memory::FixedMemory& memory);
 
   /// By methods[index]; the times without decode_ns.
-  [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image);
+  /// `place`: of the sensor, for methods that remember; unknown by default.
+  [[nodiscard]] FrameTimes segment(std::size_t index, const frame::RangeImage& image,
+                                   const frame::Place& place = {});
   /// What it found, a label a return, until it is asked again.
   [[nodiscard]] std::span<const frame::Label> labels(std::size_t index) const;
 

@@ -2,8 +2,11 @@
 // Copyright 2026 The terracut authors
 #include "calib/velodyne/velodyne_calibration.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <numeric>
 #include <utility>
 
@@ -11,6 +14,19 @@
 #include "calib/text/fnv1a.hpp"
 
 namespace terracut::velodyne {
+
+Status validate(const VelodyneCalibration& calibration) {
+  const std::size_t lasers = factory_table(calibration.model).lasers.size();
+  const bool is_whole = calibration.lasers.size() == lasers;
+  const bool are_finite = std::ranges::all_of(calibration.lasers, [](const VelodyneLaser& laser) {
+    return std::isfinite(laser.elevation_rad) && std::isfinite(laser.azimuth_offset_rad) &&
+           std::isfinite(laser.vert_offset_m);
+  });
+  if (is_whole && are_finite) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("table of a {}: expected {} lasers with finite angles, found {} lasers",
+                          to_string(calibration.model), lasers, calibration.lasers.size()));
+}
 
 std::uint64_t fingerprint(const VelodyneCalibration& calibration) {
   const auto mdeg = [](double rad) { return std::llround(beams::rad_to_deg(rad) * 1e3); };

@@ -7,6 +7,8 @@
 #include <string_view>
 #include <vector>
 
+#include "rt/error.hpp"
+
 namespace terracut::velodyne {
 
 /// Velodyne's models whose directions are those of the model, to a few hundredths of a degree. The
@@ -35,6 +37,9 @@ struct VelodyneCalibration {
 
 /// The table in the maker's manual of the model.
 [[nodiscard]] VelodyneCalibration factory_table(VelodyneModel model);
+
+/// kInvalidArgument where it has not as many lasers as its model, or angles that are not finite.
+[[nodiscard]] Status validate(const VelodyneCalibration& calibration);
 
 /// A 64-bit fingerprint of the model and all values (not of the origin), rounded to thousandths of
 /// a degree and tenths of a millimetre.

@@ -13,7 +13,7 @@ namespace terracut::frame {
 
 /// What one laser measured in one firing, with what it truly hit.
 struct LabelledReturn {
-  std::uint16_t raw = 0;       ///< Wire distance in counts, 2 mm or 5 mm; 0 = no return.
+  std::uint16_t raw = 0;       ///< Wire distance in the sensor's counts; 0 = no return.
   std::uint8_t intensity = 0;  ///< Wire intensity, uncorrected.
   std::uint32_t truth = 0;     ///< SemanticKITTI label; low 16 bits class, high 16 instance.
 };

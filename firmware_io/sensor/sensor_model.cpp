@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <iterator>
 
 #include "firmware_io/hdl64e/s1_packet.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
@@ -30,21 +31,19 @@ bool starts_with(Bytes payload, const std::array<std::uint8_t, kSize>& start) no
   return payload.size() >= kSize && std::equal(start.begin(), start.end(), payload.begin());
 }
 
+struct Product {
+  std::uint8_t number;
+  SensorModel model;
+};
+constexpr Product kProducts[] = {{0x21, SensorModel::kHdl32e},
+                                 {0x22, SensorModel::kVlp16},
+                                 {0x24, SensorModel::kVlp16HiRes},
+                                 {0x28, SensorModel::kVlp32c},
+                                 {0xA1, SensorModel::kVls128}};
+
 SensorModel product(std::uint8_t number) noexcept {
-  switch (number) {
-    case 0x21:
-      return SensorModel::kHdl32e;
-    case 0x22:
-      return SensorModel::kVlp16;
-    case 0x24:
-      return SensorModel::kVlp16HiRes;
-    case 0x28:
-      return SensorModel::kVlp32c;
-    case 0xA1:
-      return SensorModel::kVls128;
-    default:
-      return SensorModel::kOtherVelodyne;
-  }
+  const auto* const found = std::ranges::find(kProducts, number, &Product::number);
+  return found == std::end(kProducts) ? SensorModel::kOtherVelodyne : found->model;
 }
 
 SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
@@ -118,6 +117,11 @@ std::string_view ruby_model(Bytes payload) noexcept {
 }
 
 }  // namespace
+
+std::uint8_t product_number(SensorModel model) noexcept {
+  const auto* const found = std::ranges::find(kProducts, model, &Product::model);
+  return found == std::end(kProducts) ? 0 : found->number;
+}
 
 std::string_view to_string(SensorModel model) noexcept {
   switch (model) {

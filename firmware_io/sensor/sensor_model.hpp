@@ -61,6 +61,9 @@ inline constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF
   }
 }
 
+/// The number in a data packet of a Velodyne with a built-in table; 0 for others.
+[[nodiscard]] std::uint8_t product_number(SensorModel model) noexcept;
+
 /// A user who asked for this model, or for none, means that one, too: an HDL-64E of any generation.
 [[nodiscard]] constexpr bool is_wanted(std::optional<SensorModel> asked,
                                        SensorModel model) noexcept {

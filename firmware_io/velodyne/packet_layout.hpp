@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "firmware_io/decode/beam_azimuth.hpp"
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/sensor/sensor_model.hpp"
 
@@ -50,6 +51,18 @@ struct PacketLayout {
     return static_cast<int>(std::int64_t{36'000} * 30 * column_ns / 1'000'000'000) + 1;
   }
 };
+
+/// How far the head rotates from firing to firing, ticks, given its way from a packet's first
+/// firing to its last, of `firings` > 1.
+[[nodiscard]] constexpr std::int32_t mean_step_ticks(std::int32_t advance_cdeg,
+                                                     int firings) noexcept {
+  return advance_cdeg * decode::kTicksPerCdeg / (firings - 1);
+}
+/// The same where there is one firing a packet, and none before it: that of 10 turns a second.
+[[nodiscard]] constexpr std::int32_t assumed_step_ticks(const PacketLayout& layout) noexcept {
+  return static_cast<std::int32_t>(std::int64_t{decode::kRevolution_ticks} * 10 * layout.column_ns /
+                                   1'000'000'000);
+}
 
 /// How far the head has rotated since its column's azimuth when a group of channels fires, ticks.
 template <class Model>

@@ -88,7 +88,7 @@ std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
                                    std::int32_t advance_cdeg) noexcept {
   const int firings = layout_.firings(azimuths.dual_return);
   is_step_guessed_ = false;
-  if (firings > 1) return advance_cdeg * decode::kTicksPerCdeg / (firings - 1);
+  if (firings > 1) return mean_step_ticks(advance_cdeg, firings);
   // One firing a packet tells no step: it is the way from the packet before, if that is the one
   // before; at 10 turns a second until there was one.
   const std::int64_t since_us =
@@ -101,8 +101,7 @@ std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
   }
   if (step_ticks_ > 0) return step_ticks_;
   is_step_guessed_ = true;
-  return static_cast<std::int32_t>(std::int64_t{decode::kRevolution_ticks} * 10 *
-                                   layout_.column_ns / 1'000'000'000);
+  return assumed_step_ticks(layout_);
 }
 
 void PacketReader::complete(decode::PacketAzimuths& azimuths) const noexcept {

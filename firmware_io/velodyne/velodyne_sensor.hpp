@@ -2,13 +2,12 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "calib/mount/mount.hpp"
 #include "calib/velodyne/velodyne_calibration.hpp"
@@ -16,6 +15,7 @@
 #include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/velodyne/beam_offsets.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 #include "firmware_io/velodyne/packet_reader.hpp"
 #include "firmware_io/velodyne/point_kernel.hpp"
@@ -47,16 +47,11 @@ class VelodyneSensor {
   using Returns = decode::FiringReturns<static_cast<std::size_t>(kChannels)>;
 
   VelodyneSensor(const Calibration& calibration, const mount::Mount& mount, const Config&)
-      : reader_(Model::kLayout), kernel_(calibration, mount) {
+      : reader_(Model::kLayout), kernel_(calibration, mount), offsets_(calibration) {
     const std::vector<int> rows = rows_by_elevation(calibration);
     for (std::size_t channel = 0; channel < rows_.size(); ++channel) {
       rows_[channel] = rows[laser_of(channel)];
-      offset_ticks_[channel] = static_cast<std::int32_t>(std::lround(
-          calibration.lasers[laser_of(channel)].azimuth_offset_rad / decode::kRadPerTick));
     }
-    const auto [least, most] = std::ranges::minmax(offset_ticks_);
-    least_ticks_ = least;
-    most_ticks_ = most;
   }
 
   [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
@@ -65,10 +60,10 @@ class VelodyneSensor {
     return reader_.read(datagram.payload, azimuths);
   }
   [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
-    return {least_ticks_, step_ticks + most_ticks_};
+    return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
   [[nodiscard]] std::int32_t beam_ticks(int channel) const noexcept {
-    return offset_ticks_[static_cast<std::size_t>(channel)];
+    return offsets_.beam_ticks(channel);
   }
   [[nodiscard]] static std::size_t group(std::size_t channel) noexcept {
     return Model::group(channel);
@@ -117,8 +112,8 @@ class VelodyneSensor {
 
   PacketReader reader_;
   PointKernel kernel_;
-  std::array<std::int32_t, kChannels> rows_{}, offset_ticks_{};
-  std::int32_t least_ticks_ = 0, most_ticks_ = 0;
+  BeamOffsets<Model> offsets_;
+  std::array<std::int32_t, kChannels> rows_{};
   bool is_dual_packet_ = false;
 };
 

@@ -16,6 +16,7 @@
 #include "firmware_io/scan/label_file.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/tools/lab/drive/made_drive.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/simulator/drive.hpp"
 
@@ -74,13 +75,10 @@ class SimulatedDriveDecoded : public testing::Test {
   template <class EncoderTraits>
   double worst_error_m(const simulator::SimulationConfig<EncoderTraits>& config,
                        const std::vector<Measured>& measured) {
-    const auto calibration =
-        EncoderTraits::read_calibration(drive::calibration_path_of<EncoderTraits>(pcap()));
+    const auto calibration = test::table_beside<EncoderTraits>(pcap());
     EXPECT_TRUE(calibration) << calibration.error().message;
     decode::Decoder::Config settings;
-    settings.columns = static_cast<int>(
-        std::lround(1e9 / (config.spin_hz *
-                           static_cast<double>(EncoderTraits::firing_ns(config.sensor.returns)))));
+    settings.columns = drive::image_columns<EncoderTraits>(config.spin_hz, config.sensor.returns);
     memory::FixedMemory memory;
     decode::Decoder decoder(*calibration, config.mount, settings, memory);
     const mount::RigidTransform T = mount::T_vehicle_lidar(config.mount);
@@ -134,7 +132,10 @@ class SimulatedDriveDecoded : public testing::Test {
     config.mount = {.height_m = 1.9, .roll_rad = 0.01, .pitch_rad = 0.02};
     config.sensor.returns = returns;
     const auto measured = write(config);
-    EXPECT_GT(measured.size(), 50'000U);
+    // A third of the rays at least.
+    const auto firings = static_cast<std::size_t>(
+        1e9 / (spin_hz * static_cast<double>(EncoderTraits::firing_ns(returns))));
+    EXPECT_GT(measured.size(), firings * EncoderTraits::kLasers / 3);
     expect_truth_of(measured);
     EXPECT_LT(worst_error_m(config, measured), allowed_m);
   }
@@ -145,7 +146,7 @@ class SimulatedDriveDecoded : public testing::Test {
 };
 
 /// Half a count of the wire, and a little for single precision.
-constexpr double kRubyRounding_m = 0.0027, kHdlRounding_m = 0.0013;
+constexpr double kRubyRounding_m = 0.0027, kHdlRounding_m = 0.0013, kFourMmRounding_m = 0.0022;
 
 TEST_F(SimulatedDriveDecoded, EveryReturnOfAnRsRuby128ArrivesWhereItWas) {
   expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kSingle, 10, kRubyRounding_m);
@@ -160,6 +161,20 @@ TEST_F(SimulatedDriveDecoded, BothReturnsOfAnRsRuby128ArriveWhereTheyWere) {
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAnHdl64eArriveWhereTheyWere) {
   expect_whole<encode::Hdl64eEncoderTraits>(drive::ReturnMode::kDual, 10, kHdlRounding_m);
   expect_whole<encode::Hdl64eEncoderTraits>(drive::ReturnMode::kDual, 20, kHdlRounding_m);
+}
+
+TEST_F(SimulatedDriveDecoded, EveryReturnOfAVelodyneWithABuiltInTableArrivesWhereItWas) {
+  expect_whole<velodyne::Vlp16EncoderTraits>(drive::ReturnMode::kSingle, 10, kHdlRounding_m);
+  expect_whole<velodyne::Hdl32eEncoderTraits>(drive::ReturnMode::kSingle, 20, kHdlRounding_m);
+  expect_whole<velodyne::Vlp32cEncoderTraits>(drive::ReturnMode::kSingle, 10, kFourMmRounding_m);
+  expect_whole<velodyne::Vls128EncoderTraits>(drive::ReturnMode::kSingle, 20, kFourMmRounding_m);
+}
+
+TEST_F(SimulatedDriveDecoded, BothReturnsOfAVelodyneWithABuiltInTableArriveWhereTheyWere) {
+  expect_whole<velodyne::Vlp16EncoderTraits>(drive::ReturnMode::kDual, 20, kHdlRounding_m);
+  expect_whole<velodyne::Hdl32eEncoderTraits>(drive::ReturnMode::kDual, 10, kHdlRounding_m);
+  expect_whole<velodyne::Vlp32cEncoderTraits>(drive::ReturnMode::kDual, 20, kFourMmRounding_m);
+  expect_whole<velodyne::Vls128EncoderTraits>(drive::ReturnMode::kDual, 10, kFourMmRounding_m);
 }
 
 }  // namespace

@@ -5,12 +5,10 @@
 #include <string>
 #include <utility>
 
-#include "calib/hdl64e/hdl64e_file.hpp"
-#include "calib/ruby128/ruby128_csv.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/command_files.hpp"
-#include "tools/cli/settings/sensor_choice.hpp"
+#include "tools/cli/settings/made_calibration.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/encode/scan_drive.hpp"
 
@@ -79,14 +77,16 @@ void print(const Options& options, const encode::ScanDriveReport& report,
   }
 }
 
+template <class EncoderTraits>
 void print(const Options& options, const encode::ResampleReport& report,
-           const encode::ResampleOptions& drive) {
+           const encode::ResampleOptions<EncoderTraits>& drive) {
   const encode::ResampleSummary& rays = report.rays;
   const auto share = [&](std::uint64_t count) {
     return rays.rays == 0 ? 0.0
                           : 100.0 * static_cast<double>(count) / static_cast<double>(rays.rays);
   };
-  fmt::print("synthetic RS-Ruby128, resampled from an HDL-64E's recording, not recorded\n");
+  fmt::print("synthetic {}, resampled from an HDL-64E's recording, not recorded\n",
+             to_string(*options.capture.sensor));
   fmt::print("{}table     {}\n{}\nframes    {}\nrays      {}\n", wrote_drive(options),
              drive.calibration.origin, motion_line(report.why_as_recorded), report.drive.frames,
              rays.rays);
@@ -98,13 +98,12 @@ void print(const Options& options, const encode::ResampleReport& report,
   fmt::print("          {} left out: beyond the wire's span\n", rays.out_of_span);
 }
 
-/// With what both sensors' drives are made of scans: how a table is loaded, and the work itself.
-template <class DriveOptions, class Load, class Make>
-ExitCode encode_by(const Options& options, DriveOptions drive, const char* task, const Load& load,
-                   const Make& make) {
+/// What the drives of all sensors have in common: how a table is loaded, and the work itself.
+template <class EncoderTraits, class DriveOptions, class Make>
+ExitCode encode_by(const Options& options, DriveOptions drive, const char* task, const Make& make) {
   drive.motion = motion_of(options);
   if (!options.capture.calibration.empty()) {
-    auto calibration = load(options.capture.calibration);
+    auto calibration = made_calibration(options.capture, EncoderTraits{});
     if (!calibration) return refuse(calibration.error());
     drive.calibration = *std::move(calibration);
   }
@@ -119,24 +118,29 @@ ExitCode encode_by(const Options& options, DriveOptions drive, const char* task,
   return kOk;
 }
 
+/// The recording sensor's own packets.
+ExitCode encode_as(const Options& options, encode::Hdl64eEncoderTraits) {
+  encode::ScanDriveOptions drive;
+  drive.can_log = options.can_log;
+  return encode_by<encode::Hdl64eEncoderTraits>(options, drive, "encoding",
+                                                encode::encode_scan_folder);
+}
+/// Another's in its place.
+template <class EncoderTraits>
+ExitCode encode_as(const Options& options, EncoderTraits) {
+  if (options.can_log) {
+    return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled frames begin ahead");
+  }
+  return encode_by<EncoderTraits>(options, encode::ResampleOptions<EncoderTraits>(), "resampling",
+                                  encode::resample_scan_folder<EncoderTraits>);
+}
+
 }  // namespace
 
 ExitCode run_encode(const Options& options) {
   catch_stop_signals();
-  if (const Status made = can_be_made(options.capture.sensor); !made) {
-    return refuse(kUsage, made.error().message);
-  }
-  if (options.capture.sensor != sensor::SensorModel::kRuby128) {
-    encode::ScanDriveOptions drive;
-    drive.can_log = options.can_log;
-    return encode_by(options, drive, "encoding", hdl64e::load_hdl64e_calibration,
-                     encode::encode_scan_folder);
-  }
-  if (options.can_log) {
-    return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled frames begin ahead");
-  }
-  return encode_by(options, encode::ResampleOptions(), "resampling", ruby128::read_ruby128_csv,
-                   encode::resample_scan_folder);
+  return drive::with_encoder_traits(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
+                                    [&](auto traits) { return encode_as(options, traits); });
 }
 
 }  // namespace terracut::cli

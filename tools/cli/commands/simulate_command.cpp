@@ -11,12 +11,10 @@
 #include <thread>
 
 #include "calib/beams/angle.hpp"
-#include "calib/hdl64e/hdl64e_file.hpp"
-#include "calib/ruby128/ruby128_csv.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/command_files.hpp"
-#include "tools/cli/settings/sensor_choice.hpp"
+#include "tools/cli/settings/made_calibration.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/cli/temporary_folder.hpp"
@@ -30,17 +28,6 @@ namespace {
 using encode::Hdl64eEncoderTraits;
 using encode::Ruby128EncoderTraits;
 
-Expected<Hdl64eEncoderTraits::Calibration> calibration_of(const Options& options,
-                                                          Hdl64eEncoderTraits) {
-  if (options.capture.calibration.empty()) return Hdl64eEncoderTraits::nominal();
-  return hdl64e::load_hdl64e_calibration(options.capture.calibration);
-}
-Expected<Ruby128EncoderTraits::Calibration> calibration_of(const Options& options,
-                                                           Ruby128EncoderTraits) {
-  if (options.capture.calibration.empty()) return Ruby128EncoderTraits::nominal();
-  return ruby128::read_ruby128_csv(options.capture.calibration);
-}
-
 Hdl64eEncoderTraits::Config sensor_config(const Options& options, Hdl64eEncoderTraits) {
   return {.returns = options.simulate.returns};
 }
@@ -51,6 +38,11 @@ Ruby128EncoderTraits::Config sensor_config(const Options& options, Ruby128Encode
   config.unit.rpm = static_cast<std::uint16_t>(std::lround(60 * options.simulate.spin_hz));
   config.unit.serial = {'S', 'I', 'M', 'U', 'L', 'A'};  // nobody takes it for a real unit's
   return config;
+}
+template <class Model>
+typename velodyne::VelodyneEncoderTraits<Model>::Config sensor_config(
+    const Options& options, velodyne::VelodyneEncoderTraits<Model>) {
+  return {.returns = options.simulate.returns};
 }
 
 template <class EncoderTraits>
@@ -68,7 +60,7 @@ Expected<simulator::SimulationConfig<EncoderTraits>> simulation_config(const Opt
   const auto mount = mount_of(options.mount);
   if (!mount) return tl::unexpected(mount.error());
   config.mount = *mount;
-  auto calibration = calibration_of(options, EncoderTraits{});
+  auto calibration = made_calibration(options.capture, EncoderTraits{});
   if (!calibration) return tl::unexpected(calibration.error());
   config.calibration = *std::move(calibration);
   return config;
@@ -109,18 +101,15 @@ ExitCode simulate(const Options& options, const std::filesystem::path& output) {
 }
 
 ExitCode simulate_to(const Options& options, const std::filesystem::path& output) {
-  return options.capture.sensor == sensor::SensorModel::kRuby128
-             ? simulate<Ruby128EncoderTraits>(options, output)
-             : simulate<Hdl64eEncoderTraits>(options, output);
+  return drive::with_encoder_traits(
+      options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
+      [&](auto traits) { return simulate<decltype(traits)>(options, output); });
 }
 
 }  // namespace
 
 ExitCode run_simulate(const Options& options) {
   catch_stop_signals();
-  if (const Status made = can_be_made(options.capture.sensor); !made) {
-    return refuse(kUsage, made.error().message);
-  }
   if (options.send.to.empty()) {
     if (options.written.empty()) {
       return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");

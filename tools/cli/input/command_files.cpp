@@ -41,7 +41,8 @@ template <class EncoderTraits>
 void add_drive_of(RunFiles& files, const Options& options) {
   const fs::path& capture = options.written;
   files.write("--output", capture);
-  files.write("the table of --output", drive::calibration_path_of<EncoderTraits>(capture));
+  const fs::path table = drive::calibration_path_of<EncoderTraits>(capture);
+  if (!table.empty()) files.write("the table of --output", table);
   files.write("the truth of --output", drive::truth_folder_of(capture), Kind::kReplacedFolder);
   if (!options.can_log) return;
   files.write("--can-log", drive::can_log_path_of(capture));
@@ -50,11 +51,8 @@ void add_drive_of(RunFiles& files, const Options& options) {
 
 RunFiles drive_of(const Options& options) {
   RunFiles files;
-  if (options.capture.sensor == sensor::SensorModel::kRuby128) {
-    add_drive_of<encode::Ruby128EncoderTraits>(files, options);
-  } else {
-    add_drive_of<encode::Hdl64eEncoderTraits>(files, options);
-  }
+  drive::with_encoder_traits(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
+                             [&](auto traits) { add_drive_of<decltype(traits)>(files, options); });
   return files;
 }
 

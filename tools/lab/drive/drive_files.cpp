@@ -124,6 +124,7 @@ Status DriveFiles::put_in_place(const fs::path& calibration_path) {
     if (!error) fs::rename(staging_->truth(), truth_, error);
   }
   if (error) return write_failed(truth_, error.message());
+  if (calibration_path.empty()) return {};
   fs::rename(staging_->calibration(), calibration_path, error);
   if (error) return write_failed(calibration_path, error.message());
   return {};

@@ -13,8 +13,10 @@ namespace terracut::drive {
 
 /// The names a drive's parts have beside "<folder>/<name>.pcap".
 [[nodiscard]] std::filesystem::path truth_folder_of(const std::filesystem::path& pcap_path);
+/// Empty for a sensor whose table is built in.
 template <class EncoderTraits>
 [[nodiscard]] std::filesystem::path calibration_path_of(const std::filesystem::path& pcap_path) {
+  if (EncoderTraits::kCalibrationSuffix.empty()) return {};
   std::filesystem::path name = pcap_path.stem();
   name += EncoderTraits::kCalibrationSuffix;
   return pcap_path.parent_path() / name;
@@ -39,6 +41,7 @@ class DriveFiles {
 
   /// Once more what create() checks, for the folder may have changed since.
   [[nodiscard]] Status check_replaceable() const;
+  /// `calibration_path`: empty where there is no table.
   [[nodiscard]] Status put_in_place(const std::filesystem::path& calibration_path);
 
  private:

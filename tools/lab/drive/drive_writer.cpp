@@ -16,11 +16,25 @@ namespace {
 /// A table without the truth of a drive beside it is no earlier drive's, but somebody's own unit's.
 Status check_table(const fs::path& table, const fs::path& truth) {
   std::error_code none;
-  if (!fs::exists(table, none) || fs::exists(truth, none)) return {};
+  if (table.empty() || !fs::exists(table, none) || fs::exists(truth, none)) return {};
   return fail(ErrorCode::kInvalidArgument,
               fmt::format("{}: would be replaced, but is of no earlier drive, for there is no {} "
                           "beside it; move it away or choose another output name",
                           table.string(), truth.string()));
+}
+
+/// Writes the unit's table and reads it back: the decoder will have what the file says, so frames
+/// are cut by that, not by what was meant. A built-in table is as it is.
+template <class EncoderTraits>
+Expected<typename EncoderTraits::Calibration> written_table(
+    const fs::path& table, const typename EncoderTraits::Calibration& calibration) {
+  if constexpr (EncoderTraits::kCalibrationSuffix.empty()) {
+    return calibration;
+  } else {
+    const Status written = EncoderTraits::write_calibration(table, calibration);
+    if (!written) return tl::unexpected(written.error());
+    return EncoderTraits::read_calibration(table);
+  }
 }
 
 }  // namespace
@@ -37,12 +51,7 @@ Expected<DriveWriter<EncoderTraits>> DriveWriter<EncoderTraits>::create(
   auto files = DriveFiles::create(pcap_path);
   if (!files) return tl::unexpected(files.error());
 
-  const fs::path table = files->staged_calibration();
-  if (const Status written = EncoderTraits::write_calibration(table, calibration); !written) {
-    return tl::unexpected(written.error());
-  }
-  // The decoder will have what the file says, so frames are cut by that, not by what was meant.
-  const auto as_read = EncoderTraits::read_calibration(table);
+  const auto as_read = written_table<EncoderTraits>(files->staged_calibration(), calibration);
   if (!as_read) return tl::unexpected(as_read.error());
   const auto sender = EncoderTraits::sender(calibration, config);
   if (!sender) return tl::unexpected(sender.error());
@@ -58,6 +67,7 @@ DriveWriter<EncoderTraits>::DriveWriter(capture::PcapWriter pcap, DriveFiles fil
       files_(std::move(files)),
       truth_(offsets, returns),
       sender_(std::move(sender)),
+      columns_per_packet_(static_cast<std::size_t>(EncoderTraits::columns_per_packet(returns))),
       group_(static_cast<std::size_t>(EncoderTraits::firings_per_group(returns) *
                                       returns_per_firing(returns))) {}
 
@@ -76,9 +86,8 @@ Status DriveWriter<EncoderTraits>::add_column(
 template <class EncoderTraits>
 Status DriveWriter<EncoderTraits>::write_group() {
   filled_ = 0;
-  constexpr auto kColumns = static_cast<std::size_t>(EncoderTraits::kColumnsPerPacket);
-  for (std::size_t first = 0; first < group_.size(); first += kColumns) {
-    const auto columns = std::span<const Column>(group_).subspan(first).template first<kColumns>();
+  for (std::size_t first = 0; first < group_.size(); first += columns_per_packet_) {
+    const auto columns = std::span<const Column>(group_).subspan(first, columns_per_packet_);
     const Status sent = sender_.send(columns, static_cast<int>(first), pcap_);
     if (!sent) return sent;
     ++summary_.packets;
@@ -120,7 +129,8 @@ Expected<DriveSummary> DriveWriter<EncoderTraits>::finish() {
   return summary_;
 }
 
-template class DriveWriter<encode::Hdl64eEncoderTraits>;
-template class DriveWriter<encode::Ruby128EncoderTraits>;
+#define TERRACUT_INSTANTIATE(EncoderTraits) template class DriveWriter<EncoderTraits>;
+TERRACUT_FOR_ENCODER_TRAITS(TERRACUT_INSTANTIATE)
+#undef TERRACUT_INSTANTIATE
 
 }  // namespace terracut::drive

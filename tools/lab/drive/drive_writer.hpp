@@ -30,7 +30,7 @@ struct DriveSummary {
 ///   drive.pcap                the sensor's packets, its calibration in them (HDL-64E: in the
 ///                             status bytes; RS-Ruby128: in a device packet every second)
 ///   drive.calibration.xml     the unit's table (HDL-64E: db.xml; RS-Ruby128: angle.csv, named
-///                             drive.calibration.csv)
+///                             drive.calibration.csv); none where the table is built in
 ///   drive.truth/NNNNNN.label  one little-endian uint32 per return, frame by frame, in order of
 ///                             arrival (packet, block, laser), SemanticKITTI ids
 ///
@@ -43,7 +43,7 @@ struct DriveSummary {
 /// Everything is written under temporary names and appears, whole, at finish(); a DriveWriter that
 /// goes without it leaves nothing behind. File work: not real-time safe. One thread.
 ///
-/// `EncoderTraits`: Hdl64eEncoderTraits or Ruby128EncoderTraits.
+/// `EncoderTraits`: encoder_traits.hpp.
 template <class EncoderTraits>
 class DriveWriter {
  public:
@@ -59,7 +59,7 @@ class DriveWriter {
       const typename EncoderTraits::Config& config = {});
 
   /// The next firing of all lasers; `stamp_ns` is that of its first laser. In dual return two calls
-  /// a firing, with the same stamp and azimuth: HDL-64E strongest, then last; RS-Ruby128 last, then
+  /// a firing, with the same stamp and azimuth: HDL-64E strongest, then last; others last, then
   /// strongest. Firings must be those of a rotating head, which a decoder will follow.
   /// kWriteFailed.
   [[nodiscard]] Status add_column(std::int64_t stamp_ns, std::int64_t unwrapped_azimuth_cdeg,
@@ -82,6 +82,7 @@ class DriveWriter {
   DriveFiles files_;
   TruthFrames<EncoderTraits> truth_;
   Sender sender_;
+  std::size_t columns_per_packet_;
   std::vector<Column> group_;  ///< Columns that fill whole packets.
   std::size_t filled_ = 0;
   DriveSummary summary_;

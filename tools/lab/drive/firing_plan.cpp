@@ -40,16 +40,19 @@ std::int64_t FiringPlan<EncoderTraits>::azimuth_cdeg(std::int64_t index) const n
 template <class EncoderTraits>
 Firing FiringPlan<EncoderTraits>::firing(std::int64_t index) const noexcept {
   const std::int64_t place = index % group_;
-  GroupAzimuths rotor_cdeg{};
+  const std::int64_t first = index - place;
+  GroupAzimuths rotor;
   for (std::int64_t i = 0; i < group_; ++i) {
-    rotor_cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(azimuth_cdeg(index - place + i));
+    rotor.cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(azimuth_cdeg(first + i));
   }
+  if (first > 0) rotor.before_cdeg = beams::wrap_cdeg(azimuth_cdeg(first - 1));
   return {index, azimuth_cdeg(index),
-          EncoderTraits::step_ticks(rotor_cdeg, static_cast<int>(place), returns_),
+          EncoderTraits::step_ticks(rotor, static_cast<int>(place), returns_),
           static_cast<double>(index) * firing_s_ + start_cdeg_ / cdeg_per_s_};
 }
 
-template class FiringPlan<encode::Hdl64eEncoderTraits>;
-template class FiringPlan<encode::Ruby128EncoderTraits>;
+#define TERRACUT_INSTANTIATE(EncoderTraits) template class FiringPlan<EncoderTraits>;
+TERRACUT_FOR_ENCODER_TRAITS(TERRACUT_INSTANTIATE)
+#undef TERRACUT_INSTANTIATE
 
 }  // namespace terracut::drive

@@ -4,11 +4,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 
 namespace terracut::drive {
 
-/// Head azimuths of the firings that fill whole packets, each in [0, 36000); the last entries are
-/// not used where fewer firings do.
-using GroupAzimuths = std::array<std::int32_t, 6>;
+/// Head azimuths of the firings that fill whole packets, each in [0, 36000).
+struct GroupAzimuths {
+  std::array<std::int32_t, 12> cdeg{};      ///< The last are not used where fewer firings do.
+  std::optional<std::int32_t> before_cdeg;  ///< Of the firing before; nothing at the drive's start.
+};
 
 }  // namespace terracut::drive

@@ -14,13 +14,13 @@ namespace terracut::drive {
 template <class EncoderTraits>
 void TruthFrames<EncoderTraits>::add(std::span<const Column> columns) {
   const auto returns = static_cast<std::size_t>(returns_per_firing(returns_));
-  GroupAzimuths rotor_cdeg{};
+  GroupAzimuths rotor{.before_cdeg = last_cdeg_};
   for (std::size_t i = 0; i < columns.size(); i += returns) {
-    rotor_cdeg[i / returns] = beams::wrap_cdeg(columns[i].unwrapped_azimuth_cdeg);
+    rotor.cdeg[i / returns] = beams::wrap_cdeg(columns[i].unwrapped_azimuth_cdeg);
   }
   for (std::size_t i = 0; i < columns.size(); ++i) {
     const std::int32_t step_ticks =
-        EncoderTraits::step_ticks(rotor_cdeg, static_cast<int>(i / returns), returns_);
+        EncoderTraits::step_ticks(rotor, static_cast<int>(i / returns), returns_);
     for (int laser = 0; laser < EncoderTraits::kLasers; ++laser) {
       const frame::LabelledReturn& labelled = columns[i].by_laser[static_cast<std::size_t>(laser)];
       if (labelled.raw == 0) continue;
@@ -31,6 +31,7 @@ void TruthFrames<EncoderTraits>::add(std::span<const Column> columns) {
       by_frame_[beam.frame].push_back(labelled.truth);
     }
   }
+  last_cdeg_ = beams::wrap_cdeg(columns.back().unwrapped_azimuth_cdeg);
   oldest_reachable_ =
       decode::beam_azimuth(columns.back().unwrapped_azimuth_cdeg, offsets_.hindmost_ticks()).frame;
 }
@@ -49,7 +50,8 @@ bool TruthFrames<EncoderTraits>::take_any(std::vector<std::uint32_t>& labels) {
   return true;
 }
 
-template class TruthFrames<encode::Hdl64eEncoderTraits>;
-template class TruthFrames<encode::Ruby128EncoderTraits>;
+#define TERRACUT_INSTANTIATE(EncoderTraits) template class TruthFrames<EncoderTraits>;
+TERRACUT_FOR_ENCODER_TRAITS(TERRACUT_INSTANTIATE)
+#undef TERRACUT_INSTANTIATE
 
 }  // namespace terracut::drive

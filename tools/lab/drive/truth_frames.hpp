@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -36,6 +37,7 @@ class TruthFrames {
   ReturnMode returns_;
   std::map<std::int64_t, std::vector<std::uint32_t>> by_frame_;
   std::int64_t oldest_reachable_ = 0;
+  std::optional<std::int32_t> last_cdeg_;  ///< Where the head stood at the last firing.
 };
 
 }  // namespace terracut::drive

@@ -35,7 +35,6 @@ struct Hdl64eEncoderTraits {
   };
 
   static constexpr int kLasers = hdl64e::kHdl64eLasers;
-  static constexpr int kColumnsPerPacket = hdl64e::kColumnsPerPacketSingle;
   static constexpr bool kStrongestFirst = true;
   static constexpr double kBeamHalfWidth_rad = 1.0e-3;  ///< The manual gives 2 mrad in all.
   static constexpr std::string_view kCalibrationSuffix = ".calibration.xml";
@@ -48,14 +47,20 @@ struct Hdl64eEncoderTraits {
   [[nodiscard]] static constexpr std::int64_t firing_ns(drive::ReturnMode returns) noexcept {
     return times(returns).column_ns;
   }
+  [[nodiscard]] static constexpr std::int64_t laser_period_ns(drive::ReturnMode returns) noexcept {
+    return firing_ns(returns);
+  }
   [[nodiscard]] static constexpr int firings_per_group(drive::ReturnMode returns) noexcept {
     return times(returns).columns_per_packet;
   }
+  [[nodiscard]] static constexpr int columns_per_packet(drive::ReturnMode) noexcept {
+    return hdl64e::kColumnsPerPacketSingle;
+  }
 
-  [[nodiscard]] static constexpr std::int32_t step_ticks(const drive::GroupAzimuths& rotor_cdeg,
-                                                         int, drive::ReturnMode returns) noexcept {
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const drive::GroupAzimuths& rotor, int,
+                                                         drive::ReturnMode returns) noexcept {
     const auto last = static_cast<std::size_t>(times(returns).columns_per_packet - 1);
-    return hdl64e::column_step_ticks(rotor_cdeg[0], rotor_cdeg[last],
+    return hdl64e::column_step_ticks(rotor.cdeg[0], rotor.cdeg[last],
                                      returns == drive::ReturnMode::kDual);
   }
   [[nodiscard]] static constexpr std::int32_t advance_ticks(std::int32_t step_ticks, int laser,

@@ -23,11 +23,11 @@ Expected<Hdl64ePacketSender> Hdl64ePacketSender::create(
   return Hdl64ePacketSender(StatusStreamWriter(*table, hdl64e::StatusFlavour::kS3));
 }
 
-Status Hdl64ePacketSender::send(
-    std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns, int,
-    capture::PcapWriter& capture) {
-  const std::int64_t end_ns = packet_end_ns(columns);
-  encode_hdl64e_packet(columns, end_ns, status_.next(end_ns), packet_);
+Status Hdl64ePacketSender::send(std::span<const frame::FiringColumn> columns, int,
+                                capture::PcapWriter& capture) {
+  const auto whole = columns.first<hdl64e::kColumnsPerPacketSingle>();
+  const std::int64_t end_ns = packet_end_ns(whole);
+  encode_hdl64e_packet(whole, end_ns, status_.next(end_ns), packet_);
   return capture.write({.payload = hdl64e::payload_of(packet_),
                         .stamp_ns = end_ns,
                         .source_address = kSensorAddress,

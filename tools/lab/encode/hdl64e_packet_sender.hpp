@@ -22,10 +22,10 @@ class Hdl64ePacketSender {
   [[nodiscard]] static Expected<Hdl64ePacketSender> create(
       const hdl64e::Hdl64eCalibration& calibration, drive::ReturnMode returns);
 
-  /// The next packet. `first_column`: which of its group's columns it begins with.
-  [[nodiscard]] Status send(
-      std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
-      int first_column, capture::PcapWriter& capture);
+  /// The next packet, of a packet's columns. `first_column`: which of its group's columns it begins
+  /// with.
+  [[nodiscard]] Status send(std::span<const frame::FiringColumn> columns, int first_column,
+                            capture::PcapWriter& capture);
 
  private:
   explicit Hdl64ePacketSender(const StatusStreamWriter& status) noexcept : status_(status) {}

@@ -39,7 +39,6 @@ struct Ruby128EncoderTraits {
   };
 
   static constexpr int kLasers = ruby128::kRuby128Lasers;
-  static constexpr int kColumnsPerPacket = ruby128::kRubyBlocksPerPacket;
   static constexpr bool kStrongestFirst = false;
   static constexpr double kBeamHalfWidth_rad = 1.25e-3;
   static constexpr std::string_view kCalibrationSuffix = ".calibration.csv";
@@ -47,13 +46,19 @@ struct Ruby128EncoderTraits {
   [[nodiscard]] static constexpr std::int64_t firing_ns(drive::ReturnMode) noexcept {
     return ruby128::kRubyBlock_ns;
   }
+  [[nodiscard]] static constexpr std::int64_t laser_period_ns(drive::ReturnMode returns) noexcept {
+    return firing_ns(returns);
+  }
   [[nodiscard]] static constexpr int firings_per_group(drive::ReturnMode) noexcept { return 3; }
+  [[nodiscard]] static constexpr int columns_per_packet(drive::ReturnMode) noexcept {
+    return ruby128::kRubyBlocksPerPacket;
+  }
 
   /// In dual return A and B stand in one packet and C beside B in the next, where B keeps its step.
-  [[nodiscard]] static constexpr std::int32_t step_ticks(const drive::GroupAzimuths& rotor_cdeg,
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const drive::GroupAzimuths& rotor,
                                                          int place,
                                                          drive::ReturnMode returns) noexcept {
-    const std::int32_t a = rotor_cdeg[0], b = rotor_cdeg[1], c = rotor_cdeg[2];
+    const std::int32_t a = rotor.cdeg[0], b = rotor.cdeg[1], c = rotor.cdeg[2];
     if (returns == drive::ReturnMode::kSingle) return ruby128::ruby_step_ticks({a, b, c});
     return place < 2 ? ruby128::ruby_step_ticks({a, a, b}) : ruby128::ruby_step_ticks({b, c, c});
   }

@@ -65,9 +65,8 @@ Status Ruby128PacketSender::send_difop(std::int64_t stamp_ns, std::int64_t captu
       datagram(ruby128::payload_of(difop_), captured_ns, ruby128::kRubyDevicePort));
 }
 
-Status Ruby128PacketSender::send(
-    std::span<const frame::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns, int first_column,
-    capture::PcapWriter& capture) {
+Status Ruby128PacketSender::send(std::span<const frame::Ruby128Column> columns, int first_column,
+                                 capture::PcapWriter& capture) {
   const std::int64_t stamp_ns = columns.front().stamp_ns;
   const std::int64_t end_ns = columns.back().stamp_ns + ruby128::kRubyBlock_ns;
   if (!next_difop_ns_) next_difop_ns_ = stamp_ns;
@@ -75,7 +74,8 @@ Status Ruby128PacketSender::send(
     if (Status sent = send_difop(stamp_ns, end_ns, capture); !sent) return sent;
     while (*next_difop_ns_ <= stamp_ns) *next_difop_ns_ += kDifopPeriod_ns;
   }
-  encode_ruby128_packet(columns, first_column, facts_, packet_);
+  encode_ruby128_packet(columns.first<ruby128::kRubyBlocksPerPacket>(), first_column, facts_,
+                        packet_);
   return capture.write(datagram(ruby128::payload_of(packet_), end_ns, ruby128::kRubyDataPort));
 }
 

@@ -32,10 +32,10 @@ class Ruby128PacketSender {
   Ruby128PacketSender(const ruby128::Ruby128Calibration& calibration, const Ruby128Unit& unit,
                       Ruby128PacketFacts facts);
 
-  /// The next packet. `first_column`: which of its group's columns it begins with.
-  [[nodiscard]] Status send(
-      std::span<const frame::Ruby128Column, ruby128::kRubyBlocksPerPacket> columns,
-      int first_column, capture::PcapWriter& capture);
+  /// The next packet, of a packet's columns. `first_column`: which of its group's columns it begins
+  /// with.
+  [[nodiscard]] Status send(std::span<const frame::Ruby128Column> columns, int first_column,
+                            capture::PcapWriter& capture);
 
  private:
   [[nodiscard]] Status send_difop(std::int64_t stamp_ns, std::int64_t captured_ns,

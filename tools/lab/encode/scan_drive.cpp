@@ -115,30 +115,34 @@ Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder
   return report;
 }
 
-Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folder,
-                                              const std::filesystem::path& pcap_path,
-                                              const ResampleOptions& options) {
+template <class EncoderTraits>
+Expected<ResampleReport> resample_scan_folder(
+    const std::filesystem::path& folder, const std::filesystem::path& pcap_path,
+    const std::type_identity_t<ResampleOptions<EncoderTraits>>& options) {
+  using Resampler = ScanResampler<EncoderTraits>;
   auto reader = scan::ScanReader::open(folder, options.motion);
   if (!reader) return tl::unexpected(std::move(reader.error()));
   if (auto fitted = reader->fit_rings(); !fitted) {
     return tl::unexpected(std::move(fitted.error()));
   }
-  Ruby128EncoderTraits::Config config;
-  config.unit.rpm = static_cast<std::uint16_t>(60 * ScanResampler::kSpin_hz);
-  config.unit.serial = {'R', 'E', 'S', 'A', 'M', 'P'};
-  auto writer = drive::Ruby128DriveWriter::create(pcap_path, options.calibration, config);
+  typename EncoderTraits::Config config;
+  if constexpr (std::is_same_v<EncoderTraits, Ruby128EncoderTraits>) {
+    config.unit.rpm = static_cast<std::uint16_t>(60 * Resampler::kSpin_hz);
+    config.unit.serial = {'R', 'E', 'S', 'A', 'M', 'P'};
+  }
+  auto writer = drive::DriveWriter<EncoderTraits>::create(pcap_path, options.calibration, config);
   if (!writer) return tl::unexpected(std::move(writer.error()));
 
-  ScanResampler resampler(options.calibration);
+  Resampler resampler(options.calibration);
   const auto rays = resampler.run(
       static_cast<std::int64_t>(reader->size()), options.first_stamp_ns,
-      [&](std::int64_t frame, ScanResampler::Frame& into) -> Status {
+      [&](std::int64_t frame, typename Resampler::Frame& into) -> Status {
         const auto index = static_cast<std::size_t>(frame);
         Status status = reader->read(index, into.scan, into.rings);
         if (!status || !options.on_scan) return status;
         return options.on_scan(index + 1, reader->size());
       },
-      [&](const frame::Ruby128Column& column) {
+      [&](const typename Resampler::Column& column) {
         return writer->add_column(column.stamp_ns, column.unwrapped_azimuth_cdeg, column.by_laser);
       });
   if (!rays) return tl::unexpected(rays.error());
@@ -146,5 +150,21 @@ Expected<ResampleReport> resample_scan_folder(const std::filesystem::path& folde
   if (!drive) return tl::unexpected(drive.error());
   return ResampleReport{*drive, *rays, reader->why_as_recorded()};
 }
+
+template Expected<ResampleReport> resample_scan_folder<Ruby128EncoderTraits>(
+    const std::filesystem::path&, const std::filesystem::path&,
+    const ResampleOptions<Ruby128EncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<velodyne::Vlp16EncoderTraits>(
+    const std::filesystem::path&, const std::filesystem::path&,
+    const ResampleOptions<velodyne::Vlp16EncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<velodyne::Hdl32eEncoderTraits>(
+    const std::filesystem::path&, const std::filesystem::path&,
+    const ResampleOptions<velodyne::Hdl32eEncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<velodyne::Vlp32cEncoderTraits>(
+    const std::filesystem::path&, const std::filesystem::path&,
+    const ResampleOptions<velodyne::Vlp32cEncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<velodyne::Vls128EncoderTraits>(
+    const std::filesystem::path&, const std::filesystem::path&,
+    const ResampleOptions<velodyne::Vls128EncoderTraits>&);
 
 }  // namespace terracut::encode

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <functional>
 
-#include "calib/ruby128/ruby128_geometry.hpp"
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "rt/error.hpp"
@@ -27,14 +26,20 @@ struct ResampleSummary {
   bool operator==(const ResampleSummary&) const = default;
 };
 
-/// Sees recorded scans of another sensor through the rays of an RS-Ruby128 that stands in its
-/// place: one scan is one frame at 10 Hz, consecutive scans are consecutive frames. Single return.
+/// Sees recorded scans of another sensor through the rays of one that stands in its place: one scan
+/// is one frame at 10 Hz, consecutive scans are consecutive frames. Single return.
 ///
 /// What comes out is synthetic: ranges are interpolated between recorded returns
 /// (scan_surface.hpp), labels and intensities are those of the nearest one, and finer detail than
 /// the recording has is not there. Allocates; one thread; deterministic.
+///
+/// `EncoderTraits`: of a sensor whose beams are straight (Geometry::raw_for_range()), all but the
+/// HDL-64E.
+template <class EncoderTraits>
 class ScanResampler {
  public:
+  using Column = typename EncoderTraits::Column;
+
   static constexpr double kSpin_hz = 10;
 
   struct Frame {
@@ -44,9 +49,9 @@ class ScanResampler {
   /// Reads a frame's scan; called once for each frame, in order.
   using Source = std::function<Status(std::int64_t frame, Frame& into)>;
   /// Takes the columns in firing order, whole packets in all.
-  using Sink = std::function<Status(const frame::Ruby128Column&)>;
+  using Sink = std::function<Status(const Column&)>;
 
-  explicit ScanResampler(const ruby128::Ruby128Calibration& calibration);
+  explicit ScanResampler(const typename EncoderTraits::Calibration& calibration);
 
   /// Resamples `frames` scans (at least 1). Errors: those of `source` and `sink`.
   [[nodiscard]] Expected<ResampleSummary> run(std::int64_t frames, std::int64_t first_stamp_ns,
@@ -60,13 +65,13 @@ class ScanResampler {
   };
 
   [[nodiscard]] Status read(std::int64_t frame, const Source& source);
-  void fire(const drive::Firing& firing, const drive::FiringPlan<Ruby128EncoderTraits>& plan,
-            frame::Ruby128Column& column);
-  [[nodiscard]] frame::LabelledReturn measure(int channel, double rotor_rad, const View& view);
+  void fire(const drive::Firing& firing, const drive::FiringPlan<EncoderTraits>& plan,
+            Column& column);
+  [[nodiscard]] frame::LabelledReturn measure(int laser, double rotor_rad, const View& view);
 
-  ruby128::Ruby128Calibration calibration_;
-  ruby128::Ruby128Geometry geometry_;
-  ruby128::Ruby128BeamOffsets offsets_;
+  typename EncoderTraits::Calibration calibration_;
+  typename EncoderTraits::Geometry geometry_;
+  typename EncoderTraits::Offsets offsets_;
   std::array<View, 2> views_;  ///< Of two successive frames, by parity.
   std::int64_t frames_read_ = 0;
   ResampleSummary summary_;

@@ -236,18 +236,14 @@ Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
   };
 }
 
-template Expected<SimulationSummary> simulate_drive(const Hdl64eSimulation&,
-                                                    const ColumnSink<encode::Hdl64eEncoderTraits>&);
-template Expected<SimulationSummary> simulate_drive(
-    const Ruby128Simulation&, const ColumnSink<encode::Ruby128EncoderTraits>&);
-
-template Expected<std::vector<vehicle::MotionSample>> simulated_motion(const Hdl64eSimulation&,
-                                                                       std::int64_t);
-template Expected<std::vector<vehicle::MotionSample>> simulated_motion(const Ruby128Simulation&,
-                                                                       std::int64_t);
-template Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
-    const Hdl64eSimulation&);
-template Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
-    const Ruby128Simulation&);
+#define TERRACUT_INSTANTIATE(EncoderTraits)                                                   \
+  template Expected<SimulationSummary> simulate_drive(const SimulationConfig<EncoderTraits>&, \
+                                                      const ColumnSink<EncoderTraits>&);      \
+  template Expected<std::vector<vehicle::MotionSample>> simulated_motion(                     \
+      const SimulationConfig<EncoderTraits>&, std::int64_t);                                  \
+  template Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(      \
+      const SimulationConfig<EncoderTraits>&);
+TERRACUT_FOR_ENCODER_TRAITS(TERRACUT_INSTANTIATE)
+#undef TERRACUT_INSTANTIATE
 
 }  // namespace terracut::simulator

@@ -42,7 +42,7 @@ struct DriveConfig {
   int threads = 1;  ///< Rays are cast on so many threads; results do not depend on it; [1, 64].
 };
 
-/// The same with a sensor: Hdl64eEncoderTraits or Ruby128EncoderTraits.
+/// The same with a sensor (tools/lab/drive/encoder_traits.hpp).
 template <class EncoderTraits>
 struct SimulationConfig : DriveConfig {
   typename EncoderTraits::Calibration calibration = EncoderTraits::nominal();
@@ -76,8 +76,7 @@ struct SimulationSummary {
 /// firing advance, so that decoding the wire values gives `exact` back to within the rounding of
 /// the range. The head starts some 11 degrees before straight ahead and ends as much after the last
 /// frame; beams outside of the whole frames have no return, so every laser sees every frame whole
-/// and there are no others. Firings: HDL-64E every 48 us, in dual return 57.6 us; RS-Ruby128 55.55
-/// us.
+/// and there are no others.
 ///
 /// In dual return a beam has a width: what lies behind an edge, a pole or a few leaves gives an
 /// echo of its own. Where there is one echo, both returns are that one.

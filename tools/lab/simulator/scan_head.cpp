@@ -167,7 +167,8 @@ void ScanHead<EncoderTraits>::cast_dual(const Beam& beam, const Moment& moment,
   put(*last, beam.laser, columns[EncoderTraits::kStrongestFirst ? 1 : 0]);
 }
 
-template class ScanHead<encode::Hdl64eEncoderTraits>;
-template class ScanHead<encode::Ruby128EncoderTraits>;
+#define TERRACUT_INSTANTIATE(EncoderTraits) template class ScanHead<EncoderTraits>;
+TERRACUT_FOR_ENCODER_TRAITS(TERRACUT_INSTANTIATE)
+#undef TERRACUT_INSTANTIATE
 
 }  // namespace terracut::simulator

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Drives of both sensors, in every return mode, written and decoded again.
+// Drives of every sensor, in every return mode, written and decoded again.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -14,6 +14,7 @@
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ruby128/difop_angles.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
+#include "made_drive.hpp"
 #include "random_columns.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
@@ -24,17 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using test::RandomColumns;
-
-struct Hdl64e {
-  using EncoderTraits = encode::Hdl64eEncoderTraits;
-  using Decoder = decode::Decoder;
-  static constexpr std::uint16_t kPort = hdl64e::kHdl64eDataPort;
-};
-struct Ruby128 {
-  using EncoderTraits = encode::Ruby128EncoderTraits;
-  using Decoder = decode::Decoder;
-  static constexpr std::uint16_t kPort = ruby128::kRubyDataPort;
-};
 
 /// Intensities of a frame's returns in order of arrival.
 std::vector<std::uint8_t> arrivals(const frame::RangeImage& image) {
@@ -48,10 +38,10 @@ std::vector<std::uint8_t> arrivals(const frame::RangeImage& image) {
   return intensities;
 }
 
-template <class Sensor>
+template <class EncoderTraits>
 class DriveRoundTrip : public testing::Test {
  protected:
-  using Written = typename Sensor::EncoderTraits;
+  using Written = EncoderTraits;
   using Column = typename Written::Column;
 
   void SetUp() override { folder = terracut::test::make_scratch_folder(); }
@@ -87,13 +77,12 @@ class DriveRoundTrip : public testing::Test {
 
   /// Reads the drive as anybody would and holds each frame against its truth file.
   void expect_truth_fits(const DriveSummary& written, ReturnMode returns, double spin_hz) {
-    const auto calibration = Written::read_calibration(calibration_path_of<Written>(pcap()));
+    const auto calibration = test::table_beside<Written>(pcap());
     ASSERT_TRUE(calibration) << calibration.error().message;
-    typename Sensor::Decoder::Config config;
-    config.columns = static_cast<int>(
-        std::lround(1e9 / (spin_hz * static_cast<double>(Written::firing_ns(returns)))));
+    decode::Decoder::Config config;
+    config.columns = image_columns<Written>(spin_hz, returns);
     memory::FixedMemory memory;
-    typename Sensor::Decoder decoder(*calibration, {}, config, memory);
+    decode::Decoder decoder(*calibration, {}, config, memory);
     std::uint64_t frames = 0, arrived = 0;
     std::int64_t last_number = -1;
     std::uint64_t out_of_place = 0, out_of_order = 0;
@@ -109,7 +98,7 @@ class DriveRoundTrip : public testing::Test {
         last_number = labels[i] >> 8;
       }
     };
-    auto source = capture::PcapSource::open(pcap(), {.port = Sensor::kPort});
+    auto source = capture::PcapSource::open(pcap(), {.port = test::data_port<Written>()});
     ASSERT_TRUE(source) << source.error().message;
     while (true) {
       const auto datagram = source->next();
@@ -132,11 +121,13 @@ class DriveRoundTrip : public testing::Test {
   fs::path folder;
 };
 
-using Sensors = testing::Types<Hdl64e, Ruby128>;
+using Sensors = testing::Types<encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits,
+                               velodyne::Vlp16EncoderTraits, velodyne::Hdl32eEncoderTraits,
+                               velodyne::Vlp32cEncoderTraits, velodyne::Vls128EncoderTraits>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 
 TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEverySpin) {
-  using EncoderTraits = typename TypeParam::EncoderTraits;
+  using EncoderTraits = TypeParam;
   for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
     for (const double spin_hz : {5.0, 10.0, 20.0}) {
       SCOPED_TRACE(std::to_string(returns_per_firing(returns)) + " returns at " +
@@ -146,14 +137,14 @@ TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEve
       const auto written = this->write(columns, {.returns = returns});
       EXPECT_EQ(written.frames, 4U);
       EXPECT_EQ(written.columns, columns.size());
-      EXPECT_EQ(written.packets * EncoderTraits::kColumnsPerPacket, columns.size());
+      EXPECT_EQ(written.packets * EncoderTraits::columns_per_packet(returns), columns.size());
       this->expect_truth_fits(written, returns, spin_hz);
     }
   }
 }
 
 TYPED_TEST(DriveRoundTrip, SeamsFallOnAnyPlaceOfAGroup) {
-  using EncoderTraits = typename TypeParam::EncoderTraits;
+  using EncoderTraits = TypeParam;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
     const auto columns = test::random_columns<EncoderTraits>({.returns = ReturnMode::kDual,
@@ -168,7 +159,7 @@ TYPED_TEST(DriveRoundTrip, SeamsFallOnAnyPlaceOfAGroup) {
 }
 
 TYPED_TEST(DriveRoundTrip, AnUnfinishedDriveLeavesNothingBehind) {
-  using EncoderTraits = typename TypeParam::EncoderTraits;
+  using EncoderTraits = TypeParam;
   {
     auto writer = DriveWriter<EncoderTraits>::create(this->pcap(), EncoderTraits::nominal());
     ASSERT_TRUE(writer);
@@ -180,7 +171,7 @@ TYPED_TEST(DriveRoundTrip, AnUnfinishedDriveLeavesNothingBehind) {
 }
 
 TYPED_TEST(DriveRoundTrip, ColumnsThatFillNoPacketAreRefusedAtTheEnd) {
-  using EncoderTraits = typename TypeParam::EncoderTraits;
+  using EncoderTraits = TypeParam;
   auto writer = DriveWriter<EncoderTraits>::create(this->pcap(), EncoderTraits::nominal());
   ASSERT_TRUE(writer);
   ASSERT_TRUE(writer->add_column(1'000'000'000, 100, typename EncoderTraits::Column{}.by_laser));
@@ -189,7 +180,7 @@ TYPED_TEST(DriveRoundTrip, ColumnsThatFillNoPacketAreRefusedAtTheEnd) {
   EXPECT_EQ(finished.error().code, ErrorCode::kInvalidArgument);
 }
 
-using Ruby128Drive = DriveRoundTrip<Ruby128>;
+using Ruby128Drive = DriveRoundTrip<encode::Ruby128EncoderTraits>;
 
 TEST_F(Ruby128Drive, SendsADevicePacketFirstAndThenOnceASecond) {
   const auto columns = test::random_columns<encode::Ruby128EncoderTraits>(

@@ -50,14 +50,15 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
   const scan::ScratchFolder folder;
   write_ground(folder, 2);
   const auto pcap = folder.path() / "drive.pcap";
-  ResampleOptions options;
+  ResampleOptions<Ruby128EncoderTraits> options;
   std::size_t progress = 0;
   options.on_scan = [&](std::size_t done, std::size_t of) {
     progress = done;
     EXPECT_EQ(of, 2U);
     return Status{};
   };
-  const auto report = resample_scan_folder(folder.path() / "scans", pcap, options);
+  const auto report =
+      resample_scan_folder<Ruby128EncoderTraits>(folder.path() / "scans", pcap, options);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(progress, 2U);
   EXPECT_EQ(report->drive.frames, 2U);
@@ -99,11 +100,49 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
   EXPECT_EQ(frames, 2);
 }
 
+template <class EncoderTraits>
+class VelodyneResampled : public testing::Test {};
+using Velodynes = testing::Types<velodyne::Vlp16EncoderTraits, velodyne::Hdl32eEncoderTraits,
+                                 velodyne::Vlp32cEncoderTraits, velodyne::Vls128EncoderTraits>;
+TYPED_TEST_SUITE(VelodyneResampled, Velodynes);
+
+TYPED_TEST(VelodyneResampled, SeesTheGroundOfTheScanWhereItLies) {
+  const scan::ScratchFolder folder;
+  write_ground(folder, 1);
+  const auto pcap = folder.path() / "drive.pcap";
+  const auto report = resample_scan_folder<TypeParam>(folder.path() / "scans", pcap, {});
+  ASSERT_TRUE(report) << report.error().message;
+  EXPECT_EQ(report->drive.frames, 1U);
+  EXPECT_EQ(report->drive.returns, report->rays.returns);
+
+  memory::FixedMemory memory;
+  decode::Decoder decoder(TypeParam::nominal(), {.height_m = 0}, {}, memory);
+  std::uint64_t returns = 0, near_ground = 0, ground = 0;
+  const auto on_frame = [&](const frame::FrameInfo& info, const frame::RangeImage& image) noexcept {
+    EXPECT_TRUE(info.complete);
+    returns += image.returns();
+    for (std::size_t cell = 0; cell < image.shape().cells(); ++cell) {
+      if (!image.has_return(cell) || image.ground_range_m()[cell] > 30) continue;
+      ++ground;
+      near_ground += std::abs(image.z_m()[cell] + 1.73) < 0.01 ? 1 : 0;
+    }
+  };
+  auto source = capture::PcapSource::open(pcap);
+  ASSERT_TRUE(source);
+  for (auto datagram = source->next(); datagram && *datagram; datagram = source->next()) {
+    EXPECT_EQ(test::decode(decoder, **datagram, on_frame), std::nullopt);
+  }
+  test::end_stream(decoder, on_frame);
+  EXPECT_EQ(returns, report->rays.returns);
+  EXPECT_GT(ground, 5'000U);
+  EXPECT_GT(near_ground, ground * 999 / 1000);
+}
+
 TEST(ScanResampler, SaysByItsSerialNumberThatTheDriveIsNotRecorded) {
   const scan::ScratchFolder folder;
   write_ground(folder, 1);
   const auto pcap = folder.path() / "drive.pcap";
-  ASSERT_TRUE(resample_scan_folder(folder.path() / "scans", pcap, {}));
+  ASSERT_TRUE(resample_scan_folder<Ruby128EncoderTraits>(folder.path() / "scans", pcap, {}));
   auto source = capture::PcapSource::open(pcap, {.port = ruby128::kRubyDevicePort});
   ASSERT_TRUE(source);
   const auto datagram = source->next();
@@ -117,8 +156,8 @@ TEST(ScanResampler, LeavesNothingWhenAScanIsRefused) {
   const scan::ScratchFolder folder;
   write_ground(folder, 1);
   folder.write("scans/velodyne/000001.bin", "seven b");
-  const auto report =
-      resample_scan_folder(folder.path() / "scans", folder.path() / "drive.pcap", {});
+  const auto report = resample_scan_folder<Ruby128EncoderTraits>(folder.path() / "scans",
+                                                                 folder.path() / "drive.pcap", {});
   ASSERT_FALSE(report);
   EXPECT_THAT(report.error().message, testing::HasSubstr("000001.bin"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "drive.pcap"));
@@ -133,12 +172,12 @@ TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
     ASSERT_TRUE(reader) << reader.error().message;
     ASSERT_TRUE(reader->fit_rings());
     const ruby128::Ruby128Calibration unit = ruby128::nominal_ruby128();
-    ScanResampler resampler(unit);
+    ScanResampler<Ruby128EncoderTraits> resampler(unit);
     scan::KittiScan scan;
     std::vector<frame::Ruby128Column> columns;
     const auto rays = resampler.run(
         1, 0,
-        [&](std::int64_t, ScanResampler::Frame& into) {
+        [&](std::int64_t, ScanResampler<Ruby128EncoderTraits>::Frame& into) {
           const Status status = reader->read(0, into.scan, into.rings);
           scan = into.scan;
           return status;
@@ -170,11 +209,11 @@ TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
     const ruby128::Ruby128Geometry geometry(unit);
     std::size_t beside = 0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      drive::GroupAzimuths rotor_cdeg{};
+      drive::GroupAzimuths rotor;
       for (std::size_t k = 0; k < 3; ++k) {
-        rotor_cdeg[k] = beams::wrap_cdeg(columns[i - i % 3 + k].unwrapped_azimuth_cdeg);
+        rotor.cdeg[k] = beams::wrap_cdeg(columns[i - i % 3 + k].unwrapped_azimuth_cdeg);
       }
-      const auto step = Ruby128EncoderTraits::step_ticks(rotor_cdeg, 0, drive::ReturnMode::kSingle);
+      const auto step = Ruby128EncoderTraits::step_ticks(rotor, 0, drive::ReturnMode::kSingle);
       for (int c = 0; c < ruby128::kRuby128Lasers; ++c) {
         const auto raw = columns[i].by_laser[static_cast<std::size_t>(c)].raw;
         if (raw == 0) continue;

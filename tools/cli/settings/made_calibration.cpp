@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "made_calibration.hpp"
+
+#include <fmt/format.h>
+
+#include "calib/hdl64e/hdl64e_file.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+
+namespace terracut::cli {
+
+Expected<hdl64e::Hdl64eCalibration> made_calibration(const CaptureOptions& options,
+                                                     encode::Hdl64eEncoderTraits) {
+  if (options.calibration.empty()) return encode::Hdl64eEncoderTraits::nominal();
+  return hdl64e::load_hdl64e_calibration(options.calibration);
+}
+
+Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& options,
+                                                       encode::Ruby128EncoderTraits) {
+  if (options.calibration.empty()) return encode::Ruby128EncoderTraits::nominal();
+  return ruby128::read_ruby128_csv(options.calibration);
+}
+
+Expected<velodyne::VelodyneCalibration> made_calibration(const CaptureOptions& options,
+                                                         velodyne::VelodyneModel model) {
+  if (options.calibration.empty()) return velodyne::factory_table(model);
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{}: the table of a {} is built in; leave --calibration away",
+                          options.calibration.string(), to_string(model)));
+}
+
+}  // namespace terracut::cli

@@ -62,6 +62,12 @@ void MountCheck::add_frame(std::span<const std::array<float, 3>> points) {
     frame.contradicts =
         support(levelled, as_given, found->mount, found->bend_per_m) < config_.most_support;
   }
+  if (!contradicts(frame.seen)) {
+    sum_.height_m += frame.seen.height_m;
+    sum_.roll_rad += frame.seen.roll_rad;
+    sum_.pitch_rad += frame.seen.pitch_rad;
+    ++in_sum_;
+  }
   if (newest_.size() < config_.frames_kept) {
     newest_.push_back(frame);
   } else {
@@ -87,6 +93,12 @@ std::optional<Mount> MountCheck::contradiction() const {
   if (!enough) return std::nullopt;
   const Mount seen = median_of(contradicting);
   return contradicts(seen) ? std::optional(seen) : std::nullopt;
+}
+
+std::optional<Mount> MountCheck::by_drive() const {
+  if (in_sum_ == 0) return std::nullopt;
+  const auto frames = static_cast<double>(in_sum_);
+  return Mount{sum_.height_m / frames, sum_.roll_rad / frames, sum_.pitch_rad / frames};
 }
 
 }  // namespace terracut::mount

@@ -46,6 +46,11 @@ class MountCheck {
   /// nothing as long as that is not contradicted.
   [[nodiscard]] std::optional<Mount> contradiction() const;
 
+  /// How the sensor stands by all frames so far whose ground is within the tolerances, the mean of
+  /// each figure: what a long drive knows better than its first second. Nothing without such a
+  /// frame.
+  [[nodiscard]] std::optional<Mount> by_drive() const;
+
   /// Frames with a ground so far.
   [[nodiscard]] std::uint64_t frames() const noexcept { return frames_; }
   [[nodiscard]] const Mount& mount() const noexcept { return mount_; }
@@ -62,6 +67,8 @@ class MountCheck {
   MountCheckConfig config_;
   std::vector<Frame> newest_;  ///< At most frames_kept, as a ring.
   std::uint64_t frames_ = 0;
+  Mount sum_{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};  ///< Of by_drive().
+  std::uint64_t in_sum_ = 0;
 };
 
 }  // namespace terracut::mount

@@ -338,7 +338,7 @@ std::vector<Figure> figures_of(const MountFigures& f) {
       {"roll_deg", degrees(f.uncertain_roll_deg), uncertain_tilt("roll")},
       {"pitch_deg", degrees(f.uncertain_pitch_deg), uncertain_tilt("pitch")}});
   }
-  if (f.contradicted == 0) return std::move(table).take();
+  if (f.frames == 0 && f.contradicted == 0) return std::move(table).take();
   table.add("mount.seen", {
     {"height_m", metres(f.seen_height_m), height("ground")},
     {"roll_deg", degrees(f.seen_roll_deg), tilt("ground", "roll")},

@@ -15,6 +15,7 @@ struct MountFigures {
   std::uint64_t found_in_frames = 0;
   /// Half widths of the intervals that hold them in 95 of 100 cases; 0 for those stated.
   double uncertain_height_m = 0, uncertain_roll_deg = 0, uncertain_pitch_deg = 0;
+  /// As the ground shows it: that of the frames that contradict, or else the mean of all so far.
   double seen_height_m = 0, seen_roll_deg = 0, seen_pitch_deg = 0;
 };
 

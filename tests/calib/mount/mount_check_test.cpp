@@ -91,6 +91,21 @@ TEST(MountCheck, ShowsTheMountThatTheGroundIsSeenFrom) {
   }
 }
 
+TEST(MountCheck, KnowsTheMountBetterFromADriveAndLeavesOutWhatContradicts) {
+  const Mount given = mount(1.73, 0, 0), truth = mount(1.76, 0.5, -0.3);
+  MountCheck check(given);
+  EXPECT_FALSE(check.by_drive());
+  const Cloud seen = Seen(truth, given).add_lane().points();
+  const Cloud elsewhere = Seen(mount(1.2, 0, 0), given).add_lane().points();
+  for (int i = 0; i < 12; ++i) check.add_frame(i % 4 == 0 ? elsewhere : seen);
+  EXPECT_FALSE(check.contradiction());
+  const auto by_drive = check.by_drive();
+  ASSERT_TRUE(by_drive);
+  EXPECT_NEAR(by_drive->height_m, truth.height_m, 0.005);
+  EXPECT_NEAR(beams::rad_to_deg(by_drive->roll_rad), 0.5, 0.1);
+  EXPECT_NEAR(beams::rad_to_deg(by_drive->pitch_rad), -0.3, 0.1);
+}
+
 TEST(MountCheck, SaysNothingOfWhatItsTolerancesAllow) {
   const Mount given = mount(1.73, 0, 0);
   for (const Mount& truth : {mount(1.9, 0, 0), mount(1.56, 0, 0), mount(1.73, 3.2, -2.2)}) {

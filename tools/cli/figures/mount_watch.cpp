@@ -22,14 +22,15 @@ MountWatch::MountWatch(const mount::Mount& mount, const MountChoice& choice) : c
 void MountWatch::add_frame(const ground::NearGround& ground) {
   check_.add_frame(ground.in_use());
   figures_.frames = check_.frames();
-  const auto seen = check_.contradiction();
-  figures_.contradicted = seen ? 1 : 0;
+  const auto against = check_.contradiction();
+  figures_.contradicted = against ? 1 : 0;
+  const auto seen = against ? against : check_.by_drive();
   if (!seen) return;
   figures_.seen_height_m = seen->height_m;
   figures_.seen_roll_deg = beams::rad_to_deg(seen->roll_rad);
   figures_.seen_pitch_deg = beams::rad_to_deg(seen->pitch_rad);
-  if (!said_) warn(status::contradiction_text(figures_));
-  said_ = true;
+  if (against && !said_) warn(status::contradiction_text(figures_));
+  said_ = said_ || against;
 }
 
 void MountWatch::add_frame(const frame::RangeImage& image) {

@@ -12,6 +12,11 @@
 
 namespace terracut::mount {
 
+/// A sensor whose vehicle frame is its own: of frames that a MountFinder is shown.
+inline constexpr Mount kAtTheSensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
+/// Frames that a mount is read off at the start of a run: a second of most sensors.
+inline constexpr std::size_t kFramesToFind = 10;
+
 /// Height, roll and pitch, each the median of its own.
 [[nodiscard]] Mount median_of(std::span<const Mount> mounts);
 

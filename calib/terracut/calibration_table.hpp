@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "calib/mount/mount.hpp"
+#include "calib/mount/mount_finder.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "terracut/calibration.hpp"
 
@@ -23,6 +24,12 @@ struct Calibration::Table {
 
 [[nodiscard]] inline mount::Mount mount_of(const Mount& mount) noexcept {
   return {.height_m = mount.height_m, .roll_rad = mount.roll_rad, .pitch_rad = mount.pitch_rad};
+}
+[[nodiscard]] inline FoundMount public_mount(const mount::FoundMount& found) noexcept {
+  const auto as_public = [](const mount::Mount& of) {
+    return Mount{.height_m = of.height_m, .roll_rad = of.roll_rad, .pitch_rad = of.pitch_rad};
+  };
+  return {as_public(found.mount), as_public(found.uncertainty), found.frames};
 }
 
 }  // namespace terracut

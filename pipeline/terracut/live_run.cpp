@@ -17,6 +17,7 @@
 #include "pipeline/output/label_sink.hpp"
 #include "pipeline/run/live_pipeline.hpp"
 #include "pipeline/run/live_threads.hpp"
+#include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
 
 namespace terracut {
@@ -56,14 +57,16 @@ Expected<sensor::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Con
 }  // namespace
 
 struct LiveRun::Engine {
-  Engine(const Config& config, net::LiveSource&& opened, sensor::SensorOnAir&& found,
-         run::LiveThreads::Events&& events)
+  Engine(const Config& config, net::LiveSource&& opened, sensor::SensorOnAir&& heard,
+         std::optional<FoundMount> mount, run::LiveThreads::Events&& events)
       : source(std::move(opened)),
-        sensor(std::move(found)),
+        sensor(std::move(heard)),
+        found_mount(mount),
         deadline_ns(static_cast<std::int64_t>(config.deadline_ms * 1e6)),
-        pipeline(sensor.calibration,
-                 calib::ring_profile(sensor.calibration, mount_of(config.mount)),
-                 decoder_config(sensor), ground::terracut_profile(), memory),
+        pipeline(
+            sensor.calibration,
+            calib::ring_profile(sensor.calibration, mount_of(mount ? mount->mount : config.mount)),
+            decoder_config(sensor), ground::terracut_profile(), memory),
         threads(threads_config(config, sensor), pipeline, source, std::move(events), nullptr,
                 memory),
         points(pipeline.decoder.return_capacity()),
@@ -128,6 +131,7 @@ struct LiveRun::Engine {
   memory::FixedMemory memory;
   net::LiveSource source;
   sensor::SensorOnAir sensor;
+  std::optional<FoundMount> found_mount;
   std::int64_t deadline_ns;
   run::LivePipeline pipeline;
   run::LiveThreads threads;
@@ -156,12 +160,18 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   auto sensor = listen(*source, config, stop_wanted);
   if (!sensor) return tl::unexpected(sensor.error());
   source->accept_only(sensor->address);
+  std::optional<FoundMount> mount;
+  if (config.find_mount) {
+    const auto finder =
+        run::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor), stop_wanted);
+    if (const auto found = finder.found()) mount = public_mount(*found);
+  }
   auto events = run::LiveThreads::Events::make();
   if (!events) return tl::unexpected(events.error());
   std::vector<threads::Grant> grants;
   if (config.lock_memory) grants = memory::hold_memory({});
   return made([&] {
-    auto engine = std::make_unique<Engine>(config, *std::move(source), *std::move(sensor),
+    auto engine = std::make_unique<Engine>(config, *std::move(source), *std::move(sensor), mount,
                                            *std::move(events));
     engine->source_memory = std::move(source_memory);
     engine->note(grants);
@@ -171,6 +181,10 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
 
 Sensor LiveRun::sensor() const noexcept {
   return public_sensor(engine_->sensor.model);
+}
+
+const std::optional<FoundMount>& LiveRun::found_mount() const noexcept {
+  return engine_->found_mount;
 }
 
 const std::string& LiveRun::refusals() const noexcept {

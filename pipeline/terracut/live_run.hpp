@@ -25,6 +25,9 @@ class LiveRun {
     std::string address = "0.0.0.0";
     std::optional<Calibration> calibration;  ///< None: what the sensor itself says.
     Mount mount;
+    /// The ground that the sensor sees in its first second, or three, says how it stands, instead
+    /// of `mount`, which is taken where it sees none: found_mount() says.
+    bool find_mount = false;
     double deadline_ms = 50;  ///< From a frame's last packet to its labels, [1, 10000].
     /// How long packets may wait to be fetched together, never past a frame's end, [0, 20]; 0: each
     /// is fetched as it comes, which costs more wake-ups.
@@ -55,6 +58,8 @@ class LiveRun {
   ~LiveRun();
 
   [[nodiscard]] Sensor sensor() const noexcept;
+  /// The mount that labels are made by, where it was found.
+  [[nodiscard]] const std::optional<FoundMount>& found_mount() const noexcept;
   /// What the system refused, one line each; complete when run() has returned.
   [[nodiscard]] const std::string& refusals() const noexcept;
 

@@ -9,12 +9,14 @@
 #include <utility>
 #include <vector>
 
+#include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "firmware_io/terracut/points.hpp"
+#include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/terracut/point_buffer.hpp"
 #include "pipeline/terracut/profile.hpp"
@@ -25,10 +27,11 @@ namespace terracut {
 /// All that labels clouds of one sensor, taken when its first cloud is known.
 struct Segmenter::Labeller {
   Labeller(const Config& config, const mount::Mount& mount, cloud::SensorRows rows,
-           std::size_t first_points)
+           std::size_t points_of_first)
       : shape(rows.shape()),
         finder(std::move(rows)),
         image(shape, shape.cells(), memory),
+        first_points(points_of_first),
         most_points(std::max(2 * first_points, image.return_capacity())),
         to_image(mount, most_points),
         segmenter(ground::remembering(config_of(config.profile), false),
@@ -38,12 +41,15 @@ struct Segmenter::Labeller {
     labels.reserve(most_points);
   }
 
+  [[nodiscard]] Status check_room(const cloud::CloudView& cloud) const {
+    if (cloud.points.size() <= most_points) return {};
+    return fail(ErrorCode::kCapacityExceeded,
+                fmt::format("{} points; the first cloud made room for {}", cloud.points.size(),
+                            most_points));
+  }
+
   Status label(const cloud::CloudView& cloud) {
-    if (cloud.points.size() > most_points) {
-      return fail(ErrorCode::kCapacityExceeded,
-                  fmt::format("{} points; the first cloud made room for {}", cloud.points.size(),
-                              most_points));
-    }
+    if (Status room = check_room(cloud); !room) return room;
     if (Status found = finder.find(cloud, rings); !found) return found;
     (void)to_image.place(cloud.points, rings.ring_of_point, image);
     (void)segmenter.segment(image);
@@ -55,6 +61,7 @@ struct Segmenter::Labeller {
   frame::ImageShape shape;
   cloud::RowFinder finder;
   frame::RangeImage image;
+  std::size_t first_points;  ///< Of the first cloud.
   std::size_t most_points;
   scan::ScanToImage to_image;
   ground::Segmenter segmenter;
@@ -63,7 +70,30 @@ struct Segmenter::Labeller {
 };
 
 struct Segmenter::Engine {
-  explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {}
+  /// Reads the mount off the first clouds of a sensor.
+  class MountOfFirstClouds {
+   public:
+    /// `image`: room to place the cloud in. Whether there is another mount to label by.
+    bool look(std::span<const scan::ScanPoint> points, std::span<const std::int16_t> ring_of_point,
+              frame::RangeImage& image) {
+      (void)to_image_.place(points, ring_of_point, image);
+      search_.add_frame(image);
+      if (found_ && !is_done()) return false;
+      if (const auto found = search_.found()) found_ = *found;
+      return found_.has_value();
+    }
+    [[nodiscard]] bool is_done() const noexcept { return search_.has_enough_frames(); }
+    [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
+
+   private:
+    scan::ScanToImage to_image_{mount::kAtTheSensor};
+    ground::MountSearch search_;
+    std::optional<mount::FoundMount> found_;
+  };
+
+  explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {
+    if (wanted.find_mount) first_clouds.emplace();
+  }
 
   Expected<std::span<const Label>> label(const cloud::CloudView& view) {
     const bool is_first = !labeller;
@@ -72,6 +102,11 @@ struct Segmenter::Engine {
           cloud::learn_rows(1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
       if (!rows) return tl::unexpected(rows.error());
       labeller.emplace(config, mount, *std::move(rows), view.points.size());
+    }
+    if (first_clouds && !first_clouds->is_done()) {
+      if (const Status looked = look_for_mount(view); !looked) {
+        return tl::unexpected(looked.error());
+      }
     }
     if (const Status labelled = labeller->label(view); !labelled) {
       return tl::unexpected(labelled.error());
@@ -83,10 +118,23 @@ struct Segmenter::Engine {
     return std::span<const Label>(labeller->labels);
   }
 
+  Status look_for_mount(const cloud::CloudView& view) {
+    if (Status room = labeller->check_room(view); !room) return room;
+    if (Status found = labeller->finder.find(view, labeller->rings); !found) return found;
+    if (first_clouds->look(view.points, labeller->rings.ring_of_point, labeller->image)) {
+      mount = first_clouds->found()->mount;
+      const std::size_t first_points = labeller->first_points;
+      cloud::SensorRows rows = labeller->finder.rows();
+      labeller.emplace(config, mount, std::move(rows), first_points);
+    }
+    return {};
+  }
+
   Config config;
   mount::Mount mount;
   cloud::Cloud cloud;  ///< What is taken out of drivers' memory.
   std::optional<Labeller> labeller;
+  std::optional<MountOfFirstClouds> first_clouds;  ///< Where the mount is to be found.
 };
 
 Segmenter::Segmenter(std::unique_ptr<Engine> engine) noexcept : engine_(std::move(engine)) {}
@@ -104,6 +152,11 @@ Expected<std::span<const Label>> Segmenter::label(const Cloud& cloud) {
                                                    cloud.points.size(), cloud.rows));
   }
   return engine_->label({cloud.points, cloud.laser, cloud.rows});
+}
+
+std::optional<FoundMount> Segmenter::found_mount() const noexcept {
+  if (!engine_->first_clouds || !engine_->first_clouds->found()) return std::nullopt;
+  return public_mount(*engine_->first_clouds->found());
 }
 
 Expected<std::span<const Label>> Segmenter::label(const PointBuffer& buffer) {

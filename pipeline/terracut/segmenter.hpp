@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -75,8 +76,13 @@ struct PointBuffer {
 class Segmenter {
  public:
   struct Config {
-    Mount mount;
+    Mount mount{};
     Profile profile = Profile::kTerracut;
+    /// The near ground of the first clouds says how the sensor stands, x ahead, instead of `mount`,
+    /// which is taken until one shows it: the first cloud's, and from the tenth on that of all ten,
+    /// which allocates, too. A vehicle that stands where no ground is seen 3 to 15 m before or
+    /// behind it shows nothing: found_mount() says.
+    bool find_mount = false;
   };
 
   /// kInvalidArgument on a mount out of range.
@@ -98,6 +104,10 @@ class Segmenter {
   /// The same of points as they lie in a driver's memory. kMalformed also for a missing x, y or z,
   /// or data too short for what is said of them.
   [[nodiscard]] Expected<std::span<const Label>> label(const PointBuffer& buffer);
+
+  /// The mount that the last labels were made by, where it was found; none without
+  /// Config::find_mount.
+  [[nodiscard]] std::optional<FoundMount> found_mount() const noexcept;
 
  private:
   struct Engine;

@@ -13,7 +13,7 @@ int main(int argc, char** argv) {
   file.seekg(0).read(reinterpret_cast<char*>(cloud.data()),
                      static_cast<std::streamsize>(cloud.size() * 16));
 
-  auto segmenter = terracut::Segmenter::make({.mount = {.height_m = 1.73}});
+  auto segmenter = terracut::Segmenter::make({.find_mount = true});
   if (!segmenter) return std::cerr << segmenter.error().message << '\n', 1;
   const auto labels = segmenter->label(cloud);
   if (!labels) return std::cerr << labels.error().message << '\n', 1;

@@ -11,6 +11,7 @@ int main(int argc, char** argv) {
   config.address = "127.0.0.1";
   config.port = static_cast<std::uint16_t>(std::atoi(argv[1]));
   config.calibration = terracut::Calibration::nominal(terracut::Sensor::kHdl64e);
+  config.find_mount = true;  // or state it: config.mount = {.height_m = 1.73};
   config.deadline_ms = 50;
   config.patience_s = 60;
   const int wanted = std::atoi(argv[2]);
@@ -19,6 +20,9 @@ int main(int argc, char** argv) {
 
   auto run = terracut::LiveRun::open(config, stop_wanted);
   if (!run) return std::cerr << run.error().message << '\n', 1;
+  if (const auto& found = run->found_mount()) {
+    std::cout << "the sensor stands " << found->mount.height_m << " m above the ground\n";
+  }
   run->run(stop_wanted, [&](const terracut::Frame& frame) {
     ++frames;
     std::cout << "frame " << frame.number << ": " << frame.labels.size() << " labels\n";

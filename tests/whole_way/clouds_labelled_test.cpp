@@ -46,14 +46,14 @@ OrderedCloud ordered_cloud(const std::vector<scan::ScanPoint>& points) {
 }
 
 /// Walls and flat ground as a sensor sees them whose beams start at the origin, unevenly apart.
-OrderedCloud synthetic_cloud(int rings) {
+OrderedCloud synthetic_cloud(int rings, double ground_m = -1.73) {
   scan::RingTable table;
   double elevation_deg = 8;
   for (int ring = 0; ring < rings; ++ring) {
     table.push_back({beams::deg_to_rad(elevation_deg), 0});
     elevation_deg -= (ring % 3 == 0 ? 1.4 : 0.8) * 32 / rings;
   }
-  return ordered_cloud(synthetic::scan(table, {.points_per_ring = 1800}));
+  return ordered_cloud(synthetic::scan(table, {.ground_m = ground_m, .points_per_ring = 1800}));
 }
 
 std::vector<Label> labels_of(Segmenter& segmenter, const Cloud& cloud) {
@@ -263,6 +263,42 @@ TEST(CloudsLabelled, AreRefusedWithoutHarmToThoseThatFollow) {
   const std::vector<std::uint16_t> ring(many.size());
   EXPECT_EQ(segmenter.label(Cloud{many, ring}).error().code, ErrorCode::kCapacityExceeded);
   EXPECT_EQ(labels_of(segmenter, good), expected);
+}
+
+TEST(CloudsLabelled, ByAFoundMountGetTheLabelsOfThatMountStated) {
+  const OrderedCloud first = synthetic_cloud(64, -1.10), other = synthetic_cloud(64, -1.14);
+  Segmenter finds = Segmenter::make({.find_mount = true}).value();
+  EXPECT_FALSE(finds.found_mount());
+  const auto expect_as_stated = [&](const OrderedCloud& cloud, double height_m,
+                                    std::size_t frames) {
+    const std::vector<Label> labels = labels_of(finds, {cloud.points});
+    const auto found = finds.found_mount();
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(found->mount.height_m, height_m, 0.005);
+    EXPECT_GT(found->uncertainty.height_m, 0.0);
+    EXPECT_EQ(found->frames, frames);
+    Segmenter stated = Segmenter::make({.mount = found->mount}).value();
+    (void)labels_of(stated, {first.points});  // the rows are those of the first cloud
+    EXPECT_EQ(labels_of(stated, {cloud.points}), labels);
+  };
+  expect_as_stated(first, 1.10, 1);
+  for (int cloud = 2; cloud <= 9; ++cloud) expect_as_stated(other, 1.10, 1);
+  expect_as_stated(other, 1.14, 10);
+  expect_as_stated(first, 1.14, 10);
+}
+
+TEST(CloudsLabelled, WithoutGroundBeforeTheSensorAreLabelledByTheGivenMount) {
+  // Walls all around, 2.5 m away: nothing of the ground is seen from 3 m on.
+  OrderedCloud cloud = synthetic_cloud(32);
+  for (CloudPoint& point : cloud.points) {
+    const float shrink = 2.5F / std::max(2.5F, std::hypot(point.x_m, point.y_m));
+    point = {point.x_m * shrink, point.y_m * shrink, point.z_m * shrink, 0};
+  }
+  Segmenter finds = Segmenter::make({.mount = {.height_m = 1.9}, .find_mount = true}).value();
+  Segmenter stated = Segmenter::make({.mount = {.height_m = 1.9}}).value();
+  const Cloud view{cloud.points, cloud.ring};
+  EXPECT_EQ(labels_of(finds, view), labels_of(stated, view));
+  EXPECT_FALSE(finds.found_mount());
 }
 
 TEST(CloudsLabelled, AfterTheFirstAllocateNothing) {

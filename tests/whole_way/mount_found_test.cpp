@@ -19,7 +19,7 @@
 namespace terracut::whole_way {
 namespace {
 
-constexpr mount::Mount kAtTheSensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
+using mount::kAtTheSensor;
 
 struct TiltedDrive {
   const char* scene;

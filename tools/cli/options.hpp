@@ -199,6 +199,7 @@ struct EvalOptions {
   std::vector<std::string> methods;     ///< Empty: the profile.
   std::vector<std::string> variants;    ///< NAME=METHOD,KEY=VALUE,...
   std::optional<bool> through_packets;  ///< None: straight into the image.
+  bool find_mount = false;              ///< Of each sequence by itself.
   int jobs = 0;                         ///< 0: one a core.
   std::filesystem::path classes;        ///< Empty: the dataset's own table.
   std::filesystem::path predictions, report;

@@ -314,7 +314,6 @@ TEST_F(CliEval, RefusesOptionsThatADatasetWouldNotUse) {
   expect_refusal("simulated flat --jobs 2", "--jobs");
   expect_refusal("simulated flat,moon", "no scene 'moon'");
   expect_refusal("simulated flat --duration 0", "--duration");
-  expect_refusal("simulated flat --sensor vlp16", "VLP-16");
   expect_refusal("koblenz . --seed 3", "--seed");
   expect_refusal("semantickitti . --sensor ruby128", "--sensor");
   expect_refusal("semantickitti . --returns dual", "--returns");

@@ -7,12 +7,14 @@
 #include <charconv>
 #include <fstream>
 #include <functional>
+#include <initializer_list>
 #include <iterator>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 
+#include "calib/beams/angle.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
@@ -71,6 +73,12 @@ bool is_simulated(const Options& options) {
   return options.eval.dataset == "simulated";
 }
 
+bool is_any_given(const Options& options, std::initializer_list<const char*> names) {
+  return std::ranges::any_of(names, [&](const char* name) {
+    return std::ranges::find(options.given, name) != options.given.end();
+  });
+}
+
 /// That no option was given which this kind of dataset would not use.
 Status check_fit(const Options& options) {
   const auto refuse = [&](std::string_view what) {
@@ -81,6 +89,9 @@ Status check_fit(const Options& options) {
     return fail(ErrorCode::kInvalidArgument,
                 "`eval own` needs --classes FILE, which says how your clouds lie on disk");
   }
+  if (options.eval.find_mount && !options.eval.report.empty()) {
+    return refuse("--find-mount with --report, whose pictures have one mount");
+  }
   if (is_simulated(options)) {
     if (!options.eval.sequences.empty())
       return refuse("--sequences: it takes scenes, like street,hill");
@@ -89,6 +100,10 @@ Status check_fit(const Options& options) {
     if (options.eval.jobs > 0)
       return refuse("--jobs: drives are evaluated on one core, one by one");
     return {};
+  }
+  if (options.eval.find_mount &&
+      is_any_given(options, {"--setup", "--mount-height", "--mount-roll", "--mount-pitch"})) {
+    return refuse("--find-mount with a mount that is stated");
   }
   for (const char* const option : {"--sensor", "--returns", "--duration", "--seed"}) {
     if (std::ranges::find(options.given, option) != options.given.end()) {
@@ -130,6 +145,7 @@ Expected<EvaluationConfig> config_of(const Options& options, const datasets::Cla
   const auto mount = mount_of(options.mount);
   if (!mount) return tl::unexpected(mount.error());
   config.mount = *mount;
+  config.find_mount = options.eval.find_mount;
   for (const std::string& name : methods_of(options)) {
     auto method = eval::method_named(name);
     if (!method) return tl::unexpected(method.error());
@@ -162,7 +178,7 @@ eval::SimulatedDrives drives_of(const Options& options) {
     drives.scenes.push_back(scenes.substr(begin, end - begin));
     begin = end + 1;
   }
-  if (options.capture.sensor) drives.sensor = word_of(kSensorWords, options.capture.sensor);
+  drives.sensor = options.capture.sensor.value_or(drives.sensor);
   drives.dual_return = options.simulate.returns == drive::ReturnMode::kDual;
   drives.duration_s = options.simulate.duration_s;
   drives.seed = options.simulate.seed;
@@ -207,11 +223,13 @@ std::string settings_line(const Options& options, const EvaluationConfig& config
                           static_cast<int>(entry.role(datasets::GroundDefinition::kAll)));
     }
   }
+  if (config.find_mount) line += " find_mount";
   if (!config.predictions.empty()) line += " predictions=" + config.predictions.string();
   if (is_simulated(options)) {
     const auto drives = drives_of(options);
-    line += fmt::format(" sensor={} dual_return={} duration_s={} seed={}", drives.sensor,
-                        drives.dual_return, drives.duration_s, drives.seed);
+    line += fmt::format(" sensor={} dual_return={} duration_s={} seed={}",
+                        word_of(kSensorWords, std::optional(drives.sensor)), drives.dual_return,
+                        drives.duration_s, drives.seed);
   }
   for (const eval::MethodChoice& method : config.methods) {
     line += fmt::format(" {}={}{{", method.name, method.base);
@@ -268,9 +286,6 @@ Expected<eval::EvaluationOutcome> evaluate_scans(const EvaluationConfig& config,
 Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                                   const EvaluationConfig& config,
                                                   std::optional<eval::Journal>& journal) {
-  if (const Status made = can_be_made(options.capture.sensor); !made) {
-    return tl::unexpected(made.error());
-  }
   std::optional<Progress> simulating, evaluating;
   const eval::SimulatedProgress progress{[&](double done_s, double of_s) {
                                            evaluating.reset();
@@ -286,7 +301,7 @@ Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
                                            evaluating->update(static_cast<double>(done));
                                          }};
   return eval::evaluate_simulated({drives_of(options), config.frames, config.methods, config.mount,
-                                   config.predictions, config.changed_frames},
+                                   config.find_mount, config.predictions, config.changed_frames},
                                   journal ? &*journal : nullptr, progress, stop_wanted);
 }
 
@@ -298,10 +313,25 @@ void add_facts_of_dataset(const Options& options, const datasets::ClassTable& cl
   }
   if (!is_simulated(options)) return;
   const auto drives = drives_of(options);
-  json["simulated"] = {{"sensor", drives.sensor},
+  json["simulated"] = {{"sensor", word_of(kSensorWords, std::optional(drives.sensor))},
                        {"returns", drives.dual_return ? "dual" : "single"},
                        {"duration_s", drives.duration_s},
                        {"seed", drives.seed}};
+}
+
+void add_found_mounts(const eval::EvaluationOutcome& outcome, nlohmann::ordered_json& json) {
+  for (const auto& [sequence, found] : outcome.found_mounts) {
+    const double roll_deg = beams::rad_to_deg(found.mount.roll_rad),
+                 pitch_deg = beams::rad_to_deg(found.mount.pitch_rad);
+    say(
+        fmt::format("{}: mount: height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg, found in {} "
+                    "frames",
+                    sequence, found.mount.height_m, roll_deg, pitch_deg, found.frames));
+    json["found_mounts"][sequence] = {{"height_m", found.mount.height_m},
+                                      {"roll_deg", roll_deg},
+                                      {"pitch_deg", pitch_deg},
+                                      {"frames", found.frames}};
+  }
 }
 
 }  // namespace
@@ -336,6 +366,7 @@ ExitCode run_eval(const Options& options) {
       {options.eval.dataset, config->root.string(), config->methods, config->through_packets},
       *classes, *outcome);
   add_facts_of_dataset(options, *classes, json);
+  add_found_mounts(*outcome, json);
   say_outcome(*outcome, json);
   fmt::print("{}", eval::evaluation_text(json));
   if (outcome->interrupted) {

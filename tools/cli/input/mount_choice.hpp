@@ -13,14 +13,8 @@
 
 namespace terracut::cli {
 
-/// Frames that a mount is read off at the start of a run: a second of most sensors.
-inline constexpr std::size_t kMountFrames = 10;
-
 /// Whether any figure of the mount is not stated, and so to be found.
 [[nodiscard]] bool is_mount_open(const MountOptions& stated) noexcept;
-
-/// A sensor whose vehicle frame is its own: frames for a mount::MountFinder.
-inline constexpr mount::Mount kAtTheSensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
 
 /// The mount of a run.
 struct MountChoice {

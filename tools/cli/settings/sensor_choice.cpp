@@ -136,13 +136,6 @@ Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::Pca
   return choice;
 }
 
-Status can_be_made(std::optional<SensorModel> model) {
-  if (!model || !sensor::velodyne_model_of(*model)) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              fmt::format("packets of a {} are read, not made: --sensor hdl64e or ruby128",
-                          to_string(*model)));
-}
-
 void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model) {
   if (model == sensor::SensorModel::kRuby128) return;
   const auto warn_of = [&](bool given, const char* option) {

@@ -35,9 +35,6 @@ struct SensorChoice {
 [[nodiscard]] std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t offered,
                                            const frame::LossCounters& losses);
 
-/// kInvalidArgument for a sensor whose packets are read but not made by simulate and encode.
-[[nodiscard]] Status can_be_made(std::optional<sensor::SensorModel> model);
-
 /// Says which options have no effect on a sensor of that model.
 void warn_of_unused(const CaptureOptions& options, sensor::SensorModel model);
 

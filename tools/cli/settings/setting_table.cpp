@@ -363,6 +363,8 @@ constexpr std::array kSettings{
             .field = [](O& o) -> F { return &o.eval.variants; }},
     Setting{.option = "--through", .commands = C::kEval, .help = "image: scans straight into the range image; packets: encoded and decoded first (default: image)",
             .field = [](O& o) -> F { return choice(o.eval.through_packets, kThroughWords); }},
+    Setting{.option = "--find-mount", .commands = C::kEval, .help = "Label by the mount that each sequence or drive shows, as runs do (default: the stated one, 1.73 m and level)",
+            .bare = "yes", .field = [](O& o) -> F { return &o.eval.find_mount; }},
     Setting{.option = "--jobs", .commands = C::kEval, .help = "Threads, each on a core of its own; 0: one a core",
             .least = 0, .most = 1024, .field = [](O& o) -> F { return &o.eval.jobs; }},
     Setting{.option = "--classes", .commands = C::kEval, .help = "YAML file: what classes count as, and how files lie on disk (own: needed)",

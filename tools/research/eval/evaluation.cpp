@@ -16,11 +16,13 @@
 #include <utility>
 
 #include "calib/mount/ring_profile.hpp"
+#include "firmware_io/scan/scan_to_image.hpp"
 #include "firmware_io/scan/sensor_motion.hpp"
 #include "firmware_io/vehicle/planar_pose.hpp"
 #include "frame_judge.hpp"
 #include "frame_labeller.hpp"
 #include "pinned_thread.hpp"
+#include "pipeline/ground/mount_search.hpp"
 #include "result_keeper.hpp"
 #include "rt/number_of.hpp"
 #include "rt/threads/thread_setup.hpp"
@@ -74,6 +76,23 @@ frame::Place moved(const frame::Place& place, const std::optional<scan::RigidMot
   return {place.journey, at.x_m, at.y_m, at.cosine, at.sine};
 }
 
+/// By up to ten scans of the sequence, evenly apart, as a run would find it.
+Expected<mount::FoundMount> mount_of(const datasets::Sequence& sequence) {
+  memory::FixedMemory memory;
+  frame::RangeImage image(sequence.shape(), sequence.shape().cells(), memory);
+  scan::ScanToImage to_image(mount::kAtTheSensor);
+  datasets::LabelledScan scan;
+  ground::MountSearch search;
+  const std::size_t scans = std::min(sequence.size(), mount::kFramesToFind);
+  for (std::size_t i = 0; i < scans; ++i) {
+    const Status read = sequence.read(i * sequence.size() / scans, scan);
+    if (!read) continue;  // is said when its turn comes
+    to_image.place(scan.scan.points, scan.rings.ring_of_point, image);
+    search.add_frame(image);
+  }
+  return search.found();
+}
+
 class Run {
  public:
   Run(const EvaluationConfig& config, datasets::Dataset dataset, Journal* journal,
@@ -97,6 +116,7 @@ class Run {
     EvaluationOutcome outcome;
     outcome.interrupted = done_ < frames_ && stop_wanted_();
     outcome.results = keeper_.take_results();
+    outcome.found_mounts = std::move(found_mounts_);
     for (auto& [key, fault] : faults_) outcome.faults.push_back(std::move(fault));
     return outcome;
   }
@@ -115,7 +135,17 @@ class Run {
     if (const Status whole = scans->check_whole(); !whole && wants_whole_sequences()) {
       faults_[{name, ""}] = {dataset_.folder(name).string(), whole.error().message};
     }
-    const auto profile = scan::ring_profile(scans->rings(), config_.mount);
+    mount::Mount mount = config_.mount;
+    if (config_.find_mount) {
+      const auto found = mount_of(*scans);
+      if (!found) {
+        faults_[{name, ""}] = {dataset_.folder(name).string(),
+                               name + ": the mount is not found: " + found.error().message};
+        return;
+      }
+      mount = found_mounts_.insert_or_assign(name, *found).first->second.mount;
+    }
+    const auto profile = scan::ring_profile(scans->rings(), mount);
     sequences_.push_back(std::make_unique<OpenSequence>(
         OpenSequence{name, *std::move(scans), profile, motion_of(name)}));
   }
@@ -250,6 +280,7 @@ class Run {
   ResultKeeper keeper_;
 
   std::vector<std::unique_ptr<OpenSequence>> sequences_;
+  std::map<std::string, mount::FoundMount> found_mounts_;
   std::vector<FrameRun> runs_;
   std::size_t frames_ = 0;             ///< Of all runs.
   std::atomic<std::size_t> next_ = 0;  ///< Run.

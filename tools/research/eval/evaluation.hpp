@@ -6,11 +6,12 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "calib/mount/mount.hpp"
+#include "calib/mount/mount_finder.hpp"
 #include "frame_result.hpp"
 #include "journal.hpp"
 #include "method_choice.hpp"
@@ -35,6 +36,7 @@ struct EvaluationConfig {
   FrameRange frames;
   std::vector<MethodChoice> methods;
   mount::Mount mount;
+  bool find_mount = false;  ///< Of every sequence by itself, as a run would; else `mount`.
   bool through_packets = false;
   int jobs = 0;  ///< Threads, each on a core of its own; 0: one a core.
   /// Says what stands tall and what does not move; null: neither is counted. Must outlive the run.
@@ -51,12 +53,14 @@ struct Fault {
 };
 
 struct EvaluationOutcome {
-  FrameResults results;       ///< Faulty frames are not among them.
-  std::vector<Fault> faults;  ///< In order of sequence and frame.
+  FrameResults results;                                   ///< Faulty frames are not among them.
+  std::vector<Fault> faults;                              ///< In order of sequence and frame.
+  std::map<std::string, mount::FoundMount> found_mounts;  ///< By sequence.
   bool interrupted = false;
 };
 
-/// Labels every frame of a dataset with every method and counts what came of it.
+/// Labels every frame of a dataset with every method and counts what came of it. A sequence whose
+/// mount is not found is a fault, whole.
 /// A file that cannot be read is a fault, and the rest goes on. Results that `journal` has are
 /// kept; frames among others of their run (32 that follow each other, labelled in their order by
 /// one thread) are labelled again for what they mean to these. Faulty ones are not in it.

@@ -46,7 +46,7 @@ struct EvaluationFacts {
 ///   warnings[]  classes the table does not know, by the file they were first met in
 ///
 /// `terracut eval` adds to it: simulated{sensor, returns, duration_s, seed}, the class table's note
-/// as a warning.
+/// as a warning, and found_mounts{sequence} {height_m, roll_deg, pitch_deg, frames}.
 [[nodiscard]] nlohmann::ordered_json evaluation_json(const EvaluationFacts& facts,
                                                      const datasets::ClassTable& classes,
                                                      const EvaluationOutcome& outcome);

@@ -19,6 +19,7 @@
 #include "firmware_io/scan/label_file.hpp"
 #include "method_bench.hpp"
 #include "pinned_thread.hpp"
+#include "pipeline/ground/mount_search.hpp"
 #include "result_keeper.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/threads/thread_setup.hpp"
@@ -32,8 +33,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using drive::ReturnMode;
-using encode::Hdl64eEncoderTraits;
-using encode::Ruby128EncoderTraits;
 using frame::FrameInfo;
 
 constexpr double kSpin_hz = 10;
@@ -67,17 +66,45 @@ Status check_scenes(const std::vector<std::string>& scenes) {
   return {};
 }
 
+decode::Decoder::Config decoder_config(int columns) {
+  decode::Decoder::Config config;
+  config.columns = columns;
+  return config;
+}
+
+/// By the first ten frames of the drive, as a run would find it.
+Expected<mount::FoundMount> mount_of(const fs::path& capture,
+                                     const calib::SensorCalibration& calibration, int columns) {
+  auto source = capture::PcapSource::open(capture);
+  if (!source) return tl::unexpected(source.error());
+  memory::FixedMemory memory;
+  decode::Decoder decoder(calibration, mount::kAtTheSensor, decoder_config(columns), memory);
+  ground::MountSearch search;
+  for (bool is_over = false; !is_over && !search.has_enough_frames();) {
+    const auto next = source->next();
+    if (!next) return tl::unexpected(next.error());
+    is_over = !*next;
+    if (is_over) {
+      decoder.end_stream();
+    } else {
+      decoder.push(**next);
+    }
+    while (const frame::Frame* frame = decoder.next()) search.add_frame(*frame->image);
+  }
+  return search.found();
+}
+
 /// One drive on disk, from packets to counts. Used by one thread.
 class DriveEvaluation {
  public:
-  DriveEvaluation(const SimulatedConfig& config, std::string scene, fs::path truth,
-                  const calib::SensorCalibration& calibration, int columns, ResultKeeper& keeper,
-                  std::function<void()> on_frame_done)
+  DriveEvaluation(const SimulatedConfig& config, const mount::Mount& mount, std::string scene,
+                  fs::path truth, const calib::SensorCalibration& calibration, int columns,
+                  ResultKeeper& keeper, std::function<void()> on_frame_done)
       : config_(config),
         scene_(std::move(scene)),
         truth_folder_(std::move(truth)),
-        decoder_(calibration, config.mount, decoder_config(columns), memory_),
-        bench_(config.methods, calib::ring_profile(calibration, config.mount), decoder_.shape(),
+        decoder_(calibration, mount, decoder_config(columns), memory_),
+        bench_(config.methods, calib::ring_profile(calibration, mount), decoder_.shape(),
                decoder_.return_capacity(), memory_),
         keeper_(keeper),
         on_frame_done_(std::move(on_frame_done)) {}
@@ -103,12 +130,6 @@ class DriveEvaluation {
   [[nodiscard]] std::vector<Fault> take_faults() { return std::move(faults_); }
 
  private:
-  [[nodiscard]] static decode::Decoder::Config decoder_config(int columns) {
-    decode::Decoder::Config config;
-    config.columns = columns;
-    return config;
-  }
-
   void take_frames() {
     const frame::Frame* frame = decoder_.next();
     for (; frame != nullptr; frame = decoder_.next()) {
@@ -234,11 +255,15 @@ class Run {
     if (!simulated) return tl::unexpected(simulated.error());
     if (!*simulated) return {};
 
-    const std::int64_t firing_ns = EncoderTraits::firing_ns(returns());
-    const auto columns =
-        static_cast<int>(std::lround(1e9 / (kSpin_hz * static_cast<double>(firing_ns))));
-    DriveEvaluation drive(config_, scene, drive::truth_folder_of(capture), calibration, columns,
-                          keeper_, [this] { progress_.evaluated(++done_, frames()); });
+    const int columns = drive::image_columns<EncoderTraits>(kSpin_hz, returns());
+    mount::Mount mount = config_.mount;
+    if (config_.find_mount) {
+      const auto found = mount_of(capture, calibration, columns);
+      if (!found) return tl::unexpected(found.error());
+      mount = outcome_.found_mounts.insert_or_assign(scene, *found).first->second.mount;
+    }
+    DriveEvaluation drive(config_, mount, scene, drive::truth_folder_of(capture), calibration,
+                          columns, keeper_, [this] { progress_.evaluated(++done_, frames()); });
     Status status;
     // A thread of its own, for the core is given up again before the next drive's rays.
     std::thread([&] {
@@ -303,10 +328,9 @@ Expected<EvaluationOutcome> evaluate_simulated(const SimulatedConfig& config, Jo
   if (const Status checked = check_scenes(config.drives.scenes); !checked) {
     return tl::unexpected(checked.error());
   }
-  if (config.drives.sensor == "ruby128") {
-    return Run<Ruby128EncoderTraits>(config, journal, progress, stop_wanted).run();
-  }
-  return Run<Hdl64eEncoderTraits>(config, journal, progress, stop_wanted).run();
+  return drive::with_encoder_traits(config.drives.sensor, [&](auto traits) {
+    return Run<decltype(traits)>(config, journal, progress, stop_wanted).run();
+  });
 }
 
 }  // namespace terracut::eval

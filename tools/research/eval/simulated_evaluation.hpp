@@ -11,6 +11,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "evaluation.hpp"
+#include "firmware_io/sensor/sensor_model.hpp"
 #include "journal.hpp"
 #include "method_choice.hpp"
 #include "rt/error.hpp"
@@ -20,7 +21,7 @@ namespace terracut::eval {
 /// Drives to simulate, one a scene, with the sensor's nominal calibration, at 10 Hz.
 struct SimulatedDrives {
   std::vector<std::string> scenes;  ///< scenes::scene_names(), each once; each is a sequence.
-  std::string sensor = "hdl64e";    ///< "hdl64e", "ruby128"
+  sensor::SensorModel sensor = sensor::SensorModel::kHdl64e;  ///< encoder_traits.hpp
   bool dual_return = false;
   double duration_s = 3;  ///< (0, 3600]
   std::uint64_t seed = 1;
@@ -30,7 +31,8 @@ struct SimulatedConfig {
   SimulatedDrives drives;
   FrameRange frames;
   std::vector<MethodChoice> methods;
-  mount::Mount mount;
+  mount::Mount mount;       ///< That the drives have.
+  bool find_mount = false;  ///< Labels by what the drive's first frames show of it, not by `mount`.
   std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: a label a return.
   report::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
 };
@@ -47,9 +49,9 @@ struct SimulatedProgress {
 /// drive of which it has all is not simulated. Range bands are those of the vehicle frame. Frames
 /// are labelled one after the other on one pinned core, rays cast on all.
 ///
-/// kInvalidArgument: of the simulator. kWriteFailed: predictions, journal, or the drive under way,
-/// which lies in the temporary folder (about 10 MB a second of the HDL-64E, 16 of the RS-Ruby128,
-/// up to twice that in dual return).
+/// kInvalidArgument: of the simulator. kMalformed: a mount is not found. kWriteFailed: predictions,
+/// journal, or the drive under way, which lies in the temporary folder (about 10 MB a second of the
+/// HDL-64E, 16 of the RS-Ruby128, up to twice that in dual return).
 [[nodiscard]] Expected<EvaluationOutcome> evaluate_simulated(
     const SimulatedConfig& config, Journal* journal, const SimulatedProgress& progress,
     const std::function<bool()>& stop_wanted);

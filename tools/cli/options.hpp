@@ -95,6 +95,8 @@ struct OutputOptions {
   std::filesystem::path json, parquet;     ///< Files.
   std::vector<std::string> metadata;       ///< KEY=VALUE, for the Parquet and the MCAP file.
   McapOptions mcap;
+  std::string foxglove;                       ///< ADDRESS:PORT or PORT; empty: not served.
+  std::vector<std::string> foxglove_origins;  ///< Of pages elsewhere that may connect to it.
   /// Names of coordinate frames (pipeline/publish/stream.hpp); the sensor's "off": none.
   std::string frame_id = "terracut_ground", sensor_frame_id = "terracut_lidar";
   std::filesystem::path truth;  ///< Folder of NNNNNN.label: scores the labels.

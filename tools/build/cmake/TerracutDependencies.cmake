@@ -63,11 +63,13 @@ else()
                  "Install it with: apt-get install cyclonedds-dev cyclonedds-tools (or run ./tools/setup --dds)")
 endif()
 
+# Beast serves viewers; in tests, Boost.Graph is the independent min-cut solver.
+find_package(Boost QUIET)
+terracut_require(Boost_FOUND "Boost headers" libboost-dev)
+
 if(TERRACUT_BUILD_TESTS)
   find_package(GTest QUIET)
   terracut_require(GTest_FOUND "GoogleTest" "libgtest-dev libgmock-dev")
   find_package(benchmark QUIET)
   terracut_require(benchmark_FOUND "Google Benchmark" libbenchmark-dev)
-  find_package(Boost QUIET)  # Boost.Graph is the independent min-cut solver of the tests
-  terracut_require(Boost_FOUND "Boost headers" libboost-dev)
 endif()

@@ -6,9 +6,13 @@
 
 #include <utility>
 
+#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "pipeline/mcap/mcap_sink.hpp"
+#include "pipeline/ros_messages/topics.hpp"
+#include "pipeline/stream/stream_address.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/dds_output.hpp"
+#include "tools/cli/foxglove/foxglove_sink.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -26,10 +30,29 @@ Expected<std::unique_ptr<publish::FrameSink>> open_mcap(const OutputOptions& opt
   return *std::move(sink);
 }
 
+Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions& options,
+                                                            const publish::Stream& stream) {
+  std::vector<bool> topics(ros_messages::kTopics.size(), true);
+  for (std::size_t i = 0; i < topics.size(); ++i) {
+    // Without the road's surface all ground is road.
+    if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) topics[i] = false;
+  }
+  topics[ros_messages::kTransformsTopic] = !stream.sensor_frame_id.empty();
+  const net::Ipv4Endpoint at = stream::parse_serving_endpoint(options.foxglove).value();
+  auto server = FoxgloveServer::start({.at = at,
+                                       .name = "terracut: " + stream.sensor,
+                                       .topics = std::move(topics),
+                                       .origins = options.foxglove_origins});
+  if (!server) return tl::unexpected(server.error());
+  say(fmt::format("Foxglove and Lichtblick connect to ws://{}:{}", net::ipv4_text(at.address),
+                  server->port()));
+  return std::make_unique<FoxgloveSink>(*std::move(server), stream);
+}
+
 }  // namespace
 
 bool wants_sinks(const OutputOptions& options) {
-  return !options.mcap.path.empty() || options.dds.publishes;
+  return !options.mcap.path.empty() || !options.foxglove.empty() || options.dds.publishes;
 }
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
@@ -39,6 +62,11 @@ Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
   publish::Publisher::Sinks sinks;
   if (!options.mcap.path.empty()) {
     auto sink = open_mcap(options, stream);
+    if (!sink) return tl::unexpected(sink.error());
+    sinks.push_back(*std::move(sink));
+  }
+  if (!options.foxglove.empty()) {
+    auto sink = open_foxglove(options, stream);
     if (!sink) return tl::unexpected(sink.error());
     sinks.push_back(*std::move(sink));
   }

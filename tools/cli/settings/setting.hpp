@@ -36,7 +36,8 @@ enum class TextForm : std::uint8_t {
   kAny,
   kAddress,
   kEndpoint,      ///< To listen at; a port alone: at any address.
-  kServingOrOff,  ///< To serve others at; a port alone: this machine's programs.
+  kServing,       ///< To serve others at; a port alone: this machine's programs.
+  kServingOrOff,  ///< The same, or off.
   kStream,        ///< The same, or a socket's path.
   kName,
   kList,       ///< Texts with commas between.

@@ -72,6 +72,8 @@ constexpr std::array kForms{
          [](std::string_view text) { return net::parse_ipv4_address(text).has_value(); }},
     Form{"[ADDRESS:]PORT", "an IPv4 ADDRESS:PORT or a PORT",
          [](std::string_view text) { return net::parse_ipv4_endpoint(text).has_value(); }},
+    Form{"[ADDRESS:]PORT", "an IPv4 ADDRESS:PORT or a PORT",
+         [](std::string_view text) { return stream::parse_serving_endpoint(text).has_value(); }},
     Form{"[ADDRESS:]PORT|off", "an IPv4 ADDRESS:PORT, a PORT or off",
          [](std::string_view text) {
            return text == "off" || stream::parse_serving_endpoint(text).has_value();

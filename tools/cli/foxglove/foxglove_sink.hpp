@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string_view>
+#include <vector>
+
+#include "pipeline/publish/diagnosis.hpp"
+#include "pipeline/publish/frame_sink.hpp"
+#include "pipeline/publish/stream.hpp"
+#include "server.hpp"
+
+namespace terracut::cli {
+
+/// Labelled frames, diagnostics and the mount's transform for viewers, as they come. What nobody
+/// subscribed to is not made.
+class FoxgloveSink final : public publish::FrameSink {
+ public:
+  FoxgloveSink(FoxgloveServer server, publish::Stream stream);
+
+  [[nodiscard]] std::string_view name() const noexcept override { return "foxglove"; }
+  [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
+  [[nodiscard]] std::vector<status::NamedCount> losses() const override;
+
+ private:
+  FoxgloveServer server_;
+  publish::Stream stream_;
+  publish::Diagnoses diagnoses_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::cli {
+
+/// Serves messages of ROS 2 to Foxglove, Lichtblick and whatever speaks their WebSocket protocol
+/// (protocol.hpp), on a thread of its own. A client that has not taken a channel's last message
+/// misses the next: no message is queued behind another of its channel, so a slow client costs one
+/// message a channel, and holds up nobody.
+///
+/// What comes in is small and bounded: 8 clients, headers of 8 KiB, texts of 64 KiB, 64
+/// subscriptions. Host and Origin of a request are checked, there is neither encryption nor a
+/// password.
+class FoxgloveServer {
+ public:
+  struct Config {
+    net::Ipv4Endpoint at;  ///< Port 0: one the system chooses.
+    std::string name;      ///< For people.
+    std::vector<bool> topics;
+    std::vector<std::string> origins;  ///< Of pages that may connect besides this machine's.
+  };
+  /// Since the start. From any thread.
+  struct Figures {
+    std::atomic<std::uint64_t> skipped{0};       ///< Messages that a slow client missed.
+    std::atomic<std::uint64_t> refused{0};       ///< Connections: no place, Host, Origin, protocol.
+    std::atomic<std::uint64_t> bad_requests{0};  ///< Texts that were not understood.
+  };
+
+  /// kInvalidArgument with the system's reason, such as a port in use.
+  [[nodiscard]] static Expected<FoxgloveServer> start(const Config& config);
+  FoxgloveServer(FoxgloveServer&&) noexcept;
+  FoxgloveServer& operator=(FoxgloveServer&&) = delete;
+  ~FoxgloveServer();
+
+  [[nodiscard]] std::uint16_t port() const noexcept;
+  [[nodiscard]] const Figures& figures() const noexcept;
+
+  using Message = std::shared_ptr<const std::vector<std::byte>>;
+
+  // From one other thread.
+
+  /// Whether anybody subscribed to it, so that a message is worth making.
+  [[nodiscard]] bool is_wanted(std::size_t topic) const noexcept;
+  void publish(std::size_t topic, std::int64_t time_ns, Message message);
+  /// For those who subscribe to it, once each, whenever they come.
+  void keep(std::size_t topic, std::int64_t time_ns, Message message);
+
+ private:
+  struct State;
+  explicit FoxgloveServer(std::unique_ptr<State> state) noexcept;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace terracut::cli

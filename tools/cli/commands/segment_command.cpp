@@ -79,6 +79,10 @@ ExitCode run_segment(const Options& options) {
                                     labeller.truth_of_returns(truth));
     }
     if (written) {
+      // Players of recordings need stamps that grow, and files have none.
+      constexpr std::int64_t kFramePeriod_ns = 100'000'000;
+      record.info.first_packet_ns = record.info.number * kFramePeriod_ns;
+      record.info.last_packet_ns = record.info.first_packet_ns;
       written = outputs.publish(record, labeller.image, labeller.method.labels());
     }
     if (written) {

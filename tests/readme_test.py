@@ -19,6 +19,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import urllib.request
 from pathlib import Path
 
 DRIVE_S = "0.3"
@@ -70,6 +71,7 @@ class Page:
     def __init__(self, repository: Path, program: Path, folder: Path):
         self.repository, self.program, self.folder = repository, program, folder
         self.drive = self.live = self.sensor = None
+        self.notebook = ""  # what the page's blocks for the module have done so far
         self.passed, self.left_out = 0, []
         self.environment = os.environ | {
             "PYTHONPATH": str(repository / "tools/examples"), "PYTHONUNBUFFERED": "1",
@@ -128,6 +130,8 @@ class Page:
             self.begin_live(words)
         elif words[-1] == "live":  # by a file: of sensors whose addresses are not this machine's
             self.check([*words[:-1], "config"])
+        elif words[0] == "view":
+            self.look_at(words)
         elif words[0] == "top":
             self.check([*words, "--once"])
         elif words[0] == "node":
@@ -169,6 +173,21 @@ class Page:
             name = program.name if program else "terracut"
             raise Failed(f"{name} {shlex.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
 
+    def look_at(self, words: list[str]):
+        """A page that is served until somebody ends it."""
+        with subprocess.Popen([self.program, *words], cwd=self.folder, env=self.environment, stderr=subprocess.PIPE,
+                              text=True) as shown:
+            said = []
+            for line in shown.stderr:
+                said.append(line)
+                if found := re.search(r"in a browser: (\S+)", line):
+                    with urllib.request.urlopen(found[1], timeout=PATIENCE_S) as page:
+                        assert b"<canvas" in page.read()
+                    break
+            shown.terminate()
+            if shown.wait(PATIENCE_S) != 0:
+                raise Failed(f"terracut {shlex.join(words)}:\n{''.join(said)}{shown.stderr.read()}")
+
     def begin_live(self, words: list[str]):
         self.end_live()
         log = self.folder / "live.log"
@@ -196,7 +215,27 @@ class Page:
         if code not in (0, 6):  # 6: deadlines were missed, on a busy machine
             raise Failed(f"terracut live: exit code {code}\n{(self.folder / 'live.log').read_text()}")
 
+    def run_notebook(self, text: str):
+        """A block that has the module: each goes on from the ones before it."""
+        self.notebook += text
+        folder = self.program.parent / "tools/python"
+        if not list(folder.glob("terracut/_terracut*.so")):
+            self.left_out.append(f"{text.splitlines()[0]} ...: needs the Python module")
+            return
+        sensor = Sensor(self.program, self.folder, "2368") if "terracut.live" in text else None
+        try:
+            done = subprocess.run(["/usr/bin/python3", "-c", self.notebook], cwd=self.folder, capture_output=True, text=True,
+                                  env=self.environment | {"PYTHONPATH": str(folder)}, timeout=PATIENCE_S, check=False)
+        finally:
+            if sensor:
+                sensor.stop()
+        if done.returncode != 0 or not done.stdout:
+            raise Failed(f"a block for the Python module said:\n{done.stdout}{done.stderr}")
+        self.passed += 1
+
     def run_python(self, text: str):
+        if self.notebook or "import terracut" in text:
+            return self.run_notebook(text)
         process = subprocess.Popen([sys.executable, "-c", text], cwd=self.folder, env=self.environment, text=True,
                                    stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         said = process.stdout.readline()

@@ -45,7 +45,8 @@ struct Frame {
   bool deskewed = false;  ///< The vehicle's motion was removed.
   std::uint64_t packets_lost = 0;  ///< On the network, since the frame before.
   std::span<const Point> points;
-  std::span<const Label> labels;  ///< Empty where the frame was not labelled.
+  std::span<const Label> labels;       ///< Empty where the frame was not labelled.
+  std::span<const float> time_s = {};  ///< After the first packet; empty but of a LiveRun.
 };
 
 }  // namespace terracut

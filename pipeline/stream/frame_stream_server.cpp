@@ -220,21 +220,8 @@ std::size_t FrameStreamServer::free_slot() const noexcept {
 }
 
 void FrameStreamServer::begin(Peer& peer, std::size_t slot, const LabelledFrame& frame) noexcept {
-  const status::FrameRecord& record = frame.record;
-  const frame::DeskewState deskew = record.info.deskew.state;
-  peer.header = {
-      .number = record.info.number,
-      .points = static_cast<std::uint32_t>(frame.points.size()),
-      .first_packet_ns = record.info.first_packet_ns,
-      .last_packet_ns = record.info.last_packet_ns,
-      .labels_ns = record.labels_ns,
-      .sensor = static_cast<std::uint8_t>(frame.sensor),
-      .level = static_cast<std::uint8_t>(record.level),
-      .flags = (record.info.complete ? kFrameComplete : 0U) | (frame.late ? kFrameLate : 0U) |
-               (deskew == frame::DeskewState::kDone ? kFrameDeskewed : 0U) |
-               (deskew == frame::DeskewState::kNoEgoMotion ? kFrameNoEgoMotion : 0U),
-      .missed = static_cast<std::uint32_t>(peer.figures.missed),
-  };
+  peer.header = header_of(frame.record, frame.sensor, frame.late, frame.points.size());
+  peer.header.missed = static_cast<std::uint32_t>(peer.figures.missed);
   peer.slot = slot;
   ++slots_[slot].holders;
   peer.given_bytes = 0;

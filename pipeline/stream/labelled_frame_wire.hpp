@@ -106,6 +106,22 @@ static_assert(offsetof(FrameWireHeader, header_bytes) == 6 &&
               offsetof(FrameWireHeader, point_bytes) == 40 &&
               offsetof(FrameWireHeader, sensor) == 42 && offsetof(FrameWireHeader, level) == 43 &&
               offsetof(FrameWireHeader, flags) == 44 && offsetof(FrameWireHeader, missed) == 48);
+/// Of a frame for a reader that has missed none.
+[[nodiscard]] constexpr FrameWireHeader header_of(const status::FrameRecord& record,
+                                                  StreamedSensor sensor, bool late,
+                                                  std::size_t points) noexcept {
+  const frame::DeskewState deskew = record.info.deskew.state;
+  return {.number = record.info.number,
+          .points = static_cast<std::uint32_t>(points),
+          .first_packet_ns = record.info.first_packet_ns,
+          .last_packet_ns = record.info.last_packet_ns,
+          .labels_ns = record.labels_ns,
+          .sensor = static_cast<std::uint8_t>(sensor),
+          .level = static_cast<std::uint8_t>(record.level),
+          .flags = (record.info.complete ? kFrameComplete : 0U) | (late ? kFrameLate : 0U) |
+                   (deskew == frame::DeskewState::kDone ? kFrameDeskewed : 0U) |
+                   (deskew == frame::DeskewState::kNoEgoMotion ? kFrameNoEgoMotion : 0U)};
+}
 static_assert(static_cast<int>(status::Level::kFull) == 0 &&
                   static_cast<int>(status::Level::kSkipped) == 3,
               "the wire's numbers are the enumeration's");

@@ -70,7 +70,8 @@ struct LiveRun::Engine {
         threads(threads_config(config, sensor), pipeline, source, std::move(events), nullptr,
                 memory),
         points(pipeline.decoder.return_capacity()),
-        labels(points.size()) {}
+        labels(points.size()),
+        times_s(points.size()) {}
 
   static decode::Decoder::Config decoder_config(const sensor::SensorOnAir& sensor) {
     decode::Decoder::Config config;
@@ -104,6 +105,7 @@ struct LiveRun::Engine {
         const stream::LabelledPoint& point = taken.items[i];
         points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
         labels[i] = label_of(point.label);
+        times_s[i] = point.time_s;
       }
       Frame frame{.number = taken.record.info.number,
                   .first_packet_ns = taken.record.info.first_packet_ns,
@@ -112,7 +114,8 @@ struct LiveRun::Engine {
                   .deskewed = taken.record.info.deskew.state == frame::DeskewState::kDone,
                   .packets_lost = taken.record.info.losses.network_gap_packets,
                   .points = std::span<const Point>(points).first(taken.items.size()),
-                  .labels = std::span<const Label>(labels).first(taken.items.size())};
+                  .labels = std::span<const Label>(labels).first(taken.items.size()),
+                  .time_s = std::span<const float>(times_s).first(taken.items.size())};
       on_frame(frame);
       slots.give_back(true);
       ++figures.frames;
@@ -137,6 +140,7 @@ struct LiveRun::Engine {
   run::LiveThreads threads;
   std::vector<Point> points;
   std::vector<Label> labels;
+  std::vector<float> times_s;
   std::string refusals;
   Figures figures;
 };

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -17,12 +18,42 @@
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "firmware_io/terracut/points.hpp"
 #include "pipeline/ground/mount_search.hpp"
+#include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/terracut/point_buffer.hpp"
 #include "pipeline/terracut/profile.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut {
+namespace {
+
+Status check(const Mount& mount) {
+  const bool is_possible = mount.height_m >= 0.2 && mount.height_m <= 6 &&
+                           std::abs(mount.roll_rad) < 0.5 && std::abs(mount.pitch_rad) < 0.5;
+  if (is_possible) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("mount: expected a height of 0.2 to 6 m, roll and pitch below 0.5 rad, "
+                          "found {} m, {} and {} rad",
+                          mount.height_m, mount.roll_rad, mount.pitch_rad));
+}
+
+Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
+  ground::MethodConfig method = config_of(config.profile);
+  for (const std::string& setting : config.parameters) {
+    if (const Status set = ground::apply_setting(method, setting); !set) {
+      return tl::unexpected(set.error());
+    }
+    if (ground::kind_that_uses(std::string_view(setting).substr(0, setting.find('='))) ==
+        ground::MethodKind::kSegmenter) {
+      continue;
+    }
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("'{}' would change nothing: it is a parameter of a baseline", setting));
+  }
+  return method.segmenter;
+}
+
+}  // namespace
 
 /// All that labels clouds of one sensor, taken when its first cloud is known.
 struct Segmenter::Labeller {
@@ -34,7 +65,7 @@ struct Segmenter::Labeller {
         first_points(points_of_first),
         most_points(std::max(2 * first_points, image.return_capacity())),
         to_image(mount, most_points),
-        segmenter(ground::remembering(config_of(config.profile), false),
+        segmenter(ground::remembering(*method_of(config), false),
                   scan::ring_profile(finder.rows().rings.table, mount), shape,
                   image.return_capacity(), memory) {
     rings.ring_of_point.reserve(most_points);
@@ -143,6 +174,10 @@ Segmenter& Segmenter::operator=(Segmenter&&) noexcept = default;
 Segmenter::~Segmenter() = default;
 
 Expected<Segmenter> Segmenter::make(const Config& config) {
+  if (const Status possible = check(config.mount); !possible) {
+    return tl::unexpected(possible.error());
+  }
+  if (const auto method = method_of(config); !method) return tl::unexpected(method.error());
   return made([&] { return Segmenter(std::make_unique<Engine>(config)); });
 }
 

@@ -7,7 +7,9 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "terracut/calibration.hpp"
 #include "terracut/error.hpp"
@@ -83,9 +85,12 @@ class Segmenter {
     /// which allocates, too. A vehicle that stands where no ground is seen 3 to 15 m before or
     /// behind it shows nothing: found_mount() says.
     bool find_mount = false;
+    /// Parameters of the method that differ from the profile's, "KEY=VALUE";
+    /// docs/reference/parameters.md lists them.
+    std::vector<std::string> parameters = {};
   };
 
-  /// kInvalidArgument on a mount out of range.
+  /// kInvalidArgument on a mount out of range, and on a parameter that is none or out of its range.
   [[nodiscard]] static Expected<Segmenter> make(const Config& config);
   Segmenter(Segmenter&&) noexcept;
   Segmenter& operator=(Segmenter&&) noexcept;

@@ -9,6 +9,7 @@
 namespace terracut::cli {
 
 [[nodiscard]] ExitCode run_replay(const Options& options);
+[[nodiscard]] ExitCode run_view(const Options& options);
 [[nodiscard]] ExitCode run_segment(const Options& options);
 [[nodiscard]] ExitCode run_manifest(const Options& options);
 [[nodiscard]] ExitCode run_relabel(const Options& options);

@@ -17,6 +17,7 @@ namespace {
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr const char* kWipeLine = "\r\x1b[K";
 std::atomic<bool> progress_line_stands = false;  // say() may come from any thread
+thread_local HeardLines* listener = nullptr;
 
 void print_line(std::string_view line) {
   fmt::print(stderr, "{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "", line);
@@ -25,10 +26,19 @@ void print_line(std::string_view line) {
 }  // namespace
 
 void say(std::string_view line) {
+  if (listener != nullptr) return void(listener->said.emplace_back(line));
   print_line(line);
 }
 void warn(std::string_view line) {
+  if (listener != nullptr) return void(listener->warned.emplace_back(line));
   print_line(fmt::format("warning: {}", line));
+}
+
+HeardLines::HeardLines() {
+  listener = this;
+}
+HeardLines::~HeardLines() {
+  listener = nullptr;
 }
 
 ExitCode refuse(const Error& error) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "exit_codes.hpp"
 #include "rt/error.hpp"
@@ -15,6 +16,18 @@ namespace terracut::cli {
 /// One line on stderr; wipes a progress line that stands there. From any thread.
 void say(std::string_view line);
 void warn(std::string_view line);
+
+/// While it lives, what this thread says and warns of comes here instead of to stderr: for programs
+/// that have this one's work done and tell their users in a way of their own. One a thread.
+class HeardLines {
+ public:
+  HeardLines();
+  ~HeardLines();
+  HeardLines(const HeardLines&) = delete;
+  HeardLines& operator=(const HeardLines&) = delete;
+
+  std::vector<std::string> said, warned;
+};
 
 /// Prints "error: <message>" and returns the exit code it leads to.
 [[nodiscard]] ExitCode refuse(const Error& error);

@@ -17,10 +17,10 @@ namespace terracut::cli {
 namespace {
 
 /// By Command.
-constexpr std::array kRun{run_replay,     run_segment, run_manifest,  run_relabel, run_compare,
-                          run_simulate,   run_encode,  run_calibrate, run_info,    run_plan,
-                          run_parameters, run_bench,   run_send,      run_live,    run_node,
-                          run_dump,       run_eval,    run_top,       run_config,  run_doctor};
+constexpr std::array kRun{
+    run_replay, run_view,      run_segment, run_manifest, run_relabel,    run_compare, run_simulate,
+    run_encode, run_calibrate, run_info,    run_plan,     run_parameters, run_bench,   run_send,
+    run_live,   run_node,      run_dump,    run_eval,     run_top,        run_config,  run_doctor};
 static_assert(kRun.size() == kCommands.size());
 
 ExitCode run(const std::vector<std::string>& words) {

@@ -97,6 +97,7 @@ struct OutputOptions {
   McapOptions mcap;
   std::string foxglove;                       ///< ADDRESS:PORT or PORT; empty: not served.
   std::vector<std::string> foxglove_origins;  ///< Of pages elsewhere that may connect to it.
+  std::string view;  ///< Where a browser sees frames; empty, off: nowhere.
   /// Names of coordinate frames (pipeline/publish/stream.hpp); the sensor's "off": none.
   std::string frame_id = "terracut_ground", sensor_frame_id = "terracut_lidar";
   std::filesystem::path truth;  ///< Folder of NNNNNN.label: scores the labels.
@@ -246,6 +247,7 @@ struct Options {
   WatchOptions watch;
 
   PlayOptions replay;
+  std::string view_at = "127.0.0.1:8480";  ///< Where a browser sees a capture.
   std::filesystem::path can_recording;  ///< Of the vehicle's bus; empty: none.
   int bench_repeat = 10;                ///< Passes over the capture's frames.
   int bench_core = -1;                  ///< To be pinned to; -1: the last one allowed.

@@ -147,6 +147,14 @@ TEST_F(CliSend, IsWhatASimulatedSensorDoes) {
   EXPECT_EQ(files_in(folder_, ".pcap"), 0U) << "no file was asked for";
 }
 
+TEST_F(CliSend, ASimulatedSensorIsHeardBeforeItsDriveIsComputed) {
+  expect_done("simulate --scene flat --duration 1 --spin-hz 20 --udp 127.0.0.1:" +
+              std::to_string(source_->local().port) + " --json sent.json");
+  const auto report = json("sent.json");
+  // Of the beginning, 0.4 s, some packets at least came before the drive's own.
+  receive(report["sent"].get<std::uint64_t>() + 100);
+}
+
 TEST_F(CliSend, OfASimulatedSensorNeedsSomewhereToSendTo) {
   EXPECT_EQ(run("simulate --scene flat --duration 0.1").exit_code, 2);
   const Outcome outcome = run("simulate --scene flat --duration 0.1 -o a.pcap --faults loss@1s:1");

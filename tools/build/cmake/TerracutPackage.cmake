@@ -8,6 +8,7 @@ install(FILES ${terracut_service}/terracut.yaml
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION share/doc/terracut
   COMPONENT service EXCLUDE_FROM_ALL FILES_MATCHING PATTERN "*.md" PATTERN "*.png")
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_frames.py
+  ${PROJECT_SOURCE_DIR}/tools/examples/labels_in_numpy.py
   DESTINATION share/doc/terracut/examples COMPONENT service EXCLUDE_FROM_ALL)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/fleet/parallel ${PROJECT_SOURCE_DIR}/tools/fleet/relabel.sbatch
   ${PROJECT_SOURCE_DIR}/tools/fleet/submit

@@ -47,7 +47,9 @@ std::string value_name(const Setting& setting) {
     return fmt::format("{}", fmt::join(choice->words, "|"));
   }
   if (std::holds_alternative<std::filesystem::path*>(field)) return "PATH";
-  if (!setting.bare.empty()) return fmt::format("[{}]", setting.unit);
+  if (!setting.bare.empty()) {
+    return fmt::format("[{}]", setting.unit.empty() ? form_name(setting) : setting.unit);
+  }
   if (!setting.unit.empty()) return std::string(setting.unit);
   return std::string(setting.least < setting.most ? "NUMBER" : form_name(setting));
 }

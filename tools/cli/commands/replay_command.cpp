@@ -12,22 +12,11 @@
 #include <thread>
 #include <vector>
 
-#include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "firmware_io/scan/label_file.hpp"
-#include "firmware_io/sensor/told_table.hpp"
-#include "pipeline/run/latest_near_ground.hpp"
-#include "pipeline/run/packet_pipeline.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/figures/mount_watch.hpp"
 #include "tools/cli/figures/report.hpp"
-#include "tools/cli/input/device_clock.hpp"
 #include "tools/cli/input/frame_outputs.hpp"
-#include "tools/cli/input/mount_choice.hpp"
-#include "tools/cli/input/open_capture.hpp"
-#include "tools/cli/input/recorded_frames.hpp"
-#include "tools/cli/input/recorded_motion.hpp"
-#include "tools/cli/settings/decoder_choice.hpp"
-#include "tools/cli/settings/motion_choice.hpp"
+#include "tools/cli/input/labelled_capture.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
@@ -92,165 +81,80 @@ class FrameTruth {
   bool warned_ = false;
 };
 
-/// A capture's way to labels, on one thread: source, decoder, segmenter, sinks.
+/// Hands the labelled frames of a capture to the sinks that the options name.
 class Replay {
  public:
-  /// `motion` may be null: returns then lie where the sensor saw them.
-  Replay(const Options& options, OpenCapture& capture, const mount::RingProfile& profile,
-         const MountChoice& mount, RecordedMotion* motion)
+  Replay(const Options& options, LabelledCapture& capture)
       : options_(options),
         capture_(capture),
-        motion_(motion),
-        pipeline_(
-            capture.calibration, profile,
-            decoder_config_of(options, capture.sensor.columns,
-                              FrameOutputs::need_points(options.output) ? FramesAreFor::kPoints
-                                                                        : FramesAreFor::kLabels,
-                              motion != nullptr ? &motion->motion() : nullptr),
-            method_config_of(options.method), memory_),
-        clock_of_device_(options.capture.clock_offset_s),
         outputs_(options.output),
-        sensor_mount_(profile.mount),
-        mount_(profile.mount, mount),
         truth_(options.output.truth),
-        report_{"replay", options.capture.file.string(), capture.sensor_line,
-                capture.calibration_line, options.method},
-        progress_("replaying", "frames", 0) {}
+        pace_(options.replay.rate),
+        progress_("replaying", "frames", 0) {
+    capture.before_each([this](std::int64_t stamp_ns) { pace_.wait_for(stamp_ns); });
+  }
 
   ExitCode run() {
-    sinks_ = outputs_.open({.sensor = capture_.sensor_line,
-                            .rows = pipeline_.decoder().shape().rows,
-                            .mount = sensor_mount_,
+    sinks_ = outputs_.open({.sensor = capture_.capture().sensor_line,
+                            .rows = capture_.decoder().shape().rows,
+                            .mount = capture_.sensor_mount(),
                             .has_road = method_config_of(options_.method).segmenter.road.enabled});
     if (!sinks_) return refuse(sinks_.error());
-    Pace pace(options_.replay.rate);
+    Report& report = capture_.report();
     for (int pass = 0; options_.replay.loops == 0 || pass < options_.replay.loops; ++pass) {
       if (pass > 0) {
-        if (Status status = capture_.source.rewind(); !status) return refuse(status.error());
-        if (motion_ != nullptr) {
-          if (Status status = motion_->restart(); !status) return refuse(status.error());
-        }
+        if (Status status = capture_.rewind(); !status) return refuse(status.error());
       }
-      pace.restart();
-      const std::uint64_t offered_before = offered_;
-      const bool go_on = play_once(pace);
-      pipeline_.end_stream();
-      take_frames();
-      if (!go_on || offered_ == offered_before) break;  // a pass without packets will stay without
+      pace_.restart();
+      const std::uint64_t offered_before = capture_.offered();
+      while (const run::Frame* frame = sinks_ ? capture_.next() : nullptr) take(*frame);
+      const bool is_over = report.interrupted || !report.input_warning.empty();
+      // A replay without an end is not cut short by Ctrl-C.
+      if (options_.replay.loops == 0) report.interrupted = false;
+      // A pass without packets will stay without.
+      if (!sinks_ || is_over || capture_.offered() == offered_before) break;
     }
     return conclude();
   }
 
  private:
-  /// False when the replay is over: a sink failed, Ctrl-C, or the capture broke off.
-  bool play_once(Pace& pace) {
-    CapturePart part(capture_.source, options_.capture);
-    while (const decode::Datagram* datagram = sinks_ ? part.next() : nullptr) {
-      pace.wait_for(datagram->stamp_ns);
-      if (motion_ != nullptr) motion_->hear_until(datagram->stamp_ns);
-      decode(*datagram);
-    }
-    // A replay without an end is not cut short by Ctrl-C.
-    report_.interrupted = part.stopped() && options_.replay.loops != 0;
-    report_.input_warning = part.fault();
-    return sinks_ && !part.stopped() && part.fault().empty();
-  }
-
-  void decode(const decode::Datagram& datagram) {
-    ++offered_;
-    pipeline_.push(datagram);
-    take_frames();
-    if (pipeline_.rejected()) return;
-    clock_of_device_.note(pipeline_.decoder(), datagram.stamp_ns);
-    const auto* packet = hdl64e::packet_in(datagram.payload);
-    if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
-      status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
-    }
-  }
-
-  void take_frames() {
-    while (run::Frame* frame = pipeline_.next()) take(*frame);
-  }
-
-  /// Labels a frame and hands the labels to the sinks. A sink that fails is remembered, and
-  /// play_once() ends the replay.
-  void take(run::Frame& frame) {
+  /// A sink that fails is remembered, and ends the replay.
+  void take(const run::Frame& frame) {
     const FrameInfo& info = frame.record.info;
     const frame::RangeImage& image = *frame.image;
-    pipeline_.label(frame);
-    report_.add(frame.record);
-    if (info.number % run::LatestNearGround::kFramesApart == 0) {
-      pipeline_.take_near_ground(frame, *near_ground_);
-      mount_.add_frame(*near_ground_);
-    };
-
+    const std::span<const frame::Label> labels = capture_.labels();
     const std::string name = fmt::format("{:06}", info.number);
     const std::span<const std::uint32_t> truth = truth_.read(name, image.returns());
-    if (!truth.empty()) report_.score(pipeline_.labels(), truth);
-    if (sinks_) sinks_ = outputs_.write_labels(name, pipeline_.labels());
-    if (sinks_) sinks_ = outputs_.write_frame(name, image, pipeline_.labels(), truth);
-    if (sinks_) {
-      sinks_ = outputs_.publish(
-          frame.record, image, pipeline_.labels(),
-          stream::FrameTiming::of(frame.record.info, pipeline_.decoder().beam_turns()));
-    }
+    if (!truth.empty()) capture_.report().score(labels, truth);
+    sinks_ = outputs_.write_labels(name, labels);
+    if (sinks_) sinks_ = outputs_.write_frame(name, image, labels, truth);
+    if (sinks_) sinks_ = outputs_.publish(frame.record, image, labels, capture_.timing(frame));
     if (sinks_) {
       sinks_ = outputs_.write_returns(
-          {info.number, info.first_packet_ns, image, pipeline_.height_m(), pipeline_.labels()});
+          {info.number, info.first_packet_ns, image, capture_.height_m(), labels});
     }
-    progress_.update(static_cast<double>(report_.records.size()));
+    progress_.update(static_cast<double>(capture_.report().records.size()));
   }
 
   ExitCode conclude() {
     if (sinks_) sinks_ = outputs_.finish();
     if (!sinks_) return refuse(sinks_.error());
-    const frame::LossCounters losses = pipeline_.decoder().losses();
-    if (report_.records.empty() && report_.interrupted) {
+    if (capture_.report().records.empty() && capture_.report().interrupted) {
       return refuse(kInterrupted, "interrupted before the first frame came out");
     }
-    if (report_.records.empty()) {
-      return refuse(nothing_came_out(capture_.source, offered_, losses));
-    }
-    if (const std::string other = sensor::other_table_warning(status_, capture_.calibration);
-        !other.empty()) {
-      warn(other);
-    }
-    warn_of_other_senders(capture_, capture_.source.counters(), options_.capture);
-    report_.losses = losses;
-    report_.blind = pipeline_.decoder().blind();
-    report_.mount = mount_.figures();
-    if (clock_of_device_.noted()) {
-      report_.device_clock = clock_of_device_.text();
-      if (const std::string warning = clock_of_device_.warning(); !warning.empty()) warn(warning);
-    }
-    if (motion_ != nullptr) {
-      report_.motion_samples = motion_->samples();
-      if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
-    }
-    const ExitCode concluded = conclude_with(report_, options_.output.json);
-    if (concluded != kOk || motion_ == nullptr || report_.deskewed_frames() > 0) return concluded;
-    return refuse(kInputRefused,
-                  fmt::format("{}: none of the {} frames could be deskewed; is it of "
-                              "this drive, its stamps on the clock of the capture's?",
-                              options_.can_recording.string(), report_.records.size()));
+    const Status concluded = capture_.conclude();
+    if (!concluded && capture_.report().records.empty()) return refuse(concluded.error());
+    const ExitCode written = conclude_with(capture_.report(), options_.output.json);
+    return concluded || written != kOk ? written : refuse(concluded.error());
   }
 
   const Options& options_;
-  OpenCapture& capture_;
-  RecordedMotion* motion_;
-  memory::FixedMemory memory_;
-  run::PacketPipeline pipeline_;
-  hdl64e::StatusStreamReader status_;
-  DeviceClock clock_of_device_;
+  LabelledCapture& capture_;
   FrameOutputs outputs_;
-  std::unique_ptr<ground::NearGround> near_ground_ = std::make_unique<ground::NearGround>();
-  mount::Mount sensor_mount_;
-  MountWatch mount_;
   FrameTruth truth_;
-  Report report_;
+  Pace pace_;
   Progress progress_;
   Status sinks_;
-  std::uint64_t offered_ = 0;  ///< Datagrams given to the decoder.
 };
 
 }  // namespace
@@ -267,22 +171,12 @@ ExitCode run_replay(const Options& options) {
                                              "NNNNNN.label, as `terracut simulate` writes it",
                                              options.output.truth.string()));
   }
-  auto capture = open_capture(options.capture);
-  if (!capture) return refuse(capture.error());
-  CaptureFrames frames(*capture, options);
-  const auto mount = choose_mount(options.mount, frames);
-  if (!mount) return refuse_work(mount.error());
-  const auto profile = ring_profile_of(capture->calibration, mount->options);
-  if (!profile) return refuse(profile.error());
-  memory::FixedMemory motion_memory;
-  std::optional<RecordedMotion> motion;
-  if (!options.can_recording.empty()) {
-    auto opened = RecordedMotion::open(options, motion_memory);
-    if (!opened) return refuse(opened.error());
-    motion.emplace(*std::move(opened));
-  }
+  auto capture = LabelledCapture::open(options, FrameOutputs::need_points(options.output)
+                                                    ? FramesAreFor::kPoints
+                                                    : FramesAreFor::kLabels);
+  if (!capture) return refuse_work(capture.error());
   catch_stop_signals();
-  return Replay(options, *capture, *profile, *mount, motion ? &*motion : nullptr).run();
+  return Replay(options, **capture).run();
 }
 
 }  // namespace terracut::cli

@@ -9,6 +9,7 @@
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/net/device_stamp_shift.hpp"
+#include "repeated_send.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tools/cli/commands.hpp"
@@ -231,6 +232,29 @@ class Send {
 };
 
 }  // namespace
+
+Status send_until(const Options& options, const std::atomic<bool>& enough) {
+  memory::FixedMemory memory;
+  auto parts = open_parts(options, memory);
+  if (!parts) return tl::unexpected(parts.error());
+  PacketPacer pacer(options.send.play.rate, memory);
+  send::PassStamps stamps;
+  while (!enough && !stop_wanted()) {
+    const auto next = parts->source.next();
+    if (!next) return tl::unexpected(next.error());
+    if (!*next) {
+      if (Status status = parts->source.rewind(); !status) return status;
+      stamps.next_pass();
+      continue;
+    }
+    Datagram datagram = **next;
+    datagram.stamp_ns = stamps.place(datagram.stamp_ns);
+    UdpSender* socket = parts->sensor.sender_for(datagram.destination_port);
+    if (socket != nullptr) pacer.add(datagram, *socket);
+  }
+  pacer.flush();
+  return {};
+}
 
 ExitCode run_send(const Options& options) {
   memory::FixedMemory memory;

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <thread>
 
 #include "calib/beams/angle.hpp"
+#include "repeated_send.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/command_files.hpp"
@@ -67,12 +69,13 @@ Expected<simulator::SimulationConfig<EncoderTraits>> simulation_config(const Opt
 }
 
 template <class EncoderTraits>
-ExitCode simulate(const Options& options, const std::filesystem::path& output) {
+Expected<drive::DriveSummary> simulate(const Options& options,
+                                       const std::filesystem::path& output) {
   const auto config = simulation_config<EncoderTraits>(options);
-  if (!config) return refuse(config.error());
+  if (!config) return tl::unexpected(config.error());
   auto writer =
       drive::DriveWriter<EncoderTraits>::create(output, config->calibration, config->sensor);
-  if (!writer) return refuse(writer.error());
+  if (!writer) return tl::unexpected(writer.error());
 
   Progress progress("simulating", "seconds", options.simulate.duration_s);
   const auto simulated = simulator::simulate_drive(
@@ -82,28 +85,60 @@ ExitCode simulate(const Options& options, const std::filesystem::path& output) {
         return writer->add_column(column.wire.stamp_ns, column.wire.unwrapped_azimuth_cdeg,
                                   column.wire.by_laser);
       });
-  if (!simulated) return refuse_work(simulated.error());
-  const auto written = writer->finish();
-  if (!written) return refuse(written.error());
-  if (options.can_log) {
-    const auto samples = simulator::simulated_motion(*config);
-    if (!samples) return refuse(samples.error());
-    const Status logged = drive::write_vehicle_log(output, *samples);
-    if (!logged) return refuse(logged.error());
-  }
+  if (!simulated) return tl::unexpected(simulated.error());
+  auto written = writer->finish();
+  if (!written || !options.can_log) return written;
+  const auto samples = simulator::simulated_motion(*config);
+  if (!samples) return tl::unexpected(samples.error());
+  const Status logged = drive::write_vehicle_log(output, *samples);
+  if (!logged) return tl::unexpected(logged.error());
+  return written;
+}
 
+Expected<drive::DriveSummary> simulate_to(const Options& options,
+                                          const std::filesystem::path& output) {
+  return drive::with_encoder_traits(
+      options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
+      [&](auto traits) { return simulate<decltype(traits)>(options, output); });
+}
+
+ExitCode simulate_and_say(const Options& options, const std::filesystem::path& output) {
+  const auto made = simulate_to(options, output);
+  if (!made) return refuse_work(made.error());
   fmt::print("scene     {}, seed {}\n", options.simulate.scene, options.simulate.seed);
   if (!options.written.empty()) fmt::print("{}", wrote_drive(options));
-  fmt::print("frames    {}\nreturns   {}\npackets   {}\n", written->frames, written->returns,
-             written->packets);
+  fmt::print("frames    {}\nreturns   {}\npackets   {}\n", made->frames, made->returns,
+             made->packets);
   std::fflush(stdout);
   return kOk;
 }
 
-ExitCode simulate_to(const Options& options, const std::filesystem::path& output) {
-  return drive::with_encoder_traits(
-      options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
-      [&](auto traits) { return simulate<decltype(traits)>(options, output); });
+/// Rays take longer to trace than a frame lasts: the drive is computed first, then sent on time.
+/// Meanwhile its beginning goes out over and over, so that a sensor is heard within seconds.
+constexpr double kBeginning_s = 0.4;
+
+ExitCode simulate_sending_the_beginning(const Options& options, const std::filesystem::path& folder,
+                                        const std::filesystem::path& drive) {
+  Options beginning = options;
+  beginning.simulate.duration_s = kBeginning_s;
+  beginning.can_log = false;
+  beginning.send.faults.clear();
+  beginning.capture.file = folder / "beginning.pcap";
+  const auto begun = simulate_to(beginning, beginning.capture.file);
+  if (!begun) return refuse_work(begun.error());
+  say(fmt::format("sending the first {} s over and over, until all of the drive is computed",
+                  kBeginning_s));
+  std::atomic<bool> is_computed{false};
+  ExitCode simulated = kOk;
+  std::jthread computing([&] {
+    (void)::setpriority(PRIO_PROCESS, 0, 10);  // of this thread: packets go out on time
+    simulated = simulate_and_say(options, drive);
+    is_computed = true;
+  });
+  const Status sent = send_until(beginning, is_computed);
+  computing.join();
+  if (simulated != kOk) return simulated;
+  return done_or_refused(sent);
 }
 
 }  // namespace
@@ -114,18 +149,16 @@ ExitCode run_simulate(const Options& options) {
     if (options.written.empty()) {
       return refuse(kUsage, "nothing to do: -o FILE writes the drive, --udp ADDRESS:PORT sends it");
     }
-    return simulate_to(options, options.written);
+    return simulate_and_say(options, options.written);
   }
-  // Rays take longer to trace than a frame lasts: the drive is computed first, then sent on time.
-  std::optional<TemporaryFolder> scratch;
+  const TemporaryFolder scratch;
+  if (scratch.path().empty()) return refuse(kOutputFailed, "no temporary folder can be made");
   Options sending = options;
-  sending.capture.file = options.written;
-  if (sending.capture.file.empty()) {
-    scratch.emplace();
-    if (scratch->path().empty()) return refuse(kOutputFailed, "no temporary folder can be made");
-    sending.capture.file = scratch->path() / "drive.pcap";
-  }
-  const ExitCode simulated = simulate_to(options, sending.capture.file);
+  sending.capture.file = options.written.empty() ? scratch.path() / "drive.pcap" : options.written;
+  const bool is_short = options.simulate.duration_s < 2 * kBeginning_s;
+  const ExitCode simulated =
+      is_short ? simulate_and_say(options, sending.capture.file)
+               : simulate_sending_the_beginning(options, scratch.path(), sending.capture.file);
   return simulated == kOk ? run_send(sending) : simulated;
 }
 

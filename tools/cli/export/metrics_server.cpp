@@ -2,19 +2,16 @@
 // Copyright 2026 The terracut authors
 #include "metrics_server.hpp"
 
-#include <fmt/format.h>
 #include <httplib.h>
-#include <sys/socket.h>
 
-#include <cerrno>
 #include <chrono>
 #include <condition_variable>
-#include <cstring>
 #include <mutex>
 #include <thread>
 #include <utility>
 
 #include "http_host.hpp"
+#include "http_port.hpp"
 #include "metrics_text.hpp"
 
 namespace terracut::cli {
@@ -70,11 +67,6 @@ Expected<MetricsServer> MetricsServer::start(const std::string& address, std::ui
   state->source = std::move(source);
   httplib::Server& server = state->server;
   server.new_task_queue = [] { return new OneAtATime; };  // the server deletes it
-  // The library's default would let a second process listen on the same port unnoticed.
-  server.set_socket_options([](int socket) {
-    const int yes = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
-  });
   server.set_keep_alive_max_count(1);
   server.set_keep_alive_timeout(1);  // also how long a client may take to begin its request
   server.set_read_timeout(1);
@@ -96,18 +88,9 @@ Expected<MetricsServer> MetricsServer::start(const std::string& address, std::ui
     response.set_content("terracut's figures for Prometheus are at /metrics\n", "text/plain");
   });
 
-  errno = 0;
-  const int bound = port == 0                            ? server.bind_to_any_port(address)
-                    : server.bind_to_port(address, port) ? int{port}
-                                                         : -1;
-  if (bound <= 0) {
-    const int reason = errno;
-    return fail(
-        ErrorCode::kInvalidArgument,
-        fmt::format("cannot serve /metrics on {}:{}: {}; choose another address or port", address,
-                    port, reason == 0 ? "not an address of this machine" : std::strerror(reason)));
-  }
-  state->port = static_cast<std::uint16_t>(bound);
+  const auto bound = bind_http(server, address, port, "/metrics");
+  if (!bound) return tl::unexpected(bound.error());
+  state->port = *bound;
   std::thread([state] { state->serve(); }).detach();
   // Stopping a server that is not yet running would have no effect.
   while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -13,6 +13,7 @@
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/dds_output.hpp"
 #include "tools/cli/foxglove/foxglove_sink.hpp"
+#include "tools/cli/view/view_sink.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -49,10 +50,15 @@ Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions&
   return std::make_unique<FoxgloveSink>(*std::move(server), stream);
 }
 
+bool wants_view(const OutputOptions& options) {
+  return !options.view.empty() && options.view != "off";
+}
+
 }  // namespace
 
 bool wants_sinks(const OutputOptions& options) {
-  return !options.mcap.path.empty() || !options.foxglove.empty() || options.dds.publishes;
+  return !options.mcap.path.empty() || !options.foxglove.empty() || options.dds.publishes ||
+         wants_view(options);
 }
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
@@ -74,6 +80,12 @@ Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
     auto sink = open_dds_sink(options.dds, stream);
     if (!sink) return tl::unexpected(sink.error());
     sinks.push_back(*std::move(sink));
+  }
+  if (wants_view(options)) {
+    auto view = ViewSink::open(options.view, stream, nullptr);
+    if (!view) return tl::unexpected(view.error());
+    say("look at the frames in a browser: " + (*view)->url());
+    sinks.push_back(*std::move(view));
   }
   return sinks;
 }

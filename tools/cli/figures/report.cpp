@@ -221,16 +221,26 @@ std::string Report::text() const {
   return figure_lines(run_figures(), {}) + figure_lines(summary, {}) + times_table(summary, {});
 }
 
-Status Report::write_json(const std::filesystem::path& path) const {
+nlohmann::ordered_json frame_json(const FrameRecord& frame) {
+  Json json;
+  add_figures(frame_figures(frame), json);
+  return json;
+}
+
+Json Report::json() const {
   Json json;
   add_figures(run_figures(), json);
   Json& frames = json["frames"] = Json::array();
   for (const FrameRecord& frame : records) {
-    add_figures(frame_figures(frame), frames.emplace_back());
+    frames.push_back(frame_json(frame));
     if (motion_samples) frames.back()["deskewed"] = is_deskewed(frame);
   }
   add_figures(summary_figures(), json["summary"]);
-  return cli::write_json(path, json);
+  return json;
+}
+
+Status Report::write_json(const std::filesystem::path& path) const {
+  return cli::write_json(path, json());
 }
 
 ExitCode conclude_with(const Report& report, const std::filesystem::path& json) {

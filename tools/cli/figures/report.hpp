@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -36,6 +37,9 @@ struct TimeSummary {
 
 /// The method that ran: its name, or profile and stages.
 [[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
+
+/// An entry of frames[] in the report.
+[[nodiscard]] nlohmann::ordered_json frame_json(const status::FrameRecord& frame);
 
 /// The report of a run: what the frames' records say, and the same summarised.
 struct Report {
@@ -90,6 +94,7 @@ struct Report {
   ///                   points_no_ring; mount and blind as of a live run; with a CAN recording
   ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,
   ///                   max}}
+  [[nodiscard]] nlohmann::ordered_json json() const;
   [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
  private:

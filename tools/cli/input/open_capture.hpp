@@ -50,6 +50,8 @@ class CapturePart {
   /// is warned of, and when stop_wanted().
   [[nodiscard]] const decode::Datagram* next();
 
+  /// Of the capture, whatever --start leaves out of it; none before next().
+  [[nodiscard]] std::optional<std::int64_t> first_stamp_ns() const noexcept { return first_ns_; }
   /// Where it broke off; empty: it did not.
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
   /// Whether it was left because of stop_wanted().

@@ -22,15 +22,16 @@ constexpr double kLongest_s = 1e9;
 constexpr double kMostLoops = std::numeric_limits<int>::max();
 constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to here
 
-constexpr CommandSet kCaptures = C::kReplay | C::kCalibrate | C::kBench;
-constexpr CommandSet kWholeCaptures = C::kReplay | C::kBench | C::kInfo | C::kSend;
+constexpr CommandSet kPlayed = C::kReplay | C::kView;
+constexpr CommandSet kCaptures = kPlayed | C::kCalibrate | C::kBench;
+constexpr CommandSet kWholeCaptures = kPlayed | C::kBench | C::kInfo | C::kSend;
 constexpr CommandSet kPackets = kCaptures | C::kLive;
 constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval | C::kNode;
 constexpr CommandSet kMethods = kPackets | C::kSegment | C::kRelabel | C::kPlan | C::kNode;
-constexpr CommandSet kDriven = C::kReplay | C::kLive;
+constexpr CommandSet kDriven = kPlayed | C::kLive;
 constexpr CommandSet kMoved = kDriven | C::kRelabel;
 constexpr CommandSet kFrames = C::kReplay | C::kSegment;
-constexpr CommandSet kPublished = kDriven | C::kSegment;
+constexpr CommandSet kPublished = kFrames | C::kLive;
 constexpr CommandSet kDrives = C::kSimulate | C::kEval;
 constexpr CommandSet kSending = C::kSend | C::kSimulate;
 constexpr CommandSet kDds = C::kReplay | C::kLive | C::kSegment | C::kNode;
@@ -151,14 +152,14 @@ constexpr std::array kSettings{
             .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.last_stage, kStageWords); }},
     Setting{.option = "--set", .commands = kMethods | C::kEval, .help = "Any parameter of the method (`terracut parameters` lists them); repeatable",
             .form = TextForm::kParameter, .field = [](O& o) -> F { return &o.method.settings; }},
-    Setting{.option = "--method", .commands = C::kReplay | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
+    Setting{.option = "--method", .commands = kPlayed | C::kSegment | C::kPlan | C::kBench, .help = "Ours or a baseline by name, instead of --profile and --stages",
             .denied_to = C::kLive | C::kNode | C::kCalibrate | C::kRelabel, .denial = "it runs our own method, as --profile, --stages and --set choose it", .field = [](O& o) -> F { return method_choice(o.method.method); }},
     Setting{.option = "--keep-mount", .commands = C::kCalibrate, .help = "Take the mount as stated, 1.73 m and level where it is not; only measure the rings' ground distances",
             .bare = "yes", .field = [](O& o) -> F { return &o.keep_mount; }},
 
     Setting{.key = "motion.can", .option = "--can", .commands = C::kLive, .help = "CAN interface of the vehicle, whose motion is removed from every frame (default: none)",
             .form = TextForm::kName, .field = [](O& o) -> F { return &o.can; }},
-    Setting{.option = "--can", .commands = C::kReplay, .help = "Recording of the vehicle's CAN bus (candump log or capture) on the clock of the packets' stamps: its motion is removed from every frame",
+    Setting{.option = "--can", .commands = kPlayed, .help = "Recording of the vehicle's CAN bus (candump log or capture) on the clock of the packets' stamps: its motion is removed from every frame",
             .reads = "the CAN recording", .field = [](O& o) -> F { return &o.can_recording; }},
     Setting{.key = "motion.dbc", .option = "--dbc", .commands = kDriven, .help = "DBC file that says what the vehicle's CAN frames mean",
             .needs = "--can", .reads = "the DBC file", .field = [](O& o) -> F { return &o.motion.dbc; }},
@@ -239,6 +240,10 @@ constexpr std::array kSettings{
             .field = [](O& o) -> F { return &o.output.frame_id; }},
     Setting{.key = "output.sensor_frame_id", .option = "--sensor-frame-id", .commands = kPublished, .help = "ROS frame of the sensor, below which the points' frame is told to lie; off: no transform is told",
             .field = [](O& o) -> F { return &o.output.sensor_frame_id; }},
+    Setting{.key = "output.view", .option = "--view", .commands = kPublished, .help = "Where a browser sees the frames as they come (docs/guide/view.md); a port alone: of this machine; no address: 8480 (default: nowhere)",
+            .form = TextForm::kServingOrOff, .bare = "8480", .field = [](O& o) -> F { return &o.output.view; }},
+    Setting{.option = "--at", .commands = C::kView, .help = "Where a browser sees the frames; a port alone: of this machine",
+            .form = TextForm::kServingOrOff, .field = [](O& o) -> F { return &o.view_at; }},
     Setting{.key = "output.trace", .option = "--trace", .commands = C::kLive, .help = "File for the last frames as a trace, for ui.perfetto.dev",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.trace; }},
 
@@ -336,7 +341,7 @@ constexpr std::array kSettings{
             .bare = "yes", .excludes = "--keep-compensation", .field = [](O& o) -> F { return &o.can_log; }},
 
     // Where a drive is sent to
-    Setting{.option = "--udp", .commands = C::kSimulate, .help = "ADDRESS[:PORT]: be the sensor, and send the drive in real time once it is computed",
+    Setting{.option = "--udp", .commands = C::kSimulate, .help = "ADDRESS[:PORT]: be the sensor, and send the drive in real time; until it is computed its beginning, over and over",
             .field = [](O& o) -> F { return &o.send.to; }},
     Setting{.option = "--to", .commands = C::kSend, .required_by = C::kSend, .help = "ADDRESS:PORT to send to; a multicast group and broadcast will do.\nADDRESS alone: every datagram to the port it was captured on",
             .field = [](O& o) -> F { return &o.send.to; }},

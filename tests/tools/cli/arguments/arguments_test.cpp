@@ -103,8 +103,9 @@ TEST(Arguments, AMistypedOptionIsRefusedWithTheOneMeant) {
 }
 
 TEST(Arguments, AnOptionOfOtherCommandsIsRefusedWithTheirNames) {
-  EXPECT_EQ(refusal_of("info d.pcap --method pfaff"),
-            "info has no option --method; --method is of: replay, segment, plan, bench, eval");
+  EXPECT_EQ(
+      refusal_of("info d.pcap --method pfaff"),
+      "info has no option --method; --method is of: replay, view, segment, plan, bench, eval");
   EXPECT_EQ(refusal_of("top --labels l"),
             "top has no option --labels; --labels is of: replay, segment, live");
   EXPECT_EQ(refusal_of("--json r.json info d.pcap"), "--json goes behind the command");
@@ -115,7 +116,7 @@ TEST(Arguments, AnOptionThatIsNotToBeHadIsRefusedWithWhatThereIsInstead) {
     EXPECT_EQ(refusal_of(command + " --method pfaff"),
               command +
                   " has no option --method: it runs our own method, as --profile, --stages "
-                  "and --set choose it; --method is of: replay, segment, plan, bench, eval");
+                  "and --set choose it; --method is of: replay, view, segment, plan, bench, eval");
   }
 }
 

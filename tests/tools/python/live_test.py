@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+import os
+import signal
+import socket
+import subprocess
+import threading
+import unittest
+
+from drive import CALIBRATION, CAPTURE, PROGRAM, error_of
+
+import numpy as np
+import terracut
+
+
+def free_port() -> int:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+class Live(unittest.TestCase):
+    def setUp(self):
+        self.address = f"127.0.0.1:{free_port()}"
+
+    def be_the_sensor(self):
+        environment = {name: value for name, value in os.environ.items() if name != "LD_PRELOAD"}
+        sensor = subprocess.Popen(
+            [PROGRAM, "send", CAPTURE, "--to", self.address, "--loop"],
+            env=environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+        )  # fmt: skip
+        self.addCleanup(sensor.wait)
+        self.addCleanup(sensor.kill)
+
+    def test_frames_come_labelled_until_the_block_ends(self):
+        self.be_the_sensor()
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False) as frames:
+            taken = [frame for frame, _ in zip(frames, range(5))]
+        numbers = [frame.number for frame in taken]
+        self.assertEqual(len(numbers), 5)
+        self.assertEqual(numbers, sorted(set(numbers)))
+        for frame in taken:
+            self.assertGreater(len(frame), 10_000)
+            self.assertLessEqual(set(np.unique(frame.labels)), {terracut.GROUND, terracut.OBSTACLE})
+            self.assertGreater(frame.last_packet_ns, frame.first_packet_ns)
+        figures = frames.figures()
+        self.assertGreaterEqual(figures["frames"], 5)
+        self.assertGreater(figures["decoded"], 1000)
+
+    def test_a_loop_that_is_too_slow_misses_the_oldest_frames_which_are_counted(self):
+        self.be_the_sensor()
+        with terracut.live(self.address, CALIBRATION, deadline=1000, lock_memory=False) as frames:
+            first = next(frames)
+            while frames.figures()["frames_left_out"] == 0:
+                threading.Event().wait(0.01)
+        waiting = list(frames)
+        self.assertGreater(waiting[0].number, first.number + 1)
+        self.assertLessEqual(len(waiting), 4)
+
+    def test_a_run_ends_by_itself_after_its_duration(self):
+        self.be_the_sensor()
+        frames = list(terracut.live(self.address, CALIBRATION, duration=0.5, deadline=1000, lock_memory=False))
+        self.assertGreater(len(frames), 0)
+
+    def test_nobody_sends(self):
+        with self.assertRaises(terracut.Error):
+            terracut.live(self.address, patience=0.2, lock_memory=False)
+
+    def test_ctrl_c_ends_the_wait_for_a_sensor(self):
+        threading.Timer(0.3, signal.raise_signal, [signal.SIGINT]).start()
+        with self.assertRaises(KeyboardInterrupt):
+            terracut.live(self.address, lock_memory=False)
+
+    def test_wrong_settings_are_refused_in_the_programs_words(self):
+        with self.assertRaises(terracut.InvalidArgument) as raised:
+            terracut.live(self.address, deadline=0)
+        self.assertEqual(str(raised.exception), error_of("live", "--listen", self.address, "--deadline", "0"))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// Sends the capture over and over in real time, as run_send() does, without faults and summary,
+/// until it is `enough` or stop_wanted(). The errors of opening capture and sockets.
+[[nodiscard]] Status send_until(const Options& options, const std::atomic<bool>& enough);
+
+}  // namespace terracut::cli

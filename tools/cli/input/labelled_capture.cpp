@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "labelled_capture.hpp"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "firmware_io/sensor/told_table.hpp"
+#include "pipeline/run/latest_near_ground.hpp"
+#include "recorded_frames.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+
+namespace terracut::cli {
+
+Expected<std::unique_ptr<LabelledCapture>> LabelledCapture::open(const Options& options,
+                                                                 FramesAreFor purpose) {
+  std::unique_ptr<LabelledCapture> opened(new LabelledCapture(options));
+  if (Status ready = opened->prepare(purpose); !ready) return tl::unexpected(ready.error());
+  return opened;
+}
+
+Status LabelledCapture::prepare(FramesAreFor purpose) {
+  auto capture = open_capture(options_.capture);
+  if (!capture) return tl::unexpected(capture.error());
+  capture_ = *std::move(capture);
+  CaptureFrames frames(*capture_, options_);
+  const auto mount = choose_mount(options_.mount, frames);
+  if (!mount) return tl::unexpected(mount.error());
+  mount_choice_ = *mount;
+  const auto profile = ring_profile_of(capture_->calibration, mount->options);
+  if (!profile) return tl::unexpected(profile.error());
+  if (!options_.can_recording.empty()) {
+    auto motion = RecordedMotion::open(options_, motion_memory_);
+    if (!motion) return tl::unexpected(motion.error());
+    motion_.emplace(*std::move(motion));
+  }
+  pipeline_.emplace(capture_->calibration, *profile,
+                    decoder_config_of(options_, capture_->sensor.columns, purpose,
+                                      motion_ ? &motion_->motion() : nullptr),
+                    method_config_of(options_.method), memory_);
+  clock_of_device_.emplace(options_.capture.clock_offset_s);
+  sensor_mount_ = profile->mount;
+  mount_.emplace(sensor_mount_, *mount);
+  report_ = {"replay", options_.capture.file.string(), capture_->sensor_line,
+             capture_->calibration_line, options_.method};
+  part_.emplace(capture_->source, options_.capture);
+  return {};
+}
+
+Status LabelledCapture::rewind(std::optional<double> start_s) {
+  if (!ended_) pipeline_->end_stream();
+  gives_frames_ = gives_frames_ || !ended_;
+  while (gives_frames_ && pipeline_->next() != nullptr) {
+  }
+  gives_frames_ = false;
+  if (Status status = capture_->source.rewind(); !status) return status;
+  if (motion_) {
+    if (Status status = motion_->restart(); !status) return status;
+  }
+  CaptureOptions from = options_.capture;
+  if (start_s && from.duration_s) *from.duration_s += from.start_s - *start_s;
+  if (start_s) from.start_s = *start_s;
+  part_.emplace(capture_->source, from);
+  pushed_ = nullptr;
+  ended_ = false;
+  return {};
+}
+
+const run::Frame* LabelledCapture::next() {
+  for (;;) {
+    run::Frame* frame = gives_frames_ ? pipeline_->next() : nullptr;
+    if (frame != nullptr) {
+      pipeline_->label(*frame);
+      report_.add(frame->record);
+      if (frame->record.info.number % run::LatestNearGround::kFramesApart == 0) {
+        pipeline_->take_near_ground(*frame, *near_ground_);
+        mount_->add_frame(*near_ground_);
+      }
+      return frame;
+    }
+    gives_frames_ = false;
+    if (pushed_ != nullptr && !pipeline_->rejected()) note_packet(*pushed_);
+    pushed_ = nullptr;
+    if (ended_) return nullptr;
+    if (!decode_one()) {
+      ended_ = true;
+      pipeline_->end_stream();
+    }
+    gives_frames_ = true;
+  }
+}
+
+bool LabelledCapture::decode_one() {
+  pushed_ = part_->next();
+  if (pushed_ == nullptr) {
+    report_.interrupted = part_->stopped();
+    report_.input_warning = part_->fault();
+    return false;
+  }
+  first_stamp_ns_ = part_->first_stamp_ns().value_or(0);
+  if (wait_) wait_(pushed_->stamp_ns);
+  if (motion_) motion_->hear_until(pushed_->stamp_ns);
+  ++offered_;
+  pipeline_->push(*pushed_);
+  return true;
+}
+
+void LabelledCapture::note_packet(const decode::Datagram& datagram) {
+  clock_of_device_->note(pipeline_->decoder(), datagram.stamp_ns);
+  const auto* packet = hdl64e::packet_in(datagram.payload);
+  if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
+    status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
+  }
+}
+
+Status LabelledCapture::conclude() {
+  const frame::LossCounters losses = pipeline_->decoder().losses();
+  if (report_.records.empty()) {
+    return tl::unexpected(nothing_came_out(capture_->source, offered_, losses));
+  }
+  if (const std::string other = sensor::other_table_warning(status_, capture_->calibration);
+      !other.empty()) {
+    warn(other);
+  }
+  warn_of_other_senders(*capture_, capture_->source.counters(), options_.capture);
+  report_.losses = losses;
+  report_.blind = pipeline_->decoder().blind();
+  report_.mount = mount_->figures();
+  if (clock_of_device_->noted()) {
+    report_.device_clock = clock_of_device_->text();
+    if (const std::string warning = clock_of_device_->warning(); !warning.empty()) warn(warning);
+  }
+  if (!motion_) return {};
+  report_.motion_samples = motion_->samples();
+  if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
+  if (report_.deskewed_frames() > 0) return {};
+  return fail(ErrorCode::kMalformed,
+              fmt::format("{}: none of the {} frames could be deskewed; is it of "
+                          "this drive, its stamps on the clock of the capture's?",
+                          options_.can_recording.string(), report_.records.size()));
+}
+
+}  // namespace terracut::cli

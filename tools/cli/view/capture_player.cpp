@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "capture_player.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kMoment{50};
+
+double seconds(std::int64_t ns) {
+  return static_cast<double>(ns) * 1e-9;
+}
+
+}  // namespace
+
+CapturePlayer::CapturePlayer(LabelledCapture& capture, const CaptureOptions& options)
+    : capture_(capture), options_(options) {
+  if (const double spin_hz = capture.capture().sensor.spin_hz; spin_hz > 0) {
+    state_.frame_s = 1 / spin_hz;
+  }
+  measuring_ = std::thread([this] { measure(); });
+}
+
+CapturePlayer::~CapturePlayer() {
+  stop_measuring_ = true;
+  measuring_.join();
+}
+
+/// A capture says nowhere how long it is.
+void CapturePlayer::measure() {
+  auto source = open_again(capture_.capture(), options_);
+  constexpr std::uint64_t kPacketsAtOnce = 4096;
+  std::optional<std::int64_t> first_ns;
+  std::int64_t last_ns = 0;
+  for (std::uint64_t read = 0; source && !stop_measuring_; ++read) {
+    const auto next = source->next();
+    if (!next || !*next) break;
+    if (!first_ns) first_ns = (*next)->stamp_ns;
+    last_ns = std::max(last_ns, (*next)->stamp_ns);
+    if (read % kPacketsAtOnce == 0) note_duration(last_ns - *first_ns);
+  }
+  if (first_ns) note_duration(last_ns - *first_ns);
+}
+
+void CapturePlayer::note_duration(std::int64_t so_far_ns) {
+  const std::lock_guard lock(mutex_);
+  state_.duration_s = seconds(so_far_ns);
+}
+
+void CapturePlayer::obey(const PlayerCommand& command) {
+  const std::lock_guard lock(mutex_);
+  if (command.playing) {
+    state_.playing = *command.playing;
+    if (state_.playing && at_end_ && !command.seek_s) seek_s_ = 0;
+  }
+  if (command.rate) state_.rate = *command.rate;
+  if (command.seek_s) seek_s_ = command.seek_s;
+  if (command.step) state_.playing = false;
+  if (command.step || (command.seek_s && !state_.playing)) steps_ = 1;
+  ++commands_;
+  told_.notify_all();
+}
+
+PlayerState CapturePlayer::state() const {
+  const std::lock_guard lock(mutex_);
+  return state_;
+}
+
+Status CapturePlayer::run(const OnFrame& on_frame) {
+  while (!stop_wanted()) {
+    std::optional<double> seek_s;
+    {
+      std::unique_lock lock(mutex_);
+      const auto has_work = [&] { return seek_s_ || steps_ > 0 || (state_.playing && !at_end_); };
+      if (!told_.wait_for(lock, kMoment, has_work)) continue;
+      seek_s = std::exchange(seek_s_, std::nullopt);
+    }
+    if (seek_s) {
+      if (Status gone = go_to(*seek_s); !gone) return gone;
+    }
+    const run::Frame* frame = next_due();
+    if (frame == nullptr && !has_frames_) return capture_.conclude();
+    if (frame == nullptr) continue;
+    if (Status taken = on_frame(*frame, capture_.labels()); !taken) return taken;
+    const std::lock_guard lock(mutex_);
+    state_.position_s = std::max(0.0, seconds(frame->record.info.first_packet_ns - begin_ns()));
+    steps_ = std::max(0, steps_ - 1);
+  }
+  return {};
+}
+
+Status CapturePlayer::go_to(double seek_s) {
+  // A frame more, because the first one begins somewhere within a revolution and is not shown.
+  const double frame_s = state().frame_s;
+  const auto middle_ns = static_cast<std::int64_t>((seek_s + frame_s / 2) * 1e9);
+  skip_to_ns_ = begin_ns() + middle_ns;
+  if (Status status = capture_.rewind(std::max(0.0, seek_s - 1.25 * frame_s)); !status) {
+    return status;
+  }
+  pace_.reset();
+  const std::lock_guard lock(mutex_);
+  at_end_ = false;
+  return {};
+}
+
+/// The next frame once its time has come; null: something else is wanted meanwhile, or there is
+/// none.
+const run::Frame* CapturePlayer::next_due() {
+  const run::Frame* frame = capture_.next();
+  has_frames_ = has_frames_ || frame != nullptr;
+  while (frame != nullptr && frame->record.info.last_packet_ns < skip_to_ns_)
+    frame = capture_.next();
+  skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
+  capture_.report().records.clear();  // a player may run for days
+  if (frame == nullptr) {
+    const std::lock_guard lock(mutex_);
+    at_end_ = true;
+    steps_ = 0;
+    state_.playing = false;
+    return nullptr;
+  }
+  return wait_until_due(frame->record.info.first_packet_ns) ? frame : nullptr;
+}
+
+bool CapturePlayer::wait_until_due(std::int64_t stamp_ns) {
+  std::unique_lock lock(mutex_);
+  while (!stop_wanted()) {
+    if (seek_s_) return false;
+    if (steps_ > 0) {
+      pace_.reset();
+      return true;
+    }
+    const std::uint64_t commands = commands_;
+    if (!state_.playing) {
+      pace_.reset();
+      told_.wait_for(lock, kMoment);
+      continue;
+    }
+    const auto now = Clock::now();
+    if (!pace_ || stamp_ns < pace_->second) pace_ = {now, stamp_ns};
+    const auto due =
+        pace_->first + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
+                           seconds(stamp_ns - pace_->second) / state_.rate));
+    if (due <= now) {
+      // Where labels come more slowly than frames did, the capture takes its time.
+      if (now - due > std::chrono::seconds(1)) pace_ = {now, stamp_ns};
+      return true;
+    }
+    told_.wait_until(lock, std::min(due, now + kMoment));
+    if (commands != commands_) pace_.reset();  // another rate perhaps: it holds from here on
+  }
+  return false;
+}
+
+}  // namespace terracut::cli

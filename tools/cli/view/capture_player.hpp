@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "tools/cli/input/labelled_capture.hpp"
+#include "view_routes.hpp"
+
+namespace terracut::cli {
+
+/// Plays a capture at its own speed, or as it is told: stands, steps, goes elsewhere. At the end it
+/// stands, and goes on from the beginning.
+class CapturePlayer : public ViewedCapture {
+ public:
+  using OnFrame =
+      std::function<Status(const run::Frame& frame, std::span<const frame::Label> labels)>;
+
+  /// `capture` must outlive it. How long it is, is found out on a thread that reads it through.
+  CapturePlayer(LabelledCapture& capture, const CaptureOptions& options);
+  ~CapturePlayer() override;
+
+  /// Until stop_wanted(); each frame when its time has come. The errors of the capture and
+  /// of on_frame; kNothingCameOut where the capture has no frame.
+  [[nodiscard]] Status run(const OnFrame& on_frame);
+
+  void obey(const PlayerCommand& command) override;
+  [[nodiscard]] PlayerState state() const override;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] Status go_to(double seek_s);
+  [[nodiscard]] const run::Frame* next_due();
+  [[nodiscard]] bool wait_until_due(std::int64_t stamp_ns);
+  void measure();
+  void note_duration(std::int64_t so_far_ns);
+  /// Stamp of the capture's first datagram; known once a frame came out.
+  [[nodiscard]] std::int64_t begin_ns() const { return capture_.first_stamp_ns(); }
+
+  LabelledCapture& capture_;
+  CaptureOptions options_;
+  mutable std::mutex mutex_;
+  std::condition_variable told_;
+  PlayerState state_;             ///< Guarded by mutex_, as what follows.
+  std::optional<double> seek_s_;  ///< Where it is to go.
+  int steps_ = 0;                 ///< Frames to show though it stands.
+  std::uint64_t commands_ = 0;
+  bool at_end_ = false;
+
+  bool has_frames_ = false;
+  std::int64_t skip_to_ns_ = 0;  ///< Frames that end before are not shown.
+  std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;  ///< When which stamp was due.
+  std::atomic<bool> stop_measuring_{false};
+  std::thread measuring_;
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "view_frames.hpp"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "pipeline/status/loss_causes.hpp"
+
+namespace terracut::cli {
+namespace {
+
+double milliseconds(std::int64_t ns) {
+  return static_cast<double>(ns / 1000) / 1000;
+}
+
+}  // namespace
+
+ViewFrames::ViewFrames(const publish::Stream& stream) : stream_(stream) {}
+
+void ViewFrames::put(const publish::LabelledFrame& frame) {
+  const std::shared_ptr<Kept> room = spare();
+  const Shown of_frame = shown(frame.record);
+  room->points.assign(frame.points.begin(), frame.points.end());
+  room->header = stream::header_of(frame.record, stream::StreamedSensor::kUnknown, of_frame.missed,
+                                   frame.points.size());
+  const std::lock_guard lock(mutex_);
+  newest_ = room;
+  ++turns_;
+  losses_ += frame.record.info.losses;
+  shown_.push_back(of_frame);
+  if (shown_.size() > kFramesShown) shown_.pop_front();
+  came_.notify_all();
+}
+
+void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
+  const std::lock_guard lock(mutex_);
+  run_ = figures;
+}
+
+ViewFrames::Turn ViewFrames::newer(std::uint64_t after, std::chrono::milliseconds patience) const {
+  std::unique_lock lock(mutex_);
+  if (!came_.wait_for(lock, patience, [&] { return turns_ > after; })) return {};
+  return {turns_, newest_};
+}
+
+/// A room that no browser reads from; as many as browsers, one for the newest and one for the next.
+std::shared_ptr<ViewFrames::Kept> ViewFrames::spare() {
+  const std::lock_guard lock(mutex_);
+  for (const std::shared_ptr<Kept>& room : rooms_) {
+    if (room.use_count() == 1) return room;
+  }
+  return rooms_.emplace_back(std::make_shared<Kept>());
+}
+
+ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noexcept {
+  if (stream_.deadline_ns == 0) {
+    return {milliseconds(record.decode_cpu_ns + record.stages.sum_ns()), record.level, false};
+  }
+  const std::int64_t latency_ns = record.labels_ns - record.info.last_packet_ns;
+  return {milliseconds(latency_ns), record.level, latency_ns > stream_.deadline_ns};
+}
+
+nlohmann::ordered_json ViewFrames::figures() const {
+  nlohmann::ordered_json json;
+  const std::lock_guard lock(mutex_);
+  json["sensor"] = stream_.sensor;
+  json["rows"] = stream_.rows;
+  json["deadline_ms"] = nullptr;
+  if (stream_.deadline_ns > 0) json["deadline_ms"] = milliseconds(stream_.deadline_ns);
+  json["frames"] = nlohmann::ordered_json::array();
+  for (const Shown& frame : shown_) {
+    json["frames"].push_back({frame.ms, static_cast<int>(frame.level), frame.missed});
+  }
+  json["losses"] = nlohmann::ordered_json::array();
+  const auto add = [&](std::string_view cause, std::uint64_t count) {
+    if (count > 0) json["losses"].push_back({cause, count});
+  };
+  if (!run_) {
+    for (const status::NamedCount& loss : status::causes_of(losses_)) {
+      add(loss.name.view(), loss.count);
+    }
+    return json;
+  }
+  add("deadlines_missed", run_->all_misses());
+  add("frames_skipped", run_->levels[static_cast<std::size_t>(status::Level::kSkipped)]);
+  for (const status::NamedCount& loss : run_->losses_in_use()) add(loss.name.view(), loss.count);
+  return json;
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json_fwd.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "pipeline/publish/labelled_frame.hpp"
+#include "pipeline/publish/stream.hpp"
+#include "pipeline/status/monitor_snapshot.hpp"
+#include "pipeline/stream/labelled_frame_wire.hpp"
+
+namespace terracut::cli {
+
+/// The newest frame for any number of browsers, and what is said of the last 300. A browser that is
+/// slow gets the newest one when it is ready for it; nothing waits for it. Any thread without a
+/// deadline.
+class ViewFrames {
+ public:
+  struct Kept {
+    stream::FrameWireHeader header;
+    std::vector<stream::LabelledPoint> points;
+  };
+  struct Turn {
+    std::uint64_t number = 0;           ///< 1.. of the frames that were put; 0: none yet.
+    std::shared_ptr<const Kept> frame;  ///< Null: nothing newer within the patience.
+  };
+  static constexpr std::size_t kFramesShown = 300;
+
+  explicit ViewFrames(const publish::Stream& stream);
+
+  /// Copies the frame.
+  void put(const publish::LabelledFrame& frame);
+  void put_figures(const status::MonitorSnapshot& figures);
+
+  /// Waits for one that is newer than turn `after`, so long at most.
+  [[nodiscard]] Turn newer(std::uint64_t after, std::chrono::milliseconds patience) const;
+  /// For the page: sensor, rows, deadline_ms or null, frames[] as [ms, level, missed], losses[] as
+  /// [cause, count].
+  [[nodiscard]] nlohmann::ordered_json figures() const;
+
+ private:
+  struct Shown {
+    double ms = 0;
+    status::Level level = status::Level::kFull;
+    bool missed = false;
+  };
+  [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
+  [[nodiscard]] std::shared_ptr<Kept> spare();
+
+  publish::Stream stream_;
+  mutable std::mutex mutex_;
+  mutable std::condition_variable came_;
+  std::vector<std::shared_ptr<Kept>> rooms_;  ///< Guarded by mutex_, as what follows.
+  std::shared_ptr<const Kept> newest_;
+  std::uint64_t turns_ = 0;
+  std::deque<Shown> shown_;
+  frame::LossCounters losses_;
+  std::optional<status::MonitorSnapshot> run_;
+};
+
+}  // namespace terracut::cli

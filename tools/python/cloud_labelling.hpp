@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <pybind11/numpy.h>
+
+#include <mutex>
+
+#include "pipeline/terracut/segmenter.hpp"
+
+namespace terracut::python {
+
+/// A Segmenter for numpy arrays. Any thread of the interpreter, one at a time.
+class CloudLabelling {
+ public:
+  explicit CloudLabelling(const Segmenter::Config& config);
+
+  /// `points`: (N, 3 or more) or, organised, (rows, columns, 3 or more) of float32 or float64, x y
+  /// z first; or an array of records with fields x, y, z and, where there is one, ring. `laser`:
+  /// None, or a number 0..255 a point. One label a point, a class of SemanticKITTI, in an array of
+  /// its own.
+  [[nodiscard]] pybind11::array_t<std::uint8_t> label(const pybind11::object& points,
+                                                      const pybind11::object& laser);
+
+ private:
+  std::mutex mutex_;
+  Segmenter segmenter_;
+};
+
+void bind_segmenter(pybind11::module_& module);
+
+}  // namespace terracut::python

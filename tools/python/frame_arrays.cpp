@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "frame_arrays.hpp"
+
+#include <cstddef>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "json_object.hpp"
+#include "tools/cli/figures/report.hpp"
+
+namespace terracut::python {
+namespace py = pybind11;
+namespace {
+
+using Point = stream::LabelledPoint;
+
+py::dtype point_type() {
+  py::list names, formats, offsets;
+  const auto add = [&](const char* name, const char* format, std::size_t offset) {
+    names.append(name);
+    formats.append(format);
+    offsets.append(offset);
+  };
+  add("x", "<f4", offsetof(Point, x_m));
+  add("y", "<f4", offsetof(Point, y_m));
+  add("z", "<f4", offsetof(Point, z_m));
+  add("intensity", "u1", offsetof(Point, intensity));
+  add("label", "u1", offsetof(Point, label));
+  add("ring", "<u2", offsetof(Point, row));
+  add("time", "<f4", offsetof(Point, time_s));
+  return {names, formats, offsets, sizeof(Point)};
+}
+
+py::array array_of(const py::object& self, const py::dtype& type, std::size_t offset,
+                   py::ssize_t columns) {
+  const auto& points = self.cast<const FrameData&>().points;
+  const auto rows = static_cast<py::ssize_t>(points.size());
+  const auto step = static_cast<py::ssize_t>(sizeof(Point));
+  const auto* at =
+      reinterpret_cast<const std::byte*>(points.data()) + (points.empty() ? 0 : offset);
+  if (columns == 1) return {type, {rows}, {step}, at, self};
+  return {type, {rows, columns}, {step, type.itemsize()}, at, self};
+}
+
+template <class T>
+auto view(std::size_t offset, py::ssize_t columns = 1) {
+  return [offset, columns](const py::object& self) {
+    return array_of(self, py::dtype::of<T>(), offset, columns);
+  };
+}
+
+}  // namespace
+
+std::shared_ptr<FrameData> FrameBuffers::take() {
+  std::unique_ptr<FrameData> frame;
+  {
+    const std::lock_guard lock(spare_->mutex);
+    if (!spare_->frames.empty()) {
+      frame = std::move(spare_->frames.back());
+      spare_->frames.pop_back();
+    }
+  }
+  if (!frame) frame = std::make_unique<FrameData>();
+  return {frame.release(), [spare = spare_](FrameData* dropped) {
+            std::unique_ptr<FrameData> owned(dropped);
+            const std::lock_guard lock(spare->mutex);
+            if (spare->frames.size() < kMostSpare) spare->frames.push_back(std::move(owned));
+          }};
+}
+
+void bind_frame(py::module_& module) {
+  using Class = py::class_<FrameData, std::shared_ptr<FrameData>>;
+  const auto of_info = [](auto member) {
+    return [member](const FrameData& frame) { return frame.info.*member; };
+  };
+  Class(module, "Frame", "One labelled revolution of the sensor; its arrays share its memory.")
+      .def_property_readonly("number", of_info(&frame::FrameInfo::number))
+      .def_property_readonly("first_packet_ns", of_info(&frame::FrameInfo::first_packet_ns))
+      .def_property_readonly("last_packet_ns", of_info(&frame::FrameInfo::last_packet_ns))
+      .def_property_readonly("complete", of_info(&frame::FrameInfo::complete))
+      .def_property_readonly("deskewed",
+                             [](const FrameData& frame) {
+                               return frame.info.deskew.state == frame::DeskewState::kDone;
+                             })
+      .def_property_readonly("report",
+                             [](const FrameData& frame) -> py::object {
+                               if (!frame.record) return py::none();
+                               return json_object(cli::frame_json(*frame.record));
+                             })
+      .def_property_readonly(
+          "data", [](const py::object& self) { return array_of(self, point_type(), 0, 1); })
+      .def_property_readonly("points", view<float>(offsetof(Point, x_m), 3))
+      .def_property_readonly("intensity", view<std::uint8_t>(offsetof(Point, intensity)))
+      .def_property_readonly("labels", view<std::uint8_t>(offsetof(Point, label)))
+      .def_property_readonly("ring", view<std::uint16_t>(offsetof(Point, row)))
+      .def_property_readonly("time", view<float>(offsetof(Point, time_s)))
+      .def("__len__", [](const FrameData& frame) { return frame.points.size(); })
+      .def("__repr__", [](const FrameData& frame) {
+        return "<terracut.Frame " + std::to_string(frame.info.number) + ": " +
+               std::to_string(frame.points.size()) + " returns>";
+      });
+}
+
+}  // namespace terracut::python

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tools/cli/json_text.hpp"
+
+namespace terracut::python {
+
+/// Dictionaries and lists as a program reads them from the report's file.
+[[nodiscard]] inline pybind11::object json_object(const nlohmann::ordered_json& json) {
+  return pybind11::module_::import("json").attr("loads")(cli::json_text(json));
+}
+
+}  // namespace terracut::python

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "frame_arrays.hpp"
+#include "pipeline/terracut/live_run.hpp"
+#include "rt/error.hpp"
+
+namespace terracut::python {
+
+/// A live sensor's frames for a loop in Python. The run has threads of its own, which hold no lock
+/// of the interpreter's; a loop that is too slow misses the oldest of the frames that wait for it,
+/// which is counted.
+class LiveFrames {
+ public:
+  /// `words`: a command line of `terracut live`. Returns when the sensor is heard; Ctrl-C ends the
+  /// wait.
+  explicit LiveFrames(const std::vector<std::string>& words);
+  ~LiveFrames();
+
+  /// Waits for the next one; null when the run is over.
+  [[nodiscard]] std::shared_ptr<FrameData> next();
+  void stop();
+
+  [[nodiscard]] pybind11::dict figures();
+  [[nodiscard]] std::string refusals();
+
+ private:
+  static constexpr std::size_t kMostWaiting = 4;
+
+  [[nodiscard]] Status open(const std::vector<std::string>& words);
+  [[nodiscard]] bool is_over() const;
+  void keep(const Frame& frame);
+  void keep_figures();
+
+  std::optional<LiveRun> run_;
+  std::optional<double> duration_s_;
+  std::chrono::steady_clock::time_point begun_;
+  FrameBuffers buffers_;
+  std::atomic<bool> stop_{false};
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<std::shared_ptr<FrameData>> waiting_;  ///< Guarded by mutex_, as what follows.
+  LiveRun::Figures figures_;
+  std::string refusals_;
+  std::uint64_t left_out_ = 0;
+  bool ended_ = false;
+  std::thread thread_;
+};
+
+void bind_live(pybind11::module_& module);
+
+}  // namespace terracut::python

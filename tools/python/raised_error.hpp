@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <pybind11/pybind11.h>
+
+#include <utility>
+
+#include "rt/error.hpp"
+#include "tools/cli/console.hpp"
+
+/// How what C++ says reaches Python.
+namespace terracut::python {
+
+/// Raises the exception of terracut/errors.py that stands for it.
+[[noreturn]] void raise(const Error& error);
+
+template <class T>
+[[nodiscard]] T or_raise(Expected<T> expected) {
+  if (!expected) raise(expected.error());
+  return *std::move(expected);
+}
+
+/// Warnings become Python's, what is said goes to the logger "terracut". Throws what is pending: a
+/// signal's exception, or a warning that Python was told to raise.
+void tell(const cli::HeardLines& lines);
+
+/// Does `work` while other threads of the interpreter run.
+template <class Work>
+auto without_the_lock(Work&& work) {
+  cli::HeardLines lines;
+  auto result = [&] {
+    const pybind11::gil_scoped_release released;
+    return work();
+  }();
+  tell(lines);
+  return result;
+}
+
+}  // namespace terracut::python

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "replayed_frames.hpp"
+
+#include <pybind11/stl.h>
+
+#include <utility>
+
+#include "json_object.hpp"
+#include "pipeline/stream/labelled_points.hpp"
+#include "raised_error.hpp"
+#include "tools/cli/arguments/arguments.hpp"
+
+namespace terracut::python {
+namespace py = pybind11;
+
+ReplayedFrames::ReplayedFrames(const std::vector<std::string>& words)
+    : capture_(or_raise(without_the_lock([&]() -> Expected<std::unique_ptr<cli::LabelledCapture>> {
+        const auto arguments = cli::parse_arguments(words);
+        if (!arguments) return tl::unexpected(arguments.error());
+        return cli::LabelledCapture::open(arguments->options, cli::FramesAreFor::kPoints);
+      }))) {}
+
+std::shared_ptr<FrameData> ReplayedFrames::next() {
+  return or_raise(without_the_lock([&] {
+    const std::lock_guard lock(mutex_);
+    return next_unlocked();
+  }));
+}
+
+Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
+  if (const run::Frame* frame = capture_->next()) {
+    std::shared_ptr<FrameData> data = buffers_.take();
+    data->info = frame->record.info;
+    data->record = frame->record;
+    data->points.resize(frame->image->returns());
+    if (!stream::pack_labelled_points(*frame->image, capture_->labels(), data->points,
+                                      capture_->timing(*frame))) {
+      return fail(ErrorCode::kMalformed, "a frame has not as many labels as returns");
+    }
+    return data;
+  }
+  if (std::exchange(concluded_, true)) return nullptr;
+  if (const Status concluded = capture_->conclude(); !concluded) {
+    return tl::unexpected(concluded.error());
+  }
+  return nullptr;
+}
+
+nlohmann::ordered_json ReplayedFrames::report() {
+  return without_the_lock([&] {
+    const std::lock_guard lock(mutex_);
+    return capture_->report().json();
+  });
+}
+
+void bind_replay(py::module_& module) {
+  py::class_<ReplayedFrames>(module, "Replay", "The labelled frames of a capture, in order.")
+      .def(py::init<const std::vector<std::string>&>())
+      .def("__iter__", [](const py::object& self) { return self; })
+      .def("__next__",
+           [](ReplayedFrames& frames) {
+             std::shared_ptr<FrameData> frame = frames.next();
+             if (!frame) throw py::stop_iteration();
+             return frame;
+           })
+      .def_property_readonly("sensor", &ReplayedFrames::sensor)
+      .def_property_readonly("calibration", &ReplayedFrames::calibration)
+      .def("report", [](ReplayedFrames& frames) { return json_object(frames.report()); });
+}
+
+}  // namespace terracut::python

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "frame_arrays.hpp"
+#include "tools/cli/input/labelled_capture.hpp"
+
+namespace terracut::python {
+
+/// The frames of a capture, one after the other, as `terracut replay` labels them. Any thread of
+/// the interpreter, one at a time.
+class ReplayedFrames {
+ public:
+  /// `words`: a command line of `terracut replay`.
+  explicit ReplayedFrames(const std::vector<std::string>& words);
+
+  /// Null at the end.
+  [[nodiscard]] std::shared_ptr<FrameData> next();
+  [[nodiscard]] nlohmann::ordered_json report();
+
+  [[nodiscard]] std::string sensor() const { return capture_->capture().sensor_line; }
+  [[nodiscard]] std::string calibration() const { return capture_->capture().calibration_line; }
+
+ private:
+  [[nodiscard]] Expected<std::shared_ptr<FrameData>> next_unlocked();
+
+  std::mutex mutex_;
+  std::unique_ptr<cli::LabelledCapture> capture_;
+  FrameBuffers buffers_;
+  bool concluded_ = false;
+};
+
+void bind_replay(pybind11::module_& module);
+
+}  // namespace terracut::python

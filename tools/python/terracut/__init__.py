@@ -1,0 +1,157 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""Ground or obstacle for every LiDAR return, in numpy arrays (docs/guide/python.md).
+
+    import terracut
+    for frame in terracut.replay("drive.pcap"):
+        obstacles = frame.points[frame.labels == terracut.OBSTACLE]
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Optional, Union
+
+from ._terracut import Frame, Live, Replay, __version__, parameters
+from ._terracut import Segmenter as _Segmenter
+from .errors import Error, InvalidArgument, NotFound, TerracutWarning
+
+if TYPE_CHECKING:
+    import numpy as np
+    import numpy.typing as npt
+
+    Path = Union[str, os.PathLike[str]]
+
+__all__ = [
+    "GROUND", "NONE", "OBSTACLE", "OTHER_GROUND", "Error", "Frame", "InvalidArgument", "Live", "NotFound", "Replay",
+    "Segmenter", "TerracutWarning", "__version__", "live", "parameters", "replay",
+]  # fmt: skip
+
+# Labels: classes of SemanticKITTI, as in .label files.
+NONE, GROUND, OTHER_GROUND, OBSTACLE = 0, 40, 49, 99
+
+
+def _settings(of_method: Optional[Mapping[str, Any]]) -> list[str]:
+    return [f"{key}={value}" for key, value in (of_method or {}).items()]
+
+
+def _words(command: str, arguments: list[Path], options: dict[str, Any]) -> list[str]:
+    """As one would type it; what is None or False is left out."""
+    words = [command]
+    for argument in arguments:
+        path = os.fspath(argument)
+        words.append(os.path.join(os.curdir, path) if path.startswith("-") else path)
+    for name, value in options.items():
+        option = "--" + name.replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            words.append(option)
+        elif isinstance(value, list):
+            words += [word for entry in value for word in (option, entry)]
+        else:
+            words += [option, os.fspath(value) if isinstance(value, os.PathLike) else str(value)]
+    return words
+
+
+def replay(
+    capture: Path,
+    calibration: Optional[Path] = None,
+    *,
+    sensor: Optional[str] = None,
+    nominal_calibration: bool = False,
+    columns: Optional[int] = None,
+    cell_owner: Optional[str] = None,
+    timestamp: Optional[str] = None,
+    geometry: Optional[str] = None,
+    port: Optional[int] = None,
+    sender: Optional[str] = None,
+    start: Optional[float] = None,
+    duration: Optional[float] = None,
+    reorder_packets: Optional[int] = None,
+    setup: Optional[Path] = None,
+    mount_height: Optional[float] = None,
+    mount_roll: Optional[float] = None,
+    mount_pitch: Optional[float] = None,
+    profile: Optional[str] = None,
+    stages: Optional[str] = None,
+    method: Optional[str] = None,
+    parameters: Optional[Mapping[str, Any]] = None,
+    can: Optional[Path] = None,
+    dbc: Optional[Path] = None,
+    deskew_to: Optional[str] = None,
+    config: Optional[Path] = None,
+) -> Replay:
+    """The labelled frames of a capture file, as `terracut replay` labels them.
+
+    Every setting is the program's option of that name (`terracut replay --help`): angles are degrees, the mount is found
+    in the first frames where it is not stated. `sender` is --from, `parameters` are those of --set.
+    """
+    return Replay(_words("replay", [capture], {
+        "calibration": calibration, "sensor": sensor, "nominal_calibration": nominal_calibration, "columns": columns,
+        "cell_owner": cell_owner, "timestamp": timestamp, "geometry": geometry, "port": port, "from": sender,
+        "start": start, "duration": duration, "reorder_packets": reorder_packets, "setup": setup,
+        "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch, "profile": profile,
+        "stages": stages, "method": method, "set": _settings(parameters), "can": can, "dbc": dbc,
+        "deskew_to": deskew_to, "config": config,
+    }))  # fmt: skip
+
+
+def live(
+    listen: str = "2368",
+    calibration: Optional[Path] = None,
+    *,
+    deadline: Optional[float] = None,
+    duration: Optional[float] = None,
+    patience: Optional[float] = None,
+    gather: Optional[float] = None,
+    mount_height: Optional[float] = None,
+    mount_roll: Optional[float] = None,
+    mount_pitch: Optional[float] = None,
+    receive_priority: Optional[int] = None,
+    segment_priority: Optional[int] = None,
+    lock_memory: bool = True,
+) -> Live:
+    """The labelled frames of a sensor that sends to `listen` (ADDRESS:PORT, or a port of any address).
+
+    Returns when the sensor is heard. Labels are made before the deadline (milliseconds) by threads that Python does not
+    hold up; where the loop is too slow, the oldest of four waiting frames is left out and counted in `figures()`.
+    `with terracut.live() as frames:` ends the run with the block.
+    """
+    return Live(_words("live", [], {
+        "listen": listen, "calibration": calibration, "deadline": deadline, "duration": duration, "patience": patience,
+        "gather": gather, "mount_height": mount_height, "mount_roll": mount_roll, "mount_pitch": mount_pitch,
+        "receive_priority": receive_priority, "segment_priority": segment_priority,
+        "no_lock_memory": not lock_memory,
+    }))  # fmt: skip
+
+
+class Segmenter:
+    """Labels clouds of one sensor, any spinning LiDAR with 8 to 256 lasers.
+
+    The first cloud decides what tells the lasers apart: `laser`, or a field `ring` of records, the rows of an organised
+    cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters`: as --set.
+    """
+
+    def __init__(
+        self,
+        *,
+        mount_height: Optional[float] = None,
+        mount_roll: float = 0.0,
+        mount_pitch: float = 0.0,
+        profile: str = "terracut",
+        parameters: Optional[Mapping[str, Any]] = None,
+    ) -> None:
+        self._segmenter = _Segmenter(
+            mount_height=mount_height,
+            mount_roll=mount_roll,
+            mount_pitch=mount_pitch,
+            profile=profile,
+            parameters=_settings(parameters),
+        )
+
+    def __call__(self, points: npt.ArrayLike, laser: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.uint8]:
+        """A label for each of the (N, 3 or more) or (rows, columns, 3 or more) points, float32 or float64, in the
+        sensor's frame: x ahead, y left, z up, metres. Points that are no return (NaN, infinite, 0 0 0) get NONE."""
+        return self._segmenter.label(points, laser)

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+from collections.abc import Sequence
+from typing import Any, Optional
+
+import numpy as np
+import numpy.typing as npt
+
+__version__: str
+
+class Frame:
+    """One labelled revolution of the sensor, one entry a return in order of arrival. Its arrays are views of one block
+    of memory, which stays as long as the frame or one of them does."""
+
+    @property
+    def number(self) -> int: ...
+    @property
+    def first_packet_ns(self) -> int:
+        """Nanoseconds since 1970 (UTC)."""
+    @property
+    def last_packet_ns(self) -> int: ...
+    @property
+    def complete(self) -> bool:
+        """Every firing was seen."""
+    @property
+    def deskewed(self) -> bool: ...
+    @property
+    def points(self) -> npt.NDArray[np.float32]:
+        """(N, 3): x ahead, y left, z up, metres, from the ground below the sensor."""
+    @property
+    def intensity(self) -> npt.NDArray[np.uint8]: ...
+    @property
+    def labels(self) -> npt.NDArray[np.uint8]:
+        """NONE, GROUND, OTHER_GROUND or OBSTACLE."""
+    @property
+    def ring(self) -> npt.NDArray[np.uint16]:
+        """0 is the lowest laser."""
+    @property
+    def time(self) -> npt.NDArray[np.float32]:
+        """Seconds after the frame's first packet, to half a column."""
+    @property
+    def data(self) -> npt.NDArray[np.void]:
+        """All of it as records: x y z intensity label ring time."""
+    @property
+    def report(self) -> Optional[dict[str, Any]]:
+        """The frame's entry of `terracut replay --json`; None of a live frame."""
+    def __len__(self) -> int: ...
+
+class Replay:
+    def __init__(self, words: Sequence[str]) -> None: ...
+    def __iter__(self) -> Replay: ...
+    def __next__(self) -> Frame: ...
+    @property
+    def sensor(self) -> str: ...
+    @property
+    def calibration(self) -> str: ...
+    def report(self) -> dict[str, Any]:
+        """What `terracut replay --json` writes, of the frames so far."""
+
+class Live:
+    def __init__(self, words: Sequence[str]) -> None: ...
+    def __iter__(self) -> Live: ...
+    def __next__(self) -> Frame: ...
+    def __enter__(self) -> Live: ...
+    def __exit__(self, *exception: object) -> None: ...
+    def stop(self) -> None:
+        """Ends the run; frames that wait can still be taken."""
+    def figures(self) -> dict[str, int]:
+        """datagrams, decoded, frames, frames_skipped, frames_left_out, deadlines_missed."""
+    @property
+    def refusals(self) -> str:
+        """What the system did not grant (priorities, locked memory), a line each."""
+
+class Segmenter:
+    def __init__(
+        self,
+        *,
+        mount_height: Optional[float],
+        mount_roll: float,
+        mount_pitch: float,
+        profile: str,
+        parameters: list[str],
+    ) -> None: ...
+    def label(self, points: object, laser: object) -> npt.NDArray[np.uint8]: ...
+
+def parameters() -> list[dict[str, Any]]:
+    """Every parameter of the method: key, unit, help, default, and its range or its choices."""

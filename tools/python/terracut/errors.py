@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# Copyright 2026 The terracut authors
+"""What terracut raises and warns of, in the program's words."""
+
+import logging
+import warnings
+
+_log = logging.getLogger("terracut")
+
+
+class Error(Exception):
+    """What went wrong; `code` tells cases apart: "not_found", "malformed", "invalid_argument", ..."""
+
+    def __init__(self, code: str, message: str):
+        super().__init__(message)
+        self.code = code
+
+    def __reduce__(self):
+        return type(self), (self.code, str(self))
+
+
+class InvalidArgument(Error, ValueError):
+    """A setting that there is not, or out of its range."""
+
+
+class NotFound(Error, FileNotFoundError):
+    """A file, folder or stream that was named does not exist."""
+
+    def __str__(self) -> str:
+        return self.args[0]
+
+
+class TerracutWarning(UserWarning):
+    """What the program would warn of: a table of another unit, a mount that is a guess, a capture that breaks off."""
+
+
+def of(code: str, message: str) -> Error:
+    code = code.replace(" ", "_")
+    kind = {"invalid_argument": InvalidArgument, "not_found": NotFound}.get(code, Error)
+    return kind(code, message)
+
+
+def say(line: str) -> None:
+    _log.info(line)
+
+
+def warn(line: str) -> None:
+    warnings.warn(line, TerracutWarning, stacklevel=2)

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
+#include <cstdint>
 #include <string>
 #include <vector>
 

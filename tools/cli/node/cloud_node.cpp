@@ -6,6 +6,7 @@
 #include <chrono>
 #include <utility>
 
+#include "calib/mount/mount_finder.hpp"
 #include "pipeline/dds/cloud_buffer.hpp"
 #include "rt/measure/milliseconds.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -16,7 +17,7 @@ namespace {
 
 /// Clouds that may wait to be labelled: some hundred milliseconds. As many answers may wait to be
 /// written, and those of the first clouds, which come together.
-constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + kMountFrames;
+constexpr std::size_t kMostWaiting = 4, kMostAnswers = kMostWaiting + mount::kFramesToFind;
 /// Without another cloud for so long, the first ones have to do to learn from.
 constexpr std::chrono::seconds kPatience{1};
 

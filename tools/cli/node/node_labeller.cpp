@@ -5,11 +5,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <memory>
 #include <utility>
 
 #include "calib/beams/angle.hpp"
-#include "pipeline/ground/near_ground.hpp"
+#include "pipeline/ground/mount_search.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
@@ -31,7 +30,7 @@ bool NodeLabeller::has_places() const noexcept {
 
 bool NodeLabeller::learn_from_cloud() {
   kept_.push_back(cloud_);
-  return kept_.size() >= (is_mount_open(options_.mount) ? kMountFrames : 1);
+  return kept_.size() >= (is_mount_open(options_.mount) ? mount::kFramesToFind : 1);
 }
 
 Status NodeLabeller::set_up() {
@@ -46,9 +45,7 @@ Status NodeLabeller::set_up() {
                   beams::rad_to_deg(table.front().elevation_rad), rows->columns));
   MountChoice choice{options_.mount, {}};
   if (is_mount_open(options_.mount)) {
-    mount::MountFinder finder;
-    show_ground(clouds, *rows, finder);
-    choice = choose_mount(options_.mount, finder);
+    choice = choose_mount(options_.mount, mount_search(clouds, *rows).finder());
   }
   const auto profile = ring_profile_of(table, choice.options);
   if (!profile) return tl::unexpected(profile.error());
@@ -58,20 +55,20 @@ Status NodeLabeller::set_up() {
   return {};
 }
 
-void NodeLabeller::show_ground(const std::vector<cloud::Cloud>& clouds,
-                               const cloud::SensorRows& rows, mount::MountFinder& finder) {
+ground::MountSearch NodeLabeller::mount_search(const std::vector<cloud::Cloud>& clouds,
+                                               const cloud::SensorRows& rows) {
   memory::FixedMemory memory;
   frame::RangeImage image(rows.shape(), rows.shape().cells(), memory);
-  scan::ScanToImage to_image(kAtTheSensor);
+  scan::ScanToImage to_image(mount::kAtTheSensor);
   const cloud::RowFinder row_finder(rows);
   scan::RingRecovery rings;
-  const auto ground = std::make_unique<ground::NearGround>();
+  ground::MountSearch search;
   for (const cloud::Cloud& cloud : clouds) {
     if (!row_finder.find(cloud.view(), rings)) continue;
     (void)to_image.place(cloud.points, rings.ring_of_point, image);
-    ground::take_near_ground(image, *ground);
-    finder.add_frame(ground->in_use());
+    search.add_frame(image);
   }
+  return search;
 }
 
 bool NodeLabeller::skip_if_late(status::FrameRecord& record) const noexcept {

@@ -8,8 +8,8 @@
 #include <string_view>
 #include <vector>
 
-#include "calib/mount/mount_finder.hpp"
 #include "firmware_io/cloud/cloud.hpp"
+#include "pipeline/ground/mount_search.hpp"
 #include "pipeline/run/degradation_policy.hpp"
 #include "pipeline/terracut/point_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -60,8 +60,8 @@ class NodeLabeller {
   [[nodiscard]] const std::string& sensor() const noexcept { return sensor_; }
 
  private:
-  static void show_ground(const std::vector<cloud::Cloud>& clouds, const cloud::SensorRows& rows,
-                          mount::MountFinder& finder);
+  [[nodiscard]] static ground::MountSearch mount_search(const std::vector<cloud::Cloud>& clouds,
+                                                        const cloud::SensorRows& rows);
 
   const Options& options_;
   std::int64_t deadline_ns_;

@@ -205,9 +205,19 @@ class Page:
                 raise Failed(f"terracut live did not say '{text}':\n{log.read_text()}")
             time.sleep(0.05)
 
+    def wait_for_a_frame(self):
+        until = time.monotonic() + PATIENCE_S
+        while self.live.poll() is None and time.monotonic() < until:
+            shown = subprocess.run([self.program, "top", "--once"], env=self.environment, timeout=PATIENCE_S, capture_output=True,
+                                   text=True, check=False)
+            if re.search(r"frames +[1-9]", shown.stdout):
+                return
+            time.sleep(0.05)
+
     def end_live(self):
         if self.live is None:
             return
+        self.wait_for_a_frame()
         self.sensor.stop()
         self.live.terminate()
         code = self.live.wait(PATIENCE_S)

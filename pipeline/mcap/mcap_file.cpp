@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <utility>
 
 namespace terracut::mcap {
 namespace {
@@ -175,7 +176,9 @@ Status McapFile::end_chunk() {
   for (std::size_t channel = 0; channel < index_.size(); ++channel) {
     if (index_[channel].empty()) continue;
     place.indexes.emplace_back(id_of(channel), offset_ + records_.size());
-    std::ranges::stable_sort(index_[channel], {}, &IndexEntry::time_ns);
+    std::ranges::sort(index_[channel], {}, [](const IndexEntry& entry) {
+      return std::pair(entry.time_ns, entry.offset);
+    });
     records_.begin(Opcode::kMessageIndex);
     records_.add(id_of(channel));
     records_.begin_elements();

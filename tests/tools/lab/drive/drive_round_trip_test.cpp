@@ -137,7 +137,9 @@ TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEve
       const auto written = this->write(columns, {.returns = returns});
       EXPECT_EQ(written.frames, 4U);
       EXPECT_EQ(written.columns, columns.size());
-      EXPECT_EQ(written.packets * EncoderTraits::columns_per_packet(returns), columns.size());
+      EXPECT_EQ(
+          written.packets * static_cast<std::uint64_t>(EncoderTraits::columns_per_packet(returns)),
+          columns.size());
       this->expect_truth_fits(written, returns, spin_hz);
     }
   }

@@ -53,27 +53,6 @@ Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {
   return method.segmenter;
 }
 
-/// Reads the mount off the first clouds of a sensor.
-class MountOfFirstClouds {
- public:
-  /// `image`: room to place the cloud in. Whether there is another mount to label by.
-  bool look(std::span<const scan::ScanPoint> points, std::span<const std::int16_t> ring_of_point,
-            frame::RangeImage& image) {
-    (void)to_image_.place(points, ring_of_point, image);
-    search_.add_frame(image);
-    if (found_ && !is_done()) return false;
-    if (const auto found = search_.found()) found_ = *found;
-    return found_.has_value();
-  }
-  [[nodiscard]] bool is_done() const noexcept { return search_.has_enough_frames(); }
-  [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
-
- private:
-  scan::ScanToImage to_image_{mount::kAtTheSensor};
-  ground::MountSearch search_;
-  std::optional<mount::FoundMount> found_;
-};
-
 }  // namespace
 
 /// All that labels clouds of one sensor, taken when its first cloud is known.
@@ -122,6 +101,29 @@ struct Segmenter::Labeller {
 };
 
 struct Segmenter::Engine {
+  /// Reads the mount off the first clouds of a sensor.
+  class MountOfFirstClouds {
+   public:
+    MountOfFirstClouds() : to_image_(mount::kAtTheSensor) {}
+
+    /// `image`: room to place the cloud in. Whether there is another mount to label by.
+    bool look(std::span<const scan::ScanPoint> points, std::span<const std::int16_t> ring_of_point,
+              frame::RangeImage& image) {
+      (void)to_image_.place(points, ring_of_point, image);
+      search_.add_frame(image);
+      if (found_ && !is_done()) return false;
+      if (const auto found = search_.found()) found_ = *found;
+      return found_.has_value();
+    }
+    [[nodiscard]] bool is_done() const noexcept { return search_.has_enough_frames(); }
+    [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
+
+   private:
+    scan::ScanToImage to_image_;
+    ground::MountSearch search_;
+    std::optional<mount::FoundMount> found_;
+  };
+
   explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {
     if (wanted.find_mount) first_clouds.emplace();
   }

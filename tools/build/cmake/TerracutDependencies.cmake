@@ -68,6 +68,10 @@ find_package(Boost QUIET)
 terracut_require(Boost_FOUND "Boost headers" libboost-dev)
 
 # Of the distribution's own Python, for which its pybind11 and numpy are; another one: -DPython_EXECUTABLE=...
+# The interpreter is not instrumented, and the program that its tests run beside the module brings a runtime of its own.
+if(TERRACUT_SANITIZE)
+  set(TERRACUT_PYTHON OFF)
+endif()
 if(TERRACUT_PYTHON)
   if(NOT DEFINED Python_EXECUTABLE AND EXISTS /usr/bin/python3)
     set(Python_EXECUTABLE /usr/bin/python3)

@@ -25,7 +25,7 @@ bool is_recorded(const ros_messages::Topic& topic, const McapSink::Config& confi
     return !stream.sensor_frame_id.empty();
   }
   if (!topic.cloud || *topic.cloud == CloudOf::kAll) return true;
-  return !config.points_alone && (*topic.cloud != CloudOf::kRoad || config.has_road);
+  return !config.points_alone && (*topic.cloud != CloudOf::kRoad || stream.has_road);
 }
 
 /// A bag's own name, which is its folder's: "out/drive/" is "drive".

@@ -33,9 +33,8 @@ class McapSink final : public publish::FrameSink {
     std::uint64_t split_bytes = 0;
     std::int64_t split_ns = 0;
     /// Only points, whose label tells ground from obstacles; else also ground and obstacles, and
-    /// road where `has_road`, in clouds of their own.
+    /// road where the stream has it, in clouds of their own.
     bool points_alone = false;
-    bool has_road = false;
     McapFile::Metadata metadata{};  ///< Kept in every file.
   };
 

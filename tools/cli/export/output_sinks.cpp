@@ -36,7 +36,9 @@ Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions&
   std::vector<bool> topics(ros_messages::kTopics.size(), true);
   for (std::size_t i = 0; i < topics.size(); ++i) {
     // Without the road's surface all ground is road.
-    if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) topics[i] = false;
+    if (ros_messages::kTopics[i].cloud == ros_messages::CloudOf::kRoad) {
+      topics[i] = stream.has_road;
+    }
   }
   topics[ros_messages::kTransformsTopic] = !stream.sensor_frame_id.empty();
   const net::Ipv4Endpoint at = stream::parse_serving_endpoint(options.foxglove).value();

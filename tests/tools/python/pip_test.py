@@ -2,7 +2,7 @@
 # Copyright 2026 The terracut authors
 """`pip install .` where the distribution has what it takes: the module works from where it was put.
 
-pip_test.py REPOSITORY DRIVE
+pip_test.py REPOSITORY DRIVE COMPILER
 """
 
 import importlib.util
@@ -13,8 +13,8 @@ import sys
 import tempfile
 from pathlib import Path
 
-REPOSITORY, DRIVE = sys.argv[1], sys.argv[2]
-# Built as the tests' own build is, so that a compiler cache knows most of it.
+REPOSITORY, DRIVE, COMPILER = sys.argv[1:4]
+# Built as the tests' own build is, and as deep below the repository, so that a compiler cache knows most of it.
 SETTINGS = ("TERRACUT_DEVELOPER_MODE=ON", "CMAKE_UNITY_BUILD_BATCH_SIZE=8")
 
 
@@ -25,14 +25,15 @@ def main() -> int:
             return 0
     environment = dict(os.environ)
     environment.pop("PYTHONPATH", None)
+    environment["CXX"] = COMPILER
     if shutil.which("ccache"):
         environment["CMAKE_CXX_COMPILER_LAUNCHER"] = "ccache"
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(prefix="pip-", dir=Path(REPOSITORY) / "build") as folder:
         site = Path(folder) / "site"
         settings = [word for setting in SETTINGS for word in ("--config-settings", f"cmake.define.{setting}")]
         subprocess.run(
             [sys.executable, "-m", "pip", "install", "--no-build-isolation", "--no-deps", "--no-index", "--target", site,
-             "--config-settings", f"build-dir={folder}/build", *settings, REPOSITORY],
+             "--config-settings", f"build-dir={folder}", *settings, REPOSITORY],
             check=True, env=environment,
         )  # fmt: skip
         said = subprocess.run(

@@ -79,7 +79,8 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
       std::unique_lock lock(mutex_);
       const auto has_work = [&] { return seek_s_ || steps_ > 0 || (state_.playing && !at_end_); };
       if (!told_.wait_for(lock, kMoment, has_work)) continue;
-      seek_s = std::exchange(seek_s_, std::nullopt);
+      // Where a place in the capture is, is known from its first frame on.
+      if (has_frames_) seek_s = std::exchange(seek_s_, std::nullopt);
     }
     if (seek_s) {
       if (Status gone = go_to(*seek_s); !gone) return gone;
@@ -90,7 +91,6 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
     if (Status taken = on_frame(*frame, capture_.labels()); !taken) return taken;
     const std::lock_guard lock(mutex_);
     state_.position_s = std::max(0.0, seconds(frame->record.info.first_packet_ns - begin_ns()));
-    steps_ = std::max(0, steps_ - 1);
   }
   return {};
 }
@@ -120,6 +120,7 @@ const run::Frame* CapturePlayer::next_due() {
   capture_.report().records.clear();  // a player may run for days
   if (frame == nullptr) {
     const std::lock_guard lock(mutex_);
+    if (seek_s_) return nullptr;  // told meanwhile, and no end for it
     at_end_ = true;
     steps_ = 0;
     state_.playing = false;
@@ -133,6 +134,7 @@ bool CapturePlayer::wait_until_due(std::int64_t stamp_ns) {
   while (!stop_wanted()) {
     if (seek_s_) return false;
     if (steps_ > 0) {
+      --steps_;  // here, where no later command's step is meant
       pace_.reset();
       return true;
     }

@@ -43,14 +43,19 @@ class Served:
                 break
         else:
             raise RuntimeError("the program did not say where its page is")
-        threading.Thread(target=self.process.stderr.read, daemon=True).start()
+        self.reading = threading.Thread(target=self.process.stderr.read, daemon=True)
+        self.reading.start()
 
     def figures(self):
         with urllib.request.urlopen(self.url + "figures", timeout=20) as answer:
             return json.load(answer)
 
     def wait_until(self, holds):
+        """The figures that hold; an error after two minutes."""
+        given_up = time.monotonic() + 120
         while not holds(figures := self.figures()):
+            if time.monotonic() > given_up:
+                raise TimeoutError(f"waited in vain; at last: {figures['capture']}, {figures['browsers']}")
             time.sleep(0.1)
         return figures
 
@@ -72,7 +77,10 @@ class Served:
 
     def end(self):
         self.process.terminate()
-        return self.process.wait(60)
+        code = self.process.wait(60)
+        self.reading.join()
+        self.process.stderr.close()
+        return code
 
 
 def picture(browser, name):

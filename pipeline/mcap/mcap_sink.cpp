@@ -122,7 +122,7 @@ Status McapSink::make_room(std::int64_t time_ns) {
   const bool is_empty = file_->is_empty();
   const bool is_full =
       !is_empty && ((config_.split_bytes > 0 && file_->bytes() >= config_.split_bytes) ||
-                    (config_.split_ns > 0 &&
+                    (config_.split_ns > 0 && time_ns > 0 &&
                      time_ns - static_cast<std::int64_t>(span.first_ns) >= config_.split_ns));
   if (is_full) {
     if (const Status closed = close_file(); !closed) return closed;

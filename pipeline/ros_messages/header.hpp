@@ -21,9 +21,10 @@ namespace terracut::ros_messages {
 /// builtin_interfaces/Time.
 inline void add_time(CdrWriter& to, std::int64_t time_ns) {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
-  const std::int64_t rest_ns = ((time_ns % kSecond_ns) + kSecond_ns) % kSecond_ns;
-  to.add(static_cast<std::int32_t>((time_ns - rest_ns) / kSecond_ns));
-  to.add(static_cast<std::uint32_t>(rest_ns));
+  const std::int64_t rest_ns = time_ns % kSecond_ns;
+  const bool is_before_1970 = rest_ns < 0;  // nanoseconds count forward there, too
+  to.add(static_cast<std::int32_t>(time_ns / kSecond_ns - (is_before_1970 ? 1 : 0)));
+  to.add(static_cast<std::uint32_t>(rest_ns + (is_before_1970 ? kSecond_ns : 0)));
 }
 
 /// std_msgs/Header.

@@ -70,7 +70,7 @@ Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& opt
   if (!options.keep_mount) {
     stated.setup.clear();  // it is to be measured anew
     mount::MountFinder finder;
-    if (const Status shown = look_for_mount(frames, kMountFrames, finder); !shown) {
+    if (const Status shown = frames.look_for_mount(kMountFrames, finder); !shown) {
       return tl::unexpected(shown.error());
     }
     const auto found = finder.found();

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "calib/beams/angle.hpp"
-#include "pipeline/ground/mount_search.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -84,21 +83,10 @@ MountChoice choose_mount(const MountOptions& stated, const mount::MountFinder& f
 Expected<MountChoice> choose_mount(const MountOptions& stated, RecordedFrames& frames) {
   if (!is_mount_open(stated)) return MountChoice{stated, {}};
   mount::MountFinder finder;
-  if (const Status shown = look_for_mount(frames, mount::kFramesToFind, finder); !shown) {
+  if (const Status shown = frames.look_for_mount(mount::kFramesToFind, finder); !shown) {
     return tl::unexpected(shown.error());
   }
   return choose_mount(stated, finder);
-}
-
-Status look_for_mount(RecordedFrames& frames, std::size_t most, mount::MountFinder& finder) {
-  ground::MountSearch search;
-  const Status shown =
-      frames.each_frame(mount::kAtTheSensor, most, [&](const frame::RangeImage& image) {
-        search.add_frame(image);
-        return Status{};
-      });
-  finder = search.finder();
-  return shown;
 }
 
 }  // namespace terracut::cli

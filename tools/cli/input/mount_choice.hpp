@@ -36,10 +36,6 @@ struct MountChoice {
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  RecordedFrames& frames);
 
-/// Shows `finder` at most so many frames. The errors of each_frame().
-[[nodiscard]] Status look_for_mount(RecordedFrames& frames, std::size_t most,
-                                    mount::MountFinder& finder);
-
 /// Says it where a found mount is no more than a guess.
 void warn_if_uncertain(const mount::FoundMount& found);
 

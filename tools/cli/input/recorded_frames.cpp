@@ -2,26 +2,47 @@
 // Copyright 2026 The terracut authors
 #include "recorded_frames.hpp"
 
+#include <memory>
+
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
+#include "pipeline/ground/near_ground.hpp"
+#include "pipeline/run/packet_pipeline.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
 
-Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
-                                 const OnFrame& on_frame) {
-  memory::FixedMemory memory;
-  decode::Decoder decoder(
-      capture_.calibration, mount,
-      decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kPoints), memory);
+namespace {
+
+const decode::Decoder& decoder_of(const decode::Decoder& decoder) {
+  return decoder;
+}
+const decode::Decoder& decoder_of(const run::PacketPipeline& pipeline) {
+  return pipeline.decoder();
+}
+
+}  // namespace
+
+Status RecordedFrames::look_for_mount(std::size_t most, mount::MountFinder& finder) {
+  const auto ground = std::make_unique<ground::NearGround>();
+  return each_frame(mount::kAtTheSensor, most, [&](const frame::RangeImage& image) {
+    ground::take_near_ground(image, *ground);
+    finder.add_frame(ground->in_use());
+    return Status{};
+  });
+}
+
+template <class Frames, class Take>
+Status CaptureFrames::pass(Frames& frames, std::size_t most, Take take) {
   Status going;
   std::size_t shown = 0;
   const auto hand_out = [&] {
-    while (const frame::Frame* frame = decoder.next()) {
+    while (auto* const frame = frames.next()) {
       if (!going || shown == most) continue;
-      going = on_frame(*frame->image);
+      going = take(*frame);
       ++shown;
     }
   };
@@ -32,21 +53,45 @@ Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
   while (going && shown < most) {
     const decode::Datagram* datagram = part.next();
     if (datagram == nullptr) break;
-    decoder.push(*datagram);
+    frames.push(*datagram);
     ++offered;
     hand_out();
   }
   counters_ = source->counters();
   if (going) going = go_on();
   if (going && shown < most) {
-    decoder.end_stream();
+    frames.end_stream();
     hand_out();
   }
   if (!going) return going;
   if (shown == 0) {
-    return tl::unexpected(nothing_came_out(*source, offered, decoder.losses()));
+    return tl::unexpected(nothing_came_out(*source, offered, decoder_of(frames).losses()));
   }
   return {};
+}
+
+Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
+                                 const OnFrame& on_frame) {
+  memory::FixedMemory memory;
+  decode::Decoder decoder(
+      capture_.calibration, mount,
+      decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kPoints), memory);
+  return pass(decoder, most, [&](const frame::Frame& frame) { return on_frame(*frame.image); });
+}
+
+Status CaptureFrames::look_for_mount(std::size_t most, mount::MountFinder& finder) {
+  memory::FixedMemory memory;
+  run::PacketPipeline pipeline(
+      capture_.calibration, ring_profile(mount::kAtTheSensor),
+      decoder_config_of(options_, capture_.sensor.columns, FramesAreFor::kLabels),
+      method_config_of(options_.method), memory);
+  const auto ground = std::make_unique<ground::NearGround>();
+  return pass(pipeline, most, [&](run::Frame& frame) {
+    pipeline.label(frame);
+    pipeline.take_near_ground(frame, *ground);
+    finder.add_frame(ground->in_use());
+    return Status{};
+  });
 }
 
 mount::RingProfile CaptureFrames::ring_profile(const mount::Mount& mount) const {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 
+#include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile.hpp"
 #include "cloud_input.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
@@ -30,6 +31,9 @@ class RecordedFrames {
   [[nodiscard]] virtual Status each_frame(const mount::Mount& mount, std::size_t most,
                                           const OnFrame& on_frame) = 0;
   [[nodiscard]] virtual mount::RingProfile ring_profile(const mount::Mount& mount) const = 0;
+
+  /// Shows `finder` the near ground of at most so many frames. The errors of each_frame().
+  [[nodiscard]] virtual Status look_for_mount(std::size_t most, mount::MountFinder& finder);
 };
 
 /// Of a capture, the first frames between --start and --duration, without the vehicle's motion. The
@@ -43,11 +47,19 @@ class CaptureFrames : public RecordedFrames {
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
                                   const OnFrame& on_frame) override;
   [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
+  /// By the objects that label the capture, so that it takes no more memory than the run does:
+  /// frames of points take three times that of frames as measured.
+  [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
   /// Of the last pass.
   [[nodiscard]] const capture::PcapCounters& counters() const noexcept { return counters_; }
 
  private:
+  /// Pushes the capture's datagrams into `frames`, a Decoder or what is made like it, until `take`
+  /// had so many of those that come out.
+  template <class Frames, class Take>
+  Status pass(Frames& frames, std::size_t most, Take take);
+
   const OpenCapture& capture_;
   const Options& options_;
   capture::PcapCounters counters_;

@@ -53,7 +53,7 @@ Part make_part(const fs::path& place, Make&& make) {
     while (::flock(part.lock.get(), LOCK_EX) != 0 && errno == EINTR) {
     }
     // Somebody who tidied up may have taken it for abandoned before it was locked.
-    struct stat status {};
+    struct stat status{};
     if (::fstat(part.lock.get(), &status) == 0 && status.st_nlink > 0) return part;
   }
   part.lock.close();
@@ -63,7 +63,7 @@ Part make_part(const fs::path& place, Make&& make) {
 
 bool is_abandoned(const fs::path& path) {
   const OwnedDescriptor part(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  struct stat status {};
+  struct stat status{};
   if (!part || ::fstat(part.get(), &status) != 0 || status.st_uid != ::geteuid()) return false;
   if (!S_ISREG(status.st_mode) && !S_ISDIR(status.st_mode)) return false;
   return ::flock(part.get(), LOCK_EX | LOCK_NB) == 0;
@@ -73,7 +73,7 @@ bool is_abandoned(const fs::path& path) {
 
 Part make_part_file(const fs::path& place) {
   return make_part(place, [](const char* path) {
-    return ::open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
+    return ::open(path, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   });
 }
 

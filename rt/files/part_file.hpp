@@ -18,7 +18,8 @@ struct Part {
   OwnedDescriptor lock;  ///< The open file, or folder; none: it could not be made, errno says why.
 };
 
-/// Makes an empty file, open for writing, and readable for all as far as the umask allows.
+/// Makes an empty file, open for writing and reading, and readable for all as far as the umask
+/// allows.
 [[nodiscard]] Part make_part_file(const std::filesystem::path& place);
 /// Makes an empty folder, for this user alone.
 [[nodiscard]] Part make_part_folder(const std::filesystem::path& place);

@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "rt/files/part_file.hpp"
 
@@ -22,19 +23,20 @@ Status failed(const std::filesystem::path& path, const std::string& step, int er
 }
 
 /// 0, or the errno of the call that failed.
-int write_all(int file, std::span<const std::byte> rest) {
+int write_all(int file, std::string_view rest) {
   while (!rest.empty()) {
     const ::ssize_t written = ::write(file, rest.data(), rest.size());
     if (written < 0 && errno == EINTR) continue;
     if (written < 0) return errno;
-    rest = rest.subspan(static_cast<std::size_t>(written));
+    rest.remove_prefix(static_cast<std::size_t>(written));
   }
   return 0;
 }
 
 }  // namespace
 
-Status write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content) {
+Status write_whole_file(const std::filesystem::path& path,
+                        const std::function<Expected<std::string_view>()>& next) {
   if (path.has_parent_path()) {
     std::error_code error;
     std::filesystem::create_directories(path.parent_path(), error);
@@ -43,7 +45,15 @@ Status write_whole_file(const std::filesystem::path& path, std::span<const std::
   Part part = make_part_file(path);
   if (!part.lock) return failed(path, "creating a temporary file beside it", errno);
 
-  int error_number = write_all(part.lock.get(), content);
+  int error_number = 0;
+  auto piece = next();
+  for (; error_number == 0 && piece && !piece->empty(); piece = next()) {
+    error_number = write_all(part.lock.get(), *piece);
+  }
+  if (!piece) {
+    ::unlink(part.path.c_str());
+    return tl::unexpected(piece.error());
+  }
   std::string step = "writing";
   // Some file systems tell only at a close that the disk is full. The lock is held until the end.
   if (error_number == 0 && ::close(::dup(part.lock.get())) != 0) {
@@ -60,7 +70,12 @@ Status write_whole_file(const std::filesystem::path& path, std::span<const std::
 }
 
 Status write_whole_file(const std::filesystem::path& path, std::string_view text) {
-  return write_whole_file(path, std::as_bytes(std::span(text.data(), text.size())));
+  return write_whole_file(path, [&] { return std::exchange(text, {}); });
+}
+
+Status write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content) {
+  return write_whole_file(
+      path, std::string_view(reinterpret_cast<const char*>(content.data()), content.size()));
 }
 
 }  // namespace terracut::files

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string_view>
 
@@ -18,5 +19,9 @@ namespace terracut::files {
 [[nodiscard]] Status write_whole_file(const std::filesystem::path& path,
                                       std::span<const std::byte> content);
 [[nodiscard]] Status write_whole_file(const std::filesystem::path& path, std::string_view text);
+/// What does not fit the memory, a piece after the other as `next` gives them, up to an empty one;
+/// its error is handed on.
+[[nodiscard]] Status write_whole_file(const std::filesystem::path& path,
+                                      const std::function<Expected<std::string_view>()>& next);
 
 }  // namespace terracut::files

@@ -50,7 +50,9 @@ Expected<std::shared_ptr<FrameData>> ReplayedFrames::next_unlocked() {
 nlohmann::ordered_json ReplayedFrames::report() {
   return without_the_lock([&] {
     const std::lock_guard lock(mutex_);
-    return capture_->report().json();
+    nlohmann::ordered_json report = capture_->report().json();
+    report.erase("frames");
+    return report;
   });
 }
 

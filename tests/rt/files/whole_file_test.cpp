@@ -9,6 +9,9 @@
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include "tests/support/scratch_folder.hpp"
 
@@ -48,6 +51,31 @@ TEST_F(WholeFile, ReplacesAnOlderFile) {
 TEST_F(WholeFile, MakesMissingFolders) {
   ASSERT_TRUE(write_whole_file(folder_ / "x" / "y" / "a.txt", "deep").has_value());
   EXPECT_EQ(content_of(folder_ / "x" / "y" / "a.txt"), "deep");
+}
+
+TEST_F(WholeFile, WritesWhatComesPieceByPiece) {
+  std::vector<std::string_view> pieces{"", "three", "two", "one "};
+  const auto next = [&]() -> Expected<std::string_view> {
+    const std::string_view piece = pieces.back();
+    pieces.pop_back();
+    return piece;
+  };
+  ASSERT_TRUE(write_whole_file(folder_ / "a.txt", next).has_value());
+  EXPECT_EQ(content_of(folder_ / "a.txt"), "one twothree");
+}
+
+TEST_F(WholeFile, LeavesAllAsItWasWhereAPieceCannotBeHad) {
+  ASSERT_TRUE(write_whole_file(folder_ / "a.txt", "old").has_value());
+  bool first = true;
+  const auto next = [&]() -> Expected<std::string_view> {
+    if (!std::exchange(first, false)) return fail(ErrorCode::kMalformed, "no more");
+    return "new";
+  };
+  const Status status = write_whole_file(folder_ / "a.txt", next);
+  ASSERT_FALSE(status.has_value());
+  EXPECT_EQ(status.error().message, "no more");
+  EXPECT_EQ(content_of(folder_ / "a.txt"), "old");
+  EXPECT_EQ(files_in(folder_), 1);
 }
 
 TEST_F(WholeFile, SaysWhichFileAndWhyWhenAFolderIsAFile) {

@@ -133,17 +133,17 @@ class Replay {
       sinks_ = outputs_.write_returns(
           {info.number, info.first_packet_ns, image, capture_.height_m(), labels});
     }
-    progress_.update(static_cast<double>(capture_.report().records.size()));
+    progress_.update(static_cast<double>(capture_.report().totals.frames));
   }
 
   ExitCode conclude() {
     if (sinks_) sinks_ = outputs_.finish();
     if (!sinks_) return refuse(sinks_.error());
-    if (capture_.report().records.empty() && capture_.report().interrupted) {
+    if (capture_.report().totals.frames == 0 && capture_.report().interrupted) {
       return refuse(kInterrupted, "interrupted before the first frame came out");
     }
     const Status concluded = capture_.conclude();
-    if (!concluded && capture_.report().records.empty()) return refuse(concluded.error());
+    if (!concluded && capture_.report().totals.frames == 0) return refuse(concluded.error());
     const ExitCode written = conclude_with(capture_.report(), options_.output.json);
     return concluded || written != kOk ? written : refuse(concluded.error());
   }

@@ -49,6 +49,7 @@ ExitCode run_segment(const Options& options) {
                     .has_road = method_config_of(options.method).segmenter.road.enabled});
   if (!outputs_open) return refuse(outputs_open.error());
   Report report{"segment", options.scans.string(), "", sensor_line, options.method};
+  if (!options.output.json.empty()) report.entries.emplace(options.output.json);
   Progress progress("labelling", "scans", static_cast<double>(reader.size()));
   for (std::size_t i = 0; i < reader.size(); ++i) {
     if (stop_wanted()) {

@@ -66,18 +66,9 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
 }
 
 /// How the vehicle's motion and the frames fit together in time.
-std::vector<Figure> motion_figures(std::uint64_t samples, const Report& report) {
-  const std::uint64_t deskewed = report.deskewed_frames();
-  const auto frames_that = [&](bool stage::MemoryReport::* did) {
-    return static_cast<std::uint64_t>(std::ranges::count_if(
-        report.records, [&](const FrameRecord& frame) { return frame.segmentation.memory.*did; }));
-  };
-  const std::uint64_t remembering = frames_that(&stage::MemoryReport::used);
-  const std::uint64_t contradicted = frames_that(&stage::MemoryReport::contradicted);
-  std::vector<std::int64_t> newest_ns;
-  for (const FrameRecord& frame : report.records) {
-    newest_ns.push_back(frame.info.deskew.newest_motion_ns);
-  }
+std::vector<Figure> motion_figures(std::uint64_t samples, const FrameTotals& totals) {
+  const std::uint64_t deskewed = totals.deskewed;
+  std::vector<std::int64_t> newest_ns = totals.newest_motion_ns;
   if (newest_ns.empty()) newest_ns.push_back(0);
   std::ranges::sort(newest_ns);
   const std::string_view line = samples > 0 ? "motion" : "";
@@ -87,9 +78,9 @@ std::vector<Figure> motion_figures(std::uint64_t samples, const Report& report) 
   // clang-format off: a table reads better with an entry on two lines than one word a line.
   return {{"samples", samples, {}, {"motion", "{} samples"}, "motion"},
           {"deskewed_frames", deskewed, {}, {"motion", ": {} frames deskewed"}, "motion"},
-          {{}, report.records.size() - deskewed, {}, {"motion", "{} without ego motion"}},
-          {"remembering_frames", remembering, {}, {}, "motion"},
-          {"contradicted_frames", contradicted, {}, {"motion", "{} contradicted", Shown::kAlarm}, "motion"},
+          {{}, totals.frames - deskewed, {}, {"motion", "{} without ego motion"}},
+          {"remembering_frames", totals.remembering, {}, {}, "motion"},
+          {"contradicted_frames", totals.contradicted, {}, {"motion", "{} contradicted", Shown::kAlarm}, "motion"},
           of("median", newest_ns[newest_ns.size() / 2],
              {line, "newest sample {ms:+.1f} ms from a frame's end (median"}),
           of("min", newest_ns.front(), {line, ": {ms:+.1f}"}),
@@ -127,18 +118,30 @@ std::vector<Figure> method_figures(const MethodOptions& options) {
           {"stages", std::string(word_of(kStageWords, options.last_stage))}};
 }
 
+void FrameTotals::add(const FrameRecord& frame, bool has_motion) {
+  ++frames;
+  complete += frame.info.complete ? 1 : 0;
+  returns_in += frame.info.returns;
+  returns_labelled += frame.segmentation.labelled();
+  losses += frame.info.losses;
+  deskewed += is_deskewed(frame) ? 1 : 0;
+  remembering += frame.segmentation.memory.used ? 1 : 0;
+  contradicted += frame.segmentation.memory.contradicted ? 1 : 0;
+  if (has_motion) newest_motion_ns.push_back(frame.info.deskew.newest_motion_ns);
+}
+
 void Report::add(const FrameRecord& frame) {
-  records.push_back(frame);
+  totals.add(frame, motion_samples.has_value());
   times.add(frame);
+  if (!entries) return;
+  Json entry = frame_json(frame);
+  if (motion_samples) entry["deskewed"] = is_deskewed(frame);
+  entries->add(entry);
 }
 
 void Report::score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth) {
   scores += quality::measure(labels, truth);
   ++scored;
-}
-
-std::uint64_t Report::deskewed_frames() const {
-  return static_cast<std::uint64_t>(std::ranges::count_if(records, is_deskewed));
 }
 
 // clang-format off: a table reads better with an entry on two lines than one word a line.
@@ -161,19 +164,11 @@ std::vector<Figure> Report::run_figures() const {
 }
 
 std::vector<Figure> Report::summary_figures() const {
-  std::uint64_t complete = 0, returns_in = 0, returns_labelled = 0;
-  frame::LossCounters of_frames;
-  for (const FrameRecord& frame : records) {
-    of_frames += frame.info.losses;
-    complete += frame.info.complete ? 1 : 0;
-    returns_in += frame.info.returns;
-    returns_labelled += frame.segmentation.labelled();
-  }
   std::vector<Figure> figures{
-      {"frames", records.size(), {}, {"frames"}},
-      {"complete_frames", complete, {}, {"frames", " ({} complete)"}},
-      {"returns_in", returns_in, {}, {"returns", "{} in"}},
-      {"returns_labelled", returns_labelled, {}, {"returns", "{} labelled"}},
+      {"frames", totals.frames, {}, {"frames"}},
+      {"complete_frames", totals.complete, {}, {"frames", " ({} complete)"}},
+      {"returns_in", totals.returns_in, {}, {"returns", "{} in"}},
+      {"returns_labelled", totals.returns_labelled, {}, {"returns", "{} labelled"}},
       {"segment_wall_ms", &times.wall}};
   const auto add = [&](std::initializer_list<Figure> more) { figures.insert(figures.end(), more); };
   std::ranges::copy(times.figures(), std::back_inserter(figures));
@@ -194,17 +189,17 @@ std::vector<Figure> Report::summary_figures() const {
          {{}, status::Number{100 * iou_g, 0, 100}, {}, {"quality", "IoU_g {:.2f} %"}},
          {{}, status::Number{100 * recall_o, 0, 100}, {}, {"quality", "Recall_o {:.2f} %"}},
          {"unscored_frames",
-          records.size() - scored,
+          totals.frames - scored,
           {},
           {"quality", " ({} frames not scored)", Shown::kIfAny}}});
   }
   std::ranges::copy(status::figures_of(mount), std::back_inserter(figures));
   std::ranges::copy(status::figures_of(blind), std::back_inserter(figures));
   if (motion_samples) {
-    std::ranges::copy(motion_figures(*motion_samples, *this), std::back_inserter(figures));
+    std::ranges::copy(motion_figures(*motion_samples, totals), std::back_inserter(figures));
   }
   add({{"losses",
-        status::counts_of("cause", status::causes_of(losses.value_or(of_frames))),
+        status::counts_of("cause", status::causes_of(losses.value_or(totals.losses))),
         {},
         {"losses", "{}", Shown::kAlarmOrNone}},
        {{},
@@ -230,20 +225,16 @@ nlohmann::ordered_json frame_json(const FrameRecord& frame) {
 Json Report::json() const {
   Json json;
   add_figures(run_figures(), json);
-  Json& frames = json["frames"] = Json::array();
-  for (const FrameRecord& frame : records) {
-    frames.push_back(frame_json(frame));
-    if (motion_samples) frames.back()["deskewed"] = is_deskewed(frame);
-  }
+  json["frames"] = Json::array();
   add_figures(summary_figures(), json["summary"]);
   return json;
 }
 
-Status Report::write_json(const std::filesystem::path& path) const {
-  return cli::write_json(path, json());
+Status Report::write_json(const std::filesystem::path& path) {
+  return entries ? entries->write(path, json()) : cli::write_json(path, json());
 }
 
-ExitCode conclude_with(const Report& report, const std::filesystem::path& json) {
+ExitCode conclude_with(Report& report, const std::filesystem::path& json) {
   fmt::print("{}", report.text());
   const ExitCode written = json.empty() ? kOk : done_or_refused(report.write_json(json));
   return written == kOk && report.interrupted ? kInterrupted : written;

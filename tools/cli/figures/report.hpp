@@ -19,6 +19,7 @@
 #include "rt/error.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
 #include "tools/cli/exit_codes.hpp"
+#include "tools/cli/figures/frame_entries.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/lab/quality/quality.hpp"
 
@@ -35,6 +36,16 @@ struct TimeSummary {
   [[nodiscard]] std::vector<status::Figure> figures() const;
 };
 
+/// What the records of all frames add up to.
+struct FrameTotals {
+  std::uint64_t frames = 0, complete = 0, returns_in = 0, returns_labelled = 0;
+  frame::LossCounters losses;
+  std::uint64_t deskewed = 0, remembering = 0, contradicted = 0;
+  std::vector<std::int64_t> newest_motion_ns;  ///< Of each frame of a run that has motion.
+
+  void add(const status::FrameRecord& frame, bool has_motion);
+};
+
 /// The method that ran: its name, or profile and stages.
 [[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
 
@@ -49,7 +60,8 @@ struct Report {
   std::string calibration;  ///< Origin and fingerprint of the table in use.
   MethodOptions method;
 
-  std::vector<status::FrameRecord> records{};  ///< By add().
+  std::optional<FrameEntries> entries{};  ///< By add(), where the whole report is wanted.
+  FrameTotals totals{};                   ///< By add().
   TimeSummary times{};
   quality::Quality scores{};  ///< By score().
   std::uint64_t scored = 0;   ///< Frames with fitting truth.
@@ -59,7 +71,8 @@ struct Report {
   std::optional<frame::LossCounters> losses{};
   frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
   status::MountFigures mount{};
-  /// Samples of the vehicle's motion there were; of runs whose frames were to be deskewed.
+  /// Samples of the vehicle's motion there were; of runs whose frames are to be deskewed, from
+  /// before the first frame.
   std::optional<std::uint64_t> motion_samples{};
   /// Points of scan files that got no return: null or not finite, labelled 0; and of no ring,
   /// labelled as obstacles.
@@ -73,7 +86,6 @@ struct Report {
 
   void add(const status::FrameRecord& frame);
   void score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth);
-  [[nodiscard]] std::uint64_t deskewed_frames() const;
 
   /// The summary for people, several lines, as printed on stdout.
   [[nodiscard]] std::string text() const;
@@ -94,8 +106,9 @@ struct Report {
   ///                   points_no_ring; mount and blind as of a live run; with a CAN recording
   ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,
   ///                   max}}
+  [[nodiscard]] Status write_json(const std::filesystem::path& path);
+  /// The same with an empty list of frames.
   [[nodiscard]] nlohmann::ordered_json json() const;
-  [[nodiscard]] Status write_json(const std::filesystem::path& path) const;
 
  private:
   [[nodiscard]] std::vector<status::Figure> run_figures() const;
@@ -103,6 +116,6 @@ struct Report {
 };
 
 /// Prints the report, writes it to `json` too unless that is empty, and returns the exit code.
-[[nodiscard]] ExitCode conclude_with(const Report& report, const std::filesystem::path& json);
+[[nodiscard]] ExitCode conclude_with(Report& report, const std::filesystem::path& json);
 
 }  // namespace terracut::cli

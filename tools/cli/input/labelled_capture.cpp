@@ -45,6 +45,8 @@ Status LabelledCapture::prepare(FramesAreFor purpose) {
   mount_.emplace(sensor_mount_, *mount);
   report_ = {"replay", options_.capture.file.string(), capture_->sensor_line,
              capture_->calibration_line, options_.method};
+  if (motion_) report_.motion_samples = 0;
+  if (!options_.output.json.empty()) report_.entries.emplace(options_.output.json);
   part_.emplace(capture_->source, options_.capture);
   return {};
 }
@@ -117,7 +119,7 @@ void LabelledCapture::note_packet(const decode::Datagram& datagram) {
 
 Status LabelledCapture::conclude() {
   const frame::LossCounters losses = pipeline_->decoder().losses();
-  if (report_.records.empty()) {
+  if (report_.totals.frames == 0) {
     return tl::unexpected(nothing_came_out(capture_->source, offered_, losses));
   }
   if (const std::string other = sensor::other_table_warning(status_, capture_->calibration);
@@ -135,11 +137,11 @@ Status LabelledCapture::conclude() {
   if (!motion_) return {};
   report_.motion_samples = motion_->samples();
   if (const std::string warnings = motion_->warnings(); !warnings.empty()) warn(warnings);
-  if (report_.deskewed_frames() > 0) return {};
+  if (report_.totals.deskewed > 0) return {};
   return fail(ErrorCode::kMalformed,
               fmt::format("{}: none of the {} frames could be deskewed; is it of "
                           "this drive, its stamps on the clock of the capture's?",
-                          options_.can_recording.string(), report_.records.size()));
+                          options_.can_recording.string(), report_.totals.frames));
 }
 
 }  // namespace terracut::cli

@@ -117,7 +117,6 @@ const run::Frame* CapturePlayer::next_due() {
   while (frame != nullptr && frame->record.info.last_packet_ns < skip_to_ns_)
     frame = capture_.next();
   skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
-  capture_.report().records.clear();  // a player may run for days
   if (frame == nullptr) {
     const std::lock_guard lock(mutex_);
     if (seek_s_) return nullptr;  // told meanwhile, and no end for it

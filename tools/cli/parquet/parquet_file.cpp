@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 #include <unistd.h>
+#include <zlib.h>
 #include <zstd.h>
 
 #include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
@@ -77,11 +79,16 @@ std::size_t rows_in(const ParquetValues& values) {
   return std::visit([](const auto& of) { return of.size(); }, values);
 }
 
-std::string page_header(Kind kind, std::size_t rows, std::size_t plain_bytes, std::size_t bytes) {
+/// `compressed`: the page behind it, whose CRC-32 it has.
+std::string page_header(Kind kind, std::size_t rows, std::size_t plain_bytes,
+                        std::string_view compressed) {
+  const auto crc = static_cast<std::uint32_t>(
+      ::crc32_z(0, reinterpret_cast<const Bytef*>(compressed.data()), compressed.size()));
   ThriftCompact header;
   header.i32(1, kDataPage);
   header.i32(2, static_cast<std::int32_t>(plain_bytes));
-  header.i32(3, static_cast<std::int32_t>(bytes));
+  header.i32(3, static_cast<std::int32_t>(compressed.size()));
+  header.i32(4, std::bit_cast<std::int32_t>(crc));
   header.begin_struct(5);
   header.i32(1, static_cast<std::int32_t>(rows));
   header.i32(2, encoding_of(kind));
@@ -174,12 +181,13 @@ Expected<ParquetFile::Chunk> ParquetFile::add_chunk(const ParquetColumn& column,
   if (ZSTD_isError(bytes) != 0) {
     return fail(ErrorCode::kWriteFailed, path_.string() + ": " + ZSTD_getErrorName(bytes));
   }
-  const std::string header = page_header(column.kind, rows_in(values), encoded.bytes.size(), bytes);
+  const auto page = std::string_view(compressed_).substr(0, bytes);
+  const std::string header = page_header(column.kind, rows_in(values), encoded.bytes.size(), page);
   Chunk chunk{bytes_, static_cast<std::int64_t>(header.size() + encoded.bytes.size()),
               static_cast<std::int64_t>(header.size() + bytes), std::move(encoded.least),
               std::move(encoded.greatest)};
   Status written = write(header);
-  if (written) written = write(std::string_view(compressed_).substr(0, bytes));
+  if (written) written = write(page);
   if (!written) return tl::unexpected(written.error());
   return chunk;
 }

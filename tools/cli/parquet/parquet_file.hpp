@@ -37,10 +37,10 @@ struct ParquetColumn {
 using ParquetValues = std::variant<std::span<const std::int32_t>, std::span<const std::int64_t>,
                                    std::span<const float>>;
 
-/// An Apache Parquet file (parquet-format 2.10), written group by group: zstd with its checksum, a
-/// page a column and group, least and greatest values of both, and what the caller says of it as
-/// keys with values. It has a temporary name until close(); without that nothing is left. Not
-/// thread-safe; blocks on the disk.
+/// An Apache Parquet file (parquet-format 2.10), written group by group: a page a column and group,
+/// compressed by zstd with its checksum and summed up by the page's own, least and greatest values
+/// of both, and what the caller says of it as keys with values. It has a temporary name until
+/// close(); without that nothing is left. Not thread-safe; blocks on the disk.
 class ParquetFile {
  public:
   using Metadata = std::vector<std::pair<std::string, std::string>>;

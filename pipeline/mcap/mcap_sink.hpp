@@ -16,6 +16,7 @@
 #include "pipeline/publish/frame_sink.hpp"
 #include "pipeline/publish/stream.hpp"
 #include "pipeline/ros_messages/topics.hpp"
+#include "pipeline/stream/labelled_frame_wire.hpp"
 
 namespace terracut::mcap {
 
@@ -43,14 +44,23 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] static Expected<std::unique_ptr<McapSink>> open(Config config,
                                                                 publish::Stream stream);
 
+  /// What frames of so many returns take in memory where the queue is full: it, the frames in work
+  /// at either end, the message, its chunk and that compressed, and what zstd works with.
+  [[nodiscard]] static constexpr std::size_t memory_bytes(std::size_t returns) noexcept {
+    constexpr std::size_t kZstd_bytes = std::size_t{2} << 20;
+    return returns * sizeof(stream::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
+  }
+
   [[nodiscard]] std::string_view name() const noexcept override { return "mcap"; }
-  /// Of a second and a half: disks stop now and then.
-  [[nodiscard]] std::size_t queue_frames() const noexcept override { return 16; }
+  [[nodiscard]] std::size_t queue_frames() const noexcept override { return kQueueFrames; }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
   [[nodiscard]] Status finish() override;
 
  private:
+  /// A second and a half: disks stop now and then.
+  static constexpr std::size_t kQueueFrames = 16;
+
   McapSink(Config config, publish::Stream stream);
   [[nodiscard]] bool is_bag() const { return config_.path.extension() != ".mcap"; }
   [[nodiscard]] std::size_t channel_of(std::size_t topic) const;

@@ -2,15 +2,23 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
+#include <unistd.h>
+
+#include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
+#include "firmware_io/vehicle/ego_motion.hpp"
+#include "pipeline/mcap/mcap_sink.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/parquet/returns_file.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
+#include "tools/cli/settings/motion_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
@@ -24,18 +32,58 @@ calib::SensorCalibration nominal_of(sensor::SensorModel model) {
   return hdl64e::nominal_hdl64e();
 }
 
+/// Of this process, 0 where the system does not say.
+std::size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0, resident = 0;
+  file >> pages >> resident;
+  return resident * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
+}
+
+/// What a process of `relabel` writes a drive's labels with, where all frames are as large as they
+/// may be.
+std::size_t output_bytes(FleetFormat format, std::size_t returns) {
+  switch (format) {
+    case FleetFormat::kLabels:
+      return returns * sizeof(std::uint32_t);
+    case FleetFormat::kParquet:
+      return ReturnsFile::memory_bytes(returns);
+    case FleetFormat::kMcap:
+      return mcap::McapSink::memory_bytes(returns);
+  }
+  return 0;
+}
+
+/// Takes what labels a capture into `memory`, and says how many returns a frame of it may have.
+std::size_t take_memory(const Options& options, const calib::SensorCalibration& calibration,
+                        const mount::RingProfile& profile, bool has_motion,
+                        memory::FixedMemory& memory) {
+  std::optional<vehicle::EgoMotion> motion;
+  if (has_motion) motion.emplace(ego_motion_config_of(options.motion), memory);
+  const FramesAreFor purpose =
+      options.fleet.format == FleetFormat::kLabels ? FramesAreFor::kLabels : FramesAreFor::kPoints;
+  const run::PacketPipeline pipeline(
+      calibration, profile, decoder_config_of(options, 0, purpose, motion ? &*motion : nullptr),
+      method_config_of(options.method), memory);
+  return pipeline.decoder().return_capacity();
+}
+
+double to_mib(std::size_t bytes) {
+  return static_cast<double>(bytes) / 1048576.0;
+}
+
 }  // namespace
 
 /// Builds the very objects a replay builds, so the figures are those of a replay, not an estimate.
 ExitCode run_plan(const Options& options) {
-  memory::FixedMemory memory;
+  const std::size_t program_bytes = resident_bytes();
   const calib::SensorCalibration calibration =
       nominal_of(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e));
   const auto profile = ring_profile_of(calibration, {});
   if (!profile) return refuse(profile.error());
-  const run::PacketPipeline pipeline(calibration, *profile,
-                                     decoder_config_of(options, 0, FramesAreFor::kLabels),
-                                     method_config_of(options.method), memory);
+  memory::FixedMemory memory, memory_with_motion;
+  const std::size_t returns = take_memory(options, calibration, *profile, false, memory);
+  (void)take_memory(options, calibration, *profile, true, memory_with_motion);
 
   nlohmann::ordered_json json;
   fmt::print("{:<24}{:>14}\n", "part", "bytes");
@@ -44,8 +92,20 @@ ExitCode run_plan(const Options& options) {
     json["parts"][part.name] = part.bytes;
   }
   fmt::print("{:<24}{:>14}  ({:.1f} MiB)\n", "total", memory.total_bytes(),
-             static_cast<double>(memory.total_bytes()) / 1048576.0);
+             to_mib(memory.total_bytes()));
   json["total_bytes"] = memory.total_bytes();
+
+  // What a report adds up, what is read of a capture at a time, and code that only a run needs.
+  constexpr std::size_t kRest_bytes = std::size_t{4} << 20;
+  const std::size_t beside_bytes =
+      program_bytes + kRest_bytes + output_bytes(options.fleet.format, returns);
+  const auto print = [&](const char* name, const char* key, std::size_t planned_bytes) {
+    const std::size_t bytes = beside_bytes + planned_bytes;
+    fmt::print("{:<24}{:>14}  ({:.1f} MiB)\n", name, bytes, to_mib(bytes));
+    json[key] = bytes;
+  };
+  print("a process of relabel", "process_bytes", memory.total_bytes());
+  print("with a CAN recording", "process_with_motion_bytes", memory_with_motion.total_bytes());
   return done_or_refused(write_json(options.output.json, json));
 }
 

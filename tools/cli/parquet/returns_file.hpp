@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <span>
@@ -34,6 +35,14 @@ class ReturnsFile {
   /// `metadata`: keys and values that the file shall say. The errors of ParquetFile, here as below.
   [[nodiscard]] static Expected<ReturnsFile> create(const std::filesystem::path& path,
                                                     ParquetFile::Metadata metadata);
+
+  /// What frames of so many returns take in memory: all columns of one, and two more of the widest
+  /// for what is encoded and compressed of it; besides, what zstd works with.
+  [[nodiscard]] static constexpr std::size_t memory_bytes(std::size_t returns) noexcept {
+    constexpr std::size_t kColumns_bytes = 6 * 4 + 8 + 4 * 4, kWidest_bytes = 8;
+    constexpr std::size_t kZstd_bytes = std::size_t{2} << 20;
+    return returns * (kColumns_bytes + 2 * kWidest_bytes) + kZstd_bytes;
+  }
 
   /// A frame without returns has no rows.
   [[nodiscard]] Status add_frame(const LabelledReturns& frame);

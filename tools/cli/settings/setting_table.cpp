@@ -208,7 +208,7 @@ constexpr std::array kSettings{
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.parquet; }},
     Setting{.option = "--metadata", .commands = kFrames, .help = "KEY=VALUE: what the table, and the recording, are to say of themselves; repeatable",
             .form = TextForm::kKeyValue, .field = [](O& o) -> F { return &o.output.metadata; }},
-    Setting{.key = "output.format", .option = "--format", .commands = C::kRelabel, .help = "Of a drive: labels, a file a frame; parquet: one table of all its returns; mcap: one recording of its points",
+    Setting{.key = "output.format", .option = "--format", .commands = C::kRelabel | C::kPlan, .help = "Of a drive: labels, a file a frame; parquet: one table of all its returns; mcap: one recording of its points",
             .field = [](O& o) -> F { return choice(o.fleet.format, kFormatWords); }},
     Setting{.key = "output.json", .option = "--json", .commands = kFrames | C::kLive | C::kNode, .help = "File for the report: returns, losses and times",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.json; }},

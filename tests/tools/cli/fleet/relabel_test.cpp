@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "relabel_fixture.hpp"
+#include "tests/support/allocation_counter.hpp"
 #include "tests/tools/cli/background_program.hpp"
 #include "tools/cli/fleet/content_hash.hpp"
 
@@ -129,6 +130,25 @@ TEST_F(Relabel, WritesATableOfReplayWhereThatIsWanted) {
   EXPECT_THAT(table, HasSubstr(sha256_of(content_of(kDriveCalibration))));
   EXPECT_THAT(table, HasSubstr(sha256_of(content_of(test::program()))));
   expect_outputs_whole();
+}
+
+/// Of the biggest frames there may be, so these take somewhat less.
+TEST_F(Relabel, TakesNoMoreMemoryThanPlanSays) {
+  if (!test::allocations_are_counted()) GTEST_SKIP() << "the sanitizer brings its own allocator";
+  add_drive("a");
+  make_manifest();
+  for (const std::string format : {"labels", "parquet", "mcap"}) {
+    expect_done("relabel m.json --format " + format + " -o " + format);
+    expect_done("plan --sensor hdl64e --format " + format + " --json plan.json");
+    const auto planned = json("plan.json")["process_bytes"].get<std::uint64_t>();
+    std::uint64_t peak_bytes = 0;
+    for (const auto& entry : fs::recursive_directory_iterator(folder_ / format / ".relabel")) {
+      if (entry.path().filename() != "a.json") continue;
+      peak_bytes = json(entry.path())["peak_memory_bytes"].get<std::uint64_t>();
+    }
+    EXPECT_LE(peak_bytes, planned) << format;
+    EXPECT_GT(peak_bytes, planned / (format == "mcap" ? 4 : 2)) << format;
+  }
 }
 
 TEST_F(Relabel, NamesBadInputsAndLabelsTheOthers) {

@@ -136,6 +136,8 @@ class Client : public std::enable_shared_from_this<Client> {
       response.set(http::field::sec_websocket_protocol, protocol);
     }));
     stream_.read_message_max(kMostTextBytes);
+    // A message is a frame of its own: cut in pieces of 4 KiB, a cloud would be a thousand writes.
+    stream_.auto_fragment(false);
     stream_.async_accept(request, [self = shared_from_this()](error_code error) {
       if (error) {
         ++self->shared_.figures.refused;

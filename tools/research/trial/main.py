@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from . import adversarial, breakage, hostile, loaded, loopback, machine, scripted_faults, stalled, steady
+from . import adversarial, breakage, hostile, loaded, loopback, machine, outputs, scripted_faults, stalled, steady
 from .program import Program, TrialError
 from .report import Report
 
@@ -41,6 +41,9 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     add("loaded", "the same with every core loaded, with and without real-time rights", 3)
     sub = add("stalled", "a disk that hangs, readers that do not read")
     sub.add_argument("--seconds", type=float, default=30, help="a run (default 30)")
+    sub = add("outputs", "what each output costs; all at once, with readers that stand still")
+    sub.add_argument("--seconds", type=float, default=20, help="a run (default 20)")
+    sub.add_argument("--rounds", type=int, default=3, help="with and without them, in turn (default 3)")
     sub = add("adversarial", "a min-cut too large for the deadline")
     sub.add_argument("--seconds", type=float, default=8, help="of the drive (default 8)")
     sub = add("faults", "every scripted fault of `terracut send`")
@@ -61,6 +64,8 @@ def hold(options: argparse.Namespace, program: Program, report: Report) -> None:
             program, report, options.minutes, sensors)  # fmt: skip
     elif options.trial == "stalled":
         stalled.hold(program, report, options.seconds)
+    elif options.trial == "outputs":
+        outputs.hold(program, report, options.seconds, options.rounds)
     elif options.trial == "adversarial":
         adversarial.hold(program, report, options.seconds)
     elif options.trial == "faults":

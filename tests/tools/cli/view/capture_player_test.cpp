@@ -11,11 +11,12 @@
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/simulator/drive.hpp"
+#include "tools/lab/velodyne/velodyne_encoder_traits.hpp"
 
 namespace terracut::cli {
 namespace {
 
-using Traits = encode::Hdl64eEncoderTraits;
+using Traits = velodyne::Vlp16EncoderTraits;
 
 constexpr double kFrame_s = 0.1;
 
@@ -25,12 +26,11 @@ class PlayedCapture : public testing::Test {
   void SetUp() override {
     folder_ = test::make_scratch_folder();
     options_.capture.file = folder_ / "drive.pcap";
-    options_.capture.calibration = folder_ / "drive.calibration.xml";
     options_.mount.height_m = 1.73;
     simulator::SimulationConfig<Traits> config;
     config.scene = "flat";
     config.duration_s = 8 * kFrame_s;
-    auto writer = drive::Hdl64eDriveWriter::create(options_.capture.file, config.calibration);
+    auto writer = drive::DriveWriter<Traits>::create(options_.capture.file, config.calibration);
     ASSERT_TRUE(writer) << writer.error().message;
     const auto done = simulator::simulate_drive(
         config, [&](const simulator::SimulatedColumn<Traits>& column) -> Status {

@@ -75,6 +75,19 @@ TEST_P(LiveRealtime, WholeMethodMakesNoCallThatMayWait) {
   EXPECT_GT(files_in(folder_ / "labels", ".label"), 0U);
 }
 
+TEST_P(LiveRealtime, EveryOutputAtOnceMakesNoCallThatMayWait) {
+  std::string outputs =
+      "--stream 127.0.0.1:0 --view 127.0.0.1:0 --foxglove 127.0.0.1:0 --mcap drive.mcap";
+#ifdef TERRACUT_HAS_DDS
+  outputs += " --dds --dds-interface lo";
+#endif
+  const Outcome heard = hear("--deadline 10000 " + outputs);
+  EXPECT_THAT(heard.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << heard.err;
+  EXPECT_THAT(heard.err, Not(HasSubstr("RealtimeSanitizer")));
+  EXPECT_GT(count("full"), 0);
+  EXPECT_GT(fs::file_size(folder_ / "drive.mcap"), 1'000'000U);
+}
+
 TEST_P(LiveRealtime, DeadlineThatCannotBeMetMakesNoCallThatMayWaitEither) {
   fs::create_directory(folder_ / "dumps");
   const Outcome heard =

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 // The same with more of everything; for ./tools/test --all.
 #include <csignal>
+#include <fstream>
 #include <iostream>
 #include <random>
 #include <thread>
@@ -50,6 +51,37 @@ TEST_F(RelabelAtLength, IsDoneByAHundredProcessesAtOnce) {
   expect_outputs_whole();
   for (const std::string& output : outputs()) expect_labels_of_replay(output);
   EXPECT_TRUE(parts_are_gone());
+}
+
+/// By tools/fleet/throughput, whose figures are the machine's; but not what they are of.
+TEST_F(RelabelAtLength, IsMeasuredByOneProcessAndByTwo) {
+  add_drive("a");
+  add_drive("b");
+  make_manifest();
+  const fs::path script = test::source_folder() / "tools" / "fleet" / "throughput";
+  const std::string command = "cd " + quoted(folder_) + " && TERRACUT=" + quoted(test::program()) +
+                              " " + quoted(script) + " m.json --processes 2 --rounds 1 >table.txt";
+  ASSERT_EQ(std::system(command.c_str()), 0);
+  std::ifstream table(folder_ / "table.txt");
+  std::string header;
+  std::getline(table, header);
+  for (const int expected : {1, 2}) {
+    int processes = 0;
+    double per_second = 0, times_one = 0, cpu_ms = 0, others = 0, read_kb = 0, written_kb = 0;
+    table >> processes >> per_second >> times_one >> cpu_ms >> others >> read_kb >> written_kb;
+    std::string rest;
+    std::getline(table, rest);
+    EXPECT_EQ(processes, expected);
+    EXPECT_GT(per_second, 0);
+    // Each frame's packets are read twice, its labels written once.
+    EXPECT_GT(read_kb, 2.0 * static_cast<double>(fs::file_size(kDrive)) / kDriveFrames / 1e3);
+    EXPECT_GT(written_kb, 400);
+    EXPECT_LT(written_kb, 1'000);
+  }
+  EXPECT_FALSE(table >> header) << header;
+  for (const auto& entry : fs::directory_iterator(folder_)) {
+    EXPECT_FALSE(entry.path().filename().string().starts_with("throughput-")) << entry.path();
+  }
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/examples/read_frames.py
   ${PROJECT_SOURCE_DIR}/tools/examples/labels_in_numpy.py
   DESTINATION share/doc/terracut/examples COMPONENT service EXCLUDE_FROM_ALL)
 install(PROGRAMS ${PROJECT_SOURCE_DIR}/tools/fleet/parallel ${PROJECT_SOURCE_DIR}/tools/fleet/relabel.sbatch
-  ${PROJECT_SOURCE_DIR}/tools/fleet/submit
+  ${PROJECT_SOURCE_DIR}/tools/fleet/submit ${PROJECT_SOURCE_DIR}/tools/fleet/throughput
   DESTINATION share/doc/terracut/fleet COMPONENT service EXCLUDE_FROM_ALL)
 install(FILES ${PROJECT_SOURCE_DIR}/README.md DESTINATION share/doc/terracut
   COMPONENT service EXCLUDE_FROM_ALL)

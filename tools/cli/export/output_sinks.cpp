@@ -31,8 +31,22 @@ Expected<std::unique_ptr<publish::FrameSink>> open_mcap(const OutputOptions& opt
   return *std::move(sink);
 }
 
+/// The names of coordinate frames that the options say.
+void name_frames(const OutputOptions& options, publish::Stream& stream) {
+  stream.frame_id = options.frame_id;
+  stream.sensor_frame_id = options.sensor_frame_id == "off" ? "" : options.sensor_frame_id;
+}
+
+bool wants_view(const OutputOptions& options) {
+  return !options.view.empty() && options.view != "off";
+}
+
+}  // namespace
+
 Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions& options,
-                                                            const publish::Stream& stream) {
+                                                            publish::Stream stream,
+                                                            ViewedCapture* capture) {
+  name_frames(options, stream);
   std::vector<bool> topics(ros_messages::kTopics.size(), true);
   for (std::size_t i = 0; i < topics.size(); ++i) {
     // Without the road's surface all ground is road.
@@ -45,18 +59,13 @@ Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(const OutputOptions&
   auto server = FoxgloveServer::start({.at = at,
                                        .name = "terracut: " + stream.sensor,
                                        .topics = std::move(topics),
-                                       .origins = options.foxglove_origins});
+                                       .origins = options.foxglove_origins,
+                                       .capture = capture});
   if (!server) return tl::unexpected(server.error());
   say(fmt::format("Foxglove and Lichtblick connect to ws://{}:{}", net::ipv4_text(at.address),
                   server->port()));
-  return std::make_unique<FoxgloveSink>(*std::move(server), stream);
+  return std::make_unique<FoxgloveSink>(*std::move(server), std::move(stream));
 }
-
-bool wants_view(const OutputOptions& options) {
-  return !options.view.empty() && options.view != "off";
-}
-
-}  // namespace
 
 bool wants_sinks(const OutputOptions& options) {
   return !options.mcap.path.empty() || !options.foxglove.empty() || options.dds.publishes ||
@@ -65,8 +74,7 @@ bool wants_sinks(const OutputOptions& options) {
 
 Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                publish::Stream stream) {
-  stream.frame_id = options.frame_id;
-  stream.sensor_frame_id = options.sensor_frame_id == "off" ? "" : options.sensor_frame_id;
+  name_frames(options, stream);
   publish::Publisher::Sinks sinks;
   if (!options.mcap.path.empty()) {
     auto sink = open_mcap(options, stream);
@@ -74,7 +82,7 @@ Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
     sinks.push_back(*std::move(sink));
   }
   if (!options.foxglove.empty()) {
-    auto sink = open_foxglove(options, stream);
+    auto sink = open_foxglove(options, stream, nullptr);
     if (!sink) return tl::unexpected(sink.error());
     sinks.push_back(*std::move(sink));
   }

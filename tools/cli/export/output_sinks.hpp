@@ -2,10 +2,14 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <memory>
+
+#include "pipeline/publish/frame_sink.hpp"
 #include "pipeline/publish/publisher.hpp"
 #include "pipeline/publish/stream.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/options.hpp"
+#include "tools/cli/view/viewed_capture.hpp"
 
 namespace terracut::cli {
 
@@ -17,6 +21,10 @@ namespace terracut::cli {
 /// cannot be. `stream` gets its names of coordinate frames from `options`.
 [[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                              publish::Stream stream);
+
+/// Foxglove's alone, of a capture that its viewers may play (null: nobody plays); the same errors.
+[[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(
+    const OutputOptions& options, publish::Stream stream, ViewedCapture* capture);
 
 /// Warns that an output gets nothing more.
 void warn_of_failure(std::string_view sink, const Error& error);

@@ -37,6 +37,11 @@ const Json& member(const Json& object, const char* key) {
   return found == object.end() ? kNone : *found;
 }
 
+Json time_of(std::int64_t time_ns) {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  return {{"sec", time_ns / kSecond_ns}, {"nsec", time_ns % kSecond_ns}};
+}
+
 }  // namespace
 
 std::string_view foxglove_sub_protocol(std::string_view offered) {
@@ -53,13 +58,19 @@ std::string_view foxglove_sub_protocol(std::string_view offered) {
   return {};
 }
 
-std::string server_info_text(const std::string& name) {
-  return Json{{"op", "serverInfo"},
-              {"name", name},
-              {"capabilities", Json::array()},
-              {"supportedEncodings", {"cdr"}},
-              {"metadata", Json::object()}}
-      .dump(-1, ' ', false, Json::error_handler_t::replace);
+std::string server_info_text(const std::string& name, const PlayerState* capture) {
+  Json info{{"op", "serverInfo"},
+            {"name", name},
+            {"capabilities", Json::array()},
+            {"supportedEncodings", {"cdr"}},
+            {"metadata", Json::object()}};
+  if (capture != nullptr) {
+    info["capabilities"].push_back("playbackControl");
+    info["dataStartTime"] = time_of(capture->begin_ns);
+    info["dataEndTime"] =
+        time_of(capture->begin_ns + static_cast<std::int64_t>(capture->duration_s * 1e9));
+  }
+  return info.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 std::string advertise_text(const std::vector<bool>& wanted) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rt/error.hpp"
+#include "tools/cli/view/player_command.hpp"
 
 /// Foxglove's WebSocket protocol, as a server of ROS 2 messages speaks it: texts in JSON, and data
 /// in binary messages. Both sub-protocols frame them alike.
@@ -22,8 +23,9 @@ inline constexpr std::uint32_t kFirstChannelId = 1;
 /// Sec-WebSocket-Protocol); empty: it speaks none that is known here.
 [[nodiscard]] std::string_view foxglove_sub_protocol(std::string_view offered);
 
-/// What a client is greeted with. `name`: for people.
-[[nodiscard]] std::string server_info_text(const std::string& name);
+/// What a client is greeted with. `name`: for people. `capture`: where the capture stands that
+/// clients may play (playback.hpp); null: there is none.
+[[nodiscard]] std::string server_info_text(const std::string& name, const PlayerState* capture);
 /// The topics of ros_messages::kTopics, as many as `wanted` says.
 [[nodiscard]] std::string advertise_text(const std::vector<bool>& wanted);
 /// A complaint that the client shows.

@@ -6,6 +6,7 @@
 // A line keeps them apart.
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/beast/core.hpp>
 #include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
@@ -20,6 +21,7 @@
 #include <thread>
 
 #include "pipeline/ros_messages/topics.hpp"
+#include "playback.hpp"
 #include "protocol.hpp"
 #include "tools/cli/export/http_host.hpp"
 
@@ -39,6 +41,7 @@ constexpr std::uint32_t kMostHeaderBytes = 8 << 10;
 constexpr std::size_t kMostTextBytes = 64 << 10;
 constexpr std::size_t kMostWaitingTexts = 32;
 constexpr std::chrono::seconds kHandshakePatience{10};
+constexpr std::chrono::milliseconds kCaptureWatched{100};
 constexpr std::size_t kTopics = ros_messages::kTopics.size();
 
 /// A message with its time, to be sent to those who come later.
@@ -51,7 +54,7 @@ struct Kept {
 struct Shared {
   FoxgloveServer::Config config;
   std::string own_name = own_host_name();
-  std::string greeting, channels;
+  std::string channels;
   FoxgloveServer::Figures figures;
   std::array<std::atomic<int>, kTopics> subscribers{};
   std::array<std::optional<Kept>, kTopics> kept;
@@ -86,6 +89,12 @@ class Client : public std::enable_shared_from_this<Client> {
     beast::get_lowest_layer(stream_).socket().close(ignored);
   }
 
+  /// Where the capture stands.
+  void tell_state(const PlayerState& state, bool did_seek, std::string_view request_id) {
+    if (!speaks_playback_ || outgoing_.size() >= kMostWaitingTexts) return;
+    enqueue({.text = playback_state_message(state, did_seek, request_id), .is_binary = true});
+  }
+
   /// To each of its subscriptions to the topic that has taken the last one.
   void offer(std::size_t topic, std::uint64_t time_ns, const FoxgloveServer::Message& message) {
     for (const auto& [id, subscribed] : topics_) {
@@ -95,10 +104,11 @@ class Client : public std::enable_shared_from_this<Client> {
 
  private:
   struct Outgoing {
-    std::string text;  ///< If there is no message.
-    std::optional<std::uint32_t> subscription;
+    std::string text{};  ///< If there is no message.
+    bool is_binary = false;
+    std::optional<std::uint32_t> subscription{};
     std::array<std::byte, 13> header{};
-    FoxgloveServer::Message message;
+    FoxgloveServer::Message message{};
   };
 
   void refuse(http::status status, std::string_view why) {
@@ -143,10 +153,18 @@ class Client : public std::enable_shared_from_this<Client> {
         ++self->shared_.figures.refused;
         return;
       }
-      self->say(self->shared_.greeting);
+      self->greet();
       self->say(self->shared_.channels);
       self->read();
     });
+  }
+
+  void greet() {
+    const ViewedCapture* capture = shared_.config.capture;
+    const PlayerState state = capture != nullptr ? capture->state() : PlayerState{};
+    speaks_playback_ = capture != nullptr && state.begin_ns != 0;
+    say(server_info_text(shared_.config.name, speaks_playback_ ? &state : nullptr));
+    tell_state(state, false, {});
   }
 
   void read() {
@@ -155,7 +173,12 @@ class Client : public std::enable_shared_from_this<Client> {
         if (error == websocket::error::message_too_big) ++self->shared_.figures.bad_requests;
         return;
       }
-      self->hear(beast::buffers_to_string(self->buffer_.data()));
+      const std::string heard = beast::buffers_to_string(self->buffer_.data());
+      if (self->stream_.got_binary()) {
+        self->play(heard);
+      } else {
+        self->hear(heard);
+      }
       self->buffer_.consume(self->buffer_.size());
       self->read();
     });
@@ -176,6 +199,22 @@ class Client : public std::enable_shared_from_this<Client> {
     }
   }
 
+  void play(const std::string& bytes) {
+    ViewedCapture* capture = shared_.config.capture;
+    if (!speaks_playback_) return complain("not offered here: binary messages");
+    PlayerState state = capture->state();
+    const auto request = parse_playback_request(bytes, state.begin_ns);
+    if (!request) return complain(request.error().message);
+    capture->obey(request->command);
+    state = capture->state();
+    const bool seeks = request->command.seek_s.has_value();
+    if (seeks) {  // it will stand there in a moment
+      state.position_s = *request->command.seek_s;
+      state.at_end = false;
+    }
+    tell_state(state, seeks, request->id);
+  }
+
   void subscribe(const FoxgloveRequest::Subscription& wish) {
     const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to beyond them
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
@@ -193,9 +232,7 @@ class Client : public std::enable_shared_from_this<Client> {
     if (outgoing_.size() < kMostWaitingTexts) say(warning_text(what));
   }
 
-  void say(std::string text) {
-    enqueue({.text = std::move(text), .subscription = {}, .message = {}});
-  }
+  void say(std::string text) { enqueue({.text = std::move(text)}); }
 
   void send(std::uint32_t id, std::uint64_t time_ns, const FoxgloveServer::Message& message) {
     const auto waits = [&](const Outgoing& each) { return each.subscription == id; };
@@ -203,7 +240,7 @@ class Client : public std::enable_shared_from_this<Client> {
       ++shared_.figures.skipped;
       return;
     }
-    enqueue({.text = {},
+    enqueue({.is_binary = true,
              .subscription = id,
              .header = message_data_header(id, time_ns),
              .message = message});
@@ -216,7 +253,7 @@ class Client : public std::enable_shared_from_this<Client> {
 
   void write() {
     const Outgoing& next = outgoing_.front();
-    stream_.binary(next.message != nullptr);
+    stream_.binary(next.is_binary);
     const auto written = [self = shared_from_this()](error_code error, std::size_t) {
       if (error) return self->close();
       self->outgoing_.pop_front();
@@ -237,6 +274,7 @@ class Client : public std::enable_shared_from_this<Client> {
   http::request_parser<http::empty_body> parser_;
   std::map<std::uint32_t, std::size_t> topics_;  ///< By id of the subscription.
   std::deque<Outgoing> outgoing_;                ///< The first one is being written.
+  bool speaks_playback_ = false;
 };
 
 }  // namespace
@@ -244,7 +282,6 @@ class Client : public std::enable_shared_from_this<Client> {
 struct FoxgloveServer::State {
   explicit State(const Config& config) {
     shared.config = config;
-    shared.greeting = server_info_text(config.name);
     shared.channels = advertise_text(config.topics);
   }
   ~State() {
@@ -267,8 +304,26 @@ struct FoxgloveServer::State {
     });
   }
 
+  /// Clients learn what another of them, a browser or the capture's end has changed.
+  void watch_capture() {
+    timer.expires_after(kCaptureWatched);
+    timer.async_wait([this](error_code error) {
+      if (error) return;
+      const PlayerState state = shared.config.capture->state();
+      if (state.playing != seen.playing || state.at_end != seen.at_end || state.rate != seen.rate) {
+        seen = state;
+        for (const auto& each : clients) {
+          if (const auto client = each.lock()) client->tell_state(state, false, {});
+        }
+      }
+      watch_capture();
+    });
+  }
+
   Shared shared;
+  PlayerState seen;  ///< As clients were told.
   asio::io_context context{1};
+  asio::steady_timer timer{context};
   tcp::acceptor acceptor{context};
   std::vector<std::weak_ptr<Client>> clients;
   std::jthread thread;
@@ -292,6 +347,7 @@ Expected<FoxgloveServer> FoxgloveServer::start(const Config& config) {
                             to_string(config.at), error.message()));
   }
   state->accept();
+  if (config.capture != nullptr) state->watch_capture();
   state->thread = std::jthread([&context = state->context] { context.run(); });
   return FoxgloveServer(std::move(state));
 }

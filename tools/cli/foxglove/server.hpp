@@ -11,6 +11,7 @@
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "rt/error.hpp"
+#include "tools/cli/view/viewed_capture.hpp"
 
 namespace terracut::cli {
 
@@ -29,12 +30,13 @@ class FoxgloveServer {
     std::string name;      ///< For people.
     std::vector<bool> topics;
     std::vector<std::string> origins;  ///< Of pages that may connect besides this machine's.
+    ViewedCapture* capture = nullptr;  ///< That clients may play; outlives the server.
   };
   /// Since the start. From any thread.
   struct Figures {
     std::atomic<std::uint64_t> skipped{0};       ///< Messages that a slow client missed.
     std::atomic<std::uint64_t> refused{0};       ///< Connections: no place, Host, Origin, protocol.
-    std::atomic<std::uint64_t> bad_requests{0};  ///< Texts that were not understood.
+    std::atomic<std::uint64_t> bad_requests{0};  ///< Messages that were not understood.
   };
 
   /// kInvalidArgument with the system's reason, such as a port in use.

@@ -12,6 +12,7 @@ namespace terracut::cli {
 namespace {
 
 constexpr std::chrono::milliseconds kMoment{50};
+constexpr std::chrono::seconds kMeasuredAhead{1};
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
@@ -25,6 +26,9 @@ CapturePlayer::CapturePlayer(LabelledCapture& capture, const CaptureOptions& opt
     state_.frame_s = 1 / spin_hz;
   }
   measuring_ = std::thread([this] { measure(); });
+  // How long a short one is, whoever looks at it knows from the first.
+  std::unique_lock lock(mutex_);
+  told_.wait_for(lock, kMeasuredAhead, [&] { return is_measured_; });
 }
 
 CapturePlayer::~CapturePlayer() {
@@ -41,11 +45,18 @@ void CapturePlayer::measure() {
   for (std::uint64_t read = 0; source && !stop_measuring_; ++read) {
     const auto next = source->next();
     if (!next || !*next) break;
-    if (!first_ns) first_ns = (*next)->stamp_ns;
+    if (!first_ns) {
+      first_ns = (*next)->stamp_ns;
+      const std::lock_guard lock(mutex_);
+      state_.begin_ns = *first_ns;
+    }
     last_ns = std::max(last_ns, (*next)->stamp_ns);
     if (read % kPacketsAtOnce == 0) note_duration(last_ns - *first_ns);
   }
   if (first_ns) note_duration(last_ns - *first_ns);
+  const std::lock_guard lock(mutex_);
+  is_measured_ = true;
+  told_.notify_all();
 }
 
 void CapturePlayer::note_duration(std::int64_t so_far_ns) {
@@ -57,7 +68,7 @@ void CapturePlayer::obey(const PlayerCommand& command) {
   const std::lock_guard lock(mutex_);
   if (command.playing) {
     state_.playing = *command.playing;
-    if (state_.playing && at_end_ && !command.seek_s) seek_s_ = 0;
+    if (state_.playing && state_.at_end && !command.seek_s) seek_s_ = 0;
   }
   if (command.rate) state_.rate = *command.rate;
   if (command.seek_s) seek_s_ = command.seek_s;
@@ -77,7 +88,9 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
     std::optional<double> seek_s;
     {
       std::unique_lock lock(mutex_);
-      const auto has_work = [&] { return seek_s_ || steps_ > 0 || (state_.playing && !at_end_); };
+      const auto has_work = [&] {
+        return seek_s_ || steps_ > 0 || (state_.playing && !state_.at_end);
+      };
       if (!told_.wait_for(lock, kMoment, has_work)) continue;
       // Where a place in the capture is, is known from its first frame on.
       if (has_frames_) seek_s = std::exchange(seek_s_, std::nullopt);
@@ -105,7 +118,7 @@ Status CapturePlayer::go_to(double seek_s) {
   }
   pace_.reset();
   const std::lock_guard lock(mutex_);
-  at_end_ = false;
+  state_.at_end = false;
   return {};
 }
 
@@ -120,7 +133,7 @@ const run::Frame* CapturePlayer::next_due() {
   if (frame == nullptr) {
     const std::lock_guard lock(mutex_);
     if (seek_s_) return nullptr;  // told meanwhile, and no end for it
-    at_end_ = true;
+    state_.at_end = true;
     steps_ = 0;
     state_.playing = false;
     return nullptr;

@@ -12,7 +12,7 @@
 #include <thread>
 
 #include "tools/cli/input/labelled_capture.hpp"
-#include "view_routes.hpp"
+#include "viewed_capture.hpp"
 
 namespace terracut::cli {
 
@@ -53,7 +53,7 @@ class CapturePlayer : public ViewedCapture {
   std::optional<double> seek_s_;  ///< Where it is to go.
   int steps_ = 0;                 ///< Frames to show though it stands.
   std::uint64_t commands_ = 0;
-  bool at_end_ = false;
+  bool is_measured_ = false;
 
   bool has_frames_ = false;
   std::int64_t skip_to_ns_ = 0;  ///< Frames that end before are not shown.

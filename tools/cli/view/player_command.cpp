@@ -37,7 +37,8 @@ Expected<PlayerCommand> parse_player_command(std::string_view json) {
       if (key == "step") command.step = value.get<bool>();
     } else if (key == "seek_s" || key == "rate") {
       const bool is_rate = key == "rate";
-      const auto found = number(value, key.c_str(), is_rate ? 0.05 : 0, is_rate ? 20 : 1e9);
+      const auto found = number(value, key.c_str(), is_rate ? kLeastRate : 0,
+                                is_rate ? kMostRate : kLongestSeek_s);
       if (!found) return tl::unexpected(found.error());
       (is_rate ? command.rate : command.seek_s) = *found;
     } else {

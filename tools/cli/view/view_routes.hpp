@@ -9,27 +9,15 @@
 #include <string>
 #include <string_view>
 
-#include "player_command.hpp"
 #include "rt/error.hpp"
 #include "view_frames.hpp"
+#include "viewed_capture.hpp"
 
 namespace httplib {
 class Server;
 }
 
 namespace terracut::cli {
-
-/// Plays a capture for whoever looks at it. Any thread.
-class ViewedCapture {
- public:
-  ViewedCapture() = default;
-  ViewedCapture(const ViewedCapture&) = delete;
-  ViewedCapture& operator=(const ViewedCapture&) = delete;
-  virtual ~ViewedCapture() = default;
-
-  virtual void obey(const PlayerCommand& command) = 0;
-  [[nodiscard]] virtual PlayerState state() const = 0;
-};
 
 /// What the routes answer from; outlives them.
 struct ViewSource {

@@ -4,6 +4,7 @@
 // What `terracut replay --foxglove` serves is taken by @foxglove/ws-protocol, the client of Lichtblick, under both of the
 // protocol's names: 30 clouds in a row, none missing, decoded from the definition that was advertised. Texts that are no
 // requests, pages of other origins and names that lead here are refused; a client that stops reading holds up no other.
+// What `terracut view --foxglove` serves is played by a viewer: it stands, is sought, goes on to its end, and says so.
 //
 // node read_foxglove.mjs PROGRAM DRIVE
 
@@ -25,16 +26,20 @@ try {
 }
 
 const calibration = drive.replace(/pcap$/, 'calibration.xml')
-const server = spawn(program, ['replay', drive, '--calibration', calibration, '--rate', '1', '--loop', '0', '--foxglove', '127.0.0.1:0'])
-let said = ''
-const url = await new Promise((resolve, reject) => {
-  server.stderr.on('data', data => {
-    said += data
-    const found = /ws:\/\/[0-9.]+:(\d+)/.exec(said)
-    if (found) resolve(`ws://127.0.0.1:${found[1]}`)
+async function serve(...words) {
+  const process = spawn(program, [...words, '--foxglove', '127.0.0.1:0'])
+  let said = ''
+  const url = await new Promise((resolve, reject) => {
+    process.stderr.on('data', data => {
+      said += data
+      const found = /ws:\/\/[0-9.]+:(\d+)/.exec(said)
+      if (found) resolve(`ws://127.0.0.1:${found[1]}`)
+    })
+    process.once('exit', () => reject(new Error(said)))
   })
-  server.once('exit', () => reject(new Error(said)))
-})
+  return { url, end: () => { process.removeAllListeners('exit'); process.kill('SIGKILL') } }
+}
+const { url, end } = await serve('replay', drive, '--calibration', calibration, '--rate', '1', '--loop', '0')
 
 /** So many clouds of a client, with their stamps. */
 function clouds(protocol, wanted) {
@@ -107,6 +112,72 @@ try {
   stalled.terminate()
   console.log('foreign pages, other protocols and texts that are no requests are refused')
 } finally {
-  server.removeAllListeners('exit')
-  server.kill('SIGKILL')
+  end()
+}
+
+/** A viewer that plays a capture by the protocol's binary messages, as foxglove-sdk 0.25 lays them out. */
+class Player {
+  constructor(url) {
+    this.socket = new modules.WebSocket(url, ['foxglove.sdk.v1'])
+    this.came = []
+    this.wake = () => {}
+    this.socket.on('message', (data, binary) => {
+      this.came.push(binary ? this.decoded(data) : JSON.parse(data))
+      this.wake()
+    })
+  }
+  decoded(data) {
+    if (data[0] === 1) return { op: 'cloud', time: data.readBigUInt64LE(5) }
+    assert.equal(data[0], 5)
+    assert.equal(data.length, 19 + data.readUInt32LE(15))
+    return { op: 'state', status: data[1], time: data.readBigUInt64LE(2), speed: data.readFloatLE(10), seeks: data[14], id: data.toString('utf8', 19) }
+  }
+  /** The next message like this one; what came before it is dropped. */
+  async next(isMeant) {
+    for (;;) {
+      while (this.came.length > 0) {
+        const message = this.came.shift()
+        if (isMeant(message)) return message
+      }
+      await new Promise(resolve => (this.wake = resolve))
+    }
+  }
+  tell(command, speed, seek, id) {
+    const request = Buffer.alloc(19 + id.length)
+    request.writeUInt8(3, 0)
+    request.writeUInt8(command, 1)
+    request.writeFloatLE(speed, 2)
+    request.writeUInt8(seek === undefined ? 0 : 1, 6)
+    request.writeBigUInt64LE(seek ?? 0n, 7)
+    request.writeUInt32LE(id.length, 15)
+    request.write(id, 19)
+    this.socket.send(request)
+  }
+}
+
+const viewed = await serve('view', drive, '--calibration', calibration, '--at', '127.0.0.1:0')
+try {
+  const player = new Player(viewed.url)
+  const info = await player.next(message => message.op === 'serverInfo')
+  assert.deepEqual(info.capabilities, ['playbackControl'])
+  const nanoseconds = time => BigInt(time.sec) * 1_000_000_000n + BigInt(time.nsec)
+  const begin = nanoseconds(info.dataStartTime), finish = nanoseconds(info.dataEndTime)
+  assert.ok(Math.abs(Number(finish - begin) / 1e9 - 1.3) < 0.2, `${begin} to ${finish}`)
+  player.socket.send(JSON.stringify({ op: 'subscribe', subscriptions: [{ id: 0, channelId: 1 }] }))
+  const sought = begin + 500_000_000n
+  player.tell(1, 1, sought, 'seek')
+  const stands = await player.next(message => message.id === 'seek')
+  assert.deepEqual([stands.status, stands.seeks, stands.time], [1, 1, sought])
+  // A cloud's time is that of its last packet.
+  await player.next(message => message.op === 'cloud' && Math.abs(Number(message.time - sought) / 1e9 - 0.1) < 0.06)
+  player.tell(0, 2, undefined, 'on')
+  const plays = await player.next(message => message.id === 'on')
+  assert.deepEqual([plays.status, plays.seeks, plays.speed], [0, 0, 2])
+  await player.next(message => message.op === 'state' && message.status === 3)
+  player.socket.send(Buffer.from([3, 0]))
+  await player.next(message => message.op === 'status' && /cut short/.test(message.message))
+  player.socket.close()
+  console.log('a capture stands, is sought and goes on as a viewer says')
+} finally {
+  viewed.end()
 }

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include "player_command.hpp"
+
+namespace terracut::cli {
+
+/// Plays a capture for whoever looks at it. Any thread.
+class ViewedCapture {
+ public:
+  ViewedCapture() = default;
+  ViewedCapture(const ViewedCapture&) = delete;
+  ViewedCapture& operator=(const ViewedCapture&) = delete;
+  virtual ~ViewedCapture() = default;
+
+  virtual void obey(const PlayerCommand& command) = 0;
+  [[nodiscard]] virtual PlayerState state() const = 0;
+};
+
+}  // namespace terracut::cli

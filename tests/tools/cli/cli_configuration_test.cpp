@@ -31,9 +31,12 @@ TEST_F(Configuration, CommandsStartFromItAndTheCommandLineWins) {
   expect_done("plan --sensor ruby128 --profile paper --json options.json");
   expect_done("--config a.yaml plan --sensor hdl64e --json both.json");
   expect_done("plan --profile paper --json hdl64e.json");
-  EXPECT_EQ(content_of(folder_ / "file.json"), content_of(folder_ / "options.json"));
-  EXPECT_EQ(content_of(folder_ / "both.json"), content_of(folder_ / "hdl64e.json"));
-  EXPECT_NE(content_of(folder_ / "file.json"), content_of(folder_ / "both.json"));
+  // What of the program itself is resident is counted anew each time.
+  const auto parts = [&](const char* name) { return json(name)["parts"]; };
+  ASSERT_FALSE(parts("file.json").empty());
+  EXPECT_EQ(parts("file.json"), parts("options.json"));
+  EXPECT_EQ(parts("both.json"), parts("hdl64e.json"));
+  EXPECT_NE(parts("file.json"), parts("both.json"));
 
   expect_done("--config a.yaml simulate --sensor hdl64e -o file.pcap");
   expect_done("simulate --duration 0.1 --seed 5 -o options.pcap");

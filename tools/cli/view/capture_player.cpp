@@ -73,7 +73,8 @@ void CapturePlayer::obey(const PlayerCommand& command) {
   if (command.rate) state_.rate = *command.rate;
   if (command.seek_s) seek_s_ = command.seek_s;
   if (command.step) state_.playing = false;
-  if (command.step || (command.seek_s && !state_.playing)) steps_ = 1;
+  if (command.seek_s) steps_ = state_.playing ? 0 : 1;
+  if (command.step) ++steps_;
   ++commands_;
   told_.notify_all();
 }

@@ -83,6 +83,16 @@ TEST_F(PlayedCapture, ShowsThePlaceSoughtBeforeItsFirstFrame) {
   EXPECT_NEAR(shown_s[0], 0.5, 0.6 * kFrame_s);
 }
 
+TEST_F(PlayedCapture, StepsFromAPlaceThatIsStillSought) {
+  CapturePlayer player(*capture_, options_.capture);
+  player.obey(parse_player_command(R"({"playing": false, "seek_s": 0.5})").value());
+  player.obey(parse_player_command(R"({"step": true})").value());
+  const auto shown_s = shown(player, {"{}"});
+  ASSERT_EQ(shown_s.size(), 2U);
+  EXPECT_NEAR(shown_s[0], 0.5, 0.6 * kFrame_s);
+  EXPECT_NEAR(shown_s[1] - shown_s[0], kFrame_s, 0.3 * kFrame_s);
+}
+
 TEST_F(PlayedCapture, StepsOnceForEachStepThatIsToldWhileItStands) {
   CapturePlayer player(*capture_, options_.capture);
   const auto shown_s = shown(player, {R"({"step": true})", R"({"step": true})"});

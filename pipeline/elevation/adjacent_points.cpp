@@ -43,16 +43,21 @@ struct RowPair {
 /// Columns taken at once, with one byte for each in a vector.
 constexpr int kTogether = 32;
 
-/// Calls `mark` for the rows shifted against each other by each offset of the upper column from
-/// the lower one, with the columns of which the right one is in `columns`.
+/// The rows shifted against each other, so that the returns compared have one number: the right
+/// one's column. A positive offset of the upper column from the lower one: the upper one is right.
+[[gnu::always_inline]] inline RowPair shifted(const RowPair& rows, int offset) noexcept {
+  return {rows.lower.from(-std::max(offset, 0)), rows.upper.from(std::min(offset, 0))};
+}
+
+/// Calls `mark` for the rows shifted by each offset, with the columns of which the right one is in
+/// `columns` and the left one in the image.
 template <class Mark>
 [[gnu::always_inline]] inline void for_each_offset(const RowPair& rows, frame::ColumnRange columns,
                                                    int reach, Mark mark) noexcept {
   for (int offset = -reach; offset <= reach; ++offset) {
-    const int begin = std::max(columns.begin, std::abs(offset));  // the left one is in the image
-    mark(RowPair{rows.lower.from(begin - std::max(offset, 0)),
-                 rows.upper.from(begin + std::min(offset, 0))},
-         columns.end - begin);
+    const int begin = std::max(columns.begin, std::abs(offset));
+    const RowPair pair = shifted(rows, offset);
+    mark(RowPair{pair.lower.from(begin), pair.upper.from(begin)}, columns.end - begin);
   }
 }
 
@@ -67,67 +72,69 @@ struct SlopeRule {
   float min_rise_m, tan_max_slope_squared;
 
   /// Marks the upper return of pairs whose step is too steep, and the lower one where it is high
-  /// enough; neither where it does not matter.
+  /// enough; neither where it does not matter. At most kTogether.
   [[gnu::always_inline]] void mark(const RowPair& rows, int count) const noexcept {
-    int first = 0;
-    for (; first + kTogether <= count; first += kTogether) {
-      if (may_matter(rows.lower.steep + first, rows.upper.steep + first)) {
-        mark_some(rows, first, kTogether);
-      }
-    }
-    mark_some(rows, first, count - first);
-  }
-
- private:
-  /// Of kTogether pairs. Most are both on the ground or both far above it.
-  [[gnu::always_inline]] static bool may_matter(const std::uint8_t* lower,
-                                                const std::uint8_t* upper) noexcept {
-    using Word = std::uint64_t;
-    static_assert(kUpperMay == 2 * kIsRaised && kLowerMay == 2 * kUpperMay);
-    Word found = 0;
-    for (int i = 0; i < kTogether; i += int{sizeof(Word)}) {
-      Word low, up;
-      std::memcpy(&low, lower + i, sizeof(low));
-      std::memcpy(&up, upper + i, sizeof(up));
-      found |= up | (low >> 1U & up << 1U);
-    }
-    return (found & (kUpperMay * (~Word{0} / 0xFF))) != 0;
-  }
-  /// At most kTogether.
-  [[gnu::always_inline]] void mark_some(const RowPair& rows, int first, int count) const noexcept {
-    const Row lower = rows.lower.from(first), upper = rows.upper.from(first);
     std::uint8_t is_steep[kTogether];
     for (int i = 0; i < count; ++i) {
-      const float dx = upper.x_m[i] - lower.x_m[i];
-      const float dy = upper.y_m[i] - lower.y_m[i];
-      const float rise = upper.z_m[i] - lower.z_m[i];
+      const float dx = rows.upper.x_m[i] - rows.lower.x_m[i];
+      const float dy = rows.upper.y_m[i] - rows.lower.y_m[i];
+      const float rise = rows.upper.z_m[i] - rows.lower.z_m[i];
       is_steep[i] =
           (rise >= min_rise_m) & ((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise);
     }
     // Bit 0 of each.
     for (int i = 0; i < count; ++i) {
-      const std::uint8_t up = upper.steep[i], low = lower.steep[i];
-      upper.steep[i] = static_cast<std::uint8_t>(up | (is_steep[i] & (up >> 3) & (low >> 1)));
+      const std::uint8_t up = rows.upper.steep[i], low = rows.lower.steep[i];
+      rows.upper.steep[i] = static_cast<std::uint8_t>(up | (is_steep[i] & (up >> 3) & (low >> 1)));
       is_steep[i] = static_cast<std::uint8_t>(is_steep[i] & (low >> 4) & (up >> 2));
     }
     for (int i = 0; i < count; ++i) {
-      lower.steep[i] = static_cast<std::uint8_t>(lower.steep[i] | is_steep[i]);
+      rows.lower.steep[i] = static_cast<std::uint8_t>(rows.lower.steep[i] | is_steep[i]);
     }
   }
 };
+
+/// All flags that kTogether returns have, and those up to `reach` to the left of them.
+[[gnu::always_inline]] inline std::uint8_t flags_around(const std::uint8_t* steep,
+                                                        int reach) noexcept {
+  std::uint64_t any = 0;
+  for (int i = 0; i < kTogether; i += int{sizeof(any)}) {
+    std::uint64_t here, left;
+    std::memcpy(&here, steep + i, sizeof(here));
+    std::memcpy(&left, steep + i - reach, sizeof(left));
+    any |= here | left;
+  }
+  any |= any >> 32U;
+  any |= any >> 16U;
+  return static_cast<std::uint8_t>(any | any >> 8U);
+}
+
+/// Whether one of kTogether pairs may change what is steep, at any offset, or nearly. Most are both
+/// on the ground or both far above it.
+[[gnu::always_inline]] inline bool may_matter(const RowPair& rows, int reach) noexcept {
+  const std::uint8_t upper = flags_around(rows.upper.steep, reach);
+  return (upper & kUpperMay) != 0 ||
+         ((upper & kIsRaised) != 0 && (flags_around(rows.lower.steep, reach) & kLowerMay) != 0);
+}
 
 /// What the heights say of a row's returns.
 TERRACUT_VECTOR_CLONES void find_what_matters(std::span<const float> height_m, float min_upper_m,
                                               float min_lower_m, float max_m,
                                               std::uint8_t* __restrict steep) noexcept {
-  const std::size_t count = height_m.size();
-  for (std::size_t i = 0; i < count; ++i) {
-    const float h = height_m[i];
-    const bool matters = h <= max_m;
-    steep[i] =
-        static_cast<std::uint8_t>((h == h ? kHasReturn : 0) | (h >= min_upper_m ? kIsRaised : 0) |
-                                  (((h >= min_upper_m) & matters) ? kUpperMay : 0) |
-                                  (((h >= min_lower_m) & matters) ? kLowerMay : 0));
+  constexpr int kAll = kHasReturn | kIsRaised | kUpperMay | kLowerMay;
+  // First in numbers as wide as heights are: else each comparison is narrowed by itself.
+  std::int32_t flags[kTogether];
+  for (std::size_t first = 0; first < height_m.size(); first += kTogether) {
+    const std::size_t count = std::min(height_m.size() - first, std::size_t{kTogether});
+    for (std::size_t i = 0; i < count; ++i) {
+      const float h = height_m[first + i];
+      flags[i] = (h <= max_m ? kAll : kHasReturn | kIsRaised) &
+                 ((h == h ? kHasReturn : 0) | (h >= min_upper_m ? kIsRaised | kUpperMay : 0) |
+                  (h >= min_lower_m ? kLowerMay : 0));
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+      steep[first + i] = static_cast<std::uint8_t>(flags[i]);
+    }
   }
 }
 
@@ -150,10 +157,24 @@ struct SpacingRule {
   }
 };
 
+/// kTogether columns at once, the last of them with some that have been compared, which changes
+/// nothing; one by one where the left ones of so many are not all in the image.
 TERRACUT_VECTOR_CLONES void mark_by_slope(const RowPair rows, frame::ColumnRange columns, int reach,
                                           const SlopeRule rule) noexcept {
-  for_each_offset(rows, columns, reach,
-                  [&](const RowPair& shifted, int count) { rule.mark(shifted, count); });
+  const int last = columns.end - kTogether;
+  const int together = last < reach ? columns.end : std::max(columns.begin, reach);
+  for (int column = columns.begin; column < together; ++column) {
+    for_each_offset(rows, {column, column + 1}, reach,
+                    [&](const RowPair& one, int count) { rule.mark(one, count); });
+  }
+  for (int column = together; column < columns.end; column += kTogether) {
+    const int begin = std::min(column, last);
+    const RowPair some{rows.lower.from(begin), rows.upper.from(begin)};
+    if (!may_matter(some, reach)) continue;
+    for (int offset = -reach; offset <= reach; ++offset) {
+      rule.mark(shifted(some, offset), kTogether);
+    }
+  }
 }
 
 TERRACUT_VECTOR_CLONES void mark_by_spacing(const RowPair rows, frame::ColumnRange columns,
@@ -238,9 +259,6 @@ void AdjacentPoints::for_each_row_pair(const frame::PointPlanes& points, stage::
 
 void AdjacentPoints::compare(const frame::PointPlanes& points, frame::ColumnRange columns,
                              stage::CellPlanes& planes) noexcept {
-  // Whole vectors: to compare columns to the left once more changes nothing.
-  const int whole = (columns.end - columns.begin + kTogether - 1) / kTogether * kTogether;
-  columns.begin = std::max(columns.end - whole, 0);
   if (config_.rule == AdjacentRule::kSlope) {
     const SlopeRule rule{config_.min_rise_m, tan_max_slope_squared_};
     for_each_row_pair(points, planes, [&](const RowPair& rows, float) noexcept {

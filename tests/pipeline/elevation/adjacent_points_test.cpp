@@ -5,6 +5,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <random>
+#include <vector>
 
 #include "pipeline/ground/coarse_stages.hpp"
 #include "tests/support/synthetic_frame.hpp"
@@ -103,6 +105,85 @@ TEST(AdjacentPoints, SeesAWallThatLiesAcrossTheSeamOfColumns) {
 TEST(AdjacentPoints, EmptyCellsAreNeverSteep) {
   const Refined sky({}, [](double, double) { return -1.0; });
   EXPECT_EQ(sky.steep_cells(), 0);
+}
+
+/// What kSlope marks, pair by pair: kSteep of each cell.
+std::vector<std::uint8_t> steep_one_by_one(const AdjacentPoints::Config& config, float max_height_m,
+                                           frame::ImageShape shape,
+                                           const frame::PointPlanes& points,
+                                           std::span<const float> height_m) {
+  std::vector<std::uint8_t> steep(shape.cells());
+  const auto tan_max_slope_squared =
+      static_cast<float>(std::pow(std::tan(static_cast<double>(config.max_slope_rad)), 2));
+  for (int row = 0; row + 1 < shape.rows; ++row) {
+    for (int column = 0; column < shape.columns; ++column) {
+      for (int offset = -config.column_reach; offset <= config.column_reach; ++offset) {
+        const std::size_t low = shape.cell(row, column);
+        const std::size_t up =
+            shape.cell(row + 1, (column + offset + shape.columns) % shape.columns);
+        const float dx = points.x_m[up] - points.x_m[low], dy = points.y_m[up] - points.y_m[low];
+        const float rise = points.z_m[up] - points.z_m[low];
+        if (!(rise >= config.min_rise_m) ||
+            !((dx * dx + dy * dy) * tan_max_slope_squared < rise * rise) ||
+            !(height_m[up] >= config.min_upper_height_m)) {
+          continue;
+        }
+        if (height_m[up] <= max_height_m) steep[up] = stage::kSteep;
+        if (height_m[low] >= config.min_lower_height_m && height_m[low] <= max_height_m) {
+          steep[low] = stage::kSteep;
+        }
+      }
+    }
+  }
+  return steep;
+}
+
+TEST(AdjacentPoints, ComparesColumnsTogetherAsIfOneByOne) {
+  std::minstd_rand random(1);
+  int found = 0;
+  const auto metres = [&](float low, float high) {
+    return low + (high - low) * static_cast<float>(random() % 1000U) / 1000.0F;
+  };
+  for (const int columns : {20, 33, 40, 67, 130}) {
+    for (const int reach : {0, 1, 8}) {
+      AdjacentPoints::Config config;
+      config.last_row_step = 1;
+      config.column_reach = reach;
+      constexpr float kMaxHeight_m = 0.3F;
+      const frame::ImageShape shape{8, columns};
+      memory::FixedMemory memory;
+      stage::CellPlanes planes(shape, memory);
+      std::vector<float> x_m(shape.cells()), y_m(shape.cells()), z_m(shape.cells());
+      const frame::PointPlanes points{x_m.data(), y_m.data(), z_m.data(), nullptr};
+      for (int row = 0; row < shape.rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+          const std::size_t cell = shape.cell(row, column);
+          x_m[cell] = metres(10, 11);
+          y_m[cell] = metres(0, 1);
+          // Pieces of ground, of walls, and without a return, so that some can be left out.
+          const auto kind = random() % 20U;
+          const bool as_before = column > 0 && kind != 0;
+          const float before_m = as_before ? planes.height_m[cell - 1] : metres(-0.1F, 0.5F);
+          z_m[cell] = planes.height_m[cell] =
+              !as_before && random() % 4U == 0 ? std::nanf("") : before_m + metres(-0.02F, 0.02F);
+        }
+      }
+      AdjacentPoints stage(config, kMaxHeight_m, test::even_profile(8), shape, memory);
+      stage.reset({0, columns}, planes);
+      for (int begin = 0; begin < columns;) {
+        const int end = std::min(columns, begin + 1 + static_cast<int>(random() % 70U));
+        stage.compare(points, {begin, end}, planes);
+        begin = end;
+      }
+      stage.compare_across_seam(points, planes);
+      const auto expected = steep_one_by_one(config, kMaxHeight_m, shape, points, planes.height_m);
+      for (std::size_t cell = 0; cell < expected.size(); ++cell) {
+        EXPECT_EQ(planes.steep[cell] & stage::kSteep, expected[cell]) << columns << " " << reach;
+        found += expected[cell];
+      }
+    }
+  }
+  EXPECT_GT(found, 500);
 }
 
 }  // namespace

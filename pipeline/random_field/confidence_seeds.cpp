@@ -44,6 +44,13 @@ min_cut::Seed kept(frame::Label label) noexcept {
   return min_cut::Seed::kNone;
 }
 
+/// The windows around the cells of a row, and what makes ground in them trusted.
+struct TrustedWindows {
+  const std::uint8_t *ground_in_column, *returns_in_column;  ///< From the first window on.
+  int columns;                                               ///< Of a window.
+  float ground_share, max_height_m;
+};
+
 // A row of labels enters the counts of its columns, or leaves them.
 TERRACUT_VECTOR_CLONES void count(const frame::Label* labels, std::size_t columns,
                                   std::uint8_t* ground, std::uint8_t* returns) noexcept {
@@ -65,32 +72,45 @@ TERRACUT_VECTOR_CLONES void uncount(const frame::Label* labels, std::size_t colu
 }
 
 /// sums[i] = counts[i] + .. + counts[i + width - 1]
-TERRACUT_VECTOR_CLONES void sum_windows(const std::uint8_t* counts, int width,
-                                        std::span<std::uint16_t> sums) noexcept {
-  const std::size_t columns = sums.size();
-  std::uint16_t* const out = sums.data();
-  for (std::size_t i = 0; i < columns; ++i) out[i] = counts[i];
+template <class Sum>
+[[gnu::always_inline]] inline void sum_windows(const std::uint8_t* __restrict counts, int width,
+                                               std::size_t columns, Sum* __restrict sums) noexcept {
+  for (std::size_t i = 0; i < columns; ++i) sums[i] = counts[i];
   for (int offset = 1; offset < width; ++offset) {
-    const std::uint8_t* shifted = counts + offset;
-    for (std::size_t i = 0; i < columns; ++i) {
-      out[i] = static_cast<std::uint16_t>(out[i] + shifted[i]);
-    }
+    const std::uint8_t* const __restrict shifted = counts + offset;
+    for (std::size_t i = 0; i < columns; ++i) sums[i] = static_cast<Sum>(sums[i] + shifted[i]);
   }
 }
 
 /// Where so much of a window is ground, and the return so low, that a ground label is trusted.
-TERRACUT_VECTOR_CLONES void find_trusted_ground(const std::uint16_t* __restrict ground_in_window,
-                                                const std::uint16_t* __restrict returns_in_window,
-                                                const float* __restrict height_m, float share,
-                                                float max_height_m,
-                                                std::span<std::uint8_t> trusted) noexcept {
+/// `Sum` holds what is in a window.
+template <class Sum>
+[[gnu::always_inline]] inline void find_trusted_ground(const TrustedWindows& windows,
+                                                       const float* __restrict height_m,
+                                                       Sum* __restrict ground,
+                                                       Sum* __restrict returns,
+                                                       std::span<std::uint8_t> trusted) noexcept {
   const std::size_t columns = trusted.size();
+  sum_windows(windows.ground_in_column, windows.columns, columns, ground);
+  sum_windows(windows.returns_in_column, windows.columns, columns, returns);
   std::uint8_t* const __restrict out = trusted.data();
   for (std::size_t i = 0; i < columns; ++i) {
-    out[i] = (static_cast<float>(ground_in_window[i]) >
-              share * static_cast<float>(returns_in_window[i])) &
-             (height_m[i] < max_height_m);
+    out[i] =
+        (static_cast<float>(ground[i]) > windows.ground_share * static_cast<float>(returns[i])) &
+        (height_m[i] < windows.max_height_m);
   }
+}
+TERRACUT_VECTOR_CLONES void find_trusted_ground_small(const TrustedWindows& windows,
+                                                      const float* height_m, std::uint8_t* ground,
+                                                      std::uint8_t* returns,
+                                                      std::span<std::uint8_t> trusted) noexcept {
+  find_trusted_ground(windows, height_m, ground, returns, trusted);
+}
+TERRACUT_VECTOR_CLONES void find_trusted_ground_large(const TrustedWindows& windows,
+                                                      const float* height_m, std::uint16_t* ground,
+                                                      std::uint16_t* returns,
+                                                      std::span<std::uint8_t> trusted) noexcept {
+  find_trusted_ground(windows, height_m, ground, returns, trusted);
 }
 
 /// Where a return is steep or high enough for an obstacle label to be trusted.
@@ -140,16 +160,16 @@ ConfidenceSeeds::ConfidenceSeeds(const Config& config, const mount::RingProfile&
       ground_in_column_(memory.take<std::uint8_t>(
           "seeds", static_cast<std::size_t>(shape.columns + 2 * config.window_columns))),
       returns_in_column_(memory.take<std::uint8_t>("seeds", ground_in_column_.size())),
-      ground_in_window_(
-          memory.take<std::uint16_t>("seeds", static_cast<std::size_t>(shape.columns))),
-      returns_in_window_(memory.take<std::uint16_t>("seeds", ground_in_window_.size())),
-      trusted_ground_(memory.take<std::uint8_t>("seeds", ground_in_window_.size())),
-      trusted_obstacle_(memory.take<std::uint8_t>("seeds", ground_in_window_.size())) {
+      sums_(memory.take<std::uint16_t>("seeds", 2 * static_cast<std::size_t>(shape.columns))),
+      trusted_ground_(memory.take<std::uint8_t>("seeds", sums_.size() / 2)),
+      trusted_obstacle_(memory.take<std::uint8_t>("seeds", sums_.size() / 2)) {
   const stage::RowSteps row_steps(profile, static_cast<double>(config.row_step_deg));
   for (int row = 0; row < shape.rows; ++row) {
     const auto i = static_cast<std::size_t>(row);
     window_begin_[i] = std::max(0, row_steps.down(row, config.window_rows));
     window_end_[i] = std::min(shape.rows, row_steps.up(row, config.window_rows) + 1);
+    most_in_window_ = std::max(
+        most_in_window_, (window_end_[i] - window_begin_[i]) * (2 * config.window_columns + 1));
   }
 }
 
@@ -162,7 +182,6 @@ void ConfidenceSeeds::select(const stage::CellPlanes& planes) noexcept {
   start_counting();
   for (int row = 0; row < cut_rows_; ++row) {
     count_in_columns(planes, row);
-    count_in_windows();
     select_in_row(planes, row);
   }
 }
@@ -173,8 +192,7 @@ void ConfidenceSeeds::select_in_row(const stage::CellPlanes& planes, int row) no
   const float min_obstacle_height_m = config_.trust_all_obstacles
                                           ? -std::numeric_limits<float>::infinity()
                                           : config_.min_obstacle_height_m;
-  find_trusted_ground(ground_in_window_.data(), returns_in_window_.data(), &planes.height_m[first],
-                      config_.ground_share, config_.max_ground_height_m, trusted_ground_);
+  find_trusted_ground_in_row(&planes.height_m[first]);
   find_trusted_obstacles(&planes.steep[first], &planes.height_m[first], min_obstacle_height_m,
                          trusted_obstacle_);
   choose(&planes.label[first], trusted_ground_.data(), trusted_obstacle_.data(),
@@ -210,10 +228,17 @@ void ConfidenceSeeds::count_in_columns(const stage::CellPlanes& planes, int row)
   }
 }
 
-void ConfidenceSeeds::count_in_windows() noexcept {
-  const int width = 2 * config_.window_columns + 1;
-  sum_windows(ground_in_column_.data(), width, ground_in_window_);
-  sum_windows(returns_in_column_.data(), width, returns_in_window_);
+void ConfidenceSeeds::find_trusted_ground_in_row(const float* height_m) noexcept {
+  const TrustedWindows windows{ground_in_column_.data(), returns_in_column_.data(),
+                               2 * config_.window_columns + 1, config_.ground_share,
+                               config_.max_ground_height_m};
+  const std::size_t columns = trusted_ground_.size();
+  if (most_in_window_ <= std::numeric_limits<std::uint8_t>::max()) {
+    auto* const sums = reinterpret_cast<std::uint8_t*>(sums_.data());
+    find_trusted_ground_small(windows, height_m, sums, sums + columns, trusted_ground_);
+  } else {
+    find_trusted_ground_large(windows, height_m, sums_.data(), &sums_[columns], trusted_ground_);
+  }
 }
 
 }  // namespace terracut::random_field

@@ -54,7 +54,7 @@ class ConfidenceSeeds {
  private:
   void start_counting() noexcept;
   void count_in_columns(const stage::CellPlanes& planes, int row) noexcept;
-  void count_in_windows() noexcept;
+  void find_trusted_ground_in_row(const float* height_m) noexcept;
   void select_in_row(const stage::CellPlanes& planes, int row) noexcept;
 
   Config config_;
@@ -66,9 +66,9 @@ class ConfidenceSeeds {
   // Of one row: sums over the window's rows, the seam's columns repeated at both ends ...
   std::span<std::uint8_t> ground_in_column_;
   std::span<std::uint8_t> returns_in_column_;
-  // ... and over the whole window.
-  std::span<std::uint16_t> ground_in_window_;
-  std::span<std::uint16_t> returns_in_window_;
+  // ... and over the whole window, in bytes where those hold most_in_window_.
+  std::span<std::uint16_t> sums_;
+  int most_in_window_ = 0;                                     // returns
   std::span<std::uint8_t> trusted_ground_, trusted_obstacle_;  // of the row being judged
 };
 

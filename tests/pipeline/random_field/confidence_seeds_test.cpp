@@ -92,7 +92,16 @@ TEST_F(LabelledPlanes, RowsThatNeverSeeGroundKeepTheirLabelsIfAsked) {
   EXPECT_EQ(select()[at(7, 10)], min_cut::Seed::kUnknown) << "by default every row is decided";
 }
 
-TEST_F(LabelledPlanes, SlidingWindowAgreesWithCountingEveryWindowFrameAfterFrame) {
+struct SlidingWindow : LabelledPlanes, testing::WithParamInterface<ConfidenceSeeds::Config> {};
+INSTANTIATE_TEST_SUITE_P(OfAnySize, SlidingWindow,
+                         testing::Values(ConfidenceSeeds::Config{},
+                                         // More returns than a byte counts.
+                                         ConfidenceSeeds::Config{.ground_share = 0.75F,
+                                                                 .window_rows = 8,
+                                                                 .window_columns = 16}));
+
+TEST_P(SlidingWindow, AgreesWithCountingEveryWindowFrameAfterFrame) {
+  const ConfidenceSeeds::Config config = GetParam();
   std::mt19937 random(3);
   int ground_seeds = 0, unknown = 0;
   for (int frame = 0; frame < 4; ++frame) {
@@ -104,21 +113,23 @@ TEST_F(LabelledPlanes, SlidingWindowAgreesWithCountingEveryWindowFrameAfterFrame
                                                    : frame::Label::kGround;
       }
     }
-    if (frame == 0) select();
+    if (frame == 0) select(config);
     stage->select(planes);
     const auto seeds = stage->seeds();
     for (int row = 0; row < kShape.rows; ++row) {
       for (int column = 0; column < kShape.columns; ++column) {
         if (planes.label[at(row, column)] != frame::Label::kGround) continue;
         int ground = 0, returns = 0;
-        for (int r = std::max(0, row - 2); r <= std::min(kShape.rows - 1, row + 2); ++r) {
-          for (int c = column - 3; c <= column + 3; ++c) {
+        const int last_row = std::min(kShape.rows - 1, row + config.window_rows);
+        for (int r = std::max(0, row - config.window_rows); r <= last_row; ++r) {
+          for (int c = column - config.window_columns; c <= column + config.window_columns; ++c) {
             const frame::Label label = planes.label[at(r, (c + kShape.columns) % kShape.columns)];
             ground += label == frame::Label::kGround;
             returns += label != frame::Label::kNone;
           }
         }
-        const bool trusted = static_cast<float>(ground) > 0.8F * static_cast<float>(returns);
+        const bool trusted =
+            static_cast<float>(ground) > config.ground_share * static_cast<float>(returns);
         EXPECT_EQ(seeds[at(row, column)],
                   trusted ? min_cut::Seed::kGround : min_cut::Seed::kUnknown)
             << row << ", " << column << " of frame " << frame;

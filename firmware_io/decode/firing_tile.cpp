@@ -8,6 +8,22 @@
 
 namespace terracut::decode {
 
+TERRACUT_VECTOR_CLONES void fill_rows(std::span<const float> values,
+                                      float* __restrict rows) noexcept {
+  for (std::size_t i = 0; i < values.size(); ++i, rows += kTileFirings) {
+    const float value = values[i];
+    for (std::size_t f = 0; f < kTileFirings; ++f) rows[f] = value;
+  }
+}
+
+TERRACUT_VECTOR_CLONES void fill_rows(std::span<const std::int32_t> values,
+                                      std::int32_t* __restrict rows) noexcept {
+  for (std::size_t i = 0; i < values.size(); ++i, rows += kTileFirings) {
+    const std::int32_t value = values[i];
+    for (std::size_t f = 0; f < kTileFirings; ++f) rows[f] = value;
+  }
+}
+
 TERRACUT_VECTOR_CLONES void spread_rows(std::span<const float> values,
                                         const frame::TileRow<std::int32_t>& mask,
                                         float* __restrict rows) noexcept {

@@ -87,6 +87,10 @@ struct GroupHeads {
   alignas(64) std::array<TileRow<float>, kGroups> sin_advance, cos_advance;
 };
 
+/// Writes each of `values` to a row of its own; `rows`: one after the other.
+void fill_rows(std::span<const float> values, float* rows) noexcept TERRACUT_NONBLOCKING;
+void fill_rows(std::span<const std::int32_t> values,
+               std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
 /// Writes each of `values` to the firings meant in a row of its own; `rows`: one after the other.
 void spread_rows(std::span<const float> values, const frame::TileRow<std::int32_t>& mask,
                  float* rows) noexcept TERRACUT_NONBLOCKING;

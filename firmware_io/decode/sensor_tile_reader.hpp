@@ -47,6 +47,10 @@ class SensorTileReader final : public frame::TileReader {
             of.cos[group] = advance.cos;
           }
         },
+        [&found](const Directions& of) noexcept {
+          fill_rows(of.sin, found.sin_advance[0].data());
+          fill_rows(of.cos, found.cos_advance[0].data());
+        },
         [&found](const Directions& of, const FiringMask& mask) noexcept {
           spread_rows(of.sin, mask, found.sin_advance[0].data());
           spread_rows(of.cos, mask, found.cos_advance[0].data());

@@ -53,6 +53,10 @@ class TileColumns {
             of.rest[group] = angle.rest;
           }
         },
+        [this](const Columns& of) noexcept {
+          fill_rows(of.whole, advance_column_[0].data());
+          fill_rows(of.rest, advance_rest_[0].data());
+        },
         [this](const Columns& of, const FiringMask& mask) noexcept {
           spread_rows(of.whole, mask, advance_column_[0].data());
           spread_rows(of.rest, mask, advance_rest_[0].data());

@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "calib/beams/angle.hpp"
 #include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
@@ -63,14 +64,14 @@ class PacketReturns {
         columns_(columns),
         directions_(memory),
         columns_of_(sensor_, columns, memory),
-        reader_(sensor_, directions_, memory),
+        reader_(sensor_, memory),
         tile_(memory.take<FiringTile<kLasers>>("decoder tables", 1)),
         beams_(memory.take<BeamColumns>("decoder tables", kLasers)),
         points_(memory.take<TilePoints>("decoder tables", kLasers)) {}
 
   /// For whoever makes points of frames that are kept as they were measured; on any one thread.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const {
-    return std::make_unique<SensorTileReader<Sensor>>(sensor_, directions_, memory);
+    return std::make_unique<SensorTileReader<Sensor>>(sensor_, memory);
   }
 
   [[nodiscard]] Sensor& trait() noexcept { return sensor_; }
@@ -150,6 +151,9 @@ class PacketReturns {
     for (std::size_t f = 0; f < kTileFirings; ++f) {
       heads_.head_cdeg[f] =
           static_cast<std::int32_t>(rotor_cdeg_[f] - first_frame * beams::kRevolution_cdeg);
+      const SinCos direction = directions_.at(beams::wrap_cdeg(heads_.head_cdeg[f]));
+      heads_.sin_head[f] = direction.sin;
+      heads_.cos_head[f] = direction.cos;
     }
     if (makes_points) reader_.open(heads_, tile_[0].raw[0].data());
     columns_of_.find(sensor_, heads_, beams_);

@@ -7,10 +7,8 @@
 #include <cstdint>
 #include <span>
 
-#include "calib/beams/angle.hpp"
 #include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/decode/rotor_directions.hpp"
 #include "firmware_io/decode/step_advances.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -21,11 +19,8 @@ namespace terracut::decode {
 template <class Sensor>
 class SensorTileReader final : public frame::TileReader {
  public:
-  /// What `directions` looks at must outlive this.
-  SensorTileReader(const Sensor& sensor, const RotorDirections& directions,
-                   memory::FixedMemory& memory)
+  SensorTileReader(const Sensor& sensor, memory::FixedMemory& memory)
       : sensor_(sensor),
-        directions_(directions),
         heads_(memory.take<GroupHeads<Sensor::kGroups>>("decoder tables", 1)),
         advances_(memory) {}
 
@@ -33,11 +28,8 @@ class SensorTileReader final : public frame::TileReader {
             const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
     raw_ = raw;
     GroupHeads<Sensor::kGroups>& found = heads_[0];
-    for (std::size_t f = 0; f < kTileFirings; ++f) {
-      const SinCos direction = directions_.at(beams::wrap_cdeg(heads.head_cdeg[f]));
-      found.sin_rotor[f] = direction.sin;
-      found.cos_rotor[f] = direction.cos;
-    }
+    found.sin_rotor = heads.sin_head;
+    found.cos_rotor = heads.cos_head;
     advances_.spread(
         heads,
         [this](Directions& of, std::int32_t step_ticks, bool is_dual) noexcept {
@@ -73,7 +65,6 @@ class SensorTileReader final : public frame::TileReader {
   };
 
   Sensor sensor_;
-  RotorDirections directions_;
   std::span<GroupHeads<Sensor::kGroups>> heads_;  ///< One element.
   StepAdvances<Directions> advances_;
   const std::uint16_t* raw_ = nullptr;

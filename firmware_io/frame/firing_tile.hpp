@@ -52,9 +52,10 @@ struct BeamColumns {
 
 /// Where the head was at each firing of a tile.
 struct TileHeads {
-  TileRow<std::int32_t> head_cdeg;   ///< Azimuth, unwrapped, from the beginning of some frame.
-  TileRow<std::int32_t> step_ticks;  ///< From this firing to the next, 1e-5 degrees.
-  std::uint32_t is_dual = 0;         ///< A bit for each firing that is one of two returns.
+  TileRow<std::int32_t> head_cdeg;    ///< Azimuth, unwrapped, from the beginning of some frame.
+  TileRow<std::int32_t> step_ticks;   ///< From this firing to the next, 1e-5 degrees.
+  TileRow<float> sin_head, cos_head;  ///< Of head_cdeg: looked up once, used by every thread.
+  std::uint32_t is_dual = 0;          ///< A bit for each firing that is one of two returns.
 };
 
 /// Makes points of the distances that one sensor model measured: the calibration, the mount and the

@@ -19,6 +19,7 @@ FiguresDisplay::FiguresDisplay(const WatchOptions& options) {
 
 void FiguresDisplay::show(const status::MonitorSnapshot& figures) {
   if (page_) page_->publish(figures);
+  if (!metrics_) return;
   const std::scoped_lock lock(shown_mutex_);
   *shown_ = figures;
 }

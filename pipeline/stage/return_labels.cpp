@@ -75,21 +75,24 @@ void ReturnLabels::assign(const frame::MeasuredReturns& returns, const frame::Po
                           frame::TileReader& reader, const CellPlanes& planes) noexcept {
   returns_ = returns.returns();
   const std::size_t lasers = returns.lasers();
+  const std::span<const std::int32_t> rows = reader.rows();
+  const auto stride = static_cast<std::size_t>(returns.shape().stride());
   std::array<TileLabels, frame::MeasuredReturns::kMostLasers> of_laser;
   std::array<std::uint8_t, of_laser.size() * frame::kTileFirings> of_firing;
   for (std::size_t t = 0; t < returns.tiles(); ++t) {
     const frame::MeasuredReturns::Tile& tile = returns.tile(t);
+    const std::uint16_t* const raw = returns.raw(t);
+    const frame::MeasuredReturns::LaserRow* const of_tile = &returns.row(t, 0);
     bool is_open = false;
     for (std::size_t i = 0; i < lasers; ++i) {
-      const frame::MeasuredReturns::LaserRow& row = returns.row(t, i);
+      const frame::MeasuredReturns::LaserRow& row = of_tile[i];
       if (row.is_run && row.owned == row.returns) {
-        const std::size_t cell = returns.shape().cell(reader.rows()[i], row.least);
-        copy_where_measured(&planes.label[cell], returns.raw(t) + i * frame::kTileFirings,
-                            of_laser[i].data());
+        const std::size_t cell =
+            static_cast<std::size_t>(rows[i]) * stride + static_cast<std::size_t>(row.least);
+        copy_where_measured(&planes.label[cell], raw + i * frame::kTileFirings, of_laser[i].data());
         continue;
       }
-      if (row.owned != row.returns && !std::exchange(is_open, true))
-        reader.open(tile.heads, returns.raw(t));
+      if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(tile.heads, raw);
       of_laser[i] = labels_of_row(returns, t, i, points, reader, planes);
     }
     frame::transpose(of_laser[0].data(), lasers, frame::kTileFirings, of_firing.data());

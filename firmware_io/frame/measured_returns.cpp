@@ -52,6 +52,18 @@ void add_bits(std::span<std::uint64_t> bits, std::size_t column, std::uint64_t a
   if (shift != 0) bits[word + 1] |= added >> (kWordBits - shift);
 }
 
+/// Takes the cells of a laser whose firings are in columns next to each other, from `least` on;
+/// false where one of them is taken.
+[[gnu::always_inline]] inline bool take_run(std::span<std::uint64_t> cells, std::int32_t least,
+                                            std::uint32_t hits,
+                                            MeasuredReturns::LaserRow& row) noexcept {
+  const auto column = static_cast<std::size_t>(least);
+  if ((bits_from(cells, column) & kAllFirings) != 0) return false;
+  add_bits(cells, column, hits);
+  row = {least, least + int{kTileFirings} - 1, hits, hits, true};
+  return true;
+}
+
 TERRACUT_VECTOR_CLONES void find_hits(const std::uint16_t* raw, std::size_t lasers,
                                       std::uint32_t* hits) noexcept {
   for (std::size_t i = 0; i < lasers; ++i) hits[i] = hits_of(raw + i * kTileFirings);
@@ -116,16 +128,23 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
   const std::span<const std::int32_t> rows = reader.rows();
   std::array<std::uint32_t, kMostLasers> hits;
   find_hits(tile.raw, lasers_, hits.data());
+  const std::int32_t first = tile.first_column, end = first + shape_.columns;
+  const std::span<LaserRow> of_tile = rows_.subspan(number * lasers_, lasers_);
   for (std::size_t i = 0; i < lasers_; ++i) {
-    take_cells(tile, i, hits[i], rows[i], owner, reader);
-    const LaserRow& row = rows_[number * lasers_ + i];
+    const BeamColumns& beam = tile.beams[i];
+    LaserRow& row = of_tile[i];
+    const bool is_run = beam.is_one_run && beam.least >= first && beam.most < end;
+    if (!is_run || !take_run(bits_of(taken_, rows[i]), beam.least - first, hits[i], row))
+        [[unlikely]] {
+      take_cells(tile, i, hits[i], rows[i], owner, reader);
+    }
     if (row.returns == 0) continue;
     added.least = std::min(added.least, row.least);
     added.most = std::max(added.most, row.most);
   }
   const std::uint32_t before = returns_;
   fetch_next();
-  number_returns(tile, added, rows_.subspan(number * lasers_, lasers_));
+  number_returns(tile, added, of_tile);
   if (returns_ == before) --used_;  // the tile is all of another frame
   return 0;
 }
@@ -174,14 +193,6 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
   const std::span<std::uint64_t> cells = bits_of(taken_, row);
   const bool is_whole = beam.least >= first && beam.most < end;
   const std::int32_t least = std::max(beam.least, first) - first;
-  if (is_whole && beam.is_one_run) [[likely]] {
-    const auto column = static_cast<std::size_t>(least);
-    if ((bits_from(cells, column) & kAllFirings) == 0) [[likely]] {
-      add_bits(cells, column, hits);
-      taken = {least, beam.most - first, hits, hits, true};
-      return;
-    }
-  }
   taken = {.least = least,
            .most = std::min(beam.most, end - 1) - first,
            .returns = is_whole ? hits : hits & inside(beam, first, end),

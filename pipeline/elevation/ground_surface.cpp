@@ -123,6 +123,14 @@ float GroundSurface::Trace::step(float to_range_m, float to_height_m,
   return step_slope;
 }
 
+bool GroundSurface::leads_to(const Trace& ground, const LowestReturn& here) const noexcept {
+  if (here.height_m == kEmpty || !ground.reaches(here.range_m, here.height_m, config_))
+    return false;
+  if (ground.range_m == 0 && !may_start_at(here)) return false;
+  const float rise_m = here.height_m - ground.predict_m(here.range_m, config_);
+  return rise_m <= config_.foot_rise_m || here.highest_m - here.height_m <= config_.tall_m;
+}
+
 void GroundSurface::trace_outward(const RingGrid& grid, int sector,
                                   std::span<const LowestReturn> lowest) noexcept {
   Trace ground;
@@ -146,8 +154,7 @@ int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin o
     const std::size_t cell = grid.cell(sector, band);
     const float center_m = grid.center_m(band);
     const LowestReturn& here = lowest[cell];
-    const bool is_ground =
-        here.height_m != kEmpty && ground.reaches(here.range_m, here.height_m, config_);
+    const bool is_ground = leads_to(ground, here);
     found_[cell] = is_ground ? origin : kPredicted;
     if (is_ground) {
       // The step's own slope carries the heights of both returns to the middles of their cells.
@@ -188,7 +195,7 @@ GroundSurface::Detour GroundSurface::find_ground_again(
     if (start_band < 0 || !leads_on) {
       start = here;
       start_band = band;
-      connected = passable(lost, here);
+      connected = passable(lost, here) && (lost.range_m != 0 || may_start_at(here));
     }
     last = here;
     const float length_m = here.range_m - start.range_m;

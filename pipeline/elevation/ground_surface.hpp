@@ -21,21 +21,27 @@ namespace terracut::elevation {
 /// without ground of their own take an interpolation of the nearest sectors that have it.
 class GroundSurface {
  public:
+  static constexpr float kEmpty = 1e9F;
+
   /// The lowest return of a grid cell. On a slope it lies at the cell's near or far end, not in its
   /// middle: half a band of 2 m at a slope of 40 % is 0.4 m of height.
   struct LowestReturn {
-    float height_m = kEmpty;  ///< kEmpty where the cell had no return.
-    float range_m = 0;        ///< Horizontal.
+    float height_m = kEmpty;    ///< kEmpty where the cell had no return.
+    float range_m = 0;          ///< Horizontal.
+    float highest_m = -kEmpty;  ///< Of all returns of the cell.
   };
-  static constexpr float kEmpty = 1e9F;
-
   struct Config {
     float step_up_m = 0.04F;        ///< Rise accepted at no distance at all (noise, bumps).
     float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre traced.
     float step_up_limit_m = 0.31F;  ///< A higher rise is never accepted, at whatever distance.
-    float extra_fall = 0.30F;  ///< Further fall accepted per metre traced (ground may drop away).
-    float slope_gain = 0.30F;  ///< Share of a new step in the running slope, (0, 1].
-    float max_slope = 0.55F;   ///< Largest running slope, rise over run.
+    float start_slope = 0.18F;  ///< Beside `step_up_m`, how much higher per metre than the mount's
+                                ///< plane the first ground may lie: what is seen nearer than the
+                                ///< first ring's ground is a car's flank as a rule.
+    float foot_rise_m = 0.18F;  ///< A higher rise is not accepted where something tall stands ...
+    float tall_m = 0.5F;        ///< ... which is this much higher than the cell's lowest return.
+    float extra_fall = 0.30F;   ///< Further fall accepted per metre traced (ground may drop away).
+    float slope_gain = 0.30F;   ///< Share of a new step in the running slope, (0, 1].
+    float max_slope = 0.55F;    ///< Largest running slope, rise over run.
     float slope_memory_m = 2.0F;  ///< How far the running slope is carried on over missing ground.
     float first_slope_run_m =
         0.4F;  ///< A shorter step than this counts as this long for the slope.
@@ -100,6 +106,12 @@ class GroundSurface {
   [[nodiscard]] static std::span<T> of_sector(std::span<T> cells, const RingGrid& grid,
                                               int sector) noexcept {
     return cells.subspan(grid.cell(sector, 0), static_cast<std::size_t>(grid.bands()));
+  }
+  /// Whether a trace may go on to the lowest return of a cell.
+  [[nodiscard]] bool leads_to(const Trace& ground, const LowestReturn& here) const noexcept;
+  /// Whether the first ground that a trace meets may be so high.
+  [[nodiscard]] bool may_start_at(const LowestReturn& here) const noexcept {
+    return here.height_m < config_.step_up_m + config_.start_slope * here.range_m;
   }
   void trace_outward(const RingGrid& grid, int sector,
                      std::span<const LowestReturn> lowest) noexcept;

@@ -13,14 +13,13 @@ namespace {
 // The loops over a row's columns, each passed what it reads and writes for __restrict: without it
 // they are not vectorised in clones.
 
-/// Heights above the surface, mixed of the two bands that a range lies between.
-TERRACUT_VECTOR_CLONES void find_heights(const float* __restrict z_m,
-                                         const float* __restrict range_m,
-                                         const std::int32_t* __restrict first_cell,
-                                         const float* __restrict surface_m,
-                                         const std::int32_t* __restrict mix_bands,
-                                         const float* __restrict mix_share, float last_step,
-                                         std::span<float> height_m) noexcept {
+/// Heights above the surface, mixed of the two bands that a range lies between, and the grid cell
+/// of the first of them.
+TERRACUT_VECTOR_CLONES void find_heights(
+    const float* __restrict z_m, const float* __restrict range_m,
+    const std::int32_t* __restrict first_cell, const float* __restrict surface_m,
+    const std::int32_t* __restrict mix_bands, const float* __restrict mix_share, float last_step,
+    std::int32_t* __restrict inner_cell, std::span<float> height_m) noexcept {
   constexpr std::int32_t kInner = RingGrid::BandMixes::kInner;
   constexpr int kOuterShift = RingGrid::BandMixes::kOuterShift;
   const std::size_t count = height_m.size();
@@ -29,9 +28,11 @@ TERRACUT_VECTOR_CLONES void find_heights(const float* __restrict z_m,
     const float steps = range_m[i] * RingGrid::kStepsPerMetre;
     const auto step = static_cast<std::int32_t>(steps < last_step ? steps : last_step);
     const std::int32_t bands = mix_bands[step];
-    const float inner_m = surface_m[first_cell[i] + (bands & kInner)];
+    const std::int32_t inner = first_cell[i] + (bands & kInner);
+    const float inner_m = surface_m[inner];
     const float outer_m = surface_m[first_cell[i] + (bands >> kOuterShift)];
     out[i] = z_m[i] - (inner_m + mix_share[step] * (outer_m - inner_m));
+    inner_cell[i] = inner;
   }
 }
 
@@ -60,23 +61,26 @@ TERRACUT_VECTOR_CLONES void label_heights(std::span<const float> height_m, float
 // Heights and ranges as whole numbers: the smaller the lower, among equally low ones the nearer.
 // What is lowest is as good as random, and the least of numbers is found without a branch.
 
-std::int64_t key_of(float height_m, float range_m) noexcept {
+/// A height as a whole number, in the same order; its own inverse but for the type.
+std::int32_t ordered(float height_m) noexcept {
   const auto bits = std::bit_cast<std::int32_t>(height_m);
-  const std::int32_t ordered = bits ^ ((bits >> 31) & 0x7FFF'FFFF);
-  return std::int64_t{ordered} << 32 | std::int64_t{std::bit_cast<std::int32_t>(range_m)};
+  return bits ^ ((bits >> 31) & 0x7FFF'FFFF);
 }
 
-GroundSurface::LowestReturn return_of(std::int64_t key) noexcept {
-  const auto ordered = static_cast<std::int32_t>(key >> 32);
-  return {std::bit_cast<float>(ordered ^ ((ordered >> 31) & 0x7FFF'FFFF)),
-          std::bit_cast<float>(static_cast<std::int32_t>(key))};
+float height_of(std::int32_t ordered) noexcept {
+  return std::bit_cast<float>(ordered ^ ((ordered >> 31) & 0x7FFF'FFFF));
 }
 
-/// Keys of some cells; those without a return get that of an empty grid cell. Returns how many have
-/// one.
+std::int64_t key_of(float height_m, float range_m) noexcept {
+  return std::int64_t{ordered(height_m)} << 32 | std::int64_t{std::bit_cast<std::int32_t>(range_m)};
+}
+
+/// Of some cells, keys and heights as whole numbers; those without a return get that of an empty
+/// grid cell. Returns how many have one.
 TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
                                                const float* __restrict range_m,
-                                               std::span<std::int64_t> keys) noexcept {
+                                               std::span<std::int64_t> keys,
+                                               std::int32_t* __restrict heights) noexcept {
   const std::size_t count = keys.size();
   std::int64_t* const __restrict out = keys.data();
   std::uint32_t returns = 0;
@@ -84,6 +88,7 @@ TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
   for (std::size_t i = 0; i < count; ++i) {
     const bool has_return = z_m[i] == z_m[i];
     out[i] = key_of(has_return ? z_m[i] : GroundSurface::kEmpty, has_return ? range_m[i] : 0.0F);
+    heights[i] = ordered(has_return ? z_m[i] : -GroundSurface::kEmpty);
   }
   return returns;
 }
@@ -96,17 +101,24 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
       shape_(shape),
       grid_(config.grid, profile, shape, memory),
       surface_(config.surface, grid_, memory),
+      rough_(config.rough, config.obstacle_height_m, grid_, shape, memory),
       lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())),
       lowest_key_(memory.take<std::int64_t>("ring grid", grid_.cells())),
+      highest_m_(memory.take<float>("ring grid", grid_.cells())),
+      highest_(memory.take<std::int32_t>("ring grid", grid_.cells())),
       row_keys_(memory.take<std::int64_t>("ring grid", static_cast<std::size_t>(shape.columns))),
-      row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())) {}
+      row_heights_(memory.take<std::int32_t>("ring grid", row_keys_.size())),
+      row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())),
+      row_cells_(memory.take<std::int32_t>("ring grid", row_keys_.size())) {}
 
 void RingElevationMap::reset() noexcept {
   traced_ = 0;
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
   std::fill(lowest_key_.begin(), lowest_key_.end(), key_of(GroundSurface::kEmpty, 0.0F));
+  std::fill(highest_.begin(), highest_.end(), ordered(-GroundSurface::kEmpty));
   surface_.reset();
+  rough_.reset();
 }
 
 void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
@@ -117,9 +129,12 @@ void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
   if (points != nullptr) take_extras(image, grid_.columns_of(sectors), *points);
   take_columns(points != nullptr ? points->planes() : image.points(), sectors);
   for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
-    lowest_[i] = return_of(lowest_key_[i]);
+    const std::int64_t key = lowest_key_[i];
+    highest_m_[i] = height_of(highest_[i]);
+    lowest_[i] = {height_of(static_cast<std::int32_t>(key >> 32)),
+                  std::bit_cast<float>(static_cast<std::int32_t>(key)), highest_m_[i]};
   }
-  if (config_.reference == GroundReference::kLocalSurface) surface_.trace(grid_, sectors, lowest_);
+  if (has_surface()) surface_.trace(grid_, sectors, lowest_);
   traced_ = end;
 }
 
@@ -127,27 +142,29 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
                                     RingGrid::Sectors sectors) noexcept {
   const frame::ColumnRange columns = grid_.columns_of(sectors);
   const std::span<std::int64_t> keys = row_keys_.first(columns.size());
+  const std::span<std::int32_t> heights = row_heights_.first(columns.size());
   const std::span<std::uint16_t> steps = row_steps_.first(columns.size());
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t first = shape_.cell(row, columns.begin);
-    seen_ += find_keys(&points.z_m[first], &points.ground_range_m[first], keys);
+    seen_ += find_keys(&points.z_m[first], &points.ground_range_m[first], keys, heights.data());
     grid_.find_steps({&points.ground_range_m[first], steps.size()}, steps);
     std::size_t i = 0;
     for (int sector = sectors.begin; sector < sectors.end; ++sector) {
       const std::size_t ground = grid_.cell(sector, 0);
       for (const std::size_t end = i + grid_.columns_of({sector, sector + 1}).size(); i < end;
            ++i) {
-        std::int64_t& lowest =
-            lowest_key_[ground + static_cast<std::size_t>(grid_.band_of_step(steps[i]))];
-        lowest = std::min(lowest, keys[i]);
+        const std::size_t cell = ground + static_cast<std::size_t>(grid_.band_of_step(steps[i]));
+        lowest_key_[cell] = std::min(lowest_key_[cell], keys[i]);
+        highest_[cell] = std::max(highest_[cell], heights[i]);
       }
     }
   }
 }
 
 void RingElevationMap::take_extra(int sector, float z_m, float ground_range_m) noexcept {
-  std::int64_t& lowest = lowest_key_[grid_.cell(sector, grid_.band_of(ground_range_m))];
-  lowest = std::min(lowest, key_of(z_m, ground_range_m));
+  const std::size_t cell = grid_.cell(sector, grid_.band_of(ground_range_m));
+  lowest_key_[cell] = std::min(lowest_key_[cell], key_of(z_m, ground_range_m));
+  highest_[cell] = std::max(highest_[cell], ordered(z_m));
 }
 
 void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
@@ -169,20 +186,25 @@ void RingElevationMap::take_extras(const frame::RangeImage& image, frame::Column
 }
 
 void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
-  if (config_.reference == GroundReference::kLocalSurface)
-    surface_.finalize(grid_, sectors, lowest_);
+  if (!has_surface()) return;
+  surface_.finalize(grid_, sectors, lowest_);
+  rough_.find_highest_near(sectors, grid_, highest_m_, surface_.height_m());
 }
 
 void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcept {
-  if (config_.reference == GroundReference::kLocalSurface) {
-    surface_.finalize_rest(grid_, lowest_, is_current);
+  if (!has_surface()) return;
+  surface_.finalize_rest(grid_, lowest_, is_current);
+  for (int sector = 0; sector < grid_.sectors(); ++sector) {
+    if (is_current[static_cast<std::size_t>(sector)] != 0) continue;
+    rough_.find_highest_near({sector, sector + 1}, grid_, highest_m_, surface_.height_m());
   }
 }
 
 void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,
-                             stage::CellPlanes& planes) const noexcept {
+                             stage::CellPlanes& planes) noexcept {
   constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
   const RingGrid::BandMixes mixes = grid_.mixes();
+  const std::span<std::int32_t> inner_cell = row_cells_.first(columns.size());
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t cell = shape_.cell(row, columns.begin);
     if (row + 1 < shape_.rows && columns.size() < kShort) {
@@ -190,11 +212,12 @@ void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRang
       points.fetch(above, above + columns.size());
     }
     const std::span<float> height_m = planes.height_m.subspan(cell, columns.size());
-    if (config_.reference == GroundReference::kLocalSurface) {
+    if (has_surface()) {
       find_heights(&points.z_m[cell], &points.ground_range_m[cell],
                    &grid_.first_cell_of_column()[static_cast<std::size_t>(columns.begin)],
                    surface_.height_m().data(), mixes.bands, mixes.outer_share, mixes.last_step,
-                   height_m);
+                   inner_cell.data(), height_m);
+      rough_.level(points, row, columns, inner_cell, grid_, height_m);
     } else {
       find_heights_above(lowest_, grid_, &points.z_m[cell], &points.ground_range_m[cell],
                          columns.begin, height_m);

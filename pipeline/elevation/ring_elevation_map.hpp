@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -10,6 +11,7 @@
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/ground_surface.hpp"
 #include "pipeline/elevation/ring_grid.hpp"
+#include "pipeline/elevation/rough_ground.hpp"
 #include "pipeline/stage/cell_planes.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -29,6 +31,7 @@ class RingElevationMap {
     RingGrid::Config grid;
     GroundReference reference = GroundReference::kLocalSurface;
     GroundSurface::Config surface;    ///< Used with kLocalSurface.
+    RoughGround::Config rough;        ///< Used with kLocalSurface.
     float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
   };
 
@@ -56,15 +59,18 @@ class RingElevationMap {
   void finalize_rest(std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
   /// Sectors to either side that have to be traced for a sector to be final.
   [[nodiscard]] int reach() const noexcept {
-    return config_.reference == GroundReference::kLocalSurface ? surface_.reach() : 0;
+    return has_surface() ? std::max(surface_.reach(), rough_.reach()) : 0;
   }
   /// Fills `height_m` and `label` of some columns.
   void label(const frame::PointPlanes& points, frame::ColumnRange columns,
-             stage::CellPlanes& planes) const noexcept TERRACUT_NONBLOCKING;
+             stage::CellPlanes& planes) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const RingGrid& grid() const noexcept { return grid_; }
 
  private:
+  [[nodiscard]] bool has_surface() const noexcept {
+    return config_.reference == GroundReference::kLocalSurface;
+  }
   void take_overflow(const frame::RangeImage& image) noexcept;
   void take_extras(const frame::RangeImage& image, frame::ColumnRange columns,
                    frame::FramePoints& points) noexcept;
@@ -75,17 +81,24 @@ class RingElevationMap {
   frame::ImageShape shape_;
   RingGrid grid_;
   GroundSurface surface_;
+  RoughGround rough_;
   int traced_ = 0;        // sectors
   std::size_t seen_ = 0;  // returns that own a cell of these
   // Returns that own none: of these sectors, or all of the overflow list.
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
-  std::span<GroundSurface::LowestReturn> lowest_;  // per grid cell
-  std::span<std::int64_t> lowest_key_;             // the same while it is being found
-  // Of one row, from the first column at hand: its returns' keys, and their ranges in the grid's
-  // steps.
+  // Per grid cell, the lowest return and the height of the highest, and both as whole numbers while
+  // they are being found.
+  std::span<GroundSurface::LowestReturn> lowest_;
+  std::span<std::int64_t> lowest_key_;
+  std::span<float> highest_m_;
+  std::span<std::int32_t> highest_;
+  // Of one row, from the first column at hand: its returns' keys and heights as whole numbers,
+  // their ranges in the grid's steps, and the grid cell of each.
   std::span<std::int64_t> row_keys_;
+  std::span<std::int32_t> row_heights_;
   std::span<std::uint16_t> row_steps_;
+  std::span<std::int32_t> row_cells_;
 };
 
 }  // namespace terracut::elevation

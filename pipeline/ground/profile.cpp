@@ -14,6 +14,7 @@ SegmenterConfig paper_profile() noexcept {
   config.elevation_map.grid.max_band_m = 1e9F;  // not cut
   config.elevation_map.reference = elevation::GroundReference::kCellMinimum;
   config.elevation_map.obstacle_height_m = 0.20F;
+  config.elevation_map.rough.enabled = false;
 
   config.adjacent_points.rule = elevation::AdjacentRule::kRingSpacing;
   config.adjacent_points.max_slope_rad = 0.50F;

@@ -91,6 +91,31 @@ TEST_F(SurfaceOverGrid, DoesNotClimbOntoAWall) {
   EXPECT_NEAR(at(0, 30.0F), 0.0F, 0.01F);
 }
 
+TEST_F(SurfaceOverGrid, DoesNotBeginOnTheFlankOfACarBesideTheSensor) {
+  // All that its sectors see: a car 3 m away, sill to roof, and a house behind it.
+  const auto car = [](float range_m) { return range_m < 5 ? 0.45F : 0.45F + 0.3F * (range_m - 5); };
+  for (int s = 20; s < 30; ++s) {
+    for (int b = 0; b < grid.bands(); ++b) {
+      lowest[grid.cell(s, b)].height_m = car(grid.center_m(b));
+    }
+  }
+  estimate();
+  EXPECT_NEAR(at(25, 4.0F), 0.0F, 0.05F);
+  EXPECT_NEAR(at(25, 8.0F), 0.0F, 0.05F);
+}
+
+TEST_F(SurfaceOverGrid, AStepUpToTheFootOfSomethingTallIsNoGround) {
+  for (const bool is_tall : {false, true}) {
+    fill([](float range_m) { return range_m < 12 ? 0.0F : 0.25F; });
+    if (is_tall) {
+      for (auto& cell : lowest)
+        cell.highest_m = cell.range_m > 12 && cell.range_m < 14 ? 2.0F : 0.0F;
+    }
+    estimate();
+    EXPECT_NEAR(at(0, 13.0F), is_tall ? 0.0F : 0.25F, 0.02F) << is_tall;
+  }
+}
+
 TEST_F(SurfaceOverGrid, FindsTheGroundAgainBehindAHiddenStretch) {
   fill([](float range_m) { return range_m > 10 && range_m < 16 ? GroundSurface::kEmpty : 0.05F; });
   estimate();

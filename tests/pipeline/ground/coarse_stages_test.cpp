@@ -170,16 +170,17 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
         wrong_heights += !std::isnan(way.planes.height_m[cell]);
         continue;
       }
-      const double height_m = plain.height_m[cell];
-      wrong_heights += !(std::fabs(double{way.planes.height_m[cell]} - height_m) < kSlack_m);
+      const double least_m = plain.least_height_m[cell], most_m = plain.most_height_m[cell];
+      const double height_m = double{way.planes.height_m[cell]};
+      wrong_heights += !(height_m > least_m - kSlack_m && height_m < most_m + kSlack_m);
       bool is_steep = false;
       if (config().last_stage >= stage::Stage::kAdjacentPoints) {
         is_steep = (way.planes.steep[cell] & stage::kSteep) != 0;
-        const bool matters = height_m <= steep_matters_to_m - kSlack_m;
+        const bool matters = most_m <= steep_matters_to_m - kSlack_m;
         wrong_steps += is_steep ? !plain.may_be_steep[cell] : plain.must_be_steep[cell] && matters;
       }
-      const bool may_be_ground = !is_steep && height_m < obstacle_height_m + kSlack_m;
-      const bool may_be_obstacle = is_steep || height_m > obstacle_height_m - kSlack_m;
+      const bool may_be_ground = !is_steep && least_m < obstacle_height_m + kSlack_m;
+      const bool may_be_obstacle = is_steep || most_m > obstacle_height_m - kSlack_m;
       wrong_labels += !(label == frame::Label::kGround && may_be_ground) &&
                       !(label == frame::Label::kObstacle && may_be_obstacle);
     }

@@ -29,6 +29,7 @@ constexpr double kNoHeight = std::numeric_limits<double>::quiet_NaN();
 /// A place on the ground as seen from the sensor.
 struct Place {
   double range_m = 0, z_m = 0;
+  double highest_m = 0;  // z of all that was seen in its grid cell
 };
 using LowestOfSector = std::vector<std::optional<Place>>;  // by band
 
@@ -104,6 +105,13 @@ class PlainSurface {
     return sector;
   }
 
+  /// The first ground of a sector is not much higher than the mount's plane.
+  [[nodiscard]] bool may_follow(const Place& last, const Place& here) const {
+    const bool is_first = last.range_m == 0;
+    return !is_first ||
+           here.z_m < double{config_.step_up_m} + double{config_.start_slope} * here.range_m;
+  }
+
   /// Returns the last band that is ground; -1 if none is.
   int trace_from(int first, bool regained, const LowestOfSector& lowest, Place& last, double& slope,
                  TracedSector& sector) const {
@@ -118,7 +126,10 @@ class PlainSurface {
         const double up_m =
             std::min(double{config_.step_up_m} + double{config_.slope_tolerance} * run_m,
                      double{config_.step_up_limit_m});
-        is_ground = off_m < up_m && -off_m < up_m + double{config_.extra_fall} * run_m;
+        const bool is_foot_of_something_tall = off_m > double{config_.foot_rise_m} &&
+                                               here->highest_m - here->z_m > double{config_.tall_m};
+        is_ground = off_m < up_m && -off_m < up_m + double{config_.extra_fall} * run_m &&
+                    !is_foot_of_something_tall && may_follow(last, *here);
       }
       at(sector.is_ground, band) = is_ground;
       at(sector.is_regained, band) = is_ground && regained;
@@ -164,7 +175,8 @@ class PlainSurface {
       chain.push_back(band);
       const Place& start = *at(lowest, chain.front());
       const double length_m = here.range_m - start.range_m;
-      if (passable(lost, start) && length_m >= double{config_.regain_length_m}) {
+      if (passable(lost, start) && may_follow(lost, start) &&
+          length_m >= double{config_.regain_length_m}) {
         return std::pair(chain.front(), steepest((here.z_m - start.z_m) / length_m));
       }
     }
@@ -195,9 +207,11 @@ std::vector<LowestOfSector> find_lowest(const RingGrid& grid, const RangeImage& 
                                      LowestOfSector(static_cast<std::size_t>(grid.bands())));
   const auto take = [&](int column, float z_m, float range_m) {
     std::optional<Place>& known = at(at(lowest, grid.sector_of(column)), grid.band_of(range_m));
-    const Place place{double{range_m}, double{z_m}};
+    Place place{double{range_m}, double{z_m}, double{z_m}};
     const auto order = [](const Place& p) { return std::pair(p.z_m, p.range_m); };
+    if (known) place.highest_m = std::max(place.highest_m, known->highest_m);
     if (!known || order(place) < order(*known)) known = place;
+    known->highest_m = place.highest_m;
   };
   const ImageShape& shape = image.shape();
   for (int row = 0; row < shape.rows; ++row) {
@@ -229,6 +243,78 @@ double interpolated_m(const RingGrid& grid, const PlainSurface& surface, int sec
   return here_m + share * (surface.z_m(sector, other) - here_m);
 }
 
+/// Which low returns count as level.
+class PlainLevelling {
+ public:
+  PlainLevelling(const RingElevationMap::Config& config, const RingGrid& grid,
+                 const RangeImage& image, const std::vector<LowestOfSector>& lowest,
+                 const PlainSurface& surface)
+      : config_(config), grid_(grid), image_(image), lowest_(lowest), surface_(surface) {}
+
+  /// `slack_m` more, or less, is granted at each bound; a bend is measured a hundred times better.
+  [[nodiscard]] bool is_level(int row, int column, double height_m, double slack_m) const {
+    const elevation::RoughGround::Config& rough = config_.rough;
+    const bool has_surface = config_.reference == GroundReference::kLocalSurface;
+    if (!rough.enabled || !has_surface || !(height_m > -slack_m)) return false;
+    const int sector = grid_.sector_of(column);
+    const float range_m = image_.ground_range_m()[image_.shape().cell(row, column)];
+    const double highest_m = highest_near_m(sector, grid_.mix_of(range_m).inner);
+    if (height_m < double{config_.obstacle_height_m} + slack_m &&
+        highest_m <= double{rough.tall_m} + slack_m) {
+      return true;
+    }
+    return height_m < double{rough.rough_height_m} + slack_m &&
+           highest_m <= double{rough.rough_tall_m} + slack_m &&
+           is_rough(row, sector, slack_m / 100);
+  }
+
+ private:
+  [[nodiscard]] int around(int sector) const {
+    return (sector + grid_.sectors()) % grid_.sectors();
+  }
+  template <class Visit>
+  void for_each_sector_near(int sector, Visit visit) const {
+    const int reach = std::min(config_.rough.near_sectors, (grid_.sectors() - 1) / 2);
+    for (int away = -reach; away <= reach; ++away) visit(around(sector + away));
+  }
+  /// Above the ground of the grid cell.
+  [[nodiscard]] double highest_near_m(int sector, int band) const {
+    const int reach = config_.rough.near_bands;
+    double highest_m = -std::numeric_limits<double>::infinity();
+    for_each_sector_near(sector, [&](int near) {
+      for (int b = band - reach; b <= band + 1 + reach; ++b) {
+        if (b < 0 || b >= grid_.bands() || !at(at(lowest_, near), b)) continue;
+        highest_m = std::max(highest_m, at(at(lowest_, near), b)->highest_m);
+      }
+    });
+    return highest_m - surface_.z_m(sector, band);
+  }
+  [[nodiscard]] double z_m(int row, int column) const {
+    const std::size_t cell = image_.shape().cell(row, column);
+    return image_.has_return(cell) ? double{image_.z_m()[cell]} : kNoHeight;
+  }
+  [[nodiscard]] bool is_rough(int row, int sector, double slack_m) const {
+    int known = 0, rough = 0;
+    for (int r = std::max(row - 2, 0); r <= std::min(row + 2, image_.shape().rows - 1); ++r) {
+      for_each_sector_near(sector, [&](int near) {
+        const frame::ColumnRange columns = grid_.columns_of({near, near + 1});
+        for (int c = columns.begin + 1; c + 1 < columns.end; ++c) {
+          const double bend_m = std::fabs(z_m(r, c - 1) + z_m(r, c + 1) - 2 * z_m(r, c));
+          known += std::isnan(bend_m) ? 0 : 1;
+          rough += bend_m > double{config_.rough.rough_m} - slack_m ? 1 : 0;
+        }
+      });
+    }
+    return 2 * rough > known;
+  }
+
+  const RingElevationMap::Config& config_;
+  const RingGrid& grid_;
+  const RangeImage& image_;
+  const std::vector<LowestOfSector>& lowest_;
+  const PlainSurface& surface_;
+};
+
 /// The row so many steps up; -1 if there is none.
 int row_above(const mount::RingProfile& profile, int row, int steps, double step_deg) {
   const auto elevation_deg = [&](int r) {
@@ -257,13 +343,15 @@ double ring_spacing_m(const mount::RingProfile& profile, int lower, int upper, d
 PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
                                      const mount::RingProfile& profile, const RingGrid& grid,
                                      const RangeImage& image)
-    : height_m(image.shape().cells(), kNoHeight),
+    : least_height_m(image.shape().cells(), kNoHeight),
+      most_height_m(least_height_m),
       may_be_steep(image.shape().cells()),
       must_be_steep(image.shape().cells()) {
   const ImageShape& shape = image.shape();
   const RingElevationMap::Config& map = config.elevation_map;
   const std::vector<LowestOfSector> lowest = find_lowest(grid, image);
   const PlainSurface surface(map.surface, grid, lowest);
+  const PlainLevelling levelling(map, grid, image, lowest, surface);
   for (int row = 0; row < shape.rows; ++row) {
     for (int column = 0; column < shape.columns; ++column) {
       const std::size_t cell = shape.cell(row, column);
@@ -273,14 +361,19 @@ PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
       const double ground_m = map.reference == GroundReference::kCellMinimum
                                   ? at(at(lowest, sector), grid.band_of(range_m))->z_m
                                   : interpolated_m(grid, surface, sector, map.grid, range_m);
-      height_m[cell] = double{image.z_m()[cell]} - ground_m;
+      const double height_m = double{image.z_m()[cell]} - ground_m;
+      constexpr double kSlack_m = 1e-3;
+      const bool may_be_level = levelling.is_level(row, column, height_m, kSlack_m);
+      const bool must_be_level = levelling.is_level(row, column, height_m, -kSlack_m);
+      least_height_m[cell] = may_be_level ? std::min(height_m, 0.0) : height_m;
+      most_height_m[cell] = must_be_level ? 0 : std::max(height_m, may_be_level ? 0 : height_m);
     }
   }
 
   const AdjacentPoints::Config& rule = config.adjacent_points;
   const double tan_slope = std::tan(double{rule.max_slope_rad});
   const auto compare = [&](std::size_t lower, std::size_t upper, double bound_m, double slack,
-                           std::vector<bool>& steep) {
+                           const std::vector<double>& height_m, std::vector<bool>& steep) {
     const double dx = double{image.x_m()[upper]} - double{image.x_m()[lower]};
     const double dy = double{image.y_m()[upper]} - double{image.y_m()[lower]};
     const double run_m = std::hypot(dx, dy);
@@ -308,8 +401,8 @@ PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
               shape.cell(above, (column + aside + shape.columns) % shape.columns);
           if (!image.has_return(lower) || !image.has_return(upper)) continue;
           constexpr double kSlack = 1e-4;  // metres, and of 1
-          compare(lower, upper, bound_m, kSlack, may_be_steep);
-          compare(lower, upper, bound_m, -kSlack, must_be_steep);
+          compare(lower, upper, bound_m, kSlack, most_height_m, may_be_steep);
+          compare(lower, upper, bound_m, -kSlack, least_height_m, must_be_steep);
         }
       }
     }

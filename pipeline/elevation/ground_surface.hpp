@@ -33,7 +33,7 @@ class GroundSurface {
   struct Config {
     float step_up_m = 0.04F;        ///< Rise accepted at no distance at all (noise, bumps).
     float slope_tolerance = 0.25F;  ///< Further rise or fall accepted per metre traced.
-    float step_up_limit_m = 0.31F;  ///< A higher rise is never accepted, at whatever distance.
+    float step_up_limit_m = 0.34F;  ///< A higher rise is never accepted, at whatever distance.
     float start_slope = 0.18F;  ///< Beside `step_up_m`, how much higher per metre than the mount's
                                 ///< plane the first ground may lie: what is seen nearer than the
                                 ///< first ring's ground is a car's flank as a rule.

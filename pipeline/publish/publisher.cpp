@@ -37,11 +37,13 @@ void Publisher::put_figures(const status::MonitorSnapshot& figures) {
 bool Publisher::finish(std::optional<std::chrono::milliseconds> patience) {
   for (const auto& worker : workers_) worker->begin_to_finish();
   constexpr std::chrono::hours kAsLongAsItTakes{24 * 365};
-  const auto until = std::chrono::steady_clock::now() + patience.value_or(kAsLongAsItTakes);
   return std::ranges::all_of(workers_, [&](const auto& worker) {
-    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(
-        until - std::chrono::steady_clock::now());
-    return worker->ends_within(std::max(left, std::chrono::milliseconds(0)));
+    std::uint64_t waiting = worker->waiting();
+    while (!worker->ends_within(patience.value_or(kAsLongAsItTakes))) {
+      if (worker->waiting() == waiting) return false;
+      waiting = worker->waiting();
+    }
+    return true;
   });
 }
 

@@ -34,9 +34,9 @@ class Publisher {
   /// From one other thread perhaps.
   void put_figures(const status::MonitorSnapshot& figures);
 
-  /// After the last frame: writes what waits. `patience`: how long in all; none: as long as it
-  /// takes. False when an output does not answer; then the process must end without destroying
-  /// this.
+  /// After the last frame: writes what waits. `patience`: how long an output may be at one frame, or
+  /// at its end; none: as long as it takes. False when an output does not answer; then the process
+  /// must end without destroying this.
   [[nodiscard]] bool finish(std::optional<std::chrono::milliseconds> patience);
 
   /// The first error of any output. From any thread, as the next.

@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+
 #include <condition_variable>
 #include <cstdint>
 #include <future>
@@ -24,6 +26,7 @@ struct Watched {
   std::condition_variable changed;
   bool is_open = true;  ///< Closed: put() waits in it.
   bool fails = false;
+  std::chrono::milliseconds frame_takes{0};  ///< put() takes so long
   Numbers begun, done;
   std::set<const stream::LabelledPoint*> rooms;  ///< Where points lay.
   int figures = 0, finished = 0;
@@ -49,6 +52,7 @@ class WatchedSink final : public FrameSink {
     watched_.begun.push_back(frame.record.info.number);
     watched_.changed.notify_all();
     watched_.changed.wait(lock, [&] { return watched_.is_open; });
+    watched_.changed.wait_for(lock, watched_.frame_takes, [] { return false; });
     if (watched_.fails) return fail(ErrorCode::kWriteFailed, "no room on the disk");
     watched_.rooms.insert(frame.points.data());
     watched_.done.push_back(frame.record.info.number);
@@ -173,6 +177,17 @@ TEST_F(PublisherTest, OneThatNeverAnswersIsGivenUp) {
   slow_.wait_until([&] { return slow_.begun.size() == 1; });
   EXPECT_FALSE(publisher.finish(std::chrono::milliseconds(1)));
   slow_.set_open(true);
+}
+
+TEST_F(PublisherTest, OneThatIsSlowHasItsTimeForEachFrame) {
+  Publisher& publisher = make(WhenFull::kDropOldest);
+  slow_.frame_takes = std::chrono::milliseconds(1500);
+  put(publisher, 0);
+  slow_.wait_until([&] { return slow_.begun.size() == 1; });
+  put(publisher, 1);
+  put(publisher, 2);
+  EXPECT_TRUE(publisher.finish(std::chrono::seconds(4))) << "4.5 s in all";
+  EXPECT_EQ(slow_.done.size(), 3U);
 }
 
 TEST_F(PublisherTest, FramesAreInTheSameFewPlacesAgain) {

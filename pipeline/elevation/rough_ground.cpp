@@ -38,6 +38,11 @@ TERRACUT_VECTOR_CLONES void level_row(const std::int32_t* __restrict cell,
   }
 }
 
+void level_those(const std::uint8_t* which, std::size_t begin, std::size_t end,
+                 float* height_m) noexcept {
+  for (std::size_t i = begin; i < end; ++i) height_m[i] = which[i] != 0 ? 0 : height_m[i];
+}
+
 /// The greatest of values in as many places as `reach` says before and after each, and one more
 /// after: the ends have fewer.
 TERRACUT_VECTOR_CLONES void find_greatest_near(const float* __restrict values, std::size_t count,
@@ -84,10 +89,12 @@ RoughGround::RoughGround(const Config& config, float obstacle_height_m, const Ri
           memory.take<std::uint8_t>("rough ground", static_cast<std::size_t>(shape.columns))),
       bends_(memory.take<Bends>("rough ground", static_cast<std::size_t>(grid.sectors()) *
                                                     static_cast<std::size_t>(shape.rows))),
+      bends_beside_(memory.take<Bends>("rough ground", bends_.size())),
       is_rough_(memory.take<Answer>("rough ground", bends_.size())) {}
 
 void RoughGround::reset() noexcept {
   std::fill(bends_.begin(), bends_.end(), kNotCounted);
+  std::fill(bends_beside_.begin(), bends_beside_.end(), kNotCounted);
   std::fill(is_rough_.begin(), is_rough_.end(), kNotAsked);
 }
 
@@ -114,15 +121,18 @@ void RoughGround::level(const frame::PointPlanes& points, int row, frame::Column
                         std::span<const std::int32_t> cell, const RingGrid& grid,
                         std::span<float> height_m) noexcept {
   if (!config_.enabled || columns.size() == 0) return;
-  std::uint8_t* const begin = may_be_rough_.data();
-  level_row(cell.data(), highest_near_m_.data(), config_, obstacle_height_m_, height_m, begin);
-  const std::uint8_t* const end = begin + columns.size();
-  const std::uint8_t* next = begin;
-  while (const void* found = std::memchr(next, 1, static_cast<std::size_t>(end - next))) {
-    next = static_cast<const std::uint8_t*>(found);
-    const auto i = static_cast<std::size_t>(next++ - begin);
+  const std::uint8_t* const may_be = may_be_rough_.data();
+  level_row(cell.data(), highest_near_m_.data(), config_, obstacle_height_m_, height_m,
+            may_be_rough_.data());
+  for (std::size_t i = 0;;) {
+    const void* const found = std::memchr(may_be + i, 1, columns.size() - i);
+    if (found == nullptr) return;
+    i = static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - may_be);
     const int sector = grid.sector_of(columns.begin + static_cast<int>(i));
-    if (is_rough(points, grid, row, sector)) height_m[i] = 0;
+    const int last = std::min(grid.columns_of({sector, sector + 1}).end, columns.end);
+    const auto end = static_cast<std::size_t>(last - columns.begin);
+    if (is_rough(points, grid, row, sector)) level_those(may_be, i, end, height_m.data());
+    i = end;
   }
 }
 
@@ -133,14 +143,25 @@ bool RoughGround::is_rough(const frame::PointPlanes& points, const RingGrid& gri
   int known = 0, rough = 0;
   const int last = std::min(row + kRowReach, shape_.rows - 1);
   for (int near = std::max(row - kRowReach, 0); near <= last; ++near) {
-    for (int aside = -near_sectors_; aside <= near_sectors_; ++aside) {
-      const Bends bends = bends_of(points, grid, near, grid.wrapped(sector + aside));
-      known += bends.known;
-      rough += bends.rough;
-    }
+    const Bends bends = bends_beside(points, grid, near, sector);
+    known += bends.known;
+    rough += bends.rough;
   }
   is_rough = 2 * rough > known ? kYes : kNo;
   return is_rough == kYes;
+}
+
+RoughGround::Bends RoughGround::bends_beside(const frame::PointPlanes& points, const RingGrid& grid,
+                                             int row, int sector) noexcept {
+  Bends& beside = bends_beside_[place(grid, row, sector)];
+  if (beside.known >= 0) return beside;
+  int known = 0, rough = 0;
+  for (int aside = -near_sectors_; aside <= near_sectors_; ++aside) {
+    const Bends bends = bends_of(points, grid, row, grid.wrapped(sector + aside));
+    known += bends.known;
+    rough += bends.rough;
+  }
+  return beside = {static_cast<std::int16_t>(known), static_cast<std::int16_t>(rough)};
 }
 
 RoughGround::Bends RoughGround::bends_of(const frame::PointPlanes& points, const RingGrid& grid,

@@ -69,6 +69,9 @@ class RoughGround {
 
   [[nodiscard]] bool is_rough(const frame::PointPlanes& points, const RingGrid& grid, int row,
                               int sector) noexcept;
+  /// Of a row, in a sector and those near.
+  [[nodiscard]] Bends bends_beside(const frame::PointPlanes& points, const RingGrid& grid, int row,
+                                   int sector) noexcept;
   [[nodiscard]] Bends bends_of(const frame::PointPlanes& points, const RingGrid& grid, int row,
                                int sector) noexcept;
 
@@ -79,7 +82,8 @@ class RoughGround {
   std::span<float> highest_near_m_;       // by grid cell, above its ground
   std::span<std::uint8_t> may_be_rough_;  // of a row: too high to be level unless it is rough there
   // By row and sector, found where they are asked for.
-  std::span<Bends> bends_;  // known: -1 before
+  std::span<Bends> bends_;         // known: -1 before
+  std::span<Bends> bends_beside_;  // as that
   std::span<Answer> is_rough_;
 };
 

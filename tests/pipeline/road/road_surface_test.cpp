@@ -116,7 +116,7 @@ TEST_F(RoadSurfaceOfAFrame, LeadsThroughAGapInTheKerbThatIsWideEnoughForTheVehic
 }
 
 TEST_F(RoadSurfaceOfAFrame, DoesNotLeadThroughAGapThatIsNot) {
-  segment(street(1.5));
+  segment(street(1.8));
   EXPECT_EQ(road_share(-15, 20, 6, 12), 0.0);
   config.road.vehicle_width_m = 0.4F;
   resegment();

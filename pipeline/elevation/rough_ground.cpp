@@ -12,8 +12,8 @@
 namespace terracut::elevation {
 namespace {
 
-constexpr RoughGround::Bends kNotCounted{-1, 0};
-constexpr int kRowReach = 2;  // rows up and down whose bends count, too
+constexpr int kNotCounted = -1;  // any number of such bytes is less than 0
+constexpr int kRowReach = 2;     // rows up and down whose bends count, too
 
 /// Levels what is low in a row, and finds what is level only if it is rough there.
 TERRACUT_VECTOR_CLONES void level_row(const std::int32_t* __restrict cell,
@@ -83,18 +83,22 @@ RoughGround::RoughGround(const Config& config, float obstacle_height_m, const Ri
     : config_(config),
       obstacle_height_m_(obstacle_height_m),
       shape_(shape),
-      near_sectors_(std::min(config.near_sectors, (grid.sectors() - 1) / 2)),
-      highest_near_m_(memory.take<float>("rough ground", grid.cells())),
-      may_be_rough_(
-          memory.take<std::uint8_t>("rough ground", static_cast<std::size_t>(shape.columns))),
-      bends_(memory.take<Bends>("rough ground", static_cast<std::size_t>(grid.sectors()) *
-                                                    static_cast<std::size_t>(shape.rows))),
-      bends_beside_(memory.take<Bends>("rough ground", bends_.size())),
-      is_rough_(memory.take<Answer>("rough ground", bends_.size())) {}
+      near_sectors_(std::min(config.near_sectors, (grid.sectors() - 1) / 2)) {
+  if (!config.enabled) return;
+  highest_near_m_ = memory.take<float>("rough ground", grid.cells());
+  may_be_rough_ =
+      memory.take<std::uint8_t>("rough ground", static_cast<std::size_t>(shape.columns));
+  bends_ = memory.take<Bends>("rough ground", static_cast<std::size_t>(grid.sectors()) *
+                                                  static_cast<std::size_t>(shape.rows));
+  bends_beside_ = memory.take<Bends>("rough ground", bends_.size());
+  is_rough_ = memory.take<Answer>("rough ground", bends_.size());
+}
 
 void RoughGround::reset() noexcept {
-  std::fill(bends_.begin(), bends_.end(), kNotCounted);
-  std::fill(bends_beside_.begin(), bends_beside_.end(), kNotCounted);
+  if (!config_.enabled) return;
+  for (const std::span<Bends> bends : {bends_, bends_beside_}) {
+    std::memset(bends.data(), kNotCounted, bends.size_bytes());
+  }
   std::fill(is_rough_.begin(), is_rough_.end(), kNotAsked);
 }
 
@@ -108,8 +112,10 @@ void RoughGround::find_highest_near(RingGrid::Sectors sectors, const RingGrid& g
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
     const std::size_t first = grid.cell(sector, 0);
     std::copy_n(&highest_m[first], bands, beside_m.begin());
-    for (int aside = -near_sectors_; aside <= near_sectors_; ++aside) {
-      take_greater(&highest_m[grid.cell(grid.wrapped(sector + aside), 0)], bands, beside_m.data());
+    for (int away = 1; away <= near_sectors_; ++away) {
+      for (const int beside : {sector - away, sector + away}) {
+        take_greater(&highest_m[grid.cell(grid.wrapped(beside), 0)], bands, beside_m.data());
+      }
     }
     // Of returns between the middles of a band and the next.
     find_greatest_near(beside_m.data(), bands, near_bands, &highest_near_m_[first]);

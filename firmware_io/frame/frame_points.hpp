@@ -31,6 +31,10 @@ class FramePoints {
   /// Makes the points of the columns before `end`, as far as their returns have come: to be asked
   /// for from left to right, after begin(). The height of a cell without a return is NaN.
   void make_until(int end, const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  /// Whether all points of a frame are made.
+  [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
+    return has_begun(image) && next_ == image.measured()->tiles();
+  }
   /// Makes points wherever `is_wanted(row, ColumnRange)`, unless all of the frame's are made; other
   /// cells, and cells without a return, hold anything. Ends what begin() began.
   template <class IsWanted>
@@ -49,9 +53,6 @@ class FramePoints {
  private:
   [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
-  }
-  [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
-    return has_begun(image) && next_ == image.measured()->tiles();
   }
   void make_row(const MeasuredReturns& returns, std::size_t tile,
                 std::size_t laser) noexcept TERRACUT_NONBLOCKING;
@@ -92,11 +93,12 @@ std::size_t FramePoints::for_each_extra(const RangeImage& image, ColumnRange col
   for (std::size_t t = 0; t < returns.tiles(); ++t) {
     const MeasuredReturns::Tile& tile = returns.tile(t);
     if (!tile.has_extras || tile.least >= columns.end || tile.most < columns.begin) continue;
-    reader_->open(tile.heads, returns.raw(t));
+    bool is_open = false;
     for (std::size_t i = 0; i < returns.lasers(); ++i) {
       const MeasuredReturns::LaserRow& row = returns.row(t, i);
       const std::uint32_t extras = row.returns & ~row.owned;
       if (extras == 0 || row.least >= columns.end || row.most < columns.begin) continue;
+      if (!std::exchange(is_open, true)) reader_->open(tile.heads, returns.raw(t));
       reader_->compute_points(i, all_of(points_));
       for_each_firing(extras, [&](std::size_t f) noexcept {
         const int column = returns.column(t, i, f);

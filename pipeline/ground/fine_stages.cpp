@@ -58,6 +58,7 @@ FineStages::FineStages(const SegmenterConfig& config, const mount::RingProfile& 
 
 frame::PointPlanes FineStages::points_of(const frame::RangeImage& image, bool has_cut) noexcept {
   if (made_ == nullptr) return image.points();
+  if (made_->has_all_of(image)) return made_->planes();
   const frame::MeasuredReturns& returns = *image.measured();
   if (has_cut) near_unknown_.find(seeds_.seeds());
   made_->make_where(image, [&](int row, frame::ColumnRange columns) noexcept {

@@ -98,12 +98,13 @@ void GroundSurface::finalize_rest(const RingGrid& grid, std::span<const LowestRe
   }
 }
 
-float GroundSurface::Trace::predict_m(float to_range_m, const Config& config) const noexcept {
+inline float GroundSurface::Trace::predict_m(float to_range_m,
+                                             const Config& config) const noexcept {
   return height_m + slope * std::min(to_range_m - range_m, config.slope_memory_m);
 }
 
-bool GroundSurface::Trace::reaches(float to_range_m, float to_height_m,
-                                   const Config& config) const noexcept {
+inline bool GroundSurface::Trace::reaches(float to_range_m, float to_height_m,
+                                          const Config& config) const noexcept {
   const float run_m = to_range_m - range_m;
   const float rise_m = to_height_m - predict_m(to_range_m, config);
   const float accepted_m =
@@ -111,8 +112,8 @@ bool GroundSurface::Trace::reaches(float to_range_m, float to_height_m,
   return rise_m < accepted_m && rise_m > -(accepted_m + config.extra_fall * run_m);
 }
 
-float GroundSurface::Trace::step(float to_range_m, float to_height_m,
-                                 const Config& config) noexcept {
+inline float GroundSurface::Trace::step(float to_range_m, float to_height_m,
+                                        const Config& config) noexcept {
   const float run_m = std::max(to_range_m - range_m, config.first_slope_run_m);
   const float step_slope =
       std::clamp((to_height_m - height_m) / run_m, -config.max_slope, config.max_slope);
@@ -123,7 +124,7 @@ float GroundSurface::Trace::step(float to_range_m, float to_height_m,
   return step_slope;
 }
 
-bool GroundSurface::leads_to(const Trace& ground, const LowestReturn& here) const noexcept {
+inline bool GroundSurface::leads_to(const Trace& ground, const LowestReturn& here) const noexcept {
   if (here.height_m == kEmpty || !ground.reaches(here.range_m, here.height_m, config_))
     return false;
   if (ground.range_m == 0 && !may_start_at(here)) return false;

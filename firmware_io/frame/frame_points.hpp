@@ -29,8 +29,11 @@ class FramePoints {
   /// A frame, maybe one that was begun already. No point of it is made.
   void begin(const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
   /// Makes the points of the columns before `end`, as far as their returns have come: to be asked
-  /// for from left to right, after begin(). The height of a cell without a return is NaN.
-  void make_until(int end, const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
+  /// for from left to right, after begin(). The height of a cell without a return is NaN. Calls
+  /// `take_extra(column, z_m, ground_range_m)` once for each return made that does not own its
+  /// cell.
+  template <class TakeExtra>
+  void make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept;
   /// Whether all points of a frame are made.
   [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
     return has_begun(image) && next_ == image.measured()->tiles();
@@ -43,10 +46,6 @@ class FramePoints {
     return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
   }
 
-  /// Calls `visit(column, z_m, ground_range_m)` for the returns in these columns that do not own
-  /// their cells; returns their number.
-  template <class Visit>
-  std::size_t for_each_extra(const RangeImage& image, ColumnRange columns, Visit visit) noexcept;
   /// For whoever reads tiles on the same thread.
   [[nodiscard]] TileReader& reader() noexcept { return *reader_; }
 
@@ -54,8 +53,10 @@ class FramePoints {
   [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
   }
-  void make_row(const MeasuredReturns& returns, std::size_t tile,
-                std::size_t laser) noexcept TERRACUT_NONBLOCKING;
+  /// The points of a laser in the tile that is open, `take_extra` as in make_until().
+  template <class TakeExtra>
+  void make_row(const MeasuredReturns& returns, std::size_t tile, std::size_t laser,
+                TakeExtra take_extra) noexcept;
   /// About a cache line and a half of each plane.
   void fetch_to_write(std::size_t cell) const noexcept;
 
@@ -67,6 +68,18 @@ class FramePoints {
   std::size_t next_ = 0;  ///< The first tile whose points are not made.
   TilePoints points_;
 };
+
+template <class TakeExtra>
+void FramePoints::make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept {
+  const MeasuredReturns& returns = *image.measured();
+  // Tiles come from left to right, but for late ones, which are made a little too soon.
+  for (; next_ < returns.tiles() && returns.tile(next_).least < end; ++next_) {
+    reader_->open(returns.tile(next_).heads, returns.raw(next_));
+    for (std::size_t i = 0; i < returns.lasers(); ++i) {
+      if (returns.row(next_, i).returns != 0) make_row(returns, next_, i, take_extra);
+    }
+  }
+}
 
 template <class IsWanted>
 void FramePoints::make_where(const RangeImage& image, IsWanted is_wanted) noexcept {
@@ -80,35 +93,36 @@ void FramePoints::make_where(const RangeImage& image, IsWanted is_wanted) noexce
       const MeasuredReturns::LaserRow& row = returns.row(t, i);
       if (row.owned == 0 || !is_wanted(rows[i], ColumnRange{row.least, row.most + 1})) continue;
       if (!std::exchange(is_open, true)) reader_->open(returns.tile(t).heads, returns.raw(t));
-      make_row(returns, t, i);
+      make_row(returns, t, i, [](int, float, float) noexcept {});
     }
   }
 }
 
-template <class Visit>
-std::size_t FramePoints::for_each_extra(const RangeImage& image, ColumnRange columns,
-                                        Visit visit) noexcept {
-  const MeasuredReturns& returns = *image.measured();
-  std::size_t found = 0;
-  for (std::size_t t = 0; t < returns.tiles(); ++t) {
-    const MeasuredReturns::Tile& tile = returns.tile(t);
-    if (!tile.has_extras || tile.least >= columns.end || tile.most < columns.begin) continue;
-    bool is_open = false;
-    for (std::size_t i = 0; i < returns.lasers(); ++i) {
-      const MeasuredReturns::LaserRow& row = returns.row(t, i);
-      const std::uint32_t extras = row.returns & ~row.owned;
-      if (extras == 0 || row.least >= columns.end || row.most < columns.begin) continue;
-      if (!std::exchange(is_open, true)) reader_->open(tile.heads, returns.raw(t));
-      reader_->compute_points(i, all_of(points_));
-      for_each_firing(extras, [&](std::size_t f) noexcept {
-        const int column = returns.column(t, i, f);
-        if (column < columns.begin || column >= columns.end) return;
-        visit(column, points_.z_m[f], points_.ground_range_m[f]);
-        ++found;
-      });
-    }
+template <class TakeExtra>
+void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile, std::size_t laser,
+                           TakeExtra take_extra) noexcept {
+  const MeasuredReturns::LaserRow& row = returns.row(tile, laser);
+  const std::size_t first = shape_.cell(reader_->rows()[laser], 0);
+  fetch_to_write(first + static_cast<std::size_t>(row.most) + 1);  // the next tile's
+  if (row.is_run && row.owned == row.returns) {
+    const std::size_t cell = first + static_cast<std::size_t>(row.least);
+    reader_->compute_points(laser, {&x_m_[cell], &y_m_[cell], &z_m_[cell], &ground_range_m_[cell]});
+    return;
   }
-  return found;
+  reader_->compute_points(laser, all_of(points_));
+  for_each_firing(row.returns & ~row.owned, [&](std::size_t f) noexcept {
+    take_extra(returns.column(tile, laser, f), points_.z_m[f], points_.ground_range_m[f]);
+  });
+  for_each_firing(row.owned, [&](std::size_t f) noexcept {
+    const int column = returns.column(tile, laser, f);
+    const std::size_t cell = first + static_cast<std::size_t>(column);
+    // A return that owned the cell until this one came, and was made a point before.
+    if (z_m_[cell] == z_m_[cell]) take_extra(column, z_m_[cell], ground_range_m_[cell]);
+    x_m_[cell] = points_.x_m[f];
+    y_m_[cell] = points_.y_m[f];
+    z_m_[cell] = points_.z_m[f];
+    ground_range_m_[cell] = points_.ground_range_m[f];
+  });
 }
 
 }  // namespace terracut::frame

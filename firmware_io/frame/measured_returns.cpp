@@ -119,11 +119,7 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
   std::memcpy(&raw_[used_ * values], tile.raw, values * sizeof(tile.raw[0]));
   std::memcpy(&intensity_[used_ * values], tile.intensity, values);
   Tile& added = tiles_[used_];
-  added = {.heads = tile.heads,
-           .first_return = {},
-           .least = shape_.columns,
-           .most = -1,
-           .has_extras = false};
+  added = {.heads = tile.heads, .first_return = {}, .least = shape_.columns, .most = -1};
   const std::size_t number = used_++;
   const std::span<const std::int32_t> rows = reader.rows();
   std::array<std::uint32_t, kMostLasers> hits;
@@ -239,16 +235,11 @@ void MeasuredReturns::take_cell(const Place& at, int row, int column, CellOwner 
     return;
   }
   bits_of(shared_, row)[bit / kWordBits] |= mask;
-  std::size_t beaten = at.tile;
-  if (owner != CellOwner::kFirstArrived) {
-    const Place other = owner_before(at, row, column, reader);
-    if (goes_before(at, other, owner, reader)) {
-      mine.owned |= firing;
-      row_at(other.tile, other.laser).owned &= ~(1U << other.firing);
-      beaten = other.tile;
-    }
-  }
-  tiles_[beaten].has_extras = true;
+  if (owner == CellOwner::kFirstArrived) return;
+  const Place other = owner_before(at, row, column, reader);
+  if (!goes_before(at, other, owner, reader)) return;
+  mine.owned |= firing;
+  row_at(other.tile, other.laser).owned &= ~(1U << other.firing);
 }
 
 bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {

@@ -35,7 +35,6 @@ class MeasuredReturns {
     TileHeads heads;                      ///< From the beginning of this frame.
     TileRow<std::uint32_t> first_return;  ///< The number of each firing's first return.
     std::int32_t least = 0, most = -1;    ///< Of all lasers.
-    bool has_extras = false;              ///< A return of it does not own its cell.
   };
   /// A tile that is to be added.
   struct NewTile {

@@ -122,12 +122,11 @@ void RingElevationMap::reset() noexcept {
 }
 
 void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
-                                frame::FramePoints* points) noexcept {
+                                const frame::PointPlanes& points) noexcept {
   const RingGrid::Sectors sectors{traced_, end};
-  if (points == nullptr) take_overflow(image);
+  if (image.measured() == nullptr) take_overflow(image);
   if (traced_ == end) return;
-  if (points != nullptr) take_extras(image, grid_.columns_of(sectors), *points);
-  take_columns(points != nullptr ? points->planes() : image.points(), sectors);
+  take_columns(points, sectors);
   for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
     const std::int64_t key = lowest_key_[i];
     highest_m_[i] = height_of(highest_[i]);
@@ -161,28 +160,20 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
   }
 }
 
-void RingElevationMap::take_extra(int sector, float z_m, float ground_range_m) noexcept {
+void RingElevationMap::take_extra(int column, float z_m, float ground_range_m) noexcept {
+  const int sector = grid_.sector_of(column);
+  was_overtaken_ |= sector < traced_;
   const std::size_t cell = grid_.cell(sector, grid_.band_of(ground_range_m));
   lowest_key_[cell] = std::min(lowest_key_[cell], key_of(z_m, ground_range_m));
   highest_[cell] = std::max(highest_[cell], ordered(z_m));
+  ++seen_overflow_;
 }
 
 void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
   const auto stride = static_cast<std::uint32_t>(image.shape().stride());
   for (const frame::OverflowReturn& extra : image.overflow().subspan(seen_overflow_)) {
-    const int sector = grid_.sector_of(static_cast<int>(extra.cell % stride));
-    was_overtaken_ |= sector < traced_;
-    take_extra(sector, extra.point.z_m, extra.point.ground_range_m);
+    take_extra(static_cast<int>(extra.cell % stride), extra.point.z_m, extra.point.ground_range_m);
   }
-  seen_overflow_ = image.overflow().size();
-}
-
-void RingElevationMap::take_extras(const frame::RangeImage& image, frame::ColumnRange columns,
-                                   frame::FramePoints& points) noexcept {
-  seen_overflow_ += points.for_each_extra(
-      image, columns, [this](int column, float z_m, float ground_range_m) noexcept {
-        take_extra(grid_.sector_of(column), z_m, ground_range_m);
-      });
 }
 
 void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {

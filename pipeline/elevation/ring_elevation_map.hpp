@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/frame/frame_points.hpp"
 #include "firmware_io/frame/point_planes.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/elevation/ground_surface.hpp"
@@ -44,10 +43,12 @@ class RingElevationMap {
 
   /// A new frame. Real-time safe, as all of this.
   void reset() noexcept TERRACUT_NONBLOCKING;
-  /// All columns of the sectors from traced() to `end` are there. `points`: made of the image so
-  /// far, where it keeps its returns as they were measured; else null.
+  /// Of frames that keep their returns as they were measured: one that does not own its cell.
+  void take_extra(int column, float z_m, float ground_range_m) noexcept TERRACUT_NONBLOCKING;
+  /// All columns of the sectors from traced() to `end` are there: `points` has those returns that
+  /// own their cells, the others are in the image's overflow list or were told by take_extra().
   void trace_to(int end, const frame::RangeImage& image,
-                frame::FramePoints* points) noexcept TERRACUT_NONBLOCKING;
+                const frame::PointPlanes& points) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] int traced() const noexcept { return traced_; }
   /// False where a return came after its sector had been traced: what was found is of no use then.
   /// Once all sectors have been traced.
@@ -72,9 +73,6 @@ class RingElevationMap {
     return config_.reference == GroundReference::kLocalSurface;
   }
   void take_overflow(const frame::RangeImage& image) noexcept;
-  void take_extras(const frame::RangeImage& image, frame::ColumnRange columns,
-                   frame::FramePoints& points) noexcept;
-  void take_extra(int sector, float z_m, float ground_range_m) noexcept;
   void take_columns(const frame::PointPlanes& points, RingGrid::Sectors sectors) noexcept;
 
   Config config_;
@@ -84,7 +82,7 @@ class RingElevationMap {
   RoughGround rough_;
   int traced_ = 0;        // sectors
   std::size_t seen_ = 0;  // returns that own a cell of these
-  // Returns that own none: of these sectors, or all of the overflow list.
+  // Returns that own none: all of the overflow list, or those told of.
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
   // Per grid cell, the lowest return and the height of the highest, and both as whole numbers while

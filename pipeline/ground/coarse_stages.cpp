@@ -48,8 +48,13 @@ void CoarseStages::begin(const frame::RangeImage& image) noexcept {
 }
 
 void CoarseStages::trace_to(int end, const frame::RangeImage& image) noexcept {
-  if (made_ != nullptr) made_->make_until(map_.grid().columns_of({0, end}).end, image);
-  map_.trace_to(end, image, made_);
+  if (made_ != nullptr) {
+    made_->make_until(map_.grid().columns_of({0, end}).end, image,
+                      [this](int column, float z_m, float ground_range_m) noexcept {
+                        map_.take_extra(column, z_m, ground_range_m);
+                      });
+  }
+  map_.trace_to(end, image, points_of(image));
 }
 
 void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,

@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <memory>
+#include <utility>
 #include <vector>
 
 #include "firmware_io/frame/frame_points.hpp"
@@ -90,7 +91,7 @@ struct MeasuredReturnsTest : testing::Test {
   float owner_in(int column) {
     FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
     points.begin(image);
-    points.make_until(kShape.columns, image);
+    points.make_until(kShape.columns, image, [](int, float, float) {});
     const std::size_t cell = kShape.cell(5, column);
     return std::isnan(points.planes().z_m[cell]) ? 0 : points.planes().x_m[cell];
   }
@@ -98,8 +99,9 @@ struct MeasuredReturnsTest : testing::Test {
   std::vector<float> extras() {
     std::vector<float> found;
     FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
-    (void)points.for_each_extra(image, {0, kShape.columns},
-                                [&](int, float, float range_m) { found.push_back(range_m); });
+    points.begin(image);
+    points.make_until(kShape.columns, image,
+                      [&](int, float, float range_m) { found.push_back(range_m); });
     return found;
   }
 
@@ -188,12 +190,28 @@ TEST_F(MeasuredReturnsTest, OfALaterTileMayTakeACellFromAnEarlierOne) {
   early.raw[2].fill(30);
   late.raw[2][0] = 10;  // in column 30, as firing 10 of the early one
   EXPECT_EQ(add(early, CellOwner::kNearest), 0U);
-  EXPECT_FALSE(image.measured()->tile(0).has_extras);
+  EXPECT_TRUE(extras().empty());
   EXPECT_EQ(add(late, CellOwner::kNearest), 0U);
-  EXPECT_TRUE(image.measured()->tile(0).has_extras);
   EXPECT_EQ(owner_in(30), 10);
   EXPECT_EQ(owner_in(31), 30);
   EXPECT_EQ(extras(), std::vector<float>{30});
+}
+
+TEST_F(MeasuredReturnsTest, AreToldOfOnceWhereTheyLoseTheirCellAsPoints) {
+  Measured early(20), late(30);
+  early.raw[2].fill(30);
+  late.raw[2][0] = 10;
+  EXPECT_EQ(add(early, CellOwner::kNearest), 0U);
+  FramePoints points(kShape, std::make_unique<PlainReader>(), memory);
+  std::vector<std::pair<int, float>> told;
+  const auto tell = [&](int column, float, float range_m) { told.emplace_back(column, range_m); };
+  points.begin(image);
+  points.make_until(kShape.columns, image, tell);
+  EXPECT_TRUE(told.empty());
+  EXPECT_EQ(add(late, CellOwner::kNearest), 0U);
+  points.make_until(kShape.columns, image, tell);
+  EXPECT_EQ(points.planes().x_m[kShape.cell(5, 30)], 10);
+  EXPECT_EQ(told, (std::vector{std::pair{30, 30.0F}}));
 }
 
 TEST_F(MeasuredReturnsTest, OfTwoLasersMayShareARow) {
@@ -244,11 +262,12 @@ TEST_F(MeasuredReturnsTest, AreMadePointsOfAsColumnsAreAskedFor) {
   const auto has = [&](int column) {
     return !std::isnan(points.planes().z_m[kShape.cell(3, column)]);
   };
+  const auto no_extra = [](int, float, float) { ADD_FAILURE() << "each owns its cell"; };
   points.begin(image);
-  points.make_until(30, image);
+  points.make_until(30, image, no_extra);
   EXPECT_TRUE(has(0) && has(29));
   EXPECT_FALSE(has(48));
-  points.make_until(60, image);
+  points.make_until(60, image, no_extra);
   EXPECT_TRUE(has(59));
   EXPECT_EQ(points.planes().z_m[kShape.cell(3, 59)], 4);
   EXPECT_EQ(points.planes().y_m[kShape.cell(3, 59)], 59);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cstring>
 
 #include "rt/vector_clones.hpp"
 
@@ -58,37 +59,58 @@ TERRACUT_VECTOR_CLONES void label_heights(std::span<const float> height_m, float
   }
 }
 
-// Heights and ranges as whole numbers: the smaller the lower, among equally low ones the nearer.
-// What is lowest is as good as random, and the least of numbers is found without a branch.
+using Extremes = RingElevationMap::Extremes;
 
-/// A height as a whole number, in the same order; its own inverse but for the type.
-std::int32_t ordered(float height_m) noexcept {
-  const auto bits = std::bit_cast<std::int32_t>(height_m);
-  return bits ^ ((bits >> 31) & 0x7FFF'FFFF);
+// The lowest and the highest return of a grid cell are looked for together, as the less of two
+// pairs of numbers, which is one instruction without a branch: what is lowest is as good as random.
+// The bits of a height are the upper half of a number, which has its order, whatever the lower.
+
+std::uint64_t upper_half(float height_m) noexcept {
+  return std::uint64_t{std::bit_cast<std::uint32_t>(height_m)} << 32;
+}
+float height_in(double number) noexcept {
+  return std::bit_cast<float>(
+      static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(number) >> 32));
 }
 
-float height_of(std::int32_t ordered) noexcept {
-  return std::bit_cast<float>(ordered ^ ((ordered >> 31) & 0x7FFF'FFFF));
+/// Among equally low returns the nearer one is lower. The more is in the lower half of a number,
+/// the greater it is where it is positive, and the less where it is negative.
+std::uint32_t lower_half(float height_m, float range_m) noexcept {
+  const auto all_if_negative =
+      static_cast<std::uint32_t>(std::bit_cast<std::int32_t>(height_m) >> 31);
+  return std::bit_cast<std::uint32_t>(range_m) ^ all_if_negative;
 }
 
-std::int64_t key_of(float height_m, float range_m) noexcept {
-  return std::int64_t{ordered(height_m)} << 32 | std::int64_t{std::bit_cast<std::int32_t>(range_m)};
+Extremes extremes_of(float height_m, float range_m) noexcept {
+  return Extremes{std::bit_cast<double>(upper_half(height_m) | lower_half(height_m, range_m)),
+                  std::bit_cast<double>(upper_half(-height_m))};
+}
+float range_of_lowest_m(const Extremes& extremes) noexcept {
+  const auto bits = static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(extremes[0]));
+  return std::bit_cast<float>(lower_half(height_in(extremes[0]), std::bit_cast<float>(bits)));
 }
 
-/// Of some cells, keys and heights as whole numbers; those without a return get that of an empty
-/// grid cell. Returns how many have one.
-TERRACUT_VECTOR_CLONES std::uint32_t find_keys(const float* __restrict z_m,
-                                               const float* __restrict range_m,
-                                               std::span<std::int64_t> keys,
-                                               std::int32_t* __restrict heights) noexcept {
-  const std::size_t count = keys.size();
-  std::int64_t* const __restrict out = keys.data();
+void take(const Extremes& more, Extremes& extremes) noexcept {
+  extremes = more < extremes ? more : extremes;
+}
+
+constexpr float kNowhere_m = GroundSurface::kEmpty;  // lowest and, with its sign changed, highest
+
+/// Of some cells, as if each were alone in its grid cell, four halves each, of which the third may
+/// be anything. Returns how many cells have a return.
+TERRACUT_VECTOR_CLONES std::uint32_t find_extremes(const float* __restrict z_m,
+                                                   const float* __restrict range_m,
+                                                   std::size_t count,
+                                                   std::uint32_t* __restrict halves) noexcept {
   std::uint32_t returns = 0;
   for (std::size_t i = 0; i < count; ++i) returns += z_m[i] == z_m[i];
   for (std::size_t i = 0; i < count; ++i) {
     const bool has_return = z_m[i] == z_m[i];
-    out[i] = key_of(has_return ? z_m[i] : GroundSurface::kEmpty, has_return ? range_m[i] : 0.0F);
-    heights[i] = ordered(has_return ? z_m[i] : -GroundSurface::kEmpty);
+    const float lowest_m = has_return ? z_m[i] : kNowhere_m;
+    const float below_highest_m = has_return ? -z_m[i] : kNowhere_m;
+    halves[4 * i] = lower_half(lowest_m, has_return ? range_m[i] : 0.0F);
+    halves[4 * i + 1] = std::bit_cast<std::uint32_t>(lowest_m);
+    halves[4 * i + 3] = std::bit_cast<std::uint32_t>(below_highest_m);
   }
   return returns;
 }
@@ -103,20 +125,19 @@ RingElevationMap::RingElevationMap(const Config& config, const mount::RingProfil
       surface_(config.surface, grid_, memory),
       rough_(config.rough, config.obstacle_height_m, grid_, shape, memory),
       lowest_(memory.take<GroundSurface::LowestReturn>("ring grid", grid_.cells())),
-      lowest_key_(memory.take<std::int64_t>("ring grid", grid_.cells())),
+      extremes_(memory.take<Extremes>("ring grid", grid_.cells())),
       highest_m_(memory.take<float>("ring grid", grid_.cells())),
-      highest_(memory.take<std::int32_t>("ring grid", grid_.cells())),
-      row_keys_(memory.take<std::int64_t>("ring grid", static_cast<std::size_t>(shape.columns))),
-      row_heights_(memory.take<std::int32_t>("ring grid", row_keys_.size())),
-      row_steps_(memory.take<std::uint16_t>("ring grid", row_keys_.size())),
-      row_cells_(memory.take<std::int32_t>("ring grid", row_keys_.size())) {}
+      row_halves_(
+          memory.take<std::uint32_t>("ring grid", 4 * static_cast<std::size_t>(shape.columns))),
+      row_steps_(memory.take<std::uint16_t>("ring grid", row_halves_.size() / 4)),
+      row_cells_(memory.take<std::int32_t>("ring grid", row_steps_.size())) {}
 
 void RingElevationMap::reset() noexcept {
   traced_ = 0;
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
-  std::fill(lowest_key_.begin(), lowest_key_.end(), key_of(GroundSurface::kEmpty, 0.0F));
-  std::fill(highest_.begin(), highest_.end(), ordered(-GroundSurface::kEmpty));
+  const Extremes nothing{extremes_of(kNowhere_m, 0)[0], extremes_of(-kNowhere_m, 0)[1]};
+  std::fill(extremes_.begin(), extremes_.end(), nothing);
   surface_.reset();
   rough_.reset();
 }
@@ -128,10 +149,8 @@ void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
   if (traced_ == end) return;
   take_columns(points, sectors);
   for (std::size_t i = grid_.cell(sectors.begin, 0); i < grid_.cell(sectors.end, 0); ++i) {
-    const std::int64_t key = lowest_key_[i];
-    highest_m_[i] = height_of(highest_[i]);
-    lowest_[i] = {height_of(static_cast<std::int32_t>(key >> 32)),
-                  std::bit_cast<float>(static_cast<std::int32_t>(key)), highest_m_[i]};
+    highest_m_[i] = -height_in(extremes_[i][1]);
+    lowest_[i] = {height_in(extremes_[i][0]), range_of_lowest_m(extremes_[i]), highest_m_[i]};
   }
   if (has_surface()) surface_.trace(grid_, sectors, lowest_);
   traced_ = end;
@@ -140,21 +159,20 @@ void RingElevationMap::trace_to(int end, const frame::RangeImage& image,
 void RingElevationMap::take_columns(const frame::PointPlanes& points,
                                     RingGrid::Sectors sectors) noexcept {
   const frame::ColumnRange columns = grid_.columns_of(sectors);
-  const std::span<std::int64_t> keys = row_keys_.first(columns.size());
-  const std::span<std::int32_t> heights = row_heights_.first(columns.size());
   const std::span<std::uint16_t> steps = row_steps_.first(columns.size());
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t first = shape_.cell(row, columns.begin);
-    seen_ += find_keys(&points.z_m[first], &points.ground_range_m[first], keys, heights.data());
+    seen_ += find_extremes(&points.z_m[first], &points.ground_range_m[first], columns.size(),
+                           row_halves_.data());
     grid_.find_steps({&points.ground_range_m[first], steps.size()}, steps);
     std::size_t i = 0;
     for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-      const std::size_t ground = grid_.cell(sector, 0);
+      Extremes* const of_sector = &extremes_[grid_.cell(sector, 0)];
       for (const std::size_t end = i + grid_.columns_of({sector, sector + 1}).size(); i < end;
            ++i) {
-        const std::size_t cell = ground + static_cast<std::size_t>(grid_.band_of_step(steps[i]));
-        lowest_key_[cell] = std::min(lowest_key_[cell], keys[i]);
-        highest_[cell] = std::max(highest_[cell], heights[i]);
+        Extremes one;
+        std::memcpy(&one, &row_halves_[4 * i], sizeof(one));
+        take(one, of_sector[grid_.band_of_step(steps[i])]);
       }
     }
   }
@@ -163,9 +181,8 @@ void RingElevationMap::take_columns(const frame::PointPlanes& points,
 void RingElevationMap::take_extra(int column, float z_m, float ground_range_m) noexcept {
   const int sector = grid_.sector_of(column);
   was_overtaken_ |= sector < traced_;
-  const std::size_t cell = grid_.cell(sector, grid_.band_of(ground_range_m));
-  lowest_key_[cell] = std::min(lowest_key_[cell], key_of(z_m, ground_range_m));
-  highest_[cell] = std::max(highest_[cell], ordered(z_m));
+  take(extremes_of(z_m, ground_range_m),
+       extremes_[grid_.cell(sector, grid_.band_of(ground_range_m))]);
   ++seen_overflow_;
 }
 

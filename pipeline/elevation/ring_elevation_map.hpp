@@ -33,6 +33,8 @@ class RingElevationMap {
     RoughGround::Config rough;        ///< Used with kLocalSurface.
     float obstacle_height_m = 0.15F;  ///< A return this far above its reference is an obstacle.
   };
+  /// Two numbers, the less the lower the lowest return of a grid cell and the higher the highest.
+  using Extremes = double __attribute__((vector_size(16)));
 
   RingElevationMap(const Config& config, const mount::RingProfile& profile, frame::ImageShape shape,
                    memory::FixedMemory& memory);
@@ -85,16 +87,14 @@ class RingElevationMap {
   // Returns that own none: all of the overflow list, or those told of.
   std::size_t seen_overflow_ = 0;
   bool was_overtaken_ = false;
-  // Per grid cell, the lowest return and the height of the highest, and both as whole numbers while
-  // they are being found.
+  // Per grid cell, the lowest return and the height of the highest; before, while they are looked
+  // for, both.
   std::span<GroundSurface::LowestReturn> lowest_;
-  std::span<std::int64_t> lowest_key_;
+  std::span<Extremes> extremes_;
   std::span<float> highest_m_;
-  std::span<std::int32_t> highest_;
-  // Of one row, from the first column at hand: its returns' keys and heights as whole numbers,
-  // their ranges in the grid's steps, and the grid cell of each.
-  std::span<std::int64_t> row_keys_;
-  std::span<std::int32_t> row_heights_;
+  // Of one row, from the first column at hand: halves of its returns' extremes, their ranges in the
+  // grid's steps, and the grid cell of each.
+  std::span<std::uint32_t> row_halves_;
   std::span<std::uint16_t> row_steps_;
   std::span<std::int32_t> row_cells_;
 };

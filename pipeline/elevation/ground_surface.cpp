@@ -49,7 +49,7 @@ GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
     : config_(config),
       reach_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
       traced_m_(memory.take<float>("ground surface", grid.cells())),
-      height_m_(memory.take<float>("ground surface", grid.cells())),
+      height_m_(memory.take<float>("ground surface", grid.cells() + 1)),
       found_(memory.take<Origin>("ground surface", grid.cells())),
       origin_(memory.take<Origin>("ground surface", grid.cells())),
       has_regained_(

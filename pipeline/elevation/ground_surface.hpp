@@ -79,7 +79,8 @@ class GroundSurface {
   [[nodiscard]] int reach() const noexcept { return reach_; }
 
   /// Ground height above the mount's plane in the middle of each grid cell; meaningful in cells
-  /// that had a return and in the bands next to them.
+  /// that had a return and in the bands next to them. One more at the end, of no cell, so that
+  /// there is a next one everywhere.
   [[nodiscard]] std::span<const float> height_m() const noexcept { return height_m_; }
 
  private:

@@ -93,10 +93,10 @@ class RingElevationMap {
   std::span<Extremes> extremes_;
   std::span<float> highest_m_;
   // Of one row, from the first column at hand: halves of its returns' extremes, their ranges in the
-  // grid's steps, and the grid cell of each.
+  // grid's steps, and the highest return near each.
   std::span<std::uint32_t> row_halves_;
   std::span<std::uint16_t> row_steps_;
-  std::span<std::int32_t> row_cells_;
+  std::span<float> row_highest_m_;
 };
 
 }  // namespace terracut::elevation

@@ -70,8 +70,7 @@ RingGrid::RingGrid(const Config& config, const mount::RingProfile& profile, fram
   last_step_ = config.range_limit_m * kStepsPerMetre;
   const auto steps = static_cast<std::size_t>(last_step_) + 1;
   band_of_step_ = memory.take<std::uint8_t>("ring grid", steps);
-  mix_bands_ = memory.take<std::int32_t>("ring grid", steps);
-  mix_share_ = memory.take<float>("ring grid", steps);
+  mixes_ = memory.take<BandMix>("ring grid", steps);
   std::size_t band = 0;
   for (std::size_t step = 0; step < steps; ++step) {
     const float range_m = (static_cast<float>(step) + 0.5F) / kStepsPerMetre;
@@ -82,8 +81,8 @@ RingGrid::RingGrid(const Config& config, const mount::RingProfile& profile, fram
     const std::size_t inner = leans_outward || band == 0 ? band : band - 1;
     const std::size_t outer = leans_outward ? std::min(band + 1, ends.size() - 1) : band;
     const float depth_m = center_m_[outer] - center_m_[inner];
-    mix_bands_[step] = static_cast<std::int32_t>(outer << BandMixes::kOuterShift | inner);
-    mix_share_[step] = depth_m > 0 ? (range_m - center_m_[inner]) / depth_m : 0.0F;
+    mixes_[step] = {static_cast<std::int32_t>(inner),
+                    depth_m > 0 ? (range_m - center_m_[inner]) / depth_m : 0.0F};
   }
 
   sectors_ = (shape.columns + config.columns_per_sector - 1) / config.columns_per_sector;

@@ -32,18 +32,14 @@ class RingGrid {
   static constexpr float kStepsPerMetre = 32.0F;  ///< Boundaries are met to within 3 cm.
   static constexpr int kMaxBands = 250;           ///< More would not fit the 8-bit band numbers.
 
-  /// Where a range lies between the middles of two bands, for linear interpolation.
+  /// Where a range lies between the middles of a band and the next, for linear interpolation.
   struct BandMix {
-    int inner = 0;
-    int outer = 0;
-    float outer_share = 0;  ///< [0, 1]
+    std::int32_t inner = 0;
+    float outer_share = 0;  ///< [0, 1]; 0 before the first middle and beyond the last.
   };
   /// All of them, for vectors: those of a range's step, and what step_of() cuts ranges off at.
   struct BandMixes {
-    static constexpr std::int32_t kInner = 0xFFFF;
-    static constexpr int kOuterShift = 16;
-    const std::int32_t* bands;  ///< The outer one in the upper half.
-    const float* outer_share;
+    const BandMix* of_step;
     float last_step;
   };
 
@@ -69,15 +65,11 @@ class RingGrid {
   [[nodiscard]] int band_of(float ground_range_m) const noexcept {
     return band_of_step_[step_of(ground_range_m)];
   }
-  /// As band_of(), with the neighbouring band the range leans to.
+  /// As band_of(), with the next band where the range leans to it.
   [[nodiscard]] BandMix mix_of(float ground_range_m) const noexcept {
-    const std::size_t step = step_of(ground_range_m);
-    return {mix_bands_[step] & BandMixes::kInner, mix_bands_[step] >> BandMixes::kOuterShift,
-            mix_share_[step]};
+    return mixes_[step_of(ground_range_m)];
   }
-  [[nodiscard]] BandMixes mixes() const noexcept {
-    return {mix_bands_.data(), mix_share_.data(), last_step_};
-  }
+  [[nodiscard]] BandMixes mixes() const noexcept { return {mixes_.data(), last_step_}; }
   /// Ranges in steps of 1 / kStepsPerMetre, for band_of_step(): many at once.
   void find_steps(std::span<const float> ground_range_m,
                   std::span<std::uint16_t> steps) const noexcept TERRACUT_NONBLOCKING;
@@ -115,8 +107,7 @@ class RingGrid {
   float last_step_ = 0;
   std::span<float> center_m_;
   std::span<std::uint8_t> band_of_step_;
-  std::span<std::int32_t> mix_bands_;  // of each step, as in BandMixes
-  std::span<float> mix_share_;
+  std::span<BandMix> mixes_;  // of each step
   std::span<std::uint16_t> sector_of_column_;
   std::span<std::int32_t> first_cell_of_column_;
   std::span<std::uint16_t> first_column_;  // of each sector, and the end of the last

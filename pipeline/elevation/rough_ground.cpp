@@ -16,8 +16,7 @@ constexpr int kNotCounted = -1;  // any number of such bytes is less than 0
 constexpr int kRowReach = 2;     // rows up and down whose bends count, too
 
 /// Levels what is low in a row, and finds what is level only if it is rough there.
-TERRACUT_VECTOR_CLONES void level_row(const std::int32_t* __restrict cell,
-                                      const float* __restrict highest_near_m,
+TERRACUT_VECTOR_CLONES void level_row(const float* __restrict highest_near_m,
                                       const RoughGround::Config& config, float obstacle_height_m,
                                       std::span<float> heights_m,
                                       std::uint8_t* __restrict may_be_rough) noexcept {
@@ -26,7 +25,7 @@ TERRACUT_VECTOR_CLONES void level_row(const std::int32_t* __restrict cell,
   const std::size_t count = heights_m.size();
   float* const __restrict height_m = heights_m.data();
   for (std::size_t i = 0; i < count; ++i) {
-    const float highest_m = highest_near_m[cell[i]];
+    const float highest_m = highest_near_m[i];
     const float h = height_m[i];
     // Whole numbers as wide as a float: a vector of them needs no repacking.
     const std::int32_t is_low = (h > 0 ? 1 : 0) & (h < obstacle_height_m ? 1 : 0);
@@ -83,9 +82,9 @@ RoughGround::RoughGround(const Config& config, float obstacle_height_m, const Ri
     : config_(config),
       obstacle_height_m_(obstacle_height_m),
       shape_(shape),
-      near_sectors_(std::min(config.near_sectors, (grid.sectors() - 1) / 2)) {
+      near_sectors_(std::min(config.near_sectors, (grid.sectors() - 1) / 2)),
+      highest_near_m_(memory.take<float>("rough ground", grid.cells())) {
   if (!config.enabled) return;
-  highest_near_m_ = memory.take<float>("rough ground", grid.cells());
   may_be_rough_ =
       memory.take<std::uint8_t>("rough ground", static_cast<std::size_t>(shape.columns));
   bends_ = memory.take<Bends>("rough ground", static_cast<std::size_t>(grid.sectors()) *
@@ -124,12 +123,11 @@ void RoughGround::find_highest_near(RingGrid::Sectors sectors, const RingGrid& g
 }
 
 void RoughGround::level(const frame::PointPlanes& points, int row, frame::ColumnRange columns,
-                        std::span<const std::int32_t> cell, const RingGrid& grid,
+                        std::span<const float> highest_m, const RingGrid& grid,
                         std::span<float> height_m) noexcept {
   if (!config_.enabled || columns.size() == 0) return;
   const std::uint8_t* const may_be = may_be_rough_.data();
-  level_row(cell.data(), highest_near_m_.data(), config_, obstacle_height_m_, height_m,
-            may_be_rough_.data());
+  level_row(highest_m.data(), config_, obstacle_height_m_, height_m, may_be_rough_.data());
   for (std::size_t i = 0;;) {
     const void* const found = std::memchr(may_be + i, 1, columns.size() - i);
     if (found == nullptr) return;

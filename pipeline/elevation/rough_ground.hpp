@@ -55,10 +55,12 @@ class RoughGround {
   void find_highest_near(RingGrid::Sectors sectors, const RingGrid& grid,
                          std::span<const float> highest_m,
                          std::span<const float> ground_m) noexcept TERRACUT_NONBLOCKING;
-  /// Levels the heights of a row in these columns: `cell` is the grid cell of each. All points of
-  /// their sectors and of those in reach are there.
+  /// Of each cell of the grid, the highest return near it, above its ground.
+  [[nodiscard]] std::span<const float> highest_near_m() const noexcept { return highest_near_m_; }
+  /// Levels the heights of a row in these columns, near each of which the highest return is
+  /// `highest_m` above the ground. All points of their sectors and of those in reach are there.
   void level(const frame::PointPlanes& points, int row, frame::ColumnRange columns,
-             std::span<const std::int32_t> cell, const RingGrid& grid,
+             std::span<const float> highest_m, const RingGrid& grid,
              std::span<float> height_m) noexcept TERRACUT_NONBLOCKING;
 
  private:

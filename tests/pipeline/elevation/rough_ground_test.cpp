@@ -52,11 +52,15 @@ struct GroundEverywhere : testing::Test {
     rough.reset();
     rough.find_highest_near({0, grid.sectors()}, grid, highest_m,
                             std::vector<float>(grid.cells(), 0.0F));
+    std::vector<float> highest_near_m(kShape.cells());
+    for (std::size_t i = 0; i < cell.size(); ++i) {
+      highest_near_m[i] = rough.highest_near_m()[static_cast<std::size_t>(cell[i])];
+    }
     for (const frame::ColumnRange columns : parts) {
       for (int row = 0; row < kShape.rows; ++row) {
         const std::size_t first = kShape.cell(row, columns.begin);
         rough.level({z_m.data(), z_m.data(), z_m.data(), range_m.data()}, row, columns,
-                    std::span(cell).subspan(first, columns.size()), grid,
+                    std::span(highest_near_m).subspan(first, columns.size()), grid,
                     std::span(height_m).subspan(first, columns.size()));
       }
     }

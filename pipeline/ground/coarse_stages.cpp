@@ -9,8 +9,12 @@ namespace terracut::ground {
 namespace {
 
 /// Sectors labelled together while the frame arrives: few, so that they are in the caches next to
-/// the core from when they came to when they are labelled, and little is left at the end.
-constexpr int kBlock = 16;
+/// the core from when they came to when they are labelled. Towards the frame's end even fewer, so
+/// that little is left when it is there.
+int sectors_of_block(int sectors_to_come) noexcept TERRACUT_NONBLOCKING {
+  constexpr int kMost = 16, kLeast = 4;
+  return std::clamp(sectors_to_come / 2, kLeast, kMost);
+}
 
 void done(stage::StageObserver* observer, stage::Stage stage) noexcept TERRACUT_NONBLOCKING {
   if (observer != nullptr) observer->stage_done(stage);
@@ -63,15 +67,16 @@ void CoarseStages::advance(const frame::RangeImage& image, int complete_columns,
   if (image.returns() == 0) return;  // a stream begins behind a frame that it has nothing of
   if (!has_begun(image)) begin(image);
   const elevation::RingGrid& grid = map_.grid();
-  for (int block = 0; block < most_blocks && map_.traced() + kBlock <= grid.sectors() &&
-                      grid.columns_of({0, map_.traced() + kBlock}).end <= complete_columns;
-       ++block) {
+  for (int block = 0; block < most_blocks; ++block) {
+    const int size = sectors_of_block(grid.sectors() - map_.traced());
+    const int end = map_.traced() + size;
+    if (end > grid.sectors() || grid.columns_of({0, end}).end > complete_columns) return;
     if (observer != nullptr) observer->resumed();
-    trace_to(map_.traced() + kBlock, image);
+    trace_to(end, image);
     // The first sectors wait for the last ones: ground is interpolated across the seam.
     const elevation::RingGrid::Sectors next{std::max(labelled_, map_.reach()),
                                             map_.traced() - map_.reach()};
-    if (next.end - next.begin < kBlock) {
+    if (next.end - next.begin < size) {
       done(observer, stage::Stage::kElevationMap);
       continue;
     }

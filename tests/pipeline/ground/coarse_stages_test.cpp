@@ -208,7 +208,8 @@ struct CoarseStagesOfArrivingFrames : testing::TestWithParam<const char*> {
 TEST_P(CoarseStagesOfArrivingFrames, LabelAsIfTheFrameHadComeAtOnce) {
   ArrivingColumns frame(hills_and_walls());
   arrive(frame);
-  const int blocks = 6;  // of 16 sectors: each is traced, and those in the middle labelled, ahead
+  // Five of 16 sectors, then 8, 4 and 4: each is traced, and those in the middle labelled, ahead.
+  const int blocks = 8;
   EXPECT_GE(recorder.parts, blocks);
   EXPECT_EQ(recorder.parts > blocks, config().last_stage >= stage::Stage::kAdjacentPoints);
   expect_right_labels(frame.image);

@@ -10,6 +10,8 @@
 namespace terracut::stage {
 namespace {
 
+constexpr std::uint32_t kEveryFiring = (std::uint32_t{1} << frame::kTileFirings) - 1;
+
 void copy_where_measured(const frame::Label* __restrict from, const std::uint16_t* __restrict raw,
                          std::uint8_t* __restrict to) noexcept {
   for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
@@ -89,7 +91,12 @@ void ReturnLabels::assign(const frame::MeasuredReturns& returns, const frame::Po
       if (row.is_run && row.owned == row.returns) {
         const std::size_t cell =
             static_cast<std::size_t>(rows[i]) * stride + static_cast<std::size_t>(row.least);
-        copy_where_measured(&planes.label[cell], raw + i * frame::kTileFirings, of_laser[i].data());
+        if (row.returns == kEveryFiring) {
+          std::memcpy(of_laser[i].data(), &planes.label[cell], frame::kTileFirings);
+        } else {
+          copy_where_measured(&planes.label[cell], raw + i * frame::kTileFirings,
+                              of_laser[i].data());
+        }
         continue;
       }
       if (row.owned != row.returns && !std::exchange(is_open, true)) reader.open(tile.heads, raw);

@@ -58,7 +58,7 @@ class FramePoints {
   void make_row(const MeasuredReturns& returns, std::size_t tile, std::size_t laser,
                 TakeExtra take_extra) noexcept;
   /// About a cache line and a half of each plane.
-  void fetch_to_write(std::size_t cell) const noexcept;
+  void fetch_to_write(std::size_t cell) const noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;
   std::unique_ptr<TileReader> reader_;

@@ -255,6 +255,14 @@ bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
 
 MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int row, int column,
                                                      TileReader& reader) const noexcept {
+  // Mostly it is another return of the same firing, or of the one before.
+  const std::uint32_t owned = this->row(newest.tile, newest.laser).owned;
+  for (std::size_t f = newest.firing; f-- > 0;) {
+    const bool is_owner = (owned >> f & 1U) != 0;
+    if (is_owner && this->column(newest.tile, newest.laser, f) == column) {
+      return {newest.tile, newest.laser, f};
+    }
+  }
   const std::span<const std::int32_t> rows = reader.rows();
   for (std::size_t t = newest.tile + 1; t-- > 0;) {
     const bool is_at_work = t == newest.tile;

@@ -191,8 +191,9 @@ GroundSurface::Detour GroundSurface::find_ground_again(
   for (int band = lost_band + 1; band < grid.bands(); ++band) {
     const LowestReturn& here = lowest[grid.cell(sector, band)];
     if (here.height_m == kEmpty) continue;
-    const bool leads_on =
-        passable(last, here) && here.range_m - last.range_m <= config_.regain_gap_m;
+    const float most_gap_m = connected ? config_.regain_gap_m
+                                       : std::min(config_.regain_gap_m, config_.unconnected_gap_m);
+    const bool leads_on = passable(last, here) && here.range_m - last.range_m <= most_gap_m;
     if (start_band < 0 || !leads_on) {
       start = here;
       start_band = band;

@@ -40,16 +40,19 @@ class GroundSurface {
     float foot_rise_m = 0.18F;  ///< A higher rise is not accepted where something tall stands ...
     float tall_m = 0.5F;        ///< ... which is this much higher than the cell's lowest return.
     float extra_fall = 0.30F;   ///< Further fall accepted per metre traced (ground may drop away).
-    float slope_gain = 0.30F;   ///< Share of a new step in the running slope, (0, 1].
+    float slope_gain = 0.25F;   ///< Share of a new step in the running slope, (0, 1].
     float max_slope = 0.55F;    ///< Largest running slope, rise over run.
     float slope_memory_m = 2.0F;  ///< How far the running slope is carried on over missing ground.
     float first_slope_run_m =
         0.4F;  ///< A shorter step than this counts as this long for the slope.
     float regain_length_m =
         4.0F;  ///< Lost ground is found again after so many metres of passable steps ...
-    float regain_slope = 0.55F;   ///< ... that begin no steeper than this from the last ground ...
-    float regain_gap_m = 1e9F;    ///< ... without a longer step among them ...
-    float regain_width_m = 4.0F;  ///< ... on a strip at least so wide.
+    float regain_slope = 0.55F;  ///< ... that begin no steeper than this from the last ground ...
+    float regain_gap_m = 1e9F;   ///< ... without a longer step among them ...
+    float unconnected_gap_m = 3.5F;  ///< ... (a way that began steeper, like that over a parked
+                                     ///< car's roof, ends at a longer step, and the bank behind it
+                                     ///< begins another) ...
+    float regain_width_m = 4.0F;     ///< ... on a strip at least so wide.
     int interpolate_sectors =
         14;  ///< How many sectors to each side a cell may be interpolated from.
     float traced_weight =

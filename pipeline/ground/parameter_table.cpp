@@ -77,6 +77,8 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(elevation_map.surface.regain_slope)},
     Parameter{"surface.regain_gap_m", "m", "... without a longer step among them ...", 0.5, kFar, {},
               TERRACUT_FIELD(elevation_map.surface.regain_gap_m)},
+    Parameter{"surface.unconnected_gap_m", "m", "... (a way that began steeper ends at a longer step) ...", 0.5, kFar, {},
+              TERRACUT_FIELD(elevation_map.surface.unconnected_gap_m)},
     Parameter{"surface.regain_width_m", "m", "... on a strip at least so wide", 0, 100, {},
               TERRACUT_FIELD(elevation_map.surface.regain_width_m)},
     Parameter{"surface.interpolate_sectors", "sectors", "How far to each side a cell without ground is interpolated from", 0, 100, {},

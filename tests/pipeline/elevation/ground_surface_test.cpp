@@ -132,6 +132,19 @@ TEST_F(SurfaceOverGrid, FindsABankBehindADitchThatHidesItsFoot) {
   EXPECT_NEAR(at(5, 25.0F), bank(grid.center_m(grid.band_of(25.0F))), 0.1F);
 }
 
+TEST_F(SurfaceOverGrid, FindsABankBehindAParkedCarThatHidesItsFoot) {
+  // Of the car, its flank and its roof. A passable way leads from the roof to the bank.
+  const auto bank = [](float range_m) { return 1.0F + 0.35F * (range_m - 13.0F); };
+  fill([&](float range_m) {
+    if (range_m < 6) return 0.0F;
+    if (range_m < 8) return range_m < 6.8F ? 0.6F : 1.5F;
+    return range_m < 13 ? GroundSurface::kEmpty : bank(range_m);
+  });
+  estimate();
+  EXPECT_NEAR(at(5, 20.0F), bank(grid.center_m(grid.band_of(20.0F))), 0.1F);
+  EXPECT_NEAR(at(5, 7.5F), 0.0F, 0.1F) << "the roof is none";
+}
+
 TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
   fill([](float range_m) { return range_m > 12 && range_m < 20 ? 1.5F : 0.0F; });
   estimate();

@@ -163,20 +163,26 @@ class PlainSurface {
     const auto passable = [this](const Place& a, const Place& b) {
       return std::fabs(b.z_m - a.z_m) <= double{config_.regain_slope} * (b.range_m - a.range_m);
     };
+    const auto leads_to = [&](const Place& start) {
+      return passable(lost, start) && may_follow(lost, start);
+    };
     std::vector<int> chain;
     for (int band = lost_band + 1; band < grid_.bands(); ++band) {
       if (!at(lowest, band)) continue;
       const Place& here = *at(lowest, band);
       if (!chain.empty()) {
         const Place& before = *at(lowest, chain.back());
-        const bool is_gap = here.range_m - before.range_m > double{config_.regain_gap_m};
-        if (is_gap || !passable(before, here)) chain.clear();
+        const double step_m = here.range_m - before.range_m;
+        const bool is_astray =
+            step_m > double{config_.unconnected_gap_m} && !leads_to(*at(lowest, chain.front()));
+        if (is_astray || step_m > double{config_.regain_gap_m} || !passable(before, here)) {
+          chain.clear();
+        }
       }
       chain.push_back(band);
       const Place& start = *at(lowest, chain.front());
       const double length_m = here.range_m - start.range_m;
-      if (passable(lost, start) && may_follow(lost, start) &&
-          length_m >= double{config_.regain_length_m}) {
+      if (leads_to(start) && length_m >= double{config_.regain_length_m}) {
         return std::pair(chain.front(), steepest((here.z_m - start.z_m) / length_m));
       }
     }

@@ -40,7 +40,7 @@ class GroundSurface {
     float foot_rise_m = 0.18F;  ///< A higher rise is not accepted where something tall stands ...
     float tall_m = 0.5F;        ///< ... which is this much higher than the cell's lowest return.
     float extra_fall = 0.30F;   ///< Further fall accepted per metre traced (ground may drop away).
-    float slope_gain = 0.25F;   ///< Share of a new step in the running slope, (0, 1].
+    float slope_gain = 0.20F;   ///< Share of a new step in the running slope, (0, 1].
     float max_slope = 0.55F;    ///< Largest running slope, rise over run.
     float slope_memory_m = 2.0F;  ///< How far the running slope is carried on over missing ground.
     float first_slope_run_m =

@@ -13,6 +13,8 @@
 #include <optional>
 #include <vector>
 
+#include "rt/vector_clones.hpp"
+
 namespace terracut::mount {
 namespace {
 
@@ -146,23 +148,39 @@ struct Coordinates {
   }
 };
 
-/// How many of them lie on a plane, which does not bend. Counting ends as soon as they cannot be
-/// more than `others`.
+/// A plane, which does not bend.
+struct Plane {
+  double slope_x, slope_y, offset_m, up_z;
+};
+
+/// How many of the points lie on it.
+TERRACUT_VECTOR_CLONES std::size_t count_on(const Plane& plane, const double* __restrict x_m,
+                                            const double* __restrict y_m,
+                                            const double* __restrict z_m, std::size_t count) {
+  const double slope_x = plane.slope_x, slope_y = plane.slope_y, offset_m = plane.offset_m,
+               up_z = plane.up_z;
+  std::size_t on_it = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double ground_m = (x_m[i] * slope_x + offset_m) + y_m[i] * slope_y;
+    on_it += std::fabs((z_m[i] - ground_m) * up_z) < kReach_m ? 1 : 0;
+  }
+  return on_it;
+}
+
+/// How many of the points lie on a plane. Counting ends as soon as they cannot be more than
+/// `others`.
 std::size_t inliers_of(const Ground& plane, const Coordinates& points, std::size_t others) {
   constexpr std::size_t kAtOnce = 256;
-  const double slope_x = plane.terms[0], slope_y = plane.terms[1], offset_m = plane.terms[2];
-  const double up_z = plane.up().z();
-  const double *const x_m = points.x_m.data(), *const y_m = points.y_m.data(),
-                      *const z_m = points.z_m.data();
+  const Plane flat{.slope_x = plane.terms[0],
+                   .slope_y = plane.terms[1],
+                   .offset_m = plane.terms[2],
+                   .up_z = plane.up().z()};
   const std::size_t count = points.x_m.size();
   std::size_t inliers = 0;
   for (std::size_t begin = 0; begin < count && inliers + (count - begin) > others;
        begin += kAtOnce) {
-    const std::size_t end = std::min(count, begin + kAtOnce);
-    for (std::size_t i = begin; i < end; ++i) {
-      const double ground_m = (x_m[i] * slope_x + offset_m) + y_m[i] * slope_y;
-      inliers += std::abs((z_m[i] - ground_m) * up_z) < kReach_m ? 1 : 0;
-    }
+    inliers += count_on(flat, &points.x_m[begin], &points.y_m[begin], &points.z_m[begin],
+                        std::min(count - begin, kAtOnce));
   }
   return inliers;
 }

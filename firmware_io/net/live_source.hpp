@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -51,6 +52,11 @@ class LiveSource {
   }
   [[nodiscard]] LinkState link() const noexcept TERRACUT_NONBLOCKING {
     return udp_ ? udp_->link() : pcap_->link();
+  }
+  /// How many packets the system keeps until they are fetched, roughly.
+  [[nodiscard]] std::size_t room_packets() const noexcept {
+    constexpr std::size_t kOfLibpcap = 4096;  // its ring is of 8 MiB
+    return udp_ ? udp_->room_packets() : kOfLibpcap;
   }
   /// From now on only this sender; others count as foreign.
   void accept_only(std::uint32_t source_address) noexcept {

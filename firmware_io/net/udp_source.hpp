@@ -76,6 +76,8 @@ class UdpSource {
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }
+  /// How many the kernel keeps until they are fetched, roughly.
+  [[nodiscard]] std::size_t room_packets() const noexcept { return socket_.buffer.packets(); }
 
   /// Where the socket is bound, with the port the system chose.
   [[nodiscard]] const Ipv4Endpoint& local() const noexcept { return config_.bind; }

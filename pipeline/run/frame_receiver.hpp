@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <utility>
@@ -44,6 +45,8 @@ class FrameReceiver {
     /// How long packets may gather in the kernel's buffer before they are fetched; 0: each is
     /// fetched as it comes.
     std::int64_t longest_gathering_ns = 0;
+    /// Packets that the kernel's buffer holds; half of them gather at most.
+    std::size_t room_packets = std::numeric_limits<std::uint32_t>::max();
   };
   /// Where things go; all must outlive this. `recorder` and `told_table` may be null.
   struct Outlets {
@@ -60,6 +63,7 @@ class FrameReceiver {
                 const Outlets& outlets, Clock clock, Wait wait) noexcept
       : config_(config),
         frame_period_ns_(config.frame_period_ns),
+        longest_gathering_ns_(longest_gathering_ns(kMostPacketsAFrame)),
         pipeline_(pipeline),
         source_(source),
         to_(outlets),
@@ -75,6 +79,7 @@ class FrameReceiver {
     source_.refresh_drops();
     before_ = source_.counters();
     received_ = before_.received;
+    received_before_frame_ = received_;
   }
 
   struct Round {
@@ -110,6 +115,8 @@ class FrameReceiver {
   /// sooner than its last packet comes, so that a thread which wakes up late is still in time.
   static constexpr float kFetchedAsTheyCome = 0.02F;
   static constexpr std::int64_t kWorthwhileGathering_ns = 300'000;
+  /// A VLS-128's in dual return, at 10 Hz.
+  static constexpr std::uint64_t kMostPacketsAFrame = 1875;
   /// More than any buffer holds: who sends without end holds up nothing.
   static constexpr int kMostBatches = 10'000;
   /// At least eight times what a packet brings, so that the coarse stages catch up.
@@ -121,7 +128,7 @@ class FrameReceiver {
   [[nodiscard]] std::int64_t gathering_ns() const noexcept {
     const auto left_ns = static_cast<std::int64_t>((share_to_come_ - kFetchedAsTheyCome) *
                                                    static_cast<float>(frame_period_ns_));
-    const std::int64_t time_ns = std::min(left_ns, config_.longest_gathering_ns);
+    const std::int64_t time_ns = std::min(left_ns, longest_gathering_ns_);
     return time_ns < kWorthwhileGathering_ns ? 0 : time_ns;
   }
 
@@ -181,6 +188,19 @@ class FrameReceiver {
   void note_period(std::int64_t last_packet_ns) noexcept {
     const std::int64_t period_ns = last_packet_ns - std::exchange(last_packet_ns_, last_packet_ns);
     frame_period_ns_ = std::clamp<std::int64_t>(period_ns, 0, config_.frame_period_ns);
+    const std::uint64_t packets = received_ - std::exchange(received_before_frame_, received_);
+    if (period_ns == last_packet_ns) return;  // the first frame, which may have begun anywhere
+    most_packets_a_frame_ = std::max(most_packets_a_frame_, packets);
+    longest_gathering_ns_ = longest_gathering_ns(most_packets_a_frame_);
+  }
+
+  /// So that the kernel's buffer is half full at most where a frame has so many packets.
+  [[nodiscard]] std::int64_t longest_gathering_ns(std::uint64_t packets_a_frame) const noexcept {
+    const double share_of_frame = static_cast<double>(config_.room_packets / 2) /
+                                  static_cast<double>(std::max<std::uint64_t>(packets_a_frame, 1));
+    const double half_full_ns = share_of_frame * static_cast<double>(frame_period_ns_);
+    return static_cast<std::int64_t>(
+        std::min(static_cast<double>(config_.longest_gathering_ns), half_full_ns));
   }
 
   [[nodiscard]] status::FrameRecord record_of(const frame::FrameInfo& info) noexcept
@@ -217,7 +237,8 @@ class FrameReceiver {
   static constexpr auto kCoarseStages = static_cast<std::uint8_t>(stage::Stage::kSeeds);
 
   Config config_;
-  std::int64_t frame_period_ns_;  ///< The newest frame's, or less.
+  std::int64_t frame_period_ns_;       ///< The newest frame's, or less.
+  std::int64_t longest_gathering_ns_;  ///< As long as a frame's packets leave room.
   LivePipeline& pipeline_;
   Source& source_;
   Outlets to_;
@@ -227,7 +248,9 @@ class FrameReceiver {
   PacketGate gate_;
 
   net::ReceiveCounters before_;
-  std::uint64_t received_ = 0;  ///< By the source, up to the newest fetch.
+  std::uint64_t received_ = 0;               ///< By the source, up to the newest fetch.
+  std::uint64_t received_before_frame_ = 0;  ///< Up to the one that ended the frame before.
+  std::uint64_t most_packets_a_frame_ = 0;   ///< So far.
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;

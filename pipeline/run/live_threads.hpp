@@ -52,7 +52,7 @@ class LiveThreads {
   struct Config {
     std::int64_t deadline_ns = 50'000'000;           ///< From a frame's last packet to its labels.
     std::int64_t frame_period_ns = 100'000'000;      ///< Of one revolution of the head.
-    std::int64_t longest_gathering_ns = 10'000'000;  ///< FrameReceiver::Config
+    std::int64_t longest_gathering_ns = 20'000'000;  ///< FrameReceiver::Config
     bool keeps_labels = false;                       ///< labels()
     bool keeps_points = false;                       ///< points()
     bool compares_tables = false;                    ///< told_table()

@@ -31,7 +31,7 @@ class LiveRun {
     double deadline_ms = 50;  ///< From a frame's last packet to its labels, [1, 10000].
     /// How long packets may wait to be fetched together, never past a frame's end, [0, 20]; 0: each
     /// is fetched as it comes, which costs more wake-ups.
-    double gather_ms = 10;
+    double gather_ms = 20;
     int receive_priority = 80;  ///< SCHED_FIFO, [1, 99]; 0: shared scheduling.
     int segment_priority = 70;
     bool lock_memory = true;

@@ -136,7 +136,7 @@ struct ListenOptions {
   std::string multicast;  ///< Group to join; empty: none.
   bool share_port = false;
   std::uint16_t device_port = 7788;  ///< Of a Ruby128's DIFOP; 0: not heard.
-  double gather_ms = 10;             ///< How long packets may wait to be fetched together.
+  double gather_ms = 20;             ///< How long packets may wait to be fetched together.
 };
 
 /// What the threads that have a deadline, and the one that hears the vehicle, ask of the system.

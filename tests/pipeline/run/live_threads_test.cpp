@@ -120,10 +120,11 @@ class LiveFrames : public testing::Test {
   }
 
   void begin_receiving() { receive_gathering(0); }
-  void receive_gathering(std::int64_t longest_gathering_ns) {
+  void receive_gathering(std::int64_t longest_gathering_ns, std::size_t room_packets = 10'000) {
     receiver_.emplace(Receiver::Config{.deadline_ns = kDeadline_ns,
                                        .frame_period_ns = kFramePeriod_ns,
-                                       .longest_gathering_ns = longest_gathering_ns},
+                                       .longest_gathering_ns = longest_gathering_ns,
+                                       .room_packets = room_packets},
                       chain_, source_,
                       Receiver::Outlets{.frames = &frames_,
                                         .frame_ready = &*frame_ready_,
@@ -576,6 +577,20 @@ TEST_F(LiveFrames, PacketsGatherAsLongAsToldButNeverPastAFramesEnd) {
   for (const status::FrameRecord& record : records_) {
     EXPECT_LT(lag_ns(record), kMs) << record.info.number;
   }
+}
+
+TEST_F(LiveFrames, NoMorePacketsGatherThanFillHalfOfTheKernelsBuffer) {
+  constexpr std::size_t kRoom = 40;
+  receive_gathering(20 * kMs, kRoom);
+  send(drive(6));
+  std::uint64_t received = 0, most = 0;
+  while (source_.has_more()) {
+    time_.now_ns += receiver_->work_round(100 * kMs).gathering_ns;
+    most = std::max(
+        most, source_.counters().received - std::exchange(received, source_.counters().received));
+  }
+  EXPECT_LE(most, kRoom / 2 + 2) << "of some 350 packets a frame";
+  EXPECT_GE(most, kRoom / 2 - 2);
 }
 
 TEST_F(LiveFrames, NothingGathersWhereEachPacketIsWantedAsItComes) {

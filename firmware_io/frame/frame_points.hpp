@@ -110,11 +110,12 @@ void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile, std
     return;
   }
   reader_->compute_points(laser, all_of(points_));
+  const TileRow<std::uint16_t> columns = returns.columns(tile, laser);
   for_each_firing(row.returns & ~row.owned, [&](std::size_t f) noexcept {
-    take_extra(returns.column(tile, laser, f), points_.z_m[f], points_.ground_range_m[f]);
+    take_extra(int{columns[f]}, points_.z_m[f], points_.ground_range_m[f]);
   });
   for_each_firing(row.owned, [&](std::size_t f) noexcept {
-    const int column = returns.column(tile, laser, f);
+    const int column = columns[f];
     const std::size_t cell = first + static_cast<std::size_t>(column);
     // A return that owned the cell until this one came, and was made a point before.
     if (z_m_[cell] == z_m_[cell]) take_extra(column, z_m_[cell], ground_range_m_[cell]);

@@ -15,20 +15,36 @@ namespace {
 constexpr std::size_t kWordBits = 64;
 constexpr std::uint32_t kAllFirings = (1U << kTileFirings) - 1;
 
-/// A bit for each of the firings that found something.
-[[gnu::always_inline]] inline std::uint32_t hits_of(const std::uint16_t* raw) noexcept {
+/// Of each firing, 0 or 1.
+using Flags = std::uint8_t[kTileFirings];
+
+/// A bit for each firing.
+[[gnu::always_inline]] inline std::uint32_t bits_of_firings(const Flags& flags) noexcept {
   static_assert(kTileFirings == 24 && std::endian::native == std::endian::little);
-  std::uint8_t is_hit[kTileFirings];
-  for (std::size_t f = 0; f < kTileFirings; ++f) is_hit[f] = raw[f] != 0;
   std::uint32_t bits = 0;
   for (unsigned eighth = 0; eighth < 3; ++eighth) {
     std::uint64_t bytes;
-    std::memcpy(&bytes, is_hit + 8 * eighth, sizeof(bytes));
-    // Byte i, which is 0 or 1, goes to bit 56 + i.
+    std::memcpy(&bytes, flags + 8 * eighth, sizeof(bytes));
+    // Byte i goes to bit 56 + i.
     const std::uint64_t gathered = bytes * 0x0102'0408'1020'4080U >> 56U;
     bits |= static_cast<std::uint32_t>(gathered) << (8 * eighth);
   }
   return bits;
+}
+
+/// The firings that found something.
+[[gnu::always_inline]] inline std::uint32_t hits_of(const std::uint16_t* raw) noexcept {
+  Flags is_hit;
+  for (std::size_t f = 0; f < kTileFirings; ++f) is_hit[f] = raw[f] != 0;
+  return bits_of_firings(is_hit);
+}
+
+/// The firings of which `holds(its value, the value of the firing before)`.
+template <class Value, class Holds>
+[[gnu::always_inline]] inline std::uint32_t where_after(const Value* values, Holds holds) noexcept {
+  Flags flags{};
+  for (std::size_t f = 1; f < kTileFirings; ++f) flags[f] = holds(values[f], values[f - 1]);
+  return bits_of_firings(flags);
 }
 
 /// The firings whose columns are in [begin, end).
@@ -216,10 +232,34 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     });
     add_bits(cells, column, now & ~before);
     left &= ~taken.owned;
+    left &= ~take_pairs(laser, row, left, owner);
   }
   for_each_firing(left, [&](std::size_t f) noexcept {
     take_cell({used_ - 1, laser, f}, row, columns[f], owner, reader);
   });
+}
+
+std::uint32_t MeasuredReturns::take_pairs(std::size_t laser, int row, std::uint32_t left,
+                                          CellOwner owner) noexcept {
+  if (owner != CellOwner::kFirstArrived && owner != CellOwner::kStrongest) return 0;
+  LaserRow& taken = row_at(used_ - 1, laser);
+  const std::size_t values = ((used_ - 1) * lasers_ + laser) * kTileFirings;
+  const std::uint16_t* const columns = &columns_[values];
+  const std::uint32_t pairs =
+      left & taken.owned << 1U &
+      where_after(columns, [](std::uint16_t own, std::uint16_t before) { return own == before; });
+  if (pairs == 0) return 0;
+  std::uint64_t cells = 0;
+  for_each_firing(pairs, [&](std::size_t f) noexcept {
+    cells |= std::uint64_t{1} << (columns[f] - static_cast<unsigned>(taken.least));
+  });
+  add_bits(bits_of(shared_, row), static_cast<std::size_t>(taken.least), cells);
+  if (owner == CellOwner::kFirstArrived) return pairs;
+  const std::uint32_t stronger =
+      pairs & where_after(&intensity_[values],
+                          [](std::uint8_t own, std::uint8_t before) { return own > before; });
+  taken.owned ^= stronger | stronger >> 1U;
+  return pairs;
 }
 
 void MeasuredReturns::take_cell(const Place& at, int row, int column, CellOwner owner,

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <span>
 
 #include "firmware_io/frame/cell_owner.hpp"
@@ -77,6 +78,20 @@ class MeasuredReturns {
     return rows_[row].is_run ? rows_[row].least + static_cast<int>(firing)
                              : int{columns_[row * kTileFirings + firing]};
   }
+  /// Of all firings of a row, where they are returns.
+  [[nodiscard]] TileRow<std::uint16_t> columns(std::size_t tile, std::size_t laser) const noexcept {
+    const std::size_t row = tile * lasers_ + laser;
+    TileRow<std::uint16_t> columns;
+    if (!rows_[row].is_run) {
+      std::memcpy(columns.data(), &columns_[row * kTileFirings], sizeof(columns));
+      return columns;
+    }
+    const auto least = static_cast<std::uint16_t>(rows_[row].least);
+    for (std::size_t f = 0; f < kTileFirings; ++f) {
+      columns[f] = static_cast<std::uint16_t>(least + f);
+    }
+    return columns;
+  }
   [[nodiscard]] std::size_t lasers() const noexcept { return lasers_; }
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
   [[nodiscard]] std::uint32_t returns() const noexcept { return returns_; }
@@ -92,6 +107,11 @@ class MeasuredReturns {
   void number_returns(const NewTile& tile, Tile& added, std::span<const LaserRow> rows) noexcept;
   void take_cells(const NewTile& tile, std::size_t laser, std::uint32_t hits, int row,
                   CellOwner owner, TileReader& reader) noexcept;
+  /// Of those `left` of a laser's returns whose cells are taken: those whose cells belong to the
+  /// firing just before, the other return of a beam. Says which of the two has each cell where that
+  /// is known without their points; returns those that it settled.
+  [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, int row, std::uint32_t left,
+                                         CellOwner owner) noexcept;
   /// Of a return whose cell may be taken.
   void take_cell(const Place& at, int row, int column, CellOwner owner,
                  TileReader& reader) noexcept;

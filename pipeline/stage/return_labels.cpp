@@ -121,12 +121,12 @@ ReturnLabels::TileLabels ReturnLabels::labels_of_row(const frame::MeasuredReturn
   if (row.owned != row.returns) reader.compute_points(laser, all_of(extra));
   const std::size_t first = returns.shape().cell(reader.rows()[laser], 0);
   const frame::Label* const owners = &planes.label[first];
+  const frame::TileRow<std::uint16_t> columns = returns.columns(tile, laser);
   frame::for_each_firing(row.returns, [&](std::size_t f) noexcept {
-    const auto column = static_cast<std::size_t>(returns.column(tile, laser, f));
-    labels[f] = static_cast<std::uint8_t>(owners[column]);
+    labels[f] = static_cast<std::uint8_t>(owners[columns[f]]);
   });
   frame::for_each_firing(row.returns & ~row.owned, [&](std::size_t f) noexcept {
-    const std::size_t cell = first + static_cast<std::size_t>(returns.column(tile, laser, f));
+    const std::size_t cell = first + columns[f];
     labels[f] = static_cast<std::uint8_t>(
         label_of_extra(extra.z_m[f] - points.z_m[cell],
                        extra.ground_range_m[f] - points.ground_range_m[cell], cell, planes));

@@ -121,21 +121,63 @@ void take(const Extremes& more, Extremes& extremes) noexcept {
 
 constexpr float kNowhere_m = GroundSurface::kEmpty;  // lowest and, with its sign changed, highest
 
-/// Of some cells, as if each were alone in its grid cell, four halves each, of which the third may
-/// be anything. Returns how many cells have a return.
-TERRACUT_VECTOR_CLONES std::uint32_t find_extremes(const float* __restrict z_m,
-                                                   const float* __restrict range_m,
-                                                   std::size_t count,
-                                                   std::uint32_t* __restrict halves) noexcept {
+Extremes nothing() noexcept {
+  return Extremes{extremes_of(kNowhere_m, 0)[0], extremes_of(-kNowhere_m, 0)[1]};
+}
+
+using EightFloats = float __attribute__((vector_size(32)));
+using EightInts = std::int32_t __attribute__((vector_size(32)));
+
+/// Of eight cells, as if each were alone in its grid cell, four halves each, of which the third may
+/// be anything. Written a cell at a time: put together from single halves they would be read before
+/// they are in the cache.
+[[gnu::always_inline]] inline void find_eight_extremes(const float* z_m, const float* range_m,
+                                                       std::uint32_t* halves) noexcept {
+  EightFloats z, range;
+  std::memcpy(&z, z_m, sizeof(z));
+  std::memcpy(&range, range_m, sizeof(range));
+  const EightInts has_return = z == z;
+  const EightFloats nowhere = kNowhere_m - EightFloats{};
+  const auto lowest = reinterpret_cast<EightInts>(has_return ? z : nowhere);
+  const auto below_highest = reinterpret_cast<EightInts>(has_return ? -z : nowhere);
+  const EightInts lower = (reinterpret_cast<EightInts>(range) & has_return) ^ lowest >> 31;
+  const auto store = [halves](std::size_t cell, const EightInts& two)
+      __attribute__((always_inline)) {
+    std::memcpy(halves + 4 * cell, &two, sizeof(two) / 2);
+    std::memcpy(halves + 4 * (cell + 4), reinterpret_cast<const char*>(&two) + sizeof(two) / 2,
+                sizeof(two) / 2);
+  };
+  // Of cells 0, 1, 4, 5, and of 2, 3, 6, 7.
+  const EightInts low = __builtin_shufflevector(lower, lowest, 0, 8, 1, 9, 4, 12, 5, 13);
+  const EightInts low_behind = __builtin_shufflevector(lower, lowest, 2, 10, 3, 11, 6, 14, 7, 15);
+  const EightInts high =
+      __builtin_shufflevector(below_highest, below_highest, 0, 0, 1, 1, 4, 4, 5, 5);
+  const EightInts high_behind =
+      __builtin_shufflevector(below_highest, below_highest, 2, 2, 3, 3, 6, 6, 7, 7);
+  store(0, __builtin_shufflevector(low, high, 0, 1, 8, 9, 4, 5, 12, 13));
+  store(1, __builtin_shufflevector(low, high, 2, 3, 10, 11, 6, 7, 14, 15));
+  store(2, __builtin_shufflevector(low_behind, high_behind, 0, 1, 8, 9, 4, 5, 12, 13));
+  store(3, __builtin_shufflevector(low_behind, high_behind, 2, 3, 10, 11, 6, 7, 14, 15));
+}
+
+/// The same of any number of cells. Returns how many of them have a return.
+TERRACUT_VECTOR_CLONES_OF_INLINED std::uint32_t find_extremes(
+    const float* __restrict z_m, const float* __restrict range_m, std::size_t count,
+    std::uint32_t* __restrict halves) noexcept {
+  constexpr std::size_t kEight = 8;
   std::uint32_t returns = 0;
   for (std::size_t i = 0; i < count; ++i) returns += z_m[i] == z_m[i];
-  for (std::size_t i = 0; i < count; ++i) {
-    const bool has_return = z_m[i] == z_m[i];
-    const float lowest_m = has_return ? z_m[i] : kNowhere_m;
-    const float below_highest_m = has_return ? -z_m[i] : kNowhere_m;
-    halves[4 * i] = lower_half(lowest_m, has_return ? range_m[i] : 0.0F);
-    halves[4 * i + 1] = std::bit_cast<std::uint32_t>(lowest_m);
-    halves[4 * i + 3] = std::bit_cast<std::uint32_t>(below_highest_m);
+  if (count < kEight) {
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool has_return = z_m[i] == z_m[i];
+      const Extremes one = has_return ? extremes_of(z_m[i], range_m[i]) : nothing();
+      std::memcpy(halves + 4 * i, &one, sizeof(one));
+    }
+    return returns;
+  }
+  for (std::size_t next = 0; next < count; next += kEight) {
+    const std::size_t first = std::min(next, count - kEight);  // the last eight overlap
+    find_eight_extremes(z_m + first, range_m + first, halves + 4 * first);
   }
   return returns;
 }
@@ -182,8 +224,7 @@ void RingElevationMap::reset() noexcept {
   traced_ = 0;
   seen_ = seen_overflow_ = 0;
   was_overtaken_ = false;
-  const Extremes nothing{extremes_of(kNowhere_m, 0)[0], extremes_of(-kNowhere_m, 0)[1]};
-  std::fill(extremes_.begin(), extremes_.end(), nothing);
+  std::fill(extremes_.begin(), extremes_.end(), nothing());
   surface_.reset();
   rough_.reset();
 }

@@ -187,6 +187,15 @@ class Live:
             before, now = now, self.figures()
         return now
 
+    def used(self) -> tuple[float, int]:
+        """Of all its threads: seconds of processor time, and how often they slept and were woken."""
+        seconds, wake_ups = 0.0, 0
+        for task in Path(f"/proc/{self.pid()}/task").iterdir():
+            seconds += int((task / "schedstat").read_text().split()[0]) / 1e9
+            status = (task / "status").read_text()
+            wake_ups += int(re.search(r"^voluntary_ctxt_switches:\s*(\d+)", status, re.MULTILINE)[1])
+        return seconds, wake_ups
+
     def unread_bytes(self) -> int:
         """Of packets in its socket."""
         with (Path(f"/proc/{self.pid()}") / "net/udp").open() as table:

@@ -33,13 +33,40 @@ TERRACUT_VECTOR_CLONES void find_missing(const GroundSurface::LowestReturn* __re
   }
 }
 
-/// Puts heights in the place of others; whether one of them is not what was there.
-TERRACUT_VECTOR_CLONES bool replace(const float* __restrict from, std::size_t count,
-                                    float* __restrict to) noexcept {
-  std::int32_t has_changed = 0;
-  for (std::size_t i = 0; i < count; ++i) has_changed |= from[i] != to[i] ? 1 : 0;
-  for (std::size_t i = 0; i < count; ++i) to[i] = from[i];
-  return has_changed != 0;
+/// What was found in the cells of a sector.
+struct FoundInSector {
+  const float* traced_m;
+  const std::uint8_t* origin;
+  const GroundSurface::LowestReturn* lowest;
+};
+
+/// How far the ground of a sector rises from its first edge to its last, where it and the sectors
+/// before and after it have ground of their own: the central difference, but at most twice that to
+/// either of them, and none on a crest or in a dip (the monotonised central limiter; van Leer, J.
+/// Comput. Phys. 23, 1977). So the kerb between two sectors tilts neither.
+TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundInSector& here,
+                                       const FoundInSector& after, float tall_m,
+                                       const float* __restrict max_rise_m, std::size_t bands,
+                                       float* __restrict rise_m) noexcept {
+  const auto less = [](float a, float b) { return a < b ? a : b; };
+  const auto height_of = [](const GroundSurface::LowestReturn& cell) {
+    return cell.highest_m - cell.height_m;
+  };
+  for (std::size_t i = 0; i < bands; ++i) {
+    const float from_before_m = here.traced_m[i] - before.traced_m[i];
+    const float to_after_m = after.traced_m[i] - here.traced_m[i];
+    const float central_m = 0.5F * (from_before_m + to_after_m);
+    const float twice_either_m = 2 * less(std::fabs(from_before_m), std::fabs(to_after_m));
+    const float most_m = less(less(std::fabs(central_m), twice_either_m), max_rise_m[i]);
+    const float tallest_m = tall_m + most_m;
+    const std::int32_t is_ground = (before.origin[i] != 0 ? 1 : 0) & (here.origin[i] != 0 ? 1 : 0) &
+                                   (after.origin[i] != 0 ? 1 : 0);
+    const std::int32_t is_low = (height_of(before.lowest[i]) <= tallest_m ? 1 : 0) &
+                                (height_of(here.lowest[i]) <= tallest_m ? 1 : 0) &
+                                (height_of(after.lowest[i]) <= tallest_m ? 1 : 0);
+    const std::int32_t is_slope = from_before_m * to_after_m > 0 ? 1 : 0;
+    rise_m[i] = (is_ground & is_low & is_slope) != 0 ? std::copysign(most_m, central_m) : 0;
+  }
 }
 
 }  // namespace
@@ -47,21 +74,25 @@ TERRACUT_VECTOR_CLONES bool replace(const float* __restrict from, std::size_t co
 GroundSurface::GroundSurface(const Config& config, const RingGrid& grid,
                              memory::FixedMemory& memory)
     : config_(config),
-      reach_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
+      interpolate_sectors_(std::min(config.interpolate_sectors, (grid.sectors() - 1) / 2)),
       traced_m_(memory.take<float>("ground surface", grid.cells())),
-      height_m_(memory.take<float>("ground surface", grid.cells() + 1)),
+      heights_(memory.take<EdgeHeights>("ground surface", grid.cells() + 1)),
       found_(memory.take<Origin>("ground surface", grid.cells())),
       origin_(memory.take<Origin>("ground surface", grid.cells())),
       has_regained_(
           memory.take<std::uint8_t>("ground surface", static_cast<std::size_t>(grid.sectors()))),
       is_open_(memory.take<std::uint8_t>("ground surface", has_regained_.size())),
       wide_from_(
-          memory.take<std::int32_t>("ground surface", static_cast<std::size_t>(grid.bands()))) {
+          memory.take<std::int32_t>("ground surface", static_cast<std::size_t>(grid.bands()))),
+      max_rise_m_(memory.take<float>("ground surface", wide_from_.size())) {
   const float sector_rad = 2 * std::numbers::pi_v<float> / static_cast<float>(grid.sectors());
   for (int band = 0; band < grid.bands(); ++band) {
-    const float sectors_wide = config.regain_width_m / (sector_rad * grid.center_m(band));
-    wide_from_[static_cast<std::size_t>(band)] =
+    const auto i = static_cast<std::size_t>(band);
+    const float sector_m = sector_rad * grid.center_m(band);
+    const float sectors_wide = config.regain_width_m / sector_m;
+    wide_from_[i] =
         static_cast<std::int32_t>(std::min(sectors_wide, static_cast<float>(grid.sectors())));
+    max_rise_m_[i] = config.max_cross_slope * sector_m;
   }
 }
 
@@ -81,11 +112,11 @@ void GroundSurface::trace(const RingGrid& grid, RingGrid::Sectors sectors,
 
 void GroundSurface::finalize(const RingGrid& grid, RingGrid::Sectors sectors,
                              std::span<const LowestReturn> lowest) noexcept {
-  const int first = std::max(sectors.begin - reach_, 0);
-  const int end = std::min(sectors.end + reach_, grid.sectors());
+  const int first = std::max(sectors.begin - reach(), 0);
+  const int end = std::min(sectors.end + reach(), grid.sectors());
   for (int sector = first; sector < end; ++sector) find_donors(grid, sector);
   for (int sector = sectors.begin; sector < sectors.end; ++sector) {
-    interpolate_from_neighbours(grid, sector, lowest);
+    estimate(grid, sector, lowest);
   }
 }
 
@@ -94,7 +125,7 @@ void GroundSurface::finalize_rest(const RingGrid& grid, std::span<const LowestRe
   for (int sector = 0; sector < grid.sectors(); ++sector) find_donors(grid, sector);
   for (int sector = 0; sector < grid.sectors(); ++sector) {
     const auto i = static_cast<std::size_t>(sector);
-    if (is_open_[i] != 0 && interpolate_from_neighbours(grid, sector, lowest)) is_current[i] = 0;
+    if (is_open_[i] != 0 && estimate(grid, sector, lowest)) is_current[i] = 0;
   }
 }
 
@@ -138,7 +169,7 @@ void GroundSurface::trace_outward(const RingGrid& grid, int sector,
   has_regained_[static_cast<std::size_t>(sector)] = 0;
   int lost_band = trace_on(grid, sector, 0, kMeasured, ground, lowest);
   for (;;) {
-    const Detour detour = find_ground_again(grid, sector, lost_band, ground, lowest);
+    const Detour detour = find_ground_again(grid, sector, lost_band, grid.bands(), ground, lowest);
     if (detour.band < 0) return;
     has_regained_[static_cast<std::size_t>(sector)] = 1;
     const LowestReturn& start = lowest[grid.cell(sector, detour.band)];
@@ -156,6 +187,11 @@ int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin o
     const float center_m = grid.center_m(band);
     const LowestReturn& here = lowest[cell];
     const bool is_ground = leads_to(ground, here);
+    // Ground goes on here, but far behind where it was lost: a bank on the way comes first.
+    if (is_ground && here.range_m - ground.range_m > config_.regain_length_m &&
+        find_ground_again(grid, sector, last_band, band, ground, lowest).band >= 0) {
+      break;
+    }
     found_[cell] = is_ground ? origin : kPredicted;
     if (is_ground) {
       // The step's own slope carries the heights of both returns to the middles of their cells.
@@ -177,7 +213,7 @@ int GroundSurface::trace_on(const RingGrid& grid, int sector, int band, Origin o
 }
 
 GroundSurface::Detour GroundSurface::find_ground_again(
-    const RingGrid& grid, int sector, int lost_band, const Trace& ground,
+    const RingGrid& grid, int sector, int lost_band, int end_band, const Trace& ground,
     std::span<const LowestReturn> lowest) const noexcept {
   // No steeper than regain_slope from one place to the next.
   const auto passable = [this](const LowestReturn& from, const LowestReturn& to) {
@@ -188,7 +224,7 @@ GroundSurface::Detour GroundSurface::find_ground_again(
   LowestReturn start, last;
   int start_band = -1;     // of the places that lead on passably from one to the next
   bool connected = false;  // ... and whether they do so from the lost ground
-  for (int band = lost_band + 1; band < grid.bands(); ++band) {
+  for (int band = lost_band + 1; band < end_band; ++band) {
     const LowestReturn& here = lowest[grid.cell(sector, band)];
     if (here.height_m == kEmpty) continue;
     const float most_gap_m = connected ? config_.regain_gap_m
@@ -226,7 +262,7 @@ void GroundSurface::find_donors(const RingGrid& grid, int sector) noexcept {
     }
   }
   if (!has_changed) return;
-  for (int i = sector - reach_; i <= sector + reach_; ++i) {
+  for (int i = sector - reach(); i <= sector + reach(); ++i) {
     is_open_[static_cast<std::size_t>(grid.wrapped(i))] = 1;
   }
 }
@@ -243,30 +279,41 @@ bool GroundSurface::lies_on_wide_strip(const RingGrid& grid, int sector, int ban
   return end - first >= wide_from;
 }
 
-bool GroundSurface::interpolate_from_neighbours(const RingGrid& grid, int sector,
-                                                std::span<const LowestReturn> lowest) noexcept {
+bool GroundSurface::estimate(const RingGrid& grid, int sector,
+                             std::span<const LowestReturn> lowest) noexcept {
   static_assert(sizeof(Origin) == 1 && kPredicted == 0);
   const auto bands = static_cast<std::size_t>(grid.bands());
-  const std::size_t first = grid.cell(sector, 0);
+  const auto found_in = [&](int s) {
+    const std::size_t first = grid.cell(grid.wrapped(s), 0);
+    return FoundInSector{&traced_m_[first], reinterpret_cast<const std::uint8_t*>(&origin_[first]),
+                         &lowest[first]};
+  };
+  const FoundInSector here = found_in(sector);
   std::array<std::uint8_t, kMostBands> is_missing;
-  find_missing(&lowest[first], reinterpret_cast<const std::uint8_t*>(&origin_[first]), bands,
-               is_missing.data());
-  std::array<float, kMostBands> height_m;
-  std::memcpy(height_m.data(), &traced_m_[first], bands * sizeof(float));
+  find_missing(here.lowest, here.origin, bands, is_missing.data());
+  std::array<float, kMostBands> rise_m;
+  find_rises(found_in(sector - 1), here, found_in(sector + 1), config_.tall_m, max_rise_m_.data(),
+             bands, rise_m.data());
+  const std::span<EdgeHeights> heights = of_sector(heights_, grid, sector);
+  bool has_changed = false;
   for (std::size_t band = 0; band < bands; ++band) {
-    if (is_missing[band] != 0) {
-      height_m[band] = interpolated_m(grid, sector, static_cast<int>(band));
-    }
+    const float lower_m = is_missing[band] != 0
+                              ? interpolated_m(grid, sector, static_cast<int>(band))
+                              : here.traced_m[band];
+    const EdgeHeights now{lower_m + std::max(-rise_m[band], 0.0F),
+                          lower_m + std::max(rise_m[band], 0.0F)};
+    has_changed |= now != heights[band];
+    heights[band] = now;
   }
   is_open_[static_cast<std::size_t>(sector)] = 0;
-  return replace(height_m.data(), bands, &height_m_[first]);
+  return has_changed;
 }
 
 float GroundSurface::interpolated_m(const RingGrid& grid, int sector, int band) const noexcept {
   const int sectors = grid.sectors();
   float weights = config_.traced_weight;
   float sum_m = weights * traced_m_[grid.cell(sector, band)];
-  for (int distance = 1; distance <= reach_; ++distance) {
+  for (int distance = 1; distance <= interpolate_sectors_; ++distance) {
     const float weight = 1.0F / static_cast<float>(distance);
     const int left = sector >= distance ? sector - distance : sector - distance + sectors;
     const int right = sector + distance < sectors ? sector + distance : sector + distance - sectors;

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <span>
 
@@ -18,7 +19,8 @@ namespace terracut::elevation {
 /// outwards; the lowest return of a cell is ground only if a passable slope leads to it from the
 /// ground before. Ground that was lost is found again where the lowest returns form a passable way
 /// of some metres among themselves (a bank behind a ditch, a hillside behind a hedge). Cells
-/// without ground of their own take an interpolation of the nearest sectors that have it.
+/// without ground of their own take an interpolation of the nearest sectors that have it. Where the
+/// ground rises from sector to sector, a bank seen along its length, it rises across them, too.
 class GroundSurface {
  public:
   static constexpr float kEmpty = 1e9F;
@@ -57,6 +59,17 @@ class GroundSurface {
         14;  ///< How many sectors to each side a cell may be interpolated from.
     float traced_weight =
         0.30F;  ///< Weight of the traced prediction against a neighbour's 1/distance.
+    float max_cross_slope = 0.5F;  ///< Steepest ground across a sector, rise over width, where
+                                   ///< nothing tall (`tall_m`) stands; 0: one height for all of it.
+  };
+
+  /// Ground heights above the mount's plane where a sector's first column begins and where its last
+  /// one ends.
+  struct EdgeHeights {
+    float first_m = 0, last_m = 0;
+
+    [[nodiscard]] float lower_m() const noexcept { return first_m < last_m ? first_m : last_m; }
+    bool operator==(const EdgeHeights&) const = default;
   };
 
   GroundSurface(const Config& config, const RingGrid& grid, memory::FixedMemory& memory);
@@ -79,12 +92,12 @@ class GroundSurface {
                      std::span<std::uint8_t> is_current) noexcept TERRACUT_NONBLOCKING;
   /// The surface of a sector depends on this many sectors to each side (on more of them only
   /// beside a strip that may be too narrow to be ground).
-  [[nodiscard]] int reach() const noexcept { return reach_; }
+  [[nodiscard]] int reach() const noexcept { return std::max(interpolate_sectors_, 1); }
 
-  /// Ground height above the mount's plane in the middle of each grid cell; meaningful in cells
-  /// that had a return and in the bands next to them. One more at the end, of no cell, so that
-  /// there is a next one everywhere.
-  [[nodiscard]] std::span<const float> height_m() const noexcept { return height_m_; }
+  /// The ground in the middle of each grid cell's band; meaningful in cells that had a return and
+  /// in the bands next to them. One more at the end, of no cell, so that there is a next one
+  /// everywhere.
+  [[nodiscard]] std::span<const EdgeHeights> heights() const noexcept { return heights_; }
 
  private:
   enum Origin : std::uint8_t {
@@ -119,7 +132,8 @@ class GroundSurface {
   }
   void trace_outward(const RingGrid& grid, int sector,
                      std::span<const LowestReturn> lowest) noexcept;
-  /// Traces from `band` to the end of the sector; returns the last band that was ground, or -1.
+  /// Traces from `band` to the end of the sector, or until ground is lost that can be found again
+  /// on the way to where it would go on; returns the last band that was ground, or -1.
   int trace_on(const RingGrid& grid, int sector, int band, Origin origin, Trace& ground,
                std::span<const LowestReturn> lowest) noexcept;
   /// Where ground begins again, and the slope it goes on at.
@@ -127,29 +141,30 @@ class GroundSurface {
     int band = -1;  // -1: nowhere
     float slope = 0;
   };
-  /// The first band after `lost_band` that is passable from where the ground was lost and leads on
-  /// passably for `regain_length_m`.
+  /// The first band of those after `lost_band` and before `end_band` that is passable from where
+  /// the ground was lost and leads on passably for `regain_length_m`.
   [[nodiscard]] Detour find_ground_again(const RingGrid& grid, int sector, int lost_band,
-                                         const Trace& ground,
+                                         int end_band, const Trace& ground,
                                          std::span<const LowestReturn> lowest) const noexcept;
   /// Finds which ground of a sector its neighbours may use: all that was found in it, except ground
   /// found again on a strip too narrow to be ground (a row of car roofs, for example).
   void find_donors(const RingGrid& grid, int sector) noexcept;
   [[nodiscard]] bool lies_on_wide_strip(const RingGrid& grid, int sector, int band) const noexcept;
-  /// True where that changed the surface.
-  bool interpolate_from_neighbours(const RingGrid& grid, int sector,
-                                   std::span<const LowestReturn> lowest) noexcept;
+  /// The surface of a sector from what was found in it and in its neighbours; true where that
+  /// changed it.
+  bool estimate(const RingGrid& grid, int sector, std::span<const LowestReturn> lowest) noexcept;
   [[nodiscard]] float interpolated_m(const RingGrid& grid, int sector, int band) const noexcept;
 
   Config config_;
-  int reach_;
+  int interpolate_sectors_;  // at most half of the circle
   std::span<float> traced_m_;
-  std::span<float> height_m_;
+  std::span<EdgeHeights> heights_;
   std::span<Origin> found_;               // by the trace; kPredicted in sectors not traced
   std::span<Origin> origin_;              // without narrow strips
   std::span<std::uint8_t> has_regained_;  // of each sector, anything of found_
   std::span<std::uint8_t> is_open_;       // of each sector: its surface is not that of origin_ yet
   std::span<std::int32_t> wide_from_;     // of each band: a strip of so many sectors is wide enough
+  std::span<float> max_rise_m_;           // of each band, across a sector
 };
 
 }  // namespace terracut::elevation

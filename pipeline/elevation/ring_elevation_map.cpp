@@ -17,20 +17,33 @@ using stage::FourFloats, stage::FourInts;
 // The loops over a row's columns, each passed what it reads and writes for __restrict: without it
 // they are not vectorised in clones.
 
-/// Of returns, the height above the surface, mixed of the two bands that the range lies between,
-/// and what `highest_near_m` says of the grid cell in the first of them. Four at a time: what is
-/// looked up lies next to each other, and is more than half of the work.
-TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(
-    const float* __restrict z_m, const float* __restrict range_m,
-    const std::int32_t* __restrict first_cell, const float* __restrict surface_m,
-    const float* __restrict highest_near_m, const RingGrid::BandMixes& mixes,
-    float* __restrict highest_m, std::span<float> height_m) noexcept {
-  const RingGrid::BandMix* const __restrict of_step = mixes.of_step;
-  const FourFloats last_step = mixes.last_step - FourFloats{};
+/// The ground below a row's returns.
+struct GroundOfRow {
+  const std::int32_t* first_cell;  // of each column's sector
+  const float* share_across;       // of each column
+  const GroundSurface::EdgeHeights* heights;
+  const float* highest_near_m;
+  RingGrid::BandMixes mixes;
+};
+
+/// Of returns, the height above the surface, mixed of the two bands that the range lies between and
+/// of the edges of the sector, and what `highest_near_m` says of the grid cell in the first of the
+/// bands. Four at a time: what is looked up lies next to each other, and is more than half of the
+/// work.
+TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(const float* __restrict z_m,
+                                                    const float* __restrict range_m,
+                                                    const GroundOfRow& ground,
+                                                    float* __restrict highest_m,
+                                                    std::span<float> height_m) noexcept {
+  const RingGrid::BandMix* const __restrict of_step = ground.mixes.of_step;
+  const std::int32_t* const __restrict first_cell = ground.first_cell;
+  const GroundSurface::EdgeHeights* const __restrict heights = ground.heights;
+  const float* const __restrict highest_near_m = ground.highest_near_m;
+  const FourFloats last_step = ground.mixes.last_step - FourFloats{};
   const std::size_t count = height_m.size();
   float* const __restrict out = height_m.data();
-  const auto mixed = [](auto inner_m, auto outer_m, auto share) __attribute__((always_inline)) {
-    return inner_m + share * (outer_m - inner_m);
+  const auto mixed = [](auto from, auto to, auto share) __attribute__((always_inline)) {
+    return from + share * (to - from);
   };
   std::size_t i = 0;
   for (; i + 4 <= count; i += 4) {
@@ -40,24 +53,42 @@ TERRACUT_VECTOR_CLONES_OF_INLINED void find_heights(
     const RingGrid::BandMix a = mix(0), b = mix(1), c = mix(2), d = mix(3);
     const std::int32_t cell_a = first_cell[i] + a.inner, cell_b = first_cell[i + 1] + b.inner,
                        cell_c = first_cell[i + 2] + c.inner, cell_d = first_cell[i + 3] + d.inner;
-    const auto two = [&](std::int32_t cell) { return stage::load_two(surface_m + cell); };
-    const FourFloats ab = __builtin_shufflevector(two(cell_a), two(cell_b), 0, 1, 2, 3);
-    const FourFloats cd = __builtin_shufflevector(two(cell_c), two(cell_d), 0, 1, 2, 3);
-    const FourFloats surface = mixed(
-        __builtin_shufflevector(ab, cd, 0, 2, 4, 6), __builtin_shufflevector(ab, cd, 1, 3, 5, 7),
-        FourFloats{a.outer_share, b.outer_share, c.outer_share, d.outer_share});
-    const FourFloats heights = stage::load_four(z_m + i) - surface;
+    // Of each return its cell's edges and those of the cell behind; then the first edges of all,
+    // ...
+    const auto edges = [&](std::int32_t cell) {
+      FourFloats four;
+      std::memcpy(&four, heights + cell, sizeof(four));
+      return four;
+    };
+    const FourFloats edges_a = edges(cell_a), edges_b = edges(cell_b), edges_c = edges(cell_c),
+                     edges_d = edges(cell_d);
+    const FourFloats inner_ab = __builtin_shufflevector(edges_a, edges_b, 0, 4, 1, 5);
+    const FourFloats outer_ab = __builtin_shufflevector(edges_a, edges_b, 2, 6, 3, 7);
+    const FourFloats inner_cd = __builtin_shufflevector(edges_c, edges_d, 0, 4, 1, 5);
+    const FourFloats outer_cd = __builtin_shufflevector(edges_c, edges_d, 2, 6, 3, 7);
+    const FourFloats outer_share{a.outer_share, b.outer_share, c.outer_share, d.outer_share};
+    const FourFloats first =
+        mixed(__builtin_shufflevector(inner_ab, inner_cd, 0, 1, 4, 5),
+              __builtin_shufflevector(outer_ab, outer_cd, 0, 1, 4, 5), outer_share);
+    const FourFloats last =
+        mixed(__builtin_shufflevector(inner_ab, inner_cd, 2, 3, 6, 7),
+              __builtin_shufflevector(outer_ab, outer_cd, 2, 3, 6, 7), outer_share);
+    const FourFloats surface = mixed(first, last, stage::load_four(ground.share_across + i));
+    const FourFloats above = stage::load_four(z_m + i) - surface;
     const FourFloats highest{highest_near_m[cell_a], highest_near_m[cell_b], highest_near_m[cell_c],
                              highest_near_m[cell_d]};
-    std::memcpy(out + i, &heights, sizeof(heights));
+    std::memcpy(out + i, &above, sizeof(above));
     std::memcpy(highest_m + i, &highest, sizeof(highest));
   }
   for (; i < count; ++i) {
     const float steps = range_m[i] * RingGrid::kStepsPerMetre;
-    const RingGrid::BandMix mix =
-        of_step[static_cast<std::int32_t>(steps < mixes.last_step ? steps : mixes.last_step)];
+    const RingGrid::BandMix mix = of_step[static_cast<std::int32_t>(
+        steps < ground.mixes.last_step ? steps : ground.mixes.last_step)];
     const std::int32_t cell = first_cell[i] + mix.inner;
-    out[i] = z_m[i] - mixed(surface_m[cell], surface_m[cell + 1], mix.outer_share);
+    const GroundSurface::EdgeHeights &inner = heights[cell], &outer = heights[cell + 1];
+    const float first_m = mixed(inner.first_m, outer.first_m, mix.outer_share);
+    const float last_m = mixed(inner.last_m, outer.last_m, mix.outer_share);
+    out[i] = z_m[i] - mixed(first_m, last_m, ground.share_across[i]);
     highest_m[i] = highest_near_m[cell];
   }
 }
@@ -276,7 +307,7 @@ void RingElevationMap::take_overflow(const frame::RangeImage& image) noexcept {
 void RingElevationMap::finalize(RingGrid::Sectors sectors) noexcept {
   if (!has_surface()) return;
   surface_.finalize(grid_, sectors, lowest_);
-  rough_.find_highest_near(sectors, grid_, highest_m_, surface_.height_m());
+  rough_.find_highest_near(sectors, grid_, highest_m_, surface_.heights());
 }
 
 void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcept {
@@ -284,14 +315,17 @@ void RingElevationMap::finalize_rest(std::span<std::uint8_t> is_current) noexcep
   surface_.finalize_rest(grid_, lowest_, is_current);
   for (int sector = 0; sector < grid_.sectors(); ++sector) {
     if (is_current[static_cast<std::size_t>(sector)] != 0) continue;
-    rough_.find_highest_near({sector, sector + 1}, grid_, highest_m_, surface_.height_m());
+    rough_.find_highest_near({sector, sector + 1}, grid_, highest_m_, surface_.heights());
   }
 }
 
 void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRange columns,
                              stage::CellPlanes& planes) noexcept {
   constexpr std::size_t kShort = 512;  // columns that the processor does not foresee by itself
-  const RingGrid::BandMixes mixes = grid_.mixes();
+  const auto first = static_cast<std::size_t>(columns.begin);
+  const GroundOfRow ground{&grid_.first_cell_of_column()[first], &grid_.share_across()[first],
+                           surface_.heights().data(), rough_.highest_near_m().data(),
+                           grid_.mixes()};
   const std::span<float> highest_m = row_highest_m_.first(columns.size());
   for (int row = 0; row < shape_.rows; ++row) {
     const std::size_t cell = shape_.cell(row, columns.begin);
@@ -301,10 +335,8 @@ void RingElevationMap::label(const frame::PointPlanes& points, frame::ColumnRang
     }
     const std::span<float> height_m = planes.height_m.subspan(cell, columns.size());
     if (has_surface()) {
-      find_heights(&points.z_m[cell], &points.ground_range_m[cell],
-                   &grid_.first_cell_of_column()[static_cast<std::size_t>(columns.begin)],
-                   surface_.height_m().data(), rough_.highest_near_m().data(), mixes,
-                   highest_m.data(), height_m);
+      find_heights(&points.z_m[cell], &points.ground_range_m[cell], ground, highest_m.data(),
+                   height_m);
       rough_.level(points, row, columns, highest_m, grid_, height_m);
     } else {
       find_heights_above(lowest_, grid_, &points.z_m[cell], &points.ground_range_m[cell],

@@ -89,6 +89,7 @@ RingGrid::RingGrid(const Config& config, const mount::RingProfile& profile, fram
   sector_of_column_ =
       memory.take<std::uint16_t>("ring grid", static_cast<std::size_t>(shape.columns));
   first_cell_of_column_ = memory.take<std::int32_t>("ring grid", sector_of_column_.size());
+  share_across_ = memory.take<float>("ring grid", sector_of_column_.size());
   first_column_ = memory.take<std::uint16_t>("ring grid", static_cast<std::size_t>(sectors_) + 1);
   for (int column = shape.columns - 1; column >= 0; --column) {
     // Spread evenly, so that the last sector is no sliver.
@@ -99,6 +100,11 @@ RingGrid::RingGrid(const Config& config, const mount::RingProfile& profile, fram
     first_column_[static_cast<std::size_t>(sector_of(column))] = static_cast<std::uint16_t>(column);
   }
   first_column_.back() = static_cast<std::uint16_t>(shape.columns);
+  for (int column = 0; column < shape.columns; ++column) {
+    const frame::ColumnRange own = columns_of({sector_of(column), sector_of(column) + 1});
+    share_across_[static_cast<std::size_t>(column)] =
+        (static_cast<float>(column - own.begin) + 0.5F) / static_cast<float>(own.size());
+  }
 }
 
 void RingGrid::find_steps(std::span<const float> ground_range_m,

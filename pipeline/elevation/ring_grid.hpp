@@ -82,6 +82,8 @@ class RingGrid {
   [[nodiscard]] std::span<const std::int32_t> first_cell_of_column() const noexcept {
     return first_cell_of_column_;
   }
+  /// Where the middle of each image column lies between the edges of its sector, (0, 1).
+  [[nodiscard]] std::span<const float> share_across() const noexcept { return share_across_; }
   /// Sectors next to each other, [begin, end); not across the seam.
   struct Sectors {
     int begin, end;
@@ -110,6 +112,7 @@ class RingGrid {
   std::span<BandMix> mixes_;  // of each step
   std::span<std::uint16_t> sector_of_column_;
   std::span<std::int32_t> first_cell_of_column_;
+  std::span<float> share_across_;          // of each column
   std::span<std::uint16_t> first_column_;  // of each sector, and the end of the last
 };
 

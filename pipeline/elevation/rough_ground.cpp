@@ -103,7 +103,7 @@ void RoughGround::reset() noexcept {
 
 void RoughGround::find_highest_near(RingGrid::Sectors sectors, const RingGrid& grid,
                                     std::span<const float> highest_m,
-                                    std::span<const float> ground_m) noexcept {
+                                    std::span<const GroundSurface::EdgeHeights> ground) noexcept {
   if (!config_.enabled) return;
   const auto bands = static_cast<std::size_t>(grid.bands());
   const auto near_bands = static_cast<std::size_t>(config_.near_bands);
@@ -118,7 +118,7 @@ void RoughGround::find_highest_near(RingGrid::Sectors sectors, const RingGrid& g
     }
     // Of returns between the middles of a band and the next.
     find_greatest_near(beside_m.data(), bands, near_bands, &highest_near_m_[first]);
-    for (std::size_t i = first; i < first + bands; ++i) highest_near_m_[i] -= ground_m[i];
+    for (std::size_t i = first; i < first + bands; ++i) highest_near_m_[i] -= ground[i].lower_m();
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "firmware_io/frame/image_shape.hpp"
 #include "firmware_io/frame/point_planes.hpp"
+#include "pipeline/elevation/ground_surface.hpp"
 #include "pipeline/elevation/ring_grid.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -51,10 +52,10 @@ class RoughGround {
   /// Real-time safe, as all of this.
   void reset() noexcept TERRACUT_NONBLOCKING;
   /// What is near to the grid cells of these sectors: `highest_m` is the highest return and
-  /// `ground_m` the height of the ground in each cell of the grid.
-  void find_highest_near(RingGrid::Sectors sectors, const RingGrid& grid,
-                         std::span<const float> highest_m,
-                         std::span<const float> ground_m) noexcept TERRACUT_NONBLOCKING;
+  /// `ground` the ground in each cell of the grid.
+  void find_highest_near(
+      RingGrid::Sectors sectors, const RingGrid& grid, std::span<const float> highest_m,
+      std::span<const GroundSurface::EdgeHeights> ground) noexcept TERRACUT_NONBLOCKING;
   /// Of each cell of the grid, the highest return near it, above its ground.
   [[nodiscard]] std::span<const float> highest_near_m() const noexcept { return highest_near_m_; }
   /// Levels the heights of a row in these columns, near each of which the highest return is

@@ -85,6 +85,8 @@ constexpr std::array kParameters{
               TERRACUT_FIELD(elevation_map.surface.interpolate_sectors)},
     Parameter{"surface.traced_weight", "", "Weight of the traced prediction when interpolating", 0.01, 10, {},
               TERRACUT_FIELD(elevation_map.surface.traced_weight)},
+    Parameter{"surface.max_cross_slope", "m/m", "Steepest ground across a sector, where nothing tall stands; 0: one height for all of it", 0, 2, {},
+              TERRACUT_FIELD(elevation_map.surface.max_cross_slope)},
 
     Parameter{"rough.enabled", "", "Low returns with nothing tall near are level, higher ones where it is rough", 0, 1, kOffOn,
               TERRACUT_FIELD(elevation_map.rough.enabled)},

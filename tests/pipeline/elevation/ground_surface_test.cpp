@@ -38,8 +38,19 @@ struct SurfaceOverGrid : testing::Test {
     surface.trace(grid, {0, grid.sectors()}, lowest);
     surface.finalize(grid, {0, grid.sectors()}, lowest);
   }
-  float at(int sector, float range_m) {
-    return surface.height_m()[grid.cell(sector, grid.band_of(range_m))];
+  /// Where it is lowest in a cell.
+  float at(int sector, float range_m) { return edges(sector, range_m).lower_m(); }
+  GroundSurface::EdgeHeights edges(int sector, float range_m) {
+    return surface.heights()[grid.cell(sector, grid.band_of(range_m))];
+  }
+  /// Ground whose height depends on the sector.
+  template <class F>
+  void fill_sectors(F height_of_sector) {
+    for (int s = 0; s < grid.sectors(); ++s) {
+      for (int b = 0; b < grid.bands(); ++b) {
+        lowest[grid.cell(s, b)] = {height_of_sector(s), grid.center_m(b), height_of_sector(s)};
+      }
+    }
   }
   memory::FixedMemory memory;
   RingGrid grid;
@@ -145,6 +156,60 @@ TEST_F(SurfaceOverGrid, FindsABankBehindAParkedCarThatHidesItsFoot) {
   EXPECT_NEAR(at(5, 7.5F), 0.0F, 0.1F) << "the roof is none";
 }
 
+TEST_F(SurfaceOverGrid, FindsABankBesideTheWayThoughLowerGroundShowsFarBehindIt) {
+  // 0.5 m up a fence's foot, which is too much for a step; a kilometre of fields lies behind.
+  const auto bank = [](float range_m) { return 0.5F + 0.3F * (range_m - 10.0F); };
+  fill([&](float range_m) {
+    return range_m < 9 ? 0.0F : range_m < 18 ? bank(range_m) : range_m < 60 ? 9.0F : -1.0F;
+  });
+  estimate();
+  EXPECT_NEAR(at(5, 14.0F), bank(grid.center_m(grid.band_of(14.0F))), 0.1F);
+  EXPECT_NEAR(at(5, 80.0F), -1.0F, 0.1F);
+}
+
+TEST_F(SurfaceOverGrid, RisesAcrossASectorWhereTheGroundRisesFromSectorToSector) {
+  constexpr float kRise_m = 0.03F;  // a sector
+  const int first = 40, last = 50;
+  for (const float sign : {1.0F, -1.0F}) {
+    fill_sectors([&](int s) {
+      return sign * kRise_m * static_cast<float>(std::clamp(s, first, last) - first);
+    });
+    estimate();
+    const auto [first_m, last_m] = edges(45, 20.0F);
+    EXPECT_NEAR(last_m - first_m, sign * kRise_m, 1e-4F);
+    EXPECT_NEAR(std::min(first_m, last_m), sign * kRise_m * 5, 1e-4F);
+    EXPECT_EQ(edges(first, 20.0F).first_m, edges(first, 20.0F).last_m) << "where it begins";
+    EXPECT_EQ(edges(last, 20.0F).first_m, edges(last, 20.0F).last_m) << "where it ends";
+  }
+}
+
+TEST_F(SurfaceOverGrid, RisesAcrossNoSectorMoreThanGroundMay) {
+  fill_sectors([](int s) { return 0.15F * static_cast<float>(std::clamp(s, 40, 44) - 42); });
+  estimate();
+  const float sector_m =
+      2 * 3.14159265F / static_cast<float>(grid.sectors()) * grid.center_m(grid.band_of(8.0F));
+  const auto [first_m, last_m] = edges(42, 8.0F);
+  EXPECT_NEAR(last_m - first_m, GroundSurface::Config{}.max_cross_slope * sector_m, 1e-4F);
+}
+
+TEST_F(SurfaceOverGrid, RisesAcrossNoSectorBesideAKerb) {
+  fill_sectors([](int s) { return s < 40 ? 0.0F : 0.12F; });
+  estimate();
+  for (const int sector : {39, 40}) {
+    EXPECT_EQ(edges(sector, 20.0F).first_m, edges(sector, 20.0F).last_m) << sector;
+  }
+}
+
+TEST_F(SurfaceOverGrid, RisesAcrossNoSectorWhereSomethingTallStandsInItOrBesideIt) {
+  for (const int tall : {44, 45, 46}) {
+    fill_sectors([](int s) { return 0.03F * static_cast<float>(std::clamp(s, 40, 50) - 40); });
+    lowest[grid.cell(tall, grid.band_of(20.0F))].highest_m = 2.0F;
+    estimate();
+    EXPECT_EQ(edges(45, 20.0F).first_m, edges(45, 20.0F).last_m) << tall;
+    EXPECT_NE(edges(45, 30.0F).first_m, edges(45, 30.0F).last_m) << tall;
+  }
+}
+
 TEST_F(SurfaceOverGrid, DoesNotTakeARoofForGroundWhenGroundShowsAgainBehindIt) {
   fill([](float range_m) { return range_m > 12 && range_m < 20 ? 1.5F : 0.0F; });
   estimate();
@@ -212,7 +277,8 @@ TEST_F(SurfaceOverGrid, GivesGroundThatTheLastSectorsTellToAllThatWereFinalBefor
     }
   }
   estimate();
-  const std::vector<float> expected(surface.height_m().begin(), surface.height_m().end());
+  const std::vector<GroundSurface::EdgeHeights> expected(surface.heights().begin(),
+                                                         surface.heights().end());
   EXPECT_GT(at(1, 20.0F), 0.7F);
 
   surface.reset();
@@ -221,7 +287,7 @@ TEST_F(SurfaceOverGrid, GivesGroundThatTheLastSectorsTellToAllThatWereFinalBefor
   surface.trace(grid, {kTraced, grid.sectors()}, lowest);
   std::vector<std::uint8_t> is_current(static_cast<std::size_t>(grid.sectors()), 1);
   surface.finalize_rest(grid, lowest, is_current);
-  EXPECT_TRUE(std::ranges::equal(surface.height_m(), expected));
+  EXPECT_TRUE(std::ranges::equal(surface.heights(), expected));
   // Ground is interpolated over 14 sectors, so to those from 14 to 16 by the strip's.
   for (int sector = kFirst; sector < kFinal; ++sector) {
     EXPECT_EQ(is_current[static_cast<std::size_t>(sector)], sector >= kFirst + kRight) << sector;

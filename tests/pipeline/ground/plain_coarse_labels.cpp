@@ -61,8 +61,15 @@ class PlainSurface {
     }
   }
 
-  /// Height of the surface in the middle of a band.
-  [[nodiscard]] double z_m(int sector, int band) const {
+  /// Height of the surface in the middle of a band, so far across the sector: 0 at its first edge,
+  /// 1 at its last.
+  [[nodiscard]] double z_m(int sector, int band, double across) const {
+    const double rise_m = rise_across_m(sector, band);
+    return lowest_z_m(sector, band) + (rise_m > 0 ? rise_m * across : -rise_m * (1 - across));
+  }
+
+  /// Where it is lowest.
+  [[nodiscard]] double lowest_z_m(int sector, int band) const {
     const TracedSector& traced = at(traced_, sector);
     if (at(at(is_donor_, sector), band)) return at(traced.z_m, band);
     double weights = double{config_.traced_weight};
@@ -82,6 +89,27 @@ class PlainSurface {
     return (sector + grid_.sectors()) % grid_.sectors();
   }
 
+  [[nodiscard]] double sector_width_m(int band) const {
+    return 2 * std::numbers::pi / grid_.sectors() * double{grid_.center_m(band)};
+  }
+
+  /// How far ground rises that the sectors on both sides have, too, and nothing tall stands on.
+  [[nodiscard]] double rise_across_m(int sector, int band) const {
+    const auto traced_m = [&](int s) { return at(at(traced_, around(s)).z_m, band); };
+    const double left_m = traced_m(sector) - traced_m(sector - 1);
+    const double right_m = traced_m(sector + 1) - traced_m(sector);
+    if (left_m * right_m <= 0) return 0;
+    const double least_m = std::min(std::fabs(left_m), std::fabs(right_m));
+    const double rise_m = std::min({std::fabs(left_m + right_m) / 2, 2 * least_m,
+                                    double{config_.max_cross_slope} * sector_width_m(band)});
+    for (int s = sector - 1; s <= sector + 1; ++s) {
+      if (!at(at(is_donor_, around(s)), band)) return 0;
+      const Place& seen = *at(at(lowest_, around(s)), band);
+      if (seen.highest_m - seen.z_m > double{config_.tall_m} + rise_m) return 0;
+    }
+    return std::copysign(rise_m, left_m);
+  }
+
   [[nodiscard]] double expected_m(const Place& last, double slope, double range_m) const {
     return last.z_m + slope * std::min(range_m - last.range_m, double{config_.slope_memory_m});
   }
@@ -97,7 +125,7 @@ class PlainSurface {
     Place last;
     double slope = 0;
     int lost = trace_from(0, false, lowest, last, slope, sector);
-    while (const auto again = find_again(lost, last, lowest)) {
+    while (const auto again = find_again(lost, grid_.bands(), last, lowest)) {
       last = *at(lowest, again->first);
       slope = again->second;
       lost = trace_from(again->first, true, lowest, last, slope, sector);
@@ -131,6 +159,11 @@ class PlainSurface {
         is_ground = off_m < up_m && -off_m < up_m + double{config_.extra_fall} * run_m &&
                     !is_foot_of_something_tall && may_follow(last, *here);
       }
+      // What would be jumped over has ground that can be found again.
+      if (is_ground && here->range_m - last.range_m > double{config_.regain_length_m} &&
+          find_again(last_band, band, last, lowest)) {
+        return last_band;
+      }
       at(sector.is_ground, band) = is_ground;
       at(sector.is_regained, band) = is_ground && regained;
       if (!is_ground) {
@@ -156,10 +189,10 @@ class PlainSurface {
     return last_band;
   }
 
-  /// The band where a chain of passable steps begins that is long enough and passable from `lost`,
-  /// and the slope from its beginning to where it is long enough.
+  /// The band where a chain of passable steps begins that is long enough before `end` and passable
+  /// from `lost`, and the slope from its beginning to where it is long enough.
   [[nodiscard]] std::optional<std::pair<int, double>> find_again(
-      int lost_band, const Place& lost, const LowestOfSector& lowest) const {
+      int lost_band, int end, const Place& lost, const LowestOfSector& lowest) const {
     const auto passable = [this](const Place& a, const Place& b) {
       return std::fabs(b.z_m - a.z_m) <= double{config_.regain_slope} * (b.range_m - a.range_m);
     };
@@ -167,7 +200,7 @@ class PlainSurface {
       return passable(lost, start) && may_follow(lost, start);
     };
     std::vector<int> chain;
-    for (int band = lost_band + 1; band < grid_.bands(); ++band) {
+    for (int band = lost_band + 1; band < end; ++band) {
       if (!at(lowest, band)) continue;
       const Place& here = *at(lowest, band);
       if (!chain.empty()) {
@@ -191,9 +224,8 @@ class PlainSurface {
 
   /// Whether ground goes on beside it, around the circle, for regain_width_m in all.
   [[nodiscard]] bool is_wide(int sector, int band) const {
-    const double sector_m = 2 * std::numbers::pi / grid_.sectors() * double{grid_.center_m(band)};
-    const int enough =
-        std::min(static_cast<int>(double{config_.regain_width_m} / sector_m), grid_.sectors());
+    const int enough = std::min(
+        static_cast<int>(double{config_.regain_width_m} / sector_width_m(band)), grid_.sectors());
     const auto is_ground = [&](int s) { return at(at(traced_, around(s)).is_ground, band); };
     int wide = 1;
     for (int s = sector + 1; wide < enough && is_ground(s); ++s) ++wide;
@@ -234,8 +266,11 @@ std::vector<LowestOfSector> find_lowest(const RingGrid& grid, const RangeImage& 
 }
 
 /// Between the middles of two bands, at the middle of the grid's step that a range lies in.
-double interpolated_m(const RingGrid& grid, const PlainSurface& surface, int sector,
+double interpolated_m(const RingGrid& grid, const PlainSurface& surface, int column,
                       const RingGrid::Config& config, float range_m) {
+  const int sector = grid.sector_of(column);
+  const frame::ColumnRange columns = grid.columns_of({sector, sector + 1});
+  const double across = (column - columns.begin + 0.5) / static_cast<double>(columns.size());
   const float last_step = config.range_limit_m * RingGrid::kStepsPerMetre;
   const double step = std::floor(double{std::min(range_m * RingGrid::kStepsPerMetre, last_step)});
   const double place_m = (step + 0.5) / double{RingGrid::kStepsPerMetre};
@@ -243,10 +278,10 @@ double interpolated_m(const RingGrid& grid, const PlainSurface& surface, int sec
   const double middle_m = double{grid.center_m(band)};
   const int other =
       place_m > middle_m ? std::min(band + 1, grid.bands() - 1) : std::max(band - 1, 0);
-  const double here_m = surface.z_m(sector, band);
+  const double here_m = surface.z_m(sector, band, across);
   if (other == band) return here_m;
   const double share = (place_m - middle_m) / (double{grid.center_m(other)} - middle_m);
-  return here_m + share * (surface.z_m(sector, other) - here_m);
+  return here_m + share * (surface.z_m(sector, other, across) - here_m);
 }
 
 /// Which low returns count as level.
@@ -293,7 +328,7 @@ class PlainLevelling {
         highest_m = std::max(highest_m, at(at(lowest_, near), b)->highest_m);
       }
     });
-    return highest_m - surface_.z_m(sector, band);
+    return highest_m - surface_.lowest_z_m(sector, band);
   }
   [[nodiscard]] double z_m(int row, int column) const {
     const std::size_t cell = image_.shape().cell(row, column);
@@ -366,7 +401,7 @@ PlainCoarseLabels::PlainCoarseLabels(const SegmenterConfig& config,
       const int sector = grid.sector_of(column);
       const double ground_m = map.reference == GroundReference::kCellMinimum
                                   ? at(at(lowest, sector), grid.band_of(range_m))->z_m
-                                  : interpolated_m(grid, surface, sector, map.grid, range_m);
+                                  : interpolated_m(grid, surface, column, map.grid, range_m);
       const double height_m = double{image.z_m()[cell]} - ground_m;
       constexpr double kSlack_m = 1e-3;
       const bool may_be_level = levelling.is_level(row, column, height_m, kSlack_m);

@@ -27,15 +27,15 @@ class AdjacentPoints {
  public:
   struct Config {
     AdjacentRule rule = AdjacentRule::kSlope;
-    float max_slope_rad = 0.60F;  ///< K: the steepest ground, (0, pi/2).
+    float max_slope_rad = 0.70F;  ///< K: the steepest ground, (0, pi/2).
     int first_row_step = 1;      ///< Row steps up from .. to; the paper compares l with l + 2 only.
     int last_row_step = 2;       ///< [first_row_step, 4]
-    float row_step_deg = 0.25F;  ///< A row step covers at least this elevation (RowSteps), [0, 5].
+    float row_step_deg = 0.33F;  ///< A row step covers at least this elevation (RowSteps), [0, 5].
     int column_reach = 1;        ///< Columns to each side; "colselzoo" in Algorithm 1; [0, 8].
     float min_rise_m = 0.10F;    ///< kSlope: smaller rises are noise.
     float min_upper_height_m =
         0.04F;  ///< kSlope: the upper return must be this far above the ground reference.
-    float min_lower_height_m = 0.05F;  ///< kSlope: above this the lower return is marked as well.
+    float min_lower_height_m = 0.02F;  ///< kSlope: above this the lower return is marked as well.
   };
 
   /// `max_height_m`: a return higher above the ground reference is an obstacle, and a seed of the

@@ -26,7 +26,7 @@ enum class CutRows : std::uint8_t {
 class ConfidenceSeeds {
  public:
   struct Config {
-    float ground_share = 0.8F;         ///< k: share of ground among the window's returns, [0, 1].
+    float ground_share = 0.7F;         ///< k: share of ground among the window's returns, [0, 1].
     int window_rows = 2;               ///< Window reach up and down, row steps; [0, 8].
     float row_step_deg = 0.25F;        ///< A row step covers at least this (RowSteps), [0, 5].
     int window_columns = 3;            ///< Window reach to each side, columns; [0, 16].

@@ -49,11 +49,13 @@ TEST_F(LabelledPlanes, PaddingIsNoSeed) {
 
 TEST_F(LabelledPlanes, GroundBesideObstaclesIsUnknownAlsoAcrossTheSeam) {
   for (int row = 0; row < kShape.rows; ++row) {
-    planes.label[at(row, 0)] = planes.label[at(row, 1)] = frame::Label::kObstacle;
-    planes.height_m[at(row, 0)] = planes.height_m[at(row, 1)] = 1.0F;
+    for (const int column : {0, 1, 2}) {
+      planes.label[at(row, column)] = frame::Label::kObstacle;
+      planes.height_m[at(row, column)] = 1.0F;
+    }
   }
   const auto seeds = select();
-  EXPECT_EQ(seeds[at(4, 2)], min_cut::Seed::kUnknown);
+  EXPECT_EQ(seeds[at(4, 3)], min_cut::Seed::kUnknown);
   EXPECT_EQ(seeds[at(4, 39)], min_cut::Seed::kUnknown);
   EXPECT_EQ(seeds[at(4, 20)], min_cut::Seed::kGround);
   EXPECT_EQ(seeds[at(4, 0)], min_cut::Seed::kObstacle);

@@ -87,7 +87,7 @@ TEST_F(StreetMemoryTest, AWorldThatContradictsTheMotionIsForgotten) {
   Segmenter doubting(config, profile, kShape, image.return_capacity(), memory);
   const auto walls_from = [](double first_m) {
     std::vector<Box> walls;
-    for (double x = first_m; x < 30; x += 2) walls.push_back({x, x + 0.5, -20, 20, 0, 0.4});
+    for (double x = first_m; x < 30; x += 2) walls.push_back({x, x + 0.5, -20, 20, 0, 0.6});
     return walls;
   };
   const auto doubts = [&](const std::vector<Box>& boxes) {

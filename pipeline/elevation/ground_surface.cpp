@@ -49,23 +49,28 @@ TERRACUT_VECTOR_CLONES void find_rises(const FoundInSector& before, const FoundI
                                        const float* __restrict max_rise_m, std::size_t bands,
                                        float* __restrict rise_m) noexcept {
   const auto less = [](float a, float b) { return a < b ? a : b; };
+  const auto greater = [](float a, float b) { return a > b ? a : b; };
   const auto height_of = [](const GroundSurface::LowestReturn& cell) {
     return cell.highest_m - cell.height_m;
   };
+  // Without a branch, so that it becomes vector code.
+  std::int32_t may_rise[kMostBands];
+  float tallest_m[kMostBands];
+  for (std::size_t i = 0; i < bands; ++i) {
+    const float beside_m = greater(height_of(before.lowest[i]), height_of(after.lowest[i]));
+    tallest_m[i] = greater(height_of(here.lowest[i]), beside_m);
+    may_rise[i] = before.origin[i] * here.origin[i] * after.origin[i];
+  }
   for (std::size_t i = 0; i < bands; ++i) {
     const float from_before_m = here.traced_m[i] - before.traced_m[i];
     const float to_after_m = after.traced_m[i] - here.traced_m[i];
     const float central_m = 0.5F * (from_before_m + to_after_m);
     const float twice_either_m = 2 * less(std::fabs(from_before_m), std::fabs(to_after_m));
     const float most_m = less(less(std::fabs(central_m), twice_either_m), max_rise_m[i]);
-    const float tallest_m = tall_m + most_m;
-    const std::int32_t is_ground = (before.origin[i] != 0 ? 1 : 0) & (here.origin[i] != 0 ? 1 : 0) &
-                                   (after.origin[i] != 0 ? 1 : 0);
-    const std::int32_t is_low = (height_of(before.lowest[i]) <= tallest_m ? 1 : 0) &
-                                (height_of(here.lowest[i]) <= tallest_m ? 1 : 0) &
-                                (height_of(after.lowest[i]) <= tallest_m ? 1 : 0);
-    const std::int32_t is_slope = from_before_m * to_after_m > 0 ? 1 : 0;
-    rise_m[i] = (is_ground & is_low & is_slope) != 0 ? std::copysign(most_m, central_m) : 0;
+    const std::int32_t rises = (may_rise[i] != 0 ? 1 : 0) &
+                               (tallest_m[i] <= tall_m + most_m ? 1 : 0) &
+                               (from_before_m * to_after_m > 0 ? 1 : 0);
+    rise_m[i] = static_cast<float>(rises) * std::copysign(most_m, central_m);
   }
 }
 

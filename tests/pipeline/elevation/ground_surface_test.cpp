@@ -157,7 +157,8 @@ TEST_F(SurfaceOverGrid, FindsABankBehindAParkedCarThatHidesItsFoot) {
 }
 
 TEST_F(SurfaceOverGrid, FindsABankBesideTheWayThoughLowerGroundShowsFarBehindIt) {
-  // 0.5 m up a fence's foot, which is too much for a step; a kilometre of fields lies behind.
+  // The bank begins with a step that is too high; far behind it lies ground that may be stepped
+  // down to.
   const auto bank = [](float range_m) { return 0.5F + 0.3F * (range_m - 10.0F); };
   fill([&](float range_m) {
     return range_m < 9 ? 0.0F : range_m < 18 ? bank(range_m) : range_m < 60 ? 9.0F : -1.0F;

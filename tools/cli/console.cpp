@@ -6,7 +6,9 @@
 #include <unistd.h>
 
 #include <atomic>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <utility>
 
 #include "rt/measure/thread_cpu_clock.hpp"
@@ -18,9 +20,20 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr const char* kWipeLine = "\r\x1b[K";
 std::atomic<bool> progress_line_stands = false;  // say() may come from any thread
 thread_local HeardLines* listener = nullptr;
+std::atomic<int> output_error = 0;  // errno of the first result that could not be written
+
+/// A message that cannot be written (disk full, reader gone) is no reason to end anything.
+void write_message(std::string_view text) {
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
 
 void print_line(std::string_view line) {
-  fmt::print(stderr, "{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "", line);
+  write_message(fmt::format("{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "", line));
+}
+
+void note_output_error() {
+  int none = 0;
+  output_error.compare_exchange_strong(none, errno);
 }
 
 }  // namespace
@@ -32,6 +45,23 @@ void say(std::string_view line) {
 void warn(std::string_view line) {
   if (listener != nullptr) return void(listener->warned.emplace_back(line));
   print_line(fmt::format("warning: {}", line));
+}
+
+void print_text(std::string_view text) {
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_output_error();
+}
+bool flush_output() {
+  if (std::fflush(stdout) != 0) note_output_error();
+  return output_error == 0;
+}
+
+ExitCode end_output(ExitCode code) {
+  if (flush_output()) return code;
+  // Whoever reads the first lines only (`| head`) has what they wanted.
+  if (output_error != EPIPE) {
+    print_line(fmt::format("error: standard output: {}", std::strerror(output_error)));
+  }
+  return code == kOk ? kOutputFailed : code;
 }
 
 HeardLines::HeardLines() {
@@ -64,7 +94,7 @@ Progress::Progress(std::string task, std::string unit, double total)
 
 Progress::~Progress() {
   if (!progress_line_stands) return;
-  fmt::print(stderr, "{}", kWipeLine);
+  write_message(kWipeLine);
   progress_line_stands = false;
 }
 
@@ -79,8 +109,7 @@ void Progress::update(double done) {
   if (total_ > 0) line += fmt::format(", {:.0f} %", 100.0 * done / total_);
   line += fmt::format(", {:.0f} s", seconds);
   if (terminal_) {
-    fmt::print(stderr, "{}{}", kWipeLine, line);
-    std::fflush(stderr);
+    write_message(kWipeLine + line);
     progress_line_stands = true;
   } else {
     print_line(line);

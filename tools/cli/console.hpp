@@ -2,9 +2,12 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <fmt/format.h>
+
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "exit_codes.hpp"
@@ -13,9 +16,22 @@
 /// What people see: results go to stdout, everything said on the way to stderr.
 namespace terracut::cli {
 
-/// One line on stderr; wipes a progress line that stands there. From any thread.
+/// One line on stderr; wipes a progress line that stands there. From any thread. A line that cannot
+/// be written is lost: a message ends nothing.
 void say(std::string_view line);
 void warn(std::string_view line);
+
+/// Results on stdout. What cannot be written shows in end_output().
+void print_text(std::string_view text);
+template <class... Values>
+void print_out(fmt::format_string<Values...> format, Values&&... values) {
+  print_text(fmt::format(format, std::forward<Values>(values)...));
+}
+/// For results that somebody watches while they come; false where they cannot be written.
+[[nodiscard]] bool flush_output();
+/// At a program's end: `code`, but kOutputFailed in place of kOk where a result could not be
+/// written.
+[[nodiscard]] ExitCode end_output(ExitCode code);
 
 /// While it lives, what this thread says and warns of comes here instead of to stderr: for programs
 /// that have this one's work done and tell their users in a way of their own. One a thread.

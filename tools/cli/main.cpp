@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
+#include <fcntl.h>
+#include <unistd.h>
 
 #include <array>
+#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
@@ -23,6 +25,14 @@ constexpr std::array kRun{
     run_live,   run_node,      run_dump,    run_eval,     run_top,        run_config,  run_doctor};
 static_assert(kRun.size() == kCommands.size());
 
+/// Where a descriptor of messages or results is closed, the next file that is opened would be
+/// written messages into.
+void hold_standard_descriptors() {
+  int opened = ::open("/dev/null", O_RDWR);
+  while (opened >= 0 && opened <= STDERR_FILENO) opened = ::dup(opened);
+  if (opened >= 0) ::close(opened);
+}
+
 ExitCode run(const std::vector<std::string>& words) {
   const auto arguments = parse_arguments(words);
   if (!arguments) {
@@ -31,7 +41,7 @@ ExitCode run(const std::vector<std::string>& words) {
     return code;
   }
   if (!arguments->command) {
-    fmt::print("{}", arguments->text);
+    print_text(arguments->text);
     return kOk;
   }
   const auto claims = claim_outputs(files_of(*arguments));
@@ -44,8 +54,10 @@ ExitCode run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
   using namespace terracut::cli;
+  hold_standard_descriptors();
+  std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of one write, not an end
   try {
-    return run(std::vector<std::string>(argv + 1, argv + argc));
+    return end_output(run(std::vector<std::string>(argv + 1, argv + argc)));
   } catch (const std::bad_alloc&) {
     return refuse(kInternal, "out of memory; `terracut plan` prints what is needed");
   } catch (const std::exception& error) {

@@ -163,7 +163,7 @@ std::vector<status::Figure> figures_of(const Options& options, const BenchResult
 
 ExitCode conclude(const Options& options, const BenchResult& result, int core) {
   const auto figures = figures_of(options, result, core);
-  fmt::print("{}{}", figure_lines(figures, {}), times_table(figures, {}));
+  print_out("{}{}", figure_lines(figures, {}), times_table(figures, {}));
   nlohmann::ordered_json json;
   add_figures(figures, json);
   json["core"] = core;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -80,15 +78,15 @@ Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& opt
                                           "--keep-mount");
     }
     const MountChoice choice = filled_in(stated, *found);
-    fmt::print("mount     {}\n", text_of(choice));
+    print_out("mount     {}\n", text_of(choice));
     warn_if_uncertain(*choice.found);
     stated = choice.options;
   }
   const auto mount = mount_of(stated);
   if (mount && options.keep_mount) {
-    fmt::print("mount     height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg, as stated\n",
-               mount->height_m, beams::rad_to_deg(mount->roll_rad),
-               beams::rad_to_deg(mount->pitch_rad));
+    print_out("mount     height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg, as stated\n",
+              mount->height_m, beams::rad_to_deg(mount->roll_rad),
+              beams::rad_to_deg(mount->pitch_rad));
   }
   return mount;
 }
@@ -99,8 +97,8 @@ ExitCode calibrate(RecordedFrames& frames, const Options& options) {
   const mount::RingProfile geometry = frames.ring_profile(*mount);
   const auto rings = measure_rings(frames, options, geometry);
   if (!rings) return refuse_work(rings.error());
-  fmt::print("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
-             geometry.rings.size());
+  print_out("rings     {} of {} measured, the others by geometry\n", rings->measured_rings(),
+            geometry.rings.size());
   if (rings->measured_rings() == 0) {
     return refuse(
         kNothingCameOut,
@@ -112,7 +110,7 @@ ExitCode calibrate(RecordedFrames& frames, const Options& options) {
     setup.ring_ground_distance_m.push_back(ring.ground_distance_m);
   }
   const ExitCode written = done_or_refused(mount::write_sensor_setup(options.written, setup));
-  if (written == kOk) fmt::print("wrote     {}\n", options.written.string());
+  if (written == kOk) print_out("wrote     {}\n", options.written.string());
   return written;
 }
 

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include "tools/cli/commands.hpp"
 #include "tools/cli/compare/changed_pictures.hpp"
 #include "tools/cli/compare/label_changes.hpp"
@@ -21,7 +19,7 @@ ExitCode run_compare(const Options& options) {
   const auto most = static_cast<std::size_t>(options.compare.most);
   const auto changes = compare_labels(*before, *after, most);
   if (!changes) return refuse_work(changes.error());
-  fmt::print("{}", changes->text(most));
+  print_text(changes->text(most));
   if (Status written = write_json(options.output.json, changes->json()); !written) {
     return refuse(written.error());
   }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/input/input_check.hpp"
@@ -13,14 +11,14 @@ namespace terracut::cli {
 /// file could say.
 ExitCode run_config(const Options& options) {
   if (options.print_table) {
-    fmt::print("{}", configuration_table());
+    print_text(configuration_table());
   } else if (options.print_default) {
     const Options defaults;
-    fmt::print("{}", configuration_yaml(defaults));
+    print_text(configuration_yaml(defaults));
   } else {
     const Status inputs = check_inputs(options);
     if (!inputs) return refuse(inputs.error());
-    fmt::print("{}", configuration_yaml(options));
+    print_text(configuration_yaml(options));
   }
   return kOk;
 }

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
 #include "tools/doctor/checks.hpp"
 #include "tools/doctor/report.hpp"
 
@@ -16,7 +15,7 @@ ExitCode run_doctor(const Options& options) {
       .receive_core = options.realtime.receive_core,
       .segment_core = options.realtime.segment_core};
   const doctor::Findings findings = examine(doctor::SystemView::of_this_machine(), requests);
-  fmt::print("{}", options.print_json ? json_of(findings) : text_of(findings));
+  print_text(options.print_json ? json_of(findings) : text_of(findings));
   return count_of(findings, doctor::Verdict::kProblem) == 0 ? kOk : kNotReady;
 }
 

@@ -36,7 +36,7 @@ ExitCode run_dump(const Options& options) {
                       fmt::format("refused ({}): {}", status::printable(answer->refusal),
                                   status::printable(answer->message)));
       }
-      fmt::print("{}\n", status::printable(answer->capture));
+      print_out("{}\n", status::printable(answer->capture));
       say(fmt::format("{} datagrams of {:.2f} s", answer->datagrams, answer->seconds));
       if (!answer->calibration.empty()) {
         say(fmt::format("replay it: terracut replay {} --calibration {}",

@@ -52,25 +52,25 @@ std::string cure_of_heights(const Options& options, const encode::ScanDriveRepor
 void print(const Options& options, const encode::ScanDriveReport& report,
            const encode::ScanDriveOptions&) {
   const encode::EncodeSummary& encoded = report.encoded;
-  fmt::print("{}table     {}, fingerprint {:016x}\n", wrote_drive(options),
-             report.fitted ? "fitted to the scans" : report.calibration.origin,
-             fingerprint(report.calibration));
-  fmt::print("{}\nframes    {}, the head at {:.2f} Hz\nreturns   {} of {} points ({:.2f} %)\n",
-             motion_line(report.why_as_recorded), report.drive.frames, report.spin_hz,
-             encoded.encoded, encoded.points,
-             encoded.points == 0 ? 0.0
-                                 : 100.0 * static_cast<double>(encoded.encoded) /
-                                       static_cast<double>(encoded.points));
+  print_out("{}table     {}, fingerprint {:016x}\n", wrote_drive(options),
+            report.fitted ? "fitted to the scans" : report.calibration.origin,
+            fingerprint(report.calibration));
+  print_out("{}\nframes    {}, the head at {:.2f} Hz\nreturns   {} of {} points ({:.2f} %)\n",
+            motion_line(report.why_as_recorded), report.drive.frames, report.spin_hz,
+            encoded.encoded, encoded.points,
+            encoded.points == 0 ? 0.0
+                                : 100.0 * static_cast<double>(encoded.encoded) /
+                                      static_cast<double>(encoded.points));
   for (std::size_t i = 0; i < encode::kNotEncodedReasons; ++i) {
     if (encoded.not_encoded[i] == 0) continue;
-    fmt::print("          {} left out: {}\n", encoded.not_encoded[i],
-               to_string(static_cast<encode::NotEncoded>(i)));
+    print_out("          {} left out: {}\n", encoded.not_encoded[i],
+              to_string(static_cast<encode::NotEncoded>(i)));
   }
-  fmt::print("azimuth   off by {:.3f} degrees (median), {:.2f} at most\n",
-             encoded.median_azimuth_shift_deg, encoded.max_azimuth_shift_deg);
-  fmt::print("range     off by {:.1f} mm at most\n", 1000 * encoded.max_range_error_m);
-  fmt::print("height    off by {:.1f} cm (rms), {:.1f} cm (p95)\n", 100 * encoded.height.rms_m,
-             100 * encoded.height.p95_m);
+  print_out("azimuth   off by {:.3f} degrees (median), {:.2f} at most\n",
+            encoded.median_azimuth_shift_deg, encoded.max_azimuth_shift_deg);
+  print_out("range     off by {:.1f} mm at most\n", 1000 * encoded.max_range_error_m);
+  print_out("height    off by {:.1f} cm (rms), {:.1f} cm (p95)\n", 100 * encoded.height.rms_m,
+            100 * encoded.height.p95_m);
   if (encoded.height.p95_m > kTooFarOff_m) {
     warn(fmt::format("heights are off by {:.1f} cm (p95), which bends the ground: {}",
                      100 * encoded.height.p95_m, cure_of_heights(options, report)));
@@ -85,17 +85,17 @@ void print(const Options& options, const encode::ResampleReport& report,
     return rays.rays == 0 ? 0.0
                           : 100.0 * static_cast<double>(count) / static_cast<double>(rays.rays);
   };
-  fmt::print("synthetic {}, resampled from an HDL-64E's recording, not recorded\n",
-             to_string(*options.capture.sensor));
-  fmt::print("{}table     {}\n{}\nframes    {}\nrays      {}\n", wrote_drive(options),
-             drive.calibration.origin, motion_line(report.why_as_recorded), report.drive.frames,
-             rays.rays);
-  fmt::print("returns   {} ({:.2f} %)\n", rays.returns, share(rays.returns));
-  fmt::print("          {} ({:.2f} %) left out: above or below what was recorded\n", rays.outside,
-             share(rays.outside));
-  fmt::print("          {} ({:.2f} %) left out: nothing recorded near by\n", rays.nothing_near,
-             share(rays.nothing_near));
-  fmt::print("          {} left out: beyond the wire's span\n", rays.out_of_span);
+  print_out("synthetic {}, resampled from an HDL-64E's recording, not recorded\n",
+            to_string(*options.capture.sensor));
+  print_out("{}table     {}\n{}\nframes    {}\nrays      {}\n", wrote_drive(options),
+            drive.calibration.origin, motion_line(report.why_as_recorded), report.drive.frames,
+            rays.rays);
+  print_out("returns   {} ({:.2f} %)\n", rays.returns, share(rays.returns));
+  print_out("          {} ({:.2f} %) left out: above or below what was recorded\n", rays.outside,
+            share(rays.outside));
+  print_out("          {} ({:.2f} %) left out: nothing recorded near by\n", rays.nothing_near,
+            share(rays.nothing_near));
+  print_out("          {} left out: beyond the wire's span\n", rays.out_of_span);
 }
 
 /// What the drives of all sensors have in common: how a table is loaded, and the work itself.

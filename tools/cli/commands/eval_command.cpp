@@ -267,7 +267,7 @@ Status write_report(const std::filesystem::path& folder, const report::ReportInp
     progress->update(static_cast<double>(done));
   });
   progress.reset();
-  if (written) fmt::print("report    ./tools/report {} draws the page\n", folder.string());
+  if (written) print_out("report    ./tools/report {} draws the page\n", folder.string());
   return written;
 }
 
@@ -368,7 +368,7 @@ ExitCode run_eval(const Options& options) {
   add_facts_of_dataset(options, *classes, json);
   add_found_mounts(*outcome, json);
   say_outcome(*outcome, json);
-  fmt::print("{}", eval::evaluation_text(json));
+  print_text(eval::evaluation_text(json));
   if (outcome->interrupted) {
     warn(journal ? "interrupted; the same command goes on from here" : "interrupted");
   }

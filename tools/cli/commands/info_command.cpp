@@ -266,7 +266,7 @@ ExitCode run_info(const Options& options) {
   if (!source) return refuse(source.error());
   const CaptureSurvey survey = sensor::survey_capture(*source, stop_wanted);
   if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
-  fmt::print("{}", text_of(survey));
+  print_text(text_of(survey));
   if (survey.broke_off) warn(survey.broke_off->message);
   return done_or_refused(write_json(options.output.json, json_of(survey)));
 }

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdint>
 
@@ -23,12 +21,12 @@ ExitCode run_manifest(const Options& options) {
     return std::ranges::count_if(manifest->drives,
                                  [&](const FleetDrive& drive) { return !(drive.*member).empty(); });
   };
-  fmt::print("wrote     {}\n", options.written.string());
-  fmt::print("drives    {}, {:.2f} GB: {} captures, {} folders of clouds\n",
-             manifest->drives.size(), static_cast<double>(bytes) * 1e-9, with(&FleetDrive::capture),
-             with(&FleetDrive::scans));
-  fmt::print("with      a calibration {}, a setup {}, a CAN recording {}\n",
-             with(&FleetDrive::calibration), with(&FleetDrive::setup), with(&FleetDrive::can));
+  print_out("wrote     {}\n", options.written.string());
+  print_out("drives    {}, {:.2f} GB: {} captures, {} folders of clouds\n", manifest->drives.size(),
+            static_cast<double>(bytes) * 1e-9, with(&FleetDrive::capture),
+            with(&FleetDrive::scans));
+  print_out("with      a calibration {}, a setup {}, a CAN recording {}\n",
+            with(&FleetDrive::calibration), with(&FleetDrive::setup), with(&FleetDrive::can));
   return kOk;
 }
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include "tools/cli/commands.hpp"
+#include "tools/cli/console.hpp"
 #include "tools/cli/settings/parameter_text.hpp"
 
 namespace terracut::cli {
@@ -11,12 +10,12 @@ namespace terracut::cli {
 ExitCode run_parameters(const Options&) {
   const ground::MethodConfig terracut = ground::terracut_profile();
   const ground::MethodConfig paper = ground::paper_profile();
-  fmt::print("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
+  print_out("| key | unit | range | terracut | paper | what it is |\n|---|---|---|---|---|---|\n");
   for (const auto part : {ground::parameters(), ground::baseline_parameters()}) {
     for (const ground::Parameter& parameter : part) {
-      fmt::print("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
-                 range_text(parameter), shown_value(parameter, terracut),
-                 shown_value(parameter, paper), parameter.help);
+      print_out("| `{}` | {} | {} | {} | {} | {} |\n", parameter.key, parameter.unit,
+                range_text(parameter), shown_value(parameter, terracut),
+                shown_value(parameter, paper), parameter.help);
     }
   }
   return kOk;

@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include <unistd.h>
 
 #include <fstream>
@@ -86,13 +84,13 @@ ExitCode run_plan(const Options& options) {
   (void)take_memory(options, calibration, *profile, true, memory_with_motion);
 
   nlohmann::ordered_json json;
-  fmt::print("{:<24}{:>14}\n", "part", "bytes");
+  print_out("{:<24}{:>14}\n", "part", "bytes");
   for (const memory::FixedMemory::Part& part : memory.parts()) {
-    fmt::print("{:<24}{:>14}\n", part.name, part.bytes);
+    print_out("{:<24}{:>14}\n", part.name, part.bytes);
     json["parts"][part.name] = part.bytes;
   }
-  fmt::print("{:<24}{:>14}  ({:.1f} MiB)\n", "total", memory.total_bytes(),
-             to_mib(memory.total_bytes()));
+  print_out("{:<24}{:>14}  ({:.1f} MiB)\n", "total", memory.total_bytes(),
+            to_mib(memory.total_bytes()));
   json["total_bytes"] = memory.total_bytes();
 
   // What a report adds up, what is read of a capture at a time, and code that only a run needs.
@@ -101,7 +99,7 @@ ExitCode run_plan(const Options& options) {
       program_bytes + kRest_bytes + output_bytes(options.fleet.format, returns);
   const auto print = [&](const char* name, const char* key, std::size_t planned_bytes) {
     const std::size_t bytes = beside_bytes + planned_bytes;
-    fmt::print("{:<24}{:>14}  ({:.1f} MiB)\n", name, bytes, to_mib(bytes));
+    print_out("{:<24}{:>14}  ({:.1f} MiB)\n", name, bytes, to_mib(bytes));
     json[key] = bytes;
   };
   print("a process of relabel", "process_bytes", memory.total_bytes());

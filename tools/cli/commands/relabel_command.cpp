@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <fmt/format.h>
-
 #include <string>
 
 #include "rt/files/part_file.hpp"
@@ -19,7 +17,7 @@ ExitCode run_relabel(const Options& options) {
   if (!options.fleet.status.empty()) {
     const auto status = relabel_status(options.fleet.status);
     if (!status) return refuse(status.error());
-    fmt::print("{}", *status);
+    print_text(*status);
     return kOk;
   }
   if (options.fleet.manifest.empty() || options.written.empty()) {

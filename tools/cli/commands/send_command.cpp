@@ -214,7 +214,7 @@ class Send {
                                 parts_.source.name()));
     }
     warn_of_shortfalls(counters);
-    fmt::print("{}", text());
+    print_text(text());
     const Status written = write_json(options_.output.json, json());
     if (!written) return refuse(written.error());
     if (interrupted()) return kInterrupted;

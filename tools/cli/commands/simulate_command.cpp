@@ -105,11 +105,11 @@ Expected<drive::DriveSummary> simulate_to(const Options& options,
 ExitCode simulate_and_say(const Options& options, const std::filesystem::path& output) {
   const auto made = simulate_to(options, output);
   if (!made) return refuse_work(made.error());
-  fmt::print("scene     {}, seed {}\n", options.simulate.scene, options.simulate.seed);
-  if (!options.written.empty()) fmt::print("{}", wrote_drive(options));
-  fmt::print("frames    {}\nreturns   {}\npackets   {}\n", made->frames, made->returns,
-             made->packets);
-  std::fflush(stdout);
+  print_out("scene     {}, seed {}\n", options.simulate.scene, options.simulate.seed);
+  if (!options.written.empty()) print_text(wrote_drive(options));
+  print_out("frames    {}\nreturns   {}\npackets   {}\n", made->frames, made->returns,
+            made->packets);
+  static_cast<void>(flush_output());
   return kOk;
 }
 

@@ -79,8 +79,8 @@ ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
                           page.publisher_pid()));
   }
   if (!status::are_possible(*figures)) return refuse_figures(page, name);
-  fmt::print("{}", as_json ? json_text(live_summary(*figures))
-                           : dashboard(*figures, measure::realtime_ns(), style_of_stdout()));
+  print_text(as_json ? json_text(live_summary(*figures))
+                     : dashboard(*figures, measure::realtime_ns(), style_of_stdout()));
   if (!page.publisher_lives()) {
     return refuse(kInputRefused, fmt::format("process {} of '{}' is gone; these were its last "
                                              "figures",
@@ -91,14 +91,14 @@ ExitCode print_once(const Reader& page, const std::string& name, bool as_json) {
 
 ExitCode watch(const Reader& page, const std::string& name, double interval_s) {
   const bool terminal = ::isatty(STDOUT_FILENO) == 1;
-  if (terminal) fmt::print("\x1b[2J");
+  if (terminal) print_out("\x1b[2J");
   for (;;) {
     const bool lives = page.publisher_lives();  // asked first: the last figures are shown too
     if (const auto figures = page.read()) {
       if (!status::are_possible(*figures)) return refuse_figures(page, name);
       const std::string text = dashboard(*figures, measure::realtime_ns(), style_of_stdout());
-      fmt::print("{}", terminal ? redrawn(text) : text + "\n");
-      if (std::fflush(stdout) != 0) return refuse(kOutputFailed, "cannot write to stdout");
+      print_text(terminal ? redrawn(text) : text + "\n");
+      if (!flush_output()) return kOutputFailed;
     }
     if (!lives) {
       say(fmt::format("process {} of '{}' has ended", page.publisher_pid(), name));

@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "report.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
@@ -235,7 +233,7 @@ Status Report::write_json(const std::filesystem::path& path) {
 }
 
 ExitCode conclude_with(Report& report, const std::filesystem::path& json) {
-  fmt::print("{}", report.text());
+  print_text(report.text());
   const ExitCode written = json.empty() ? kOk : done_or_refused(report.write_json(json));
   return written == kOk && report.interrupted ? kInterrupted : written;
 }

@@ -125,12 +125,12 @@ void ShardRun::note(const RelabelRecord& record) {
 }
 
 ExitCode ShardRun::conclude() const {
-  fmt::print("shard     {} of job {}\n", shard_, job_.id);
-  fmt::print("labelled  {} drives, {} frames, in {:.1f} s\n", labelled_, frames_,
-             static_cast<double>(measure::realtime_ns() - started_ns_) * 1e-9);
-  fmt::print("there     {} drives, whole already\n", there_);
+  print_out("shard     {} of job {}\n", shard_, job_.id);
+  print_out("labelled  {} drives, {} frames, in {:.1f} s\n", labelled_, frames_,
+            static_cast<double>(measure::realtime_ns() - started_ns_) * 1e-9);
+  print_out("there     {} drives, whole already\n", there_);
   for (const auto& [cause, drives] : failures_) {
-    fmt::print("failed    {} drives: {}: {}\n", drives.size(), cause, fmt::join(drives, ", "));
+    print_out("failed    {} drives: {}: {}\n", drives.size(), cause, fmt::join(drives, ", "));
   }
   if (stop_wanted()) return refuse(kInterrupted, "interrupted: the same command goes on");
   return worst_;

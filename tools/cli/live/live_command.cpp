@@ -303,7 +303,7 @@ void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor
 
 ExitCode conclude(const Options& options, const LiveWatch& watch) {
   const status::MonitorSnapshot& figures = watch.figures();
-  fmt::print("{}", closing_lines(figures));
+  print_text(closing_lines(figures));
   Status written = write_json(options.output.json, live_summary(figures));
   if (written) written = write_json(options.trace, chrome_trace(figures, watch.newest()));
   if (!written) return refuse(written.error());

@@ -65,7 +65,7 @@ ExitCode run_node(const Options& options) {
   watch.last_round();
 
   const status::MonitorSnapshot& figures = watch.figures();
-  fmt::print("{}", closing_lines(figures));
+  print_text(closing_lines(figures));
   if (const Status written = write_json(options.output.json, live_summary(figures)); !written) {
     return refuse(written.error());
   }

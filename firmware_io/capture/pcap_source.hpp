@@ -24,7 +24,7 @@ struct PcapFilter {
   std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
 };
 
-/// frames == delivered + refused_total() + other_port + other_source.
+/// frames == delivered + left_out().
 struct PcapCounters {
   std::uint64_t frames = 0;                            ///< Records read from the file.
   std::uint64_t delivered = 0;                         ///< Datagrams returned by next().
@@ -33,6 +33,9 @@ struct PcapCounters {
   std::uint64_t other_source = 0;  ///< Datagrams of the right port from another sender.
 
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
+  [[nodiscard]] std::uint64_t left_out() const noexcept {
+    return refused_total() + other_port + other_source;
+  }
 };
 
 /// UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte order, or

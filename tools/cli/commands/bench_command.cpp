@@ -56,15 +56,15 @@ struct Packets {
   std::vector<decode::Datagram> datagrams;
 };
 
-Expected<Packets> load(OpenCapture& capture, const CaptureOptions& options) {
+Expected<Packets> load(CapturePart& part) {
   Packets packets;
-  CapturePart part(capture.source, options);
   while (const decode::Datagram* datagram = part.next()) {
     packets.datagrams.push_back(*datagram);
     packets.payloads.insert(packets.payloads.end(), datagram->payload.begin(),
                             datagram->payload.end());
   }
   if (const Status whole = go_on(); !whole) return tl::unexpected(whole.error());
+  part.warn_of_oddities();
   std::span<const std::uint8_t> rest(packets.payloads);
   for (decode::Datagram& datagram : packets.datagrams) {
     datagram.payload = rest.first(datagram.payload.size());
@@ -130,8 +130,8 @@ nlohmann::ordered_json frames_json(const std::vector<status::FrameRecord>& frame
 }
 
 /// They refer to `result`.
-std::vector<status::Figure> figures_of(const Options& options, const BenchResult& result,
-                                       int core) {
+std::vector<status::Figure> figures_of(const Options& options, const CapturePart& part,
+                                       const BenchResult& result, int core) {
   const double returns_per_frame =
       static_cast<double>(result.returns) / static_cast<double>(result.each.size());
   const auto column_ns = [&](double percent) {
@@ -156,13 +156,16 @@ std::vector<status::Figure> figures_of(const Options& options, const BenchResult
       {"p99", column_ns(99), {}, {}, "decode_ns_per_column"},
       {"max", column_ns(100), {}, {}, "decode_ns_per_column"}};
   // clang-format on
+  std::ranges::copy(outside_figures(part.before_start(), part.behind_end()),
+                    std::back_inserter(figures));
   std::ranges::copy(method_figures(options.method), std::back_inserter(figures));
   std::ranges::copy(result.times.figures(), std::back_inserter(figures));
   return figures;
 }
 
-ExitCode conclude(const Options& options, const BenchResult& result, int core) {
-  const auto figures = figures_of(options, result, core);
+ExitCode conclude(const Options& options, const CapturePart& part, const BenchResult& result,
+                  int core) {
+  const auto figures = figures_of(options, part, result, core);
   print_out("{}{}", figure_lines(figures, {}), times_table(figures, {}));
   nlohmann::ordered_json json;
   add_figures(figures, json);
@@ -182,7 +185,8 @@ ExitCode run_bench(const Options& options) {
   if (!mount) return refuse_work(mount.error());
   const auto profile = ring_profile_of(capture->calibration, mount->options);
   if (!profile) return refuse(profile.error());
-  const auto packets = load(*capture, options.capture);
+  CapturePart part(capture->source, options.capture);
+  const auto packets = load(part);
   if (!packets) return refuse_work(packets.error());
 
   warn_of_other_senders(*capture, capture->source.counters(), options.capture);
@@ -207,9 +211,10 @@ ExitCode run_bench(const Options& options) {
     progress.update(pass + 1);
   }
   if (result.each.empty()) {
-    return refuse(nothing_came_out(capture->source, packets->datagrams.size(), first_pass_losses));
+    return refuse(
+        nothing_came_out(capture->source, part, packets->datagrams.size(), first_pass_losses));
   }
-  return conclude(options, result, core);
+  return conclude(options, part, result, core);
 }
 
 }  // namespace terracut::cli

@@ -25,23 +25,25 @@ namespace {
 
 using frame::FrameInfo;
 
-/// Sleeps so that datagrams come at `rate` times the speed of their stamps; 0 never sleeps. Where
-/// the run is to stop it sleeps no longer than a moment.
+/// Sleeps so that datagrams come at `rate` times the speed of the capture's time; 0 never sleeps.
+/// Where the run is to stop it sleeps no longer than a moment, and where the capture shows nothing
+/// for longer than kLongestPause_ns it goes on at once: there its clock was set.
 class Pace {
  public:
   explicit Pace(double rate) : rate_(rate) {}
 
   void restart() noexcept { begun_ = false; }
-  void wait_for(std::int64_t stamp_ns) {
+  void wait_for(std::int64_t since_begin_ns) {
     if (rate_ <= 0) return;
     const auto now = std::chrono::steady_clock::now();
-    if (!begun_) {
+    if (!begun_ || since_begin_ns - newest_ns_ > kLongestPause_ns) {
       begun_ = true;
-      first_ns_ = stamp_ns;
+      first_ns_ = since_begin_ns;
       started_ = now;
     }
+    newest_ns_ = since_begin_ns;
     constexpr double kFar_ns = 9e18;  // a rate near 0 would leave the 64 bits
-    const double due_ns = static_cast<double>(stamp_ns - first_ns_) / rate_;
+    const double due_ns = static_cast<double>(since_begin_ns - first_ns_) / rate_;
     const auto due = started_ + std::chrono::nanoseconds(
                                     static_cast<std::int64_t>(std::clamp(due_ns, 0.0, kFar_ns)));
     constexpr std::chrono::milliseconds kMoment{100};
@@ -51,9 +53,11 @@ class Pace {
   }
 
  private:
+  static constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
+
   double rate_;
   bool begun_ = false;
-  std::int64_t first_ns_ = 0;
+  std::int64_t first_ns_ = 0, newest_ns_ = 0;
   std::chrono::steady_clock::time_point started_;
 };
 
@@ -91,7 +95,8 @@ class Replay {
         truth_(options.output.truth),
         pace_(options.replay.rate),
         progress_("replaying", "frames", 0) {
-    capture.before_each([this](std::int64_t stamp_ns) { pace_.wait_for(stamp_ns); });
+    capture.before_each(
+        [this](std::int64_t stamp_ns) { pace_.wait_for(capture_.since_begin_ns(stamp_ns)); });
   }
 
   ExitCode run() {

@@ -75,6 +75,7 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
     decoder.push(*datagram);
     if (taken = take_frames(); !taken) return taken;
   }
+  part.warn_of_oddities();
   decoder.end_stream();
   return take_frames();
 }

@@ -63,6 +63,22 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
   return figures;
 }
 
+/// Where each record of a capture is.
+std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
+  std::vector<Figure> figures = outside_figures(account.before_start, account.behind_end);
+  const auto add = [&](std::string_view key, std::uint64_t count) {
+    figures.push_back({key, count, {}, {}, "datagrams"});
+  };
+  add("read", account.read.frames);
+  add("decoded", account.decoded);
+  add("device_info", account.device_info);
+  add("rejected", account.losses.rejected_total());
+  add("no_datagram", account.read.refused_total());
+  add("other_port", account.read.other_port);
+  add("other_source", account.read.other_source);
+  return figures;
+}
+
 /// How the vehicle's motion and the frames fit together in time.
 std::vector<Figure> motion_figures(std::uint64_t samples, const FrameTotals& totals) {
   const std::uint64_t deskewed = totals.deskewed;
@@ -114,6 +130,19 @@ std::vector<Figure> method_figures(const MethodOptions& options) {
   if (!options.method.empty()) return {{"method", options.method}};
   return {{"profile", std::string(word_of(kProfileWords, options.profile))},
           {"stages", std::string(word_of(kStageWords, options.last_stage))}};
+}
+
+std::vector<Figure> outside_figures(std::uint64_t before_start, std::uint64_t behind_end) {
+  return {{"before_start",
+           before_start,
+           {},
+           {"left out", "{} datagrams before --start", Shown::kIfAny},
+           "datagrams"},
+          {"behind_end",
+           behind_end,
+           {},
+           {"left out", "{} datagrams behind --duration, and the rest unread", Shown::kIfAny},
+           "datagrams"}};
 }
 
 void FrameTotals::add(const FrameRecord& frame, bool has_motion) {
@@ -196,6 +225,7 @@ std::vector<Figure> Report::summary_figures() const {
   if (motion_samples) {
     std::ranges::copy(motion_figures(*motion_samples, totals), std::back_inserter(figures));
   }
+  if (datagrams) std::ranges::copy(datagram_figures(*datagrams), std::back_inserter(figures));
   add({{"losses",
         status::counts_of("cause", status::causes_of(losses.value_or(totals.losses))),
         {},

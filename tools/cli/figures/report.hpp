@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware_io/capture/capture_account.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
 #include "pipeline/status/figure.hpp"
@@ -49,6 +50,10 @@ struct FrameTotals {
 /// The method that ran: its name, or profile and stages.
 [[nodiscard]] std::vector<status::Figure> method_figures(const MethodOptions& options);
 
+/// How many datagrams lie outside of the part of a capture that was asked for.
+[[nodiscard]] std::vector<status::Figure> outside_figures(std::uint64_t before_start,
+                                                          std::uint64_t behind_end);
+
 /// An entry of frames[] in the report.
 [[nodiscard]] nlohmann::ordered_json frame_json(const status::FrameRecord& frame);
 
@@ -69,6 +74,7 @@ struct Report {
   /// Everything lost in the run, where that is more than the frames' sum (losses after the last
   /// one).
   std::optional<frame::LossCounters> losses{};
+  std::optional<capture::CaptureAccount> datagrams{};  ///< Of a capture.
   frame::BlindAzimuths blind{};  ///< Where the sensor sends nothing, as known at the end.
   status::MountFigures mount{};
   /// Samples of the vehicle's motion there were; of runs whose frames are to be deskewed, from
@@ -102,6 +108,7 @@ struct Report {
   ///   summary         frames, complete_frames, returns_in, returns_labelled, losses{cause: count},
   ///                   ms{stage: {count, mean, p50, p90, p99, p99.9, max}}, segment_wall_ms{the
   ///                   same};
+  ///                   of a capture datagrams{what became of them: count; read: their sum};
   ///                   with truth iou_g, recall_o, unscored_frames; of scans points_no_place,
   ///                   points_no_ring; mount and blind as of a live run; with a CAN recording
   ///                   motion{samples, deskewed_frames, newest_sample_after_frame_ms{min, median,

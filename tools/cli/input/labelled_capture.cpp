@@ -64,6 +64,8 @@ Status LabelledCapture::rewind(std::optional<double> start_s) {
   CaptureOptions from = options_.capture;
   if (start_s && from.duration_s) *from.duration_s += from.start_s - *start_s;
   if (start_s) from.start_s = *start_s;
+  account_.before_start += part_->before_start();
+  account_.behind_end += part_->behind_end();
   part_.emplace(capture_->source, from);
   pushed_ = nullptr;
   ended_ = false;
@@ -84,6 +86,9 @@ const run::Frame* LabelledCapture::next() {
     }
     gives_frames_ = false;
     if (pushed_ != nullptr && !pipeline_->rejected()) note_packet(*pushed_);
+    if (pushed_ != nullptr && pipeline_->rejected() == frame::Reject::kDeviceInfo) {
+      ++account_.device_info;
+    }
     pushed_ = nullptr;
     if (ended_) return nullptr;
     if (!decode_one()) {
@@ -99,9 +104,10 @@ bool LabelledCapture::decode_one() {
   if (pushed_ == nullptr) {
     report_.interrupted = part_->stopped();
     report_.input_warning = part_->fault();
+    if (!warned_of_part_) part_->warn_of_oddities();
+    warned_of_part_ = true;
     return false;
   }
-  first_stamp_ns_ = part_->first_stamp_ns().value_or(0);
   if (wait_) wait_(pushed_->stamp_ns);
   if (motion_) motion_->hear_until(pushed_->stamp_ns);
   ++offered_;
@@ -117,10 +123,20 @@ void LabelledCapture::note_packet(const decode::Datagram& datagram) {
   }
 }
 
+capture::CaptureAccount LabelledCapture::account() const {
+  capture::CaptureAccount account = account_;
+  account.read = capture_->source.counters();
+  account.before_start += part_->before_start();
+  account.behind_end += part_->behind_end();
+  account.decoded = decoder().packets_decoded();
+  account.losses = decoder().losses();
+  return account;
+}
+
 Status LabelledCapture::conclude() {
   const frame::LossCounters losses = pipeline_->decoder().losses();
   if (report_.totals.frames == 0) {
-    return tl::unexpected(nothing_came_out(capture_->source, offered_, losses));
+    return tl::unexpected(nothing_came_out(capture_->source, *part_, offered_, losses));
   }
   if (const std::string other = sensor::other_table_warning(status_, capture_->calibration);
       !other.empty()) {
@@ -128,6 +144,7 @@ Status LabelledCapture::conclude() {
   }
   warn_of_other_senders(*capture_, capture_->source.counters(), options_.capture);
   report_.losses = losses;
+  report_.datagrams = account();
   report_.blind = pipeline_->decoder().blind();
   report_.mount = mount_->figures();
   if (clock_of_device_->noted()) {

@@ -8,6 +8,7 @@
 #include <optional>
 #include <span>
 
+#include "firmware_io/capture/capture_account.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
 #include "mount_choice.hpp"
 #include "open_capture.hpp"
@@ -52,8 +53,6 @@ class LabelledCapture {
   /// From the beginning again, or from so many seconds behind it, where the first frame lacks what
   /// was before. The errors of the sources.
   [[nodiscard]] Status rewind(std::optional<double> start_s = {});
-  /// Of the capture's first datagram; 0 before next().
-  [[nodiscard]] std::int64_t first_stamp_ns() const noexcept { return first_stamp_ns_; }
   /// Called with the stamp of each datagram before it is decoded, to keep its pace.
   void before_each(std::function<void(std::int64_t stamp_ns)> wait) { wait_ = std::move(wait); }
 
@@ -64,6 +63,12 @@ class LabelledCapture {
   [[nodiscard]] Report& report() noexcept { return report_; }
   /// Datagrams given to the decoder.
   [[nodiscard]] std::uint64_t offered() const noexcept { return offered_; }
+  /// Of what was read so far, in all passes; it balances when next() has returned null.
+  [[nodiscard]] capture::CaptureAccount account() const;
+  /// How long the capture has been running at a stamp near the newest datagram's.
+  [[nodiscard]] std::int64_t since_begin_ns(std::int64_t stamp_ns) const noexcept {
+    return part_->clock().since_begin_ns(stamp_ns);
+  }
 
   [[nodiscard]] const OpenCapture& capture() const noexcept { return *capture_; }
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return pipeline_->decoder(); }
@@ -94,9 +99,10 @@ class LabelledCapture {
   std::function<void(std::int64_t)> wait_;
   const decode::Datagram* pushed_ = nullptr;  ///< Whose frames are being handed out.
   std::uint64_t offered_ = 0;
-  std::int64_t first_stamp_ns_ = 0;
-  bool gives_frames_ = false;  ///< Something was pushed, whose frames are not all out.
+  capture::CaptureAccount account_;  ///< What nobody else counts, of the passes before this one.
+  bool gives_frames_ = false;        ///< Something was pushed, whose frames are not all out.
   bool ended_ = false;
+  bool warned_of_part_ = false;
 };
 
 }  // namespace terracut::cli

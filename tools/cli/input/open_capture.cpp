@@ -93,28 +93,48 @@ CapturePart::CapturePart(PcapSource& source, const CaptureOptions& options)
                                  : std::numeric_limits<std::int64_t>::max()) {}
 
 const decode::Datagram* CapturePart::next() {
-  while (!(stopped_ = stop_wanted())) {
+  while (past_end_ < kSurelyPast_packets && !(stopped_ = stop_wanted())) {
     auto read = source_.next();
     if (!read) {
       fault_ = read.error().message;
-      warn(fault_);
       return nullptr;
     }
     datagram_ = *read;
     if (!datagram_) return nullptr;
-    if (!first_ns_) first_ns_ = datagram_->stamp_ns;
-    const std::int64_t since_ns = datagram_->stamp_ns - *first_ns_;
-    if (since_ns >= end_ns_) return nullptr;
-    if (since_ns >= start_ns_) return &*datagram_;
+    if (is_inside(clock_.add(datagram_->stamp_ns))) return &*datagram_;
   }
   return nullptr;
 }
 
-Error nothing_came_out(const PcapSource& source, std::uint64_t offered,
+bool CapturePart::is_inside(std::int64_t since_begin_ns) noexcept {
+  has_begun_ = has_begun_ || start_ns_ == 0 || since_begin_ns >= start_ns_;
+  const bool is_past = since_begin_ns >= end_ns_;
+  past_end_ = is_past ? past_end_ + 1 : 0;
+  if (is_past) {
+    ++behind_end_;
+  } else if (!has_begun_) {
+    ++before_start_;
+  }
+  return has_begun_ && !is_past;
+}
+
+void CapturePart::warn_of_oddities() const {
+  if (!fault_.empty()) warn(fault_);
+  if (const std::uint64_t steps = clock_.steps_back(); steps > 0) {
+    warn(
+        fmt::format("{}: the stamps step back {} time{}, by {:.3f} s at most: the recording "
+                    "machine's clock was set, or captures were joined in another order. Every "
+                    "packet is used, in the order of the file",
+                    source_.name(), steps, steps == 1 ? "" : "s",
+                    static_cast<double>(clock_.longest_step_back_ns()) * 1e-9));
+  }
+}
+
+Error nothing_came_out(const PcapSource& source, const CapturePart& part, std::uint64_t offered,
                        const frame::LossCounters& losses) {
-  return {ErrorCode::kNothingCameOut,
-          fmt::format("{}: no frame came out: {}", source.name(),
-                      why_nothing_came(source.counters(), offered, losses))};
+  std::string why = why_nothing_came(source.counters(), offered, losses);
+  if (!part.fault().empty()) why += "; " + part.fault();
+  return {ErrorCode::kNothingCameOut, fmt::format("{}: no frame came out: {}", source.name(), why)};
 }
 
 }  // namespace terracut::cli

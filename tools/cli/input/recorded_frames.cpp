@@ -65,7 +65,7 @@ Status CaptureFrames::pass(Frames& frames, std::size_t most, Take take) {
   }
   if (!going) return going;
   if (shown == 0) {
-    return tl::unexpected(nothing_came_out(*source, offered, decoder_of(frames).losses()));
+    return tl::unexpected(nothing_came_out(*source, part, offered, decoder_of(frames).losses()));
   }
   return {};
 }

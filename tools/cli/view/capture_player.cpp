@@ -3,7 +3,6 @@
 #include "capture_player.hpp"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 
 #include "tools/cli/stop_signal.hpp"
@@ -13,6 +12,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kMoment{50};
 constexpr std::chrono::seconds kMeasuredAhead{1};
+/// Where a capture shows nothing for longer, its clock was set.
+constexpr std::int64_t kLongestPause_ns = 60'000'000'000;
 
 double seconds(std::int64_t ns) {
   return static_cast<double>(ns) * 1e-9;
@@ -40,20 +41,19 @@ CapturePlayer::~CapturePlayer() {
 void CapturePlayer::measure() {
   auto source = open_again(capture_.capture(), options_);
   constexpr std::uint64_t kPacketsAtOnce = 4096;
-  std::optional<std::int64_t> first_ns;
-  std::int64_t last_ns = 0;
+  capture::CaptureClock clock;
+  std::int64_t longest_ns = 0;
   for (std::uint64_t read = 0; source && !stop_measuring_; ++read) {
     const auto next = source->next();
     if (!next || !*next) break;
-    if (!first_ns) {
-      first_ns = (*next)->stamp_ns;
+    if (read == 0) {
       const std::lock_guard lock(mutex_);
-      state_.begin_ns = *first_ns;
+      state_.begin_ns = (*next)->stamp_ns;
     }
-    last_ns = std::max(last_ns, (*next)->stamp_ns);
-    if (read % kPacketsAtOnce == 0) note_duration(last_ns - *first_ns);
+    longest_ns = std::max(longest_ns, clock.add((*next)->stamp_ns));
+    if (read % kPacketsAtOnce == 0) note_duration(longest_ns);
   }
-  if (first_ns) note_duration(last_ns - *first_ns);
+  note_duration(longest_ns);
   const std::lock_guard lock(mutex_);
   is_measured_ = true;
   told_.notify_all();
@@ -104,7 +104,8 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
     if (frame == nullptr) continue;
     if (Status taken = on_frame(*frame, capture_.labels()); !taken) return taken;
     const std::lock_guard lock(mutex_);
-    state_.position_s = std::max(0.0, seconds(frame->record.info.first_packet_ns - begin_ns()));
+    state_.position_s =
+        std::max(0.0, seconds(capture_.since_begin_ns(frame->record.info.first_packet_ns)));
   }
   return {};
 }
@@ -112,8 +113,7 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
 Status CapturePlayer::go_to(double seek_s) {
   // A frame more, because the first one begins somewhere within a revolution and is not shown.
   const double frame_s = state().frame_s;
-  const auto middle_ns = static_cast<std::int64_t>((seek_s + frame_s / 2) * 1e9);
-  skip_to_ns_ = begin_ns() + middle_ns;
+  skip_to_ns_ = static_cast<std::int64_t>((seek_s + frame_s / 2) * 1e9);
   if (Status status = capture_.rewind(std::max(0.0, seek_s - 1.25 * frame_s)); !status) {
     return status;
   }
@@ -128,8 +128,10 @@ Status CapturePlayer::go_to(double seek_s) {
 const run::Frame* CapturePlayer::next_due() {
   const run::Frame* frame = capture_.next();
   has_frames_ = has_frames_ || frame != nullptr;
-  while (frame != nullptr && frame->record.info.last_packet_ns < skip_to_ns_)
+  while (frame != nullptr &&
+         capture_.since_begin_ns(frame->record.info.last_packet_ns) < skip_to_ns_) {
     frame = capture_.next();
+  }
   skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
   if (frame == nullptr) {
     const std::lock_guard lock(mutex_);
@@ -139,16 +141,19 @@ const run::Frame* CapturePlayer::next_due() {
     state_.playing = false;
     return nullptr;
   }
-  return wait_until_due(frame->record.info.first_packet_ns) ? frame : nullptr;
+  const std::int64_t due_ns = capture_.since_begin_ns(frame->record.info.first_packet_ns);
+  return wait_until_due(due_ns) ? frame : nullptr;
 }
 
-bool CapturePlayer::wait_until_due(std::int64_t stamp_ns) {
+bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {
   std::unique_lock lock(mutex_);
   while (!stop_wanted()) {
     if (seek_s_) return false;
+    if (since_begin_ns - shown_ns_ > kLongestPause_ns) pace_.reset();
     if (steps_ > 0) {
       --steps_;  // here, where no later command's step is meant
       pace_.reset();
+      shown_ns_ = since_begin_ns;
       return true;
     }
     const std::uint64_t commands = commands_;
@@ -158,13 +163,14 @@ bool CapturePlayer::wait_until_due(std::int64_t stamp_ns) {
       continue;
     }
     const auto now = Clock::now();
-    if (!pace_ || stamp_ns < pace_->second) pace_ = {now, stamp_ns};
+    if (!pace_ || since_begin_ns < pace_->second) pace_ = {now, since_begin_ns};
+    shown_ns_ = since_begin_ns;
     const auto due =
         pace_->first + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(
-                           seconds(stamp_ns - pace_->second) / state_.rate));
+                           seconds(since_begin_ns - pace_->second) / state_.rate));
     if (due <= now) {
       // Where labels come more slowly than frames did, the capture takes its time.
-      if (now - due > std::chrono::seconds(1)) pace_ = {now, stamp_ns};
+      if (now - due > std::chrono::seconds(1)) pace_ = {now, since_begin_ns};
       return true;
     }
     told_.wait_until(lock, std::min(due, now + kMoment));

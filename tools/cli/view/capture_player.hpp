@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <mutex>
 #include <optional>
 #include <thread>
@@ -39,11 +40,9 @@ class CapturePlayer : public ViewedCapture {
 
   [[nodiscard]] Status go_to(double seek_s);
   [[nodiscard]] const run::Frame* next_due();
-  [[nodiscard]] bool wait_until_due(std::int64_t stamp_ns);
+  [[nodiscard]] bool wait_until_due(std::int64_t since_begin_ns);
   void measure();
   void note_duration(std::int64_t so_far_ns);
-  /// Stamp of the capture's first datagram; known once a frame came out.
-  [[nodiscard]] std::int64_t begin_ns() const { return capture_.first_stamp_ns(); }
 
   LabelledCapture& capture_;
   CaptureOptions options_;
@@ -56,8 +55,11 @@ class CapturePlayer : public ViewedCapture {
   bool is_measured_ = false;
 
   bool has_frames_ = false;
-  std::int64_t skip_to_ns_ = 0;  ///< Frames that end before are not shown.
-  std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;  ///< When which stamp was due.
+  /// Frames that end before that time are not shown.
+  std::int64_t skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
+  /// When which frame was due, by its time in the capture.
+  std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;
+  std::int64_t shown_ns_ = 0;  ///< Of the frame that was waited for last.
   std::atomic<bool> stop_measuring_{false};
   std::thread measuring_;
 };

@@ -16,6 +16,7 @@
 #include "firmware_io/cloud/field_table.hpp"
 #include "firmware_io/cloud/pcd_file.hpp"
 #include "firmware_io/cloud/ply_file.hpp"
+#include "rt/files/ending.hpp"
 #include "rt/files/record_file.hpp"
 
 namespace terracut::cloud {
@@ -81,19 +82,21 @@ Status read_kitti(const fs::path& path, Cloud& cloud) {
 }
 
 Status read_by_name(const fs::path& path, Cloud& cloud) {
-  const std::string ending = path.extension().string();
+  const std::string ending = files::ending_of(path);
   if (ending == ".pcd") return read_table(path, read_pcd(path), cloud);
   if (ending == ".ply") return read_table(path, read_ply(path), cloud);
-  if (path.filename().string().ends_with(".pcd.bin")) return read_nuscenes_bin(path, cloud);
-  if (ending == ".bin") return read_kitti(path, cloud);
-  return fail(ErrorCode::kUnsupported,
-              path.string() + ": expected a cloud: .bin, .pcd.bin, .pcd or .ply");
+  if (ending != ".bin") {
+    return fail(ErrorCode::kUnsupported,
+                path.string() + ": expected a cloud: .bin, .pcd.bin, .pcd or .ply");
+  }
+  return files::ending_of(path.stem()) == ".pcd" ? read_nuscenes_bin(path, cloud)
+                                                 : read_kitti(path, cloud);
 }
 
 }  // namespace
 
 bool is_cloud_file(const fs::path& path) {
-  const std::string ending = path.extension().string();
+  const std::string ending = files::ending_of(path);
   return ending == ".bin" || ending == ".pcd" || ending == ".ply";
 }
 

@@ -5,12 +5,16 @@
 #include <filesystem>
 
 #include "firmware_io/cloud/cloud.hpp"
+#include "firmware_io/scan/scan_folder.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::cloud {
 
-/// Whether the file's name is that of a cloud: .bin, .pcd or .ply.
+/// Whether the file's name is that of a cloud: .bin, .pcd or .ply, in upper case, too.
 [[nodiscard]] bool is_cloud_file(const std::filesystem::path& path);
+/// Those of a folder.
+inline constexpr scan::ScanKind kCloudFiles{
+    is_cloud_file, "KITTI's .bin (float32 x y z remission), nuScenes' .pcd.bin, .pcd or .ply"};
 
 /// Reads a cloud by the ending of its name:
 ///

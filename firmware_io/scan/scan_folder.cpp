@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <system_error>
+#include <tuple>
 
+#include "rt/files/ending.hpp"
 #include "rt/number_of.hpp"
 
 namespace terracut::scan {
@@ -21,21 +23,26 @@ std::optional<fs::path> if_file(const fs::path& path) {
 }
 
 ScanFile scan_file(const fs::path& path, const fs::path& labels) {
-  std::string name = path.stem().string();
-  if (name.ends_with(".pcd")) name.resize(name.size() - 4);  // of .pcd.bin
+  fs::path stem = path.stem();
+  if (files::ending_of(stem) == ".pcd") stem = stem.stem();  // of .pcd.bin
+  const std::string name = stem.string();
   return {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)};
 }
 
 }  // namespace
 
 bool is_kitti_bin(const fs::path& path) {
-  return path.extension() == ".bin";
+  return files::ending_of(path) == ".bin";
 }
 
-Expected<ScanFolder> list_scan_folder(const fs::path& folder, IsScan is_scan) {
+Expected<ScanFolder> list_scan_folder(const fs::path& folder, const ScanKind& kind) {
   std::error_code error;
-  if (fs::is_regular_file(folder, error) && is_scan(folder)) {
-    return ScanFolder{{scan_file(folder, folder.parent_path())}, {}, {}, {}};
+  if (fs::is_regular_file(folder, error)) {
+    if (kind.is_scan(folder)) {
+      return ScanFolder{{scan_file(folder, folder.parent_path())}, {}, {}, {}};
+    }
+    return fail(ErrorCode::kUnsupported,
+                fmt::format("{}: no scan by its name; expected {}", folder.string(), kind.formats));
   }
   if (!fs::is_directory(folder, error)) {
     return fail(ErrorCode::kNotFound,
@@ -52,7 +59,7 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder, IsScan is_scan) {
   for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
     const fs::path& path = entry->path();
     std::error_code ignored;
-    if (!is_scan(path)) continue;
+    if (!kind.is_scan(path) || path.filename().native().starts_with('.')) continue;
     // A link that leads nowhere is a scan all the same: reading it says what is wrong.
     if (!entry->is_regular_file(ignored) && !entry->is_symlink(ignored)) continue;
     found.scans.push_back(scan_file(path, labels));
@@ -64,12 +71,21 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder, IsScan is_scan) {
   if (found.scans.empty()) {
     return fail(
         ErrorCode::kNotFound,
-        fmt::format("{}: no scan in it; expected KITTI's .bin (float32 x y z remission){}, or a "
-                    "SemanticKITTI sequence folder with velodyne/",
-                    points.string(), is_scan(".pcd") ? ", nuScenes' .pcd.bin, .pcd or .ply" : ""));
+        fmt::format("{}: no scan in it; expected {}, or a SemanticKITTI sequence folder with "
+                    "velodyne/",
+                    points.string(), kind.formats));
   }
-  std::sort(found.scans.begin(), found.scans.end(),
-            [](const ScanFile& a, const ScanFile& b) { return a.name < b.name; });
+  std::ranges::sort(found.scans, {},
+                    [](const ScanFile& scan) { return std::tie(scan.name, scan.points.native()); });
+  const auto twins = std::ranges::adjacent_find(found.scans, {}, &ScanFile::name);
+  if (twins != found.scans.end()) {
+    return fail(
+        ErrorCode::kMalformed,
+        fmt::format("{} and {}: two scans of one name, {}, whose outputs would be one file; keep "
+                    "the files of each format in a folder of their own, or name one of the two "
+                    "alone",
+                    twins[0].points.string(), twins[1].points.string(), twins->name));
+  }
   if (sequence) {
     found.poses = if_file(folder / "poses.txt");
     found.times = if_file(folder / "times.txt");

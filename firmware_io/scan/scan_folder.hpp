@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rt/error.hpp"
@@ -30,16 +31,22 @@ struct ScanFolder {
   std::optional<std::filesystem::path> calib;  ///< calib.txt
 };
 
-/// Which files of a folder are scans.
-using IsScan = bool (*)(const std::filesystem::path&);
+/// Which files of a folder are scans, by their names.
+struct ScanKind {
+  bool (*is_scan)(const std::filesystem::path&);
+  std::string_view formats;  ///< For messages: "KITTI's .bin (float32 x y z remission)".
+};
 /// `.bin`
 [[nodiscard]] bool is_kitti_bin(const std::filesystem::path& path);
+inline constexpr ScanKind kKittiScans{is_kitti_bin, "KITTI's .bin (float32 x y z remission)"};
 
 /// Lists a SemanticKITTI sequence folder (velodyne/ with scans, labels/ with .label, poses.txt,
 /// times.txt, calib.txt; all but velodyne/ optional) or a plain folder of scans with .label files
-/// beside them; or takes a scan alone. Labels are taken for the scans that have them.
-/// Errors: kNotFound (no such folder, no scan in it), kUnreadable.
+/// beside them; or takes a scan alone. Labels are taken for the scans that have them. Hidden files
+/// are no scans: macOS puts a `._000000.bin` beside a 000000.bin.
+/// Errors: kNotFound (no such folder, no scan in it), kUnreadable, kUnsupported (a file that is no
+/// scan by its name), kMalformed (two scans of one name, whose outputs would be one file).
 [[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder,
-                                                    IsScan is_scan = is_kitti_bin);
+                                                    const ScanKind& kind = kKittiScans);
 
 }  // namespace terracut::scan

@@ -61,6 +61,10 @@ TEST(CloudFile, IsReadByTheEndingOfItsName) {
   expect_points(cloud);
   EXPECT_THAT(cloud.laser, ElementsAre(7, 31));
 
+  ASSERT_TRUE(read_cloud(folder.write_records("A.PCD.BIN", nuscenes), cloud));
+  EXPECT_THAT(cloud.laser, ElementsAre(7, 31));
+  ASSERT_TRUE(read_cloud(folder.write_records("A.BIN", kitti), cloud));
+  EXPECT_TRUE(is_cloud_file("A.PCD") && is_cloud_file("A.PLY") && is_cloud_file("A.Bin"));
   EXPECT_EQ(read_cloud(folder.write("a.txt", data), cloud).error().code, ErrorCode::kUnsupported);
 }
 

@@ -192,6 +192,40 @@ TEST(ScanFolder, ListsAPlainFolderWithLabelsBesideTheScans) {
   EXPECT_FALSE(found->scans[0].frame.has_value());
 }
 
+TEST(ScanFolder, RefusesTwoScansOfOneNameBecauseTheirOutputsWouldBeOneFile) {
+  for (const char* twin : {"a.pcd.bin", "a.BIN", "a.PCD.bin"}) {
+    const ScratchFolder folder;
+    folder.write("a.bin", "x");
+    folder.write("b.bin", "x");
+    folder.write(twin, "x");
+    const auto found = list_scan_folder(folder.path());
+    ASSERT_FALSE(found) << twin;
+    EXPECT_EQ(found.error().code, ErrorCode::kMalformed);
+    EXPECT_THAT(found.error().message, AllOf(HasSubstr("a.bin"), HasSubstr(twin)));
+    EXPECT_TRUE(list_scan_folder(folder.path() / twin)) << "named alone";
+  }
+}
+
+TEST(ScanFolder, TakesNamesInUpperCaseAndNoHiddenFiles) {
+  const ScratchFolder folder;
+  folder.write("000001.BIN", "x");
+  folder.write("000000.bin", "x");
+  folder.write("._000000.bin", "x");
+  const auto found = list_scan_folder(folder.path());
+  ASSERT_TRUE(found) << found.error().message;
+  ASSERT_EQ(found->scans.size(), 2U);
+  EXPECT_EQ(found->scans[1].points.filename(), "000001.BIN");
+  EXPECT_EQ(found->scans[1].frame, 1U);
+}
+
+TEST(ScanFolder, SaysOfAFileThatItIsNoScanNotThatThereIsNoSuchFolder) {
+  const ScratchFolder folder;
+  const auto found = list_scan_folder(folder.write("scan.csv", "1,2,3"));
+  ASSERT_FALSE(found);
+  EXPECT_EQ(found.error().code, ErrorCode::kUnsupported);
+  EXPECT_THAT(found.error().message, HasSubstr("no scan by its name; expected KITTI's .bin"));
+}
+
 TEST(ScanFolder, SaysWhatItExpectedWhereThereIsNoScan) {
   const ScratchFolder folder;
   const auto empty = list_scan_folder(folder.path());

@@ -83,7 +83,7 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
 /// Clouds as images of one row, each point a cell of its own, so that the n-th return is the n-th
 /// point; only good for pictures from above.
 Status visit_clouds(const Options& options, const Wanted& wanted, const Visit& visit) {
-  const auto folder = scan::list_scan_folder(options.scans, cloud::is_cloud_file);
+  const auto folder = scan::list_scan_folder(options.scans, cloud::kCloudFiles);
   if (!folder) return tl::unexpected(folder.error());
   const auto mount = mount_of(options.mount);
   if (!mount) return tl::unexpected(mount.error());

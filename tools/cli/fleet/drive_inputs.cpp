@@ -27,7 +27,7 @@ Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
 /// One figure of a folder's clouds, from one of each.
 template <class OfFile>
 Expected<std::string> of_clouds(const std::filesystem::path& folder, OfFile&& of_file) {
-  const auto listed = scan::list_scan_folder(folder, cloud::is_cloud_file);
+  const auto listed = scan::list_scan_folder(folder, cloud::kCloudFiles);
   if (!listed) return tl::unexpected(listed.error());
   ContentHash hash;
   for (const scan::ScanFile& file : listed->scans) {

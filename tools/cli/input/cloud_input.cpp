@@ -15,7 +15,7 @@
 namespace terracut::cli {
 
 Expected<CloudReader> CloudReader::open(const std::filesystem::path& clouds) {
-  auto folder = scan::list_scan_folder(clouds, cloud::is_cloud_file);
+  auto folder = scan::list_scan_folder(clouds, cloud::kCloudFiles);
   if (!folder) return tl::unexpected(folder.error());
   return CloudReader(std::move(folder->scans));
 }

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+
+namespace terracut::files {
+
+/// ".pcd" of a.pcd and of A.PCD, as Windows programs name files; empty where the name has none.
+[[nodiscard]] inline std::string ending_of(const std::filesystem::path& path) {
+  std::string ending = path.extension().string();
+  std::ranges::transform(ending, ending.begin(),
+                         [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
+  return ending;
+}
+
+}  // namespace terracut::files

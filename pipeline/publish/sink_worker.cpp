@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "pipeline/publish/sink_worker.hpp"
 
+#include <string>
 #include <utility>
 
 namespace terracut::publish {
@@ -10,7 +11,10 @@ SinkWorker::SinkWorker(std::unique_ptr<FrameSink> sink, WhenFull when_full, OnFa
     : sink_(std::move(sink)),
       when_full_(when_full),
       on_failure_(std::move(on_failure)),
-      thread_([this] { work(); }) {}
+      thread_([this] { work(); },
+              [this](std::string_view why) {
+                fail({ErrorCode::kCapacityExceeded, std::string(why)});
+              }) {}
 
 void SinkWorker::put(SharedFrame frame) {
   std::unique_lock lock(mutex_);

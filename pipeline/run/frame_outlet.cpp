@@ -2,7 +2,10 @@
 // Copyright 2026 The terracut authors
 #include "frame_outlet.hpp"
 
+#include <string_view>
 #include <utility>
+
+#include "rt/caught.hpp"
 
 namespace terracut::run {
 
@@ -12,12 +15,17 @@ FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publi
       publisher_(publisher),
       slots_(slots),
       ready_(ready),
-      thread_([this] { work(); }) {}
+      // Frames that nobody takes any more are counted by the slots.
+      thread_([this] { work(); }, [](std::string_view) {}) {}
 
 bool FrameOutlet::finish(std::chrono::milliseconds patience) {
+  begin_to_finish();
+  return thread_.ends_within(patience);
+}
+
+void FrameOutlet::begin_to_finish() {
   finish_ = true;
   ready_.wake();
-  return thread_.ends_within(patience);
 }
 
 void FrameOutlet::work() {
@@ -43,13 +51,15 @@ bool FrameOutlet::hand_out(const Slots::Frame& frame) {
                                     .late = latency_ns > stream_->deadline_ns,
                                     .points = frame.items});
   }
-  if (publisher_.has_sinks()) {
+  if (!publisher_.has_sinks()) return served;
+  const Status published = rt::caught([&]() -> Status {
     const auto shared = publisher_.buffer();
     shared->record = frame.record;
     shared->points.assign(frame.items.begin(), frame.items.end());
     publisher_.put(shared);
-  }
-  return served;
+    return {};
+  });
+  return served && published;
 }
 
 }  // namespace terracut::run

@@ -32,6 +32,7 @@ class FrameOutlet {
   /// `ready` is woken when there is something in `slots`, and at finish(). All must outlive this.
   FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
               const threads::WakeEvent& ready);
+  ~FrameOutlet() { begin_to_finish(); }
 
   /// After LiveThreads::stop(). False when it does not end in time, which no peer can bring about.
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
@@ -44,6 +45,7 @@ class FrameOutlet {
   }
 
  private:
+  void begin_to_finish();
   void work();
   /// Whether it got where it was to go, or is counted there.
   [[nodiscard]] bool hand_out(const Slots::Frame& frame);

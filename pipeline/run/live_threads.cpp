@@ -49,27 +49,32 @@ Expected<LiveThreads::Events> LiveThreads::Events::make() {
 
 std::vector<threads::Grant> LiveThreads::start() {
   using Grants = std::vector<threads::Grant>;
-  std::promise<Grants> receive_granted, segment_granted;
-  segment_thread_ = std::jthread([&] {
-    segment_granted.set_value(segment_state_.set_up(config_.segment));
+  std::promise<Grants> receive_granted, segment_granted;  // each the thread's own
+  std::future<Grants> receive_grants = receive_granted.get_future();
+  std::future<Grants> segment_grants = segment_granted.get_future();
+  segment_thread_ = std::jthread([this, granted = std::move(segment_granted)]() mutable {
+    granted.set_value(segment_state_.set_up(config_.segment));
     segment();
   });
-  receive_thread_ = std::jthread([&] {
-    receive_granted.set_value(receive_state_.set_up(config_.receive));
+  receive_thread_ = std::jthread([this, granted = std::move(receive_granted)]() mutable {
+    granted.set_value(receive_state_.set_up(config_.receive));
     receive();
   });
-  Grants grants = receive_granted.get_future().get();
-  for (threads::Grant& grant : segment_granted.get_future().get())
-    grants.push_back(std::move(grant));
+  Grants grants = receive_grants.get();
+  for (threads::Grant& grant : segment_grants.get()) grants.push_back(std::move(grant));
   return grants;
 }
 
 void LiveThreads::stop() {
   stop_ = true;
-  source_.wake();
-  if (receive_thread_.joinable()) receive_thread_.join();
-  events_.frame_ready.wake();
-  if (segment_thread_.joinable()) segment_thread_.join();
+  if (receive_thread_.joinable()) {
+    source_.wake();
+    receive_thread_.join();
+  }
+  if (segment_thread_.joinable()) {
+    events_.frame_ready.wake();
+    segment_thread_.join();
+  }
 }
 
 void LiveThreads::receive() noexcept {

@@ -63,9 +63,15 @@ class LiveThreads {
   /// Everything must outlive this.
   LiveThreads(const Config& config, LivePipeline& pipeline, net::LiveSource& source, Events events,
               recorder::FlightRecorder* recorder, memory::FixedMemory& memory);
+  /// As stop().
+  ~LiveThreads() { stop(); }
+  LiveThreads(const LiveThreads&) = delete;
+  LiveThreads& operator=(const LiveThreads&) = delete;
 
-  /// Starts both; returns what the system granted and refused them.
+  /// Starts both; returns what the system granted and refused them. Throws std::system_error where
+  /// it refuses a thread.
   [[nodiscard]] std::vector<threads::Grant> start();
+  /// Ends both, whoever calls it and however often.
   void stop();
 
   /// The record of the next frame to be judged; skipped ones and others in no strict order.

@@ -34,12 +34,13 @@ VehicleMotion::~VehicleMotion() {
 }
 
 std::vector<threads::Grant> VehicleMotion::start(int priority) {
-  std::promise<std::vector<threads::Grant>> granted;
-  thread_ = std::jthread([&] {
+  std::promise<std::vector<threads::Grant>> granted;  // the thread's own
+  auto grants = granted.get_future();
+  thread_ = std::jthread([this, priority, granted = std::move(granted)]() mutable {
     granted.set_value(thread_state_.set_up(thread_request("tc-can", priority, std::nullopt)));
     hear();
   });
-  return granted.get_future().get();
+  return grants.get();
 }
 
 void VehicleMotion::stop() {

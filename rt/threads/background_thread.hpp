@@ -3,22 +3,34 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <functional>
 #include <future>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 namespace terracut::threads {
 
 /// A thread without a deadline, for work that may wait for a disk, and whose end must not be waited
-/// for longer than one cares to: a disk that does not answer holds its thread for ever.
+/// for longer than one cares to: a disk that does not answer holds its thread for ever. Its owner
+/// must have told the work to end before this is destroyed, which waits for it.
 class BackgroundThread {
  public:
-  explicit BackgroundThread(std::function<void()> work) {
+  /// Told why, on the thread, where the work ends by an exception; throws none itself. The program
+  /// goes on.
+  using OnFailure = std::function<void(std::string_view why)>;
+
+  BackgroundThread(std::function<void()> work, OnFailure on_failure) {
     std::promise<void> ended;
     ended_ = ended.get_future();
-    thread_ = std::jthread([work = std::move(work), ended = std::move(ended)]() mutable {
-      work();
+    thread_ = std::jthread([work = std::move(work), on_failure = std::move(on_failure),
+                            ended = std::move(ended)]() mutable {
+      try {
+        work();
+      } catch (const std::exception& error) {
+        on_failure(error.what());
+      }
       ended.set_value();
     });
   }

@@ -7,33 +7,42 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 #include <utility>
 
+#include "message_thread.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::cli {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
+constexpr std::chrono::seconds kPatience{3};
 constexpr const char* kWipeLine = "\r\x1b[K";
 std::atomic<bool> progress_line_stands = false;  // say() may come from any thread
 thread_local HeardLines* listener = nullptr;
 std::atomic<int> output_error = 0;  // errno of the first result that could not be written
+std::atomic<MessageThread*> background = nullptr;  // never destroyed: it may hang
+
+void note_output_error(int error_number) {
+  int none = 0;
+  output_error.compare_exchange_strong(none, error_number);
+}
 
 /// A message that cannot be written (disk full, reader gone) is no reason to end anything.
 void write_message(std::string_view text) {
+  if (MessageThread* const thread = background) {
+    return thread->put(STDERR_FILENO, std::string(text));
+  }
   static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
 }
 
 void print_line(std::string_view line) {
   write_message(fmt::format("{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "", line));
-}
-
-void note_output_error() {
-  int none = 0;
-  output_error.compare_exchange_strong(none, errno);
 }
 
 }  // namespace
@@ -47,15 +56,33 @@ void warn(std::string_view line) {
   print_line(fmt::format("warning: {}", line));
 }
 
+void write_in_background() {
+  if (background != nullptr) return;
+  background = new MessageThread([](int descriptor, int error_number) {
+    if (descriptor == STDOUT_FILENO) note_output_error(error_number);
+  });
+}
+std::uint64_t lost_messages() {
+  const MessageThread* const thread = background;
+  return thread == nullptr ? 0 : thread->lost();
+}
+
 void print_text(std::string_view text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_output_error();
+  if (MessageThread* const thread = background) {
+    return thread->put(STDOUT_FILENO, std::string(text));
+  }
+  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size()) note_output_error(errno);
 }
 bool flush_output() {
-  if (std::fflush(stdout) != 0) note_output_error();
+  if (std::fflush(stdout) != 0) note_output_error(errno);
   return output_error == 0;
 }
 
 ExitCode end_output(ExitCode code) {
+  MessageThread* const thread = background;
+  if (thread != nullptr && !thread->finish(kPatience)) {
+    std::_Exit(code);  // its thread waits for whoever does not read, and cannot be ended otherwise
+  }
   if (flush_output()) return code;
   // Whoever reads the first lines only (`| head`) has what they wanted.
   if (output_error != EPIPE) {

@@ -21,6 +21,12 @@ namespace terracut::cli {
 void say(std::string_view line);
 void warn(std::string_view line);
 
+/// From now on messages and results are written by a thread of their own (MessageThread): whoever
+/// says something waits for no reader. For runs that have no end of their own. Once.
+void write_in_background();
+/// Messages that were lost because nobody took them.
+[[nodiscard]] std::uint64_t lost_messages();
+
 /// Results on stdout. What cannot be written shows in end_output().
 void print_text(std::string_view text);
 template <class... Values>
@@ -30,7 +36,7 @@ void print_out(fmt::format_string<Values...> format, Values&&... values) {
 /// For results that somebody watches while they come; false where they cannot be written.
 [[nodiscard]] bool flush_output();
 /// At a program's end: `code`, but kOutputFailed in place of kOk where a result could not be
-/// written.
+/// written. Ends the process at once where written texts are not taken within three seconds.
 [[nodiscard]] ExitCode end_output(ExitCode code);
 
 /// While it lives, what this thread says and warns of comes here instead of to stderr: for programs

@@ -33,7 +33,7 @@ void hold_standard_descriptors() {
   if (opened >= 0) ::close(opened);
 }
 
-ExitCode run(const std::vector<std::string>& words) {
+ExitCode run_command(const std::vector<std::string>& words) {
   const auto arguments = parse_arguments(words);
   if (!arguments) {
     const ExitCode code = refuse(arguments.error());
@@ -49,6 +49,16 @@ ExitCode run(const std::vector<std::string>& words) {
   return kRun[static_cast<std::size_t>(*arguments->command)](arguments->options);
 }
 
+ExitCode run(const std::vector<std::string>& words) {
+  try {
+    return run_command(words);
+  } catch (const std::bad_alloc&) {
+    return refuse(kInternal, "out of memory; `terracut plan` prints what is needed");
+  } catch (const std::exception& error) {
+    return refuse(kInternal, error.what());
+  }
+}
+
 }  // namespace
 }  // namespace terracut::cli
 
@@ -56,11 +66,5 @@ int main(int argc, char** argv) {
   using namespace terracut::cli;
   hold_standard_descriptors();
   std::signal(SIGPIPE, SIG_IGN);  // a reader that has gone is an error of one write, not an end
-  try {
-    return end_output(run(std::vector<std::string>(argv + 1, argv + argc)));
-  } catch (const std::bad_alloc&) {
-    return refuse(kInternal, "out of memory; `terracut plan` prints what is needed");
-  } catch (const std::exception& error) {
-    return refuse(kInternal, error.what());
-  }
+  return end_output(run(std::vector<std::string>(argv + 1, argv + argc)));
 }

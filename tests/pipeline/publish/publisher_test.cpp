@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <future>
 #include <mutex>
+#include <new>
 #include <set>
 #include <string>
 #include <utility>
@@ -24,7 +25,7 @@ struct Watched {
   std::mutex mutex;
   std::condition_variable changed;
   bool is_open = true;  ///< Closed: put() waits in it.
-  bool fails = false;
+  bool fails = false, throws = false;
   std::chrono::milliseconds frame_takes{0};  ///< put() takes so long
   Numbers begun, done;
   std::set<const stream::LabelledPoint*> rooms;  ///< Where points lay.
@@ -52,6 +53,7 @@ class WatchedSink final : public FrameSink {
     watched_.changed.notify_all();
     watched_.changed.wait(lock, [&] { return watched_.is_open; });
     watched_.changed.wait_for(lock, watched_.frame_takes, [] { return false; });
+    if (watched_.throws) throw std::bad_alloc();
     if (watched_.fails) return fail(ErrorCode::kWriteFailed, "no room on the disk");
     watched_.rooms.insert(frame.points.data());
     watched_.done.push_back(frame.record.info.number);
@@ -167,6 +169,19 @@ TEST_F(PublisherTest, AnOutputThatFailsSaysSoOnceAndTheOthersGoOn) {
     ASSERT_FALSE(publisher.outcome());
     EXPECT_EQ(publisher.outcome().error().message, "no room on the disk");
   }
+}
+
+TEST_F(PublisherTest, AnOutputThatThrowsHasFailedAndTheOthersGoOn) {
+  Publisher& publisher = make(WhenFull::kDropOldest);
+  slow_.throws = true;
+  for (std::uint32_t number = 0; number < 10; ++number) {
+    put(publisher, number);
+    wait_for_quick(number + 1);
+  }
+  EXPECT_TRUE(publisher.finish(std::nullopt));
+  ASSERT_EQ(said_.size(), 1U);
+  EXPECT_EQ(loss(publisher, "slow_frames_left_out"), 10U);
+  EXPECT_FALSE(publisher.outcome());
 }
 
 TEST_F(PublisherTest, OneThatNeverAnswersIsGivenUp) {

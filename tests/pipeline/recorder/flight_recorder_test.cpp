@@ -16,11 +16,11 @@
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/decode/decoder.hpp"
-#include "small_disk.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/ruby128/random_stream.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/small_disk.hpp"
 
 namespace terracut::test {
 namespace {

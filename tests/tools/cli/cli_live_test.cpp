@@ -12,8 +12,7 @@
 #include "firmware_io/net/udp_source.hpp"
 #include "pipeline/stream/stream_address.hpp"
 #include "tests/support/frame_stream_reader.hpp"
-#include "tests/tools/cli/live/live_run.hpp"
-#include "tools/cli/exit_codes.hpp"
+#include "tests/tools/cli/live/cli_live.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 
 namespace terracut::cli {
@@ -23,66 +22,33 @@ using testing::AnyOf;
 using testing::Eq;
 using testing::HasSubstr;
 
-class CliLive : public Cli {
- protected:
-  void SetUp() override {
-    Cli::SetUp();
-    if (!fs::is_directory("/dev/shm")) GTEST_SKIP() << "there is no /dev/shm";
-  }
-  /// A live run with these options on a port of its own.
-  [[nodiscard]] LiveRun live(const std::string& options) const { return {folder_, options}; }
-  /// One that has the calibration of the sensors below.
-  [[nodiscard]] LiveRun live_with_table(const std::string& options) const {
-    return live("--calibration " + quoted(kDriveCalibration) + " " + options);
-  }
-  /// A sensor at each of these addresses that sends to this run.
-  [[nodiscard]] static Sensors sensors_at(std::vector<std::uint32_t> addresses, LiveRun& run) {
-    return {addresses, {{Sensors::kAnyPort, run.port()}}, kDrive};
-  }
-  [[nodiscard]] static Sensors sensor(LiveRun& run) {
-    return sensors_at({Sensors::kLocalhost}, run);
-  }
-  /// What `terracut dump` says of this run once that has heard its sensor.
-  [[nodiscard]] Outcome dump_of(LiveRun& live_run) {
-    EXPECT_TRUE(labels(live_run, 1));
-    return run("dump " + LiveRun::name() + " --wait 60");
-  }
-  /// A Ruby128's capture with what it says of itself, which comes once a second, before every 100th
-  /// packet: a run waits seconds for it, in which a busy machine hears little of the stream.
-  void tell_angles_often(const std::string& from, const std::string& to) const {
-    auto capture = capture::PcapSource::open(folder_ / from);
-    auto often = capture::PcapWriter::create(folder_ / to);
-    ASSERT_TRUE(capture && often);
-    std::vector<std::uint8_t> told;
-    std::uint16_t device_port = 0;
-    for (std::size_t n = 0;; ++n) {
-      const auto next = capture->next();
-      ASSERT_TRUE(next) << next.error().message;
-      if (!*next) break;
-      decode::Datagram datagram = **next;
-      if (n == 0) {
-        told.assign(datagram.payload.begin(), datagram.payload.end());
-        device_port = datagram.destination_port;
-      }
-      ASSERT_TRUE(often->write(datagram));
-      datagram.payload = told;
-      datagram.destination_port = device_port;
-      if (n % 100 == 0) {
-        ASSERT_TRUE(often->write(datagram));
-      }
+/// A Ruby128's capture with what it says of itself, which comes once a second, before every 100th
+/// packet: a run waits seconds for it, in which a busy machine hears little of the stream.
+void tell_angles_often(const fs::path& from, const fs::path& to) {
+  auto capture = capture::PcapSource::open(from);
+  auto often = capture::PcapWriter::create(to);
+  ASSERT_TRUE(capture && often);
+  std::vector<std::uint8_t> told;
+  std::uint16_t device_port = 0;
+  for (std::size_t n = 0;; ++n) {
+    const auto next = capture->next();
+    ASSERT_TRUE(next) << next.error().message;
+    if (!*next) break;
+    decode::Datagram datagram = **next;
+    if (n == 0) {
+      told.assign(datagram.payload.begin(), datagram.payload.end());
+      device_port = datagram.destination_port;
     }
-    ASSERT_EQ(device_port, 7788) << "the capture begins with what the sensor says of itself";
-    ASSERT_TRUE(often->finish());
+    ASSERT_TRUE(often->write(datagram));
+    datagram.payload = told;
+    datagram.destination_port = device_port;
+    if (n % 100 == 0) {
+      ASSERT_TRUE(often->write(datagram));
+    }
   }
-  /// Waits until so many frames have labels.
-  [[nodiscard]] static bool labels(LiveRun& run, std::uint64_t frames) {
-    return run.shows([=](const auto& figures) { return LiveRun::labelled(figures) >= frames; });
-  }
-  /// A run that was interrupted: how many deadlines it met is the machine's affair.
-  static void expect_good_end(const Outcome& outcome) {
-    EXPECT_THAT(outcome.exit_code, AnyOf(Eq(kOk), Eq(kDeadlinesMissed))) << outcome.err;
-  }
-};
+  ASSERT_EQ(device_port, 7788) << "the capture begins with what the sensor says of itself";
+  ASSERT_TRUE(often->finish());
+}
 
 TEST_F(CliLive, FindsTheMountBeforeItLabels) {
   LiveRun run = live_with_table("--json live.json");
@@ -208,7 +174,7 @@ TEST_F(CliLive, LeavesOutASensorThatIsSwitchedOnLater) {
 
 TEST_F(CliLive, TakesTheAnglesOfARuby128FromItsOtherPort) {
   expect_done("simulate --sensor ruby128 --scene flat --duration 0.5 -o ruby.pcap");
-  tell_angles_often("ruby.pcap", "often.pcap");
+  tell_angles_often(folder_ / "ruby.pcap", folder_ / "often.pcap");
   // Held by this test, so that nobody else gets it, and shared with the run.
   memory::FixedMemory memory;
   const auto device = net::UdpSource::open({.share_port = true}, memory);

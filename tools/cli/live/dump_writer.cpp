@@ -10,6 +10,7 @@
 #include <variant>
 
 #include "pipeline/page/status_page.hpp"
+#include "rt/caught.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/lab/encode/hdl64e_encoder_traits.hpp"
 #include "tools/lab/encode/ruby128_encoder_traits.hpp"
@@ -40,7 +41,8 @@ DumpWriter::DumpWriter(const Options& options, calib::SensorCalibration calibrat
       stage_names_(stage_names),
       policy_({.folder = dump_folder_of(options)}),
       answers_(page::status_page_folder(), options.watch.name),
-      thread_([this] { work(); }) {}
+      thread_([this] { work(); },
+              [](std::string_view why) { warn(fmt::format("no more dumps: {}", why)); }) {}
 
 void DumpWriter::want(DumpReason reason, std::vector<status::FrameRecord> frames) {
   {
@@ -52,12 +54,16 @@ void DumpWriter::want(DumpReason reason, std::vector<status::FrameRecord> frames
 }
 
 bool DumpWriter::finish(std::chrono::milliseconds patience) {
+  begin_to_finish();
+  return thread_.ends_within(patience);
+}
+
+void DumpWriter::begin_to_finish() {
   {
     const std::scoped_lock lock(mutex_);
     finish_ = true;
   }
   changed_.notify_one();
-  return thread_.ends_within(patience);
 }
 
 void DumpWriter::work() {
@@ -95,7 +101,15 @@ void DumpWriter::add_table(recorder::DumpReport& dump) const {
 }
 
 void DumpWriter::dump(DumpReason reason, const std::vector<status::FrameRecord>& frames) {
-  auto outcome = recorder_.dump(policy_, reason, {frames, stage_names_});
+  tl::expected<recorder::DumpReport, recorder::RefusedDump> outcome;
+  const Status tried = rt::caught([&]() -> Status {
+    outcome = recorder_.dump(policy_, reason, {frames, stage_names_});
+    return {};
+  });
+  if (!tried) {
+    outcome = tl::unexpected(
+        recorder::RefusedDump{recorder::DumpRefusal::kWriteFailed, tried.error().message});
+  }
   if (outcome) {
     add_table(*outcome);
     say(fmt::format("dumped {} datagrams to {}", outcome->datagrams, outcome->capture.string()));

@@ -30,6 +30,7 @@ class DumpWriter {
   /// `recorder` and `stage_names` must outlive this. `calibration`, in use, goes beside each dump.
   DumpWriter(const Options& options, calib::SensorCalibration calibration,
              recorder::FlightRecorder& recorder, std::span<const std::string_view> stage_names);
+  ~DumpWriter() { begin_to_finish(); }
 
   /// `frames`: the times of the newest frames.
   void want(recorder::DumpReason reason, std::vector<status::FrameRecord> frames);
@@ -38,6 +39,7 @@ class DumpWriter {
   [[nodiscard]] bool finish(std::chrono::milliseconds patience);
 
  private:
+  void begin_to_finish();
   void work();
   void dump(recorder::DumpReason reason, const std::vector<status::FrameRecord>& frames);
   void add_table(recorder::DumpReport& dump) const;

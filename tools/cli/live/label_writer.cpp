@@ -5,12 +5,20 @@
 #include <fmt/format.h>
 
 #include "pipeline/output/label_sink.hpp"
+#include "rt/caught.hpp"
+#include "rt/files/room_left.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
 
 LabelWriter::LabelWriter(const std::filesystem::path& folder, Slots& slots)
-    : folder_(folder, ".label"), slots_(slots), thread_([this] { work(); }) {}
+    : place_(folder),
+      folder_(folder, ".label"),
+      slots_(slots),
+      thread_(
+          [this] { work(); },
+          [](std::string_view why) { warn(fmt::format("no more labels are written: {}", why)); }) {}
 
 bool LabelWriter::finish(std::chrono::milliseconds patience) {
   finish_ = true;
@@ -27,13 +35,28 @@ void LabelWriter::work() {
 }
 
 bool LabelWriter::write(const Slots::Frame& frame) {
-  if (!outcome_) return false;
-  outcome_ = folder_.place(fmt::format("{:06}.label", frame.record.info.number))
-                 .and_then([&](const std::filesystem::path& path) {
-                   return output::write_label_file(path, frame.items);
-                 });
-  if (!outcome_) warn("no more labels are written: " + outcome_.error().message);
-  return outcome_.has_value();
+  constexpr std::int64_t kAgainAfter_ns = 1'000'000'000;
+  const std::int64_t now_ns = measure::monotonic_ns();
+  if (now_ns < try_again_ns_) return false;
+  const Status written = rt::caught([&] { return try_to_write(frame); });
+  const bool was_written = try_again_ns_ == 0;
+  try_again_ns_ = written ? 0 : now_ns + kAgainAfter_ns;
+  if (written && !was_written) say("labels are written again: " + place_.string());
+  if (written) return true;
+  if (was_written) {
+    warn(fmt::format("no labels are written, which is tried again every second: {}",
+                     written.error().message));
+  }
+  if (outcome_) outcome_ = written;
+  return false;
+}
+
+Status LabelWriter::try_to_write(const Slots::Frame& frame) {
+  if (Status room = files::check_room_left(place_); !room) return room;
+  return folder_.place(fmt::format("{:06}.label", frame.record.info.number))
+      .and_then([&](const std::filesystem::path& path) {
+        return output::write_label_file(path, frame.items);
+      });
 }
 
 }  // namespace terracut::cli

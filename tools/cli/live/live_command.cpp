@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <cstdlib>
 #include <memory>
 #include <optional>
@@ -24,6 +23,7 @@
 #include "pipeline/run/frame_outlet.hpp"
 #include "pipeline/run/live_threads.hpp"
 #include "pipeline/run/vehicle_motion.hpp"
+#include "rt/caught.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/locked_memory.hpp"
 #include "tools/cli/commands.hpp"
@@ -317,6 +317,7 @@ ExitCode conclude(const Options& options, const LiveWatch& watch) {
 ExitCode run_live(const Options& options) {
   if (const Status ready = check_before_listening(options); !ready) return refuse(ready.error());
   DumpSignal dump_wanted;  // before any thread: they inherit that the signal is blocked
+  write_in_background();
   catch_stop_signals();
   if (options.realtime.lock_memory) say_refusals(memory::hold_memory({}));
 
@@ -378,17 +379,20 @@ ExitCode run_live(const Options& options) {
   }
   say_refusals(parts.start(options));
   parts.watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());
-  run_until_stopped(options, *sensor, parts, writers, dump_wanted, service);
+  const Status ran = rt::caught([&]() -> Status {
+    run_until_stopped(options, *sensor, parts, writers, dump_wanted, service);
+    return {};
+  });
   service.stopping();
   parts.stop();
   parts.watch.work_round();
   const bool disk_answers = writers.finish();
   parts.watch.last_round();
   ExitCode code = conclude(options, parts.watch);
+  if (!ran) code = refuse(ran.error());
   if (disk_answers) return writers.wrote_all() ? code : kOutputFailed;
   warn("the disk does not answer: what was not written by now is lost");
-  std::fflush(nullptr);
-  std::_Exit(kOutputFailed);  // threads that wait for it cannot be ended otherwise
+  std::_Exit(end_output(kOutputFailed));  // threads that wait for it cannot be ended otherwise
 }
 
 }  // namespace terracut::cli

@@ -134,7 +134,8 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   status::show_losses(status::causes_of(losses), figures);
   status::show_losses(status::causes_of(account.source), figures);
   std::vector<status::NamedCount> more{{"let_go_packets", account.let_go},
-                                       {"untimed_frames", threads_.records_dropped()}};
+                                       {"untimed_frames", threads_.records_dropped()},
+                                       {"lost_messages", lost_messages()}};
   // At the end nothing waits any more that was not held up for good.
   const auto lost = [&](const auto* slots) {
     return slots->unused() + (over_ ? slots->waiting() : 0);

@@ -26,6 +26,7 @@ namespace terracut::cli {
 ExitCode run_node(const Options& options) {
   if (const Status ready = check_inputs(options); !ready) return refuse(ready.error());
   catch_stop_signals();
+  write_in_background();
   const DdsOptions& topics = options.output.dds;
   const auto participant = dds::Participant::open(participant_config_of(topics));
   if (!participant) return refuse(participant.error());

@@ -7,6 +7,7 @@
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
+#include "tools/cli/console.hpp"
 #include "tools/cli/live/live_watch.hpp"
 
 namespace terracut::cli {
@@ -41,6 +42,7 @@ void NodeWatch::work_round(std::uint64_t lost) {
   status::show_losses(state.losses, figures);
   const std::uint64_t skipped = figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
   status::show_losses(std::array{status::NamedCount{"lost_clouds", lost},
+                                 status::NamedCount{"lost_messages", lost_messages()},
                                  status::NamedCount{"skipped_frames", skipped}},
                       figures);
   display_.show(figures);

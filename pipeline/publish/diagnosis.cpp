@@ -59,6 +59,7 @@ Diagnosis of_input(const status::MonitorSnapshot& f) {
   }
   input.values = {{"from", std::string(f.input.view())},
                   {"packets", std::to_string(f.packets)},
+                  {"datagrams_before_labelling", std::to_string(f.before_labelling)},
                   {"times_silent", std::to_string(f.silences)}};
   return input;
 }

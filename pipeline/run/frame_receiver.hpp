@@ -58,7 +58,8 @@ class FrameReceiver {
     sensor::ToldTable* told_table = nullptr;
   };
 
-  /// What waits in `source` is too old for a label and no loss of the run: it is thrown away.
+  /// What waits in `source` is too old for a label and no loss of the run: it is thrown away, and
+  /// counted with what came before.
   FrameReceiver(const Config& config, LivePipeline& pipeline, Source& source,
                 const Outlets& outlets, Clock clock, Wait wait) noexcept
       : config_(config),
@@ -80,6 +81,7 @@ class FrameReceiver {
     before_ = source_.counters();
     received_ = before_.received;
     received_before_frame_ = received_;
+    publish();
   }
 
   struct Round {
@@ -230,6 +232,7 @@ class FrameReceiver {
     intake.account.losses.kernel_drops = intake.account.source.kernel_drops;
     intake.link = source_.link();
     intake.newest_packet_ns = newest_packet_ns_;
+    intake.before_labelling = before_.received + before_.kernel_drops;
     intake.blind = pipeline_.decoder.blind();
     (void)to_.intake->publish();
   }

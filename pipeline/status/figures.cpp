@@ -115,7 +115,8 @@ void add_input(const MonitorSnapshot& f, Table& table) {
     {{}, heard ? Value(between(f.last_packet_ns, f.taken_ns)) : Value("no packet yet"), {},
      {"link", heard ? "last packet {s:.3f} s ago" : "{}"}},
     {"packets", f.packets, {"terracut_packets_total", "Datagrams taken in."},
-     {"link", "{} packets"}},
+     {"link", "{} packets", f.before_labelling > 0 ? Shown::kIfAny : Shown::kAlways}},
+    {{}, f.before_labelling, {}, {"link", "{} datagrams before labelling began", Shown::kIfAny}},
     {"last_packet_ns", TimeOfDay{f.last_packet_ns},
      {"terracut_last_packet_time_seconds", "Kernel's stamp of the newest packet, since 1970."}},
     {"head_stands", f.head_stands != 0,
@@ -132,6 +133,9 @@ void add_input(const MonitorSnapshot& f, Table& table) {
     {"received", f.received,
      {"terracut_datagrams_received_total", "Datagrams the kernel handed over: the sum of "
       "terracut_datagrams_total and terracut_datagrams_in_doubt."}},
+    {"before_labelling", f.before_labelling,
+     {"terracut_datagrams_before_labelling_total", "Datagrams that came while the sensor, its table "
+      "and its mount were found; none of them is in terracut_datagrams_received_total."}},
     {"in_doubt", f.in_doubt,
      {"terracut_datagrams_in_doubt",
       "Datagrams that contradict the stream, until others bear them out or the stream goes on."}},
@@ -155,7 +159,7 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
      {"frames", "{} not judged: their stamps give no latency", Shown::kIfAny}},
     {"levels", counts_of<Level>("level", f.levels),
      {"terracut_frames_total", "Frames judged, by the degradation level they got to."},
-     {"levels"}}});
+     {"levels", "{}", f.frames > 0 ? Shown::kAlways : Shown::kIfAny}}});
   table.add("", {
     {"deadline_ms", Duration{f.deadline_ns},
      {"terracut_deadline_seconds", "Allowed from a frame's last packet to its labels."},

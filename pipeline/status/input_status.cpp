@@ -13,7 +13,7 @@ LinkState link_of(const InputState& input, const MonitorSnapshot& figures) noexc
   if (input.link == net::LinkState::kGone || input.link == net::LinkState::kDown) {
     return LinkState::kInterfaceGone;
   }
-  if (figures.packets == 0) return LinkState::kWaiting;
+  if (figures.last_packet_ns == 0) return LinkState::kWaiting;
   const bool silent = figures.taken_ns - figures.last_packet_ns > kSilence_ns;
   return silent ? LinkState::kSilent : LinkState::kReceiving;
 }
@@ -22,6 +22,7 @@ LinkState link_of(const InputState& input, const MonitorSnapshot& figures) noexc
 
 std::string InputStatus::show(const InputState& input, MonitorSnapshot& figures) {
   show_datagrams(input.account, figures);
+  figures.before_labelling = input.before_labelling;
   figures.head_stands = standing_head_.is_standing(input.account) ? 1 : 0;
   figures.blind_from_cdeg = input.blind.from_cdeg;
   figures.blind_to_cdeg = input.blind.to_cdeg;

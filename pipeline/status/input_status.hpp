@@ -16,9 +16,11 @@ namespace terracut::status {
 
 /// What came in, as of the newest look of the receiving thread.
 struct InputState {
-  net::DatagramAccount account;  ///< Since the start.
+  net::DatagramAccount account;  ///< Since labelling began.
   net::LinkState link = net::LinkState::kUnknown;
   std::int64_t newest_packet_ns = 0;  ///< Kernel's stamp; 0: none yet.
+  /// Datagrams that came, or were dropped, before labelling began; none of them is in `account`.
+  std::uint64_t before_labelling = 0;
   frame::BlindAzimuths blind;
 };
 

@@ -22,7 +22,7 @@ namespace terracut::status {
 
 /// What is known of the sensor's link.
 enum class LinkState : std::uint8_t {
-  kWaiting,        ///< No packet has come since the start.
+  kWaiting,        ///< No packet has come yet.
   kReceiving,      ///< Packets are coming.
   kSilent,         ///< Packets came, but none lately.
   kInterfaceGone,  ///< The network interface was removed or is down.
@@ -52,7 +52,7 @@ struct ThreadStatus {
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
   /// To be raised with every change of what lies where.
-  static constexpr std::uint32_t kLayout = 7;
+  static constexpr std::uint32_t kLayout = 8;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;
@@ -89,6 +89,9 @@ struct MonitorSnapshot {
   MotionFigures motion;
   HealthFigures health;
 
+  /// Datagrams that came, or were dropped, while the sensor, its table and its mount were found:
+  /// none is among `packets` or `received`.
+  std::uint64_t before_labelling = 0;
   std::uint64_t received = 0;  ///< Datagrams the kernel handed over: `in_doubt` and all `outcomes`.
   std::uint64_t in_doubt = 0;  ///< Whose place in the stream is not known yet.
   std::uint32_t outcome_count = 0;  ///< How many of `outcomes` are in use.

@@ -272,15 +272,17 @@ TEST_F(LiveFrames, CountsWhatTheKernelDroppedLastAtTheEnd) {
   EXPECT_EQ(intake().account.source.kernel_drops, 23'162U);
 }
 
-TEST_F(LiveFrames, WhatCameBeforeTheRunIsNotInItsAccount) {
+TEST_F(LiveFrames, WhatCameBeforeTheRunIsCountedApartFromItsAccount) {
   source_.leave_out(7, 2);
   source_.drops_in_kernel = 5;
   begin_receiving();
+  EXPECT_EQ(intake().before_labelling, 14U);
   source_.leave_out(1, 0);
   (void)receiver_->work_round(100 * kMs);
   EXPECT_EQ(intake().account.source.received, 1U);
   EXPECT_EQ(intake().account.source.foreign, 1U);
   EXPECT_EQ(intake().account.source.kernel_drops, 0U);
+  EXPECT_EQ(intake().before_labelling, 14U);
   expect_balance();
 }
 

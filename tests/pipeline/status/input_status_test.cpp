@@ -25,7 +25,12 @@ class InputStatusTest : public testing::Test {
   }
   std::string look(double at_s, net::LinkState link = net::LinkState::kUp) {
     figures_->taken_ns = kStart_ns + static_cast<std::int64_t>(at_s * 1e9);
-    return status_.show({account_, link, newest_packet_ns_, blind_}, *figures_);
+    return status_.show({.account = account_,
+                         .link = link,
+                         .newest_packet_ns = newest_packet_ns_,
+                         .before_labelling = 3,
+                         .blind = blind_},
+                        *figures_);
   }
 
   net::DatagramAccount account_;
@@ -38,6 +43,7 @@ class InputStatusTest : public testing::Test {
 TEST_F(InputStatusTest, WaitsUntilThePacketsComeAndIsSilentASecondAfterTheLast) {
   EXPECT_EQ(look(5), "");
   EXPECT_EQ(figures_->link, LinkState::kWaiting);
+  EXPECT_EQ(figures_->before_labelling, 3U);
   EXPECT_EQ(hear(6, 6), "");
   EXPECT_EQ(figures_->link, LinkState::kReceiving);
   EXPECT_EQ(look(7), "");

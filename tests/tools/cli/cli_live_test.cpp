@@ -62,6 +62,19 @@ TEST_F(CliLive, FindsTheMountBeforeItLabels) {
   EXPECT_LT(mount["uncertainty"]["pitch_deg"], 1);
 }
 
+TEST_F(CliLive, CountsWhatCameBeforeLabellingBegan) {
+  LiveRun run = live_with_table("--json live.json");
+  const Sensors sender = sensor(run);
+  EXPECT_TRUE(run.shows([](const auto& figures) {
+    return figures.before_labelling > 0 && figures.received == 0 &&
+           figures.link == status::LinkState::kReceiving && figures.deadline_ns > 0;
+  })) << "while it finds the mount";
+  EXPECT_TRUE(labels(run, 1));
+  const Outcome outcome = run.interrupted();
+  EXPECT_THAT(outcome.out, HasSubstr("datagrams before labelling began"));
+  EXPECT_GT(json("live.json")["datagrams"]["before_labelling"], 1000) << "a second of packets";
+}
+
 TEST_F(CliLive, LabelsWhatIsSentToIt) {
   LiveRun run = live_with_table("--labels labels --json live.json --trace trace.json");
   const Sensors sender = sensor(run);

@@ -74,17 +74,27 @@ std::string bars_of_stages(const status::MonitorSnapshot& figures, const status:
 std::string dashboard(const status::MonitorSnapshot& figures, std::int64_t now_ns,
                       const status::LineStyle& style) {
   const std::vector<status::Figure> all = status::figures_of(figures);
-  return title(figures, now_ns, style) + figure_lines(all, style) + '\n' + times_table(all, style) +
-         '\n' + bars_of_stages(figures, style);
+  const std::string lines = title(figures, now_ns, style) + figure_lines(all, style);
+  if (figures.frames == 0) return lines;
+  return lines + '\n' + times_table(all, style) + '\n' + bars_of_stages(figures, style);
 }
 
 std::string closing_lines(const status::MonitorSnapshot& figures) {
   const std::vector<status::Figure> all = status::figures_of(figures);
-  return figure_lines(all, {}) + times_table(all, {});
+  return figure_lines(all, {}) + (figures.frames > 0 ? times_table(all, {}) : "");
 }
 
 std::string why_no_frames(const status::MonitorSnapshot& figures) {
-  if (figures.received == 0) return "no frame came out, because no datagram came in";
+  if (figures.received == 0 && figures.before_labelling == 0) {
+    return "no frame came out, because no datagram came in";
+  }
+  if (figures.received == 0) {
+    return fmt::format(
+        "no frame came out: all {} datagrams came before labelling began, while the sensor, its "
+        "table and its mount were found. A sensor that goes on sending is labelled then; a capture "
+        "needs `terracut send --loop`",
+        figures.before_labelling);
+  }
   return fmt::format("no frame came out of {} datagrams: {}{}", figures.received,
                      status::counts_text(figures.outcomes_in_use()),
                      figures.head_stands != 0 ? "; the sensor's head does not rotate" : "");

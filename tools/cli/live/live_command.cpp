@@ -76,11 +76,13 @@ std::string describe(const sensor::SensorOnAir& sensor) {
 /// Shows whoever looks what a run waits for that has not heard its sensor yet.
 class Waiting {
  public:
-  Waiting(const std::string& input, FiguresDisplay& display, LiveService& service)
-      : display_(display), service_(service) {
+  Waiting(const net::LiveSource& source, std::int64_t deadline_ns, FiguresDisplay& display,
+          LiveService& service)
+      : source_(source), display_(display), service_(service) {
     figures_->version = {TERRACUT_VERSION};
-    figures_->input = {input};
+    figures_->input = {source.name()};
     figures_->started_ns = measure::realtime_ns();
+    figures_->deadline_ns = deadline_ns;
     show("waiting for a sensor");
     service_.ready(*figures_, measure::monotonic_ns());
   }
@@ -96,17 +98,33 @@ class Waiting {
     say_at_ns_ = now_ns + kSayEvery_ns;
   }
 
+  /// The run was stopped before labelling began.
+  [[nodiscard]] ExitCode end(const Options& options) const {
+    fmt::print("{}", closing_lines(*figures_));
+    const Status written = write_json(options.output.json, live_summary(*figures_));
+    if (!written) return refuse(written.error());
+    return options.capture.duration_s ? kInterrupted : kOk;
+  }
+
  private:
   static constexpr std::int64_t kSayFirst_ns = 2'000'000'000, kSayEvery_ns = 30'000'000'000;
 
   void show(const std::string& what) {
     figures_->sensor = {what};
     figures_->taken_ns = measure::realtime_ns();
+    const std::uint64_t heard = source_.counters().received;
+    if (heard != intake_.before_labelling) intake_.newest_packet_ns = figures_->taken_ns;
+    intake_.before_labelling = heard;
+    intake_.link = source_.link();
+    if (const std::string news = input_.show(intake_, *figures_); !news.empty()) say(news);
     display_.show(*figures_);
   }
 
+  const net::LiveSource& source_;
   FiguresDisplay& display_;
   LiveService& service_;
+  status::InputState intake_;
+  status::InputStatus input_;
   std::unique_ptr<status::MonitorSnapshot> figures_ = std::make_unique<status::MonitorSnapshot>();
   std::string said_;
   std::int64_t say_at_ns_ = measure::monotonic_ns() + kSayFirst_ns;
@@ -336,10 +354,10 @@ ExitCode run_live(const Options& options) {
     signals = *std::move(found);
   }
   FiguresDisplay display(options.watch);
-  Waiting waiting(source->name(), display, service);
+  Waiting waiting(*source, static_cast<std::int64_t>(options.deadline_ms * 1e6), display, service);
   const auto sensor = listen_for_sensor(*source, options,
                                         [&](const std::string& what) { waiting.work_round(what); });
-  if (stop_wanted()) return options.capture.duration_s ? kInterrupted : kOk;
+  if (stop_wanted()) return waiting.end(options);
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));
@@ -348,7 +366,7 @@ ExitCode run_live(const Options& options) {
                   calib::fingerprint(sensor->calibration)));
   const MountChoice mount = mount_on_air(
       *source, *sensor, options, [&](const std::string& what) { waiting.work_round(what); });
-  if (stop_wanted()) return options.capture.duration_s ? kInterrupted : kOk;
+  if (stop_wanted()) return waiting.end(options);
   const auto profile = ring_profile_of(sensor->calibration, mount.options);
   if (!profile) return refuse(profile.error());
 

@@ -63,6 +63,7 @@ TEST(MetricsText, TellsWhereEachDatagramWent) {
     if (name.starts_with("terracut_datagrams_total{")) sum += value;
   }
   EXPECT_EQ(samples["terracut_datagrams_received_total"], 34'802);
+  EXPECT_EQ(samples.at("terracut_datagrams_before_labelling_total"), 0);
   EXPECT_EQ(sum, 34'802);
   EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"decoded\"}"], 34'782);
   EXPECT_EQ(samples["terracut_datagrams_total{outcome=\"foreign\"}"], 2);
@@ -303,7 +304,9 @@ TEST_F(MetricsServerOf, StopsThoughAClientKeepsItsConnection) {
   const std::uint16_t port = server->port();
   const Client dawdling(port);
   dawdling.send("GET /metrics HTTP/1.1\r\n");
-  { const MetricsServer stopped = std::move(*server); }
+  {
+    const MetricsServer stopped = std::move(*server);
+  }
   EXPECT_FALSE(Client(port).connected());
 }
 

@@ -144,11 +144,35 @@ TEST(Dashboard, SaysWhenThereIsNoNews) {
               HasSubstr("no news for 00:01:40"));
 }
 
-TEST(Dashboard, ShowsAProcessThatHasSeenNothingYet) {
+TEST(Dashboard, ShowsAProcessThatHasSeenNothingYetWithoutTablesOfZeros) {
   const auto figures = std::make_unique<status::MonitorSnapshot>();
   const std::string text = dashboard(*figures, kNow_ns, {});
-  EXPECT_THAT(line_of(text, "link"), HasSubstr("waiting, no packet yet"));
+  EXPECT_THAT(line_of(text, "link"), HasSubstr("waiting, no packet yet, 0 packets"));
   EXPECT_THAT(line_of(text, "losses"), HasSubstr("none"));
+  for (const std::string& shown : {text, closing_lines(*figures)}) {
+    EXPECT_THAT(shown, Not(HasSubstr("p50")));
+    EXPECT_THAT(shown, Not(HasSubstr("levels")));
+  }
+}
+
+TEST(Dashboard, TellsWhatCameBeforeLabellingBegan) {
+  status::WatchedRun run;
+  EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}), Not(HasSubstr("before labelling")));
+  run.figures().before_labelling = 8123;
+  EXPECT_THAT(line_of(dashboard(run.figures(), kNow_ns, {}), "link"),
+              HasSubstr("34800 packets, 8123 datagrams before labelling began"));
+  run.figures().packets = 0;
+  EXPECT_THAT(line_of(closing_lines(run.figures()), "link"), Not(HasSubstr("0 packets")));
+}
+
+TEST(WhyNoFrames, IsThatAllCameBeforeLabellingBeganOrThatNothingCame) {
+  const auto figures = std::make_unique<status::MonitorSnapshot>();
+  EXPECT_THAT(why_no_frames(*figures), HasSubstr("no datagram came in"));
+  figures->before_labelling = 10'418;
+  EXPECT_THAT(why_no_frames(*figures),
+              HasSubstr("all 10418 datagrams came before labelling began"));
+  figures->received = 5;
+  EXPECT_THAT(why_no_frames(*figures), HasSubstr("out of 5 datagrams"));
 }
 
 }  // namespace

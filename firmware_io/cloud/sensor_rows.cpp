@@ -31,7 +31,7 @@ constexpr double kAlike_m = 0.01;
 Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t lasers) {
   const RingTable from_origin(lasers);
   auto plain = fit.fit(&from_origin);
-  if (!plain) return plain;
+  if (!plain) return fit.fit_seen(from_origin);
   auto free = fit.fit();
   if (free && free->residual.p95_m + kAlike_m < plain->residual.p95_m) return free;
   return plain;

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "calib/beams/angle.hpp"
 #include "firmware_io/scan/line_fit.hpp"
@@ -38,6 +39,9 @@ HeightResidual summarise(std::vector<double>& sizes) {
   return residual;
 }
 
+/// Of a ring that was put beyond those with a fit; a whole table of the least steps ends below 90.
+constexpr double kSteepest_rad = beams::deg_to_rad(80.0);
+
 /// Puts rings without a fit between, or beyond, those that have one.
 void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
   const int rings = static_cast<int>(lines.size());
@@ -46,7 +50,8 @@ void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
     int above = ring, below = ring;
     while (above >= 0 && !lines[static_cast<std::size_t>(above)]) --above;
     while (below < rings && !lines[static_cast<std::size_t>(below)]) ++below;
-    if (above < 0 || below >= rings) {  // beyond the last fitted ring: go on at its pitch
+    const bool is_beyond = above < 0 || below >= rings;
+    if (is_beyond) {  // the last fitted ring: go on at its pitch
       const int step = above < 0 ? 1 : -1;
       int near = ring, far;
       while (!lines[static_cast<std::size_t>(near)]) near += step;
@@ -58,8 +63,12 @@ void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
     const RingLine a = *lines[static_cast<std::size_t>(above)];
     const RingLine b = *lines[static_cast<std::size_t>(below)];
     const double share = static_cast<double>(ring - above) / (below - above);
-    lines[static_cast<std::size_t>(ring)] =
-        RingLine{a.elevation_rad + share * (b.elevation_rad - a.elevation_rad), a.vert_offset_m};
+    // Noise may have put the last two into each other's place.
+    const double fall_rad = (a.elevation_rad - b.elevation_rad) * (below > above ? 1 : -1);
+    const double apart_rad = std::max(fall_rad, kMinStep_rad) * (below > above ? -1 : 1);
+    double elevation_rad = a.elevation_rad + share * apart_rad;
+    if (is_beyond) elevation_rad = std::clamp(elevation_rad, -kSteepest_rad, kSteepest_rad);
+    lines[static_cast<std::size_t>(ring)] = RingLine{elevation_rad, a.vert_offset_m};
   }
 }
 
@@ -108,8 +117,7 @@ RingLine RingTableFit::through(const Ring& ring, double vert_offset_m) {
 }
 
 Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
-  std::vector<std::optional<RingLine>> lines(rings_.size());
-  FittedRings fitted;
+  Lines lines(rings_.size());
   std::vector<LinePoint> points;
   for (std::size_t ring = 0; ring < lines.size(); ++ring) {
     if (rings_[ring].samples.size() < kMinPointsPerRing) continue;
@@ -131,14 +139,43 @@ Expected<FittedRings> RingTableFit::fit(const RingTable* offsets) const {
                     "give the unit's calibration",
                     found, lines.size(), kMinPointsPerRing));
   }
+  return table_of(std::move(lines));
+}
+
+Expected<FittedRings> RingTableFit::fit_seen(const RingTable& offsets) const {
+  constexpr std::size_t kFewestRings = 4;
+  Lines lines(rings_.size());
+  std::size_t found = 0, points_of_found = 0, points = 0;
+  for (std::size_t ring = 0; ring < lines.size(); ++ring) {
+    points += rings_[ring].seen;
+    if (rings_[ring].samples.size() < kMinPointsPerSeenRing) continue;
+    lines[ring] = through(rings_[ring], offsets[ring].vert_offset_m);
+    points_of_found += rings_[ring].seen;
+    ++found;
+  }
+  if (found < kFewestRings || 2 * points_of_found < points) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("only {} of {} rings have the {} points that tell where a laser looks; "
+                            "give whole revolutions, or more of them",
+                            found, lines.size(), kMinPointsPerSeenRing));
+  }
+  return table_of(std::move(lines));
+}
+
+FittedRings RingTableFit::table_of(Lines lines) const {
+  std::vector<bool> has_line;
+  for (const auto& line : lines) has_line.push_back(line.has_value());
   fill_gaps(lines);
 
+  FittedRings fitted;
   std::vector<double> all;
   for (std::size_t ring = 0; ring < lines.size(); ++ring) {
     RingLine line = *lines[ring];
+    fitted.with_line += has_line[ring] ? 1U : 0U;
     if (ring > 0) {
-      line.elevation_rad =
-          std::min(line.elevation_rad, fitted.table[ring - 1].elevation_rad - kMinStep_rad);
+      const double highest_rad = fitted.table[ring - 1].elevation_rad - kMinStep_rad;
+      fitted.coinciding += has_line[ring] && line.elevation_rad > highest_rad ? 1U : 0U;
+      line.elevation_rad = std::min(line.elevation_rad, highest_rad);
     }
     fitted.table.push_back(line);
     fitted.by_ring.push_back(residual(line, rings_[ring], all));

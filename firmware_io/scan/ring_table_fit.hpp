@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -26,6 +27,9 @@ struct FittedRings {
   HeightResidual residual;  ///< Over all rings.
   std::vector<HeightResidual> by_ring;
   bool from_nominal_table = false;  ///< No scan had all rings (ScanReader::fit_rings()).
+  /// Of the rings with a line of their own: whose points look no lower than the ring's above them.
+  std::size_t coinciding = 0;
+  std::size_t with_line = 0;  ///< Rings with a line of their own; the others' is put between them.
 };
 
 /// Finds elevation and vertical offset of every ring of a unit from scans whose rings are known.
@@ -41,6 +45,7 @@ class RingTableFit {
  public:
   static constexpr std::size_t kPointsPerRing = 60000;
   static constexpr std::size_t kMinPointsPerRing = 100;
+  static constexpr std::size_t kMinPointsPerSeenRing = 10;
 
   explicit RingTableFit(int rings = kScanRings) : rings_(static_cast<std::size_t>(rings)) {}
 
@@ -54,6 +59,11 @@ class RingTableFit {
   /// rings have enough points.
   [[nodiscard]] Expected<FittedRings> fit(const RingTable* offsets = nullptr) const;
 
+  /// The same where rings may have seen nothing or little, as those above the horizon of an open
+  /// field, or all of a narrow view: a ring's elevation takes ten points. Error kMalformed when
+  /// these rings are fewer than four or do not hold half of the points.
+  [[nodiscard]] Expected<FittedRings> fit_seen(const RingTable& offsets) const;
+
  private:
   struct Sample {
     float distance_m, z_m;
@@ -64,6 +74,9 @@ class RingTableFit {
     std::size_t stride = 1;  ///< Every stride-th point is kept.
   };
 
+  using Lines = std::vector<std::optional<RingLine>>;
+
+  [[nodiscard]] FittedRings table_of(Lines lines) const;
   [[nodiscard]] static RingLine through(const Ring& ring, double vert_offset_m);
   [[nodiscard]] static HeightResidual residual(const RingLine& line, const Ring& ring,
                                                std::vector<double>& all);

@@ -186,6 +186,42 @@ TEST(SensorRows, OfALaserWithoutReturnsInTheFirstCloudHaveTheirPlaceByItsNumber)
   expect_rings(learnt_from({points, laser}), {whole.points, whole.laser}, whole.ring);
 }
 
+TEST(SensorRows, AreThoseOfAnOpenFieldWhereMostLasersLookIntoTheSky) {
+  const RingTable table = uneven_rings(64, 40, 0.6);
+  KnownCloud cloud = known_cloud(table, 400, [](int ring) { return 63 - ring; });
+  std::size_t in_the_sky = 0;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    if (table[i / 400].elevation_rad < -0.02) continue;
+    cloud.points[i] = {};
+    cloud.ring[i] = kNoRing;
+    ++in_the_sky;
+  }
+  ASSERT_GT(in_the_sky, cloud.points.size() / 2);
+  for (const CloudView& view :
+       {CloudView{cloud.points, cloud.laser}, CloudView{cloud.points, {}, 64}}) {
+    const auto rows = learnt_from(view);
+    expect_rings(rows, view, cloud.ring);
+    EXPECT_EQ(rows->columns, 400);
+    EXPECT_NEAR(rows->rings.table.back().elevation_rad, table.back().elevation_rad, 1e-3);
+  }
+}
+
+TEST(SensorRows, AreThoseOfANarrowViewWithFewPointsALaser) {
+  const RingTable table = uneven_rings(64, 20, 0.3);
+  const KnownCloud whole = known_cloud(table, 512, [](int ring) { return ring; });
+  KnownCloud view;
+  for (std::size_t i = 0; i < whole.points.size(); ++i) {
+    if (i % 512 >= 85) continue;  // 60 degrees
+    view.points.push_back(whole.points[i]);
+    view.laser.push_back(whole.laser[i]);
+    view.ring.push_back(whole.ring[i]);
+  }
+  const auto rows = learnt_from({view.points, view.laser});
+  expect_rings(rows, {view.points, view.laser}, view.ring);
+  expect_table(rows->rings.table, table);
+  EXPECT_EQ(rows->columns, 512);
+}
+
 TEST(SensorRows, AreRefusedWhereThereAreNone) {
   std::vector<ScanPoint> points;
   std::mt19937 random(1);

@@ -124,6 +124,71 @@ TEST(RingTableFit, RefusesTooFewPoints) {
   EXPECT_THAT(result.error().message, testing::HasSubstr("only 0 of 64 rings"));
 }
 
+TEST(RingTableFit, TakesLinesOfTheRingsThatSawSomethingWhereMostSawNothing) {
+  // An open field: what looks above the horizon returns nothing, but for a little that is near it.
+  RingTable truth;
+  for (int ring = 0; ring < 64; ++ring) truth.push_back({beams::deg_to_rad(22.5 - ring * 0.7), 0});
+  std::vector<ScanPoint> points;
+  std::vector<std::int16_t> rings;
+  for (std::size_t ring = 28; ring < truth.size(); ++ring) {
+    const double slope = std::tan(truth[ring].elevation_rad);
+    for (int i = 0; i < (ring < 34 ? 7 : 90); ++i) {
+      const double distance_m = ring < 34 ? 8 : 1.7 / -slope;
+      points.push_back({static_cast<float>(distance_m * std::cos(i * 0.01)),
+                        static_cast<float>(distance_m * std::sin(i * 0.01)),
+                        static_cast<float>(distance_m * slope), 0});
+      rings.push_back(static_cast<std::int16_t>(ring));
+    }
+  }
+  RingTableFit fit(64);
+  fit.add(points, rings);
+  EXPECT_FALSE(fit.fit()) << "no ring has a hundred points";
+  const auto found = fit.fit_seen(RingTable(64));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->with_line, 30U);
+  EXPECT_EQ(found->coinciding, 0U);
+  expect_near(found->table, truth, 0.05, 1e-9);
+}
+
+TEST(RingTableFit, PutsRingsWithoutPointsNoStraighterUpThanALaserLooks) {
+  RingTable truth;
+  for (int ring = 0; ring < 6; ++ring) truth.push_back({beams::deg_to_rad(-5.0 * ring), 0});
+  std::vector<ScanPoint> points;
+  std::vector<std::int16_t> rings;
+  for (std::size_t ring = 0; ring < truth.size(); ++ring) {
+    const auto z_m = static_cast<float>(10 * std::tan(truth[ring].elevation_rad));
+    for (int i = 0; i < 20; ++i) {
+      points.push_back({10, 0, z_m, 0});
+      rings.push_back(static_cast<std::int16_t>(90 + ring));
+    }
+  }
+  RingTableFit fit(200);
+  fit.add(points, rings);
+  const auto found = fit.fit_seen(RingTable(200));
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_LT(found->table.front().elevation_rad, beams::deg_to_rad(90));
+  EXPECT_GT(found->table.back().elevation_rad, beams::deg_to_rad(-90));
+  for (std::size_t ring = 0; ring < truth.size(); ++ring) {
+    EXPECT_NEAR(found->table[90 + ring].elevation_rad, truth[ring].elevation_rad, 1e-4);
+  }
+}
+
+TEST(RingTableFit, CountsRingsThatLookTheSameWay) {
+  std::vector<ScanPoint> points;
+  std::vector<std::int16_t> rings;
+  for (std::int16_t ring = 0; ring < 16; ++ring) {
+    for (int i = 0; i < 100; ++i) {
+      points.push_back({10, static_cast<float>(i), 0, 0});
+      rings.push_back(ring);
+    }
+  }
+  RingTableFit fit(16);
+  fit.add(points, rings);
+  const auto found = fit.fit();
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->coinciding, 15U);
+}
+
 TEST(RingTableFit, ThinsOutManyScansEvenly) {
   const RingTable truth = synthetic::table();
   const auto points = synthetic::scan(truth);

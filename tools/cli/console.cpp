@@ -16,6 +16,7 @@
 
 #include "message_thread.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -42,7 +43,8 @@ void write_message(std::string_view text) {
 }
 
 void print_line(std::string_view line) {
-  write_message(fmt::format("{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "", line));
+  write_message(fmt::format("{}{}\n", progress_line_stands.exchange(false) ? kWipeLine : "",
+                            for_terminal(line)));
 }
 
 }  // namespace

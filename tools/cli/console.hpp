@@ -16,8 +16,8 @@
 /// What people see: results go to stdout, everything said on the way to stderr.
 namespace terracut::cli {
 
-/// One line on stderr; wipes a progress line that stands there. From any thread. A line that cannot
-/// be written is lost: a message ends nothing.
+/// One line on stderr, as for_terminal() lets it through; wipes a progress line that stands there.
+/// From any thread. A line that cannot be written is lost: a message ends nothing.
 void say(std::string_view line);
 void warn(std::string_view line);
 

@@ -10,6 +10,7 @@
 #include "tools/cli/fleet/relabel_status.hpp"
 #include "tools/cli/fleet/shard_run.hpp"
 #include "tools/cli/stop_signal.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
 
@@ -17,7 +18,7 @@ ExitCode run_relabel(const Options& options) {
   if (!options.fleet.status.empty()) {
     const auto status = relabel_status(options.fleet.status);
     if (!status) return refuse(status.error());
-    print_text(*status);
+    print_text(for_terminal(*status));
     return kOk;
   }
   if (options.fleet.manifest.empty() || options.written.empty()) {

@@ -21,6 +21,7 @@
 #include "pipeline/output/frame_folder.hpp"
 #include "pipeline/pictures/bird_eye_picture.hpp"
 #include "pipeline/pictures/caption.hpp"
+#include "rt/files/plain_file.hpp"
 #include "tools/cli/arguments/arguments.hpp"
 #include "tools/cli/fleet/manifest.hpp"
 #include "tools/cli/fleet/relabel_job.hpp"
@@ -155,6 +156,9 @@ Expected<pictures::Picture> picture_of(const FrameChange& change, const frame::R
 /// The options of the run that labelled a drive.
 Expected<Options> options_of(const Labelling& labelling, const FleetDrive& drive) {
   const fs::path settings = labelling.state / kJobSettings;
+  if (const auto file = files::open_plain_file(settings); !file) {
+    return tl::unexpected(file.error());
+  }
   const auto words = words_for(drive, settings);
   if (!words) return tl::unexpected(words.error());
   auto arguments = parse_arguments(*words);
@@ -173,7 +177,7 @@ Status draw_changes(const Labelling& before, const Labelling& after,
   }
   const auto job = read_job(after.state);
   if (!job) return tl::unexpected(job.error());
-  const auto manifest = read_manifest(job->json.value("manifest", ""));
+  const auto manifest = read_manifest(job->manifest);
   if (!manifest) return tl::unexpected(manifest.error());
   output::FrameFolder place(folder, ".png");
   for (const FleetDrive& drive : manifest->drives) {

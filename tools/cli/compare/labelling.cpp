@@ -16,8 +16,8 @@ namespace fs = std::filesystem;
 Labelling labelling_of(const KnownJob& job) {
   Labelling labelling{{}, job.state};
   const fs::path folder = job.state.parent_path().parent_path();
-  for (const auto& drive : job.json["drives"]) {
-    const RelabelRecord record = read_record(job.state, drive.value("name", ""));
+  for (const auto& drive : job.drives) {
+    const RelabelRecord record = read_record(job.state, drive.name);
     if (!record.done || facts_of_whole(folder / record.output).is_null()) continue;
     labelling.drives[record.drive] = folder / record.output;
   }

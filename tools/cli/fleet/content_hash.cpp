@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #include "content_hash.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <openssl/evp.h>
 #include <unistd.h>
@@ -13,7 +12,7 @@
 #include <system_error>
 #include <vector>
 
-#include "rt/files/owned_descriptor.hpp"
+#include "rt/files/plain_file.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -21,11 +20,6 @@ namespace {
 
 /// Large enough for a network's file system, small enough for the processor's cache.
 constexpr std::size_t kReadBytes = std::size_t{1} << 20;
-
-tl::unexpected<Error> not_read(const std::filesystem::path& path, int error_number) {
-  return fail(error_number == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
-              fmt::format("{}: {}", path.string(), std::generic_category().message(error_number)));
-}
 
 }  // namespace
 
@@ -53,15 +47,18 @@ std::string ContentHash::digits() {
 }
 
 Expected<std::string> sha256_of_file(const std::filesystem::path& path) {
-  const files::OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (!file) return not_read(path, errno);
+  const auto file = files::open_plain_file(path);
+  if (!file) return tl::unexpected(file.error());
   ContentHash hash;
   std::vector<std::byte> part(kReadBytes);
   for (;;) {
     if (const Status on = go_on(); !on) return tl::unexpected(on.error());
-    const ::ssize_t read = ::read(file.get(), part.data(), part.size());
+    const ::ssize_t read = ::read(file->get(), part.data(), part.size());
     if (read < 0 && errno == EINTR) continue;
-    if (read < 0) return not_read(path, errno);
+    if (read < 0) {
+      return fail(ErrorCode::kUnreadable,
+                  fmt::format("{}: {}", path.string(), std::generic_category().message(errno)));
+    }
     if (read == 0) break;
     hash.add(std::span(part).first(static_cast<std::size_t>(read)));
   }
@@ -72,6 +69,10 @@ std::string sha256_of(std::string_view text) {
   ContentHash hash;
   hash.add(text);
   return hash.digits();
+}
+
+std::string short_hash(std::string_view text) {
+  return sha256_of(text).substr(0, kShortHashDigits);
 }
 
 }  // namespace terracut::cli

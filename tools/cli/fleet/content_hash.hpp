@@ -37,5 +37,8 @@ class ContentHash {
 [[nodiscard]] Expected<std::string> sha256_of_file(const std::filesystem::path& path);
 
 [[nodiscard]] std::string sha256_of(std::string_view text);
+/// Its first 64 bits.
+inline constexpr std::size_t kShortHashDigits = 16;
+[[nodiscard]] std::string short_hash(std::string_view text);
 
 }  // namespace terracut::cli

@@ -21,7 +21,9 @@ Expected<std::string> stamp_of_file(const std::filesystem::path& path) {
     return fail(errno == ENOENT ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
                 fmt::format("{}: {}", path.string(), std::generic_category().message(errno)));
   }
-  return fmt::format("{} bytes, {}.{:09}", file.st_size, file.st_mtim.tv_sec, file.st_mtim.tv_nsec);
+  return fmt::format("{} bytes, written {}.{:09}, changed {}.{:09}", file.st_size,
+                     file.st_mtim.tv_sec, file.st_mtim.tv_nsec, file.st_ctim.tv_sec,
+                     file.st_ctim.tv_nsec);
 }
 
 /// One figure of a folder's clouds, from one of each.
@@ -48,8 +50,15 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
   return inputs;
 }
 
-Expected<std::string> stamp_of(const DriveInput& input) {
-  return input.role == "scans" ? of_clouds(input.path, stamp_of_file) : stamp_of_file(input.path);
+Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive) {
+  auto stamps = nlohmann::ordered_json::object();
+  for (const DriveInput& input : inputs_of(drive)) {
+    auto stamp =
+        input.role == "scans" ? of_clouds(input.path, stamp_of_file) : stamp_of_file(input.path);
+    if (!stamp) return tl::unexpected(stamp.error());
+    stamps[std::string(input.role)] = *std::move(stamp);
+  }
+  return stamps;
 }
 
 Expected<std::string> content_of(const DriveInput& input) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,9 +22,10 @@ struct DriveInput {
 /// Those that the manifest names.
 [[nodiscard]] std::vector<DriveInput> inputs_of(const FleetDrive& drive);
 
-/// Length and time of change, in some form: what has the same as before is not read again. Of a
-/// folder, of all its clouds. kNotFound, kUnreadable.
-[[nodiscard]] Expected<std::string> stamp_of(const DriveInput& input);
+/// Lengths and times of change by role, in some form: what has the same as before has not been
+/// written to, replaced or renamed since, whatever its time of writing was set to. Of a folder, of
+/// all its clouds. kNotFound, kUnreadable.
+[[nodiscard]] Expected<nlohmann::ordered_json> stamps_of(const FleetDrive& drive);
 
 /// SHA-256 of what is in it; of a folder, of its clouds' names and theirs. Neither its place nor
 /// its times count. kNotFound, kUnreadable; kNothingCameOut when stop_wanted().

@@ -12,10 +12,12 @@
 #include <utility>
 #include <vector>
 
+#include "drive_inputs.hpp"
 #include "labelled_drive.hpp"
 #include "program_run.hpp"
 #include "rt/files/part_file.hpp"
 #include "rt/files/whole_file.hpp"
+#include "tools/cli/console.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -25,6 +27,8 @@ namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kBrokeOff = "the input breaks off";
+constexpr std::string_view kChanged = "an input changed while it was labelled";
+constexpr std::string_view kNoPlace = "something else has its place";
 
 std::string cause_of(ExitCode code) {
   switch (code) {
@@ -116,7 +120,14 @@ ExitCode failed(ExitCode code, std::string_view cause, std::string message, Rela
 ExitCode failed(const Error& error, RelabelRecord& record) {
   if (stop_wanted()) return kInterrupted;
   const ExitCode code = exit_code_of(error.code);
+  record.ends_shard = code == kOutputFailed;
   return failed(code, cause_of(code), error.message, record);
+}
+
+/// Of check_place() and put_in_place().
+ExitCode not_placed(const Error& error, RelabelRecord& record) {
+  if (error.code == ErrorCode::kWriteFailed) return failed(error, record);
+  return failed(kOutputFailed, kNoPlace, error.message, record);
 }
 
 /// Why the run's labels are not to be taken, if so.
@@ -128,6 +139,7 @@ ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder&
   }
   if (run.exit_code != kOk) {
     const auto code = static_cast<ExitCode>(run.exit_code);
+    record.ends_shard = code == kOutputFailed;  // what it writes lies beside every other drive's
     return failed(code, cause_of(code), last_words(folder.log()), record);
   }
   if (!report.is_object() || !report.contains("summary")) {
@@ -143,11 +155,14 @@ ExitCode judge(const ProgramRun& run, const Json& report, const LabellingFolder&
 
 ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json& recipe,
                      RelabelRecord& record) {
+  const fs::path place = job.folder / record.output;
+  if (const Status free = check_place(place); !free) return not_placed(free.error(), record);
   const LabellingFolder folder(job, drive);
   if (!folder.made()) {
     const std::error_code error(errno, std::generic_category());
-    return failed(kOutputFailed, cause_of(kOutputFailed),
-                  fmt::format("{}: {}", job.parts().string(), error.message()), record);
+    return failed(
+        {ErrorCode::kWriteFailed, fmt::format("{}: {}", job.parts().string(), error.message())},
+        record);
   }
   if (Status written = files::write_whole_file(folder.settings(), job.settings); !written) {
     return failed(written.error(), record);
@@ -162,6 +177,14 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
   const Json report = report_without_frames(folder.report());
   if (const ExitCode judged = judge(*run, report, folder, record); judged != kOk) return judged;
 
+  const auto stamps = stamps_of(drive);
+  if (!stamps || *stamps != record.stamps) {
+    return failed(kInputRefused, kChanged,
+                  "its labels were thrown away; the same command labels it again once nobody "
+                  "writes to it",
+                  record);
+  }
+
   const Json& summary = report["summary"];
   Json facts{{"drive", drive.name}, {"recipe", recipe}};
   for (const char* const key : {"frames", "complete_frames", "returns_labelled", "losses"}) {
@@ -170,14 +193,18 @@ ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive, const Json&
   std::error_code error;
   // The list by which a later `--labels` of the same folder would take them for its own.
   fs::remove(folder.labels() / ".label.terracut", error);
-  const Status put = seal(folder.labels(), facts).and_then([&] {
-    return put_in_place(folder.labels(), job.folder / record.output);
-  });
-  if (!put) return failed(put.error(), record);
-  const Json whole = facts_of_whole(job.folder / record.output);
+  if (const Status sealed = seal(folder.labels(), facts); !sealed) {
+    return failed(sealed.error(), record);
+  }
+  const auto broken = put_in_place(folder.labels(), place, job.broken() / record.output);
+  if (!broken) return not_placed(broken.error(), record);
+  if (!broken->empty()) {
+    warn(fmt::format("{}: what stood there was not whole, and is kept as {}", place.string(),
+                     broken->string()));
+  }
+  const Json whole = facts_of_whole(place);
   if (whole.is_null()) {
-    return failed(kOutputFailed, cause_of(kOutputFailed), record.output + " did not stay whole",
-                  record);
+    return failed(kOutputFailed, kNoPlace, place.string() + " did not stay whole", record);
   }
   take_facts(whole, record);
   return kOk;

@@ -12,8 +12,9 @@ namespace terracut::cli {
 
 /// Labels a drive in a folder of its own below the job's parts, by `terracut replay` or `segment`,
 /// and puts what came out in its place, "job.folder/record.output". Completes `record`: done, or
-/// the cause of the failure. Whatever happens, nothing half written gets that name. Returns what
-/// the failure would be as an exit code; kInterrupted leaves the record as it is.
+/// the cause of the failure. Whatever happens, nothing half written gets that name, nor what came
+/// of inputs that are no longer those of `record.stamps`, which were taken before they were hashed.
+/// Returns what the failure would be as an exit code; kInterrupted leaves the record as it is.
 [[nodiscard]] ExitCode label_drive(const RelabelJob& job, const FleetDrive& drive,
                                    const nlohmann::ordered_json& recipe, RelabelRecord& record);
 

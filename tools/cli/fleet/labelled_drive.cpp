@@ -4,12 +4,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstdio>
-#include <fstream>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -17,6 +17,7 @@
 
 #include "content_hash.hpp"
 #include "rt/files/owned_descriptor.hpp"
+#include "rt/files/plain_file.hpp"
 #include "rt/files/whole_file.hpp"
 #include "tools/cli/json_text.hpp"
 
@@ -58,15 +59,25 @@ Expected<std::string> sums_of(const fs::path& folder) {
   return sums;
 }
 
-std::size_t lines_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return static_cast<std::size_t>(
-      std::count(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>(), '\n'));
+/// Whether what a call failed of stands in the way of every other file there, too.
+bool is_of_the_disk(int error_number) {
+  return error_number == ENOSPC || error_number == EDQUOT || error_number == EROFS ||
+         error_number == EIO;
 }
 
-Status write_failed(const fs::path& path, int error_number) {
-  return fail(ErrorCode::kWriteFailed,
+tl::unexpected<Error> write_failed(const fs::path& path, int error_number) {
+  return fail(is_of_the_disk(error_number) ? ErrorCode::kWriteFailed : ErrorCode::kInvalidArgument,
               fmt::format("{}: {}", path.string(), std::generic_category().message(error_number)));
+}
+
+/// That members which are there are what they are named for.
+bool are_facts(const Json& facts) {
+  if (!are_counts(facts, {"frames", "complete_frames", "returns_labelled", "files", "bytes"})) {
+    return false;
+  }
+  const Json losses = facts.value("losses", Json::object());
+  return losses.is_object() &&
+         std::ranges::all_of(losses, [](const Json& count) { return count.is_number_unsigned(); });
 }
 
 bool rename_folder(const fs::path& from, const fs::path& to) {
@@ -75,14 +86,36 @@ bool rename_folder(const fs::path& from, const fs::path& to) {
 
 }  // namespace
 
+std::map<std::string, std::string> listed_sums(const fs::path& folder) {
+  constexpr std::size_t kSumDigits = 64, kGap = 2, kMostBytes = std::size_t{1} << 28;
+  std::map<std::string, std::string> sums;
+  const auto text = files::read_plain_file(folder / kDriveSums, kMostBytes);
+  if (!text || !text->ends_with('\n')) return sums;
+  for (std::size_t begin = 0; begin < text->size();) {
+    const std::size_t end = text->find('\n', begin);
+    const std::string line = text->substr(begin, end - begin);
+    begin = end + 1;
+    if (line.size() <= kSumDigits + kGap || line.find('/') != std::string::npos) return {};
+    sums.emplace(line.substr(kSumDigits + kGap), line.substr(0, kSumDigits));
+  }
+  return sums;
+}
+
 Json facts_of_whole(const fs::path& folder) {
-  std::ifstream file(folder / kDriveFacts, std::ios::binary);
-  Json facts = Json::parse(file, nullptr, false);
-  if (!facts.is_object() || !facts.contains("files") || !facts.contains("bytes")) return nullptr;
-  const auto [files, bytes] = extent_of(folder);
-  const bool whole = facts["files"] == files && facts["bytes"] == bytes &&
-                     lines_of(folder / kDriveSums) == files + 1;
-  return whole ? facts : Json(nullptr);
+  constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+  const auto facts = read_json(folder / kDriveFacts, kMostBytes);
+  if (!facts || !are_facts(*facts)) return nullptr;
+  std::uint64_t files = 0, bytes = 0;
+  for (const auto& [name, sum] : listed_sums(folder)) {
+    struct stat file{};
+    if (::stat((folder / name).c_str(), &file) != 0 || !S_ISREG(file.st_mode)) return nullptr;
+    if (name == kDriveFacts) continue;
+    ++files;
+    bytes += static_cast<std::uint64_t>(file.st_size);
+  }
+  const bool is_whole =
+      facts->value("files", Json()) == files && facts->value("bytes", Json()) == bytes;
+  return is_whole ? *facts : Json(nullptr);
 }
 
 Status seal(const fs::path& folder, Json facts) {
@@ -101,16 +134,36 @@ Status seal(const fs::path& folder, Json facts) {
   return {};
 }
 
-Status put_in_place(const fs::path& folder, const fs::path& place) {
+Status check_place(const fs::path& place) {
   std::error_code error;
   fs::create_directories(place.parent_path(), error);
   if (error) return write_failed(place.parent_path(), error.value());
-  constexpr int kTries = 100;  // others may put theirs in place at the same time
-  for (int i = 0; i < kTries; ++i) {
-    if (rename_folder(folder, place)) return {};
-    if (errno != ENOTEMPTY && errno != EEXIST) return write_failed(place, errno);
-    if (!facts_of_whole(place).is_null()) return {};
-    (void)rename_folder(place, folder.parent_path() / fmt::format("broken{}", i));
+  struct stat standing {};
+  if (::lstat(place.c_str(), &standing) != 0) {
+    if (errno != ENOENT) return write_failed(place, errno);
+    if (::access(place.parent_path().c_str(), W_OK | X_OK) == 0) return {};
+    return write_failed(place.parent_path(), errno);
+  }
+  if (S_ISDIR(standing.st_mode) || !facts_of_whole(place).is_null()) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{}: a {} has the name of the drive's labels; take it away",
+                          place.string(), S_ISLNK(standing.st_mode) ? "link" : "file"));
+}
+
+Expected<fs::path> put_in_place(const fs::path& folder, const fs::path& place,
+                                const fs::path& broken) {
+  fs::path kept;
+  constexpr int kTries = 1000;  // others may put theirs in place at the same time
+  for (int i = 1; i <= kTries; ++i) {
+    if (Status free = check_place(place); !free) return tl::unexpected(free.error());
+    if (rename_folder(folder, place)) return kept;
+    const int why = errno;
+    if (!facts_of_whole(place).is_null()) return kept;
+    if (why != ENOTEMPTY && why != EEXIST) return write_failed(place, why);
+    std::error_code error;
+    fs::create_directories(broken.parent_path(), error);
+    const fs::path aside = fmt::format("{}.{}", broken.string(), i);
+    if (!fs::exists(aside, error) && rename_folder(place, aside)) kept = aside;
   }
   return write_failed(place, EEXIST);
 }

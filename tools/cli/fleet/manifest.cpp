@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <tuple>
@@ -34,13 +33,16 @@ auto paths_in(Drive& drive) {
                     std::pair{"dbc", &drive.dbc}};
 }
 
+bool has_nul(const std::string& text) {
+  return text.find('\0') != std::string::npos;
+}
+
 /// Whether outputs can be named so: a path that stays below where it is put.
 bool is_name(const std::string& name) {
   const fs::path path(name);
-  return !name.empty() && path.is_relative() && path.has_filename() &&
-         std::ranges::none_of(path, [](const fs::path& part) {
-           return part.native().starts_with('.') || part.native().starts_with('@');
-         });
+  return !name.empty() && !has_nul(name) && path.is_relative() && path.has_filename() &&
+         std::ranges::none_of(path,
+                              [](const fs::path& part) { return part.native().starts_with('.'); });
 }
 
 /// Throws nlohmann::json::exception where a member is of another type.
@@ -58,9 +60,13 @@ FleetDrive drive_in(const Json& json, const fs::path& root) {
 std::string fault_of(const FleetDrive& drive, std::set<std::string>& names) {
   if (!is_name(drive.name)) {
     return fmt::format(
-        "'{}' is no name of a drive: expected a relative path whose parts do not "
-        "begin with '.' or '@'",
+        "'{}' is no name of a drive: expected a relative path whose parts do not begin with '.'",
         drive.name);
+  }
+  const auto paths = paths_in(drive);
+  if (std::ranges::any_of(drive.arguments, has_nul) ||
+      std::ranges::any_of(paths, [](const auto& of) { return has_nul(of.second->native()); })) {
+    return fmt::format("{}: a path or an argument of it has a zero byte", drive.name);
   }
   if (!names.insert(drive.name).second) return fmt::format("two drives are called {}", drive.name);
   if (drive.capture.empty() == drive.scans.empty()) {
@@ -80,15 +86,18 @@ Expected<Manifest> read_manifest(const fs::path& path) {
         ErrorCode::kMalformed,
         fmt::format("{}: no manifest: {}; `terracut manifest` makes one", path.string(), what));
   };
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return fail(ErrorCode::kNotFound, path.string() + ": no such file, or not readable");
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // a million drives
+  const auto read = read_json(path, kMostBytes);
+  if (!read && read.error().code != ErrorCode::kMalformed) return tl::unexpected(read.error());
+  if (!read) return malformed(read.error().message);
+  const Json& json = *read;
   Manifest manifest;
   try {
-    const Json json = Json::parse(file);
-    if (json.value("manifest", 0) != kVersion) return malformed("manifest is to be 1");
+    if (json.value("manifest", Json()) != kVersion) return malformed("manifest is to be 1");
     manifest.root = (fs::absolute(path).parent_path() / json.value("root", "")).lexically_normal();
     std::set<std::string> names;
     for (const Json& drive : json.at("drives")) {
+      if (!are_counts(drive, {"bytes"})) return malformed("bytes of a drive are no whole number");
       manifest.drives.push_back(drive_in(drive, manifest.root));
       const std::string fault = fault_of(manifest.drives.back(), names);
       if (!fault.empty()) return malformed(fault);
@@ -136,7 +145,9 @@ std::vector<FleetDrive> drives_of(const Manifest& manifest, const Shard& shard) 
   });
   using Load = std::pair<std::uint64_t, std::size_t>;  // bytes, which shard
   std::set<Load> loads;
-  for (std::size_t i = 1; i <= shard.of; ++i) loads.emplace(0, i);
+  // No drive is divided, so shards beyond as many as there are drives have none.
+  const std::size_t filled = std::min(shard.of, drives.size());
+  for (std::size_t i = 1; i <= filled; ++i) loads.emplace(0, i);
   std::vector<FleetDrive> its_own;
   for (FleetDrive& drive : drives) {
     Load emptiest = *loads.begin();

@@ -3,11 +3,11 @@
 #include "relabel_job.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <system_error>
 #include <utility>
 #include <variant>
@@ -30,11 +30,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr std::string_view kJobFile = "job.json";
 constexpr int kRecipeVersion = 1;
-constexpr std::size_t kShownDigits = 16;  // 64 bits of a hash
-
-std::string short_hash(std::string_view text) {
-  return sha256_of(text).substr(0, kShownDigits);
-}
 
 std::string host_name() {
   std::array<char, 256> name{};
@@ -70,20 +65,54 @@ Json json_of(const RelabelJob& job, const Manifest& manifest) {
   return json;
 }
 
-Status check_arguments(const FleetDrive& drive) {
-  const Command command = drive.capture.empty() ? Command::kSegment : Command::kReplay;
-  for (const std::string& word : drive.arguments) {
-    if (!word.starts_with("--")) continue;
-    const std::string_view name = std::string_view(word).substr(0, word.find('='));
-    const Setting* const setting = find_option(command, name);
-    Options scratch;
-    if (setting != nullptr && !std::holds_alternative<fs::path*>(setting->field(scratch))) continue;
-    return fail(ErrorCode::kMalformed,
-                fmt::format("{}: its argument {} in the manifest is no option of {} that does "
-                            "without a file",
-                            drive.name, name, name_of(command)));
+Command command_for(const FleetDrive& drive) {
+  return drive.capture.empty() ? Command::kSegment : Command::kReplay;
+}
+
+/// Whether a drive's own arguments may have it: what says how the drive is to be read and labelled,
+/// by values alone, for the content of a file would not be in the recipe. What is written, served
+/// or shown, and how often, is not for a manifest to say, which others may have written.
+bool is_of_drive(const Setting& setting) {
+  constexpr std::array kSections{"sensor.", "input.", "mount.", "motion.", "method."};
+  constexpr std::array kWithoutKey{"--set", "--method"};
+  Options scratch;
+  if (std::holds_alternative<fs::path*>(setting.field(scratch))) return false;
+  return std::ranges::any_of(kSections, [&](auto of) { return setting.key.starts_with(of); }) ||
+         std::ranges::find(kWithoutKey, setting.name()) != kWithoutKey.end();
+}
+
+tl::unexpected<Error> not_of_drive(const FleetDrive& drive, std::string_view found) {
+  std::vector<std::string_view> allowed;
+  for (const Setting& setting : settings()) {
+    if (setting.name().starts_with("--") && setting.commands.contains(command_for(drive)) &&
+        is_of_drive(setting)) {
+      allowed.push_back(setting.name());
+    }
   }
-  return {};
+  return fail(ErrorCode::kMalformed,
+              fmt::format("{}: its arguments in the manifest have '{}'; expected options that say "
+                          "how it is read and labelled, each with its value: {}",
+                          drive.name, found, fmt::join(allowed, " ")));
+}
+
+/// A drive's own arguments, each option with its value in one word, so that no value can be taken
+/// for another option.
+Expected<std::vector<std::string>> argument_words(const FleetDrive& drive) {
+  std::vector<std::string> words;
+  for (auto word = drive.arguments.begin(); word != drive.arguments.end(); ++word) {
+    const bool has_value = word->find('=') != std::string::npos;
+    const Setting* const setting =
+        find_option(command_for(drive), word->substr(0, word->find('=')));
+    if (!word->starts_with("--") || setting == nullptr || !is_of_drive(*setting)) {
+      return not_of_drive(drive, *word);
+    }
+    Options scratch;
+    words.push_back(*word);
+    if (has_value || std::holds_alternative<bool*>(setting->field(scratch))) continue;
+    if (word + 1 == drive.arguments.end()) return not_of_drive(drive, *word + " without a value");
+    words.back() += "=" + *++word;
+  }
+  return words;
 }
 
 }  // namespace
@@ -119,10 +148,29 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
 }
 
 Expected<KnownJob> read_job(const fs::path& state) {
-  std::ifstream file(state / kJobFile, std::ios::binary);
-  Json json = Json::parse(file, nullptr, false);
-  if (json.is_object() && json.contains("drives")) return KnownJob{state, std::move(json)};
-  return fail(ErrorCode::kMalformed, (state / kJobFile).string() + ": says nothing of a job");
+  constexpr std::size_t kMostBytes = std::size_t{1} << 28;  // a million drives and more
+  const auto malformed = [&](std::string_view why) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{}: says nothing of a job: {}", (state / kJobFile).string(), why));
+  };
+  const auto json = read_json(state / kJobFile, kMostBytes);
+  if (!json) return tl::unexpected(json.error());
+  if (!are_counts(*json, {"began_ns"})) return malformed("began_ns is no whole number");
+  try {
+    KnownJob job{.state = state,
+                 .manifest = json->at("manifest").get<std::string>(),
+                 .version = json->at("terracut").get<std::string>(),
+                 .began_ns = json->at("began_ns").get<std::int64_t>(),
+                 .drives = {}};
+    for (const Json& drive : json->at("drives")) {
+      if (!are_counts(drive, {"bytes"})) return malformed("bytes of a drive are no whole number");
+      job.drives.push_back(
+          {drive.at("name").get<std::string>(), drive.at("bytes").get<std::uint64_t>()});
+    }
+    return job;
+  } catch (const nlohmann::json::exception& error) {
+    return malformed(error.what());
+  }
 }
 
 Expected<std::vector<KnownJob>> jobs_in(const fs::path& folder) {
@@ -136,18 +184,17 @@ Expected<std::vector<KnownJob>> jobs_in(const fs::path& folder) {
     return fail(ErrorCode::kNotFound,
                 folder.string() + ": `terracut relabel` has begun nothing here");
   }
-  std::ranges::sort(
-      jobs, {}, [](const KnownJob& job) { return job.json.value("began_ns", std::int64_t{0}); });
+  std::ranges::sort(jobs, {}, &KnownJob::began_ns);
   return jobs;
 }
 
 Expected<std::vector<std::string>> words_for(const FleetDrive& drive, const fs::path& settings) {
-  if (const Status known = check_arguments(drive); !known) return tl::unexpected(known.error());
+  const auto arguments = argument_words(drive);
+  if (!arguments) return tl::unexpected(arguments.error());
   const auto options = read_configuration(settings);
   if (!options) return tl::unexpected(options.error());
   std::vector<std::string> words{"--config", settings.string(),
-                                 drive.capture.empty() ? "segment" : "replay",
-                                 drive.input().string()};
+                                 std::string(name_of(command_for(drive))), drive.input().string()};
   const auto add = [&](const char* option, const fs::path& path) {
     if (!path.empty()) words.insert(words.end(), {option, path.string()});
   };
@@ -157,7 +204,7 @@ Expected<std::vector<std::string>> words_for(const FleetDrive& drive, const fs::
   add("--dbc", drive.dbc);
   const std::vector<std::string> mount = mount_words_of(*options);
   words.insert(words.end(), mount.begin(), mount.end());
-  words.insert(words.end(), drive.arguments.begin(), drive.arguments.end());
+  words.insert(words.end(), arguments->begin(), arguments->end());
   return words;
 }
 

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,8 +20,9 @@ namespace terracut::cli {
 ///
 ///   ID/job.json           manifest, drives and their bytes, program, when it began
 ///   ID/terracut.yaml      the settings
-///   ID/records/NAME.json  what became of a drive (relabel_record.hpp)
+///   ID/records/           what became of a drive, a file each (relabel_record.hpp)
 ///   parts/                what is under way: a folder each, of a process alone
+///   broken/               drives' folders that were not whole, and what else was in them
 struct RelabelJob {
   std::filesystem::path folder;    ///< Where the drives' folders come to lie.
   std::filesystem::path manifest;  ///< Absolute.
@@ -31,6 +33,7 @@ struct RelabelJob {
   std::string host;
 
   [[nodiscard]] std::filesystem::path parts() const { return folder / ".relabel" / "parts"; }
+  [[nodiscard]] std::filesystem::path broken() const { return folder / ".relabel" / "broken"; }
   [[nodiscard]] std::filesystem::path state() const { return folder / ".relabel" / id; }
   /// How the parts of a drive begin, "HASH@ID@", whichever host they are of.
   [[nodiscard]] std::string part_prefix(const FleetDrive& drive) const;
@@ -44,17 +47,25 @@ inline constexpr std::string_view kJobSettings = "terracut.yaml";
 
 /// A job as its folder says.
 struct KnownJob {
+  struct Drive {
+    std::string name;
+    std::uint64_t bytes = 0;
+  };
   std::filesystem::path state;  ///< Its folder.
-  nlohmann::ordered_json json;  ///< job.json
+  std::filesystem::path manifest;
+  std::string version;  ///< Of terracut.
+  std::int64_t began_ns = 0;
+  std::vector<Drive> drives;
 };
-/// kMalformed where job.json is none.
+/// kNotFound, kUnreadable; kMalformed where job.json is none.
 [[nodiscard]] Expected<KnownJob> read_job(const std::filesystem::path& state);
-/// Of a folder for drives, by when they began. kNotFound where there is none.
+/// Of a folder for drives, by when they began; what is no job is left out. kNotFound where there is
+/// none.
 [[nodiscard]] Expected<std::vector<KnownJob>> jobs_in(const std::filesystem::path& folder);
 
 /// The words that label a drive by `terracut replay` or `segment` with the settings of that file,
-/// but for what is written. kMalformed where an argument of the manifest is none of the program's
-/// or names a file, whose content would not be in the recipe; the errors of the settings.
+/// but for what is written. kMalformed where an argument of the manifest does not say how the drive
+/// is to be read and labelled, and nothing else; the errors of the settings.
 [[nodiscard]] Expected<std::vector<std::string>> words_for(const FleetDrive& drive,
                                                            const std::filesystem::path& settings);
 

@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
+#include <cstddef>
 
+#include "content_hash.hpp"
 #include "tools/cli/json_text.hpp"
 
 namespace terracut::cli {
@@ -14,36 +15,56 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+constexpr std::size_t kMostBytes = std::size_t{1} << 20;
+
+/// The drive's last name, for people, and a hash of all of it: drives of any names have files of
+/// their own.
 fs::path place_of(const fs::path& state, const std::string& drive) {
-  return state / "records" / (drive + ".json");
+  constexpr std::size_t kLongestName = 100;
+  const std::string name = fs::path(drive).filename().string().substr(0, kLongestName);
+  return state / "records" / fmt::format("{}-{}.json", name, short_hash(drive));
+}
+
+/// Whether a drive's labels can be called that; anything else would be read as if it were labels.
+bool is_output_of(const std::string& output, const std::string& drive) {
+  const std::string before = drive + "-";
+  return output.starts_with(before) && output.size() == before.size() + kShortHashDigits &&
+         output.find_first_not_of("0123456789abcdef", before.size()) == std::string::npos;
+}
+
+/// Throws nlohmann::json::exception where a member is of another type.
+RelabelRecord record_in(const Json& json) {
+  RelabelRecord record;
+  record.drive = json.at("drive").get<std::string>();
+  record.done = json.value("state", "") == "done";
+  record.output = json.value("output", "");
+  record.cause = json.value("cause", "");
+  record.message = json.value("message", "");
+  record.shard = json.value("shard", "");
+  record.host = json.value("host", "");
+  record.started_ns = json.value("started_ns", std::int64_t{0});
+  record.ended_ns = json.value("ended_ns", std::int64_t{0});
+  record.run.seconds = json.value("seconds", 0.0);
+  record.frames = json.value("frames", std::uint64_t{0});
+  record.label_bytes = json.value("label_bytes", std::uint64_t{0});
+  record.losses = json.value("losses", Json::object());
+  record.stamps = json.value("stamps", Json::object());
+  return record;
 }
 
 }  // namespace
 
 RelabelRecord read_record(const fs::path& state, const std::string& drive) {
-  std::ifstream file(place_of(state, drive), std::ios::binary);
-  RelabelRecord record;
-  const Json json = Json::parse(file, nullptr, false);
-  if (!json.is_object()) return record;
+  const auto json = read_json(place_of(state, drive), kMostBytes);
+  if (!json || !are_counts(*json, {"started_ns", "ended_ns", "frames", "label_bytes"})) return {};
   try {
-    record.drive = json.value("drive", "");
-    record.done = json.value("state", "") == "done";
-    record.output = json.value("output", "");
-    record.cause = json.value("cause", "");
-    record.message = json.value("message", "");
-    record.shard = json.value("shard", "");
-    record.host = json.value("host", "");
-    record.started_ns = json.value("started_ns", std::int64_t{0});
-    record.ended_ns = json.value("ended_ns", std::int64_t{0});
-    record.run.seconds = json.value("seconds", 0.0);
-    record.frames = json.value("frames", std::uint64_t{0});
-    record.label_bytes = json.value("label_bytes", std::uint64_t{0});
-    record.losses = json.value("losses", Json::object());
-    record.stamps = json.value("stamps", Json::object());
-  } catch (const nlohmann::json::exception&) {
-    return {};  // somebody else's file: as good as none
+    RelabelRecord record = record_in(*json);
+    if (record.drive == drive && (!record.done || is_output_of(record.output, drive))) {
+      return record;
+    }
+  } catch (const nlohmann::json::exception&) {  // somebody else's file: as good as none
   }
-  return record;
+  return {};
 }
 
 Status write_record(const RelabelJob& job, const RelabelRecord& record) {

@@ -25,10 +25,12 @@ struct RelabelRecord {
   ProgramRun run{};                                    ///< Zeros: its labels were there already.
   std::uint64_t frames = 0, returns = 0, label_bytes = 0;
   nlohmann::ordered_json losses = nlohmann::ordered_json::object();  ///< {cause: count}
-  nlohmann::ordered_json stamps = nlohmann::ordered_json::object();  ///< Of its inputs, by role.
+  nlohmann::ordered_json stamps = nlohmann::ordered_json::object();  ///< stamps_of() its inputs.
+  bool ends_shard = false;  ///< Not kept. It failed of what every other drive would fail of, too.
 };
 
-/// The newest one of a drive; an empty one where there is none.
+/// The newest one of a drive; an empty one where there is none, or where it is none of that drive
+/// or says what no record can.
 [[nodiscard]] RelabelRecord read_record(const std::filesystem::path& state,
                                         const std::string& drive);
 

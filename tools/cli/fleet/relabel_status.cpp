@@ -9,19 +9,18 @@
 #include <cstdint>
 #include <ctime>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <system_error>
 #include <vector>
 
 #include "labelled_drive.hpp"
 #include "relabel_record.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
 
 constexpr std::int64_t kHour_ns = 3'600'000'000'000;
 
@@ -43,18 +42,18 @@ Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns)
   Tally tally;
   std::error_code vanished;
   tally.lately_since_ns = now_ns;
-  for (const Json& listed : job.json["drives"]) {
-    const auto bytes = listed.value("bytes", std::uint64_t{0});
+  for (const auto& [name, bytes] : job.drives) {
     ++tally.all.drives;
     tally.all.bytes += bytes;
-    const RelabelRecord record = read_record(job.state, listed.value("name", ""));
+    const RelabelRecord record = read_record(job.state, name);
     if (record.drive.empty()) {
       tally.missing_bytes += bytes;
       continue;
     }
     if (!record.done) {
       ++tally.failed;
-      tally.failures[record.cause].push_back(record.drive + ": " + record.message);
+      tally.failures[line_for_terminal(record.cause)].push_back(
+          line_for_terminal(record.drive + ": " + record.message));
       continue;
     }
     // Whether each is whole, the next run looks: a fleet has millions of label files.
@@ -62,7 +61,7 @@ Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns)
       tally.missing_bytes += bytes;
       continue;
     }
-    const auto add = [&](Sum& sum) {
+    const auto add = [&, bytes = bytes](Sum& sum) {
       ++sum.drives;
       sum.bytes += bytes;
       sum.frames += record.frames;
@@ -115,12 +114,12 @@ Expected<std::string> relabel_status(const fs::path& folder) {
   const KnownJob& job = jobs->back();
   const std::int64_t now_ns = measure::realtime_ns();
   const Tally tally = tally_of(folder, job, now_ns);
-  const std::string manifest = job.json.value("manifest", "");
 
-  std::string text = fmt::format(
-      "job       {}, the newest of {}: {} drives, {}, of {}; terracut {}, begun {}\n",
-      job.state.filename().string(), jobs->size(), tally.all.drives, bytes_text(tally.all.bytes),
-      manifest, job.json.value("terracut", ""), when(job.json.value("began_ns", std::int64_t{0})));
+  std::string text =
+      fmt::format("job       {}, the newest of {}: {} drives, {}, of {}; terracut {}, begun {}\n",
+                  line_for_terminal(job.state.filename().string()), jobs->size(), tally.all.drives,
+                  bytes_text(tally.all.bytes), line_for_terminal(job.manifest.string()),
+                  line_for_terminal(job.version), when(job.began_ns));
   text += fmt::format("done      {} drives, {} frames, {} of labels\n", tally.done.drives,
                       tally.done.frames, bytes_text(tally.done.label_bytes));
   text += fmt::format("missing   {} drives\n", tally.all.drives - tally.done.drives - tally.failed);
@@ -131,8 +130,9 @@ Expected<std::string> relabel_status(const fs::path& folder) {
   }
   text += pace_text(tally, now_ns);
   if (tally.done.drives < tally.all.drives) {
-    text += fmt::format("the rest  terracut --config '{}' relabel '{}' -o '{}'\n",
-                        (job.state / kJobSettings).string(), manifest, folder.string());
+    text += fmt::format("the rest  terracut --config {} relabel {} -o {}\n",
+                        shell_word((job.state / kJobSettings).string()),
+                        shell_word(job.manifest.string()), shell_word(folder.string()));
   }
   return text;
 }

@@ -15,21 +15,12 @@
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/stop_signal.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-Expected<Json> stamps_of(const FleetDrive& drive) {
-  Json stamps = Json::object();
-  for (const DriveInput& input : inputs_of(drive)) {
-    auto stamp = stamp_of(input);
-    if (!stamp) return tl::unexpected(stamp.error());
-    stamps[std::string(input.role)] = *std::move(stamp);
-  }
-  return stamps;
-}
 
 }  // namespace
 
@@ -38,7 +29,7 @@ ShardRun::ShardRun(const RelabelJob& job, std::string shard)
 
 ExitCode ShardRun::run(const std::vector<FleetDrive>& drives) {
   Progress progress("relabelling", "drives", static_cast<double>(drives.size()));
-  const auto go_on = [&] { return !stop_wanted() && worst_ != kOutputFailed; };
+  const auto go_on = [&] { return !stop_wanted() && !ended_; };
   const auto count = [&] { progress.update(static_cast<double>(labelled_ + there_ + failed_)); };
   std::vector<const FleetDrive*> later;
   for (const FleetDrive& drive : drives) {
@@ -100,7 +91,8 @@ void ShardRun::label(const FleetDrive& drive, RelabelRecord record) {
   if (code != kOk) return failed(record, code);
   ++labelled_;
   frames_ += record.frames;
-  say(fmt::format("{}: {} frames in {:.1f} s", drive.name, record.frames, record.run.seconds));
+  say(line_for_terminal(
+      fmt::format("{}: {} frames in {:.1f} s", drive.name, record.frames, record.run.seconds)));
   note(record);
 }
 
@@ -109,7 +101,9 @@ void ShardRun::failed(const RelabelRecord& record, ExitCode code) {
   ++failed_;
   failures_[record.cause].push_back(record.drive);
   worst_ = code;
-  say(fmt::format("error: {}: {}: {}", record.drive, record.cause, record.message));
+  ended_ = ended_ || record.ends_shard;
+  say(line_for_terminal(
+      fmt::format("error: {}: {}: {}", record.drive, record.cause, record.message)));
   note(record);
 }
 
@@ -121,6 +115,7 @@ void ShardRun::note(const RelabelRecord& record) {
   if (!record.done && is_there(before, record)) return;
   if (const Status written = write_record(job_, ended); !written) {
     worst_ = refuse(written.error());
+    ended_ = true;
   }
 }
 
@@ -130,7 +125,8 @@ ExitCode ShardRun::conclude() const {
             static_cast<double>(measure::realtime_ns() - started_ns_) * 1e-9);
   print_out("there     {} drives, whole already\n", there_);
   for (const auto& [cause, drives] : failures_) {
-    print_out("failed    {} drives: {}: {}\n", drives.size(), cause, fmt::join(drives, ", "));
+    print_out("failed    {} drives: {}: {}\n", drives.size(), cause,
+              line_for_terminal(fmt::format("{}", fmt::join(drives, ", "))));
   }
   if (stop_wanted()) return refuse(kInterrupted, "interrupted: the same command goes on");
   return worst_;

@@ -21,8 +21,9 @@ class ShardRun {
   /// `shard`: "3/12", for records.
   ShardRun(const RelabelJob& job, std::string shard);
 
-  /// Prints what was done. kInterrupted; kOutputFailed at the first output that cannot be written,
-  /// for the next could not either; else the exit code of the last drive that failed, or kOk.
+  /// Prints what was done. kInterrupted; kOutputFailed at the first output that cannot be written
+  /// of a cause that every other would meet, too, as a full disk; else the exit code of the last
+  /// drive that failed, or kOk.
   [[nodiscard]] ExitCode run(const std::vector<FleetDrive>& drives);
 
  private:
@@ -42,6 +43,7 @@ class ShardRun {
   std::uint64_t labelled_ = 0, there_ = 0, failed_ = 0, frames_ = 0;
   std::map<std::string, std::vector<std::string>> failures_;  ///< Drives by cause.
   ExitCode worst_ = kOk;
+  bool ended_ = false;  ///< What stands in the way stands in that of the next drive, too.
 };
 
 }  // namespace terracut::cli

@@ -4,10 +4,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -142,6 +144,14 @@ TEST_F(FleetManifest, RefusesWhatIsNone) {
            {R"({"manifest": 1, "drives": []})", "lists no drive"},
            {R"({"manifest": 1, "drives": [{"name": "../a", "capture": "a"}]})", "no name"},
            {R"({"manifest": 1, "drives": [{"name": "/a", "capture": "a"}]})", "no name"},
+           {R"({"manifest": 1, "drives": [{"name": "a\u0000b", "capture": "a"}]})", "no name"},
+           {R"({"manifest": 1, "drives": [{"name": "a", "capture": "a\u0000b"}]})", "zero byte"},
+           {R"({"manifest": 1, "drives": [{"name": "a", "capture": "a", )"
+            R"("arguments": ["\u0000"]}]})",
+            "zero byte"},
+           {R"({"manifest": 1, "drives": [3]})", "whole number"},
+           {R"({"manifest": 1, "drives": [{"name": "a", "capture": "a", "bytes": 1e300}]})",
+            "whole number"},
            {R"({"manifest": 1, "drives": [{"name": "a"}]})", "one of capture and scans"},
            {R"({"manifest": 1, "drives": [{"name": "a", "capture": 3}]})", "type_error"},
            {R"({"manifest": 1, "drives": [{"name": "a", "capture": "a", "can": "l"}]})", "both"},
@@ -154,6 +164,8 @@ TEST_F(FleetManifest, RefusesWhatIsNone) {
     EXPECT_THAT(manifest.error().message, HasSubstr(reason));
   }
   EXPECT_EQ(read_manifest(folder_ / "none.json").error().code, ErrorCode::kNotFound);
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_EQ(read_manifest(folder_ / "pipe").error().code, ErrorCode::kUnreadable);
 }
 
 TEST(FleetShards, HoldEveryDriveOnceAndAboutTheSameBytes) {
@@ -188,6 +200,18 @@ TEST(FleetShards, AreEmptyWhereThereAreFewerDrives) {
   std::size_t drives = 0;
   for (std::size_t i = 1; i <= 3; ++i) drives += drives_of(manifest, {i, 3}).size();
   EXPECT_EQ(drives, 1U);
+}
+
+TEST(FleetShards, BeyondAsManyAsThereAreDrivesTakeNoMemory) {
+  Manifest manifest;
+  for (const char* const name : {"a", "b", "c"}) {
+    manifest.drives.emplace_back();
+    manifest.drives.back().name = name;
+  }
+  const std::size_t of = std::numeric_limits<std::size_t>::max();
+  EXPECT_EQ(drives_of(manifest, {2, of}).at(0).name, "b");
+  EXPECT_EQ(drives_of(manifest, {4, of}).size(), 0U);
+  EXPECT_EQ(drives_of(manifest, {of, of}).size(), 0U);
 }
 
 TEST(FleetShards, AreNamedFromOneOn) {

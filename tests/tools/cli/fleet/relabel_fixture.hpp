@@ -23,6 +23,13 @@ class Relabel : public Cli {
     fs::create_symlink(kDrive, place);
     fs::copy_file(kDriveCalibration, fs::path(place).replace_extension("calibration.xml"));
   }
+  /// One that a test may change.
+  void copy_drive(const std::string& name) const {
+    const fs::path place = folder_ / "fleet" / (name + ".pcap");
+    fs::create_directories(place.parent_path());
+    fs::copy_file(kDrive, place);
+    fs::copy_file(kDriveCalibration, fs::path(place).replace_extension("calibration.xml"));
+  }
   void make_manifest() const { expect_done("manifest fleet -o m.json"); }
 
   /// The drives' folders in "out", below it, whole or not.

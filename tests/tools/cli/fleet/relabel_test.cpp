@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // `terracut manifest` and `terracut relabel`.
+#include <sys/stat.h>
+
 #include <chrono>
 #include <csignal>
 #include <thread>
@@ -59,15 +61,166 @@ TEST_F(Relabel, DoesAgainWhatIsNoLongerWhole) {
   expect_done("relabel m.json -o out");
   const std::string output = *outputs().begin();
   fs::resize_file(folder_ / "out" / output / "000003.label", 100);
-  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("labelled  1 drives"));
+  write("out/" + output + "/notes.txt", "mine");
+  const Outcome again = run("relabel m.json -o out");
+  EXPECT_THAT(again.out, HasSubstr("labelled  1 drives"));
+  EXPECT_THAT(again.err, HasSubstr("is kept as out/.relabel/broken/" + output + ".1"));
+  EXPECT_TRUE(fs::exists(folder_ / "out/.relabel/broken" / (output + ".1") / "notes.txt"));
   expect_labels_of_replay(output);
   expect_outputs_whole();
 }
 
-TEST_F(Relabel, KeepsNamesWhereOnlyATimeHasChanged) {
+TEST_F(Relabel, LeavesWhatOthersPutBesideLabels) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  for (const char* const name : {"/notes.txt", "/.DS_Store", "/Thumbs.db", "/corrected.label"}) {
+    write("out/" + *outputs().begin() + name, "mine");
+  }
+  for (const char* const records : {"kept", "lost"}) {
+    EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("there     1 drives")) << records;
+    EXPECT_EQ(content_of(folder_ / "out" / *outputs().begin() / "notes.txt"), "mine");
+    fs::remove_all(folder_ / "out/.relabel");
+  }
+}
+
+/// What was read decides, not what was there before and after.
+TEST_F(Relabel, GivesNoNameToLabelsOfAnInputThatWasReplacedMeanwhile) {
+  copy_drive("a");
+  make_manifest();
+  fs::copy_file(folder_ / "fleet/a.pcap", folder_ / "a_before.pcap");
+  fs::copy_file(folder_ / "fleet/a.pcap", folder_ / "a_other.pcap");
+  const auto written = fs::last_write_time(folder_ / "fleet/a.pcap");
+  fs::last_write_time(folder_ / "a_before.pcap", written);
+  fs::last_write_time(folder_ / "a_other.pcap", written);
+  BackgroundProgram program(folder_, "run", "relabel m.json -o out");
+  const auto is_labelling = [&] {  // it has hashed its inputs when it has a part
+    std::error_code none;
+    fs::directory_iterator part(folder_ / "out/.relabel/parts", none);
+    return !none && part != fs::directory_iterator();
+  };
+  while (!is_labelling() && !program.has_ended()) std::this_thread::yield();
+  program.interrupt(SIGSTOP);
+  fs::rename(folder_ / "a_other.pcap", folder_ / "fleet/a.pcap");
+  fs::rename(folder_ / "a_before.pcap", folder_ / "fleet/a.pcap");
+  program.interrupt(SIGCONT);
+  EXPECT_EQ(program.end().exit_code, kRefusedCode);
+  EXPECT_TRUE(outputs().empty());
+  EXPECT_TRUE(parts_are_gone());
+  EXPECT_THAT(run("relabel --status out").out,
+              HasSubstr("an input changed while it was labelled: 1"));
+  expect_done("relabel m.json -o out");
+  expect_labels_of_replay(*outputs().begin());
+}
+
+TEST_F(Relabel, ReadsAgainWhatWasReplacedByAFileOfTheSameLengthAndTime) {
+  copy_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  const fs::path capture = folder_ / "fleet/a.pcap";
+  const auto written = fs::last_write_time(capture);
+  std::string bytes = content_of(capture);
+  bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
+  std::ofstream(capture, std::ios::binary) << bytes;
+  fs::last_write_time(capture, written);
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("labelled  1 drives"));
+  EXPECT_EQ(outputs().size(), 2U);
+}
+
+TEST_F(Relabel, LosesOneDriveWhereItsPlaceIsBad) {
+  for (const char* const name : {"archived", "file", "good", "long"}) add_drive(name);
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  for (const std::string& output : outputs()) {
+    const fs::path place = folder_ / "out" / output;
+    fs::remove_all(place);
+    if (output.starts_with("archived")) fs::create_symlink("moved/away", place);
+    if (output.starts_with("file")) std::ofstream(place) << "mine";
+  }
+  auto manifest = json("m.json");
+  for (auto& drive : manifest["drives"]) {  // with its hash it is longer than a name can be
+    if (drive["name"] == "long") drive["name"] = std::string(240, 'n');
+  }
+  write("m.json", manifest.dump());
+  const Outcome outcome = run("relabel m.json -o out");
+  EXPECT_EQ(outcome.exit_code, kOutputFailedCode);
+  EXPECT_THAT(outcome.out, HasSubstr("labelled  1 drives"));
+  EXPECT_THAT(outcome.out, HasSubstr("something else has its place: archived, file"));
+  EXPECT_THAT(outcome.err, HasSubstr("a link has the name of the drive's labels; take it away"));
+  EXPECT_THAT(outcome.err, HasSubstr("File name too long"));
+  const Outcome status = run("relabel --status out");
+  EXPECT_THAT(status.out, HasSubstr("done      1 drives"));
+  EXPECT_THAT(status.out, HasSubstr("failed    3 drives"));
+}
+
+TEST_F(Relabel, KeepsRecordsOfDrivesApartWhateverTheyAreCalled) {
+  add_drive("x");
+  add_drive("x.json/y");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  EXPECT_THAT(run("relabel --status out").out, HasSubstr("done      2 drives"));
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("there     2 drives"));
+}
+
+/// Others can write to the folder of a fleet.
+TEST_F(Relabel, IsNotLedAstrayByWhatOthersWroteOfIt) {
+  add_drive("a");
+  add_drive("b");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  const fs::path facts = folder_ / "out" / *outputs().begin() / "terracut.json";
+  std::string text = content_of(facts);
+  const std::string frames = "\"frames\": 13";
+  ASSERT_NE(text.find(frames), std::string::npos);
+  text.replace(text.find(frames), frames.size(), "\"frames\": \"13\"");
+  write(facts.lexically_relative(folder_).string(), text);
+  const fs::path pipe = folder_ / "out" / *outputs().rbegin() / "terracut.json";
+  fs::remove(pipe);
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  std::size_t job = 0;
+  for (const char* const bad :
+       {"[3]", R"({"drives": [3]})", R"({"drives": [{"name": "a", "bytes": "y"}]})",
+        R"({"manifest": "m", "terracut": "v", "began_ns": "x", "drives": []})"}) {
+    const std::string state = "out/.relabel/bad" + std::to_string(job++);
+    fs::create_directories(folder_ / state);
+    write(state + "/job.json", bad);
+  }
+  fs::create_directories(folder_ / "out/.relabel/pipe");
+  ASSERT_EQ(::mkfifo((folder_ / "out/.relabel/pipe/job.json").c_str(), 0600), 0);
+  EXPECT_EQ(run("relabel --status out").exit_code, 0);
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("labelled  2 drives"));
+  EXPECT_EQ(run("compare out out").exit_code, 0);
+  for (const auto& entry : fs::recursive_directory_iterator(folder_ / "out/.relabel")) {
+    if (entry.path().parent_path().filename() != "records") continue;
+    auto record = nlohmann::json::parse(content_of(entry.path()));
+    record["output"] = "../elsewhere";
+    write(entry.path().lexically_relative(folder_).string(), record.dump());
+  }
+  EXPECT_EQ(run("compare out out").exit_code, kRefusedCode) << "no label of its job is there";
+}
+
+TEST_F(Relabel, PrintsNoControlCharactersOfNamesAndNoCommandOfAnother) {
   fs::create_directories(folder_ / "fleet");
-  fs::copy_file(kDrive, folder_ / "fleet/a.pcap");
-  fs::copy_file(kDriveCalibration, folder_ / "fleet/a.calibration.xml");
+  write("fleet/\x1b]0;title\n the rest  rm\a.pcap", "none");
+  const std::string manifest = "m'; touch owned; '.json";
+  expect_done("manifest fleet -o \"" + manifest + "\"");
+  const Outcome outcome = run("relabel \"" + manifest + "\" -o out");
+  EXPECT_EQ(outcome.exit_code, kRefusedCode);
+  const Outcome status = run("relabel --status out");
+  for (const std::string& text : {outcome.out, outcome.err, status.out}) {
+    EXPECT_THAT(text, HasSubstr("?]0;title? the rest  rm?"));
+    EXPECT_EQ(text.find('\x1b'), std::string::npos);
+    EXPECT_EQ(text.find('\a'), std::string::npos);
+  }
+  const std::string before = "the rest  terracut ";
+  const std::size_t begin = status.out.find(before) + before.size();
+  const Outcome rest = run(status.out.substr(begin, status.out.find('\n', begin) - begin));
+  EXPECT_EQ(rest.exit_code, kRefusedCode) << rest.err;
+  EXPECT_FALSE(fs::exists(folder_ / "owned"));
+}
+
+TEST_F(Relabel, KeepsNamesWhereOnlyATimeHasChanged) {
+  copy_drive("a");
   make_manifest();
   expect_done("relabel m.json -o out");
   const auto names = outputs();
@@ -143,7 +296,7 @@ TEST_F(Relabel, TakesNoMoreMemoryThanPlanSays) {
     const auto planned = json("plan.json")["process_bytes"].get<std::uint64_t>();
     std::uint64_t peak_bytes = 0;
     for (const auto& entry : fs::recursive_directory_iterator(folder_ / format / ".relabel")) {
-      if (entry.path().filename() != "a.json") continue;
+      if (entry.path().parent_path().filename() != "records") continue;
       peak_bytes = json(entry.path())["peak_memory_bytes"].get<std::uint64_t>();
     }
     EXPECT_LE(peak_bytes, planned) << format;
@@ -205,9 +358,40 @@ TEST_F(Relabel, TakesMoreArgumentsForADriveThatNeedsThem) {
   manifest["drives"][0]["arguments"] = {"--port", "1"};
   write("m.json", manifest.dump());
   EXPECT_THAT(run("relabel m.json -o out").err, HasSubstr("another port than --port"));
-  manifest["drives"][0]["arguments"] = {"--setup", "s.yaml"};
+  manifest["drives"][0]["arguments"] = {
+      "--mount-height=1.8",     "--mount-roll",         "-0.5", "--set",
+      "surface.step_up_m=0.05", "--nominal-calibration"};
   write("m.json", manifest.dump());
-  EXPECT_THAT(run("relabel m.json -o out").err, HasSubstr("--setup"));
+  expect_done("relabel m.json -o out");
+}
+
+TEST_F(Relabel, TakesNoArgumentsThatSayMoreThanHowADriveIsReadAndLabelled) {
+  add_drive("a");
+  make_manifest();
+  auto manifest = json("m.json");
+  for (const std::vector<std::string>& arguments :
+       std::vector<std::vector<std::string>>{{"--setup", "s.yaml"},
+                                             {"--view", "0.0.0.0:8999"},
+                                             {"--foxglove=0.0.0.0:8998"},
+                                             {"--dds"},
+                                             {"--loop", "0"},
+                                             {"--rate", "0.000001"},
+                                             {"--labels", "elsewhere"},
+                                             {"--metadata", "a=b"},
+                                             {"-h"},
+                                             {"--help"},
+                                             {"--config=c.yaml"},
+                                             {"other.pcap"},
+                                             {"--"},
+                                             {"--from", "-h"},
+                                             {"--from"}}) {
+    manifest["drives"][0]["arguments"] = arguments;
+    write("m.json", manifest.dump());
+    const Outcome outcome = run("relabel m.json -o out");
+    EXPECT_EQ(outcome.exit_code, arguments[0] == "--from" && arguments.size() == 2 ? 2 : 3)
+        << arguments[0] << outcome.err;
+    EXPECT_EQ(outcome.err.find("left no report"), std::string::npos) << arguments[0];
+  }
 }
 
 TEST_F(Relabel, RefusesWhatIsNoWholeCommand) {

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+#include "rt/error.hpp"
+#include "rt/files/owned_descriptor.hpp"
+
+namespace terracut::files {
+
+/// Opens a file for reading that others may have put there: a named pipe, which would make the
+/// reader wait, or a device, which has no end, is refused. Links are followed. kNotFound,
+/// kUnreadable.
+[[nodiscard]] Expected<OwnedDescriptor> open_plain_file(const std::filesystem::path& path);
+
+/// All that is in such a file. kUnreadable, too, where it holds more than `most_bytes`.
+[[nodiscard]] Expected<std::string> read_plain_file(const std::filesystem::path& path,
+                                                    std::size_t most_bytes);
+
+}  // namespace terracut::files

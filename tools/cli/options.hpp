@@ -224,6 +224,7 @@ struct FleetOptions {
 struct CompareOptions {
   std::filesystem::path before, after;  ///< Folders.
   int most = 10;                        ///< How many drives and frames to name.
+  bool trust_sums = false;              ///< Leave files unread whose sums are the same.
 };
 
 /// All of them; a command looks at those that the table of settings gives it.

@@ -17,7 +17,7 @@ ExitCode run_compare(const Options& options) {
   if (!after) return refuse(after.error());
   catch_stop_signals();
   const auto most = static_cast<std::size_t>(options.compare.most);
-  const auto changes = compare_labels(*before, *after, most);
+  const auto changes = compare_labels(*before, *after, most, options.compare.trust_sums);
   if (!changes) return refuse_work(changes.error());
   print_text(changes->text(most));
   if (Status written = write_json(options.output.json, changes->json()); !written) {

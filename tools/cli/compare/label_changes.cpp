@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
+#include <optional>
 #include <set>
 #include <system_error>
 #include <tuple>
@@ -16,6 +16,7 @@
 #include "pipeline/output/label_sink.hpp"
 #include "tools/cli/fleet/labelled_drive.hpp"
 #include "tools/cli/stop_signal.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -45,16 +46,15 @@ std::set<std::string> label_files_in(const fs::path& folder) {
   return names;
 }
 
-/// Sums by file name; empty where there are none.
-std::map<std::string, std::string> sums_in(const fs::path& folder) {
-  constexpr std::size_t kSumDigits = 64, kGap = 2;
-  std::map<std::string, std::string> sums;
-  std::ifstream file(folder / kDriveSums);
-  for (std::string line; std::getline(file, line);) {
-    if (line.size() > kSumDigits + kGap) {
-      sums[line.substr(kSumDigits + kGap)] = line.substr(0, kSumDigits);
-    }
-  }
+/// Of the files that SHA256SUMS lists, those not written to since it was.
+std::map<std::string, std::string> sums_still_true(const fs::path& folder) {
+  std::map<std::string, std::string> sums = listed_sums(folder);
+  std::error_code error;
+  const fs::file_time_type summed = fs::last_write_time(folder / kDriveSums, error);
+  std::erase_if(sums, [&](const auto& file) {
+    const auto written = fs::last_write_time(folder / file.first, error);
+    return error || written > summed;
+  });
   return sums;
 }
 
@@ -75,9 +75,12 @@ void keep_most(std::vector<FrameChange>& frames, std::size_t most) {
 /// Two folders of label files of one drive.
 class DriveComparison {
  public:
-  DriveComparison(std::string drive, const fs::path& before, const fs::path& after)
-      : before_(before), after_(after), sums_before_(sums_in(before)), sums_after_(sums_in(after)) {
+  DriveComparison(std::string drive, const fs::path& before, const fs::path& after, bool trust_sums)
+      : before_(before), after_(after) {
     change_.drive = std::move(drive);
+    if (!trust_sums) return;
+    sums_before_ = sums_still_true(before);
+    sums_after_ = sums_still_true(after);
   }
 
   Status compare(LabelChanges& all, std::size_t most) {
@@ -102,10 +105,9 @@ class DriveComparison {
  private:
   Status compare_frame(const std::string& name, LabelChanges& all, std::size_t most) {
     ReturnChanges changes;
-    const auto sum = sums_before_.find(name), other = sums_after_.find(name);
-    if (sum != sums_before_.end() && other != sums_after_.end() && sum->second == other->second) {
-      std::error_code none;
-      changes.returns = fs::file_size(before_ / name, none) / sizeof(std::uint32_t);
+    if (const auto bytes = bytes_by_sum(name)) {
+      changes.returns = *bytes / sizeof(std::uint32_t);
+      ++all.frames_by_sum;
     } else {
       Status read = scan::read_label_file(before_ / name, 0, ids_before_);
       if (read) read = scan::read_label_file(after_ / name, 0, ids_after_);
@@ -123,6 +125,18 @@ class DriveComparison {
     all.most.push_back({change_.drive, fs::path(name).stem().string(), changes});
     if (all.most.size() > 2 * most) keep_most(all.most, most);
     return {};
+  }
+
+  /// Of a file that is the same in both by what their sums say.
+  [[nodiscard]] std::optional<std::uint64_t> bytes_by_sum(const std::string& name) const {
+    const auto sum = sums_before_.find(name), other = sums_after_.find(name);
+    if (sum == sums_before_.end() || other == sums_after_.end() || sum->second != other->second) {
+      return std::nullopt;
+    }
+    std::error_code error;
+    const std::uint64_t before = fs::file_size(before_ / name, error);
+    if (error || before != fs::file_size(after_ / name, error)) return std::nullopt;
+    return before;
   }
 
   [[nodiscard]] ReturnChanges count() const {
@@ -193,7 +207,7 @@ ReturnChanges& ReturnChanges::operator+=(const ReturnChanges& more) noexcept {
 }
 
 Expected<LabelChanges> compare_labels(const Labelling& before, const Labelling& after,
-                                      std::size_t most) {
+                                      std::size_t most, bool trust_sums) {
   LabelChanges changes;
   for (const auto& [drive, folder] : before.drives) {
     const auto its = after.drives.find(drive);
@@ -201,7 +215,7 @@ Expected<LabelChanges> compare_labels(const Labelling& before, const Labelling& 
       ++changes.drives_before_alone;
       continue;
     }
-    DriveComparison comparison(drive, folder, its->second);
+    DriveComparison comparison(drive, folder, its->second, trust_sums);
     if (Status compared = comparison.compare(changes, most); !compared) {
       return tl::unexpected(compared.error());
     }
@@ -225,18 +239,23 @@ std::string LabelChanges::text(std::size_t shown) const {
       drives.size(), drives_before_alone, drives_after_alone, all.frames, all.changed_frames,
       frames_in_one_alone, frames_of_other_size, all.changes.returns, 100 * all.changes.share(),
       counts_of(all.changes));
+  if (frames_by_sum > 0) {
+    text += fmt::format("not read  {} of these frames, whose sums are the same\n", frames_by_sum);
+  }
   if (all.changed_frames == 0) return text;
   text += "most changed drives\n";
   for (std::size_t i = 0; i < std::min(shown, drives.size()); ++i) {
     const DriveChange& drive = drives[i];
     if (drive.changed_frames == 0) break;
     text += fmt::format("{:9.4f} %  {}: {} of {} frames; {}\n", 100 * drive.changes.share(),
-                        drive.drive, drive.changed_frames, drive.frames, counts_of(drive.changes));
+                        line_for_terminal(drive.drive), drive.changed_frames, drive.frames,
+                        counts_of(drive.changes));
   }
   text += "most changed frames\n";
   for (const FrameChange& frame : most) {
-    text += fmt::format("{:9.4f} %  {} {}: {}\n", 100 * frame.changes.share(), frame.drive,
-                        frame.frame, counts_of(frame.changes));
+    text += fmt::format("{:9.4f} %  {} {}: {}\n", 100 * frame.changes.share(),
+                        line_for_terminal(frame.drive), line_for_terminal(frame.frame),
+                        counts_of(frame.changes));
   }
   return text;
 }
@@ -246,6 +265,7 @@ Json LabelChanges::json() const {
             {"drives_after_alone", drives_after_alone},
             {"frames_in_one_alone", frames_in_one_alone},
             {"frames_of_other_size", frames_of_other_size},
+            {"frames_by_sum", frames_by_sum},
             {"all", json_of(all)},
             {"drives", Json::object()},
             {"most", Json::array()}};

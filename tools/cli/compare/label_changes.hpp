@@ -42,6 +42,7 @@ struct LabelChanges {
   std::uint64_t drives_before_alone = 0, drives_after_alone = 0;
   std::uint64_t frames_in_one_alone = 0;   ///< Of drives in both.
   std::uint64_t frames_of_other_size = 0;  ///< As many returns in neither: not compared.
+  std::uint64_t frames_by_sum = 0;         ///< Not read, for both SHA256SUMS say the same.
   DriveChange all;
   std::vector<DriveChange> drives;  ///< In both; by share, the most changed first.
   std::vector<FrameChange> most;  ///< Frames, by share, the most changed first; only changed ones.
@@ -51,11 +52,13 @@ struct LabelChanges {
   [[nodiscard]] nlohmann::ordered_json json() const;
 };
 
-/// Ground: 40 and 49; obstacle: 99; the upper 16 bits do not count. Files that have the same sum in
-/// both SHA256SUMS are not read. `most`: how many frames to name. The errors of the label files;
+/// Ground: 40 and 49; obstacle: 99; the upper 16 bits do not count. `trust_sums`: files that have
+/// the same sum in both SHA256SUMS, are as long, and were not written to since then, are not read.
+/// Else all are, for a sum says what a file once was. `most`: how many frames to name. The errors
+/// of the label files;
 /// kNotFound where there is no drive in both; kNothingCameOut when stop_wanted().
 [[nodiscard]] Expected<LabelChanges> compare_labels(const Labelling& before, const Labelling& after,
-                                                    std::size_t most);
+                                                    std::size_t most, bool trust_sums);
 
 /// What became of a return; kNone: the same as before.
 enum class LabelChange : std::uint8_t { kNone, kToObstacle, kToGround, kOther };

@@ -392,6 +392,8 @@ constexpr std::array kSettings{
             .reads = "the labels after", .field = [](O& o) -> F { return &o.compare.after; }},
     Setting{.option = "--most", .commands = C::kCompare, .help = "How many of the most changed drives and frames to name and to draw",
             .least = 1, .most = 10000, .field = [](O& o) -> F { return &o.compare.most; }},
+    Setting{.option = "--trust-sums", .commands = C::kCompare, .help = "Do not read files whose sums in both SHA256SUMS are the same and that were not written to since; finds no rotten ones",
+            .bare = "yes", .field = [](O& o) -> F { return &o.compare.trust_sums; }},
     Setting{.option = "--png", .commands = C::kCompare, .help = "Folder for pictures of the most changed frames, from above; of relabel's folders",
             .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
     Setting{.option = "--json", .commands = C::kCompare, .help = "The same as a file for programs",

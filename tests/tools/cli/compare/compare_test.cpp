@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // `terracut compare` of two labelings.
+#include <chrono>
 #include <fstream>
 
 #include "tests/tools/cli/fleet/relabel_fixture.hpp"
@@ -88,6 +89,29 @@ TEST_F(Compare, TakesTwoJobsOfOneFolderAndDrawsWhereTheyDiffer) {
   EXPECT_THAT(outcome.out, HasSubstr("frames    26 compared, 26 differ"));
   EXPECT_EQ(files_in(folder_ / "png", ".png"), 3U);
   EXPECT_THAT(run("compare out out").out, HasSubstr("frames    26 compared, 0 differ"));
+}
+
+/// A sum says what a file once was.
+TEST_F(Compare, ReadsFilesUnlessTheirSumsAreToBeTrusted) {
+  for (const char* const side : {"before", "after", "later"}) {
+    write_labels(std::string(side) + "/a/000000.label", {40, 40, 99, 99});
+    write_labels(std::string(side) + "/a/000001.label", {40, 40, 99, 99});
+    ASSERT_TRUE(seal(folder_ / side / "a", {{"drive", "a"}}));
+  }
+  const auto summed = fs::last_write_time(folder_ / "after/a/SHA256SUMS");
+  write_labels("after/a/000000.label", {99, 99, 99, 99});  // as if it had rotten
+  fs::last_write_time(folder_ / "after/a/000000.label", summed);
+  EXPECT_THAT(run("compare before after").out, HasSubstr("frames    2 compared, 1 differ"));
+  const Outcome trusting = run("compare before after --trust-sums --json c.json");
+  EXPECT_THAT(trusting.out, HasSubstr("frames    2 compared, 0 differ"));
+  EXPECT_THAT(trusting.out, HasSubstr("not read  2 of these frames"));
+  EXPECT_EQ(json("c.json")["frames_by_sum"], 2);
+  write_labels("later/a/000000.label", {99, 99, 99, 99});  // as somebody would correct it
+  fs::last_write_time(
+      folder_ / "later/a/000000.label",
+      fs::last_write_time(folder_ / "later/a/SHA256SUMS") + std::chrono::seconds(1));
+  EXPECT_THAT(run("compare before later --trust-sums").out,
+              HasSubstr("frames    2 compared, 1 differ"));
 }
 
 TEST_F(Compare, DrawsNothingWhereRecordingsAreNotKnown) {

@@ -11,6 +11,8 @@
 #include "pipeline/ros_messages/diagnostic_array.hpp"
 #include "pipeline/ros_messages/point_cloud.hpp"
 #include "pipeline/ros_messages/transform.hpp"
+#include "rt/files/part_file.hpp"
+#include "rt/files/room_left.hpp"
 #include "rt/files/whole_file.hpp"
 
 namespace terracut::mcap {
@@ -53,14 +55,41 @@ Status make_bag_folder(const fs::path& folder) {
 
 }  // namespace
 
-Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::Stream stream) {
-  std::unique_ptr<McapSink> sink(new McapSink(std::move(config), std::move(stream)));
-  const bool splits = sink->config_.split_bytes > 0 || sink->config_.split_ns > 0;
-  if (!sink->is_bag() && splits) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("{} is one file; expected a folder, for one that is split",
-                            sink->config_.path.string()));
+Status McapSink::check(const Config& config) {
+  const bool splits = config.split_bytes > 0 || config.split_ns > 0;
+  if (is_bag(config.path) || !splits) return {};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("{} is one file; expected a folder, for one that is split",
+                          config.path.string()));
+}
+
+fs::path McapSink::free_place(const fs::path& path) {
+  const fs::path plain = path.has_filename() ? path : path.parent_path();  // "drive/"
+  for (std::uint64_t number = 1;; ++number) {
+    fs::path place = plain;
+    if (number > 1) {
+      const fs::path ending = is_bag(plain) ? fs::path() : plain.extension();
+      const fs::path stem = is_bag(plain) ? plain.filename() : plain.stem();
+      place.replace_filename(fmt::format("{}_{}{}", stem.string(), number, ending.string()));
+    }
+    std::error_code error;
+    if (fs::is_directory(place, error) && is_bag(plain)) {
+      if (fs::is_empty(place, error) || error) return place;
+    } else if (!fs::exists(fs::symlink_status(place, error)) && !files::has_part(place)) {
+      return place;
+    }
   }
+}
+
+Expected<std::unique_ptr<McapSink>> McapSink::open(Config config, publish::Stream stream) {
+  if (const Status status = check(config); !status) return tl::unexpected(status.error());
+  if (config.unattended) {
+    if (const Status room = files::check_room_left(config.path); !room) {
+      return tl::unexpected(room.error());
+    }
+    config.path = free_place(config.path);
+  }
+  std::unique_ptr<McapSink> sink(new McapSink(std::move(config), std::move(stream)));
   if (sink->is_bag()) {
     if (const Status made = make_bag_folder(sink->config_.path); !made) {
       return tl::unexpected(made.error());
@@ -118,6 +147,12 @@ Status McapSink::finish() {
 }
 
 Status McapSink::make_room(std::int64_t time_ns) {
+  if (config_.unattended) {
+    if (const Status room = files::check_room_left(config_.path); !room) {
+      const Status closed = close_file();
+      return closed ? room : closed;
+    }
+  }
   const McapFile::Span span = file_->span();
   const bool is_empty = file_->is_empty();
   const bool is_full =

@@ -26,6 +26,9 @@ namespace terracut::mcap {
 /// A path that ends in ".mcap" is one file. Any other is the folder of a bag as rosbag2 makes it:
 /// NAME_0.mcap, NAME_1.mcap, ... with metadata.yaml beside them, which is renewed with each file
 /// that is full.
+///
+/// One that nobody watches over (Config::unattended) never takes the place of an older one and
+/// leaves room on the disk to others.
 class McapSink final : public publish::FrameSink {
  public:
   struct Config {
@@ -37,10 +40,15 @@ class McapSink final : public publish::FrameSink {
     /// road where the stream has it, in clouds of their own.
     bool points_alone = false;
     McapFile::Metadata metadata{};  ///< Kept in every file.
+    /// It goes to the next place that is free: beside "drive.mcap" or what a killed process left of
+    /// it to "drive_2.mcap", beside a folder with anything in it, "drive", to "drive_2", and so on.
+    /// It ends, whole, with an error of put() where no room is left (files::check_room_left()).
+    bool unattended = false;
   };
 
-  /// kInvalidArgument: a split of a single file, or a bag's folder that holds something already.
-  /// kWriteFailed.
+  /// kInvalidArgument: a split of a single file.
+  [[nodiscard]] static Status check(const Config& config);
+  /// kInvalidArgument: as check(), or a bag's folder that holds something already. kWriteFailed.
   [[nodiscard]] static Expected<std::unique_ptr<McapSink>> open(Config config,
                                                                 publish::Stream stream);
 
@@ -51,6 +59,11 @@ class McapSink final : public publish::FrameSink {
     return returns * sizeof(stream::LabelledPoint) * (kQueueFrames + 5) + kZstd_bytes;
   }
 
+  /// A second and a half: disks stop now and then.
+  static constexpr std::size_t kQueueFrames = 16;
+
+  /// The file, or the bag's folder.
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return config_.path; }
   [[nodiscard]] std::string_view name() const noexcept override { return "mcap"; }
   [[nodiscard]] std::size_t queue_frames() const noexcept override { return kQueueFrames; }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;
@@ -58,14 +71,16 @@ class McapSink final : public publish::FrameSink {
   [[nodiscard]] Status finish() override;
 
  private:
-  /// A second and a half: disks stop now and then.
-  static constexpr std::size_t kQueueFrames = 16;
-
   McapSink(Config config, publish::Stream stream);
-  [[nodiscard]] bool is_bag() const { return config_.path.extension() != ".mcap"; }
+  [[nodiscard]] bool is_bag() const { return is_bag(config_.path); }
+  [[nodiscard]] static bool is_bag(const std::filesystem::path& path) {
+    return path.extension() != ".mcap";
+  }
+  [[nodiscard]] static std::filesystem::path free_place(const std::filesystem::path& path);
   [[nodiscard]] std::size_t channel_of(std::size_t topic) const;
   [[nodiscard]] std::filesystem::path next_path() const;
-  /// There is a file, and room in it for a message of this time; each begins with the transform.
+  /// There is a file, and room in it and on its disk for a message of this time; each begins with
+  /// the transform.
   [[nodiscard]] Status make_room(std::int64_t time_ns);
   [[nodiscard]] Status close_file();
 

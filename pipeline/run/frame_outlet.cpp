@@ -33,24 +33,31 @@ void FrameOutlet::work() {
   while (true) {
     const bool last_round = finish_;
     for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(hand_out(frame));
-    if (stream_) {
-      stream_->server.work_round();
-      figures_.publish(stream_->server.figures());
+    stream::FrameStreamServer* const open = server();
+    if (open != nullptr) {
+      open->work_round();
+      figures_.publish(open->figures());
     }
     if (last_round) return;
-    (void)ready_.wait(stream_ ? stream_->server.descriptor() : -1, kSecond_ns);
+    (void)ready_.wait(open != nullptr ? open->descriptor() : -1, kSecond_ns);
   }
 }
 
-bool FrameOutlet::hand_out(const Slots::Frame& frame) {
-  bool served = true;
-  if (stream_) {
-    const std::int64_t latency_ns = frame.record.labels_ns - frame.record.info.last_packet_ns;
-    served = stream_->server.serve({.record = frame.record,
-                                    .sensor = stream_->sensor,
-                                    .late = latency_ns > stream_->deadline_ns,
-                                    .points = frame.items});
+bool FrameOutlet::stream(const Slots::Frame& frame) {
+  stream::FrameStreamServer* const open = server();
+  if (open == nullptr) {
+    ++while_closed_;
+    return true;
   }
+  const std::int64_t latency_ns = frame.record.labels_ns - frame.record.info.last_packet_ns;
+  return open->serve({.record = frame.record,
+                      .sensor = stream_->sensor,
+                      .late = latency_ns > stream_->deadline_ns,
+                      .points = frame.items});
+}
+
+bool FrameOutlet::hand_out(const Slots::Frame& frame) {
+  const bool served = !stream_ || stream(frame);
   if (!publisher_.has_sinks()) return served;
   const Status published = rt::caught([&]() -> Status {
     const auto shared = publisher_.buffer();

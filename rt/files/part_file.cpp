@@ -69,6 +69,20 @@ bool is_abandoned(const fs::path& path) {
   return ::flock(part.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
+/// Those of wanted places in a folder.
+std::vector<fs::path> parts_in(const fs::path& folder,
+                               const std::function<bool(std::string_view)>& is_wanted) {
+  std::error_code error;
+  std::vector<fs::path> parts;
+  fs::directory_iterator entry(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    const std::string_view place = place_of(name);
+    if (!place.empty() && is_wanted(place)) parts.push_back(entry->path());
+  }
+  return parts;
+}
+
 }  // namespace
 
 Part make_part_file(const fs::path& place) {
@@ -87,17 +101,17 @@ Part make_part_folder(const fs::path& place) {
   });
 }
 
+bool has_part(const fs::path& place) {
+  const std::string name = place.filename().string();
+  return !parts_in(place.has_parent_path() ? place.parent_path() : ".", [&](std::string_view of) {
+            return of == name;
+          }).empty();
+}
+
 void remove_abandoned_parts(const fs::path& folder,
                             const std::function<bool(std::string_view)>& is_wanted) {
   std::error_code error;
-  std::vector<fs::path> parts;
-  fs::directory_iterator entry(folder, error);
-  for (; !error && entry != fs::directory_iterator(); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    const std::string_view place = place_of(name);
-    if (!place.empty() && is_wanted(place)) parts.push_back(entry->path());
-  }
-  for (const fs::path& part : parts) {
+  for (const fs::path& part : parts_in(folder, is_wanted)) {
     if (is_abandoned(part)) fs::remove_all(part, error);
   }
 }

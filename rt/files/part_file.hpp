@@ -24,6 +24,9 @@ struct Part {
 /// Makes an empty folder, for this user alone.
 [[nodiscard]] Part make_part_folder(const std::filesystem::path& place);
 
+/// Whether a part of that place lies beside it, under way or abandoned.
+[[nodiscard]] bool has_part(const std::filesystem::path& place);
+
 /// Removes the parts of places in `folder` that their processes have left, as far as they are this
 /// user's. `is_wanted` is asked about the file name of each place. What cannot be removed stays.
 void remove_abandoned_parts(const std::filesystem::path& folder,

@@ -15,7 +15,7 @@ Status check_room_left(const std::filesystem::path& path) {
   std::filesystem::path at = path.empty() ? "." : path;
   while (::statvfs(at.c_str(), &space) != 0) {
     if (errno == EINTR) continue;
-    if (errno != ENOENT || !at.has_relative_path()) {
+    if ((errno != ENOENT && errno != ENOTDIR) || !at.has_relative_path()) {
       return fail(ErrorCode::kWriteFailed,
                   fmt::format("{}: its free space is not known: {}", path.string(),
                               std::generic_category().message(errno)));

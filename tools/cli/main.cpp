@@ -44,8 +44,11 @@ ExitCode run_command(const std::vector<std::string>& words) {
     print_text(arguments->text);
     return kOk;
   }
-  const auto claims = claim_outputs(files_of(*arguments));
+  std::vector<Error> unwritable;  // which a live run goes on without
+  const bool goes_on = arguments->command == Command::kLive;
+  const auto claims = claim_outputs(files_of(*arguments), goes_on ? &unwritable : nullptr);
   if (!claims) return refuse(claims.error());
+  for (const Error& each : unwritable) warn(each.message);
   return kRun[static_cast<std::size_t>(*arguments->command)](arguments->options);
 }
 

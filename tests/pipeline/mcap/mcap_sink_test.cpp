@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "tests/support/scratch_folder.hpp"
+#include "tests/support/small_disk.hpp"
 
 namespace terracut::mcap {
 namespace {
@@ -152,6 +153,57 @@ TEST_F(McapSinkTest, RefusesWhatCannotBe) {
   std::ofstream(folder_ / "full/something") << "else";
   EXPECT_THAT(refusal({.path = folder_ / "full"}), testing::HasSubstr("there is something in it"));
   EXPECT_THAT(refusal({.path = folder_ / "nowhere/a.mcap"}), testing::HasSubstr("nowhere"));
+}
+
+TEST_F(McapSinkTest, OneThatNobodyWatchesOverNeverTakesTheOlderOnesPlace) {
+  const auto record = [&](const fs::path& path) {
+    const auto sink = open({.path = path, .unattended = true});
+    put_frames(*sink, 0, 1, 10);
+    EXPECT_TRUE(sink->finish());
+    return sink->path();
+  };
+  EXPECT_EQ(record(folder_ / "drive.mcap"), folder_ / "drive.mcap");
+  const std::string first = content_of(folder_ / "drive.mcap");
+  EXPECT_EQ(record(folder_ / "drive.mcap"), folder_ / "drive_2.mcap");
+  EXPECT_EQ(content_of(folder_ / "drive.mcap"), first);
+  std::ofstream(folder_ / "drive_3.mcap.part-1-0") << "of a process that was killed";
+  EXPECT_EQ(record(folder_ / "drive.mcap"), folder_ / "drive_4.mcap");
+
+  EXPECT_EQ(record(folder_ / "bag/"), folder_ / "bag");
+  EXPECT_EQ(record(folder_ / "bag"), folder_ / "bag_2");
+  EXPECT_EQ(record(folder_ / "bag"), folder_ / "bag_3");
+  EXPECT_EQ(names_in(folder_ / "bag_3"), (std::set<std::string>{"bag_3_0.mcap", "metadata.yaml"}));
+  fs::create_directory(folder_ / "empty");
+  EXPECT_EQ(record(folder_ / "empty"), folder_ / "empty") << "nothing is in the way";
+  std::ofstream(folder_ / "file") << "something else";
+  EXPECT_EQ(record(folder_ / "file"), folder_ / "file_2");
+}
+
+TEST_F(McapSinkTest, OneThatNobodyWatchesOverLeavesRoomToOthersAndIsWhole) {
+  const auto outcome = test::on_a_disk_of(4000, folder_, [&] {
+    auto sink = McapSink::open({.path = folder_ / "bag", .unattended = true}, {});
+    if (!sink) return test::InChild::kOtherwise;
+    publish::LabelledFrame frame;
+    frame.points.resize(20'000);
+    for (std::size_t i = 0; i < frame.points.size(); ++i) {
+      frame.points[i].x_m = static_cast<float>(i * 7919 % 104729) * 0.00937F;
+    }
+    Status put;
+    for (int n = 0; n < 1000 && put; ++n) {
+      frame.record.info.last_packet_ns = n * 100'000'000LL;
+      put = (*sink)->put(frame);
+    }
+    const fs::space_info space = fs::space(folder_);
+    const bool is_whole = fs::exists(folder_ / "bag/bag_0.mcap") &&
+                          records_of(folder_ / "bag/bag_0.mcap").of.contains(kFooter) &&
+                          fs::exists(folder_ / "bag/metadata.yaml");
+    const bool leaves_room = !put && space.available > space.capacity / 50;
+    const bool is_refused = !McapSink::open({.path = folder_ / "more", .unattended = true}, {});
+    return is_whole && leaves_room && is_refused ? test::InChild::kAsExpected
+                                                 : test::InChild::kOtherwise;
+  });
+  if (outcome == test::InChild::kNotPossible) GTEST_SKIP() << "no file system may be mounted here";
+  EXPECT_EQ(outcome, test::InChild::kAsExpected);
 }
 
 TEST_F(McapSinkTest, FiguresAreDiagnostics) {

@@ -18,8 +18,10 @@ struct DdsTopics {
 };
 [[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
 
-/// The output that --dds asks for; its topics are said. kUnsupported in a program that was built
-/// without DDS, with what to install; else the errors of dds::DdsSink::open().
+/// kUnsupported in a program that was built without DDS, with what to install.
+[[nodiscard]] Status check_dds();
+/// The output that --dds asks for; its topics are said. The errors of check_dds() and of
+/// dds::DdsSink::open().
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(
     const DdsOptions& options, const publish::Stream& stream);
 

@@ -17,6 +17,10 @@ Error dds_absence() {
 
 }  // namespace
 
+Status check_dds() {
+  return tl::unexpected(dds_absence());
+}
+
 ExitCode run_node(const Options& /*options*/) {
   return refuse(dds_absence());
 }

@@ -22,6 +22,13 @@ namespace terracut::cli {
 [[nodiscard]] Expected<publish::Publisher::Sinks> open_sinks(const OutputOptions& options,
                                                              publish::Stream stream);
 
+/// The same for a run that goes on without them: each is opened on its own thread, and again where
+/// that fails, which is said (publish::RetriedSink).
+[[nodiscard]] publish::Publisher::Sinks retried_sinks(const OutputOptions& options,
+                                                      publish::Stream stream);
+/// What is wrong with them whatever becomes of ports and disks: kInvalidArgument, kUnsupported.
+[[nodiscard]] Status check_sinks(const OutputOptions& options);
+
 /// Foxglove's alone, of a capture that its viewers may play (null: nobody plays); the same errors.
 [[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_foxglove(
     const OutputOptions& options, publish::Stream stream, ViewedCapture* capture);

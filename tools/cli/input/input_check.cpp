@@ -8,8 +8,6 @@
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "firmware_io/vehicle/dbc_file.hpp"
-#include "pipeline/stream/listening_socket.hpp"
-#include "pipeline/stream/stream_address.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {
@@ -42,12 +40,6 @@ Status check_inputs(const Options& options) {
   if (Status mount = status_of(mount_of(options.mount)); !mount) return mount;
   if (options.motion.dbc.empty()) return {};
   return status_of(vehicle::read_dbc(options.motion.dbc));
-}
-
-Status check_before_listening(const Options& options) {
-  if (Status inputs = check_inputs(options); !inputs || options.stream.empty()) return inputs;
-  const auto address = stream::parse_stream_address(options.stream).value();
-  return status_of(stream::ListeningSocket::open(address));
 }
 
 }  // namespace terracut::cli

@@ -12,7 +12,4 @@ namespace terracut::cli {
 /// it. The errors of the files, naming them.
 [[nodiscard]] Status check_inputs(const Options& options);
 
-/// check_inputs(), and that nobody else has the address of the stream of labelled points.
-[[nodiscard]] Status check_before_listening(const Options& options);
-
 }  // namespace terracut::cli

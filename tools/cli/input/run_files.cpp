@@ -88,6 +88,7 @@ Status check_against(const Output& a, const Output& b) {
 
 Expected<files::OutputClaim> claim(const Output& output) {
   using Use = files::OutputClaim::Use;
+  if (const Status kind = check_kind(output); !kind) return tl::unexpected(kind.error());
   const bool from_beside = output.kind == Kind::kFile || output.kind == Kind::kReplacedFolder;
   auto claimed = from_beside ? files::OutputClaim::of_file(output.path)
                              : files::OutputClaim::of_folder(
@@ -118,6 +119,18 @@ Status check_origin(const Output& output) {
   return own ? own : fail(own.error().code, output.option + " " + own.error().message);
 }
 
+Status check_apart(const RunFiles& files) {
+  for (auto output = files.outputs.begin(); output != files.outputs.end(); ++output) {
+    for (const Input& input : files.inputs) {
+      if (Status apart = check_against(*output, input); !apart) return apart;
+    }
+    for (auto other = files.outputs.begin(); other != output; ++other) {
+      if (Status apart = check_against(*other, *output); !apart) return apart;
+    }
+  }
+  return {};
+}
+
 }  // namespace
 
 void RunFiles::read(std::string option, const fs::path& path, std::string what) {
@@ -128,20 +141,8 @@ void RunFiles::write(std::string option, const fs::path& path, Kind kind, std::s
   if (!path.empty()) outputs.push_back({std::move(option), path, kind, std::move(ending)});
 }
 
-Status check_apart(const RunFiles& files) {
-  for (auto output = files.outputs.begin(); output != files.outputs.end(); ++output) {
-    for (const Input& input : files.inputs) {
-      if (Status apart = check_against(*output, input); !apart) return apart;
-    }
-    for (auto other = files.outputs.begin(); other != output; ++other) {
-      if (Status apart = check_against(*other, *output); !apart) return apart;
-    }
-    if (Status kind = check_kind(*output); !kind) return kind;
-  }
-  return {};
-}
-
-Expected<std::vector<files::OutputClaim>> claim_outputs(const RunFiles& files) {
+Expected<std::vector<files::OutputClaim>> claim_outputs(const RunFiles& files,
+                                                        std::vector<Error>* unwritable) {
   if (const Status apart = check_apart(files); !apart) return tl::unexpected(apart.error());
   std::vector<files::OutputClaim> claims;
   std::vector<FilePlace> held;  // several kinds of files may go to one folder
@@ -149,6 +150,10 @@ Expected<std::vector<files::OutputClaim>> claim_outputs(const RunFiles& files) {
     const FilePlace place(output.path);
     if (std::ranges::none_of(held, [&](const FilePlace& at) { return at.is_same_as(place); })) {
       auto claimed = claim(output);
+      if (!claimed && unwritable != nullptr && claimed.error().code == ErrorCode::kWriteFailed) {
+        unwritable->push_back(claimed.error());
+        continue;
+      }
       if (!claimed) return tl::unexpected(claimed.error());
       claims.push_back(*std::move(claimed));
       held.emplace_back(output.path);

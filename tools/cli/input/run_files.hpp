@@ -44,13 +44,11 @@ struct RunFiles {
 
 /// The one check of all commands, before any work: that no output is, lies in or replaces an input,
 /// that no two outputs are one, and that each can be what it is named for. Files are compared by
-/// what they are, not by their names (files::FilePlace). Looks at the disk, changes nothing.
-/// kInvalidArgument or kWriteFailed, naming options and files.
-[[nodiscard]] Status check_apart(const RunFiles& files);
-
-/// check_apart(), then every output is held against other runs as long as the claims live. The
-/// errors of files::OutputClaim; kInvalidArgument where a folder for frames holds files of another
-/// origin.
-[[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(const RunFiles& files);
+/// what they are, not by their names (files::FilePlace). Then every output is held against other
+/// runs as long as the claims live. The errors of files::OutputClaim, naming options and files;
+/// kInvalidArgument where a folder for frames holds files of another origin. What cannot be written
+/// to now (kWriteFailed) is put into `unwritable` instead, where that is given, and not held.
+[[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(
+    const RunFiles& files, std::vector<Error>* unwritable = nullptr);
 
 }  // namespace terracut::cli

@@ -9,45 +9,41 @@
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "pipeline/stream/stream_address.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/export/door_news.hpp"
 
 namespace terracut::cli {
 
-FiguresDisplay::FiguresDisplay(const WatchOptions& options) {
-  open_page(options);
-  if (options.metrics != "off") open_metrics(options);
+FiguresDisplay::FiguresDisplay(const WatchOptions& options)
+    : page_({.open =
+                 [name = options.name] {
+                   return Page::create(name, status::MonitorSnapshot::kLayout);
+                 },
+             .on_news = [](const Status& now) { tell_of_door("the status page", now); }}) {
+  if (options.metrics != "off") metrics_.emplace(metrics_at(options.metrics));
 }
 
 void FiguresDisplay::show(const status::MonitorSnapshot& figures) {
-  if (page_) page_->publish(figures);
-  if (!metrics_) return;
+  if (Page* const page = page_.get()) page->publish(figures);
+  if (!metrics_ || metrics_->get() == nullptr) return;
   const std::scoped_lock lock(shown_mutex_);
   *shown_ = figures;
 }
 
-void FiguresDisplay::open_page(const WatchOptions& options) {
-  auto page = page::StatusPagePublisher<status::MonitorSnapshot>::create(
-      options.name, status::MonitorSnapshot::kLayout);
-  if (page) {
-    page_.emplace(*std::move(page));
-  } else {
-    warn("no status page: " + page.error().message);
-  }
-}
-
-void FiguresDisplay::open_metrics(const WatchOptions& options) {
-  const net::Ipv4Endpoint at = stream::parse_serving_endpoint(options.metrics).value();
-  auto server = MetricsServer::start(net::ipv4_text(at.address), at.port,
-                                     [this](status::MonitorSnapshot& figures) {
-                                       const std::scoped_lock lock(shown_mutex_);
-                                       figures = *shown_;
-                                     });
-  if (server) {
-    metrics_.emplace(*std::move(server));
-    say(fmt::format("figures at http://{}:{}/metrics", net::ipv4_text(at.address),
-                    metrics_->port()));
-  } else {
-    warn("no /metrics: " + server.error().message);
-  }
+publish::Reopened<MetricsServer>::Config FiguresDisplay::metrics_at(const std::string& endpoint) {
+  const net::Ipv4Endpoint at = stream::parse_serving_endpoint(endpoint).value();
+  const auto read = [this](status::MonitorSnapshot& figures) {
+    const std::scoped_lock lock(shown_mutex_);
+    figures = *shown_;
+  };
+  const auto open = [at, read]() -> Expected<MetricsServer> {
+    auto server = MetricsServer::start(net::ipv4_text(at.address), at.port, read);
+    if (server) {
+      say(fmt::format("figures at http://{}:{}/metrics", net::ipv4_text(at.address),
+                      server->port()));
+    }
+    return server;
+  };
+  return {.open = open, .on_news = [](const Status& now) { tell_of_door("/metrics", now); }};
 }
 
 }  // namespace terracut::cli

@@ -5,8 +5,10 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 
 #include "pipeline/page/status_page.hpp"
+#include "pipeline/publish/reopened.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 #include "tools/cli/export/metrics_server.hpp"
 #include "tools/cli/options.hpp"
@@ -17,20 +19,21 @@ namespace terracut::cli {
 /// on, so that who looks finds a run that waits for its sensor. One thread; touches no disk.
 class FiguresDisplay {
  public:
-  /// What cannot be opened is warned of, and the run goes on without it.
+  /// What cannot be opened is warned of and tried again, and the run goes on without it.
   explicit FiguresDisplay(const WatchOptions& options);
 
   void show(const status::MonitorSnapshot& figures);
 
  private:
-  void open_page(const WatchOptions& options);
-  void open_metrics(const WatchOptions& options);
+  using Page = page::StatusPagePublisher<status::MonitorSnapshot>;
+  [[nodiscard]] publish::Reopened<MetricsServer>::Config metrics_at(const std::string& endpoint);
 
-  std::optional<page::StatusPagePublisher<status::MonitorSnapshot>> page_;
+  publish::Reopened<Page> page_;
   std::mutex
       shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
   std::unique_ptr<status::MonitorSnapshot> shown_ = std::make_unique<status::MonitorSnapshot>();
-  std::optional<MetricsServer> metrics_;  ///< Last: it reads shown_ until it is gone.
+  /// Last: it reads shown_ until it is gone.
+  std::optional<publish::Reopened<MetricsServer>> metrics_;
 };
 
 }  // namespace terracut::cli

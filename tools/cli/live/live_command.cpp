@@ -29,6 +29,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/chrome_trace.hpp"
+#include "tools/cli/export/door_news.hpp"
 #include "tools/cli/export/output_sinks.hpp"
 #include "tools/cli/figures/dashboard.hpp"
 #include "tools/cli/figures/figures_json.hpp"
@@ -217,24 +218,23 @@ struct LiveParts {
 /// What leaves a run, on threads that nothing waits for.
 class Writers {
  public:
-  /// The errors of FrameStreamServer::open() and open_sinks().
-  [[nodiscard]] Status open(const Options& options, const sensor::SensorOnAir& sensor,
-                            const mount::Mount& mount, LiveParts& parts) {
+  /// What cannot be had is tried again as long as the run goes on.
+  void open(const Options& options, const sensor::SensorOnAir& sensor, const mount::Mount& mount,
+            LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
-    auto sinks = open_sinks(options.output,
-                            {.sensor = describe(sensor),
-                             .rows = parts.pipeline.decoder.shape().rows,
-                             .mount = mount,
-                             .deadline_ns = deadline_ns,
-                             .has_road = method_config_of(options.method).segmenter.road.enabled});
-    if (!sinks) return tl::unexpected(sinks.error());
-    publisher_.emplace(*std::move(sinks), publish::WhenFull::kDropOldest, warn_of_failure);
+    publisher_.emplace(
+        retried_sinks(options.output,
+                      {.sensor = describe(sensor),
+                       .rows = parts.pipeline.decoder.shape().rows,
+                       .mount = mount,
+                       .deadline_ns = deadline_ns,
+                       .has_road = method_config_of(options.method).segmenter.road.enabled}),
+        publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.threads.points()) {
       std::optional<run::FrameOutlet::Stream> stream;
       if (!options.stream.empty()) {
-        auto server = open_stream(options, parts);
-        if (!server) return tl::unexpected(server.error());
-        stream = {*std::move(server), stream::streamed_sensor(sensor.model), deadline_ns};
+        stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
+                  stream::streamed_sensor(sensor.model), deadline_ns};
       }
       outlet_.emplace(std::move(stream), *publisher_, *parts.threads.points(),
                       parts.threads.points_ready());
@@ -245,7 +245,6 @@ class Writers {
     } else {
       refusals_.emplace(page::status_page_folder(), options.watch.name);
     }
-    return {};
   }
 
   /// Null where only labels leave. After open().
@@ -277,20 +276,25 @@ class Writers {
   }
 
  private:
-  [[nodiscard]] Expected<stream::FrameStreamServer> open_stream(const Options& options,
-                                                                const LiveParts& parts) {
-    auto server = stream::FrameStreamServer::open(
-        {.address = stream::parse_stream_address(options.stream).value(),
-         .unix_mode = options.stream_mode,
-         .max_points = parts.pipeline.decoder.return_capacity()},
-        stream_memory_);
-    if (!server) return server;
-    if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
-    say("labelled points at " + to_string(server->address()));
-    return server;
+  [[nodiscard]] publish::Reopened<stream::FrameStreamServer>::Config stream_at(
+      const Options& options, const LiveParts& parts) {
+    const stream::FrameStreamConfig config{
+        .address = stream::parse_stream_address(options.stream).value(),
+        .unix_mode = options.stream_mode,
+        .max_points = parts.pipeline.decoder.return_capacity()};
+    const auto open = [this, config]() -> Expected<stream::FrameStreamServer> {
+      auto server = stream::FrameStreamServer::open(config, stream_memory_);
+      if (!server) return server;
+      if (!server->send_buffer().granted) warn(to_line(server->send_buffer()));
+      say("labelled points at " + to_string(server->address()));
+      return server;
+    };
+    return {.open = open,
+            .on_news = [](const Status& now) { tell_of_door("stream of labelled points", now); }};
   }
 
-  memory::FixedMemory stream_memory_;  ///< Not locked: no thread with a deadline touches it.
+  /// Of the outlet's thread; not locked: no thread with a deadline touches it.
+  memory::FixedMemory stream_memory_;
   std::optional<publish::Publisher> publisher_;
   std::optional<run::FrameOutlet> outlet_;
   std::optional<LabelWriter> labels_;
@@ -333,7 +337,8 @@ ExitCode conclude(const Options& options, const LiveWatch& watch) {
 }  // namespace
 
 ExitCode run_live(const Options& options) {
-  if (const Status ready = check_before_listening(options); !ready) return refuse(ready.error());
+  if (const Status ready = check_inputs(options); !ready) return refuse(ready.error());
+  if (const Status sinks = check_sinks(options.output); !sinks) return refuse(sinks.error());
   DumpSignal dump_wanted;  // before any thread: they inherit that the signal is blocked
   write_in_background();
   catch_stop_signals();
@@ -343,7 +348,7 @@ ExitCode run_live(const Options& options) {
   LiveService service = LiveService::from_environment();
   if (!options.recorder.folder.empty()) {
     const auto usable = recorder::DumpFolder(dump_folder_of(options)).check();
-    if (!usable) return refuse(kOutputFailed, "dumps: " + usable.error().message);
+    if (!usable) warn("no dumps as long as this is so: " + usable.error().message);
   }
   auto source = open_source(options, socket_memory);
   if (!source) return refuse(source.error());
@@ -392,9 +397,7 @@ ExitCode run_live(const Options& options) {
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 
   Writers writers;
-  if (const Status opened = writers.open(options, *sensor, profile->mount, parts); !opened) {
-    return refuse(opened.error());
-  }
+  writers.open(options, *sensor, profile->mount, parts);
   say_refusals(parts.start(options));
   parts.watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());
   const Status ran = rt::caught([&]() -> Status {

@@ -148,7 +148,8 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
                              {"stream_frames_cut_short", stream.cut_short},
                              {"stream_frames_too_large", stream.frames_too_large},
                              {"stream_readers_refused", stream.refused},
-                             {"stream_readers_stalled", stream.stalled}});
+                             {"stream_readers_stalled", stream.stalled},
+                             {"stream_frames_while_closed", outlet_->frames_while_closed()}});
   }
   if (publisher_ != nullptr) std::ranges::move(publisher_->losses(over_), std::back_inserter(more));
   status::show_losses(more, figures);

@@ -13,7 +13,6 @@
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "calib/ruby128/ruby128_csv.hpp"
-#include "pipeline/stream/listening_socket.hpp"
 #include "tests/support/scratch_folder.hpp"
 
 namespace terracut::cli {
@@ -28,7 +27,7 @@ class InputCheck : public testing::Test {
   void TearDown() override { fs::remove_all(folder_); }
 
   [[nodiscard]] static std::string refusal_of(const Options& options) {
-    const Status ready = check_before_listening(options);
+    const Status ready = check_inputs(options);
     return ready ? "" : ready.error().message;
   }
   [[nodiscard]] Options with_calibration(const fs::path& file,
@@ -62,15 +61,6 @@ TEST_F(InputCheck, TakesTheCalibrationOfEitherSensorUntilOneIsNamed) {
               HasSubstr("angle.csv"));
   EXPECT_THAT(refusal_of(with_calibration("unit.xml", sensor::SensorModel::kRuby128)),
               HasSubstr("unit.xml"));
-}
-
-TEST_F(InputCheck, NamesAStreamAddressThatAnotherProgramHas) {
-  Options options;
-  options.stream = (folder_ / "frames").string();
-  EXPECT_EQ(refusal_of(options), "");
-  const auto taken = stream::ListeningSocket::open({.unix_path = options.stream});
-  ASSERT_TRUE(taken) << taken.error().message;
-  EXPECT_THAT(refusal_of(options), HasSubstr("another program listens there"));
 }
 
 }  // namespace

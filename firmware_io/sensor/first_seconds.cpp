@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,14 +20,13 @@ constexpr std::int64_t kAnotherShows_ns = 300'000'000;
 /// A sensor that rotates sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
 constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
 
-Error several(const std::vector<HeardSenders::Sensor>& found) {
+std::string names_of(const std::vector<HeardSenders::Sensor>& sensors) {
   std::string all;
-  for (const auto& [address, model] : found) {
+  for (const auto& [address, model] : sensors) {
     all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", to_string(model),
                        net::ipv4_text(address));
   }
-  return {ErrorCode::kInvalidArgument,
-          fmt::format("several sensors send here: {}; choose one with --from", all)};
+  return all;
 }
 
 }  // namespace
@@ -37,14 +37,17 @@ bool FirstSeconds::wants_device_port() const {
 }
 
 bool FirstSeconds::is_enough() const {
-  const auto sensors = senders_.rotating();
+  const Sensors sensors = chosen_of(senders_.rotating());
   if (sensors.empty() || senders_.known_for_ns() < kAnotherShows_ns) return false;
+  if (config_.known_address && senders_.is_steady_but_stands(*config_.known_address)) return false;
   return sensors.size() > 1 || config_.calibration.is_given() ||
          senders_.has_told(sensors.front()) || senders_.known_for_ns() >= kCalibrationComes_ns;
 }
 
 std::string FirstSeconds::waits_for() const {
-  if (const auto sensors = senders_.rotating(); !sensors.empty()) {
+  const bool known_stands =
+      config_.known_address && senders_.is_steady_but_stands(*config_.known_address);
+  if (const Sensors sensors = chosen_of(senders_.rotating()); !sensors.empty() && !known_stands) {
     return fmt::format("{} at {} is heard; waiting for its calibration",
                        to_string(sensors.front().model), net::ipv4_text(sensors.front().address));
   }
@@ -54,10 +57,14 @@ std::string FirstSeconds::waits_for() const {
 }
 
 Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) const {
-  auto found = senders_.rotating();
-  if (found.empty()) found = senders_.steady();
+  Sensors found = chosen_of(senders_.rotating());
+  if (found.empty()) found = chosen_of(senders_.steady());
   if (found.empty()) return tl::unexpected(nobody(patience_s));
-  if (found.size() > 1) return tl::unexpected(several(found));
+  if (found.size() > 1) {
+    return fail(
+        ErrorCode::kInvalidArgument,
+        fmt::format("several sensors send here: {}; choose one with --from", names_of(found)));
+  }
   const HeardSenders::Sensor& sensor = found.front();
   const SensorProbe& probe = senders_.probe(sensor.address);
   auto calibration = unit_calibration(config_.calibration, sensor.model,
@@ -69,6 +76,22 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
                      .spin_hz = probe.spin_hz(sensor.model),
                      .dual_return = probe.dual_return(sensor.model),
                      .calibration = *std::move(calibration)};
+}
+
+FirstSeconds::Sensors FirstSeconds::chosen_of(Sensors heard) const {
+  if (heard.size() < 2 || !config_.known_address) return heard;
+  const auto known =
+      std::ranges::find(heard, *config_.known_address, &HeardSenders::Sensor::address);
+  return known == heard.end() ? heard : Sensors{*known};
+}
+
+std::string FirstSeconds::other_sensors() const {
+  Sensors others = senders_.rotating();
+  const Sensors chosen = chosen_of(others);
+  if (chosen.size() == 1) {
+    std::erase_if(others, [&](const auto& each) { return each.address == chosen.front().address; });
+  }
+  return names_of(others);
 }
 
 std::string FirstSeconds::wanted_name() const {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/datagram.hpp"
@@ -38,6 +39,8 @@ class FirstSeconds {
     CalibrationChoice calibration;
     std::string place;              ///< For people: where packets come in, "0.0.0.0:2368".
     std::uint16_t device_port = 0;  ///< Where an RS-Ruby128 was heard as well; 0: nowhere.
+    /// IPv4 of the sensor that was in use before: of several it is the one.
+    std::optional<std::uint32_t> known_address{};
   };
   explicit FirstSeconds(Config config) : config_(std::move(config)), senders_(config_.model) {}
 
@@ -48,18 +51,26 @@ class FirstSeconds {
 
   /// It pays to listen at the device port.
   [[nodiscard]] bool wants_device_port() const;
-  /// A sensor's head rotates, nobody else sends, and its calibration is known or will not come:
-  /// within 0.3 s another sensor would have shown, within 6 s a calibration.
+  /// A sensor's head rotates, nobody else sends, or it is the one that was in use before, and its
+  /// calibration is known or will not come: within 0.3 s another sensor would have shown, within 6
+  /// s a calibration. Where the one that was in use before sends and stands, it is waited for.
   [[nodiscard]] bool is_enough() const;
   /// For people: what is missing.
   [[nodiscard]] std::string waits_for() const;
 
+  /// For people, of the sensors that are not concluded: "HDL-64E at 192.168.1.7". Empty: none.
+  [[nodiscard]] std::string other_sensors() const;
+
   /// The sensor, turning or not. kUnsupported: nobody sends what can be decoded; the message says
   /// what came instead, within `patience_s` where that is given. kInvalidArgument: several sensors
-  /// do. kNoCalibration: none was given nor sent. The errors of the calibration file.
+  /// do, of which none was in use before. kNoCalibration: none was given nor sent. The errors of
+  /// the calibration file.
   [[nodiscard]] Expected<SensorOnAir> conclude(std::optional<double> patience_s = {}) const;
 
  private:
+  using Sensors = std::vector<HeardSenders::Sensor>;
+  /// Of several the one that was in use before, where it is among them.
+  [[nodiscard]] Sensors chosen_of(Sensors heard) const;
   [[nodiscard]] std::string wanted_name() const;
   [[nodiscard]] std::string heard_instead() const;
   [[nodiscard]] Error nobody(std::optional<double> patience_s) const;

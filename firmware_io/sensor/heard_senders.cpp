@@ -6,24 +6,55 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 
 namespace terracut::sensor {
 
-void HeardSenders::add(const decode::Datagram& datagram) {
-  const auto known = senders_.find(datagram.source_address);
-  if (known == senders_.end() && senders_.size() >= kMostSenders) return;
-  Sender& sender = senders_[datagram.source_address];
-  sender.probe.add(datagram);
-  (void)sender.ruby128_device.add(datagram.payload);
+void HeardSenders::Sender::add(const decode::Datagram& datagram) {
+  newest_ns = datagram.stamp_ns;
+  probe.add(datagram);
+  (void)ruby128_device.add(datagram.payload);
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
-    sender.hdl64e_status.add(packet->status_type, packet->status_value, packet->stamp_us.value());
+    hdl64e_status.add(packet->status_type, packet->status_value, packet->stamp_us.value());
   }
+}
+
+std::uint64_t HeardSenders::Sender::data_packets() const {
+  std::uint64_t packets = 0;
+  for (const SensorModel model : kDecodedModels) packets += probe.packets_of(model);
+  return packets;
+}
+
+void HeardSenders::add(const decode::Datagram& datagram) {
   newest_ns_ = datagram.stamp_ns;
+  Sender* const sender = sender_of(datagram);
+  if (sender == nullptr) return void(++forgotten_datagrams_);
+  sender->add(datagram);
   if (first_known_ns_ == 0 && !rotating().empty()) first_known_ns_ = newest_ns_;
+}
+
+HeardSenders::Sender* HeardSenders::sender_of(const decode::Datagram& datagram) {
+  const auto known = senders_.find(datagram.source_address);
+  if (known != senders_.end()) return &known->second;
+  if (senders_.size() >= kMostSenders) {
+    SensorProbe newcomer;
+    newcomer.add(datagram);
+    const bool is_data = std::ranges::any_of(
+        kDecodedModels, [&](SensorModel model) { return newcomer.packets_of(model) > 0; });
+    if (!is_data) return nullptr;
+    const auto least = std::ranges::min_element(senders_, {}, [](const auto& entry) {
+      return std::pair(entry.second.data_packets(), entry.second.newest_ns);
+    });
+    for (const auto& [model, datagrams] : least->second.probe.votes()) {
+      forgotten_datagrams_ += datagrams;
+    }
+    senders_.erase(least);
+  }
+  return &senders_[datagram.source_address];
 }
 
 template <class Predicate>
@@ -39,6 +70,11 @@ std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& ar
 
 std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
   return sensors_that(&SensorProbe::knows);
+}
+
+bool HeardSenders::is_steady_but_stands(std::uint32_t address) const {
+  const auto is_at = [&](const Sensor& sensor) { return sensor.address == address; };
+  return std::ranges::any_of(steady(), is_at) && std::ranges::none_of(rotating(), is_at);
 }
 
 std::vector<HeardSenders::Sensor> HeardSenders::steady() const {
@@ -71,13 +107,28 @@ std::string HeardSenders::describe(const Sender& sender) const {
 
 std::string HeardSenders::others() const {
   std::string text;
-  for (const auto& [address, sender] : senders_) {
-    const auto is_rotating = [&](SensorModel model) {
-      return wants(model) && sender.probe.knows(model);
-    };
-    if (std::ranges::any_of(kDecodedModels, is_rotating)) continue;
-    text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", describe(sender),
-                        net::ipv4_text(address));
+  std::size_t named = 0;
+  std::uint64_t unnamed = 0;
+  // Who sends data packets says more.
+  for (const bool sends_data : {true, false}) {
+    for (const auto& [address, sender] : senders_) {
+      const auto is_rotating = [&, &probe = sender.probe](SensorModel model) {
+        return wants(model) && probe.knows(model);
+      };
+      if ((sender.data_packets() > 0) != sends_data) continue;
+      if (std::ranges::any_of(kDecodedModels, is_rotating)) continue;
+      if (++named > kMostNamed) {
+        ++unnamed;
+        continue;
+      }
+      text += fmt::format("{}{} from {}", text.empty() ? "" : "; ", describe(sender),
+                          net::ipv4_text(address));
+    }
+  }
+  if (unnamed > 0) text += fmt::format("; {} others", unnamed);
+  if (forgotten_datagrams_ > 0) {
+    text +=
+        fmt::format("; {} datagrams of more addresses than are remembered", forgotten_datagrams_);
   }
   return text;
 }

@@ -16,8 +16,11 @@
 namespace terracut::sensor {
 
 /// Who sends to the ports that are listened at, and on what evidence: a sensor is who sends a
-/// steady stream of data packets of a rotating head, not who sent one packet. Time is that of the
-/// datagrams' stamps. Allocates; one thread.
+/// steady stream of data packets of a rotating head, not who sent one packet. Whatever else is sent
+/// and by how many, a sensor is heard: of those that are remembered, who sent the fewest data
+/// packets makes room for a newcomer, the one that was silent longest among equals, and who sends
+/// no data packets makes room for nobody. Time is that of the datagrams' stamps. Allocates; one
+/// thread.
 class HeardSenders {
  public:
   struct Sensor {
@@ -35,6 +38,8 @@ class HeardSenders {
   [[nodiscard]] std::vector<Sensor> rotating() const;
   /// Those that send data packets steadily, whether their head rotates or not.
   [[nodiscard]] std::vector<Sensor> steady() const;
+  /// It is one of steady(), and not of rotating().
+  [[nodiscard]] bool is_steady_but_stands(std::uint32_t address) const;
   /// Since the first of rotating() was known, by the newest datagram; 0 without one.
   [[nodiscard]] std::int64_t known_for_ns() const {
     return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
@@ -52,20 +57,27 @@ class HeardSenders {
     return senders_.at(address).ruby128_device;
   }
   /// For people, what came instead of a rotating sensor: "12 datagrams of no sensor known here from
-  /// 192.168.1.7; HDL-64E at 192.168.1.201, whose head does not rotate". Empty: nothing did.
+  /// 192.168.1.7; HDL-64E, whose head does not rotate, from 192.168.1.201". Empty: nothing did.
   [[nodiscard]] std::string others() const;
 
  private:
   /// More senders than these are somebody's port scan.
   static constexpr std::size_t kMostSenders = 64;
   static constexpr std::uint64_t kSteady_packets = 50;
+  static constexpr std::size_t kMostNamed = 4;  ///< By others(); the rest is counted.
 
   /// What came from one address.
   struct Sender {
     SensorProbe probe;
     hdl64e::StatusStreamReader hdl64e_status;
     Ruby128DeviceReader ruby128_device;
+    std::int64_t newest_ns = 0;
+
+    void add(const decode::Datagram& datagram);
+    [[nodiscard]] std::uint64_t data_packets() const;
   };
+  /// Its sender's entry, which may be a new one; null where there is no room for it.
+  [[nodiscard]] Sender* sender_of(const decode::Datagram& datagram);
 
   template <class Predicate>
   [[nodiscard]] std::vector<Sensor> sensors_that(const Predicate& are) const;
@@ -73,6 +85,7 @@ class HeardSenders {
 
   std::optional<SensorModel> wanted_;
   std::map<std::uint32_t, Sender> senders_;
+  std::uint64_t forgotten_datagrams_ = 0;  ///< Of senders that made room, or found none.
   std::int64_t newest_ns_ = 0, first_known_ns_ = 0;
 };
 

@@ -113,6 +113,48 @@ TEST(FirstSeconds, SeveralSensorsAreNamedAndNoneIsChosen) {
               AllOf(HasSubstr("192.168.1.201"), HasSubstr("192.168.1.7"), HasSubstr("--from")));
 }
 
+TEST(FirstSeconds, OfSeveralSensorsTheOneThatWasInUseBeforeIsTaken) {
+  FirstSeconds::Config config = with_table();
+  config.known_address = kSensorAddress;
+  FirstSeconds first(config);
+  const auto packets = seconds(1);
+  hear(first, packets, kOtherAddress);
+  hear(first, packets);
+  EXPECT_TRUE(first.is_enough());
+  const auto found = first.conclude();
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->address, kSensorAddress);
+  EXPECT_THAT(first.other_sensors(),
+              AllOf(HasSubstr("192.168.1.7"), testing::Not(HasSubstr("192.168.1.201"))));
+}
+
+TEST(FirstSeconds, TheOneThatWasInUseBeforeIsWaitedForUntilItsHeadRotates) {
+  FirstSeconds::Config config = with_table();
+  config.known_address = kSensorAddress;
+  FirstSeconds first(config);
+  const auto packets = seconds(1);
+  std::vector<test::Packet> standing(100, packets.front());
+  hear(first, standing);
+  hear(first, packets, kOtherAddress);
+  EXPECT_FALSE(first.is_enough());
+  EXPECT_THAT(first.waits_for(), HasSubstr("whose head does not rotate, from 192.168.1.201"));
+  hear(first, packets);
+  EXPECT_TRUE(first.is_enough());
+  ASSERT_TRUE(first.conclude());
+  EXPECT_EQ(first.conclude()->address, kSensorAddress);
+}
+
+TEST(FirstSeconds, AnotherSensorIsTakenWhereTheOneBeforeDoesNotSend) {
+  FirstSeconds::Config config = with_table();
+  config.known_address = kSensorAddress;
+  FirstSeconds first(config);
+  hear(first, seconds(1), kOtherAddress);
+  EXPECT_TRUE(first.is_enough());
+  ASSERT_TRUE(first.conclude());
+  EXPECT_EQ(first.conclude()->address, kOtherAddress);
+  EXPECT_EQ(first.other_sensors(), "");
+}
+
 TEST(FirstSeconds, SeveralSensorsEndTheWaitForACalibration) {
   FirstSeconds first(anything());
   const auto packets = seconds(1);

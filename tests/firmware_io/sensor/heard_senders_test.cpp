@@ -4,6 +4,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -86,6 +87,36 @@ TEST_F(HeardSendersTest, WhatIsNoPacketOfASensorIsCounted) {
   EXPECT_EQ(senders_.others(), "");
   for (int i = 0; i < 12; ++i) senders_.add({.payload = bytes, .source_address = kOther});
   EXPECT_EQ(senders_.others(), "12 datagrams of no sensor known here from 192.168.1.7");
+}
+
+TEST_F(HeardSendersTest, ASensorIsHeardHoweverManyOthersSendOneByte) {
+  const std::vector<std::uint8_t> byte(1);
+  constexpr std::uint32_t kFirst = 0x0A000000, kMany = 1000;
+  const auto babble = [&] {
+    for (std::uint32_t n = 0; n < kMany; ++n) {
+      senders_.add({.payload = byte, .source_address = kFirst + n});
+    }
+  };
+  babble();
+  EXPECT_THAT(senders_.others(),
+              HasSubstr("; 936 datagrams of more addresses than are remembered"));
+  EXPECT_LT(senders_.others().size(), 400U) << "not every one is named";
+  for (std::size_t n = 0; n < packets_.size(); n += 500) {
+    hear(std::span(packets_).subspan(n, std::min<std::size_t>(500, packets_.size() - n)), kSensor);
+    babble();
+  }
+  ASSERT_THAT(senders_.rotating(), SizeIs(1));
+  EXPECT_EQ(senders_.rotating().front().address, kSensor);
+}
+
+TEST_F(HeardSendersTest, ASensorIsHeardThoughManyPretendToBeOneAndThenAreSilent) {
+  constexpr std::uint32_t kFirst = 0x0A000000, kMany = 1000;
+  for (std::uint32_t n = 0; n < kMany; ++n) {
+    hear(std::span(packets_).first(1), kFirst + n);
+  }
+  hear(packets_, kSensor);
+  ASSERT_THAT(senders_.rotating(), SizeIs(1));
+  EXPECT_EQ(senders_.rotating().front().address, kSensor);
 }
 
 }  // namespace

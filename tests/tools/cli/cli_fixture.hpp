@@ -52,7 +52,10 @@ struct Outcome {
 /// A folder of this test's own and the built program to run in it.
 class Cli : public testing::Test {
  protected:
-  void SetUp() override { folder_ = test::make_scratch_folder(); }
+  void SetUp() override {
+    folder_ = test::make_scratch_folder();
+    ::setenv("STATE_DIRECTORY", folder_.c_str(), 1);  // what live runs remember goes with the test
+  }
   void TearDown() override { fs::remove_all(folder_); }
 
   /// Runs `terracut ARGUMENTS` with the test's folder as working directory. From any thread.

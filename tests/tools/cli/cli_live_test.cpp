@@ -3,6 +3,7 @@
 // `terracut live` hears sensors that play captures. How fast is not tested: a machine may be busy.
 #include <fmt/format.h>
 
+#include <csignal>
 #include <filesystem>
 #include <utility>
 #include <vector>
@@ -160,6 +161,22 @@ TEST_F(CliLive, NamesTheSensorsWhenSeveralSendToThePort) {
   EXPECT_THAT(outcome.err, HasSubstr("127.0.0.1"));
   EXPECT_THAT(outcome.err, HasSubstr("127.0.0.2"));
   EXPECT_THAT(outcome.err, HasSubstr("--from"));
+}
+
+TEST_F(CliLive, StartsAgainWithItsSensorThoughAnotherOneSendsByNow) {
+  {
+    LiveRun before = live_with_table("");
+    const Sensors sender = sensor(before);
+    EXPECT_TRUE(labels(before, 1));
+    before.interrupt(SIGKILL);
+  }
+  LiveRun run = live_with_table("");
+  const Sensors senders = sensors_at({Sensors::kLocalhost + 1, Sensors::kLocalhost}, run);
+  EXPECT_TRUE(run.says("127.0.0.1, which was in use before, is heard and not "));
+  EXPECT_TRUE(labels(run, 3));
+  EXPECT_TRUE(run.shows(
+      [](const auto& figures) { return LiveRun::loss(figures, "foreign_datagrams") > 0; }));
+  expect_good_end(run.interrupted());
 }
 
 TEST_F(CliLive, LabelsOneOfSeveralSensorsAndCountsTheOthersPackets) {

@@ -2,10 +2,13 @@
 // Copyright 2026 The terracut authors
 #include "listening.hpp"
 
+#include <fmt/format.h>
+
 #include <chrono>
 #include <utility>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "known_sensor.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/stop_signal.hpp"
 
@@ -51,12 +54,14 @@ net::ListenConfig listen_config_of(const Options& options) {
 
 Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const Options& options,
                                                 const OnWaiting& on_waiting) {
+  const KnownSensor known(options.watch.name);
   sensor::FirstSeconds first(
       {.model = options.capture.sensor,
        .columns = options.capture.columns,
        .calibration = {{}, options.capture.calibration, options.capture.nominal_calibration},
        .place = source.name(),
-       .device_port = options.listen.device_port});
+       .device_port = options.listen.device_port,
+       .known_address = known.address()});
   memory::FixedMemory device_memory;
   std::optional<net::LiveSource> device;
   if (first.wants_device_port()) device = open_device_port(options, device_memory);
@@ -75,7 +80,16 @@ Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const O
     first.note_foreign(source.counters().foreign);
     on_waiting(first.waits_for());
   }
-  return first.conclude(options.patience_s);
+  auto sensor = first.conclude(options.patience_s);
+  if (!sensor || stop_wanted()) return sensor;
+  if (const std::string others = first.other_sensors(); !others.empty()) {
+    warn(
+        fmt::format("several sensors send here; {}, which was in use before, is heard and not {}. "
+                    "--from chooses one for good",
+                    net::ipv4_text(sensor->address), others));
+  }
+  known.remember(sensor->address);
+  return sensor;
 }
 
 }  // namespace terracut::cli

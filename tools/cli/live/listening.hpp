@@ -17,7 +17,8 @@ namespace terracut::cli {
 
 /// Listens until a sensor is known and its calibration, too: as long as it takes, at most
 /// `options.patience_s` where there is such, or until stop_wanted(). `on_waiting` is told many
-/// times a second what is waited for. The errors of FirstSeconds::conclude().
+/// times a second what is waited for. Of several sensors it is the one that the run before heard
+/// (KnownSensor). The errors of FirstSeconds::conclude().
 using OnWaiting = std::function<void(const std::string& what)>;
 [[nodiscard]] Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source,
                                                               const Options& options,

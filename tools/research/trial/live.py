@@ -85,8 +85,10 @@ class Live:
     def __enter__(self) -> "Live":
         guard = ["timeout", "--foreground", "-k", "5", str(int(self.limit_s))]  # of FIFO threads nobody must lose hold
         with self.log.open("w") as log:
+            # What it remembers of its sensor is no other trial's.
+            environment = {**os.environ, "STATE_DIRECTORY": str(self.program.scratch)}
             self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=log,
-                                            stderr=log)  # fmt: skip
+                                            stderr=log, env=environment)  # fmt: skip
         try:
             self.port = self.port_after("listening at ")
             self.sends_to = f"{self.sends_to_address}:{self.port}"

@@ -20,12 +20,15 @@ struct Refusal {
   std::string what;
 };
 
-/// Walks the document without building it and throws a Refusal at the first thing too large.
+/// Walks the text without building it and throws a Refusal at the first thing too large, or in a
+/// second document, which nobody would read.
 class Guard final : public YAML::EventHandler {
  public:
-  void OnDocumentStart(const YAML::Mark&) override {}
+  void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
   void OnDocumentEnd() override {}
-  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override { count(mark); }
+  void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
+    if (documents_ == 1) count(mark);  // a line "---" with nothing behind it says nothing
+  }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     throw Refusal{mark.line + 1, "aliases (*name) are not supported here"};
   }
@@ -46,6 +49,9 @@ class Guard final : public YAML::EventHandler {
 
  private:
   void count(const YAML::Mark& mark) {
+    if (documents_ > 1) {
+      throw Refusal{mark.line + 1, "a second document (after a line '---'); expected one"};
+    }
     if (++nodes_ > kMaxYamlNodes) {
       throw Refusal{mark.line + 1, fmt::format("more than {} values", kMaxYamlNodes)};
     }
@@ -57,6 +63,7 @@ class Guard final : public YAML::EventHandler {
     }
   }
 
+  int documents_ = 0;
   int depth_ = 0;
   int nodes_ = 0;
 };
@@ -81,7 +88,9 @@ Expected<YAML::Node> load_yaml_document(std::string_view text, const std::string
     const std::string document(text);
     std::istringstream stream(document);
     Guard guard;
-    YAML::Parser(stream).HandleNextDocument(guard);
+    YAML::Parser parser(stream);
+    while (parser.HandleNextDocument(guard)) {
+    }
     return YAML::Load(document);
   } catch (const Refusal& refusal) {
     return fail(ErrorCode::kUnsupported,

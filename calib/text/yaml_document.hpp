@@ -17,9 +17,9 @@ inline constexpr int kMaxYamlDepth = 8;
 /// Most scalars, maps and lists read; a calibration has some 1800.
 inline constexpr int kMaxYamlNodes = 20000;
 
-/// The first YAML document in `text`, once it is known to be harmless: not empty, at most
-/// kMaxFileBytes, kMaxYamlDepth and kMaxYamlNodes, no aliases (a few lines of which can stand for
-/// gigabytes). Errors name `name`, the line and what was found. Throws nothing.
+/// The YAML document in `text`, once it is known to be harmless: not empty, at most kMaxFileBytes,
+/// kMaxYamlDepth and kMaxYamlNodes, no aliases (a few lines of which can stand for gigabytes), and
+/// the only one. Errors name `name`, the line and what was found. Throws nothing.
 [[nodiscard]] Expected<YAML::Node> load_yaml_document(std::string_view text,
                                                       const std::string& name);
 

@@ -192,8 +192,9 @@ class FrameReceiver {
     frame_period_ns_ = std::clamp<std::int64_t>(period_ns, 0, config_.frame_period_ns);
     const std::uint64_t packets = received_ - std::exchange(received_before_frame_, received_);
     if (period_ns == last_packet_ns) return;  // the first frame, which may have begun anywhere
-    most_packets_a_frame_ = std::max(most_packets_a_frame_, packets);
-    longest_gathering_ns_ = longest_gathering_ns(most_packets_a_frame_);
+    // A flood shortens gathering at once, and no longer than some seconds after its end.
+    many_packets_a_frame_ = std::max(many_packets_a_frame_ - many_packets_a_frame_ / 16, packets);
+    longest_gathering_ns_ = longest_gathering_ns(many_packets_a_frame_);
   }
 
   /// So that the kernel's buffer is half full at most where a frame has so many packets.
@@ -253,7 +254,9 @@ class FrameReceiver {
   net::ReceiveCounters before_;
   std::uint64_t received_ = 0;               ///< By the source, up to the newest fetch.
   std::uint64_t received_before_frame_ = 0;  ///< Up to the one that ended the frame before.
-  std::uint64_t most_packets_a_frame_ = 0;   ///< So far.
+  /// As many as the newest frames had at most, others' datagrams included: they fill the kernel's
+  /// buffer as well.
+  std::uint64_t many_packets_a_frame_ = 0;
   std::uint64_t let_go_ = 0, device_info_ = 0;
   std::int64_t newest_packet_ns_ = 0;
   bool lets_go_ = false;

@@ -52,23 +52,6 @@ auto view(std::size_t offset, py::ssize_t columns = 1) {
 
 }  // namespace
 
-std::shared_ptr<FrameData> FrameBuffers::take() {
-  std::unique_ptr<FrameData> frame;
-  {
-    const std::lock_guard lock(spare_->mutex);
-    if (!spare_->frames.empty()) {
-      frame = std::move(spare_->frames.back());
-      spare_->frames.pop_back();
-    }
-  }
-  if (!frame) frame = std::make_unique<FrameData>();
-  return {frame.release(), [spare = spare_](FrameData* dropped) {
-            std::unique_ptr<FrameData> owned(dropped);
-            const std::lock_guard lock(spare->mutex);
-            if (spare->frames.size() < kMostSpare) spare->frames.push_back(std::move(owned));
-          }};
-}
-
 void bind_frame(py::module_& module) {
   using Class = py::class_<FrameData, std::shared_ptr<FrameData>>;
   const auto of_info = [](auto member) {

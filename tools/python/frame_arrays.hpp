@@ -5,13 +5,12 @@
 #include <pybind11/numpy.h>
 
 #include <cstdint>
-#include <memory>
-#include <mutex>
 #include <optional>
 #include <vector>
 
 #include "pipeline/status/frame_record.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
+#include "rt/memory/used_again.hpp"
 
 namespace terracut::python {
 
@@ -22,20 +21,8 @@ struct FrameData {
   std::vector<stream::LabelledPoint> points;
 };
 
-/// Frames whose memory is used again once Python has dropped the last array that looks at it. Any
-/// thread.
-class FrameBuffers {
- public:
-  [[nodiscard]] std::shared_ptr<FrameData> take();
-
- private:
-  static constexpr std::size_t kMostSpare = 2;  ///< The one just dropped, and the one in work.
-  struct Spare {
-    std::mutex mutex;
-    std::vector<std::unique_ptr<FrameData>> frames;
-  };
-  std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
-};
+/// Frames whose memory is used again once Python has dropped the last array that looks at it.
+using FrameBuffers = memory::UsedAgain<FrameData>;
 
 void bind_frame(pybind11::module_& module);
 

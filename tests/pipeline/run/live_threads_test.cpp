@@ -595,6 +595,24 @@ TEST_F(LiveFrames, NoMorePacketsGatherThanFillHalfOfTheKernelsBuffer) {
   EXPECT_GE(most, kRoom / 2 - 2);
 }
 
+TEST_F(LiveFrames, AFloodOfOthersDatagramsShortensGatheringUntilItIsOver) {
+  receive_gathering(20 * kMs);
+  send(drive(60));
+  std::vector<std::int64_t> longest_ns;  // by frames handed over
+  bool flooded = false;
+  while (source_.has_more()) {
+    const Receiver::Round round = receiver_->work_round(100 * kMs);
+    longest_ns.resize(static_cast<std::size_t>(intake().account.decoded) / 347 + 1);
+    longest_ns.back() = std::max(longest_ns.back(), round.gathering_ns);
+    time_.now_ns += round.gathering_ns;
+    if (longest_ns.size() == 10 && !std::exchange(flooded, true)) source_.leave_out(100'000, 0);
+  }
+  ASSERT_GT(longest_ns.size(), 58U);
+  EXPECT_GT(longest_ns[8], 15 * kMs);
+  EXPECT_LT(longest_ns[13], 10 * kMs) << "the buffer holds 5,000, and more came within a frame";
+  EXPECT_GT(longest_ns[55], 15 * kMs) << "as before";
+}
+
 TEST_F(LiveFrames, NothingGathersWhereEachPacketIsWantedAsItComes) {
   receive_gathering(0);
   send(drive(3));

@@ -20,7 +20,7 @@ double milliseconds(std::int64_t ns) {
 ViewFrames::ViewFrames(const publish::Stream& stream) : stream_(stream) {}
 
 void ViewFrames::put(const publish::LabelledFrame& frame) {
-  const std::shared_ptr<Kept> room = spare();
+  const std::shared_ptr<Kept> room = rooms_.take();
   const Shown of_frame = shown(frame.record);
   room->points.assign(frame.points.begin(), frame.points.end());
   room->header = stream::header_of(frame.record, stream::StreamedSensor::kUnknown, of_frame.missed,
@@ -43,15 +43,6 @@ ViewFrames::Turn ViewFrames::newer(std::uint64_t after, std::chrono::millisecond
   std::unique_lock lock(mutex_);
   if (!came_.wait_for(lock, patience, [&] { return turns_ > after; })) return {};
   return {turns_, newest_};
-}
-
-/// A room that no browser reads from; as many as browsers, one for the newest and one for the next.
-std::shared_ptr<ViewFrames::Kept> ViewFrames::spare() {
-  const std::lock_guard lock(mutex_);
-  for (const std::shared_ptr<Kept>& room : rooms_) {
-    if (room.use_count() == 1) return room;
-  }
-  return rooms_.emplace_back(std::make_shared<Kept>());
 }
 
 ViewFrames::Shown ViewFrames::shown(const status::FrameRecord& record) const noexcept {

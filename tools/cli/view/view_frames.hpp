@@ -18,6 +18,7 @@
 #include "pipeline/publish/stream.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
+#include "rt/memory/used_again.hpp"
 
 namespace terracut::cli {
 
@@ -55,13 +56,13 @@ class ViewFrames {
     bool missed = false;
   };
   [[nodiscard]] Shown shown(const status::FrameRecord& record) const noexcept;
-  [[nodiscard]] std::shared_ptr<Kept> spare();
 
   publish::Stream stream_;
+  /// As many as browsers, one for the newest and one for the next.
+  memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;
   mutable std::condition_variable came_;
-  std::vector<std::shared_ptr<Kept>> rooms_;  ///< Guarded by mutex_, as what follows.
-  std::shared_ptr<const Kept> newest_;
+  std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as what follows.
   std::uint64_t turns_ = 0;
   std::deque<Shown> shown_;
   frame::LossCounters losses_;

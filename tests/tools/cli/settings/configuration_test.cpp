@@ -159,6 +159,15 @@ TEST(ConfigurationFile, BrokenFilesAreRefused) {
   EXPECT_THAT(empty.error().message, HasSubstr("is empty"));
 }
 
+TEST(ConfigurationFile, ASecondDocumentIsRefusedInsteadOfIgnored) {
+  expect_refused("sensor:\n  model: hdl64e\n---\nmount:\n  height_m: 2\n", "4",
+                 {"a second document (after a line '---'); expected one"});
+  expect_refused("---\n---\nsensor:\n  model: hdl64e\n", "3", {"a second document"});
+  const std::string one = printed_again("sensor:\n  model: hdl64e\n");
+  EXPECT_EQ(printed_again("---\nsensor:\n  model: hdl64e\n...\n"), one);
+  EXPECT_EQ(printed_again("sensor:\n  model: hdl64e\n---\n"), one);
+}
+
 TEST(ConfigurationFile, EmptySectionsAndCommentsSayNothing) {
   EXPECT_EQ(printed_again("# nothing\n"), configuration_yaml({}));
   EXPECT_EQ(printed_again("mount:\nmethod:\n  grid:\n"), configuration_yaml({}));

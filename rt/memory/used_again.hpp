@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+namespace terracut::memory {
+
+/// Things whose memory is used again once their last holder has dropped them; whatever that one
+/// read lies before whatever is written next. There are as many as are held at the same time, and
+/// a few spare ones. Any thread without a deadline.
+template <class T>
+class UsedAgain {
+ public:
+  /// With the content of a former use perhaps. May outlive this.
+  [[nodiscard]] std::shared_ptr<T> take() {
+    std::unique_ptr<T> thing;
+    {
+      const std::scoped_lock lock(spare_->mutex);
+      if (!spare_->things.empty()) {
+        thing = std::move(spare_->things.back());
+        spare_->things.pop_back();
+      }
+    }
+    if (!thing) thing = std::make_unique<T>();
+    return {thing.release(), [spare = spare_](T* dropped) {
+              std::unique_ptr<T> owned(dropped);
+              const std::scoped_lock lock(spare->mutex);
+              if (spare->things.size() < kMostSpare) spare->things.push_back(std::move(owned));
+            }};
+  }
+
+ private:
+  static constexpr std::size_t kMostSpare = 2;  ///< The one just dropped, and the one in work.
+  struct Spare {
+    Spare() { things.reserve(kMostSpare); }
+    std::mutex mutex;
+    std::vector<std::unique_ptr<T>> things;
+  };
+  std::shared_ptr<Spare> spare_ = std::make_shared<Spare>();
+};
+
+}  // namespace terracut::memory

@@ -15,10 +15,10 @@ std::uint8_t byte_at(std::string_view text, std::size_t i) {
   return static_cast<std::uint8_t>(text[i]);
 }
 
-/// How many bytes from `text`'s first on are one character to be shown; 0: that byte is none.
-std::size_t shown_bytes(std::string_view text) {
+/// How many bytes from `text`'s first on are one character of UTF-8; 0: that byte is none.
+std::size_t character_bytes(std::string_view text) {
   const std::uint8_t first = byte_at(text, 0);
-  if (first < 0x80) return first >= 0x20 && first != 0x7F ? 1 : 0;
+  if (first < 0x80) return 1;
   const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
   if (first < 0xC2 || first > 0xF4 || text.size() < bytes) return 0;
   std::uint32_t code = first & (0xFFU >> (bytes + 1));
@@ -26,10 +26,20 @@ std::size_t shown_bytes(std::string_view text) {
     if ((byte_at(text, i) & 0xC0U) != 0x80) return 0;
     code = code << 6 | (byte_at(text, i) & 0x3FU);
   }
-  constexpr std::uint32_t kLastControl = 0x9F, kLeastOf3 = 0x800, kLeastOf4 = 0x10000;
+  constexpr std::uint32_t kLeastOf3 = 0x800, kLeastOf4 = 0x10000;
   const bool is_surrogate = code >= 0xD800 && code <= 0xDFFF;
   const bool is_shortest = bytes == 2 || code >= (bytes == 3 ? kLeastOf3 : kLeastOf4);
-  return code > kLastControl && code <= 0x10FFFF && is_shortest && !is_surrogate ? bytes : 0;
+  return code <= 0x10FFFF && is_shortest && !is_surrogate ? bytes : 0;
+}
+
+/// The same, but 0 for control characters, too.
+std::size_t shown_bytes(std::string_view text) {
+  const std::size_t bytes = character_bytes(text);
+  const std::uint8_t first = byte_at(text, 0);
+  const bool is_control = bytes == 1   ? first < 0x20 || first == 0x7F
+                          : bytes == 2 ? first == 0xC2 && byte_at(text, 1) < 0xA0
+                                       : false;
+  return is_control ? 0 : bytes;
 }
 
 }  // namespace
@@ -71,6 +81,15 @@ std::string shell_word(std::string_view text) {
     text.remove_prefix(character.size());
   }
   return (is_plain ? plain : escaped) + "'";
+}
+
+bool is_utf8(std::string_view text) {
+  while (!text.empty()) {
+    const std::size_t bytes = character_bytes(text);
+    if (bytes == 0) return false;
+    text.remove_prefix(bytes);
+  }
+  return true;
 }
 
 }  // namespace terracut::cli

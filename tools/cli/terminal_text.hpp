@@ -18,4 +18,6 @@ namespace terracut::cli {
 /// is written as bash, zsh and ksh take it: $'a\x1bb'.
 [[nodiscard]] std::string shell_word(std::string_view text);
 
+[[nodiscard]] bool is_utf8(std::string_view text);
+
 }  // namespace terracut::cli

@@ -2,12 +2,35 @@
 // Copyright 2026 The terracut authors
 #include <algorithm>
 #include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/fleet/drive_search.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
+namespace {
+
+/// A line for each kind of what was left out.
+void warn_of(const std::vector<LeftOut>& left_out) {
+  std::map<std::string, std::pair<std::size_t, std::string>> kinds;  // how many, the first
+  for (const auto& [path, why] : left_out) {
+    auto& [count, first] = kinds[why];
+    if (count++ == 0) first = path.string();
+  }
+  for (const auto& [why, of_kind] : kinds) {
+    const auto& [count, first] = of_kind;
+    warn(line_for_terminal(
+        count == 1 ? fmt::format("left out: {}: {}", first, why)
+                   : fmt::format("left out: {} and {} more: {}", first, count - 1, why)));
+  }
+}
+
+}  // namespace
 
 ExitCode run_manifest(const Options& options) {
   const auto manifest = find_drives(options.fleet.root);
@@ -15,6 +38,7 @@ ExitCode run_manifest(const Options& options) {
   if (Status written = write_manifest(options.written, *manifest); !written) {
     return refuse(written.error());
   }
+  warn_of(manifest->left_out);
   std::uint64_t bytes = 0;
   for (const FleetDrive& drive : manifest->drives) bytes += drive.bytes;
   const auto with = [&](auto member) {
@@ -27,6 +51,9 @@ ExitCode run_manifest(const Options& options) {
             with(&FleetDrive::scans));
   print_out("with      a calibration {}, a setup {}, a CAN recording {}\n",
             with(&FleetDrive::calibration), with(&FleetDrive::setup), with(&FleetDrive::can));
+  if (!manifest->left_out.empty()) {
+    print_out("left out  {} files or folders, named in it\n", manifest->left_out.size());
+  }
   return kOk;
 }
 

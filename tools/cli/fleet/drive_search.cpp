@@ -12,7 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/cloud/cloud_file.hpp"
+#include "firmware_io/capture/file_kind.hpp"
+#include "tools/cli/input/recording_tree.hpp"
+#include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -79,42 +81,35 @@ Status add_companions(const Beside& beside, FleetDrive& drive) {
                           drive.can.string(), beside.stem));
 }
 
-/// Files of a tree: captures, and how many bytes of clouds a folder has.
-struct Found {
-  std::set<fs::path> captures;
-  std::map<fs::path, std::uint64_t> clouds;
-};
-
-Expected<Found> look_below(const fs::path& root) {
-  Found found;
-  std::error_code error;
-  fs::recursive_directory_iterator entry(root, error);
-  for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
-    const fs::path& path = entry->path();
-    std::error_code vanished;
-    if (path.filename().native().starts_with('.')) {
-      entry.disable_recursion_pending();
-    } else if (entry->is_regular_file(vanished)) {
-      const std::string ending = path.extension().string();
-      if (ending == ".pcap" || ending == ".pcapng") found.captures.insert(path);
-      if (cloud::is_cloud_file(path)) {
-        found.clouds[path.parent_path()] += entry->file_size(vanished);
-      }
-    }
-  }
-  if (!error) return found;
-  return fail(
-      error == std::errc::no_such_file_or_directory ? ErrorCode::kNotFound : ErrorCode::kUnreadable,
-      fmt::format("{}: {}", root.string(), error.message()));
+std::string stem_of(const fs::path& capture) {
+  const std::string name = capture.filename().string();
+  const std::string_view stem = capture::capture_stem(name);
+  return stem.empty() ? name : std::string(stem);
 }
 
-/// Without its ending, where no other drive may be called that.
-fs::path name_of_capture(const fs::path& capture) {
-  const fs::path stem = fs::path(capture).replace_extension();
-  const fs::path twin =
-      fs::path(capture).replace_extension(capture.extension() == ".pcap" ? ".pcapng" : ".pcap");
-  std::error_code none;
-  return fs::exists(stem, none) || fs::exists(twin, none) ? capture : stem;
+/// How many captures of each folder would be called the same without their endings.
+std::map<fs::path, int> count_stems(const std::set<fs::path>& captures) {
+  std::map<fs::path, int> counts;
+  for (const fs::path& capture : captures) ++counts[capture.parent_path() / stem_of(capture)];
+  return counts;
+}
+
+/// Paths in a message, not too many.
+std::string some_of(const std::vector<LeftOut>& left_out) {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(kShown, left_out.size()); ++i) {
+    text += fmt::format("; {}: {}", left_out[i].path.string(), left_out[i].why);
+  }
+  if (left_out.size() > kShown) text += fmt::format("; {} more", left_out.size() - kShown);
+  return text;
+}
+
+/// A name that relabel takes for outputs: without dots at its beginning.
+std::string name_of_root(const fs::path& root) {
+  const std::string name = root.filename().string();
+  const std::size_t begin = name.find_first_not_of('.');
+  return begin == std::string::npos ? "drive" : name.substr(begin);
 }
 
 }  // namespace
@@ -124,41 +119,58 @@ Expected<Manifest> find_drives(const fs::path& root) {
   std::error_code error;
   manifest.root = fs::canonical(root, error);
   if (error) return fail(ErrorCode::kNotFound, root.string() + ": " + error.message());
-  const auto found = look_below(manifest.root);
-  if (!found) return tl::unexpected(found.error());
+  if (!is_utf8(manifest.root.native())) {
+    return fail(ErrorCode::kMalformed,
+                manifest.root.string() +
+                    ": a name that is no UTF-8, which a manifest cannot hold; "
+                    "rename it (convmv)");
+  }
+  RecordingTree found = find_recordings(manifest.root);
+  manifest.left_out = std::move(found.left_out);
 
-  const auto add = [&](FleetDrive drive, const fs::path& place, const fs::path& named) -> Status {
-    drive.name = place == manifest.root ? place.filename().string()
+  const auto add = [&](FleetDrive drive, const fs::path& place, const fs::path& named,
+                       const std::string& stem) -> Status {
+    drive.name = place == manifest.root ? name_of_root(place)
                                         : named.lexically_relative(manifest.root).string();
     const fs::path folder = place == manifest.root ? place : place.parent_path();
-    const fs::path stem = drive.capture.empty() ? place.filename() : place.stem();
-    const Status added = add_companions({folder, manifest.root, stem.string()}, drive);
+    const Status added = add_companions({folder, manifest.root, stem}, drive);
     if (added) manifest.drives.push_back(std::move(drive));
     return added;
   };
-  for (const fs::path& capture : found->captures) {
+  const std::map<fs::path, int> stems = count_stems(found.captures);
+  for (const fs::path& capture : found.captures) {
     FleetDrive drive;
     drive.capture = capture;
     drive.bytes = fs::file_size(capture, error);
-    if (Status added = add(std::move(drive), capture, name_of_capture(capture)); !added) {
+    if (error) drive.bytes = 0;
+    const std::string stem = stem_of(capture);
+    const fs::path short_name = capture.parent_path() / stem;
+    const bool is_free = stems.at(short_name) == 1 && !fs::exists(short_name, error);
+    if (Status added = add(std::move(drive), capture, is_free ? short_name : capture, stem);
+        !added) {
       return tl::unexpected(added.error());
     }
   }
-  for (const auto& [folder, bytes] : found->clouds) {
+  for (const auto& [folder, bytes] : found.clouds) {
     const bool is_sequence = folder.filename() == "velodyne" && folder != manifest.root;
     const fs::path place = is_sequence ? folder.parent_path() : folder;
+    if (!is_sequence && found.clouds.contains(folder / "velodyne")) {
+      manifest.left_out.push_back(
+          {folder, "clouds beside those in velodyne/; move them into a folder of their own"});
+      continue;
+    }
     FleetDrive drive;
     drive.scans = place;
     drive.bytes = bytes;
-    if (Status added = add(std::move(drive), place, place); !added) {
+    if (Status added = add(std::move(drive), place, place, place.filename().string()); !added) {
       return tl::unexpected(added.error());
     }
   }
   if (!manifest.drives.empty()) return manifest;
   return fail(ErrorCode::kNotFound,
               fmt::format("{}: no drive in it: expected captures (.pcap, .pcapng) or folders of "
-                          "clouds (.bin, .pcd, .ply)",
-                          root.string()));
+                          "clouds (.bin, .pcd, .ply){}",
+                          root.string(), some_of(manifest.left_out)));
 }
 
 }  // namespace terracut::cli

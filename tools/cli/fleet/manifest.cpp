@@ -110,16 +110,21 @@ Expected<Manifest> read_manifest(const fs::path& path) {
 }
 
 Status write_manifest(const fs::path& path, const Manifest& manifest) {
+  const auto in_file = [&](const fs::path& place) {
+    const fs::path below = place.lexically_relative(manifest.root);
+    return below.empty() || *below.begin() == ".." ? place.string() : below.string();
+  };
   Json json{{"manifest", kVersion}, {"root", manifest.root.string()}, {"drives", Json::array()}};
   for (const FleetDrive& drive : manifest.drives) {
     Json& entry = json["drives"].emplace_back(Json{{"name", drive.name}});
     for (const auto& [key, of_drive] : paths_in(drive)) {
-      if (of_drive->empty()) continue;
-      const fs::path below = of_drive->lexically_relative(manifest.root);
-      entry[key] = below.empty() || *below.begin() == ".." ? of_drive->string() : below.string();
+      if (!of_drive->empty()) entry[key] = in_file(*of_drive);
     }
     if (!drive.arguments.empty()) entry["arguments"] = drive.arguments;
     entry["bytes"] = drive.bytes;
+  }
+  for (const LeftOut& left_out : manifest.left_out) {
+    json["left_out"].push_back(Json{{"path", in_file(left_out.path)}, {"why", left_out.why}});
   }
   return write_json(path, json);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "rt/error.hpp"
+#include "tools/cli/input/recording_tree.hpp"
 
 namespace terracut::cli {
 
@@ -33,9 +34,11 @@ struct FleetDrive {
 ///   manifest   1, the version of this layout
 ///   root       folder that paths are taken from; a relative one from the manifest's folder
 ///   drives[]   the members of FleetDrive by their names; those that are empty are left out
+///   left_out[] path and why of what looks like a recording and is no drive; for people
 struct Manifest {
   std::filesystem::path root;
   std::vector<FleetDrive> drives;
+  std::vector<LeftOut> left_out{};  ///< Not read back.
 };
 
 /// With absolute paths. Errors name the file and what is wrong in it: kNotFound, kUnreadable,

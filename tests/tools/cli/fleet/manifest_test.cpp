@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +13,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "tests/support/scratch_folder.hpp"
 #include "tools/cli/fleet/drive_search.hpp"
@@ -20,6 +22,7 @@ namespace terracut::cli {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::ElementsAre;
 using testing::HasSubstr;
 
 class FleetManifest : public testing::Test {
@@ -71,6 +74,128 @@ TEST_F(FleetManifest, TellsCapturesOfOneNameApart) {
   const auto drives = found();
   EXPECT_TRUE(drives.contains("a.pcap"));
   EXPECT_TRUE(drives.contains("a.pcapng"));
+}
+
+TEST_F(FleetManifest, TakesEverythingThatLooksLikeACapture) {
+  for (const char* const name : {"drive.pcap", "drive.pcap1", "drive.pcap02", "OLD.PCAP",
+                                 "wire.cap", "rotated.pcap.1", "dated.pcapng-20261103"}) {
+    write(name);
+  }
+  write("by_bytes", std::string("\xd4\xc3\xb2\xa1\x02\x00\x04\x00", 8));
+  write("by_bytes.dump", std::string("\x0a\x0d\x0d\x0a\x1c\x00\x00\x00\x4d\x3c\x2b\x1a", 12));
+  write("text.dump");
+  write("drive.calibration.xml");
+  std::vector<std::string> names;
+  for (const auto& [name, drive] : found()) {
+    names.push_back(name);
+    EXPECT_EQ(drive.capture.filename().string().substr(0, name.size()), name);
+    EXPECT_EQ(drive.calibration.empty(), !name.starts_with("drive")) << name;
+  }
+  EXPECT_THAT(names, ElementsAre("OLD", "by_bytes", "by_bytes.dump", "dated", "drive.pcap",
+                                 "drive.pcap02", "drive.pcap1", "rotated", "wire"));
+}
+
+TEST_F(FleetManifest, NamesWhatLooksLikeARecordingAndIsNotTaken) {
+  write("a.pcap");
+  write("b.pcap.gz", "\x1f\x8b\x08");
+  write("c.PCAP2.zst", "\x28\xb5\x2f\xfd");
+  write("clouds/000000.bin.gz", "\x1f\x8b\x08");
+  write("bag.bag", "#ROSBAG V2.0");
+  write("M\xe4rz.pcap");
+  write("M\xe4rz/1.pcd");
+  write("notes.txt.gz", "\x1f\x8b\x08");
+  fs::create_symlink("nowhere", folder_ / "moved.pcap");
+  fs::create_symlink("nowhere", folder_ / "moved.txt");
+  const auto manifest = find_drives(folder_);
+  ASSERT_TRUE(manifest) << manifest.error().message;
+  EXPECT_EQ(manifest->drives.size(), 1U);
+  std::map<std::string, std::string> left_out;
+  for (const LeftOut& each : manifest->left_out) {
+    left_out[each.path.lexically_relative(folder_)] = each.why;
+  }
+  EXPECT_EQ(left_out.size(), 7U);
+  EXPECT_THAT(left_out["b.pcap.gz"], HasSubstr("gunzip"));
+  EXPECT_THAT(left_out["c.PCAP2.zst"], HasSubstr("unzstd"));
+  EXPECT_THAT(left_out["clouds/000000.bin.gz"], HasSubstr("gunzip"));
+  EXPECT_THAT(left_out["bag.bag"], HasSubstr("ROS bag"));
+  EXPECT_THAT(left_out["M\xe4rz.pcap"], HasSubstr("UTF-8"));
+  EXPECT_THAT(left_out["M\xe4rz/1.pcd"], HasSubstr("UTF-8"));
+  EXPECT_THAT(left_out["moved.pcap"], HasSubstr("leads nowhere"));
+  ASSERT_TRUE(write_manifest(folder_ / "m.json", *manifest));
+  EXPECT_TRUE(read_manifest(folder_ / "m.json"));
+}
+
+TEST_F(FleetManifest, SaysWhatThereIsWhereNoneOfItIsADrive) {
+  write("b.pcap.gz", "\x1f\x8b\x08");
+  EXPECT_THAT(find_drives(folder_).error().message, HasSubstr("b.pcap.gz: gzip; unpack it first"));
+}
+
+TEST_F(FleetManifest, FollowsLinksButNotInCircles) {
+  write("elsewhere/sequences/01/velodyne/000000.bin");
+  write("elsewhere/sequences/02/velodyne/000000.bin");
+  write("tree/here/a.pcap");
+  fs::create_directory_symlink("../elsewhere/sequences", folder_ / "tree/kitti");
+  fs::create_directory_symlink("../elsewhere/sequences/01", folder_ / "tree/zero_one");
+  fs::create_directory_symlink("here", folder_ / "tree/again");
+  fs::create_directory_symlink(".", folder_ / "tree/here/self");
+  fs::create_directory_symlink("../..", folder_ / "tree/here/above");
+  fs::create_directory_symlink("../../tree", folder_ / "elsewhere/sequences/back");
+  const auto manifest = find_drives(folder_ / "tree");
+  ASSERT_TRUE(manifest) << manifest.error().message;
+  std::vector<std::string> names;
+  for (const FleetDrive& drive : manifest->drives) names.push_back(drive.name);
+  EXPECT_THAT(names, ElementsAre("here/a", "kitti/01", "kitti/02"));
+  EXPECT_EQ(manifest->drives[1].scans, folder_ / "tree/kitti/01");
+  EXPECT_TRUE(manifest->left_out.empty());
+}
+
+TEST_F(FleetManifest, PassesOverWhatFileServersKeepForThemselves) {
+  write("a.pcap");
+  write("@eaDir/a.pcap/thumb.bin");
+  write("#recycle/b.pcap");
+  write("__MACOSX/c.pcap");
+  write("@mine/d.pcap");
+  EXPECT_EQ(found().size(), 2U);
+  const auto manifest = find_drives(folder_);
+  ASSERT_TRUE(write_manifest(folder_ / "m.json", *manifest));
+  EXPECT_TRUE(read_manifest(folder_ / "m.json")) << "@mine";
+}
+
+TEST_F(FleetManifest, IsReadBackWhereverItsRootLies) {
+  write(".hidden/000000.bin");
+  const auto manifest = find_drives(folder_ / ".hidden");
+  ASSERT_TRUE(manifest && write_manifest(folder_ / "m.json", *manifest));
+  const auto read = read_manifest(folder_ / "m.json");
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->drives.at(0).name, "hidden");
+}
+
+TEST_F(FleetManifest, LeavesOutAFolderThatCannotBeRead) {
+  constexpr ::uid_t kNobody = 65534;
+  const ::uid_t self = ::geteuid();
+  write("a.pcap");
+  write("closed/b.pcap");
+  fs::permissions(folder_, fs::perms(0755));
+  fs::permissions(folder_ / "closed", fs::perms::none);
+  if (self == 0 && ::seteuid(kNobody) != 0) GTEST_SKIP() << "root reads everything";
+  const auto manifest = find_drives(folder_);
+  ASSERT_EQ(::seteuid(self), 0);
+  fs::permissions(folder_ / "closed", fs::perms::owner_all);
+  ASSERT_TRUE(manifest) << manifest.error().message;
+  EXPECT_EQ(manifest->drives.size(), 1U);
+  ASSERT_EQ(manifest->left_out.size(), 1U);
+  EXPECT_EQ(manifest->left_out[0].path, folder_ / "closed");
+  EXPECT_THAT(manifest->left_out[0].why, HasSubstr("Permission denied"));
+}
+
+TEST_F(FleetManifest, LeavesOutCloudsBesideASequence) {
+  write("00/velodyne/000000.bin");
+  write("00/000000.pcd");
+  const auto manifest = find_drives(folder_);
+  ASSERT_TRUE(manifest);
+  EXPECT_EQ(manifest->drives.size(), 1U);
+  ASSERT_EQ(manifest->left_out.size(), 1U);
+  EXPECT_THAT(manifest->left_out[0].why, HasSubstr("velodyne"));
 }
 
 TEST_F(FleetManifest, TakesWhatHasTheDrivesNameElseTheNearestAbove) {

@@ -45,13 +45,17 @@ endif()
 find_program(python NAMES python3)
 if(python)
   run(${python} ${SOURCE_DIR}/scan_of_pcd.py ${work}/frames/5.pcd ${work}/scan.bin)
-  run(${work}/build_ON/cloud_to_labels ${work}/scan.bin ${work}/scan.labels)
-  file(SIZE ${work}/scan.bin scan_bytes)
-  file(SIZE ${work}/scan.labels labels)
-  math(EXPR points "${scan_bytes} / 16")
-  if(NOT points EQUAL labels)
-    message(FATAL_ERROR "cloud_to_labels wrote ${labels} labels for ${points} points")
-  endif()
+  run(${work}/build_ON/cloud_to_labels ${work}/scan.bin ${work}/scan.label)
+  # A .label file as all readers of SemanticKITTI expect it: a uint32 a point, ground or obstacle.
+  run(${python} -c "import sys, struct
+points = len(open(sys.argv[1], 'rb').read()) // 16
+labels = struct.unpack(f'<{points}I', open(sys.argv[2], 'rb').read())
+sys.exit(set(labels) != {40, 99})" ${work}/scan.bin ${work}/scan.label)
+endif()
+execute_process(COMMAND ${work}/build_ON/cloud_to_labels ${work}/none.bin ${work}/none.label RESULT_VARIABLE result
+                ERROR_VARIABLE errors)
+if(NOT result EQUAL 1 OR NOT errors MATCHES "none.bin cannot be read")
+  message(FATAL_ERROR "cloud_to_labels of no scan ended with ${result}: ${errors}")
 endif()
 
 # Live, against a sender on the loopback that goes on until it is heard.

@@ -2,14 +2,12 @@
 // Copyright 2026 The terracut authors
 #include <filesystem>
 #include <optional>
-#include <system_error>
 #include <vector>
 
 #include "calib/beams/angle.hpp"
 #include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile_estimate.hpp"
 #include "calib/mount/sensor_setup_file.hpp"
-#include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/frame/each_return.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tools/cli/commands.hpp"
@@ -26,12 +24,6 @@ namespace {
 
 /// Frames the mount is read off, and that the rings are measured in at most.
 constexpr std::size_t kMountFrames = 100, kRingFrames = 100'000;
-
-/// Clouds and captures go by what the files are named.
-bool holds_clouds(const std::filesystem::path& input) {
-  std::error_code none;
-  return std::filesystem::is_directory(input, none) || cloud::is_cloud_file(input);
-}
 
 /// The mean distance of each ring's ground returns, labelled by the method itself.
 Expected<mount::RingProfileEstimate> measure_rings(RecordedFrames& frames, const Options& options,

@@ -5,25 +5,23 @@
 #include <memory>
 
 #include "pipeline/publish/labelled_frame.hpp"
-#include "pipeline/stream/labelled_points.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/output_sinks.hpp"
+#include "tools/cli/input/cloud_input.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/cli/view/capture_player.hpp"
+#include "tools/cli/view/played_capture.hpp"
+#include "tools/cli/view/played_clouds.hpp"
 #include "tools/cli/view/view_sink.hpp"
 
 namespace terracut::cli {
 
-ExitCode run_view(const Options& options) {
-  auto capture = LabelledCapture::open(options, FramesAreFor::kPoints);
-  if (!capture) return refuse_work(capture.error());
-  catch_stop_signals();
-  CapturePlayer player(**capture, options.capture);
-  const publish::Stream stream{.sensor = (*capture)->capture().sensor_line,
-                               .rows = (*capture)->decoder().shape().rows,
-                               .mount = (*capture)->sensor_mount()};
+namespace {
+
+ExitCode show(PlayedRecording& recording, const publish::Stream& stream, const Options& options) {
+  CapturePlayer player(recording);
   auto page = ViewSink::open(options.view_at, stream, &player);
   if (!page) return refuse(page.error());
   say("look at it in a browser: " + (*page)->url() + " (Ctrl-C ends it)");
@@ -33,18 +31,36 @@ ExitCode run_view(const Options& options) {
     if (!opened) return refuse(opened.error());
     foxglove = *std::move(opened);
   }
+  return done_or_refused(player.run([&](const publish::LabelledFrame& frame) -> Status {
+    if (foxglove != nullptr) (void)foxglove->put(frame);  // nothing of it can fail
+    return (*page)->put(frame);
+  }));
+}
 
-  publish::LabelledFrame labelled;
-  const Status played =
-      player.run([&](const run::Frame& frame, std::span<const frame::Label> labels) -> Status {
-        labelled.record = frame.record;
-        labelled.points.resize(frame.image->returns());
-        (void)stream::pack_labelled_points(*frame.image, labels, labelled.points,
-                                           (*capture)->timing(frame));
-        if (foxglove != nullptr) (void)foxglove->put(labelled);  // nothing of it can fail
-        return (*page)->put(labelled);
-      });
-  return done_or_refused(played);
+}  // namespace
+
+ExitCode run_view(const Options& options) {
+  catch_stop_signals();
+  if (holds_clouds(options.capture.file)) {
+    if (options.capture.start_s > 0 || options.capture.duration_s) {
+      return refuse(kUsage, "--start and --duration are of captures; name the clouds to be seen");
+    }
+    auto clouds = PlayedClouds::open(options.capture.file, options);
+    if (!clouds) return refuse_work(clouds.error());
+    return show(**clouds,
+                {.sensor = (*clouds)->sensor_line(),
+                 .rows = (*clouds)->rows(),
+                 .mount = (*clouds)->sensor_mount()},
+                options);
+  }
+  auto capture = LabelledCapture::open(options, FramesAreFor::kPoints);
+  if (!capture) return refuse_work(capture.error());
+  PlayedCapture played(**capture, options);
+  return show(played,
+              {.sensor = (*capture)->capture().sensor_line,
+               .rows = (*capture)->decoder().shape().rows,
+               .mount = (*capture)->sensor_mount()},
+              options);
 }
 
 }  // namespace terracut::cli

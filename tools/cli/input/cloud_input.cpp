@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <system_error>
 #include <utility>
 
 #include "calib/beams/angle.hpp"
@@ -32,6 +33,11 @@ Status CloudReader::read_labels(std::size_t index, std::size_t points,
   labels.clear();
   if (!files_[index].labels) return {};
   return scan::read_label_file(*files_[index].labels, points, labels);
+}
+
+bool holds_clouds(const std::filesystem::path& input) {
+  std::error_code none;
+  return std::filesystem::is_directory(input, none) || cloud::is_cloud_file(input);
 }
 
 Expected<cloud::SensorRows> rows_of(CloudReader& clouds, const std::filesystem::path& calibration) {

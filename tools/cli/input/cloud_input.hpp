@@ -36,6 +36,9 @@ class CloudReader {
   cloud::Cloud cloud_;
 };
 
+/// Clouds and captures go by what the files are named: a folder, or a file of a cloud's name.
+[[nodiscard]] bool holds_clouds(const std::filesystem::path& input);
+
 /// How the clouds tell their lasers, and the lasers' elevations: of `calibration`, whose unit's
 /// scans are in KITTI's order, or where that is empty learnt from the clouds, which is said.
 [[nodiscard]] Expected<cloud::SensorRows> rows_of(CloudReader& clouds,

@@ -24,7 +24,7 @@ constexpr double kMostSeed = 9007199254740992;  // whole numbers are exact up to
 
 constexpr CommandSet kPlayed = C::kReplay | C::kView;
 constexpr CommandSet kCaptures = kPlayed | C::kCalibrate | C::kBench;
-constexpr CommandSet kWholeCaptures = kPlayed | C::kBench | C::kInfo | C::kSend;
+constexpr CommandSet kWholeCaptures = C::kReplay | C::kBench | C::kInfo | C::kSend;
 constexpr CommandSet kPackets = kCaptures | C::kLive;
 constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval | C::kNode;
 constexpr CommandSet kMethods = kPackets | C::kSegment | C::kRelabel | C::kPlan | C::kNode;
@@ -70,7 +70,7 @@ constexpr std::array kSettings{
     // What a run is about
     Setting{.option = "FILE", .commands = kWholeCaptures, .required_by = kWholeCaptures, .help = "Capture, pcap or pcapng",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
-    Setting{.option = "FILE", .commands = C::kCalibrate, .required_by = C::kCalibrate, .help = "Capture, pcap or pcapng; or clouds, a folder or one file, as segment takes them",
+    Setting{.option = "FILE", .commands = C::kCalibrate | C::kView, .required_by = C::kCalibrate | C::kView, .help = "Capture, pcap or pcapng; or clouds, a folder or one file, as segment takes them",
             .reads = "the capture", .field = [](O& o) -> F { return &o.capture.file; }},
     Setting{.option = "SCANS_DIR", .commands = C::kSegment | C::kEncode, .required_by = C::kSegment | C::kEncode, .help = "Folder of scans (.bin; segment: .pcd.bin, .pcd and .ply, too, or one file), or a SemanticKITTI sequence folder",
             .field = [](O& o) -> F { return &o.scans; }},

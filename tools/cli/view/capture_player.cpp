@@ -21,12 +21,19 @@ double seconds(std::int64_t ns) {
 
 }  // namespace
 
-CapturePlayer::CapturePlayer(LabelledCapture& capture, const CaptureOptions& options)
-    : capture_(capture), options_(options) {
-  if (const double spin_hz = capture.capture().sensor.spin_hz; spin_hz > 0) {
-    state_.frame_s = 1 / spin_hz;
-  }
-  measuring_ = std::thread([this] { measure(); });
+CapturePlayer::CapturePlayer(PlayedRecording& recording) : recording_(recording) {
+  state_.frame_s = recording.frame_s();
+  measuring_ = std::thread([this] {
+    recording_.measure([this](std::int64_t begin_stamp_ns, std::int64_t length_ns) {
+      const std::lock_guard lock(mutex_);
+      state_.begin_ns = begin_stamp_ns;
+      state_.duration_s = seconds(length_ns);
+      return !stop_measuring_;
+    });
+    const std::lock_guard lock(mutex_);
+    is_measured_ = true;
+    told_.notify_all();
+  });
   // How long a short one is, whoever looks at it knows from the first.
   std::unique_lock lock(mutex_);
   told_.wait_for(lock, kMeasuredAhead, [&] { return is_measured_; });
@@ -37,33 +44,6 @@ CapturePlayer::~CapturePlayer() {
   measuring_.join();
 }
 
-/// A capture says nowhere how long it is.
-void CapturePlayer::measure() {
-  auto source = open_again(capture_.capture(), options_);
-  constexpr std::uint64_t kPacketsAtOnce = 4096;
-  capture::CaptureClock clock;
-  std::int64_t longest_ns = 0;
-  for (std::uint64_t read = 0; source && !stop_measuring_; ++read) {
-    const auto next = source->next();
-    if (!next || !*next) break;
-    if (read == 0) {
-      const std::lock_guard lock(mutex_);
-      state_.begin_ns = (*next)->stamp_ns;
-    }
-    longest_ns = std::max(longest_ns, clock.add((*next)->stamp_ns));
-    if (read % kPacketsAtOnce == 0) note_duration(longest_ns);
-  }
-  note_duration(longest_ns);
-  const std::lock_guard lock(mutex_);
-  is_measured_ = true;
-  told_.notify_all();
-}
-
-void CapturePlayer::note_duration(std::int64_t so_far_ns) {
-  const std::lock_guard lock(mutex_);
-  state_.duration_s = seconds(so_far_ns);
-}
-
 void CapturePlayer::obey(const PlayerCommand& command) {
   const std::lock_guard lock(mutex_);
   if (command.playing) {
@@ -71,6 +51,7 @@ void CapturePlayer::obey(const PlayerCommand& command) {
     if (state_.playing && state_.at_end && !command.seek_s) seek_s_ = 0;
   }
   if (command.rate) state_.rate = *command.rate;
+  if (command.loop) state_.loop = *command.loop;
   if (command.seek_s) seek_s_ = command.seek_s;
   if (command.step) state_.playing = false;
   if (command.seek_s) steps_ = state_.playing ? 0 : 1;
@@ -85,6 +66,7 @@ PlayerState CapturePlayer::state() const {
 }
 
 Status CapturePlayer::run(const OnFrame& on_frame) {
+  publish::LabelledFrame frame;
   while (!stop_wanted()) {
     std::optional<double> seek_s;
     {
@@ -99,50 +81,60 @@ Status CapturePlayer::run(const OnFrame& on_frame) {
     if (seek_s) {
       if (Status gone = go_to(*seek_s); !gone) return gone;
     }
-    const run::Frame* frame = next_due();
-    if (frame == nullptr && !has_frames_) return capture_.conclude();
-    if (frame == nullptr) continue;
-    if (Status taken = on_frame(*frame, capture_.labels()); !taken) return taken;
+    const auto span = next_due();
+    if (!span && !has_frames_ && !stop_wanted()) return recording_.conclude();
+    if (!span) continue;
+    recording_.take(frame);
+    if (Status taken = on_frame(frame); !taken) return taken;
     const std::lock_guard lock(mutex_);
-    state_.position_s =
-        std::max(0.0, seconds(capture_.since_begin_ns(frame->record.info.first_packet_ns)));
+    state_.position_s = std::max(0.0, seconds(span->begin_ns));
   }
   return {};
 }
 
 Status CapturePlayer::go_to(double seek_s) {
-  // A frame more, because the first one begins somewhere within a revolution and is not shown.
-  const double frame_s = state().frame_s;
-  skip_to_ns_ = static_cast<std::int64_t>((seek_s + frame_s / 2) * 1e9);
-  if (Status status = capture_.rewind(std::max(0.0, seek_s - 1.25 * frame_s)); !status) {
-    return status;
-  }
+  skip_to_ns_ = static_cast<std::int64_t>((seek_s + recording_.frame_s() / 2) * 1e9);
+  if (Status status = recording_.go_to(seek_s); !status) return status;
   pace_.reset();
   const std::lock_guard lock(mutex_);
   state_.at_end = false;
   return {};
 }
 
-/// The next frame once its time has come; null: something else is wanted meanwhile, or there is
-/// none.
-const run::Frame* CapturePlayer::next_due() {
-  const run::Frame* frame = capture_.next();
-  has_frames_ = has_frames_ || frame != nullptr;
-  while (frame != nullptr &&
-         capture_.since_begin_ns(frame->record.info.last_packet_ns) < skip_to_ns_) {
-    frame = capture_.next();
-  }
+/// The next frame once its time has come; none: something else is wanted meanwhile, or it is the
+/// end.
+std::optional<PlayedRecording::Span> CapturePlayer::next_due() {
+  auto span = recording_.next();
+  has_frames_ = has_frames_ || span;
+  while (span && span->end_ns < skip_to_ns_) span = recording_.next();
   skip_to_ns_ = std::numeric_limits<std::int64_t>::min();
-  if (frame == nullptr) {
-    const std::lock_guard lock(mutex_);
-    if (seek_s_) return nullptr;  // told meanwhile, and no end for it
-    state_.at_end = true;
-    steps_ = 0;
-    state_.playing = false;
-    return nullptr;
+  if (!span) {
+    end_or_begin_anew();
+  } else if (!wait_until_due(span->begin_ns)) {
+    span.reset();
   }
-  const std::int64_t due_ns = capture_.since_begin_ns(frame->record.info.first_packet_ns);
-  return wait_until_due(due_ns) ? frame : nullptr;
+  return span;
+}
+
+void CapturePlayer::end_or_begin_anew() {
+  const auto frame_ns = static_cast<std::int64_t>(recording_.frame_s() * 1e9);
+  std::unique_lock lock(mutex_);
+  if (seek_s_ || stop_wanted()) return;  // told meanwhile, and no end for it
+  const bool is_stepped = steps_ > 0;
+  if (state_.loop && has_frames_) {
+    lock.unlock();
+    const bool is_over = wait_until_due(shown_ns_ + frame_ns);
+    lock.lock();
+    if (!is_over || seek_s_) return;
+    if (state_.loop) {
+      seek_s_ = 0;
+      steps_ = is_stepped || !state_.playing ? 1 : 0;
+      return;
+    }
+  }
+  state_.at_end = true;
+  steps_ = 0;
+  state_.playing = false;
 }
 
 bool CapturePlayer::wait_until_due(std::int64_t since_begin_ns) {

@@ -12,24 +12,23 @@
 #include <optional>
 #include <thread>
 
-#include "tools/cli/input/labelled_capture.hpp"
+#include "played_recording.hpp"
 #include "viewed_capture.hpp"
 
 namespace terracut::cli {
 
-/// Plays a capture at its own speed, or as it is told: stands, steps, goes elsewhere. At the end it
-/// stands, and goes on from the beginning.
+/// Plays a recording at its own speed, or as it is told: stands, steps, goes elsewhere. At the end
+/// it begins anew or, where it is told to, stands.
 class CapturePlayer : public ViewedCapture {
  public:
-  using OnFrame =
-      std::function<Status(const run::Frame& frame, std::span<const frame::Label> labels)>;
+  using OnFrame = std::function<Status(const publish::LabelledFrame& frame)>;
 
-  /// `capture` must outlive it. How long it is, is found out on a thread that reads it through.
-  CapturePlayer(LabelledCapture& capture, const CaptureOptions& options);
+  /// `recording` must outlive it; a thread measures it meanwhile.
+  explicit CapturePlayer(PlayedRecording& recording);
   ~CapturePlayer() override;
 
-  /// Until stop_wanted(); each frame when its time has come. The errors of the capture and
-  /// of on_frame; kNothingCameOut where the capture has no frame.
+  /// Until stop_wanted(); each frame when its time has come. The errors of the recording and
+  /// of on_frame; kNothingCameOut where it has no frame.
   [[nodiscard]] Status run(const OnFrame& on_frame);
 
   void obey(const PlayerCommand& command) override;
@@ -39,13 +38,11 @@ class CapturePlayer : public ViewedCapture {
   using Clock = std::chrono::steady_clock;
 
   [[nodiscard]] Status go_to(double seek_s);
-  [[nodiscard]] const run::Frame* next_due();
+  [[nodiscard]] std::optional<PlayedRecording::Span> next_due();
   [[nodiscard]] bool wait_until_due(std::int64_t since_begin_ns);
-  void measure();
-  void note_duration(std::int64_t so_far_ns);
+  void end_or_begin_anew();
 
-  LabelledCapture& capture_;
-  CaptureOptions options_;
+  PlayedRecording& recording_;
   mutable std::mutex mutex_;
   std::condition_variable told_;
   PlayerState state_;             ///< Guarded by mutex_, as what follows.

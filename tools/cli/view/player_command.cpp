@@ -31,9 +31,10 @@ Expected<PlayerCommand> parse_player_command(std::string_view json) {
   if (!parsed.is_object()) return wrong("expected an object in JSON");
   PlayerCommand command;
   for (const auto& [key, value] : parsed.items()) {
-    if (key == "playing" || key == "step") {
+    if (key == "playing" || key == "step" || key == "loop") {
       if (!value.is_boolean()) return wrong(key + ": expected true or false");
       if (key == "playing") command.playing = value.get<bool>();
+      if (key == "loop") command.loop = value.get<bool>();
       if (key == "step") command.step = value.get<bool>();
     } else if (key == "seek_s" || key == "rate") {
       const bool is_rate = key == "rate";
@@ -42,7 +43,8 @@ Expected<PlayerCommand> parse_player_command(std::string_view json) {
       if (!found) return tl::unexpected(found.error());
       (is_rate ? command.rate : command.seek_s) = *found;
     } else {
-      return wrong("expected playing, step, seek_s or rate, found '" + key.substr(0, 40) + "'");
+      return wrong("expected playing, step, seek_s, rate or loop, found '" + key.substr(0, 40) +
+                   "'");
     }
   }
   return command;

@@ -17,6 +17,7 @@ struct PlayerCommand {
   std::optional<bool> playing;
   bool step = false;             ///< One frame more, then stand.
   std::optional<double> seek_s;  ///< Since the capture's beginning, [0, kLongestSeek_s].
+  std::optional<bool> loop;      ///< At the end: begin anew, or stand.
   std::optional<double> rate;    ///< Times as fast as it was recorded, [kLeastRate, kMostRate].
 };
 
@@ -26,6 +27,7 @@ struct PlayerCommand {
 /// Where a capture stands.
 struct PlayerState {
   bool playing = true;
+  bool loop = true;
   bool at_end = false;  ///< It stands there, and goes on from the beginning.
   double rate = 1;
   double position_s = 0;

@@ -6,7 +6,7 @@
 
 namespace terracut::cli {
 
-/// Plays a capture for whoever looks at it. Any thread.
+/// Plays a recording for whoever looks at it. Any thread.
 class ViewedCapture {
  public:
   ViewedCapture() = default;

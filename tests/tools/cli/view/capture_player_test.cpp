@@ -2,15 +2,21 @@
 // Copyright 2026 The terracut authors
 #include "tools/cli/view/capture_player.hpp"
 
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <deque>
+#include <fstream>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "tests/support/scratch_folder.hpp"
+#include "tools/cli/view/played_capture.hpp"
+#include "tools/cli/view/played_clouds.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/simulator/drive.hpp"
 #include "tools/lab/velodyne/velodyne_encoder_traits.hpp"
@@ -18,12 +24,13 @@
 namespace terracut::cli {
 namespace {
 
+using testing::ElementsAre;
 using Traits = velodyne::Vlp16EncoderTraits;
 
 constexpr double kFrame_s = 0.1;
 
 /// A capture of eight frames, played by a script: each frame shown lets the next command be given.
-class PlayedCapture : public testing::Test {
+class CapturePlayerTest : public testing::Test {
  protected:
   void SetUp() override {
     folder_ = test::make_scratch_folder();
@@ -47,6 +54,7 @@ class PlayedCapture : public testing::Test {
     auto capture = LabelledCapture::open(options_, FramesAreFor::kPoints);
     ASSERT_TRUE(capture) << capture.error().message;
     capture_ = *std::move(capture);
+    played_ = std::make_unique<PlayedCapture>(*capture_, options_);
   }
   /// From the middle on its stamps are a minute older.
   void set_the_clock_back() {
@@ -67,29 +75,42 @@ class PlayedCapture : public testing::Test {
   }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// Seconds from the capture's begin to each frame that is shown, until the script is through.
+  /// Shows frames until the script is through.
+  static void play(CapturePlayer& player, std::deque<std::string> script,
+                   const std::function<void(const frame::FrameInfo&)>& on_frame) {
+    const Status over = player.run([&](const publish::LabelledFrame& frame) -> Status {
+      on_frame(frame.record.info);
+      if (script.empty()) return fail(ErrorCode::kInvalidArgument, "the script is through");
+      player.obey(parse_player_command(script.front()).value());
+      script.pop_front();
+      return {};
+    });
+    EXPECT_FALSE(over);
+  }
+  static std::vector<std::uint32_t> numbers(CapturePlayer& player, std::deque<std::string> script) {
+    std::vector<std::uint32_t> numbers;
+    play(player, std::move(script),
+         [&](const frame::FrameInfo& info) { numbers.push_back(info.number); });
+    return numbers;
+  }
+  /// Seconds from the capture's begin to each of them.
   std::vector<double> shown(CapturePlayer& player, std::deque<std::string> script) {
     std::vector<double> shown_s;
-    const Status over =
-        player.run([&](const run::Frame& frame, std::span<const frame::Label>) -> Status {
-          const auto shown_ns = capture_->since_begin_ns(frame.record.info.first_packet_ns);
-          shown_s.push_back(static_cast<double>(shown_ns) * 1e-9);
-          if (script.empty()) return fail(ErrorCode::kInvalidArgument, "the script is through");
-          player.obey(parse_player_command(script.front()).value());
-          script.pop_front();
-          return {};
-        });
-    EXPECT_FALSE(over);
+    play(player, std::move(script), [&](const frame::FrameInfo& info) {
+      const auto shown_ns = capture_->since_begin_ns(info.first_packet_ns);
+      shown_s.push_back(static_cast<double>(shown_ns) * 1e-9);
+    });
     return shown_s;
   }
 
   std::filesystem::path folder_;
   Options options_;
   std::unique_ptr<LabelledCapture> capture_;
+  std::unique_ptr<PlayedCapture> played_;
 };
 
-TEST_F(PlayedCapture, ShowsThePlaceSoughtThoughAFrameIsJustBeingShown) {
-  CapturePlayer player(*capture_, options_.capture);
+TEST_F(CapturePlayerTest, ShowsThePlaceSoughtThoughAFrameIsJustBeingShown) {
+  CapturePlayer player(*played_);
   const auto shown_s =
       shown(player, {R"({"playing": false, "seek_s": 0.5})", R"({"seek_s": 0.2})"});
   ASSERT_EQ(shown_s.size(), 3U);
@@ -97,9 +118,9 @@ TEST_F(PlayedCapture, ShowsThePlaceSoughtThoughAFrameIsJustBeingShown) {
   EXPECT_NEAR(shown_s[2], 0.2, 0.6 * kFrame_s);
 }
 
-TEST_F(PlayedCapture, ShowsThePlaceSoughtThoughTheRecordingClockWasSetBack) {
+TEST_F(CapturePlayerTest, ShowsThePlaceSoughtThoughTheRecordingClockWasSetBack) {
   set_the_clock_back();
-  CapturePlayer player(*capture_, options_.capture);
+  CapturePlayer player(*played_);
   EXPECT_NEAR(player.state().duration_s, 8 * kFrame_s, 0.1 * kFrame_s);
   const auto shown_s =
       shown(player, {R"({"playing": false, "seek_s": 0.6})", R"({"seek_s": 0.2})"});
@@ -108,16 +129,16 @@ TEST_F(PlayedCapture, ShowsThePlaceSoughtThoughTheRecordingClockWasSetBack) {
   EXPECT_NEAR(shown_s[2], 0.2, 0.6 * kFrame_s);
 }
 
-TEST_F(PlayedCapture, ShowsThePlaceSoughtBeforeItsFirstFrame) {
-  CapturePlayer player(*capture_, options_.capture);
+TEST_F(CapturePlayerTest, ShowsThePlaceSoughtBeforeItsFirstFrame) {
+  CapturePlayer player(*played_);
   player.obey(parse_player_command(R"({"playing": false, "seek_s": 0.5})").value());
   const auto shown_s = shown(player, {});
   ASSERT_EQ(shown_s.size(), 1U);
   EXPECT_NEAR(shown_s[0], 0.5, 0.6 * kFrame_s);
 }
 
-TEST_F(PlayedCapture, StepsFromAPlaceThatIsStillSought) {
-  CapturePlayer player(*capture_, options_.capture);
+TEST_F(CapturePlayerTest, StepsFromAPlaceThatIsStillSought) {
+  CapturePlayer player(*played_);
   player.obey(parse_player_command(R"({"playing": false, "seek_s": 0.5})").value());
   player.obey(parse_player_command(R"({"step": true})").value());
   const auto shown_s = shown(player, {"{}"});
@@ -126,12 +147,71 @@ TEST_F(PlayedCapture, StepsFromAPlaceThatIsStillSought) {
   EXPECT_NEAR(shown_s[1] - shown_s[0], kFrame_s, 0.3 * kFrame_s);
 }
 
-TEST_F(PlayedCapture, StepsOnceForEachStepThatIsToldWhileItStands) {
-  CapturePlayer player(*capture_, options_.capture);
+TEST_F(CapturePlayerTest, StepsOnceForEachStepThatIsToldWhileItStands) {
+  CapturePlayer player(*played_);
   const auto shown_s = shown(player, {R"({"step": true})", R"({"step": true})"});
   ASSERT_EQ(shown_s.size(), 3U);
   EXPECT_NEAR(shown_s[1] - shown_s[0], kFrame_s, 0.3 * kFrame_s);
   EXPECT_NEAR(shown_s[2] - shown_s[1], kFrame_s, 0.3 * kFrame_s);
+}
+
+TEST_F(CapturePlayerTest, NumbersFramesAsTheirFilesWhereverItCameFrom) {
+  CapturePlayer player(*played_);
+  EXPECT_THAT(numbers(player, {R"({"playing": false, "step": true})", R"({"step": true})",
+                               R"({"seek_s": 0})", R"({"seek_s": 0.1})", R"({"step": true})"}),
+              ElementsAre(0, 1, 2, 0, 1, 2));
+}
+
+TEST_F(CapturePlayerTest, NumbersFramesBehindAPlaceThatItWentToByWhatLiesBefore) {
+  CapturePlayer player(*played_);
+  player.obey(parse_player_command(R"({"playing": false, "seek_s": 0.5})").value());
+  EXPECT_THAT(numbers(player, {R"({"step": true})", R"({"seek_s": 0.3})", R"({"seek_s": 0.6})"}),
+              ElementsAre(5, 6, 3, 6));
+}
+
+TEST_F(CapturePlayerTest, NumbersFramesOfAPartByTheWholeCapture) {
+  options_.capture.start_s = 0.35;
+  open();
+  CapturePlayer player(*played_);
+  player.obey(parse_player_command(R"({"playing": false, "step": true})").value());
+  EXPECT_THAT(numbers(player, {R"({"step": true})"}), ElementsAre(3, 4))
+      << "of the first there is the end";
+}
+
+TEST_F(CapturePlayerTest, BeginsAnewAtItsEndOrStandsThere) {
+  CapturePlayer player(*played_);
+  player.obey(parse_player_command(R"({"playing": false, "seek_s": 0.6})").value());
+  EXPECT_THAT(numbers(player, {R"({"step": true})", R"({"step": true})"}), ElementsAre(6, 7, 0))
+      << "a step more at the end";
+  player.obey(parse_player_command(R"({"playing": true, "seek_s": 0.7, "rate": 20})").value());
+  EXPECT_THAT(numbers(player, {"{}", "{}", R"({"loop": false, "seek_s": 0.7})"}),
+              ElementsAre(7, 0, 1, 7));
+  EXPECT_FALSE(player.state().at_end);
+}
+
+TEST_F(CapturePlayerTest, PlaysCloudsAndNumbersThemAsTheirFiles) {
+  const auto clouds = folder_ / "clouds";
+  std::filesystem::create_directory(clouds);
+  for (publish::LabelledFrame frame; played_->next();) {
+    played_->take(frame);
+    std::string text = fmt::format(
+        "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH {0}\n"
+        "HEIGHT 1\nPOINTS {0}\nDATA ascii\n",
+        frame.points.size());
+    for (const stream::LabelledPoint& point : frame.points) {
+      text += fmt::format("{} {} {} {}\n", point.x_m, point.y_m,
+                          point.z_m - *options_.mount.height_m, point.row);
+    }
+    std::ofstream(clouds / fmt::format("{:06}.pcd", 10 + frame.record.info.number)) << text;
+  }
+  auto played = PlayedClouds::open(clouds, options_);
+  ASSERT_TRUE(played) << played.error().message;
+  CapturePlayer player(**played);
+  EXPECT_NEAR(player.state().duration_s, 8 * kFrame_s, 1e-9);
+  player.obey(parse_player_command(R"({"playing": false, "seek_s": 0.5})").value());
+  EXPECT_THAT(numbers(player, {R"({"step": true})", R"({"seek_s": 0})", R"({"seek_s": 0.7})",
+                               R"({"step": true})"}),
+              ElementsAre(15, 16, 10, 17, 10));
 }
 
 }  // namespace

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "played_capture.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "firmware_io/capture/capture_clock.hpp"
+#include "pipeline/stream/labelled_points.hpp"
+
+namespace terracut::cli {
+
+/// When the frames of a capture end, from its first on. Where one begins tells less: of the first
+/// behind a place that was gone to there is only the end.
+class PlayedCapture::Counter {
+ public:
+  Counter(const OpenCapture& capture, const Options& options)
+      : source_(open_again(capture, options.capture)),
+        decoder_(capture.calibration, mount::kAtTheSensor,
+                 decoder_config_of(options, capture.sensor.columns, FramesAreFor::kLabels),
+                 memory_) {
+    if (source_) part_.emplace(*source_, CaptureOptions{});
+  }
+
+  /// None at the end, and when stop_wanted().
+  std::optional<std::int64_t> next() {
+    while (true) {
+      if (const frame::Frame* frame = decoder_.next()) {
+        return part_->clock().since_begin_ns(frame->info.last_packet_ns);
+      }
+      const decode::Datagram* datagram = part_ && !ended_ ? part_->next() : nullptr;
+      if (datagram != nullptr) {
+        decoder_.push(*datagram);
+      } else if (std::exchange(ended_, true)) {
+        return std::nullopt;
+      } else {
+        decoder_.end_stream();
+      }
+    }
+  }
+
+ private:
+  Expected<capture::PcapSource> source_;
+  std::optional<CapturePart> part_;
+  memory::FixedMemory memory_;
+  decode::Decoder decoder_;
+  bool ended_ = false;
+};
+
+PlayedCapture::PlayedCapture(LabelledCapture& capture, const Options& options)
+    : capture_(capture), options_(options), begins_(options.capture.start_s == 0) {}
+PlayedCapture::~PlayedCapture() = default;
+
+double PlayedCapture::frame_s() const {
+  constexpr double kUsual_s = 0.1;
+  const double spin_hz = capture_.capture().sensor.spin_hz;
+  return spin_hz > 0 ? 1 / spin_hz : kUsual_s;
+}
+
+std::optional<PlayedRecording::Span> PlayedCapture::next() {
+  frame_ = capture_.next();
+  if (frame_ == nullptr) return std::nullopt;
+  const frame::FrameInfo& info = frame_->record.info;
+  span_ = {capture_.since_begin_ns(info.first_packet_ns),
+           capture_.since_begin_ns(info.last_packet_ns)};
+  if (std::exchange(begins_, false)) ahead_ = info.number;
+  const bool is_next = ahead_ && info.number - *ahead_ == ends_ns_.size();
+  if (is_next && !counter_) ends_ns_.push_back(span_.end_ns);
+  return span_;
+}
+
+void PlayedCapture::take(publish::LabelledFrame& frame) {
+  frame.record = frame_->record;
+  frame.points.resize(frame_->image->returns());
+  (void)stream::pack_labelled_points(*frame_->image, capture_.labels(), frame.points,
+                                     capture_.timing(*frame_));
+  if (!ahead_) ahead_ = frame.record.info.number - number_of(span_.end_ns);
+  frame.record.info.number -= *ahead_;
+}
+
+Status PlayedCapture::go_to(double seek_s) {
+  // A frame more, because the first one begins somewhere within a revolution.
+  const double from_s = std::max(0.0, seek_s - 1.25 * frame_s());
+  ahead_.reset();
+  begins_ = from_s == 0;
+  return capture_.rewind(from_s);
+}
+
+std::uint32_t PlayedCapture::number_of(std::int64_t end_ns) {
+  // Its last packet came then, or of a frame that was cut elsewhere, nearly.
+  const std::int64_t least_ns = end_ns - static_cast<std::int64_t>(frame_s() / 2 * 1e9);
+  const auto is_known = [&] { return !ends_ns_.empty() && ends_ns_.back() >= least_ns; };
+  if (!is_known() && !counter_) {
+    counter_ = std::make_unique<Counter>(capture_.capture(), options_);
+    ends_ns_.clear();
+  }
+  while (!is_known()) {
+    const auto ends = counter_->next();
+    if (!ends) break;
+    ends_ns_.push_back(*ends);
+  }
+  const auto found = std::ranges::lower_bound(ends_ns_, least_ns);
+  return static_cast<std::uint32_t>(found - ends_ns_.begin());
+}
+
+/// A capture says nowhere how long it is.
+void PlayedCapture::measure(const OnLength& on_length) const {
+  auto source = open_again(capture_.capture(), options_.capture);
+  constexpr std::uint64_t kPacketsAtOnce = 4096;
+  capture::CaptureClock clock;
+  std::int64_t begin_ns = 0, longest_ns = 0;
+  for (std::uint64_t read = 0; source; ++read) {
+    const auto next = source->next();
+    if (!next || !*next) break;
+    if (read == 0) begin_ns = (*next)->stamp_ns;
+    longest_ns = std::max(longest_ns, clock.add((*next)->stamp_ns));
+    if (read % kPacketsAtOnce == 0 && !on_length(begin_ns, longest_ns)) return;
+  }
+  (void)on_length(begin_ns, longest_ns);
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "played_recording.hpp"
+#include "tools/cli/input/labelled_capture.hpp"
+
+namespace terracut::cli {
+
+/// A capture, played. Frames have the numbers that `replay` gives them without --start; behind a
+/// place that was gone to these are found by decoding what lies before it, once.
+class PlayedCapture : public PlayedRecording {
+ public:
+  /// Both must outlive this.
+  PlayedCapture(LabelledCapture& capture, const Options& options);
+  ~PlayedCapture() override;
+
+  [[nodiscard]] double frame_s() const override;
+  [[nodiscard]] std::optional<Span> next() override;
+  void take(publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status go_to(double seek_s) override;
+  [[nodiscard]] Status conclude() override { return capture_.conclude(); }
+  void measure(const OnLength& on_length) const override;
+
+ private:
+  class Counter;
+
+  [[nodiscard]] std::uint32_t number_of(std::int64_t end_ns);
+
+  LabelledCapture& capture_;
+  const Options& options_;
+  const run::Frame* frame_ = nullptr;
+  Span span_{};
+  /// The decoder's number of a frame, which never begins anew, less that of its files.
+  std::optional<std::uint32_t> ahead_;
+  bool begins_ = false;                ///< The next frame is the capture's first.
+  std::vector<std::int64_t> ends_ns_;  ///< Of the first frames, by their number.
+  std::unique_ptr<Counter> counter_;   ///< Where that did not suffice.
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "played_clouds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "pipeline/stream/labelled_points.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/input/mount_choice.hpp"
+#include "tools/cli/input/recorded_frames.hpp"
+#include "tools/cli/settings/setup_choice.hpp"
+#include "tools/cli/stop_signal.hpp"
+
+namespace terracut::cli {
+namespace {
+
+constexpr std::int64_t kPeriod_ns = 100'000'000;
+
+}  // namespace
+
+Expected<std::unique_ptr<PlayedClouds>> PlayedClouds::open(const std::filesystem::path& clouds,
+                                                           const Options& options) {
+  auto reader = CloudReader::open(clouds);
+  if (!reader) return tl::unexpected(reader.error());
+  std::unique_ptr<PlayedClouds> opened(new PlayedClouds(*std::move(reader)));
+  const auto rows = rows_of(opened->reader_, options.capture.calibration);
+  if (!rows) return tl::unexpected(rows.error());
+  CloudFrames frames(opened->reader_, *rows);
+  const auto mount = choose_mount(options.mount, frames);
+  if (!mount) return tl::unexpected(mount.error());
+  const auto profile = ring_profile_of(rows->rings.table, mount->options);
+  if (!profile) return tl::unexpected(profile.error());
+  opened->sensor_line_ = fmt::format("{} rows of clouds", rows->rings.table.size());
+  opened->mount_ = profile->mount;
+  opened->labeller_ =
+      std::make_unique<CloudLabeller>(method_config_of(options.method), *rows, *profile);
+  return opened;
+}
+
+double PlayedClouds::frame_s() const {
+  return static_cast<double>(kPeriod_ns) * 1e-9;
+}
+
+std::optional<PlayedRecording::Span> PlayedClouds::next() {
+  while (next_ < reader_.size() && !stop_wanted()) {
+    const std::size_t index = next_++;
+    if (const Status labelled = label(index); !labelled) {
+      trouble_ = labelled.error().message;
+      warn(trouble_);
+      continue;
+    }
+    const auto begin_ns = static_cast<std::int64_t>(index) * kPeriod_ns;
+    return Span{begin_ns, begin_ns + kPeriod_ns - 1};
+  }
+  return std::nullopt;
+}
+
+Status PlayedClouds::label(std::size_t index) {
+  const auto cloud = reader_.read(index);
+  if (!cloud) return tl::unexpected(cloud.error());
+  const scan::ScanFile& file = reader_.file(index);
+  record_ = {};
+  record_.info.complete = true;
+  record_.info.number = file.frame.value_or(static_cast<std::uint32_t>(index));
+  // Players of recordings need stamps that grow.
+  record_.info.first_packet_ns = static_cast<std::int64_t>(index + 1) * kPeriod_ns;
+  record_.info.last_packet_ns = record_.info.first_packet_ns;
+  if (const Status labelled = labeller_->label(*cloud, record_); !labelled) {
+    return fail(labelled.error().code, file.points.string() + ": " + labelled.error().message);
+  }
+  return {};
+}
+
+void PlayedClouds::take(publish::LabelledFrame& frame) {
+  frame.record = record_;
+  frame.points.resize(labeller_->image.returns());
+  (void)stream::pack_labelled_points(labeller_->image, labeller_->method.labels(), frame.points);
+}
+
+Status PlayedClouds::go_to(double seek_s) {
+  const double index = std::round(std::max(seek_s, 0.0) / frame_s());
+  next_ = static_cast<std::size_t>(std::min(index, static_cast<double>(reader_.size() - 1)));
+  return {};
+}
+
+Status PlayedClouds::conclude() {
+  return fail(ErrorCode::kNothingCameOut,
+              fmt::format("none of the {} clouds could be labelled; the last: {}", reader_.size(),
+                          trouble_));
+}
+
+void PlayedClouds::measure(const OnLength& on_length) const {
+  (void)on_length(kPeriod_ns, static_cast<std::int64_t>(reader_.size()) * kPeriod_ns);
+}
+
+}  // namespace terracut::cli

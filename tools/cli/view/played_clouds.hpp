@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "played_recording.hpp"
+#include "tools/cli/clouds/cloud_labeller.hpp"
+#include "tools/cli/input/cloud_input.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// A folder of clouds or one alone, played at ten a second: files have no stamps.
+class PlayedClouds : public PlayedRecording {
+ public:
+  /// Finds the lasers' rows and the mount. The errors of CloudReader::open(), rows_of(),
+  /// choose_mount() and ring_profile_of().
+  [[nodiscard]] static Expected<std::unique_ptr<PlayedClouds>> open(
+      const std::filesystem::path& clouds, const Options& options);
+
+  [[nodiscard]] const std::string& sensor_line() const noexcept { return sensor_line_; }
+  [[nodiscard]] int rows() const noexcept { return labeller_->image.shape().rows; }
+  [[nodiscard]] const mount::Mount& sensor_mount() const noexcept { return mount_; }
+
+  [[nodiscard]] double frame_s() const override;
+  /// One that cannot be labelled is warned of and left out.
+  [[nodiscard]] std::optional<Span> next() override;
+  void take(publish::LabelledFrame& frame) override;
+  [[nodiscard]] Status go_to(double seek_s) override;
+  [[nodiscard]] Status conclude() override;
+  void measure(const OnLength& on_length) const override;
+
+ private:
+  explicit PlayedClouds(CloudReader reader) : reader_(std::move(reader)) {}
+  [[nodiscard]] Status label(std::size_t index);
+
+  CloudReader reader_;
+  std::string sensor_line_;
+  mount::Mount mount_;
+  std::unique_ptr<CloudLabeller> labeller_;
+  status::FrameRecord record_;
+  std::size_t next_ = 0;
+  std::string trouble_;  ///< Of the newest cloud that could not be labelled.
+};
+
+}  // namespace terracut::cli

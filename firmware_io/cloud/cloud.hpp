@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "firmware_io/scan/kitti_scan.hpp"
@@ -15,6 +17,13 @@ namespace terracut::cloud {
 /// How many lasers a sensor may have.
 inline constexpr int kFewestLasers = 8;
 inline constexpr int kMostLasers = 256;
+
+/// The names of the field that has the laser's number, the usual ones first, and of the
+/// intensity's.
+inline constexpr std::string_view kLaserFields[] = {"ring",     "channel",      "laser",   "row",
+                                                    "laser_id", "laser_number", "ring_id", "line",
+                                                    "beam",     "beam_id"};
+inline constexpr std::string_view kIntensityFields[] = {"intensity", "remission", "reflectivity"};
 
 /// One frame of any spinning LiDAR, in the sensor frame (x ahead, y left, z up, metres), its points
 /// in any order. Belongs to somebody else.
@@ -29,6 +38,10 @@ struct CloudView {
     return rows > 1 && points.size() > rows && points.size() % rows == 0;
   }
 };
+
+[[nodiscard]] inline bool has_places(std::span<const scan::ScanPoint> points) noexcept {
+  return std::ranges::any_of(points, scan::is_place);
+}
 
 /// The laser of a point of a cloud that is organised. A sensor has fewer lasers than directions:
 /// most drivers write a row for each laser, some a column.
@@ -53,6 +66,10 @@ struct Cloud {
   std::vector<scan::ScanPoint> points;
   std::vector<std::uint16_t> laser;
   std::size_t rows = 1;
+  /// Of a file with named fields, where `laser` is empty: why, for messages. "its fields are x y
+  /// z".
+  std::string no_laser;
+  bool has_viewpoint = false;  ///< The file says where among the points the sensor stood.
 
   [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows}; }
 };

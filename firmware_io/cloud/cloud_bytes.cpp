@@ -8,9 +8,10 @@
 #include <array>
 #include <charconv>
 #include <cstring>
-#include <fstream>
-#include <iterator>
+#include <limits>
 #include <system_error>
+
+#include "rt/files/record_file.hpp"
 
 namespace terracut::cloud {
 namespace {
@@ -43,11 +44,9 @@ Expected<std::string> read_cloud_bytes(const std::filesystem::path& path) {
     return fail(ErrorCode::kMalformed, fmt::format("{}: {} bytes, expected at most {}, one frame",
                                                    path.string(), bytes, kMostCloudBytes));
   }
-  std::ifstream file(path, std::ios::binary);
-  std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file || content.size() != bytes) {
-    return fail(ErrorCode::kUnreadable, path.string() + ": cannot be read; check its permissions");
-  }
+  std::string content(static_cast<std::size_t>(bytes), '\0');
+  const Status read = files::read_bytes(path, content.data(), content.size());
+  if (!read) return tl::unexpected(read.error());
   return content;
 }
 
@@ -61,12 +60,17 @@ std::string quotable(std::string message) {
   return message;
 }
 
-std::vector<std::string_view> words_of(std::string_view line) {
+std::string_view without_byte_order_mark(std::string_view content) noexcept {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  return content.starts_with(kMark) ? content.substr(kMark.size()) : content;
+}
+
+void split_words(std::string_view line, std::size_t most, std::vector<std::string_view>& words) {
   constexpr std::string_view kBlank = " \t\r";
-  std::vector<std::string_view> words;
-  while (true) {
+  words.clear();
+  while (words.size() < most) {
     const std::size_t first = line.find_first_not_of(kBlank);
-    if (first == std::string_view::npos) return words;
+    if (first == std::string_view::npos) return;
     line.remove_prefix(first);
     const std::size_t end = std::min(line.find_first_of(kBlank), line.size());
     words.push_back(line.substr(0, end));
@@ -74,11 +78,31 @@ std::vector<std::string_view> words_of(std::string_view line) {
   }
 }
 
+std::vector<std::string_view> words_of(std::string_view line, std::size_t most) {
+  std::vector<std::string_view> words;
+  split_words(line, most, words);
+  return words;
+}
+
+std::string count_of(std::span<const std::string_view> words, std::size_t expected) {
+  if (words.size() <= expected) return std::to_string(words.size());
+  return fmt::format("more than {}", expected);
+}
+
 std::optional<std::size_t> whole_number(std::string_view word) noexcept {
   return all_of_word<std::size_t>(word);
 }
 
 std::optional<double> number(std::string_view word) noexcept {
+  if (const auto value = all_of_word<double>(word)) return value;
+  const bool is_negative = word.starts_with('-');
+  if (is_negative || word.starts_with('+')) word.remove_prefix(1);
+  if (word.starts_with("1.#")) {
+    const double infinity = std::numeric_limits<double>::infinity();
+    if (word.starts_with("1.#INF")) return is_negative ? -infinity : infinity;
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+  if (is_negative || word.starts_with('-')) return std::nullopt;
   return all_of_word<double>(word);
 }
 

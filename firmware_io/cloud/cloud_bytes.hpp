@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -28,9 +29,16 @@ inline constexpr std::uintmax_t kMostCloudBytes = std::uintmax_t{1} << 28;
 /// A message that may quote a file, which may hold anything: printable and not too long.
 [[nodiscard]] std::string quotable(std::string message);
 
-/// What blanks separate.
-[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line);
-/// The word must be nothing but the number.
+/// Without the mark that some editors put before the first character.
+[[nodiscard]] std::string_view without_byte_order_mark(std::string_view content) noexcept;
+
+/// What blanks separate, `most` words at most: a line may be a whole file.
+void split_words(std::string_view line, std::size_t most, std::vector<std::string_view>& words);
+[[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most);
+/// "3", or "more than 3" of a line that was split up to a word more than `expected`.
+[[nodiscard]] std::string count_of(std::span<const std::string_view> words, std::size_t expected);
+/// The word must be nothing but the number. NaN and infinity may be written as Microsoft's
+/// compilers did (1.#QNAN, -1.#IND, 1.#INF).
 [[nodiscard]] std::optional<std::size_t> whole_number(std::string_view word) noexcept;
 [[nodiscard]] std::optional<double> number(std::string_view word) noexcept;
 

@@ -5,14 +5,16 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <array>
 #include <cmath>
-#include <initializer_list>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 
+#include "firmware_io/cloud/cloud_bytes.hpp"
+#include "firmware_io/cloud/cloud_reach.hpp"
 #include "firmware_io/cloud/field_table.hpp"
 #include "firmware_io/cloud/pcd_file.hpp"
 #include "firmware_io/cloud/ply_file.hpp"
@@ -26,71 +28,142 @@ namespace fs = std::filesystem;
 
 using Values = std::optional<std::span<const double>>;
 
-Values any_of(const FieldTable& table, std::initializer_list<std::string_view> names) {
-  for (const std::string_view name : names) {
-    if (const Values values = table.field(name)) return values;
+/// Whether a point may name its laser so.
+bool is_laser_number(double number) noexcept {
+  return number >= 0 && number < kMostLasers && number == std::floor(number);
+}
+
+constexpr const char* kExpectedLaser = "expected a whole number from 0 to {}";
+
+/// What a field says of the lasers. Points that are no place tell nothing: drivers write any number
+/// where a beam had no return.
+struct LaserField {
+  explicit LaserField(std::span<const scan::ScanPoint> points, std::span<const double> numbers) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!scan::is_place(points[i])) continue;
+      if (!is_laser_number(numbers[i])) {
+        wrong = i;
+        return;
+      }
+      is_filled |= numbers[i] != 0;
+    }
   }
-  return std::nullopt;
-}
+  std::optional<std::size_t> wrong;  ///< A point with another number than a laser has.
+  bool is_filled = false;            ///< Not all are 0.
+};
 
-/// Drivers give intensity as 0..1 or as the sensor's 0..255.
-float remission_scale(float brightest) noexcept {
-  return brightest > 1.0F ? 1.0F / 255 : 1.0F;
-}
-
-Status take_laser(const fs::path& path, std::size_t point, double number, Cloud& cloud) {
-  if (!(number >= 0 && number < kMostLasers) || number != std::floor(number)) {
-    return fail(ErrorCode::kMalformed,
-                fmt::format("{}: ring of point {} is {}; expected a whole number from 0 to {}",
-                            path.string(), point, number, kMostLasers - 1));
+/// Takes the lasers' numbers of the first field that has them; of one that is all 0, as drivers
+/// leave it that know no number, only where no other has. A field with other numbers is no laser's:
+/// cloud.no_laser says so.
+void take_lasers(const FieldTable& table, Cloud& cloud) {
+  Values chosen;
+  for (const std::string_view name : kLaserFields) {
+    const Values numbers = table.field_like(name);
+    if (!numbers) continue;
+    const LaserField field(cloud.points, *numbers);
+    if (field.wrong) {
+      if (!cloud.no_laser.empty()) continue;
+      cloud.no_laser =
+          fmt::format("{} of point {} is {}, ", name, *field.wrong, (*numbers)[*field.wrong]) +
+          fmt::format(kExpectedLaser, kMostLasers - 1);
+      continue;
+    }
+    if (!chosen || field.is_filled) chosen = numbers;
+    if (field.is_filled) break;
   }
-  cloud.laser.push_back(static_cast<std::uint16_t>(number));
-  return {};
+  if (!chosen) {
+    if (cloud.no_laser.empty()) {
+      cloud.no_laser = quotable(fmt::format("its fields are {}", fmt::join(table.names, " ")));
+    }
+    return;
+  }
+  cloud.no_laser.clear();
+  cloud.laser.resize(table.points);
+  for (std::size_t i = 0; i < table.points; ++i) {
+    const double number = (*chosen)[i];
+    cloud.laser[i] = is_laser_number(number) ? static_cast<std::uint16_t>(number) : 0;
+  }
 }
 
-Status take_table(const fs::path& path, const FieldTable& table, Cloud& cloud) {
-  const Values x = table.field("x"), y = table.field("y"), z = table.field("z");
+/// From the coordinates of a file to the sensor's, by where the file says that it stood.
+class ToSensor {
+ public:
+  explicit ToSensor(const std::array<double, 7>& viewpoint) : at_(viewpoint) {
+    const double norm = std::hypot(std::hypot(at_[3], at_[4]), std::hypot(at_[5], at_[6]));
+    for (std::size_t i = 3; i < at_.size(); ++i) at_[i] /= norm;
+  }
+
+  void move(double& x, double& y, double& z) const noexcept {
+    const bool is_measured = (x != 0 || y != 0 || z != 0) && std::isfinite(x + y + z);
+    if (!is_measured) return;
+    const double w = at_[3], qx = -at_[4], qy = -at_[5], qz = -at_[6];  // turned back
+    const double px = x - at_[0], py = y - at_[1], pz = z - at_[2];
+    const double tx = 2 * (qy * pz - qz * py), ty = 2 * (qz * px - qx * pz),
+                 tz = 2 * (qx * py - qy * px);
+    x = px + w * tx + qy * tz - qz * ty;
+    y = py + w * ty + qz * tx - qx * tz;
+    z = pz + w * tz + qx * ty - qy * tx;
+  }
+
+ private:
+  std::array<double, 7> at_;
+};
+
+Status take_table(const fs::path& path, const FieldTable& table, SensorPlace sensor, Cloud& cloud) {
+  const Values x = table.field_like("x"), y = table.field_like("y"), z = table.field_like("z");
   if (!x || !y || !z) {
     return fail(ErrorCode::kMalformed, fmt::format("{}: expected the fields x, y and z; it has: {}",
                                                    path.string(), fmt::join(table.names, " ")));
   }
-  const Values intensity = any_of(table, {"intensity", "remission", "reflectivity"});
-  const Values laser = any_of(table, {"ring", "channel", "laser", "row"});
-  for (std::size_t i = 0; laser && i < table.points; ++i) {
-    if (Status taken = take_laser(path, i, (*laser)[i], cloud); !taken) return taken;
+  Values intensity;
+  for (const std::string_view name : kIntensityFields) {
+    if (!intensity) intensity = table.field_like(name);
   }
-  float scale = 1;
-  if (intensity) scale = remission_scale(static_cast<float>(std::ranges::max(*intensity)));
+  scan::RemissionScale scale;
+  for (std::size_t i = 0; intensity && i < table.points; ++i) {
+    scale.add(static_cast<float>((*intensity)[i]));
+  }
+  const float factor = scale.factor();
+  cloud.has_viewpoint = table.viewpoint.has_value();
+  std::optional<ToSensor> to_sensor;
+  if (sensor == SensorPlace::kViewpoint && table.viewpoint) to_sensor.emplace(*table.viewpoint);
+  cloud.points.resize(table.points);
   for (std::size_t i = 0; i < table.points; ++i) {
-    cloud.points.push_back({static_cast<float>((*x)[i]), static_cast<float>((*y)[i]),
-                            static_cast<float>((*z)[i]),
-                            intensity ? static_cast<float>((*intensity)[i]) * scale : 0.0F});
+    double at[] = {(*x)[i], (*y)[i], (*z)[i]};
+    if (to_sensor) to_sensor->move(at[0], at[1], at[2]);
+    cloud.points[i] = {static_cast<float>(at[0]), static_cast<float>(at[1]),
+                       static_cast<float>(at[2]),
+                       intensity ? static_cast<float>((*intensity)[i]) * factor : 0.0F};
   }
   cloud.rows = table.rows;
+  take_lasers(table, cloud);
   return {};
 }
 
-Status read_table(const fs::path& path, const Expected<FieldTable>& table, Cloud& cloud) {
+Status read_table(const fs::path& path, const Expected<FieldTable>& table, SensorPlace sensor,
+                  Cloud& cloud) {
   if (!table) return tl::unexpected(table.error());
-  return take_table(path, *table, cloud);
+  return take_table(path, *table, sensor, cloud);
 }
 
-Status read_kitti(const fs::path& path, Cloud& cloud) {
-  return files::read_records(
-      path, {"point of 4 float32 (x y z remission)", sizeof(scan::ScanPoint), scan::kMaxScanPoints},
-      cloud.points);
-}
-
-Status read_by_name(const fs::path& path, Cloud& cloud) {
+Status read_by_name(const fs::path& path, SensorPlace sensor, Cloud& cloud) {
   const std::string ending = files::ending_of(path);
-  if (ending == ".pcd") return read_table(path, read_pcd(path), cloud);
-  if (ending == ".ply") return read_table(path, read_ply(path), cloud);
+  if (ending == ".pcd") return read_table(path, read_pcd(path), sensor, cloud);
+  if (ending == ".ply") return read_table(path, read_ply(path), sensor, cloud);
   if (ending != ".bin") {
     return fail(ErrorCode::kUnsupported,
                 path.string() + ": expected a cloud: .bin, .pcd.bin, .pcd or .ply");
   }
   return files::ending_of(path.stem()) == ".pcd" ? read_nuscenes_bin(path, cloud)
-                                                 : read_kitti(path, cloud);
+                                                 : scan::read_kitti_points(path, cloud.points);
+}
+
+void clear(Cloud& cloud) {
+  cloud.points.clear();
+  cloud.laser.clear();
+  cloud.rows = 1;
+  cloud.no_laser.clear();
+  cloud.has_viewpoint = false;
 }
 
 }  // namespace
@@ -104,30 +177,38 @@ Status read_nuscenes_bin(const fs::path& path, Cloud& cloud) {
   struct Record {
     float x_m, y_m, z_m, intensity, ring;
   };
-  cloud.points.clear();
-  cloud.laser.clear();
-  cloud.rows = 1;
+  clear(cloud);
   std::vector<Record> records;
-  const Status read = files::read_records(
-      path, {"point of 5 float32 (x y z intensity ring)", sizeof(Record), scan::kMaxScanPoints},
+  Status read = files::read_records(
+      path,
+      {"point of 5 float32 (x y z intensity ring)", sizeof(Record), scan::kMaxScanPoints, true},
       records);
-  if (!read) return read;
-  for (std::size_t i = 0; i < records.size(); ++i) {
+  cloud.points.resize(records.size());
+  cloud.laser.resize(records.size());
+  for (std::size_t i = 0; read && i < records.size(); ++i) {
     const Record& record = records[i];
-    cloud.points.push_back({record.y_m, -record.x_m, record.z_m, record.intensity / 255});
-    if (Status taken = take_laser(path, i, double{record.ring}, cloud); !taken) return taken;
+    cloud.points[i] = {record.y_m, -record.x_m, record.z_m, record.intensity / 255};
+    if (is_laser_number(record.ring)) {
+      cloud.laser[i] = static_cast<std::uint16_t>(record.ring);
+    } else if (scan::is_place(cloud.points[i])) {
+      read = fail(ErrorCode::kMalformed,
+                  fmt::format("{}: ring of point {} is {}; ", path.string(), i, record.ring) +
+                      fmt::format(kExpectedLaser, kMostLasers - 1));
+    }
   }
-  return {};
+  std::error_code none;
+  if (!read && fs::file_size(path, none) % sizeof(scan::ScanPoint) == 0 && !none) {
+    read.error().message += "; are these 4 floats a point (x y z remission)? Then name it .bin";
+  }
+  return read;
 }
 
-Status read_cloud(const fs::path& path, Cloud& cloud) {
-  cloud.points.clear();
-  cloud.laser.clear();
-  cloud.rows = 1;
-  if (Status read = read_by_name(path, cloud); !read) return read;
-  if (std::ranges::any_of(cloud.points, scan::is_place)) return {};
-  return fail(ErrorCode::kMalformed, fmt::format("{}: none of the {} points is finite and not null",
-                                                 path.string(), cloud.points.size()));
+Status read_cloud(const fs::path& path, Cloud& cloud, SensorPlace sensor) {
+  clear(cloud);
+  if (Status read = read_by_name(path, sensor, cloud); !read) return read;
+  Status near = check_reach(cloud.points);
+  if (!near) near.error().message.insert(0, path.string() + ": ");
+  return near;
 }
 
 }  // namespace terracut::cloud

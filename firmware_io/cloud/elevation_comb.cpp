@@ -20,6 +20,9 @@ constexpr std::uint32_t kGapShare = 50;
 /// Of the points, at least so many are in teeth that are narrower than the gap beside them.
 constexpr double kLeastInTeeth = 0.95;
 
+/// In the mean: what has fewer is a curve or a drawing, not a revolution.
+constexpr std::size_t kFewestPointsARow = 10;
+
 /// Bins next to each other, [begin, end).
 struct Tooth {
   std::size_t begin, end;
@@ -70,12 +73,16 @@ Expected<std::vector<double>> ElevationComb::elevations_rad() const {
   }
   const double share =
       static_cast<double>(in_teeth) / static_cast<double>(std::max<std::size_t>(points_, 1));
-  if (teeth.size() < kFewestLasers || teeth.size() > kMostLasers || share < kLeastInTeeth) {
+  const bool is_comb = teeth.size() >= kFewestLasers && teeth.size() <= kMostLasers &&
+                       share >= kLeastInTeeth && points_ >= kFewestPointsARow * teeth.size();
+  if (!is_comb) {
     return fail(
         ErrorCode::kUnsupported,
-        fmt::format("the elevations of the points form {} rows, and {:.0f} % of the points "
-                    "lie in rows with a gap beside them; expected {} to {} rows and {:.0f} %",
-                    teeth.size(), 100 * share, kFewestLasers, kMostLasers, 100 * kLeastInTeeth));
+        fmt::format("the elevations of the {} points form {} rows, and {:.0f} % of the points "
+                    "lie in rows with a gap beside them; expected {} to {} rows of {} points or "
+                    "more, and {:.0f} %",
+                    points_, teeth.size(), 100 * share, kFewestLasers, kMostLasers,
+                    kFewestPointsARow, 100 * kLeastInTeeth));
   }
   std::vector<double> elevations;
   for (auto tooth = teeth.rbegin(); tooth != teeth.rend(); ++tooth) {

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <optional>
@@ -58,7 +58,7 @@ std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t byt
 /// Reads one file; what is wrong with it ends the reading.
 class PcdReader {
  public:
-  PcdReader(std::string_view content, const std::string& name) : lines_{content}, name_(name) {}
+  PcdReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
 
   Expected<FieldTable> read() {
     if (const Status header = read_header(); !header) return tl::unexpected(header.error());
@@ -66,11 +66,13 @@ class PcdReader {
     FieldTable cloud;
     cloud.points = points_;
     cloud.rows = rows_;
+    cloud.viewpoint = viewpoint_;
     for (const Field& field : fields_) {
-      if (field.count != 1) continue;
+      if (!field.is_kept()) continue;
       cloud.names.push_back(field.name);
-      cloud.values.emplace_back();
+      cloud.values.emplace_back().reserve(points_);
     }
+    if (points_ == 0) return cloud;
     const Status data = data_ == "ascii"    ? read_ascii(cloud)
                         : data_ == "binary" ? read_binary(cloud)
                                             : read_compressed(cloud);
@@ -84,6 +86,9 @@ class PcdReader {
     std::size_t bytes = 0;  ///< 1, 2, 4 or 8.
     char type = '\0';       ///< 'I', 'U' or 'F'.
     std::size_t count = 1;
+
+    /// Padding is named _; what has no value, as PCL wrote it for years, or several is passed over.
+    [[nodiscard]] bool is_kept() const { return count == 1 && name != "_"; }
   };
 
   [[nodiscard]] tl::unexpected<Error> refuse(std::string what,
@@ -92,9 +97,8 @@ class PcdReader {
   }
 
   Status read_header() {
-    while (!lines_.rest.empty()) {
-      const auto words = words_of(lines_.next());
-      if (words.empty() || words[0].starts_with('#')) continue;
+    std::vector<std::string_view> words;
+    while (lines_.next_words(kMostHeaderWords, words)) {
       const std::span<const std::string_view> values(words.begin() + 1, words.end());
       if (const Status taken = take_header_line(words[0], values); !taken) return taken;
       if (!data_.empty()) return {};
@@ -103,7 +107,10 @@ class PcdReader {
   }
 
   Status take_header_line(std::string_view key, std::span<const std::string_view> values) {
-    if (key == "FIELDS") {
+    if (key == "FIELDS" || key == "COLUMNS") {  // the latter in version 0.5
+      if (fields_.size() + values.size() > kMostFields) {
+        return refuse(fmt::format("line {}: more than {} FIELDS", lines_.number, kMostFields));
+      }
       for (const std::string_view value : values) {
         if (value.size() > kLongestFieldName || !std::ranges::all_of(value, is_printable)) {
           return refuse(fmt::format("line {}: a field is named '{}'", lines_.number, value));
@@ -133,8 +140,24 @@ class PcdReader {
       if (!side) return refuse(fmt::format("line {}: {} is no number", lines_.number, key));
       return {};
     }
+    if (key == "VIEWPOINT") take_viewpoint(values);
     if (key == "VERSION" || key == "VIEWPOINT") return {};
     return refuse(fmt::format("no PCD file: line {} of its header is none", lines_.number));
+  }
+
+  void take_viewpoint(std::span<const std::string_view> values) {
+    std::array<double, 7> viewpoint{};
+    if (values.size() != viewpoint.size()) return;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const auto value = number(values[i]);
+      if (!value || !std::isfinite(*value)) return;
+      viewpoint[i] = *value;
+    }
+    if (viewpoint == std::array<double, 7>{0, 0, 0, 1, 0, 0, 0}) return;
+    if (std::all_of(viewpoint.begin() + 3, viewpoint.end(), [](double q) { return q == 0; })) {
+      return;
+    }
+    viewpoint_ = viewpoint;
   }
 
   Status take_field_line(std::string_view key, std::span<const std::string_view> values) {
@@ -146,18 +169,22 @@ class PcdReader {
       Field& field = fields_[i];
       bool good = false;
       if (key == "TYPE") {
-        field.type = values[i].front();
-        good = values[i] == "I" || values[i] == "U" || values[i] == "F";
+        const std::size_t type = std::string_view("IiUuFf").find(values[i]);
+        good = values[i].size() == 1 && type != std::string_view::npos;
+        if (good) field.type = "IIUUFF"[type];
       } else if (key == "SIZE") {
         field.bytes = whole_number(values[i]).value_or(0);
         good = field.bytes <= 8 && std::has_single_bit(field.bytes);
       } else {
-        field.count = whole_number(values[i]).value_or(0);
-        good = field.count >= 1 && field.count <= kMostValues;
+        field.count = whole_number(values[i]).value_or(kMostValues + 1);
+        good = field.count <= kMostValues;
       }
       if (!good) {
-        return refuse(fmt::format("line {}: {} of field {} is '{}'", lines_.number, key, field.name,
-                                  values[i]));
+        return refuse(fmt::format("line {}: {} of field {} is '{}'; expected {}", lines_.number,
+                                  key, field.name, values[i],
+                                  key == "TYPE"   ? "I, U or F"
+                                  : key == "SIZE" ? "1, 2, 4 or 8"
+                                                  : "the number of its values"));
       }
     }
     return {};
@@ -165,16 +192,17 @@ class PcdReader {
 
   Status check_header() {
     if (fields_.empty()) return refuse("its header names no FIELDS");
-    if (fields_.size() > kMostFields) {
-      return refuse(fmt::format("{} FIELDS, expected at most {}", fields_.size(), kMostFields));
+    if (!has_points_ && width_ && height_) {
+      const std::size_t most = scan::kMaxScanPoints + 1;  // their product may be any number
+      points_ = std::min(*width_, most) * std::min(*height_, most);
+      has_points_ = true;
     }
-    if (!has_points_) return refuse("its header has no line POINTS");
-    if (points_ == 0) return refuse("no points");
+    if (!has_points_) return refuse("its header has neither a line POINTS nor WIDTH and HEIGHT");
     if (points_ > scan::kMaxScanPoints) {
       return refuse(
           fmt::format("{} points, expected at most {}, one frame", points_, scan::kMaxScanPoints));
     }
-    if (width_ && height_) {
+    if (width_ && height_ && points_ > 0) {
       const bool fits = *height_ > 0 && points_ % *height_ == 0 && points_ / *height_ == *width_;
       if (!fits) {
         return refuse(
@@ -212,7 +240,7 @@ class PcdReader {
     for (const Field& field : fields_) {
       const std::size_t bytes = field.bytes * field.count;
       const std::size_t step = order == Order::kByPoint ? point_bytes() : bytes;
-      if (field.count == 1) {
+      if (field.is_kept()) {
         std::vector<double>& values = cloud.values[kept++];
         for (std::size_t i = 0; i < points_; ++i) {
           values.push_back(binary_value(field, first + i * step));
@@ -260,18 +288,18 @@ class PcdReader {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, values));
     }
+    std::vector<std::string_view> words;
     for (std::size_t i = 0; i < points_; ++i) {
-      if (lines_.rest.empty()) {
+      if (!lines_.next_words(values + 1, words)) {
         return refuse(fmt::format("truncated: {} lines of data, expected {}", i, points_));
       }
-      const auto words = words_of(lines_.next());
       if (words.size() != values) {
-        return refuse(
-            fmt::format("line {}: {} values, expected {}", lines_.number, words.size(), values));
+        return refuse(fmt::format("line {}: {} values, expected {}", lines_.number,
+                                  count_of(words, values), values));
       }
       std::size_t word = 0, kept = 0;
       for (const Field& field : fields_) {
-        if (field.count == 1) {
+        if (field.is_kept()) {
           const auto value = number(words[word]);
           if (!value) {
             return refuse(fmt::format("line {}: {} is '{}', no number", lines_.number, field.name,
@@ -294,6 +322,7 @@ class PcdReader {
   bool has_points_ = false;
   std::optional<std::size_t> width_, height_;
   std::size_t rows_ = 1;
+  std::optional<std::array<double, 7>> viewpoint_;
   std::string data_;
 };
 

@@ -30,16 +30,22 @@ constexpr TypeName kTypes[] = {
 /// Reads one file; what is wrong with it ends the reading.
 class PlyReader {
  public:
-  PlyReader(std::string_view content, const std::string& name) : lines_{content}, name_(name) {}
+  PlyReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
 
   Expected<FieldTable> read() {
     if (const Status header = read_header(); !header) return tl::unexpected(header.error());
     if (const Status checked = check_header(); !checked) return tl::unexpected(checked.error());
     FieldTable table;
     table.points = points_;
-    for (const Property& property : properties_) table.names.push_back(property.name);
-    table.values.resize(properties_.size());
-    const Status data = is_text_ ? read_text(table) : read_binary(table);
+    for (const Property& property : properties_) {
+      if (property.is_list()) continue;
+      table.names.push_back(property.name);
+      table.values.emplace_back().reserve(points_);
+    }
+    const bool has_lists = table.names.size() < properties_.size();
+    const Status data = is_text_    ? read_text(table, has_lists)
+                        : has_lists ? read_binary_with_lists(table)
+                                    : read_binary(table);
     if (!data) return tl::unexpected(data.error());
     return table;
   }
@@ -49,6 +55,11 @@ class PlyReader {
     std::string name;
     char type;
     std::size_t bytes;
+    /// Of a list, which is passed over: how the number of its values is written.
+    char count_type = '\0';
+    std::size_t count_bytes = 0;
+
+    [[nodiscard]] bool is_list() const { return count_bytes != 0; }
   };
 
   [[nodiscard]] tl::unexpected<Error> refuse(std::string what,
@@ -57,11 +68,11 @@ class PlyReader {
   }
 
   Status read_header() {
-    if (words_of(lines_.next()) != std::vector<std::string_view>{"ply"}) {
+    if (words_of(lines_.next(), 2) != std::vector<std::string_view>{"ply"}) {
       return refuse("no PLY file: it does not begin with the line ply");
     }
     while (!lines_.rest.empty()) {
-      const auto words = words_of(lines_.next());
+      const auto words = words_of(lines_.next(), kMostHeaderWords);
       if (words.empty() || words[0] == "comment" || words[0] == "obj_info") continue;
       if (words[0] == "end_header") return {};
       if (const Status taken = take_header_line(words); !taken) return taken;
@@ -96,40 +107,50 @@ class PlyReader {
       return {};
     }
     if (words[0] == "property" && elements_ > 1) return {};
-    if (words[0] == "property" && words.size() == 3) return take_property(words[1], words[2]);
+    if (words[0] == "property" && words.size() == 3) return take_property({}, words[1], words[2]);
     if (words[0] == "property" && words.size() == 5 && words[1] == "list") {
-      return refuse(fmt::format("line {}: a vertex has the list '{}'; expected numbers",
-                                lines_.number, words[4]),
-                    ErrorCode::kUnsupported);
+      return take_property(words[2], words[3], words[4]);
     }
     return refuse(fmt::format("no PLY file: line {} of its header is none", lines_.number));
   }
 
-  Status take_property(std::string_view type, std::string_view property) {
-    const auto* known = std::ranges::find_if(kTypes, [&](const TypeName& candidate) {
-      return type == candidate.name || type == candidate.other_name;
-    });
-    if (known == std::end(kTypes)) {
-      return refuse(fmt::format("line {}: '{}' is no type of a property", lines_.number, type));
+  /// `count_type`: of a list; else empty.
+  Status take_property(std::string_view count_type, std::string_view type,
+                       std::string_view property) {
+    const auto known_as = [](std::string_view name) {
+      return std::ranges::find_if(kTypes, [&](const TypeName& candidate) {
+        return name == candidate.name || name == candidate.other_name;
+      });
+    };
+    const auto* known = known_as(type);
+    const auto* count = known_as(count_type);
+    const bool is_list = !count_type.empty();
+    if (known == std::end(kTypes) ||
+        (is_list && (count == std::end(kTypes) || count->type == 'F'))) {
+      return refuse(fmt::format("line {}: '{}' is no type of a property", lines_.number,
+                                known == std::end(kTypes) ? type : count_type));
+    }
+    if (properties_.size() == kMostFields) {
+      return refuse(
+          fmt::format("line {}: a vertex has more than {} properties", lines_.number, kMostFields));
     }
     if (property.size() > kLongestFieldName || !std::ranges::all_of(property, is_printable)) {
       return refuse(fmt::format("line {}: a property is named '{}'", lines_.number, property));
     }
     properties_.push_back({std::string(property), known->type, known->bytes});
+    if (!is_list) return {};
+    properties_.back().count_type = count->type;
+    properties_.back().count_bytes = count->bytes;
     return {};
   }
 
   [[nodiscard]] Status check_header() const {
     if (!has_format_) return refuse("its header has no line format");
-    if (points_ == 0) return refuse("no points");
     if (points_ > scan::kMaxScanPoints) {
       return refuse(
           fmt::format("{} points, expected at most {}, one frame", points_, scan::kMaxScanPoints));
     }
-    if (properties_.empty() || properties_.size() > kMostFields) {
-      return refuse(fmt::format("a vertex has {} properties, expected 1 to {}", properties_.size(),
-                                kMostFields));
-    }
+    if (properties_.empty()) return refuse("a vertex has no properties");
     return {};
   }
 
@@ -144,7 +165,6 @@ class PlyReader {
     const char* first = lines_.rest.data();
     for (std::size_t i = 0; i < properties_.size(); ++i) {
       const Property& property = properties_[i];
-      table.values[i].reserve(points_);
       for (std::size_t point = 0; point < points_; ++point) {
         table.values[i].push_back(
             binary_value(first + point * point_bytes, property.type, property.bytes, order_));
@@ -154,25 +174,72 @@ class PlyReader {
     return {};
   }
 
-  Status read_text(FieldTable& table) {
+  Status read_binary_with_lists(FieldTable& table) const {
+    std::string_view data = lines_.rest;
+    for (std::size_t point = 0; point < points_; ++point) {
+      std::size_t kept = 0;
+      for (const Property& property : properties_) {
+        std::size_t bytes = property.bytes;
+        if (property.is_list() && data.size() >= property.count_bytes) {
+          const double values =
+              binary_value(data.data(), property.count_type, property.count_bytes, order_);
+          data.remove_prefix(property.count_bytes);
+          // Whatever is negative or beyond the data is as broken as a file that ends there.
+          const bool fits = values >= 0 && values <= static_cast<double>(data.size());
+          bytes = fits ? static_cast<std::size_t>(values) * property.bytes : data.size() + 1;
+        }
+        if (data.size() < bytes) {
+          return refuse(fmt::format("truncated: its data end in vertex {} of {}", point, points_));
+        }
+        if (!property.is_list()) {
+          table.values[kept++].push_back(
+              binary_value(data.data(), property.type, property.bytes, order_));
+        }
+        data.remove_prefix(bytes);
+      }
+    }
+    return {};
+  }
+
+  Status read_text(FieldTable& table, bool has_lists) {
     // A digit and what separates it from the next, but for the last.
     if (lines_.rest.size() + 1 < points_ * properties_.size() * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, properties_.size()));
     }
+    constexpr std::size_t kMostListed = 4096;
+    const std::size_t most = properties_.size() + (has_lists ? kMostListed : 1);
+    std::vector<std::string_view> words;
     for (std::size_t point = 0; point < points_; ++point) {
-      const auto words = words_of(lines_.next());
-      if (words.size() != properties_.size()) {
-        return refuse(fmt::format("line {}: {} values, expected {}", lines_.number, words.size(),
-                                  properties_.size()));
+      if (!lines_.next_words(most, words)) {
+        return refuse(fmt::format("truncated: {} lines of data, expected {}", point, points_));
       }
-      for (std::size_t i = 0; i < words.size(); ++i) {
-        const auto value = number(words[i]);
-        if (!value) {
-          return refuse(fmt::format("line {}: {} is '{}', no number", lines_.number,
-                                    properties_[i].name, words[i]));
+      std::size_t word = 0, kept = 0;
+      for (const Property& property : properties_) {
+        if (word >= words.size()) {
+          word = words.size() + 1;
+          break;
         }
-        table.values[i].push_back(*value);
+        const auto value = number(words[word]);
+        if (!value) {
+          return refuse(fmt::format("line {}: {} is '{}', no number", lines_.number, property.name,
+                                    words[word]));
+        }
+        ++word;
+        if (!property.is_list()) {
+          table.values[kept++].push_back(*value);
+        } else if (*value >= 0 && *value <= static_cast<double>(words.size() - word)) {
+          word += static_cast<std::size_t>(*value);
+        } else {
+          word = words.size() + 1;
+        }
+      }
+      if (kept != table.values.size() || word != words.size()) {
+        return refuse(has_lists
+                          ? fmt::format("line {}: {} values are not those of its {} properties",
+                                        lines_.number, words.size(), properties_.size())
+                          : fmt::format("line {}: {} values, expected {}", lines_.number,
+                                        count_of(words, properties_.size()), properties_.size()));
       }
     }
     return {};

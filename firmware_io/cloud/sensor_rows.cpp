@@ -12,6 +12,7 @@
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "firmware_io/cloud/azimuth_step.hpp"
+#include "firmware_io/cloud/cloud_reach.hpp"
 #include "firmware_io/cloud/elevation_comb.hpp"
 #include "firmware_io/scan/ring_fit_of_scans.hpp"
 
@@ -35,6 +36,18 @@ Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t la
   auto free = fit.fit();
   if (free && free->residual.p95_m + kAlike_m < plain->residual.p95_m) return free;
   return plain;
+}
+
+/// That most rings look lower than the one above them. A driver that was not told its lasers'
+/// angles puts all points on one plane, and what is no laser's number gives each "laser" points of
+/// all.
+Status check_apart(const scan::FittedRings& rings) {
+  if (rings.with_line < 2 || 4 * rings.coinciding < 3 * (rings.with_line - 1)) return {};
+  return fail(ErrorCode::kMalformed,
+              fmt::format("{} of {} lasers look the same way as the one above them: had the driver "
+                          "the lasers' angles, are the numbers the lasers', are WIDTH and HEIGHT "
+                          "exchanged?",
+                          rings.coinciding, rings.with_line));
 }
 
 /// Calls `use` with some of the clouds.
@@ -94,6 +107,7 @@ Expected<SensorRows> learn_by_order(std::size_t clouds, const ReadCloud& read) {
         return recovered;
       });
   if (!fitted) return tl::unexpected(fitted.error());
+  if (Status apart = check_apart(*fitted); !apart) return tl::unexpected(apart.error());
   return SensorRows{RowSource::kKittiOrder, *std::move(fitted), {}, 0};
 }
 
@@ -170,9 +184,9 @@ Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds,
   if (lines && share_near_lines(lines->rings.table, read(first)->points) >= kLeastNearLines)
     return lines;
   return fail(ErrorCode::kUnsupported,
-              fmt::format("nothing tells which laser measured a point: no field ring, channel, "
-                          "laser or row, not organised, not in the order of KITTI's files, and {}; "
-                          "give a cloud of one revolution with the number of each point's laser",
+              fmt::format("nothing tells which laser measured a point: no field with its number, "
+                          "not organised, not in the order of KITTI's files, and {}; give a cloud "
+                          "of one revolution with the number of each point's laser",
                           comb.error().message));
 }
 
@@ -220,11 +234,13 @@ Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clo
   if (!read) return tl::unexpected(read.error());
   auto fitted = simplest_fit(fit, lasers);
   if (!fitted) return tl::unexpected(fitted.error());
+  if (Status apart = check_apart(*fitted); !apart) return tl::unexpected(apart.error());
   if (fitted->residual.p95_m > kWidestCone_m) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("the points of a laser do not lie on a cone around the origin (5 % of "
                             "them are off by more than {:.1f} m): expected are points in the "
-                            "sensor's own frame, one revolution a file, and the laser of each",
+                            "sensor's own frame, not in a map's or the vehicle's, of one sensor "
+                            "and one revolution a file, and the laser of each",
                             fitted->residual.p95_m));
   }
   found.rings = *std::move(fitted);
@@ -234,7 +250,14 @@ Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clo
 Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
   const ReadCloud read = [&](std::size_t index) -> Expected<CloudView> {
     auto cloud = read_any(index);
-    if (!cloud || cloud->laser.empty() || cloud->laser.size() == cloud->points.size()) return cloud;
+    if (!cloud) return cloud;
+    if (Status near = check_reach(cloud->points); !near) return tl::unexpected(near.error());
+    if (!has_places(cloud->points)) {
+      return fail(ErrorCode::kMalformed,
+                  fmt::format("none of the {} points is finite, not null and within 10 km",
+                              cloud->points.size()));
+    }
+    if (cloud->laser.empty() || cloud->laser.size() == cloud->points.size()) return cloud;
     return fail(ErrorCode::kMalformed, fmt::format("{} points, but {} numbers of lasers",
                                                    cloud->points.size(), cloud->laser.size()));
   };
@@ -244,6 +267,12 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
   while (!cloud && first + 1 < clouds) cloud = read(++first);
   if (!cloud) return tl::unexpected(cloud.error());
 
+  const bool is_organised = cloud->is_organised();
+  const auto learn_without_numbers = [&, lasers =
+                                             is_organised ? OrganisedLasers(*cloud).lasers() : 0] {
+    return is_organised ? learn_by_number(RowSource::kOrganisation, lasers, clouds, read)
+                        : learn_from_places(first, clouds, read);
+  };
   Expected<SensorRows> rows = SensorRows{};
   if (!cloud->laser.empty()) {
     std::size_t most = 0;
@@ -253,11 +282,11 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
     });
     if (!looked) return tl::unexpected(looked.error());
     rows = learn_by_number(RowSource::kLaserNumbers, most + 1, clouds, read);
-  } else if (cloud->is_organised()) {
-    rows =
-        learn_by_number(RowSource::kOrganisation, OrganisedLasers(*cloud).lasers(), clouds, read);
+    if (!rows && most + 1 < kFewestLasers) {  // a field that the driver left empty?
+      if (auto others = learn_without_numbers()) rows = std::move(others);
+    }
   } else {
-    rows = learn_from_places(first, clouds, read);
+    rows = learn_without_numbers();
   }
   if (!rows) return rows;
 
@@ -279,11 +308,17 @@ RowFinder::RowFinder(SensorRows rows) : rows_(std::move(rows)) {
 }
 
 Status RowFinder::find(const CloudView& cloud, RingRecovery& found) const {
-  if (rows_.source == RowSource::kKittiOrder) {
+  const bool is_blind = !has_places(cloud.points);
+  if (rows_.source == RowSource::kKittiOrder && !is_blind) {
     return scan::recover_rings(cloud.points, &rows_.rings.table, found);
   }
   found.aligned = false;
   found.rings = static_cast<int>(rows_.rings.table.size());
+  if (is_blind) {
+    found.ring_of_point.assign(cloud.points.size(), kNoRing);
+    found.no_ring = cloud.points.size();
+    return {};
+  }
   switch (rows_.source) {
     case RowSource::kLaserNumbers:
       if (cloud.laser.size() != cloud.points.size()) {

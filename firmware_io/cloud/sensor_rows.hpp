@@ -56,8 +56,9 @@ struct NumberedLasers {
                                                            const ReadCloud& name_lasers);
 
 /// Learns from at most 40 of some clouds of one sensor. Start-up: allocates, takes up to a second.
-/// kUnsupported or kMalformed, with what was found, where nothing tells the lasers apart; where no
-/// cloud can be read the error of one.
+/// Clouds without a place are left out. kUnsupported or kMalformed, with what was found, where
+/// nothing tells the lasers apart, where most of them look the same way, or where the points are no
+/// metres from the sensor (check_reach()); where no cloud can be read the error of one.
 [[nodiscard]] Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read);
 
 /// Finds the ring of each point of clouds of the sensor that was learnt.
@@ -65,9 +66,10 @@ class RowFinder {
  public:
   explicit RowFinder(SensorRows rows);
 
-  /// Fills `found`. Points that are no place, and those of lasers that nothing is known of, get
-  /// kNoRing. kMalformed where a cloud lacks what tells its lasers. Allocates nothing beyond the
-  /// largest cloud so far, except where the rings of a cloud in KITTI's order are not whole.
+  /// Fills `found`; of a cloud without a place whatever else it lacks. Points that are no place,
+  /// and those of lasers that nothing is known of, get kNoRing. kMalformed where a cloud lacks what
+  /// tells its lasers. Allocates nothing beyond the largest cloud so far, except where the rings of
+  /// a cloud in KITTI's order are not whole.
   [[nodiscard]] Status find(const CloudView& cloud, scan::RingRecovery& found) const;
 
   [[nodiscard]] const SensorRows& rows() const noexcept { return rows_; }

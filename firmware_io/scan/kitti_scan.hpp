@@ -45,6 +45,28 @@ using ScanPoint = CloudPoint;
   return static_cast<std::uint8_t>(double{share * 255.0F} + 0.5);
 }
 
+/// What a file's intensities are to be multiplied by to be remissions: programs write 0..1, the
+/// sensor's 0..255, or 16 bits. The file's brightest point tells.
+class RemissionScale {
+ public:
+  void add(float intensity) noexcept {
+    if (intensity <= kMost) brightest_ = intensity > brightest_ ? intensity : brightest_;
+  }
+  [[nodiscard]] float factor() const noexcept {
+    if (brightest_ <= 1.0F) return 1.0F;
+    return 1.0F / (brightest_ <= 255.0F ? 255.0F : kMost);
+  }
+
+ private:
+  static constexpr float kMost = 65535.0F;
+  float brightest_ = 0;
+};
+
+/// The points of a KITTI `.bin`, their remission 0..1. kNotFound, kUnreadable, kMalformed (cut
+/// off, too large, of five floats a point), naming the file; it may be empty.
+[[nodiscard]] Status read_kitti_points(const std::filesystem::path& bin_file,
+                                       std::vector<ScanPoint>& points);
+
 /// One recorded frame. Buffers are kept from scan to scan.
 struct KittiScan {
   std::vector<ScanPoint> points;      ///< In the file's order: ring after ring from the top.

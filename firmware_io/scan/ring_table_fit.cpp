@@ -21,9 +21,6 @@ namespace {
 constexpr double kDistanceError_m = 0.2;
 constexpr double kHeightError_m = 0.01;
 
-// Returns beyond the sensor's reach are no returns; one of them would outweigh a whole ring.
-constexpr float kReach_m = 150;
-
 constexpr double kMinStep_rad = beams::deg_to_rad(0.02);  // rings never cross or coincide
 
 HeightResidual summarise(std::vector<double>& sizes) {

@@ -46,11 +46,13 @@ class RingTableFit {
   static constexpr std::size_t kPointsPerRing = 60000;
   static constexpr std::size_t kMinPointsPerRing = 100;
   static constexpr std::size_t kMinPointsPerSeenRing = 10;
+  /// Returns beyond the sensor's reach are no returns; one of them would outweigh a whole ring.
+  static constexpr float kReach_m = 150;
 
   explicit RingTableFit(int rings = kScanRings) : rings_(static_cast<std::size_t>(rings)) {}
 
-  /// Adds a scan. `ring_of_point`: a ring from 0 or kNoRing for each point. Points beyond 150 m,
-  /// the not finite ones among them, are left out.
+  /// Adds a scan. `ring_of_point`: a ring from 0 or kNoRing for each point. Points beyond
+  /// kReach_m, the not finite ones among them, are left out.
   void add(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point);
 
   /// The table of everything added so far. Where rings may have seen little but near ground, as in

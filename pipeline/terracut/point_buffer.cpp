@@ -141,12 +141,14 @@ Read unpack(const PointBuffer& buffer, cloud::Cloud& cloud) {
                          intensity == nullptr ? 0.0F : value_of(point, *intensity) * kPerStep};
       if (laser == nullptr) continue;
       const float number = value_of(point, *laser);
-      if (!(number >= 0 && number < float{cloud::kMostLasers})) {
+      const bool is_laser = number >= 0 && number < float{cloud::kMostLasers};
+      // Drivers write any number where a beam had no return.
+      if (!is_laser && scan::is_place(cloud.points[i])) {
         return refused(BufferFault::kLaserNumber,
                        fmt::format("{} of point {} is {}; expected 0 to {}", laser->name, i, number,
                                    cloud::kMostLasers - 1));
       }
-      cloud.laser[i] = static_cast<std::uint16_t>(number);
+      cloud.laser[i] = is_laser ? static_cast<std::uint16_t>(number) : std::uint16_t{0};
     }
   }
   return {};

@@ -23,7 +23,7 @@ enum class BufferFault : std::uint8_t {
   kNoPoints,
   kTooManyPoints,  ///< More than scan::kMaxScanPoints.
   kSizes,          ///< Width, height and steps ask for more bytes than there are.
-  kLaserNumber,    ///< It is no whole number from 0 to 255.
+  kLaserNumber,    ///< That of a return is no whole number from 0 to 255.
   kCount,
 };
 

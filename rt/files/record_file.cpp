@@ -23,7 +23,7 @@ Expected<std::size_t> count_records(const std::filesystem::path& path, const Rec
   if (error) {
     return fail(ErrorCode::kUnreadable, fmt::format("{}: {}", path.string(), error.message()));
   }
-  if (bytes == 0) {
+  if (bytes == 0 && !layout.may_be_empty) {
     return fail(ErrorCode::kMalformed,
                 fmt::format("{}: empty; expected at least one {}", path.string(), layout.record));
   }

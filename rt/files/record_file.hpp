@@ -17,6 +17,7 @@ struct RecordLayout {
   const char* record;        ///< What one record is: "point of 4 float32 (x y z remission)".
   std::size_t record_bytes;  ///< Size of one record.
   std::size_t max_records;   ///< More than this is refused before anything is read.
+  bool may_be_empty = false;
 };
 
 /// Number of records in `path`. Errors: kNotFound, kUnreadable, kMalformed (empty, not a whole

@@ -25,7 +25,7 @@ void check_table(const terracut::Expected<terracut::cloud::FieldTable>& cloud) {
     check(std::all_of(message.begin(), message.end(), [](char c) { return c >= ' ' && c <= '~'; }));
     return;
   }
-  check(cloud->points > 0 && cloud->names.size() == cloud->values.size());
+  check(cloud->names.size() == cloud->values.size());
   for (const auto& values : cloud->values) check(values.size() == cloud->points);
 }
 
@@ -45,6 +45,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const std::string header =
       "FIELDS x h laser label\nSIZE 4 2 1 8\nTYPE F I U I\nCOUNT 1 2 1 1\nPOINTS 2\nDATA ";
   check_content(header + "ascii\n" + bytes);
+  check_content(
+      "COLUMNS x _ y\nSIZE 4 1 8\nTYPE f u f\nCOUNT 1 0 1\nWIDTH 2\nHEIGHT 1\nDATA ascii\n" +
+      bytes);
   check_content(header + "binary\n" + bytes);
   // Two points of 17 bytes, and sizes that let the bytes be unpacked.
   const std::string sizes{static_cast<char>(size), static_cast<char>(size >> 8), 0, 0, 34, 0, 0, 0};
@@ -58,5 +61,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
               bytes);
   }
   check_ply("ply\nformat ascii 1.0\n" + bytes);
+  for (const char* format : {"ascii", "binary_little_endian", "binary_big_endian"}) {
+    check_ply(std::string("ply\nformat ") + format +
+              " 1.0\nelement vertex 2\nproperty list char int l\nproperty short x\nend_header\n" +
+              bytes);
+  }
   return 0;
 }

@@ -4,11 +4,14 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <string>
+#include <vector>
 
+#include "firmware_io/cloud/cloud_bytes.hpp"
 #include "tests/firmware_io/scan/scratch_folder.hpp"
 
 namespace terracut::cloud {
@@ -125,19 +128,98 @@ TEST(PcdFile, SaysWhatIsWrongWithAHeader) {
   EXPECT_THAT(error_of("FIELDS x\nSIZE 4 4\n"), HasSubstr("SIZE has 2 entries for 1 fields"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 3\n"), HasSubstr("SIZE of field x is '3'"));
   EXPECT_THAT(error_of("FIELDS x\nTYPE Q\n"), HasSubstr("TYPE of field x is 'Q'"));
-  EXPECT_THAT(error_of("FIELDS x\nCOUNT 0\n"), HasSubstr("COUNT of field x is '0'"));
-  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nDATA ascii\n1\n"), HasSubstr("no line POINTS"));
+  EXPECT_THAT(error_of("FIELDS x\nCOUNT -1\n"), HasSubstr("COUNT of field x is '-1'"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nWIDTH 1\nDATA ascii\n1\n"),
+              HasSubstr("neither a line POINTS nor WIDTH and HEIGHT"));
+  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nWIDTH 18446744073709551615\nHEIGHT "
+                       "18446744073709551615\nDATA ascii\n1\n"),
+              HasSubstr("expected at most"));
   EXPECT_THAT(error_of("FIELDS x\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("lacks SIZE or TYPE"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 2\nTYPE F\nPOINTS 1\nDATA ascii\n1\n"),
               HasSubstr("a float of 2 bytes"));
   EXPECT_THAT(error_of("FIELDS x\x1b[2J\n"), HasSubstr("named 'x?[2J'"));
   std::string many = "FIELDS";
   for (int i = 0; i < 65; ++i) many += " x";
-  EXPECT_THAT(error_of(many + "\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("65 FIELDS"));
-  EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 0\nDATA ascii\n"), HasSubstr("no points"));
+  EXPECT_THAT(error_of(many + "\nPOINTS 1\nDATA ascii\n1\n"), HasSubstr("more than 64 FIELDS"));
+  std::string one_by_one;
+  for (int i = 0; i < 65; ++i) one_by_one += "FIELDS x\n";
+  EXPECT_THAT(error_of(one_by_one), HasSubstr("line 65: more than 64 FIELDS"));
   EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 99999999999\nDATA binary\n"),
               HasSubstr("expected at most"));
   EXPECT_THAT(error_of(header("binary_packed")), HasSubstr("expected ascii, binary or binary_c"));
+}
+
+TEST(PcdFile, PassesOverFieldsWithoutAValueAndPadding) {
+  const std::string without_values =
+      "FIELDS x _ n _\nSIZE 1 1 1 1\nTYPE U U U U\nCOUNT 1 0 1 2\nPOINTS 2\nDATA ";
+  for (const std::string data : {"ascii\n1 2 0 0\n3 4 0 0\n", "binary\n\1\2__\3\4__"}) {
+    const auto cloud = parse_pcd(without_values + data, "a.pcd");
+    ASSERT_TRUE(cloud) << cloud.error().message;
+    EXPECT_THAT(cloud->names, ElementsAre("x", "n"));
+    EXPECT_THAT(*cloud->field("x"), ElementsAre(1, 3));
+    EXPECT_THAT(*cloud->field("n"), ElementsAre(2, 4));
+  }
+}
+
+TEST(PcdFile, IsReadInTheDialectsThatOtherProgramsWrite) {
+  const std::string fields = "FIELDS x n\nSIZE 4 1\n", size = "WIDTH 2\nHEIGHT 1\n",
+                    points = "POINTS 2\n", data = "DATA ascii\n1.5 7\n-2 8\n";
+  for (const std::string& content :
+       {fields + "TYPE f u\n" + size + points + data,
+        "VERSION .5\nCOLUMNS x n\nSIZE 4 1\nTYPE F U\n" + points + data,
+        "\xEF\xBB\xBF" + fields + "TYPE F U\n" + points + data, fields + "TYPE F U\n" + size + data,
+        fields + "TYPE F U\n" + points + "DATA ascii\n\n# by hand\n+1.5 +7\r\n \t\r\n-2 8\n\n"}) {
+    const auto cloud = parse_pcd(content, "a.pcd");
+    ASSERT_TRUE(cloud) << cloud.error().message << "\n" << content;
+    EXPECT_THAT(*cloud->field("x"), ElementsAre(1.5, -2));
+    EXPECT_THAT(*cloud->field("n"), ElementsAre(7, 8));
+  }
+  const auto microsoft =
+      parse_pcd(fields + "TYPE F U\n" + points + "DATA ascii\n1.#QNAN 7\n-1.#INF 8\n", "a.pcd");
+  ASSERT_TRUE(microsoft) << microsoft.error().message;
+  EXPECT_TRUE(std::isnan(microsoft->field("x")->front()));
+  EXPECT_TRUE(std::isinf(microsoft->field("x")->back()));
+  for (const char* none : {"+-1", "++1", "-+1", "- 1", "#1", "1.5#"}) {
+    EXPECT_THAT(error_of("FIELDS x\nSIZE 4\nTYPE F\nPOINTS 1\nDATA ascii\n" + std::string(none)),
+                testing::Not(testing::IsEmpty()))
+        << none;
+  }
+}
+
+TEST(PcdFile, MayHaveNoPoints) {
+  for (const char* data : {"ascii\n", "binary\n", "binary_compressed\n"}) {
+    for (const char* size :
+         {"WIDTH 0\nHEIGHT 1\nPOINTS 0\n", "WIDTH 0\nHEIGHT 0\n", "POINTS 0\n"}) {
+      const auto cloud =
+          parse_pcd(std::string("FIELDS x\nSIZE 4\nTYPE F\n") + size + "DATA " + data, "a.pcd");
+      ASSERT_TRUE(cloud) << cloud.error().message;
+      EXPECT_EQ(cloud->points, 0U);
+      EXPECT_THAT(*cloud->field("x"), testing::IsEmpty());
+    }
+  }
+}
+
+TEST(PcdFile, SaysWhereTheSensorStoodUnlessAtTheOrigin) {
+  const std::string rest = "FIELDS x\nSIZE 4\nTYPE F\nPOINTS 0\nDATA ascii\n";
+  const auto viewpoint = [&](const std::string& values) {
+    return parse_pcd("VIEWPOINT " + values + "\n" + rest, "a.pcd")->viewpoint;
+  };
+  EXPECT_EQ(viewpoint("1.5 -0.6 1.8 1 0 0 0"), (std::array<double, 7>{1.5, -0.6, 1.8, 1, 0, 0, 0}));
+  for (const char* none : {"0 0 0 1 0 0 0", "1 2 3 0 0 0 0", "1 2 3", "nan 0 0 1 0 0 0", "a b"}) {
+    EXPECT_FALSE(viewpoint(none)) << none;
+  }
+}
+
+TEST(PcdFile, TakesMemoryForNoMoreWordsThanALineMayHave) {
+  // A line of ten megabytes: words of it in a list would take ninety.
+  std::string line;
+  while (line.size() < 10'000'000) line += "x ";
+  EXPECT_THAT(error_of("FIELDS " + line + "\n"), HasSubstr("more than 64 FIELDS"));
+  EXPECT_THAT(error_of(header("ascii") + line + "\n"), HasSubstr("more than 4 values"));
+  std::vector<std::string_view> words;
+  split_words(line, 5, words);
+  EXPECT_EQ(words.size(), 5U);
+  EXPECT_LE(words.capacity(), 8U);
 }
 
 TEST(PcdFile, SaysThatAFileIsNotThere) {

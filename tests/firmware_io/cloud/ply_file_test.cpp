@@ -76,12 +76,45 @@ TEST(PlyFile, SaysWhatIsWrongWithAHeader) {
               HasSubstr("no line format"));
   EXPECT_THAT(with("element face 1\n"), HasSubstr("line 3: its first element is 'face'"));
   EXPECT_THAT(with("element vertex -1\n"), HasSubstr("the vertices' number is none"));
-  EXPECT_THAT(with("element vertex 0\nproperty float x\n"), HasSubstr("no points"));
   EXPECT_THAT(with("element vertex 99999999999\nproperty float x\n"), HasSubstr("one frame"));
-  EXPECT_THAT(with("element vertex 1\n"), HasSubstr("a vertex has 0 properties"));
+  EXPECT_THAT(with("element vertex 1\n"), HasSubstr("a vertex has no properties"));
   EXPECT_THAT(with("element vertex 1\nproperty half x\n"), HasSubstr("'half' is no type"));
-  EXPECT_THAT(with("element vertex 1\nproperty list uchar int x\n"), HasSubstr("has the list 'x'"));
+  EXPECT_THAT(with("element vertex 1\nproperty list float int x\n"),
+              HasSubstr("'float' is no type of a property"));
+  std::string many = "element vertex 1\n";
+  for (int i = 0; i < 65; ++i) many += "property float x\n";
+  EXPECT_THAT(with(many), HasSubstr("line 68: a vertex has more than 64 properties"));
   EXPECT_THAT(with("so it goes\n"), HasSubstr("line 3 of its header is none"));
+}
+
+TEST(PlyFile, PassesOverListsOfAVertexAndBlankLines) {
+  const std::string vertex =
+      " 1.0\nelement vertex 2\nproperty float x\nproperty list uchar short views\nproperty int16 "
+      "n\n"
+      "property uchar ring\nend_header\n";
+  expect_the_two_points(
+      parse_ply("\xEF\xBB\xBFply\nformat ascii" + vertex + "\n \r\n1.5 2 9 9 -3 63\n\n-2 0 4 255\n",
+                "a.ply"));
+  const std::string little(
+      "\x00\x00\xC0\x3F\x02\x09\x09\x09\x09\xFD\xFF\x3F"
+      "\x00\x00\x00\xC0\x00\x04\x00\xFF",
+      20);
+  expect_the_two_points(parse_ply("ply\nformat binary_little_endian" + vertex + little, "a.ply"));
+  EXPECT_THAT(error_of("ply\nformat binary_little_endian" + vertex + little.substr(0, 19)),
+              HasSubstr("truncated: its data end in vertex 1 of 2"));
+  for (const char* broken :
+       {"1.5 9 9 9 -3 63\n", "1.5 -1 -3 63\n", "1.5 1 9 9 -3 63\n", "1.5 0\n"}) {
+    EXPECT_THAT(error_of("ply\nformat ascii" + vertex + broken + "-2 0 4 255\n    "),
+                HasSubstr("are not those of its 4 properties"))
+        << broken;
+  }
+}
+
+TEST(PlyFile, MayHaveNoVertices) {
+  const auto table =
+      parse_ply("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n", "a.ply");
+  ASSERT_TRUE(table) << table.error().message;
+  EXPECT_EQ(table->points, 0U);
 }
 
 TEST(PlyFile, SaysThatAFileIsNotThere) {

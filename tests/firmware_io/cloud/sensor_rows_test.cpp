@@ -222,6 +222,74 @@ TEST(SensorRows, AreThoseOfANarrowViewWithFewPointsALaser) {
   EXPECT_EQ(rows->columns, 512);
 }
 
+TEST(SensorRows, AreRefusedWhereAllLasersLookTheSameWay) {
+  const RingTable table = uneven_rings(16, 8, 0.5);
+  const KnownCloud cloud = known_cloud(table, 900, [](int ring) { return ring; });
+  std::vector<ScanPoint> flat = cloud.points;  // by a driver that was not told its angles
+  for (ScanPoint& point : flat) point.z_m = 0;
+  // A room: no point of a laser is far from its cone, whichever laser that is.
+  KnownCloud room = cloud;
+  for (ScanPoint& point : room.points) {
+    const float shrink = 1.5F / std::hypot(point.x_m, point.y_m);
+    point = {point.x_m * shrink, point.y_m * shrink, point.z_m * shrink, 0};
+  }
+  std::vector<std::uint16_t> no_lasers(cloud.points.size());
+  for (std::size_t i = 0; i < no_lasers.size(); ++i)
+    no_lasers[i] = static_cast<std::uint16_t>(i % 16);
+  for (const CloudView& view : {CloudView{flat, cloud.laser}, CloudView{flat, {}, 16},
+                                CloudView{room.points, {}, 900},  // WIDTH and HEIGHT exchanged
+                                CloudView{room.points, no_lasers}}) {
+    const auto rows = learnt_from(view);
+    ASSERT_FALSE(rows);
+    EXPECT_THAT(rows.error().message, HasSubstr("look the same way as the one above them"));
+  }
+  EXPECT_TRUE(learnt_from({room.points, room.laser}));
+}
+
+TEST(SensorRows, ComeFromThePlacesWhereNobodyFilledInTheLasersNumbers) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  const KnownCloud cloud = known_cloud(table, 900, [](int) { return 0; });
+  const auto rows = learnt_from({cloud.points, cloud.laser});
+  expect_rings(rows, {cloud.points, cloud.laser}, cloud.ring);
+  EXPECT_EQ(rows->source, RowSource::kElevations);
+  EXPECT_EQ(learnt_from({cloud.points, cloud.laser, 16})->source, RowSource::kOrganisation);
+}
+
+TEST(SensorRows, OfACloudWithoutAPlaceAreNoneWhateverItLacks) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  const KnownCloud cloud = known_cloud(table, 900, [](int ring) { return ring; });
+  const std::vector<ScanPoint> blind(7);
+  EXPECT_THAT(learnt_from({blind, std::vector<std::uint16_t>(7)}).error().message,
+              HasSubstr("none of the 7 points is finite"));
+  const RingTable hdl64e = scan::ring_table(hdl64e::nominal_hdl64e());
+  const KnownCloud kitti = known_cloud(hdl64e, 900, [](int) { return 0; });
+  for (const CloudView& seen :
+       {CloudView{cloud.points, cloud.laser}, CloudView{cloud.points, {}, 16},
+        CloudView{cloud.points}, CloudView{kitti.points}}) {
+    // The blind one comes first, and tells nothing.
+    const auto rows = learn_rows(
+        2, [&](std::size_t i) -> Expected<CloudView> { return i == 0 ? CloudView{blind} : seen; });
+    ASSERT_TRUE(rows) << rows.error().message;
+    for (const CloudView& none : {CloudView{blind}, CloudView{}}) {
+      scan::RingRecovery found;
+      ASSERT_TRUE(RowFinder(*rows).find(none, found));
+      EXPECT_EQ(found.ring_of_point, std::vector<std::int16_t>(none.points.size(), kNoRing));
+      EXPECT_EQ(found.no_ring, none.points.size());
+    }
+  }
+}
+
+TEST(SensorRows, AreNotSeenInTheFewPointsOfADrawing) {
+  std::vector<ScanPoint> curve;
+  for (int i = 0; i < 110; ++i) {
+    const auto angle = static_cast<float>(i / 3 * 3) / 100;
+    curve.push_back({3 * std::cos(angle), 3 * std::cos(angle), 3 * std::sin(angle), 0});
+  }
+  const auto rows = learnt_from({curve});
+  ASSERT_FALSE(rows);
+  EXPECT_THAT(rows.error().message, HasSubstr("110 points form 37 rows"));
+}
+
 TEST(SensorRows, AreRefusedWhereThereAreNone) {
   std::vector<ScanPoint> points;
   std::mt19937 random(1);
@@ -236,13 +304,19 @@ TEST(SensorRows, AreRefusedWhereThereAreNone) {
 
   std::vector<std::uint16_t> laser(points.size());
   for (std::size_t i = 0; i < laser.size(); ++i) laser[i] = static_cast<std::uint16_t>(i % 16);
-  const auto no_cones = learnt_from({points, laser});
-  ASSERT_FALSE(no_cones);
-  EXPECT_THAT(no_cones.error().message, HasSubstr("do not lie on a cone around the origin"));
+  EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("look the same way"));
   for (std::uint16_t& number : laser) number %= 4;
   EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("4 lasers by the field"));
   laser.pop_back();
   EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("49999 numbers of lasers"));
+}
+
+TEST(SensorRows, AreRefusedInTheFrameOfAMap) {
+  KnownCloud cloud = known_cloud(uneven_rings(16, 15, 1), 900, [](int ring) { return ring; });
+  for (ScanPoint& point : cloud.points) point = {point.x_m + 20, point.y_m, point.z_m + 5, 0};
+  const auto rows = learnt_from({cloud.points, cloud.laser});
+  ASSERT_FALSE(rows);
+  EXPECT_THAT(rows.error().message, HasSubstr("do not lie on a cone around the origin"));
 }
 
 TEST(SensorRows, AreRefusedToACloudThatLacksWhatToldThemInTheFirst) {

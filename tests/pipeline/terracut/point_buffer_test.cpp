@@ -104,6 +104,16 @@ TEST(PointBuffer, IsRefusedByTheNameOfWhatIsWrongWithIt) {
   EXPECT_EQ(fault_of([](B&, Fields& f) { f[3] = {"ring", 4}; }), BufferFault::kLaserNumber);
 }
 
+TEST(PointBuffer, IsNotAskedForTheLaserOfPointsThatAreNoReturns) {
+  FourPoints four;
+  const auto ring = std::uint16_t{65535};
+  std::memset(four.data.data(), 0, 12);
+  std::memcpy(four.data.data() + 12, &ring, sizeof(ring));
+  cloud::Cloud cloud;
+  ASSERT_TRUE(unpack(four.buffer(), cloud));
+  EXPECT_EQ(cloud.laser, (std::vector<std::uint16_t>{0, 11, 12, 13}));
+}
+
 TEST(PointBuffer, FaultsHaveNames) {
   EXPECT_EQ(to_string(BufferFault::kSizes), "wrong_sizes");
   EXPECT_EQ(to_string(BufferFault::kCount), "unknown");

@@ -25,7 +25,7 @@ NodeLabeller::NodeLabeller(const Options& options)
       degradation_(deadline_ns_) {}
 
 bool NodeLabeller::has_places() const noexcept {
-  return std::ranges::any_of(cloud_.points, scan::is_place);
+  return cloud::has_places(cloud_.points);
 }
 
 bool NodeLabeller::learn_from_cloud() {

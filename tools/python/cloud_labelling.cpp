@@ -89,6 +89,9 @@ ArrayCloud cloud_of_records(const py::array& array) {
     throw py::value_error("points: expected records in (N,) or (rows, columns), found " +
                           shape_of(array));
   }
+  if (array.itemsize() == 0) {
+    throw py::value_error("points: expected records with fields x, y, z; found records of no bytes");
+  }
   ArrayCloud cloud{contiguous(array),
                    {},
                    {},
@@ -164,9 +167,19 @@ Cloud cloud_with_lasers(const ArrayCloud& cloud, const std::vector<std::uint16_t
   return {.points = points, .laser = lasers};
 }
 
+py::dict dict_of(const Mount& mount) {
+  py::dict dict;
+  dict["height_m"] = mount.height_m;
+  dict["roll_deg"] = beams::rad_to_deg(mount.roll_rad);
+  dict["pitch_deg"] = beams::rad_to_deg(mount.pitch_rad);
+  return dict;
+}
+
 Segmenter::Config config_of(std::optional<double> height_m, double roll_deg, double pitch_deg,
-                            const std::string& profile, std::vector<std::string> parameters) {
+                            const std::string& profile, std::vector<std::string> parameters,
+                            bool find_mount) {
   Segmenter::Config config;
+  config.find_mount = find_mount;
   config.mount.height_m = height_m.value_or(config.mount.height_m);
   config.mount.roll_rad = beams::deg_to_rad(roll_deg);
   config.mount.pitch_rad = beams::deg_to_rad(pitch_deg);
@@ -210,16 +223,30 @@ py::array_t<std::uint8_t> CloudLabelling::label(const py::object& points, const 
   return classes;
 }
 
+py::object CloudLabelling::found_mount() {
+  const auto found = without_the_lock([&] {
+    const std::lock_guard lock(mutex_);
+    return segmenter_.found_mount();
+  });
+  if (!found) return py::none();
+  py::dict dict = dict_of(found->mount);
+  dict["uncertainty"] = dict_of(found->uncertainty);
+  dict["found_in_frames"] = found->frames;
+  return dict;
+}
+
 void bind_segmenter(py::module_& module) {
   py::class_<CloudLabelling>(module, "Segmenter")
       .def(py::init([](std::optional<double> height_m, double roll_deg, double pitch_deg,
-                       const std::string& profile, std::vector<std::string> parameters) {
-             return std::make_unique<CloudLabelling>(
-                 config_of(height_m, roll_deg, pitch_deg, profile, std::move(parameters)));
+                       const std::string& profile, std::vector<std::string> parameters,
+                       bool find_mount) {
+             return std::make_unique<CloudLabelling>(config_of(
+                 height_m, roll_deg, pitch_deg, profile, std::move(parameters), find_mount));
            }),
            py::kw_only(), py::arg("mount_height"), py::arg("mount_roll"), py::arg("mount_pitch"),
-           py::arg("profile"), py::arg("parameters"))
-      .def("label", &CloudLabelling::label, py::arg("points"), py::arg("laser"));
+           py::arg("profile"), py::arg("parameters"), py::arg("find_mount"))
+      .def("label", &CloudLabelling::label, py::arg("points"), py::arg("laser"))
+      .def_property_readonly("found_mount", &CloudLabelling::found_mount);
 }
 
 }  // namespace terracut::python

@@ -21,6 +21,9 @@ class CloudLabelling {
   /// its own.
   [[nodiscard]] pybind11::array_t<std::uint8_t> label(const pybind11::object& points,
                                                       const pybind11::object& laser);
+  /// height_m, roll_deg, pitch_deg, their uncertainty and found_in_frames; None where no mount was
+  /// looked for or found.
+  [[nodiscard]] pybind11::object found_mount();
 
  private:
   std::mutex mutex_;

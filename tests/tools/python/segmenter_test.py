@@ -114,6 +114,20 @@ class Clouds(unittest.TestCase):
         lower = terracut.Segmenter(parameters={"elevation_map.obstacle_height_m": 1.5})(self.points, self.ring)
         self.assertLess(np.sum(lower == terracut.OBSTACLE), np.sum(self.labels == terracut.OBSTACLE))
 
+    def test_the_mount_is_found_where_that_is_asked_for(self):
+        self.assertIsNone(terracut.Segmenter().found_mount)
+        segmenter = terracut.Segmenter(find_mount=True)
+        self.assertIsNone(segmenter.found_mount)
+        segmenter(self.points, self.ring)
+        found = segmenter.found_mount
+        self.assertAlmostEqual(found["height_m"], MOUNT_HEIGHT, delta=0.05)
+        self.assertEqual(set(found), {"height_m", "roll_deg", "pitch_deg", "uncertainty", "found_in_frames"})
+        self.assertLess(found["uncertainty"]["roll_deg"], 2)
+        self.assertEqual(found["found_in_frames"], 1)
+
+    def test_the_module_shows_what_it_is_for_and_nothing_else(self):
+        self.assertEqual(sorted(dir(terracut)), sorted(terracut.__all__))
+
 
 class Refusals(unittest.TestCase):
     def check(self, exception, words, points, laser=None):
@@ -128,6 +142,11 @@ class Refusals(unittest.TestCase):
         self.check(TypeError, "expected float32 or float64, found <U3", "abc")
         self.check(TypeError, "expected float32 or float64, found complex", np.zeros((9, 3), np.complex64))
         self.check(TypeError, "laser: expected integers", np.ones((9, 3)), np.ones(9))
+
+    def test_records_of_no_bytes_are_refused(self):
+        for shape in (5, (2, 3)):
+            self.check(ValueError, "records of no bytes", np.zeros(shape, [("x", "V0"), ("y", "V0"), ("z", "V0")]))
+        self.check(ValueError, "records of no bytes", np.zeros(5, []))
 
     def test_wrong_shapes_say_what_was_expected(self):
         for shape in ((9,), (9, 2), (), (2, 2, 2, 3), (3, 9, 2)):

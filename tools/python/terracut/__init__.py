@@ -131,7 +131,8 @@ class Segmenter:
     """Labels clouds of one sensor, any spinning LiDAR with 8 to 256 lasers.
 
     The first cloud decides what tells the lasers apart: `laser`, or a field `ring` of records, the rows of an organised
-    cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters`: as --set.
+    cloud, the order of KITTI's files, or elevations (docs/guide/clouds.md). `parameters`: as --set. `find_mount`: the near
+    ground of the first ten clouds says how the sensor stands; the stated mount is taken until it does.
     """
 
     def __init__(
@@ -142,6 +143,7 @@ class Segmenter:
         mount_pitch: float = 0.0,
         profile: str = "terracut",
         parameters: Optional[Mapping[str, Any]] = None,
+        find_mount: bool = False,
     ) -> None:
         self._segmenter = _Segmenter(
             mount_height=mount_height,
@@ -149,9 +151,20 @@ class Segmenter:
             mount_pitch=mount_pitch,
             profile=profile,
             parameters=_settings(parameters),
+            find_mount=find_mount,
         )
 
     def __call__(self, points: npt.ArrayLike, laser: Optional[npt.ArrayLike] = None) -> npt.NDArray[np.uint8]:
         """A label for each of the (N, 3 or more) or (rows, columns, 3 or more) points, float32 or float64, in the
         sensor's frame: x ahead, y left, z up, metres. Points that are no return (NaN, infinite, 0 0 0) get NONE."""
         return self._segmenter.label(points, laser)
+
+    @property
+    def found_mount(self) -> Optional[dict[str, Any]]:
+        """The mount of the last labels where it was found: height_m, roll_deg, pitch_deg, the same below `uncertainty`
+        (half of what holds the true figure in 95 of 100 cases), found_in_frames. None: not looked for, or not seen."""
+        return self._segmenter.found_mount
+
+
+def __dir__() -> list[str]:
+    return __all__

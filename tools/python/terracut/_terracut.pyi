@@ -80,7 +80,10 @@ class Segmenter:
         mount_pitch: float,
         profile: str,
         parameters: list[str],
+        find_mount: bool,
     ) -> None: ...
+    @property
+    def found_mount(self) -> Optional[dict[str, Any]]: ...
     def label(self, points: object, laser: object) -> npt.NDArray[np.uint8]: ...
 
 def parameters() -> list[dict[str, Any]]:

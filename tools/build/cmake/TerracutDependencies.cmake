@@ -38,9 +38,6 @@ terracut_require(PNG_FOUND "libpng" libpng-dev)
 include(TerracutPcap)
 terracut_require(PCAP_FOUND "libpcap" libpcap-dev)
 
-include(TerracutHttplib)
-terracut_require(HTTPLIB_FOUND "cpp-httplib" libcpp-httplib-dev)
-
 find_package(OpenSSL COMPONENTS Crypto QUIET)
 terracut_require(OPENSSL_FOUND "OpenSSL" libssl-dev)
 
@@ -63,7 +60,7 @@ else()
                  "Install it with: apt-get install cyclonedds-dev cyclonedds-tools (or run ./tools/setup --dds)")
 endif()
 
-# Beast serves viewers; in tests, Boost.Graph is the independent min-cut solver.
+# Beast serves whoever comes by HTTP; in tests, Boost.Graph is the independent min-cut solver.
 find_package(Boost QUIET)
 terracut_require(Boost_FOUND "Boost headers" libboost-dev)
 

@@ -47,7 +47,8 @@ Status FoxgloveSink::put_figures(const status::MonitorSnapshot& figures) {
 std::vector<status::NamedCount> FoxgloveSink::losses() const {
   const FoxgloveServer::Figures& figures = server_.figures();
   return {{{"foxglove_messages_skipped"}, figures.skipped},
-          {{"foxglove_connections_refused"}, figures.refused},
+          {{"foxglove_connections_refused"}, server_.connections().refused},
+          {{"foxglove_viewers_stalled"}, server_.connections().stalled},
           {{"foxglove_requests_refused"}, figures.bad_requests}};
 }
 

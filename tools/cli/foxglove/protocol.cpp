@@ -10,7 +10,7 @@
 #include <optional>
 
 #include "pipeline/ros_messages/topics.hpp"
-#include "tools/cli/export/http_host.hpp"
+#include "tools/cli/http/http_host.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -129,11 +129,11 @@ std::array<std::byte, 13> message_data_header(std::uint32_t subscription_id,
   return header;
 }
 
-bool is_allowed_origin(std::string_view origin, std::string_view own_name,
-                       const std::vector<std::string>& allowed) {
+bool is_allowed_origin(std::string_view origin, std::string_view user_agent,
+                       std::string_view own_name, const std::vector<std::string>& allowed) {
   if (origin.empty() || std::ranges::find(allowed, origin) != allowed.end()) return true;
-  // A desktop's own pages.
-  if (origin == "file://") return true;
+  // Foxglove and Lichtblick for desktops are Electron's.
+  if (origin == "file://") return user_agent.find(" Electron/") != std::string_view::npos;
   for (const std::string_view scheme : {"http://", "https://"}) {
     if (!origin.starts_with(scheme)) continue;
     const std::string_view host = origin.substr(scheme.size());

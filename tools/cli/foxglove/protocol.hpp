@@ -49,8 +49,11 @@ struct FoxgloveRequest {
 
 /// Whether a browser's page of this origin may connect: none is told, or this machine's own, or
 /// one of `allowed` as it stands. A page anywhere else could read the sensor through the browser
-/// of whoever looks at it.
-[[nodiscard]] bool is_allowed_origin(std::string_view origin, std::string_view own_name,
+/// of whoever looks at it. "file://" is the origin of a desktop program's own pages and of every
+/// downloaded page that a browser opens: which of them it is, `user_agent` says, out of the page's
+/// reach.
+[[nodiscard]] bool is_allowed_origin(std::string_view origin, std::string_view user_agent,
+                                     std::string_view own_name,
                                      const std::vector<std::string>& allowed);
 
 }  // namespace terracut::cli

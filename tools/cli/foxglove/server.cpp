@@ -2,28 +2,20 @@
 // Copyright 2026 The terracut authors
 #include "server.hpp"
 
-#include <utility>  // before Asio, which forgets it (chriskohlhoff/asio#944)
+#include "tools/cli/http/http_connection.hpp"
 // A line keeps them apart.
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/post.hpp>
-#include <boost/asio/steady_timer.hpp>
-#include <boost/beast/core.hpp>
-#include <boost/beast/http.hpp>
 #include <boost/beast/websocket.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
 #include <deque>
 #include <map>
 #include <optional>
-#include <thread>
 
 #include "pipeline/ros_messages/topics.hpp"
 #include "playback.hpp"
 #include "protocol.hpp"
-#include "tools/cli/export/http_host.hpp"
+#include "tools/cli/http/http_host.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -33,15 +25,11 @@ namespace beast = boost::beast;
 namespace http = beast::http;
 namespace websocket = beast::websocket;
 using boost::system::error_code;
-using tcp = asio::ip::tcp;
 
-constexpr std::size_t kMostClients = 8;
-constexpr std::size_t kMostSubscriptions = 64;
-constexpr std::uint32_t kMostHeaderBytes = 8 << 10;
-constexpr std::size_t kMostTextBytes = 64 << 10;
+constexpr std::size_t kMostTextBytes = 16 << 10;
 constexpr std::size_t kMostWaitingTexts = 32;
-constexpr std::chrono::seconds kHandshakePatience{10};
-constexpr std::chrono::milliseconds kCaptureWatched{100};
+/// A client that has not answered a ping, nor taken a message, in that time is gone.
+constexpr std::chrono::seconds kMostSilence{60};
 constexpr std::size_t kTopics = ros_messages::kTopics.size();
 
 /// A message with its time, to be sent to those who come later.
@@ -60,33 +48,46 @@ struct Shared {
   std::array<std::optional<Kept>, kTopics> kept;
 };
 
-/// A connection, from its first byte on.
-class Client : public std::enable_shared_from_this<Client> {
+/// A viewer, from its handshake on.
+class Client final : public HttpGuest, public std::enable_shared_from_this<Client> {
  public:
-  Client(tcp::socket socket, Shared& shared) : stream_(std::move(socket)), shared_(shared) {}
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-  ~Client() {
+  Client(HttpStream stream, Shared& shared) : stream_(std::move(stream)), shared_(shared) {}
+  ~Client() override {
     for (const auto& [id, topic] : topics_) --shared_.subscribers[topic];
   }
 
-  void begin() {
-    beast::get_lowest_layer(stream_).expires_after(kHandshakePatience);
-    parser_.header_limit(kMostHeaderBytes);
-    parser_.body_limit(0);
-    http::async_read_header(stream_.next_layer(), buffer_, parser_,
-                            [self = shared_from_this()](error_code error, std::size_t) {
-                              if (error) {
-                                if (error != http::error::end_of_stream)
-                                  ++self->shared_.figures.refused;
-                                return;
-                              }
-                              self->shake_hands();
-                            });
+  void begin(const http::request<http::string_body>& request, std::string_view protocol) {
+    auto timeout = websocket::stream_base::timeout::suggested(beast::role_type::server);
+    timeout.idle_timeout = kMostSilence;
+    timeout.keep_alive_pings = true;
+    stream_.set_option(timeout);
+    stream_.set_option(websocket::stream_base::decorator([protocol](auto& response) {
+      response.set(http::field::sec_websocket_protocol, {protocol.data(), protocol.size()});
+    }));
+    stream_.read_message_max(kMostTextBytes);
+    // A message is a frame of its own: cut in pieces of 4 KiB, a cloud would be a thousand writes.
+    stream_.auto_fragment(false);
+    stream_.async_accept(request, [self = shared_from_this()](error_code error) {
+      if (error) {
+        ++self->shared_.figures.bad_requests;
+        return self->stream().close();
+      }
+      self->greet();
+      self->say(self->shared_.channels);
+      self->read();
+    });
   }
-  void close() {
-    error_code ignored;
-    beast::get_lowest_layer(stream_).socket().close(ignored);
+
+  [[nodiscard]] HttpStream& stream() noexcept override { return stream_.next_layer(); }
+
+  /// Learns what another client, a browser or the capture's end has changed.
+  void work_round() override {
+    if (!speaks_playback_) return;
+    const PlayerState state = shared_.config.capture->state();
+    if (state.playing == seen_.playing && state.at_end == seen_.at_end && state.rate == seen_.rate)
+      return;
+    seen_ = state;
+    tell_state(state, false, {});
   }
 
   /// Where the capture stands.
@@ -111,58 +112,11 @@ class Client : public std::enable_shared_from_this<Client> {
     FoxgloveServer::Message message{};
   };
 
-  void refuse(http::status status, std::string_view why) {
-    ++shared_.figures.refused;
-    auto answer = std::make_shared<http::response<http::string_body>>(status, 11);
-    answer->set(http::field::content_type, "text/plain");
-    answer->body() = std::string(why) + "\n";
-    answer->prepare_payload();
-    answer->keep_alive(false);
-    http::async_write(
-        stream_.next_layer(), *answer,
-        [self = shared_from_this(), answer](error_code, std::size_t) { self->close(); });
-  }
-
-  void shake_hands() {
-    const auto& request = parser_.get();
-    const auto field = [&](http::field name) {
-      const auto value = request[name];
-      return std::string_view(value.data(), value.size());
-    };
-    if (!names_this_machine(field(http::field::host), shared_.own_name) ||
-        !is_allowed_origin(field(http::field::origin), shared_.own_name, shared_.config.origins)) {
-      return refuse(http::status::forbidden, "Host or Origin is not this machine's");
-    }
-    const std::string protocol(foxglove_sub_protocol(field(http::field::sec_websocket_protocol)));
-    if (!websocket::is_upgrade(request) || protocol.empty()) {
-      return refuse(http::status::bad_request,
-                    "expected Foxglove's WebSocket protocol; open this address in Foxglove or "
-                    "Lichtblick");
-    }
-    buffer_.clear();  // nothing may come before the answer
-    beast::get_lowest_layer(stream_).expires_never();
-    stream_.set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
-    stream_.set_option(websocket::stream_base::decorator([protocol](auto& response) {
-      response.set(http::field::sec_websocket_protocol, protocol);
-    }));
-    stream_.read_message_max(kMostTextBytes);
-    // A message is a frame of its own: cut in pieces of 4 KiB, a cloud would be a thousand writes.
-    stream_.auto_fragment(false);
-    stream_.async_accept(request, [self = shared_from_this()](error_code error) {
-      if (error) {
-        ++self->shared_.figures.refused;
-        return;
-      }
-      self->greet();
-      self->say(self->shared_.channels);
-      self->read();
-    });
-  }
-
   void greet() {
     const ViewedCapture* capture = shared_.config.capture;
     const PlayerState state = capture != nullptr ? capture->state() : PlayerState{};
     speaks_playback_ = capture != nullptr && state.begin_ns != 0;
+    seen_ = state;
     say(server_info_text(shared_.config.name, speaks_playback_ ? &state : nullptr));
     tell_state(state, false, {});
   }
@@ -171,7 +125,7 @@ class Client : public std::enable_shared_from_this<Client> {
     stream_.async_read(buffer_, [self = shared_from_this()](error_code error, std::size_t) {
       if (error) {
         if (error == websocket::error::message_too_big) ++self->shared_.figures.bad_requests;
-        return;
+        return self->stream().close();
       }
       const std::string heard = beast::buffers_to_string(self->buffer_.data());
       if (self->stream_.got_binary()) {
@@ -218,8 +172,12 @@ class Client : public std::enable_shared_from_this<Client> {
   void subscribe(const FoxgloveRequest::Subscription& wish) {
     const std::size_t topic = wish.channel_id - kFirstChannelId;  // wraps to beyond them
     if (topic >= kTopics || !shared_.config.topics[topic]) return complain("no such channel");
-    if (topics_.size() >= kMostSubscriptions || topics_.contains(wish.id)) {
-      return complain("too many subscriptions, or one of this id");
+    // As the protocol has it; of a topic, then, a client that stops holds one message.
+    const auto has = [&](const auto& each) {
+      return each.first == wish.id || each.second == topic;
+    };
+    if (std::ranges::any_of(topics_, has)) {
+      return complain("there is a subscription of this id or to this channel");
     }
     topics_.emplace(wish.id, topic);
     ++shared_.subscribers[topic];
@@ -255,7 +213,7 @@ class Client : public std::enable_shared_from_this<Client> {
     const Outgoing& next = outgoing_.front();
     stream_.binary(next.is_binary);
     const auto written = [self = shared_from_this()](error_code error, std::size_t) {
-      if (error) return self->close();
+      if (error) return self->stream().close();
       self->outgoing_.pop_front();
       if (!self->outgoing_.empty()) self->write();
     };
@@ -268,14 +226,31 @@ class Client : public std::enable_shared_from_this<Client> {
     }
   }
 
-  websocket::stream<beast::tcp_stream> stream_;
+  websocket::stream<HttpStream> stream_;
   Shared& shared_;
-  beast::flat_buffer buffer_{kMostTextBytes + kMostHeaderBytes};
-  http::request_parser<http::empty_body> parser_;
+  PlayerState seen_;  ///< As it was told.
+  beast::flat_buffer buffer_{kMostTextBytes};
   std::map<std::uint32_t, std::size_t> topics_;  ///< By id of the subscription.
   std::deque<Outgoing> outgoing_;                ///< The first one is being written.
   bool speaks_playback_ = false;
 };
+
+HttpReply answer(Shared& shared, const HttpRequest& asked) {
+  if (!is_allowed_origin(asked.origin, asked.user_agent, shared.own_name, shared.config.origins)) {
+    return http_refusal(403, "pages of this origin may not connect; --foxglove-origins names more");
+  }
+  const std::string_view protocol = foxglove_sub_protocol(asked.sub_protocols);
+  if (protocol.empty()) {
+    return http_refusal(400,
+                        "expected Foxglove's WebSocket protocol; open this address in Foxglove or "
+                        "Lichtblick");
+  }
+  return HttpTakeover([&shared, protocol](HttpConnection&& connection) {
+    auto client = std::make_shared<Client>(std::move(connection.stream), shared);
+    client->begin(connection.request, protocol);
+    return client;
+  });
+}
 
 }  // namespace
 
@@ -284,49 +259,9 @@ struct FoxgloveServer::State {
     shared.config = config;
     shared.channels = advertise_text(config.topics);
   }
-  ~State() {
-    context.stop();
-    if (thread.joinable()) thread.join();
-  }
-
-  void accept() {
-    acceptor.async_accept([this](error_code error, tcp::socket socket) {
-      if (error == asio::error::operation_aborted) return;
-      std::erase_if(clients, [](const auto& client) { return client.expired(); });
-      if (!error && clients.size() < kMostClients) {
-        const auto client = std::make_shared<Client>(std::move(socket), shared);
-        clients.push_back(client);
-        client->begin();
-      } else {
-        ++shared.figures.refused;
-      }
-      accept();
-    });
-  }
-
-  /// Clients learn what another of them, a browser or the capture's end has changed.
-  void watch_capture() {
-    timer.expires_after(kCaptureWatched);
-    timer.async_wait([this](error_code error) {
-      if (error) return;
-      const PlayerState state = shared.config.capture->state();
-      if (state.playing != seen.playing || state.at_end != seen.at_end || state.rate != seen.rate) {
-        seen = state;
-        for (const auto& each : clients) {
-          if (const auto client = each.lock()) client->tell_state(state, false, {});
-        }
-      }
-      watch_capture();
-    });
-  }
 
   Shared shared;
-  PlayerState seen;  ///< As clients were told.
-  asio::io_context context{1};
-  asio::steady_timer timer{context};
-  tcp::acceptor acceptor{context};
-  std::vector<std::weak_ptr<Client>> clients;
-  std::jthread thread;
+  std::optional<HttpServer> server;  ///< Last: it uses all of the above.
 };
 
 FoxgloveServer::FoxgloveServer(std::unique_ptr<State> state) noexcept : state_(std::move(state)) {}
@@ -335,30 +270,24 @@ FoxgloveServer::~FoxgloveServer() = default;
 
 Expected<FoxgloveServer> FoxgloveServer::start(const Config& config) {
   auto state = std::make_unique<State>(config);
-  const tcp::endpoint at(asio::ip::address_v4(config.at.address), config.at.port);
-  error_code error;
-  state->acceptor.open(at.protocol(), error);
-  if (!error) state->acceptor.set_option(tcp::acceptor::reuse_address(true), error);
-  if (!error) state->acceptor.bind(at, error);
-  if (!error) state->acceptor.listen(asio::socket_base::max_listen_connections, error);
-  if (error) {
-    return fail(ErrorCode::kInvalidArgument,
-                fmt::format("cannot serve Foxglove on {}: {}; choose another address",
-                            to_string(config.at), error.message()));
-  }
-  state->accept();
-  if (config.capture != nullptr) state->watch_capture();
-  state->thread = std::jthread([&context = state->context] { context.run(); });
+  auto server = HttpServer::start(
+      {.at = config.at, .what = "Foxglove", .bounds = config.bounds},
+      [&shared = state->shared](const HttpRequest& asked) { return answer(shared, asked); });
+  if (!server) return tl::unexpected(server.error());
+  state->server.emplace(*std::move(server));
   return FoxgloveServer(std::move(state));
 }
 
 std::uint16_t FoxgloveServer::port() const noexcept {
-  error_code ignored;
-  return state_->acceptor.local_endpoint(ignored).port();
+  return state_->server->port();
 }
 
 const FoxgloveServer::Figures& FoxgloveServer::figures() const noexcept {
   return state_->shared.figures;
+}
+
+const HttpServer::Figures& FoxgloveServer::connections() const noexcept {
+  return state_->server->figures();
 }
 
 bool FoxgloveServer::is_wanted(std::size_t topic) const noexcept {
@@ -366,17 +295,13 @@ bool FoxgloveServer::is_wanted(std::size_t topic) const noexcept {
 }
 
 void FoxgloveServer::publish(std::size_t topic, std::int64_t time_ns, Message message) {
-  asio::post(state_->context, [state = state_.get(), topic, time_ns, message] {
-    for (const auto& each : state->clients) {
-      if (const auto client = each.lock()) {
-        client->offer(topic, static_cast<std::uint64_t>(time_ns), message);
-      }
-    }
+  state_->server->for_each_guest([topic, time_ns, message = std::move(message)](HttpGuest& guest) {
+    static_cast<Client&>(guest).offer(topic, static_cast<std::uint64_t>(time_ns), message);
   });
 }
 
 void FoxgloveServer::keep(std::size_t topic, std::int64_t time_ns, Message message) {
-  asio::post(state_->context, [state = state_.get(), topic, time_ns, message] {
+  state_->server->post([state = state_.get(), topic, time_ns, message = std::move(message)] {
     state->shared.kept[topic] = Kept{static_cast<std::uint64_t>(time_ns), message};
   });
 }

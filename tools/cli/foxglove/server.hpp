@@ -11,6 +11,7 @@
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "rt/error.hpp"
+#include "tools/cli/http/http_server.hpp"
 #include "tools/cli/view/viewed_capture.hpp"
 
 namespace terracut::cli {
@@ -20,26 +21,26 @@ namespace terracut::cli {
 /// misses the next: no message is queued behind another of its channel, so a slow client costs one
 /// message a channel, and holds up nobody.
 ///
-/// What comes in is small and bounded: 8 clients, headers of 8 KiB, texts of 64 KiB, 64
-/// subscriptions. Host and Origin of a request are checked, there is neither encryption nor a
-/// password.
+/// What comes in is bounded: by HttpBounds, and then texts of 16 KiB and one subscription a
+/// channel. A client that stops reading holds a message a channel until it is disconnected. Host
+/// and Origin of a request are checked, there is neither encryption nor a password.
 class FoxgloveServer {
  public:
   struct Config {
     net::Ipv4Endpoint at;  ///< Port 0: one the system chooses.
     std::string name;      ///< For people.
     std::vector<bool> topics;
-    std::vector<std::string> origins;  ///< Of pages that may connect besides this machine's.
+    std::vector<std::string> origins{};  ///< Of pages that may connect besides this machine's.
     ViewedCapture* capture = nullptr;  ///< That clients may play; outlives the server.
+    HttpBounds bounds{};
   };
   /// Since the start. From any thread.
   struct Figures {
     std::atomic<std::uint64_t> skipped{0};       ///< Messages that a slow client missed.
-    std::atomic<std::uint64_t> refused{0};       ///< Connections: no place, Host, Origin, protocol.
     std::atomic<std::uint64_t> bad_requests{0};  ///< Messages that were not understood.
   };
 
-  /// kInvalidArgument with the system's reason, such as a port in use.
+  /// The errors of HttpServer::start().
   [[nodiscard]] static Expected<FoxgloveServer> start(const Config& config);
   FoxgloveServer(FoxgloveServer&&) noexcept;
   FoxgloveServer& operator=(FoxgloveServer&&) = delete;
@@ -47,6 +48,7 @@ class FoxgloveServer {
 
   [[nodiscard]] std::uint16_t port() const noexcept;
   [[nodiscard]] const Figures& figures() const noexcept;
+  [[nodiscard]] const HttpServer::Figures& connections() const noexcept;
 
   using Message = std::shared_ptr<const std::vector<std::byte>>;
 

@@ -4,9 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <utility>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "pipeline/status/loss_causes.hpp"
 #include "pipeline/stream/stream_address.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/door_news.hpp"
@@ -29,14 +31,21 @@ void FiguresDisplay::show(const status::MonitorSnapshot& figures) {
   *shown_ = figures;
 }
 
-publish::Reopened<MetricsServer>::Config FiguresDisplay::metrics_at(const std::string& endpoint) {
+void FiguresDisplay::add_losses(status::MonitorSnapshot& figures) {
+  const HttpServer* const server = metrics_ ? metrics_->opened() : nullptr;
+  if (server == nullptr) return;
+  const std::uint64_t refused = server->figures().refused;
+  status::show_losses(std::array{status::NamedCount{"metrics_requests_refused", refused}}, figures);
+}
+
+publish::Reopened<HttpServer>::Config FiguresDisplay::metrics_at(const std::string& endpoint) {
   const net::Ipv4Endpoint at = stream::parse_serving_endpoint(endpoint).value();
   const auto read = [this](status::MonitorSnapshot& figures) {
     const std::scoped_lock lock(shown_mutex_);
     figures = *shown_;
   };
-  const auto open = [at, read]() -> Expected<MetricsServer> {
-    auto server = MetricsServer::start(net::ipv4_text(at.address), at.port, read);
+  const auto open = [at, read]() -> Expected<HttpServer> {
+    auto server = serve_metrics(at, read);
     if (server) {
       say(fmt::format("figures at http://{}:{}/metrics", net::ipv4_text(at.address),
                       server->port()));

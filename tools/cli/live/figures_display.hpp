@@ -23,17 +23,19 @@ class FiguresDisplay {
   explicit FiguresDisplay(const WatchOptions& options);
 
   void show(const status::MonitorSnapshot& figures);
+  /// Requests that /metrics refused.
+  void add_losses(status::MonitorSnapshot& figures);
 
  private:
   using Page = page::StatusPagePublisher<status::MonitorSnapshot>;
-  [[nodiscard]] publish::Reopened<MetricsServer>::Config metrics_at(const std::string& endpoint);
+  [[nodiscard]] publish::Reopened<HttpServer>::Config metrics_at(const std::string& endpoint);
 
   publish::Reopened<Page> page_;
   std::mutex
       shown_mutex_;  ///< Between this thread and the metrics server's; neither has a deadline.
   std::unique_ptr<status::MonitorSnapshot> shown_ = std::make_unique<status::MonitorSnapshot>();
   /// Last: it reads shown_ until it is gone.
-  std::optional<publish::Reopened<MetricsServer>> metrics_;
+  std::optional<publish::Reopened<HttpServer>> metrics_;
 };
 
 }  // namespace terracut::cli

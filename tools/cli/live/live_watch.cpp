@@ -153,6 +153,7 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
   }
   if (publisher_ != nullptr) std::ranges::move(publisher_->losses(over_), std::back_inserter(more));
   status::show_losses(more, figures);
+  display_.add_losses(figures);
 }
 
 std::vector<status::FrameRecord> LiveWatch::newest() const {

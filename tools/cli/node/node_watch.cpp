@@ -45,6 +45,7 @@ void NodeWatch::work_round(std::uint64_t lost) {
                                  status::NamedCount{"lost_messages", lost_messages()},
                                  status::NamedCount{"skipped_frames", skipped}},
                       figures);
+  display_.add_losses(figures);
   display_.show(figures);
   service_.work_round(figures, measure::monotonic_ns());
 }

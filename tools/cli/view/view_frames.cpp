@@ -31,7 +31,6 @@ void ViewFrames::put(const publish::LabelledFrame& frame) {
   losses_ += frame.record.info.losses;
   shown_.push_back(of_frame);
   if (shown_.size() > kFramesShown) shown_.pop_front();
-  came_.notify_all();
 }
 
 void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
@@ -39,9 +38,8 @@ void ViewFrames::put_figures(const status::MonitorSnapshot& figures) {
   run_ = figures;
 }
 
-ViewFrames::Turn ViewFrames::newer(std::uint64_t after, std::chrono::milliseconds patience) const {
-  std::unique_lock lock(mutex_);
-  if (!came_.wait_for(lock, patience, [&] { return turns_ > after; })) return {};
+ViewFrames::Turn ViewFrames::newest() const {
+  const std::lock_guard lock(mutex_);
   return {turns_, newest_};
 }
 

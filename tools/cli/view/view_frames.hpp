@@ -2,8 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <deque>
@@ -33,7 +31,7 @@ class ViewFrames {
   };
   struct Turn {
     std::uint64_t number = 0;           ///< 1.. of the frames that were put; 0: none yet.
-    std::shared_ptr<const Kept> frame;  ///< Null: nothing newer within the patience.
+    std::shared_ptr<const Kept> frame;  ///< Null: none yet.
   };
   static constexpr std::size_t kFramesShown = 300;
 
@@ -43,8 +41,7 @@ class ViewFrames {
   void put(const publish::LabelledFrame& frame);
   void put_figures(const status::MonitorSnapshot& figures);
 
-  /// Waits for one that is newer than turn `after`, so long at most.
-  [[nodiscard]] Turn newer(std::uint64_t after, std::chrono::milliseconds patience) const;
+  [[nodiscard]] Turn newest() const;
   /// For the page: sensor, rows, deadline_ms or null, frames[] as [ms, level, missed], losses[] as
   /// [cause, count].
   [[nodiscard]] nlohmann::ordered_json figures() const;
@@ -61,7 +58,6 @@ class ViewFrames {
   /// As many as browsers, one for the newest and one for the next.
   memory::UsedAgain<Kept> rooms_;
   mutable std::mutex mutex_;
-  mutable std::condition_variable came_;
   std::shared_ptr<const Kept> newest_;  ///< Guarded by mutex_, as what follows.
   std::uint64_t turns_ = 0;
   std::deque<Shown> shown_;

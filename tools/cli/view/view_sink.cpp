@@ -2,9 +2,12 @@
 // Copyright 2026 The terracut authors
 #include "view_sink.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "frame_stream.hpp"
 #include "pipeline/stream/stream_address.hpp"
 
 namespace terracut::cli {
@@ -18,14 +21,19 @@ Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
   const auto at = stream::parse_serving_endpoint(endpoint);
   if (!at) return tl::unexpected(at.error());
   std::unique_ptr<ViewSink> sink(new ViewSink(stream, capture));
-  auto server = ViewServer::start(net::ipv4_text(at->address), at->port, sink->source_);
+  auto server = HttpServer::start(
+      {.at = *at, .what = "the page"},
+      [&source = sink->source_](const HttpRequest& asked) { return answer_view(source, asked); });
   if (!server) return tl::unexpected(server.error());
-  sink->server_ = std::make_unique<ViewServer>(*std::move(server));
+  sink->server_.emplace(*std::move(server));
+  const std::uint32_t reached = at->address == 0 ? stream::kLoopbackAddress : at->address;
+  sink->url_ = fmt::format("http://{}:{}/", net::ipv4_text(reached), sink->server_->port());
   return sink;
 }
 
 Status ViewSink::put(const publish::LabelledFrame& frame) {
   frames_.put(frame);
+  server_->for_each_guest([](HttpGuest& guest) { static_cast<FrameStream&>(guest).send_newest(); });
   return {};
 }
 
@@ -35,7 +43,9 @@ Status ViewSink::put_figures(const status::MonitorSnapshot& figures) {
 }
 
 std::vector<status::NamedCount> ViewSink::losses() const {
-  return {{"view_frames_skipped_by_browsers", source_.skipped}};
+  return {{"view_frames_skipped_by_browsers", source_.skipped},
+          {"view_requests_refused", server_->figures().refused},
+          {"view_browsers_stalled", server_->figures().stalled}};
 }
 
 }  // namespace terracut::cli

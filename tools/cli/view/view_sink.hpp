@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,16 +12,19 @@
 #include "pipeline/publish/frame_sink.hpp"
 #include "pipeline/publish/stream.hpp"
 #include "rt/error.hpp"
-#include "view_server.hpp"
+#include "tools/cli/http/http_server.hpp"
+#include "view_routes.hpp"
 
 namespace terracut::cli {
 
-/// The page that shows frames in a browser, as an output of a run. What browsers do never shows
-/// here but in losses(): frames that one of them left out.
+/// The page that shows frames in a browser (view_routes.hpp), as an output of a run, within
+/// HttpBounds: each browser that is slow holds a frame of its own. What browsers do never shows
+/// here but in losses(): frames that one of them left out. Listen on loopback unless the network
+/// is trusted.
 class ViewSink : public publish::FrameSink {
  public:
   /// `endpoint`: "127.0.0.1:8480". `capture`: its player, which outlives this; null where nobody
-  /// plays. The errors of ViewServer::start().
+  /// plays. The errors of HttpServer::start().
   [[nodiscard]] static Expected<std::unique_ptr<ViewSink>> open(const std::string& endpoint,
                                                                 const publish::Stream& stream,
                                                                 ViewedCapture* capture);
@@ -30,14 +34,16 @@ class ViewSink : public publish::FrameSink {
   [[nodiscard]] Status put_figures(const status::MonitorSnapshot& figures) override;
   [[nodiscard]] std::vector<status::NamedCount> losses() const override;
 
-  [[nodiscard]] const std::string& url() const noexcept { return server_->url(); }
+  /// "http://127.0.0.1:8480/"
+  [[nodiscard]] const std::string& url() const noexcept { return url_; }
 
  private:
   ViewSink(const publish::Stream& stream, ViewedCapture* capture);
 
   ViewFrames frames_;
   ViewSource source_;
-  std::unique_ptr<ViewServer> server_;
+  std::string url_;
+  std::optional<HttpServer> server_;  ///< Last: it uses all of the above.
 };
 
 }  // namespace terracut::cli

@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -16,15 +12,16 @@
 #include <string>
 
 #include "tests/pipeline/status/watched_run.hpp"
+#include "tests/support/http_client.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/scratch_folder.hpp"
-#include "tools/cli/export/http_host.hpp"
 #include "tools/cli/export/metrics_server.hpp"
 #include "tools/cli/export/metrics_text.hpp"
 
 namespace terracut::cli {
 namespace {
 
+using test::get;
 using testing::AllOf;
 using testing::HasSubstr;
 
@@ -174,53 +171,11 @@ TEST(MetricsText, PassesPromtoolsCheck) {
   std::filesystem::remove_all(folder);
 }
 
-/// A connection to the server under test.
-class Client {
- public:
-  explicit Client(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(port);
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    connected_ =
-        ::connect(socket_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0;
-  }
-  ~Client() { ::close(socket_); }
-  Client(const Client&) = delete;
-  Client& operator=(const Client&) = delete;
-
-  [[nodiscard]] bool connected() const { return connected_; }
-  void send(const std::string& bytes) const {
-    EXPECT_EQ(::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL),
-              static_cast<ssize_t>(bytes.size()));
-  }
-  /// Everything until the server hangs up.
-  [[nodiscard]] std::string answer() const {
-    std::string text;
-    char part[4096];
-    for (ssize_t got = 0; (got = ::recv(socket_, part, sizeof(part), 0)) > 0;) {
-      text.append(part, static_cast<std::size_t>(got));
-    }
-    return text;
-  }
-
- private:
-  int socket_;
-  bool connected_ = false;
-};
-
-std::string get(std::uint16_t port, const std::string& path,
-                const std::string& host = "localhost") {
-  const Client client(port);
-  client.send("GET " + path + " HTTP/1.1\r\nHost: " + host + "\r\n\r\n");
-  return client.answer();
-}
-
 class MetricsServerOf : public testing::Test {
  protected:
-  [[nodiscard]] Expected<MetricsServer> start(std::uint16_t port = 0) {
-    return MetricsServer::start("127.0.0.1", port,
-                                [this](status::MonitorSnapshot& into) { into = run_.figures(); });
+  [[nodiscard]] Expected<HttpServer> start(std::uint16_t port = 0) {
+    return serve_metrics({INADDR_LOOPBACK, port},
+                         [this](status::MonitorSnapshot& into) { into = run_.figures(); });
   }
   status::WatchedRun run_;
 };
@@ -229,42 +184,32 @@ TEST_F(MetricsServerOf, AnswersWithTheFigures) {
   const auto server = start();
   ASSERT_TRUE(server) << server.error().message;
   for (int scrape = 0; scrape < 3; ++scrape) {
-    const std::string answer = get(server->port(), "/metrics");
-    EXPECT_THAT(answer, AllOf(HasSubstr("HTTP/1.1 200"), HasSubstr("text/plain; version=0.0.4")));
-    EXPECT_THAT(answer, HasSubstr(metrics_text(run_.figures())));
+    const auto answer = get(server->port(), "/metrics");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_THAT(answer.head, HasSubstr("text/plain; version=0.0.4"));
+    EXPECT_EQ(answer.body, metrics_text(run_.figures()));
   }
 }
 
 TEST_F(MetricsServerOf, SaysWhatThereIsAndWhatIsNot) {
   const auto server = start();
   ASSERT_TRUE(server);
-  EXPECT_THAT(get(server->port(), "/"), HasSubstr("/metrics"));
-  EXPECT_THAT(get(server->port(), "/nothing"), HasSubstr("HTTP/1.1 404"));
+  EXPECT_THAT(get(server->port(), "/").body, HasSubstr("/metrics"));
+  EXPECT_EQ(get(server->port(), "/nothing").status, 404);
+  EXPECT_EQ(get(server->port(), "/metrics?collect=all").status, 200);
+  EXPECT_EQ(test::ask(server->port(), "POST", "/metrics").status, 405);
 }
 
 TEST_F(MetricsServerOf, TellsNothingToAWebPageWhoseNameWasMadeToLeadHere) {
   const auto server = start();
   ASSERT_TRUE(server);
   for (const char* path : {"/metrics", "/"}) {
-    const std::string refused = get(server->port(), path, "rebound.example:9464");
-    EXPECT_THAT(refused, HasSubstr("403")) << path;
-    EXPECT_THAT(refused, testing::Not(HasSubstr("terracut_"))) << path;
-    EXPECT_THAT(get(server->port(), path, "127.0.0.1:9464"), HasSubstr("200 OK")) << path;
+    const auto refused = get(server->port(), path, "Host: rebound.example:9464\r\n");
+    EXPECT_EQ(refused.status, 403) << path;
+    EXPECT_THAT(refused.body, testing::Not(HasSubstr("terracut_"))) << path;
+    EXPECT_EQ(get(server->port(), path, "Host: 127.0.0.1:9464\r\n").status, 200) << path;
+    EXPECT_EQ(get(server->port(), path, "Sec-Fetch-Site: cross-site\r\n").status, 403) << path;
   }
-}
-
-TEST(HttpHost, IsThisMachineByAddressAsLocalhostOrByItsOwnName) {
-  for (const char* host :
-       {"127.0.0.1", "127.0.0.1:9464", "192.168.3.5:9464", "[::1]", "[fe80::1]:80", "localhost",
-        "LOCALHOST:9464", "vehicle7", "Vehicle7:9464", ""}) {
-    EXPECT_TRUE(names_this_machine(host, "vehicle7")) << host;
-  }
-  for (const char* host : {"rebound.example", "rebound.example:9464", "127.0.0.1.rebound.example",
-                           "localhost.rebound.example", "vehicle7.rebound.example", "vehicle",
-                           ":80", "[rebound]", "127.0.0.1:80.rebound.example"}) {
-    EXPECT_FALSE(names_this_machine(host, "vehicle7")) << host;
-  }
-  EXPECT_FALSE(names_this_machine("vehicle7", ""));
 }
 
 TEST_F(MetricsServerOf, RefusesAPortInUse) {
@@ -278,7 +223,7 @@ TEST_F(MetricsServerOf, RefusesAPortInUse) {
 }
 
 TEST_F(MetricsServerOf, RefusesAnAddressThatIsNotOfThisMachine) {
-  const auto server = MetricsServer::start("192.0.2.1", 0, [](status::MonitorSnapshot&) {});
+  const auto server = serve_metrics({0xC0'00'02'01, 0}, [](status::MonitorSnapshot&) {});
   ASSERT_FALSE(server);
   EXPECT_THAT(server.error().message, HasSubstr("192.0.2.1"));
 }
@@ -287,27 +232,14 @@ TEST_F(MetricsServerOf, ServesOthersAfterAClientThatSendsNonsenseOrNothing) {
   const auto server = start();
   ASSERT_TRUE(server);
   {
-    const Client silent(server->port());
-    const Client nonsense(server->port());
-    ASSERT_TRUE(silent.connected() && nonsense.connected());
+    test::HttpClient silent(server->port()), nonsense(server->port());
+    ASSERT_TRUE(silent.is_connected() && nonsense.is_connected());
     nonsense.send("\x01\x02 nonsense\r\n\r\n");
-    EXPECT_THAT(get(server->port(), "/metrics"), HasSubstr("HTTP/1.1 200"));
+    EXPECT_EQ(get(server->port(), "/metrics").status, 200);
   }
-  const Client gone(server->port());
+  test::HttpClient gone(server->port());
   gone.send("GET /metr");
-  EXPECT_THAT(get(server->port(), "/metrics"), HasSubstr("HTTP/1.1 200"));
-}
-
-TEST_F(MetricsServerOf, StopsThoughAClientKeepsItsConnection) {
-  auto server = start();
-  ASSERT_TRUE(server);
-  const std::uint16_t port = server->port();
-  const Client dawdling(port);
-  dawdling.send("GET /metrics HTTP/1.1\r\n");
-  {
-    const MetricsServer stopped = std::move(*server);
-  }
-  EXPECT_FALSE(Client(port).connected());
+  EXPECT_EQ(get(server->port(), "/metrics").status, 200);
 }
 
 }  // namespace

@@ -40,16 +40,28 @@ TEST(FoxgloveProtocol, WhatIsNoRequestIsRefused) {
 
 TEST(FoxgloveProtocol, PagesOfThisMachineMayConnectAndOthersThatAreNamed) {
   const std::vector<std::string> allowed{"https://app.foxglove.dev"};
-  for (const std::string_view origin :
-       {"", "file://", "http://localhost:8080", "http://127.0.0.1:9000", "https://vehicle",
-        "https://app.foxglove.dev"}) {
-    EXPECT_TRUE(is_allowed_origin(origin, "vehicle", allowed)) << origin;
+  for (const std::string_view origin : {"", "http://localhost:8080", "http://127.0.0.1:9000",
+                                        "https://vehicle", "https://app.foxglove.dev"}) {
+    EXPECT_TRUE(is_allowed_origin(origin, "", "vehicle", allowed)) << origin;
   }
   for (const std::string_view origin :
-       {"null", "https://elsewhere.example", "http://192.168.1.7", "http://", "localhost",
-        "https://app.foxglove.dev.example", "http://127.0.0.1.example"}) {
-    EXPECT_FALSE(is_allowed_origin(origin, "vehicle", allowed)) << origin;
+       {"null", "file://", "https://elsewhere.example", "http://192.168.1.7", "http://",
+        "localhost", "https://app.foxglove.dev.example", "http://127.0.0.1.example"}) {
+    EXPECT_FALSE(is_allowed_origin(origin, "", "vehicle", allowed)) << origin;
   }
+}
+
+TEST(FoxgloveProtocol, FilesAreOfADesktopProgramOrOfWhateverABrowserHasDownloaded) {
+  EXPECT_TRUE(is_allowed_origin("file://",
+                                "Mozilla/5.0 (X11; Linux x86_64) AppleWebKit/537.36 (KHTML, like "
+                                "Gecko) Lichtblick/1.10.0 Chrome/126.0.6478.234 Electron/31.7.7 "
+                                "Safari/537.36",
+                                "vehicle", {}));
+  const std::string_view browser =
+      "Mozilla/5.0 (X11; Linux x86_64) AppleWebKit/537.36 (KHTML, like Gecko) Chrome/140.0.0.0 "
+      "Safari/537.36";
+  EXPECT_FALSE(is_allowed_origin("file://", browser, "vehicle", {}));
+  EXPECT_TRUE(is_allowed_origin("file://", browser, "vehicle", {"file://"})) << "it was asked for";
 }
 
 TEST(FoxgloveProtocol, DataHasTheDocumentedHeader) {

@@ -4,11 +4,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <httplib.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
 
-#include <atomic>
 #include <chrono>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -16,6 +12,8 @@
 #include <string>
 #include <thread>
 #include <vector>
+
+#include "tests/support/http_client.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -52,152 +50,142 @@ class Page : public testing::Test {
     if (!opened) throw std::runtime_error(opened.error().message);
     sink_ = *std::move(opened);
     const std::string& url = sink_->url();
-    port_ = std::stoi(url.substr(url.rfind(':') + 1));
+    port_ = static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)));
   }
 
-  [[nodiscard]] httplib::Client client() const { return httplib::Client("127.0.0.1", port_); }
-  [[nodiscard]] json figures() const { return json::parse(client().Get("/figures")->body); }
-  [[nodiscard]] int status_of(const char* path, const httplib::Headers& headers) const {
-    const auto answer = client().Get(path, headers);
-    return answer ? answer->status : 0;
+  [[nodiscard]] test::HttpResponse get(const char* path, std::string_view headers = {}) const {
+    return test::get(port_, path, headers);
+  }
+  [[nodiscard]] json figures() const { return json::parse(get("/figures").body); }
+  /// Its next bytes are those of the first frame.
+  [[nodiscard]] std::unique_ptr<test::HttpClient> browser(int receive_buffer_bytes = 0) const {
+    auto client = std::make_unique<test::HttpClient>(port_, receive_buffer_bytes);
+    client->send("GET /frames HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+    EXPECT_THAT(client->read_until("\r\n\r\n"), HasSubstr("HTTP/1.1 200"));
+    return client;
   }
 
   std::unique_ptr<ViewSink> sink_;
-  int port_ = 0;
+  std::uint16_t port_ = 0;
 };
 
 class PageOfACapture : public Page {
  protected:
   PageOfACapture() : Page(&capture_) {}
-  [[nodiscard]] httplib::Result tell(const std::string& body) const {
-    return client().Post("/control", body, "application/json");
+  [[nodiscard]] test::HttpResponse tell(std::string_view body,
+                                        std::string_view headers = {}) const {
+    return test::ask(port_, "POST", "/control", headers, body);
   }
   inline static NotedCapture capture_;
 };
 
+stream::FrameWireHeader next_header(test::HttpClient& browser) {
+  stream::FrameWireHeader header;
+  const std::string bytes = browser.read(sizeof(header));
+  if (bytes.size() == sizeof(header)) std::memcpy(&header, bytes.data(), sizeof(header));
+  return header;
+}
+/// The header of a frame that was read whole.
+stream::FrameWireHeader next_frame(test::HttpClient& browser) {
+  const stream::FrameWireHeader header = next_header(browser);
+  const std::size_t wanted = header.points * sizeof(stream::LabelledPoint);
+  EXPECT_EQ(browser.read(wanted).size(), wanted);
+  return header;
+}
+
 TEST_F(Page, IsCompleteInItself) {
-  const auto page = client().Get("/");
-  ASSERT_TRUE(page);
-  EXPECT_EQ(page->status, 200);
-  EXPECT_THAT(page->body, HasSubstr("<canvas id=\"scene\""));
-  EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+  const auto page = get("/");
+  EXPECT_EQ(page.status, 200);
+  EXPECT_THAT(page.body, HasSubstr("<canvas id=\"scene\""));
+  EXPECT_THAT(page.head, HasSubstr("Content-Security-Policy: default-src 'self'"));
   for (const char* file :
        {"/view.js", "/scene.js", "/camera.js", "/colours.js", "/frames.js", "/strip.js"}) {
-    const auto module = client().Get(file);
-    ASSERT_TRUE(module) << file;
-    EXPECT_EQ(module->status, 200) << file;
-    EXPECT_THAT(module->get_header_value("Content-Type"), HasSubstr("javascript")) << file;
-    EXPECT_EQ(module->body.find("http://"), std::string::npos) << file << " fetches from elsewhere";
-    EXPECT_EQ(module->body.find("https://"), std::string::npos) << file;
+    const auto module = get(file);
+    EXPECT_EQ(module.status, 200) << file;
+    EXPECT_THAT(module.head, HasSubstr("Content-Type: text/javascript")) << file;
+    EXPECT_EQ(module.body.find("http://"), std::string::npos) << file << " fetches from elsewhere";
+    EXPECT_EQ(module.body.find("https://"), std::string::npos) << file;
   }
-  EXPECT_EQ(client().Get("/../../etc/passwd")->status, 404);
+  EXPECT_EQ(get("/../../etc/passwd").status, 404);
 }
 
 TEST_F(Page, AnswersBrowsersThatAskThisMachineForItsOwnPageAlone) {
   const std::string here = "127.0.0.1:" + std::to_string(port_);
-  EXPECT_EQ(status_of("/figures", {{"Host", here}}), 200);
-  EXPECT_EQ(status_of("/figures", {{"Host", here}, {"Origin", "http://" + here}}), 200);
-  EXPECT_EQ(status_of("/figures", {{"Host", "evil.example"}}), 403);
-  EXPECT_EQ(status_of("/figures", {{"Host", here}, {"Origin", "http://evil.example"}}), 403);
-  EXPECT_EQ(status_of("/figures", {{"Host", here}, {"Origin", "null"}}), 403);
-  EXPECT_EQ(status_of("/figures", {{"Host", here}, {"Origin", "http://127.0.0.1:1"}}), 403);
-  EXPECT_EQ(status_of("/frames", {{"Host", here}, {"Origin", "https://" + here}}), 403);
-  EXPECT_EQ(status_of("/", {{"Host", "localhost.evil.example"}}), 403);
+  const std::string host = "Host: " + here + "\r\n";
+  EXPECT_EQ(get("/figures", host).status, 200);
+  EXPECT_EQ(get("/figures", host + "Origin: http://" + here + "\r\n").status, 200);
+  EXPECT_EQ(get("/figures", "Host: evil.example\r\n").status, 403);
+  EXPECT_EQ(get("/figures", host + "Origin: http://evil.example\r\n").status, 403);
+  EXPECT_EQ(get("/figures", host + "Origin: null\r\n").status, 403);
+  EXPECT_EQ(get("/figures", host + "Origin: http://127.0.0.1:1\r\n").status, 403);
+  EXPECT_EQ(get("/frames", host + "Origin: https://" + here + "\r\n").status, 403);
+  EXPECT_EQ(get("/", "Host: localhost.evil.example\r\n").status, 403);
+}
+
+TEST_F(Page, GivesAPlaceAmongThoseThatLookToNoForeignPage) {
+  const std::string browser = "User-Agent: Mozilla/5.0 (X11) Firefox/140.0\r\n";
+  const std::string foreign = browser + "Sec-Fetch-Site: cross-site\r\n";
+  EXPECT_EQ(get("/frames", foreign + "Sec-Fetch-Mode: no-cors\r\n").status, 403);
+  EXPECT_EQ(get("/frames", foreign + "Sec-Fetch-Mode: navigate\r\n").status, 403);
+  EXPECT_EQ(get("/frames", browser).status, 403) << "an address the browser does not trust";
+  EXPECT_EQ(get("/", foreign + "Sec-Fetch-Mode: navigate\r\n").status, 200) << "a link leads here";
+  EXPECT_EQ(sink_->losses()[1].name.view(), "view_requests_refused");
+  EXPECT_EQ(sink_->losses()[1].count, 3U);
+  ASSERT_TRUE(sink_->put(frame_of(7)));
+  test::HttpClient own(port_);
+  own.send("GET /frames HTTP/1.1\r\nHost: 127.0.0.1\r\n" + browser +
+           "Sec-Fetch-Site: same-origin\r\nX-Terracut-Page: 1\r\n\r\n");
+  EXPECT_THAT(own.read_until("\r\n\r\n"), HasSubstr("HTTP/1.1 200"));
+  EXPECT_EQ(next_frame(own).number, 7U);
 }
 
 TEST_F(Page, SendsFramesAsTheLabelledStreamHasThem) {
   ASSERT_TRUE(sink_->put(frame_of(7)));
-  std::string bytes;
-  const std::size_t wanted = sizeof(stream::FrameWireHeader) + 1000 * sizeof(stream::LabelledPoint);
-  client().Get("/frames", [&](const char* data, std::size_t size) {
-    bytes.append(data, size);
-    return bytes.size() < wanted;
-  });
-  ASSERT_GE(bytes.size(), wanted);
-  stream::FrameWireHeader header;
-  std::memcpy(&header, bytes.data(), sizeof(header));
+  const auto looking = browser();
+  const stream::FrameWireHeader header = next_header(*looking);
   EXPECT_EQ(header.magic, stream::kFrameMagic);
   EXPECT_EQ(header.number, 7U);
-  EXPECT_EQ(header.points, 1000U);
+  ASSERT_EQ(header.points, 1000U);
+  const std::string bytes = looking->read(1000 * sizeof(stream::LabelledPoint));
   stream::LabelledPoint point;
-  std::memcpy(&point, bytes.data() + wanted - sizeof(point), sizeof(point));
+  ASSERT_EQ(bytes.size(), 1000 * sizeof(point));
+  std::memcpy(&point, bytes.data() + 999 * sizeof(point), sizeof(point));
   EXPECT_EQ(point.x_m, 1);
   EXPECT_EQ(point.label, 40);
 }
 
 TEST_F(Page, ABrowserThatStopsDelaysNoFrameAndMissesThem) {
-  // Takes nothing beyond what the kernel keeps for it.
-  const int stopped = ::socket(AF_INET, SOCK_STREAM, 0);
-  const int small = 4096;
-  ::setsockopt(stopped, SOL_SOCKET, SO_RCVBUF, &small, sizeof(small));
-  ::sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_port = htons(static_cast<std::uint16_t>(port_));
-  at.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  ASSERT_EQ(::connect(stopped, reinterpret_cast<::sockaddr*>(&at), sizeof(at)), 0);
-  const std::string request = "GET /frames HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n";
-  ASSERT_EQ(::send(stopped, request.data(), request.size(), 0),
-            static_cast<ssize_t>(request.size()));
-  while (figures().at("browsers").at("looking") == 0) std::this_thread::yield();
-
-  // Another one sees frame after frame meanwhile, each before the next is made.
-  std::atomic<std::uint32_t> seen{0};
-  std::atomic<bool> enough{false};
-  std::thread reader([&] {
-    std::string bytes;
-    client().Get("/frames", [&](const char* data, std::size_t size) {
-      bytes.append(data, size);
-      stream::FrameWireHeader header;
-      while (bytes.size() >= sizeof(header)) {
-        std::memcpy(&header, bytes.data(), sizeof(header));
-        const std::size_t whole = sizeof(header) + header.points * sizeof(stream::LabelledPoint);
-        if (bytes.size() < whole) break;
-        EXPECT_EQ(header.missed, 0U);
-        seen = header.number;
-        bytes.erase(0, whole);
-      }
-      return !enough;
-    });
-  });
-  while (figures().at("browsers").at("looking") != 2) std::this_thread::yield();
+  const auto stopped = browser(4096);
+  const auto other = browser();
+  // It sees frame after frame meanwhile, each before the next is made.
   for (std::uint32_t number = 1; number <= 5; ++number) {
     ASSERT_TRUE(sink_->put(frame_of(number, kMany)));
-    const auto until = std::chrono::steady_clock::now() + kPatience;
-    while (seen < number && std::chrono::steady_clock::now() < until) std::this_thread::yield();
-    ASSERT_EQ(seen, number);
+    const stream::FrameWireHeader header = next_frame(*other);
+    EXPECT_EQ(header.number, number);
+    EXPECT_EQ(header.missed, 0U);
   }
-  enough = true;
-  ASSERT_TRUE(sink_->put(frame_of(6)));
-  reader.join();
-  ::close(stopped);
-  EXPECT_EQ(figures().at("frames").size(), 6U);
+  EXPECT_EQ(figures().at("browsers").at("looking"), 2);
+  EXPECT_EQ(figures().at("frames").size(), 5U);
 }
 
 TEST_F(Page, SlowBrowsersLeaveFramesOutWhichAreCounted) {
   ASSERT_TRUE(sink_->put(frame_of(1, kMany)));
-  std::string bytes;
-  std::vector<stream::FrameWireHeader> got;
-  client().Get("/frames", [&](const char* data, std::size_t size) {
-    bytes.append(data, size);
-    const std::size_t whole =
-        sizeof(stream::FrameWireHeader) + kMany * sizeof(stream::LabelledPoint);
-    if (bytes.size() < whole) return true;
-    std::memcpy(&got.emplace_back(), bytes.data(), sizeof(stream::FrameWireHeader));
-    bytes.erase(0, whole);
-    // It is busy, while five more come: of the first it may have a part already, the last it gets.
-    for (std::uint32_t number = 2; got.size() == 1 && number <= 6; ++number) {
-      (void)sink_->put(frame_of(number, kMany));
-    }
-    return got.back().number != 6;
-  });
-  ASSERT_LE(got.size(), 3U);
-  EXPECT_EQ(got.back().missed, 6 - got.size());
-  EXPECT_EQ(sink_->losses().front().count, got.back().missed);
+  const auto slow = browser(4096);
+  EXPECT_EQ(next_header(*slow).number, 1U);
+  // It is busy, while five more come: of the first it has a part, the last it gets.
+  for (std::uint32_t number = 2; number <= 6; ++number) {
+    ASSERT_TRUE(sink_->put(frame_of(number, kMany)));
+  }
+  (void)slow->read(kMany * sizeof(stream::LabelledPoint));
+  const stream::FrameWireHeader newest = next_frame(*slow);
+  EXPECT_EQ(newest.number, 6U);
+  EXPECT_EQ(newest.missed, 4U);
+  EXPECT_EQ(sink_->losses().front().count, 4U);
 }
 
 TEST_F(Page, ABrowserThatLeavesIsNoticedThoughNoFrameComes) {
   ASSERT_TRUE(sink_->put(frame_of(1)));
-  client().Get("/frames", [](const char*, std::size_t) { return false; });
+  EXPECT_EQ(next_frame(*browser()).number, 1U);
   const auto until = std::chrono::steady_clock::now() + kPatience;
   while (figures().at("browsers").at("looking") != 0 && std::chrono::steady_clock::now() < until) {
     std::this_thread::yield();
@@ -223,22 +211,14 @@ TEST_F(Page, ShowsLatencyAndWhatMissedTheDeadline) {
 }
 
 TEST_F(Page, OfALiveRunHasNobodyPlayIt) {
-  const auto answer = client().Post("/control", "{\"playing\":false}", "application/json");
-  EXPECT_EQ(answer->status, 409);
+  EXPECT_EQ(test::ask(port_, "POST", "/control", {}, "{\"playing\":false}").status, 409);
 }
 
 TEST_F(Page, MoreBrowsersThanItServesAreTurnedAway) {
-  std::vector<std::thread> browsers;
-  std::atomic<bool> enough{false};
-  for (int i = 0; i < kMostViewers; ++i) {
-    browsers.emplace_back(
-        [&] { client().Get("/frames", [&](const char*, std::size_t) { return !enough; }); });
-  }
-  while (figures().at("browsers").at("looking") != kMostViewers) std::this_thread::yield();
-  EXPECT_EQ(status_of("/frames", {}), 503);
-  enough = true;
-  ASSERT_TRUE(sink_->put(frame_of(1)));
-  for (std::thread& browser : browsers) browser.join();
+  std::vector<std::unique_ptr<test::HttpClient>> browsers;
+  for (std::size_t i = 0; i < HttpBounds{}.guests; ++i) browsers.push_back(browser());
+  EXPECT_EQ(get("/frames").status, 503);
+  EXPECT_EQ(get("/").status, 200);
 }
 
 TEST_F(Page, APortThatIsTakenIsSaid) {
@@ -251,13 +231,12 @@ TEST_F(Page, APortThatIsTakenIsSaid) {
 TEST_F(PageOfACapture, TellsItsPlayer) {
   capture_.told.clear();
   const auto answer = tell(R"({"playing": false, "seek_s": 2.5, "rate": 0.5})");
-  ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(answer.status, 200);
   ASSERT_EQ(capture_.told.size(), 1U);
   EXPECT_EQ(capture_.told[0].playing, false);
   EXPECT_EQ(capture_.told[0].seek_s, 2.5);
   EXPECT_EQ(capture_.told[0].rate, 0.5);
-  EXPECT_EQ(json::parse(answer->body).at("capture").at("duration_s"), 9);
+  EXPECT_EQ(json::parse(answer.body).at("capture").at("duration_s"), 9);
 }
 
 TEST_F(PageOfACapture, RefusesWhatIsNoCommand) {
@@ -266,16 +245,12 @@ TEST_F(PageOfACapture, RefusesWhatIsNoCommand) {
        {"", "[]", "{", "{\"seek_s\": -1}", "{\"seek_s\": \"now\"}", "{\"rate\": 1e300}",
         "{\"playing\": 1}", "{\"delete\": true}", "\xff\xfe", "{\"rate\": 0}"}) {
     const auto answer = tell(body);
-    ASSERT_TRUE(answer) << body;
-    EXPECT_EQ(answer->status, 400) << body;
-    EXPECT_THAT(answer->body, HasSubstr("expected")) << body;
+    EXPECT_EQ(answer.status, 400) << body;
+    EXPECT_THAT(answer.body, HasSubstr("expected")) << body;
   }
   EXPECT_TRUE(capture_.told.empty());
-  const std::string here = "127.0.0.1:" + std::to_string(port_);
-  const auto foreign =
-      client().Post("/control", {{"Host", here}, {"Origin", "http://evil.example"}},
-                    "{\"playing\":false}", "text/plain");
-  EXPECT_EQ(foreign->status, 403);
+  EXPECT_EQ(tell("{\"playing\":false}", "Origin: http://evil.example\r\n").status, 403);
+  EXPECT_EQ(tell("{\"playing\":false}", "Sec-Fetch-Site: cross-site\r\n").status, 403);
   EXPECT_TRUE(capture_.told.empty());
 }
 

@@ -45,4 +45,21 @@ std::string own_host_name() {
   return name.data();
 }
 
+bool is_own_origin(std::string_view origin, std::string_view host) {
+  if (origin.empty()) return true;
+  constexpr std::string_view kScheme = "http://";
+  return origin.starts_with(kScheme) && origin.substr(kScheme.size()) == host;
+}
+
+bool is_asked_by_foreign_page(const HttpRequest& request) {
+  if (!is_own_origin(request.origin, request.host)) return true;
+  const std::string_view site = request.fetch_site;
+  if (site.empty() || site == "same-origin" || site == "none") return false;
+  return request.fetch_mode != "navigate" || request.method != "GET";
+}
+
+bool is_asked_by_own_page_or_program(const HttpRequest& request) {
+  return !request.page.empty() || !request.user_agent.starts_with("Mozilla/");
+}
+
 }  // namespace terracut::cli

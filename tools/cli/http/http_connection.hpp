@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <utility>  // before Asio, which forgets it (chriskohlhoff/asio#944)
+// A line keeps them apart.
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <optional>
+
+namespace terracut::cli {
+
+/// How fast a client is listened to, and since when it takes nothing: Beast's RatePolicy.
+class HttpPace {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit HttpPace(std::size_t read_bytes_a_second) noexcept
+      : read_limit_(read_bytes_a_second), readable_(read_bytes_a_second) {}
+
+  /// Since when what is being written has not moved; none: nothing is being written.
+  [[nodiscard]] std::optional<Clock::time_point> stands_since() const noexcept {
+    return stands_since_;
+  }
+
+ private:
+  friend class boost::beast::rate_policy_access;
+
+  [[nodiscard]] std::size_t available_read_bytes() const noexcept { return readable_; }
+  void transfer_read_bytes(std::size_t count) noexcept { readable_ -= std::min(count, readable_); }
+  void on_timer() noexcept { readable_ = read_limit_; }
+  /// Asked for as each part of a write begins.
+  [[nodiscard]] std::size_t available_write_bytes() noexcept {
+    stands_since_ = Clock::now();
+    return SIZE_MAX;
+  }
+  void transfer_write_bytes(std::size_t /*count*/) noexcept { stands_since_.reset(); }
+
+  std::size_t read_limit_, readable_;
+  std::optional<Clock::time_point> stands_since_;
+};
+
+using HttpStream =
+    boost::beast::basic_stream<boost::asio::ip::tcp, boost::asio::ip::tcp::socket::executor_type,
+                               HttpPace>;
+
+/// A connection whose request was heard, for who takes it over.
+struct HttpConnection {
+  HttpStream stream;
+  boost::beast::http::request<boost::beast::http::string_body> request;
+};
+
+/// A connection that stays beyond its request: a stream of frames, a WebSocket. It lives as long as
+/// its own handlers hold it. On the server's thread.
+class HttpGuest {
+ public:
+  HttpGuest() = default;
+  HttpGuest(const HttpGuest&) = delete;
+  HttpGuest& operator=(const HttpGuest&) = delete;
+  virtual ~HttpGuest() = default;
+
+  [[nodiscard]] virtual HttpStream& stream() noexcept = 0;
+  /// Some ten times a second.
+  virtual void work_round() {}
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "frame_stream.hpp"
+
+#include <boost/asio/write.hpp>
+
+#include <string_view>
+#include <utility>
+
+namespace terracut::cli {
+namespace {
+
+namespace asio = boost::asio;
+using boost::system::error_code;
+
+/// Its end is that of the connection.
+constexpr std::string_view kHead =
+    "HTTP/1.1 200 OK\r\n"
+    "Content-Type: application/octet-stream\r\n"
+    "Cache-Control: no-store\r\n"
+    "X-Content-Type-Options: nosniff\r\n"
+    "Connection: close\r\n\r\n";
+
+}  // namespace
+
+FrameStream::FrameStream(HttpStream stream, ViewSource& source)
+    : stream_(std::move(stream)), source_(source) {
+  ++source_.streams;
+}
+
+FrameStream::~FrameStream() {
+  --source_.streams;
+}
+
+void FrameStream::begin() {
+  is_sending_ = true;
+  asio::async_write(stream_, asio::buffer(kHead),
+                    [self = shared_from_this()](error_code error, std::size_t) {
+                      if (error) return self->stream_.close();
+                      self->is_sending_ = false;
+                      self->send_newest();
+                    });
+  notice_end();
+}
+
+void FrameStream::send_newest() {
+  if (is_sending_) return;
+  const ViewFrames::Turn turn = source_.frames.newest();
+  if (turn.number == seen_) return;
+  const std::uint64_t skipped = seen_ == 0 ? 0 : turn.number - seen_ - 1;
+  source_.skipped += skipped;
+  seen_ = turn.number;
+  frame_ = turn.frame;
+  const std::uint32_t missed = header_.missed + static_cast<std::uint32_t>(skipped);
+  header_ = frame_->header;
+  header_.missed = missed;
+  is_sending_ = true;
+  const std::array<asio::const_buffer, 2> parts{asio::buffer(&header_, sizeof(header_)),
+                                                asio::buffer(frame_->points)};
+  asio::async_write(stream_, parts, [self = shared_from_this()](error_code error, std::size_t) {
+    if (error) return self->stream_.close();
+    self->is_sending_ = false;
+    self->frame_ = nullptr;
+    ++self->source_.sent;
+    self->send_newest();
+  });
+}
+
+void FrameStream::notice_end() {
+  stream_.async_read_some(asio::buffer(heard_),
+                          [self = shared_from_this()](error_code error, std::size_t) {
+                            if (error) return self->stream_.close();
+                            self->notice_end();
+                          });
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+
+#include "tools/cli/http/http_connection.hpp"
+#include "view_routes.hpp"
+
+namespace terracut::cli {
+
+/// One browser's way through the frames: the labelled stream as the body of an answer, until either
+/// side ends. A frame that comes while one is being sent waits, and gives way to a newer one.
+class FrameStream final : public HttpGuest, public std::enable_shared_from_this<FrameStream> {
+ public:
+  FrameStream(HttpStream stream, ViewSource& source);
+  ~FrameStream() override;
+
+  void begin();
+  /// What is newer than what it was sent, if it is ready for it.
+  void send_newest();
+
+  [[nodiscard]] HttpStream& stream() noexcept override { return stream_; }
+
+ private:
+  void notice_end();
+
+  HttpStream stream_;
+  ViewSource& source_;
+  std::uint64_t seen_ = 0;
+  stream::FrameWireHeader header_{};
+  std::shared_ptr<const ViewFrames::Kept> frame_;  ///< While it is being sent.
+  bool is_sending_ = false;
+  std::array<char, 256> heard_{};
+};
+
+}  // namespace terracut::cli

@@ -10,7 +10,8 @@
 
 namespace terracut::cli {
 
-Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource source) {
+Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource source,
+                                   const HttpBounds& bounds) {
   const auto figures = std::make_shared<status::MonitorSnapshot>();
   const auto respond = [source = std::move(source),
                         figures](const HttpRequest& asked) -> HttpReply {
@@ -24,7 +25,7 @@ Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource so
     return HttpAnswer{.body = metrics_text(*figures),
                       .type = "text/plain; version=0.0.4; charset=utf-8"};
   };
-  return HttpServer::start({.at = at, .what = "/metrics"}, respond);
+  return HttpServer::start({.at = at, .what = "/metrics", .bounds = bounds}, respond);
 }
 
 }  // namespace terracut::cli

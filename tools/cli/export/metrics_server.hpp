@@ -16,6 +16,7 @@ using FiguresSource = std::function<void(status::MonitorSnapshot&)>;
 /// Answers GET /metrics with the figures for Prometheus (metrics_text.hpp), within HttpBounds.
 /// Listen on loopback unless the network is trusted. What the pages of others have a browser ask
 /// gets 403. The errors of HttpServer::start().
-[[nodiscard]] Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource source);
+[[nodiscard]] Expected<HttpServer> serve_metrics(const net::Ipv4Endpoint& at, FiguresSource source,
+                                                 const HttpBounds& bounds = {});
 
 }  // namespace terracut::cli

@@ -17,12 +17,13 @@ ViewSink::ViewSink(const publish::Stream& stream, ViewedCapture* capture)
 
 Expected<std::unique_ptr<ViewSink>> ViewSink::open(const std::string& endpoint,
                                                    const publish::Stream& stream,
-                                                   ViewedCapture* capture) {
+                                                   ViewedCapture* capture,
+                                                   const HttpBounds& bounds) {
   const auto at = stream::parse_serving_endpoint(endpoint);
   if (!at) return tl::unexpected(at.error());
   std::unique_ptr<ViewSink> sink(new ViewSink(stream, capture));
   auto server = HttpServer::start(
-      {.at = *at, .what = "the page"},
+      {.at = *at, .what = "the page", .bounds = bounds},
       [&source = sink->source_](const HttpRequest& asked) { return answer_view(source, asked); });
   if (!server) return tl::unexpected(server.error());
   sink->server_.emplace(*std::move(server));

@@ -27,7 +27,8 @@ class ViewSink : public publish::FrameSink {
   /// plays. The errors of HttpServer::start().
   [[nodiscard]] static Expected<std::unique_ptr<ViewSink>> open(const std::string& endpoint,
                                                                 const publish::Stream& stream,
-                                                                ViewedCapture* capture);
+                                                                ViewedCapture* capture,
+                                                                const HttpBounds& bounds = {});
 
   [[nodiscard]] std::string_view name() const noexcept override { return "view"; }
   [[nodiscard]] Status put(const publish::LabelledFrame& frame) override;

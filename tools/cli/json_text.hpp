@@ -31,14 +31,14 @@ namespace terracut::cli {
 /// looked at. kNotFound, kUnreadable, kMalformed.
 [[nodiscard]] inline Expected<nlohmann::ordered_json> read_json(const std::filesystem::path& path,
                                                                 std::size_t most_bytes) {
-  using Json = nlohmann::ordered_json;
+  using Ordered = nlohmann::ordered_json;
   constexpr int kDeepest = 16;  // what goes through a value calls itself at each level
   const auto text = files::read_plain_file(path, most_bytes);
   if (!text) return tl::unexpected(text.error());
   try {
-    return Json::parse(*text,
-                       [](int depth, Json::parse_event_t, Json&) { return depth <= kDeepest; });
-  } catch (const Json::exception& error) {
+    return Ordered::parse(
+        *text, [](int depth, Ordered::parse_event_t, Ordered&) { return depth <= kDeepest; });
+  } catch (const Ordered::exception& error) {
     return fail(ErrorCode::kMalformed, path.string() + ": " + error.what());
   }
 }

@@ -51,6 +51,7 @@ class HttpClient {
   bool send(std::string_view bytes) {
     while (!bytes.empty()) {
       const ::ssize_t sent = ::send(socket_.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (sent < 0 && errno == EINTR) continue;
       if (sent <= 0) return false;
       bytes.remove_prefix(static_cast<std::size_t>(sent));
     }
@@ -92,7 +93,10 @@ class HttpClient {
  private:
   bool receive() {
     char part[65536];
-    const ::ssize_t got = ::recv(socket_.get(), part, sizeof part, 0);
+    ::ssize_t got = 0;
+    do {
+      got = ::recv(socket_.get(), part, sizeof part, 0);
+    } while (got < 0 && errno == EINTR);  // not begun again by itself where there is a patience
     if (got > 0) came_.append(part, static_cast<std::size_t>(got));
     has_ended_ = got == 0 || (got < 0 && errno == ECONNRESET);
     return got > 0;

@@ -321,8 +321,10 @@ Expected<HttpServer> HttpServer::start(const Config& config, HttpResponder respo
     state->thread = std::jthread([raw = state.get()] { raw->serve(); });
     return HttpServer(std::move(state));
   } catch (const std::system_error& error) {
-    return cannot_serve(config, ErrorCode::kCapacityExceeded, error.what(),
-                        "the process needs more threads or descriptors (ulimit -u, ulimit -n)");
+    return cannot_serve(
+        config, ErrorCode::kCapacityExceeded, error.what(),
+        "the process needs more than its limits let it have (ulimit -u, -n, -v, or its "
+        "container's)");
   }
 }
 

@@ -30,17 +30,27 @@ CloudNode::CloudNode(const Options& options, dds::CloudReader reader, NodeAnswer
       answers_(std::move(answers)),
       labeller_(options),
       came_(kMostWaiting),
-      labelled_(kMostAnswers),
-      taker_([this] { take_clouds(); }),
-      labelling_([this] { label_clouds(); }),
-      writer_([this] { write_answers(); }) {}
+      labelled_(kMostAnswers) {
+  try {
+    taker_ = std::jthread([this] { take_clouds(); });
+    labelling_ = std::jthread([this] { label_clouds(); });
+    writer_ = std::jthread([this] { write_answers(); });
+  } catch (...) {  // the system refuses one: those before it have to be told to end
+    end();
+    throw;
+  }
+}
 
 CloudNode::~CloudNode() {
-  finish_ = true;
-  taker_.join();
-  labelling_.join();
-  writer_.join();
+  end();
   first_clouds_.clear();
+}
+
+void CloudNode::end() {
+  finish_ = true;
+  for (std::jthread* const thread : {&taker_, &labelling_, &writer_}) {
+    if (thread->joinable()) thread->join();
+  }
 }
 
 void CloudNode::take_clouds() {

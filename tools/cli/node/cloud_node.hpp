@@ -36,6 +36,7 @@ class CloudNode {
     std::vector<frame::Label> labels;
   };
 
+  void end();
   void take_clouds();
   void label_clouds();
   void write_answers();

@@ -3,6 +3,7 @@
 #include "capture_player.hpp"
 
 #include <algorithm>
+#include <system_error>
 #include <utility>
 
 #include "tools/cli/stop_signal.hpp"
@@ -23,17 +24,11 @@ double seconds(std::int64_t ns) {
 
 CapturePlayer::CapturePlayer(PlayedRecording& recording) : recording_(recording) {
   state_.frame_s = recording.frame_s();
-  measuring_ = std::thread([this] {
-    recording_.measure([this](std::int64_t begin_stamp_ns, std::int64_t length_ns) {
-      const std::lock_guard lock(mutex_);
-      state_.begin_ns = begin_stamp_ns;
-      state_.duration_s = seconds(length_ns);
-      return !stop_measuring_;
-    });
-    const std::lock_guard lock(mutex_);
+  try {
+    measuring_ = std::jthread([this] { measure(); });
+  } catch (const std::system_error&) {  // no thread is left for what can do without
     is_measured_ = true;
-    told_.notify_all();
-  });
+  }
   // How long a short one is, whoever looks at it knows from the first.
   std::unique_lock lock(mutex_);
   told_.wait_for(lock, kMeasuredAhead, [&] { return is_measured_; });
@@ -41,7 +36,18 @@ CapturePlayer::CapturePlayer(PlayedRecording& recording) : recording_(recording)
 
 CapturePlayer::~CapturePlayer() {
   stop_measuring_ = true;
-  measuring_.join();
+}
+
+void CapturePlayer::measure() {
+  recording_.measure([this](std::int64_t begin_stamp_ns, std::int64_t length_ns) {
+    const std::lock_guard lock(mutex_);
+    state_.begin_ns = begin_stamp_ns;
+    state_.duration_s = seconds(length_ns);
+    return !stop_measuring_;
+  });
+  const std::lock_guard lock(mutex_);
+  is_measured_ = true;
+  told_.notify_all();
 }
 
 void CapturePlayer::obey(const PlayerCommand& command) {

@@ -37,6 +37,7 @@ class CapturePlayer : public ViewedCapture {
  private:
   using Clock = std::chrono::steady_clock;
 
+  void measure();
   [[nodiscard]] Status go_to(double seek_s);
   [[nodiscard]] std::optional<PlayedRecording::Span> next_due();
   [[nodiscard]] bool wait_until_due(std::int64_t since_begin_ns);
@@ -58,7 +59,7 @@ class CapturePlayer : public ViewedCapture {
   std::optional<std::pair<Clock::time_point, std::int64_t>> pace_;
   std::int64_t shown_ns_ = 0;  ///< Of the frame that was waited for last.
   std::atomic<bool> stop_measuring_{false};
-  std::thread measuring_;
+  std::jthread measuring_;  ///< Last: it uses all of the above.
 };
 
 }  // namespace terracut::cli

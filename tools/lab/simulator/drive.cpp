@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstddef>
 #include <span>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -143,7 +144,13 @@ class Drive {
       }
     };
     std::vector<std::jthread> helpers;
-    for (int i = 1; i < config_.threads; ++i) helpers.emplace_back(share, i);
+    for (int i = 1; i < config_.threads; ++i) {
+      try {
+        helpers.emplace_back(share, i);
+      } catch (const std::system_error&) {  // no thread is left for it
+        share(i);
+      }
+    }
     share(0);
   }
 

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -181,11 +182,16 @@ class Run {
     const std::size_t jobs = config_.jobs > 0 ? static_cast<std::size_t>(config_.jobs) : most;
     std::vector<std::jthread> threads;
     for (std::size_t i = 0; i < std::min(jobs, runs_.size()); ++i) {
-      threads.emplace_back([this, i, &cores] {
-        pin_this_thread(fmt::format("tc-eval-{}", i), cores, i);
-        label_some();
-      });
+      try {
+        threads.emplace_back([this, i, &cores] {
+          pin_this_thread(fmt::format("tc-eval-{}", i), cores, i);
+          label_some();
+        });
+      } catch (const std::system_error&) {  // no thread is left: it takes longer, then
+        break;
+      }
     }
+    if (threads.empty()) label_some();
   }
 
   void label_some() {

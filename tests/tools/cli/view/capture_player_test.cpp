@@ -14,6 +14,7 @@
 
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
+#include "tests/support/no_threads.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/cli/view/played_capture.hpp"
 #include "tools/cli/view/played_clouds.hpp"
@@ -116,6 +117,13 @@ TEST_F(CapturePlayerTest, ShowsThePlaceSoughtThoughAFrameIsJustBeingShown) {
   ASSERT_EQ(shown_s.size(), 3U);
   EXPECT_NEAR(shown_s[1], 0.5, 0.6 * kFrame_s);
   EXPECT_NEAR(shown_s[2], 0.2, 0.6 * kFrame_s);
+}
+
+TEST_F(CapturePlayerTest, PlaysThoughNoThreadIsLeftToFindOutHowLongTheRecordingIs) {
+  const test::NoThreads none;
+  CapturePlayer player(*played_);
+  EXPECT_EQ(player.state().duration_s, 0);
+  EXPECT_EQ(shown(player, {R"({"step": true})"}).size(), 2U);
 }
 
 TEST_F(CapturePlayerTest, ShowsThePlaceSoughtThoughTheRecordingClockWasSetBack) {

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
+#include "tests/support/no_threads.hpp"
 #include "tools/lab/scenes/scene.hpp"
 
 namespace terracut::simulator {
@@ -67,6 +68,10 @@ TEST(DriveOnThreads, SameSeedGivesTheSameReturnsOnAnyNumberOfThreads) {
   const std::uint64_t alone = digest(drive(config));
   config.threads = 3;
   EXPECT_EQ(digest(drive(config)), alone);
+  {
+    const test::NoThreads refused;
+    EXPECT_EQ(digest(drive(config)), alone);
+  }
   config.seed = 2;
   EXPECT_NE(digest(drive(config)), alone);
 }

@@ -11,6 +11,7 @@
 #include <limits>
 
 #include "made_up_dataset.hpp"
+#include "tests/support/no_threads.hpp"
 #include "tools/research/datasets/built_in_tables.hpp"
 #include "tools/research/statistics/measures.hpp"
 
@@ -73,6 +74,10 @@ TEST_F(EvaluationTest, LabelsEveryFrameWithEveryMethod) {
 
 TEST_F(EvaluationTest, GivesTheSameWhateverTheNumberOfJobs) {
   const auto two = counts_of(run().results);
+  {
+    const test::NoThreads refused;
+    EXPECT_EQ(counts_of(run().results), two);
+  }
   config_.jobs = 1;
   EXPECT_EQ(counts_of(run().results), two);
   config_.jobs = 5;

@@ -9,15 +9,15 @@ import shutil
 import subprocess
 import time
 import urllib.request
-from pathlib import Path
 
-from . import machine
+from . import doors, machine
 from .accounting import judge_accounting
 from .capture import Drive
 from .live import Live, Send
 from .program import Program
 from .report import Report
 from .stalled import judge_frames, line_with, returns_of, whole_labels
+from .tiny_disk import TinyDisk
 
 DRIVE_S = 2
 
@@ -28,6 +28,7 @@ def hold(program: Program, report: Report, seconds: float, deadline_ms: float) -
     second_process(program, report, drive, deadline_ms)
     full_disk(program, report, drive, deadline_ms)
     lost_interface(program, report, drive, deadline_ms)
+    doors.hold(program, report, drive, seconds, deadline_ms)
 
 
 # --- Whoever watches is killed ---
@@ -94,21 +95,6 @@ def second_process(program: Program, report: Report, drive: Drive, deadline_ms: 
 # --- The disk is full ---
 
 
-class TinyDisk:
-    """A file system with room for a frame's labels and a half."""
-
-    def __init__(self, folder: Path, kibibytes: int):
-        folder.mkdir(exist_ok=True)
-        self.folder = folder
-        subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={kibibytes}k", "trial", str(folder)], check=True)
-
-    def __enter__(self) -> Path:
-        return self.folder
-
-    def __exit__(self, *_: object) -> None:
-        subprocess.run(["umount", str(self.folder)], check=False)
-
-
 def full_disk(program: Program, report: Report, drive: Drive, deadline_ms: float) -> None:
     if not machine.is_root():
         report.skip("full disk", "needs root, to mount a small file system")
@@ -125,7 +111,7 @@ def full_disk(program: Program, report: Report, drive: Drive, deadline_ms: float
         report.check(of + "every frame was labelled all the same",
                      len(returns) - 2 <= summary["frames"]["count"] <= len(returns)
                      and summary["frames"]["levels"]["skipped"] == 0, summary["frames"]["count"])  # fmt: skip
-        report.check(of + "told of labels", "no more labels are written" in live.messages(),
+        report.check(of + "told of labels", "no labels are written" in live.messages(),
                      line_with(live.messages(), "labels"))  # fmt: skip
         report.check(of + "told who asked for a dump", asked.returncode == 4 and "refused (disk_low)" in asked.stderr,
                      asked.stderr.strip())  # fmt: skip

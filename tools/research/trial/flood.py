@@ -78,11 +78,14 @@ class Flood:
         file.write_bytes(pickle.dumps(payloads))
         command = [*(PRIORITY if realtime else []), sys.executable, __file__, to, str(rate), "0", str(file), *addresses]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, text=True)
+        self.told: dict = {}  # once it has ended
 
     def stop(self) -> dict:
-        self.process.send_signal(signal.SIGINT)
-        output, _ = self.process.communicate()
-        return json.loads(output)
+        if not self.told:
+            self.process.send_signal(signal.SIGINT)
+            output, _ = self.process.communicate()
+            self.told = json.loads(output)
+        return self.told
 
 
 if __name__ == "__main__":

@@ -9,6 +9,7 @@ must be what was sent, and its frame numbers are those of a replay.
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import re
@@ -30,6 +31,8 @@ LONGEST_WAIT_S = 200
 # machine, which a real sensor would not share.
 SENDER_PRIORITY = 60
 
+Others = Callable[[str], contextlib.AbstractContextManager]
+
 
 class Send:
     """`terracut send` of a drive; wait() gives its report."""
@@ -45,9 +48,10 @@ class Send:
         self.process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
 
     def wait(self) -> dict:
-        _, errors = self.process.communicate()
+        if not self.process.stderr.closed:
+            _, self.errors = self.process.communicate()
         if not self.json.exists():
-            raise TrialError(f"terracut send: exit code {self.process.returncode}\n{errors}")
+            raise TrialError(f"terracut send: exit code {self.process.returncode}\n{self.errors}")
         return json.loads(self.json.read_text())
 
     def stop(self) -> dict:
@@ -61,7 +65,9 @@ class Live:
 
     def __init__(self, program: Program, drive: Drive, *options: object, deadline_ms: float = 50,
                  limit_s: float = 3600, listen: str = "127.0.0.1", prefix: list[str] | None = None,
-                 sender_prefix: list[str] | None = None):  # fmt: skip
+                 sender_prefix: list[str] | None = None, messages_to: object = None, others: Others | None = None):  # fmt: skip
+        """`messages_to`: what its messages go to in place of a log. `others`: who sends to the address it listens at while
+        it is woken."""
         self.program = program
         self.drive = drive
         self.port = 0  # once it listens, as what follows
@@ -78,6 +84,7 @@ class Live:
         if "--metrics" not in self.command:
             self.command += ["--metrics", "off"]
         self.limit_s = limit_s
+        self.messages_to, self.others = messages_to, others or (lambda to: contextlib.nullcontext())
         self.process: subprocess.Popen | None = None
         self.exit_code: int | None = None
         self.waiting: dict | None = None  # figures before the first packet
@@ -87,10 +94,11 @@ class Live:
         with self.log.open("w") as log:
             # What it remembers of its sensor is no other trial's.
             environment = {**os.environ, "STATE_DIRECTORY": str(self.program.scratch)}
-            self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=log,
-                                            stderr=log, env=environment)  # fmt: skip
+            to = log if self.messages_to is None else self.messages_to
+            self.process = subprocess.Popen([*self.prefix, *guard, str(self.program.path), *self.command], stdout=to,
+                                            stderr=to, env=environment)  # fmt: skip
         try:
-            self.port = self.port_after("listening at ")
+            self.port = self.port_after("listening at ") if self.messages_to is None else self._port_of_page()
             self.sends_to = f"{self.sends_to_address}:{self.port}"
             self._wake()
             self._await(self._threads_wait, "has its threads waiting")
@@ -113,13 +121,17 @@ class Live:
         self._await(lambda: line.search(self.messages()), "said: " + words)
         return int(line.search(self.messages())[1])
 
+    def _port_of_page(self) -> int:
+        return int(self.until(lambda figures: ":" in figures["input"], "says where it listens")["input"].rsplit(":", 1)[1])
+
     def _wake(self) -> None:
         first = self.program.scratch / "wake_up.pcap"
         span_ns = cut_beginning(self.drive.pcap, WAKE_UP_PACKETS, first)
         # While it stands still, so that all are there when it goes on: none comes once it counts.
         os.kill(self.pid(), signal.SIGSTOP)
         try:
-            Send(self.program, first, self.sends_to, "--rate", span_ns / WAKE_UP_NS, prefix=self.sender_prefix).wait()
+            with self.others(self.sends_to):
+                Send(self.program, first, self.sends_to, "--rate", span_ns / WAKE_UP_NS, prefix=self.sender_prefix).wait()
         finally:
             os.kill(self.pid(), signal.SIGCONT)
 

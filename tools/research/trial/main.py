@@ -48,7 +48,7 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     sub.add_argument("--seconds", type=float, default=8, help="of the drive (default 8)")
     sub = add("faults", "every scripted fault of `terracut send`")
     sub.add_argument("--short", action="store_true", help="all faults in one run")
-    sub = add("breakage", "killed readers, a lost interface, a full disk, a taken port")
+    sub = add("breakage", "killed readers, a lost interface, a full disk, a taken port, all doors at once")
     sub.add_argument("--short", action="store_true", help="seconds instead of a minute, and a deadline for busy machines")
     sub = add("hostile", "floods, second sensors, stamps from the past, a sensor that reboots, clocks that step")
     sub.add_argument("--seconds", type=float, help="of each (default 10, with --short 3)")

@@ -22,6 +22,8 @@ std::string_view to_string(ErrorCode code) noexcept {
       return "write failed";
     case ErrorCode::kNoCalibration:
       return "no calibration";
+    case ErrorCode::kMountNotFound:
+      return "mount not found";
     case ErrorCode::kNothingCameOut:
       return "nothing came out";
   }

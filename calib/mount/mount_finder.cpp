@@ -21,7 +21,7 @@ double median_of(std::vector<double> values) {
 }
 
 /// The standard deviation by the median distance from the median, which strays leave alone.
-double spread_of(std::span<const Mount> mounts, double Mount::*figure, double middle) {
+double spread_of(std::span<const Mount> mounts, double Mount::* figure, double middle) {
   constexpr double kOfNormal = 1.4826;
   std::vector<double> distances;
   for (const Mount& mount : mounts) distances.push_back(std::abs(mount.*figure - middle));
@@ -49,11 +49,32 @@ bool FoundMount::is_certain() const noexcept {
   return uncertainty.height_m <= 0.15 && tilt_rad <= beams::deg_to_rad(2.5);
 }
 
+std::string to_string(const FoundMount& found) {
+  const auto figure = [](const std::string& value, double uncertainty, int decimals) {
+    return uncertainty > 0 ? fmt::format("{} (+-{:.{}f})", value, uncertainty, decimals)
+                           : value + " (stated)";
+  };
+  const auto angle = [&](const char* name, double Mount::* of) {
+    return figure(fmt::format("{} {:.2f} deg", name, beams::rad_to_deg(found.mount.*of)),
+                  beams::rad_to_deg(found.uncertainty.*of), 1);
+  };
+  return fmt::format(
+      "{}, {}, {}, found in {} {}",
+      figure(fmt::format("height {:.3f} m", found.mount.height_m), found.uncertainty.height_m, 3),
+      angle("roll", &Mount::roll_rad), angle("pitch", &Mount::pitch_rad), found.frames,
+      found.frames == 1 ? "frame" : "frames");
+}
+
+Error uncertain(const FoundMount& found) {
+  return {ErrorCode::kMountNotFound,
+          "so little of the ground is seen that it is uncertain: " + to_string(found)};
+}
+
 bool MountFinder::add_frame(std::span<const std::array<float, 3>> points) {
   ++looked_at_;
   const auto estimated = estimate_mount(points);
   if (!estimated) {
-    last_ = estimated.error();
+    last_fault_ = estimated.error().message;
     return false;
   }
   seen_.push_back(estimated->mount);
@@ -63,8 +84,8 @@ bool MountFinder::add_frame(std::span<const std::array<float, 3>> points) {
 
 Expected<FoundMount> MountFinder::found() const {
   if (2 * seen_.size() < looked_at_ || seen_.empty()) {
-    return fail(last_.code, fmt::format("of {} frames {} show a ground; {}", looked_at_,
-                                        seen_.size(), last_.message));
+    return fail(ErrorCode::kMountNotFound, fmt::format("of {} frames {} show a ground; {}",
+                                                       looked_at_, seen_.size(), last_fault_));
   }
   const Mount middle = median_of(std::span(seen_)), deviation = median_of(std::span(deviations_));
   FoundMount found{{std::round(middle.height_m * 1000) / 1000, rounded_rad(middle.roll_rad),
@@ -76,6 +97,12 @@ Expected<FoundMount> MountFinder::found() const {
         2 * std::hypot(deviation.*figure, spread_of(seen_, figure, middle.*figure));
   }
   return found;
+}
+
+Expected<FoundMount> MountFinder::certain() const {
+  auto seen = found();
+  if (seen && !seen->is_certain()) return tl::unexpected(uncertain(*seen));
+  return seen;
 }
 
 }  // namespace terracut::mount

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "calib/mount/mount.hpp"
@@ -30,9 +31,16 @@ struct FoundMount {
   Mount uncertainty;
   std::size_t frames = 0;  ///< It was read off.
 
-  /// Whether it is good for labels: to 0.15 m, and 2.5 degrees.
+  /// Whether it is good for labels: to 0.15 m, and 2.5 degrees. Labels by a mount that is less
+  /// certain are worse than those of a level one (docs/reference/method.md, "The mount, found").
   [[nodiscard]] bool is_certain() const noexcept;
 };
+
+/// "height 1.731 m (+-0.018), roll 0.00 deg (stated), pitch 0.31 deg (+-0.2), found in 10 frames":
+/// what has no uncertainty was stated.
+[[nodiscard]] std::string to_string(const FoundMount& found);
+/// kMountNotFound: one that is not certain.
+[[nodiscard]] Error uncertain(const FoundMount& found);
 
 /// Finds the mount from the first frames of a run, a second of them being enough. The median of
 /// frames, so that one whose road is hidden spoils nothing. Start-up: allocates, takes milliseconds
@@ -46,14 +54,16 @@ class MountFinder {
   [[nodiscard]] std::size_t frames() const noexcept { return seen_.size(); }  ///< With a ground.
   [[nodiscard]] std::size_t frames_looked_at() const noexcept { return looked_at_; }
 
-  /// kMalformed where fewer than half of the frames show a ground, saying why the last of them did
-  /// not.
+  /// kMountNotFound where fewer than half of the frames show a ground, saying why the last of them
+  /// did not.
   [[nodiscard]] Expected<FoundMount> found() const;
+  /// What labels can be made by. kMountNotFound also where it is not certain, saying what it is.
+  [[nodiscard]] Expected<FoundMount> certain() const;
 
  private:
   std::vector<Mount> seen_, deviations_;
   std::size_t looked_at_ = 0;
-  Error last_{ErrorCode::kMalformed, "there was no frame to look at"};
+  std::string last_fault_ = "there was no frame to look at";
 };
 
 }  // namespace terracut::mount

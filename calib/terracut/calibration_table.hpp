@@ -31,5 +31,11 @@ struct Calibration::Table {
   };
   return {as_public(found.mount), as_public(found.uncertainty), found.frames};
 }
+/// With what a program can do.
+[[nodiscard]] inline Error mount_not_found(const Error& fault) {
+  return {ErrorCode::kMountNotFound,
+          "the mount is not found: " + fault.message +
+              "; state Config::mount without find_mount, or go on with it by guess_mount"};
+}
 
 }  // namespace terracut

@@ -21,7 +21,8 @@ class MountSearch {
   [[nodiscard]] bool has_enough_frames() const noexcept {
     return finder_.frames_looked_at() >= mount::kFramesToFind;
   }
-  [[nodiscard]] Expected<mount::FoundMount> found() const { return finder_.found(); }
+  /// MountFinder::certain()
+  [[nodiscard]] Expected<mount::FoundMount> found() const { return finder_.certain(); }
   [[nodiscard]] const mount::MountFinder& finder() const noexcept { return finder_; }
 
  private:

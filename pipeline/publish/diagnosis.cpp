@@ -106,6 +106,10 @@ std::vector<Diagnosis> Diagnoses::of(const status::MonitorSnapshot& f) {
   all.push_back(std::move(threads));
 
   Diagnosis mount{.name = "terracut: mount", .message = "fits the ground that is seen"};
+  if (f.mount.guessed != 0) {
+    mount.level = Severity::kWarn;
+    mount.message = status::guess_text(f.mount);
+  }
   if (f.mount.contradicted != 0) {
     mount.level = Severity::kWarn;
     mount.message = status::contradiction_text(f.mount);

@@ -11,14 +11,16 @@ namespace terracut::run {
 
 mount::MountFinder mount_on_air(net::LiveSource& source, const sensor::SensorOnAir& sensor,
                                 const decode::Decoder::Config& config,
+                                std::chrono::seconds patience,
                                 const std::function<bool()>& stop_wanted,
-                                const std::function<void()>& on_waiting) {
+                                const std::function<void(const std::string& what)>& on_waiting) {
   memory::FixedMemory memory;
   decode::Decoder decoder(sensor.calibration, mount::kAtTheSensor, config, memory);
   ground::MountSearch search;
-  const auto is_enough = [&] { return search.has_enough_frames() && search.found(); };
-  const auto gives_up = std::chrono::steady_clock::now() + std::chrono::seconds(3);
-  while (!is_enough() && !stop_wanted() && std::chrono::steady_clock::now() < gives_up) {
+  mount::MountFinder last;  // of a whole second
+  std::string waits_for = "finding the mount";
+  const auto gives_up = std::chrono::steady_clock::now() + patience;
+  while (!stop_wanted() && std::chrono::steady_clock::now() < gives_up) {
     constexpr std::int64_t kAWhile_ns = 50'000'000;
     for (const decode::Datagram& datagram : source.receive(kAWhile_ns)) {
       decoder.push(datagram);
@@ -26,9 +28,16 @@ mount::MountFinder mount_on_air(net::LiveSource& source, const sensor::SensorOnA
         search.add_frame(*frame->image);
       }
     }
-    on_waiting();
+    if (search.has_enough_frames()) {
+      last = search.finder();
+      const auto found = last.certain();
+      if (found) return last;
+      waits_for = "waiting to see how the sensor stands: " + found.error().message;
+      search = {};
+    }
+    on_waiting(waits_for);
   }
-  return search.finder();
+  return last.frames_looked_at() > 0 ? last : search.finder();
 }
 
 }  // namespace terracut::run

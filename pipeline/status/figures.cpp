@@ -328,6 +328,10 @@ std::vector<Figure> figures_of(const MountFigures& f) {
     {"contradicted", f.contradicted != 0,
      {"terracut_mount_contradicted",
       "1 where the near ground shows another mount than the one in use."}},
+    {"guessed", f.guessed != 0,
+     {"terracut_mount_guessed",
+      "1 where the ground did not show the mount: labels are made by a guess."}},
+    {{}, guess_text(f), {}, {"mount", "{}", Shown::kAlarm}},
     {{}, contradiction_text(f), {}, {"mount", "{}", Shown::kAlarm}}});
   if (f.found_in_frames != 0) {
     const auto uncertain_tilt = [](const char* axis) {
@@ -342,7 +346,7 @@ std::vector<Figure> figures_of(const MountFigures& f) {
       {"roll_deg", degrees(f.uncertain_roll_deg), uncertain_tilt("roll")},
       {"pitch_deg", degrees(f.uncertain_pitch_deg), uncertain_tilt("pitch")}});
   }
-  if (f.frames == 0 && f.contradicted == 0) return std::move(table).take();
+  if (f.seen_height_m == 0) return std::move(table).take();
   table.add("mount.seen", {
     {"height_m", metres(f.seen_height_m), height("ground")},
     {"roll_deg", degrees(f.seen_roll_deg), tilt("ground", "roll")},
@@ -375,13 +379,24 @@ bool are_possible(const MonitorSnapshot& f) {
 
 std::string contradiction_text(const MountFigures& mount) {
   if (mount.contradicted == 0) return {};
+  const auto origin = [&](double uncertainty) {
+    if (mount.guessed != 0) return "guessed";
+    return uncertainty > 0 ? "found at the start" : "stated";
+  };
   return fmt::format(
       "the near ground contradicts the mount: it shows the sensor at height {:.2f} m, roll {:.1f}, "
-      "pitch {:.1f} deg, {} is {:.2f} m, {:.1f}, {:.1f} deg; labels suffer. `terracut "
-      "calibrate` measures it from a capture, for --setup",
-      mount.seen_height_m, mount.seen_roll_deg, mount.seen_pitch_deg,
-      mount.found_in_frames != 0 ? "found at the start" : "given", mount.height_m, mount.roll_deg,
-      mount.pitch_deg);
+      "pitch {:.1f} deg; in use are {:.2f} m ({}), {:.1f} ({}), {:.1f} deg ({}); labels suffer. "
+      "`terracut calibrate` measures it from a capture, for --setup",
+      mount.seen_height_m, mount.seen_roll_deg, mount.seen_pitch_deg, mount.height_m,
+      origin(mount.uncertain_height_m), mount.roll_deg, origin(mount.uncertain_roll_deg),
+      mount.pitch_deg, origin(mount.uncertain_pitch_deg));
+}
+
+std::string guess_text(const MountFigures& mount) {
+  if (mount.guessed == 0) return {};
+  return fmt::format(
+      "not found and not stated: a guess, height {:.2f} m, roll {:.1f}, pitch {:.1f} deg",
+      mount.height_m, mount.roll_deg, mount.pitch_deg);
 }
 
 }  // namespace terracut::status

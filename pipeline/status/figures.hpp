@@ -28,5 +28,7 @@ namespace terracut::status {
 
 /// For people, with what mends it; empty where nothing is contradicted.
 [[nodiscard]] std::string contradiction_text(const MountFigures& mount);
+/// For people; empty where the mount is no guess.
+[[nodiscard]] std::string guess_text(const MountFigures& mount);
 
 }  // namespace terracut::status

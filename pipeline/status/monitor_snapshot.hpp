@@ -52,7 +52,7 @@ struct ThreadStatus {
 /// accessors below and to_string are safe then.
 struct MonitorSnapshot {
   /// To be raised with every change of what lies where.
-  static constexpr std::uint32_t kLayout = 8;
+  static constexpr std::uint32_t kLayout = 9;
   static constexpr std::size_t kMaxLosses = 64;
   static constexpr std::size_t kMaxOutcomes = 24;
   static constexpr std::size_t kMaxThreads = 4;

@@ -166,9 +166,11 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   source->accept_only(sensor->address);
   std::optional<FoundMount> mount;
   if (config.find_mount) {
-    const auto finder =
-        run::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor), stop_wanted);
-    if (const auto found = finder.found()) mount = public_mount(*found);
+    const auto found = run::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor),
+                                         run::kGroundPatience, stop_wanted)
+                           .certain();
+    if (found) mount = public_mount(*found);
+    if (!found && !config.guess_mount) return tl::unexpected(mount_not_found(found.error()));
   }
   auto events = run::LiveThreads::Events::make();
   if (!events) return tl::unexpected(events.error());

@@ -25,9 +25,12 @@ class LiveRun {
     std::string address = "0.0.0.0";
     std::optional<Calibration> calibration;  ///< None: what the sensor itself says.
     Mount mount;
-    /// The ground that the sensor sees in its first second, or three, says how it stands, instead
-    /// of `mount`, which is taken where it sees none: found_mount() says.
+    /// The ground that the sensor sees in its first second says how it stands, instead of `mount`;
+    /// where it does not, that of the next, for ten seconds.
     bool find_mount = false;
+    /// With find_mount: goes on with `mount` where the ground did not show it, instead of failing;
+    /// then found_mount() is empty.
+    bool guess_mount = false;
     double deadline_ms = 50;  ///< From a frame's last packet to its labels, [1, 10000].
     /// How long packets may wait to be fetched together, never past a frame's end, [0, 20]; 0: each
     /// is fetched as it comes, which costs more wake-ups.
@@ -50,8 +53,8 @@ class LiveRun {
   using StopWanted = std::function<bool()>;
 
   /// Opens the socket and listens until a sensor is known. kInvalidArgument, kUnsupported,
-  /// kNoCalibration, or the system's refusal of the socket. What the system does not grant
-  /// (priority, locked memory) is no error; refusals() names it.
+  /// kNoCalibration, kMountNotFound, or the system's refusal of the socket. What the system does
+  /// not grant (priority, locked memory) is no error; refusals() names it.
   [[nodiscard]] static Expected<LiveRun> open(const Config& config, const StopWanted& stop_wanted);
   LiveRun(LiveRun&&) noexcept;
   LiveRun& operator=(LiveRun&&) noexcept;

@@ -111,17 +111,26 @@ struct Segmenter::Engine {
               frame::RangeImage& image) {
       (void)to_image_.place(points, ring_of_point, image);
       search_.add_frame(image);
-      if (found_ && !is_done()) return false;
-      if (const auto found = search_.found()) found_ = *found;
-      return found_.has_value();
+      const bool is_whole = search_.has_enough_frames();
+      if (found_ && !is_whole) return false;
+      const auto found = search_.found();
+      if (found) found_ = *found;
+      if (!found) fault_ = found.error();
+      is_done_ = is_whole && found_;
+      if (is_whole) search_ = {};
+      return found.has_value();
     }
-    [[nodiscard]] bool is_done() const noexcept { return search_.has_enough_frames(); }
+    [[nodiscard]] bool is_done() const noexcept { return is_done_; }
+    /// Why there is none, as of the last cloud.
+    [[nodiscard]] const Error& fault() const noexcept { return fault_; }
     [[nodiscard]] const std::optional<mount::FoundMount>& found() const noexcept { return found_; }
 
    private:
     scan::ScanToImage to_image_;
     ground::MountSearch search_;
     std::optional<mount::FoundMount> found_;
+    Error fault_{ErrorCode::kMountNotFound, ""};
+    bool is_done_ = false;
   };
 
   explicit Engine(const Config& wanted) : config(wanted), mount(mount_of(wanted.mount)) {
@@ -129,8 +138,7 @@ struct Segmenter::Engine {
   }
 
   Expected<std::span<const Label>> label(const cloud::CloudView& view) {
-    const bool is_first = !labeller;
-    if (is_first) {
+    if (!labeller) {
       auto rows =
           cloud::learn_rows(1, [&](std::size_t) -> Expected<cloud::CloudView> { return view; });
       if (!rows) return tl::unexpected(rows.error());
@@ -144,10 +152,9 @@ struct Segmenter::Engine {
     if (const Status labelled = labeller->label(view); !labelled) {
       return tl::unexpected(labelled.error());
     }
-    if (is_first) {  // not before: the view may look into these
-      cloud.points.reserve(labeller->most_points);
-      cloud.laser.reserve(labeller->most_points);
-    }
+    // Once, and not before: the view may look into these.
+    cloud.points.reserve(labeller->most_points);
+    cloud.laser.reserve(labeller->most_points);
     return std::span<const Label>(labeller->labels);
   }
 
@@ -160,7 +167,8 @@ struct Segmenter::Engine {
       cloud::SensorRows rows = labeller->finder.rows();
       labeller.emplace(config, mount, std::move(rows), first_points);
     }
-    return {};
+    if (first_clouds->found() || config.guess_mount) return {};
+    return tl::unexpected(mount_not_found(first_clouds->fault()));
   }
 
   Config config;

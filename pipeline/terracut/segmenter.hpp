@@ -80,11 +80,14 @@ class Segmenter {
   struct Config {
     Mount mount{};
     Profile profile = Profile::kTerracut;
-    /// The near ground of the first clouds says how the sensor stands, x ahead, instead of `mount`,
-    /// which is taken until one shows it: the first cloud's, and from the tenth on that of all ten,
-    /// which allocates, too. A vehicle that stands where no ground is seen 3 to 15 m before or
-    /// behind it shows nothing: found_mount() says.
+    /// The near ground of the first clouds says how the sensor stands, x ahead, instead of `mount`:
+    /// the first that shows it, and from the tenth on that of all ten, which allocates, too. Until
+    /// then label() fails with kMountNotFound: a vehicle that stands where no ground is seen 3 to
+    /// 15 m before or behind it shows nothing.
     bool find_mount = false;
+    /// With find_mount: labels by `mount` as long as no cloud shows it, instead of failing;
+    /// meanwhile found_mount() is empty.
+    bool guess_mount = false;
     /// Parameters of the method that differ from the profile's, "KEY=VALUE";
     /// docs/reference/parameters.md lists them.
     std::vector<std::string> parameters = {};
@@ -98,7 +101,8 @@ class Segmenter {
 
   /// One label a point, in the cloud's order, valid until the next call; kNone for points that are
   /// no return (not finite, null, beyond 10 km); kObstacle, the safe side, for those of a laser
-  /// that the first cloud had nothing of. Errors leave the segmenter as it was: kUnsupported or
+  /// that the first cloud had nothing of. Errors leave the segmenter as it was: kMountNotFound with
+  /// Config::find_mount, where the next cloud may show it; kUnsupported or
   /// kMalformed where nothing tells the lasers apart, or not what told them in the first cloud;
   /// kCapacityExceeded for a cloud of more than twice the first one's points and of more than two
   /// for each direction of each laser.

@@ -20,7 +20,8 @@ enum class ErrorCode {
   kCapacityExceeded,  ///< It needs more than the memory planned at start, or than the system has.
   kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.
   kNoCalibration,     ///< Neither a calibration file nor a calibration in the packets was found.
-  kNothingCameOut,    ///< The input was read to its end, but none of it passed the checks.
+  kMountNotFound,   ///< How the sensor stands was neither stated nor seen well enough to label by.
+  kNothingCameOut,  ///< The input was read to its end, but none of it passed the checks.
 };
 
 [[nodiscard]] std::string_view to_string(ErrorCode code) noexcept;

@@ -287,14 +287,35 @@ TEST(CloudsLabelled, ByAFoundMountGetTheLabelsOfThatMountStated) {
   expect_as_stated(first, 1.14, 10);
 }
 
-TEST(CloudsLabelled, WithoutGroundBeforeTheSensorAreLabelledByTheGivenMount) {
-  // Walls all around, 2.5 m away: nothing of the ground is seen from 3 m on.
-  OrderedCloud cloud = synthetic_cloud(32);
+/// Walls all around, 2.5 m away: nothing of the ground is seen from 3 m on.
+OrderedCloud without_ground(OrderedCloud cloud) {
   for (CloudPoint& point : cloud.points) {
     const float shrink = 2.5F / std::max(2.5F, std::hypot(point.x_m, point.y_m));
     point = {point.x_m * shrink, point.y_m * shrink, point.z_m * shrink, 0};
   }
+  return cloud;
+}
+
+TEST(CloudsLabelled, WithoutGroundBeforeTheSensorAreRefusedUntilItIsSeen) {
+  const OrderedCloud ground = synthetic_cloud(32), none = without_ground(ground);
   Segmenter finds = Segmenter::make({.mount = {.height_m = 1.9}, .find_mount = true}).value();
+  for (int cloud = 0; cloud < 25; ++cloud) {
+    const auto labels = finds.label(Cloud{none.points, none.ring});
+    ASSERT_FALSE(labels);
+    EXPECT_EQ(labels.error().code, ErrorCode::kMountNotFound);
+    EXPECT_THAT(labels.error().message, HasSubstr("guess_mount"));
+    EXPECT_FALSE(finds.found_mount());
+  }
+  for (int cloud = 0; cloud < 20; ++cloud) (void)finds.label(Cloud{ground.points, ground.ring});
+  ASSERT_TRUE(finds.found_mount());
+  EXPECT_NEAR(finds.found_mount()->mount.height_m, 1.73, 0.02);
+}
+
+TEST(CloudsLabelled, WithoutGroundBeforeTheSensorAreLabelledByTheGivenMountWhereThatMayBeGuessed) {
+  const OrderedCloud cloud = without_ground(synthetic_cloud(32));
+  Segmenter finds =
+      Segmenter::make({.mount = {.height_m = 1.9}, .find_mount = true, .guess_mount = true})
+          .value();
   Segmenter stated = Segmenter::make({.mount = {.height_m = 1.9}}).value();
   const Cloud view{cloud.points, cloud.ring};
   EXPECT_EQ(labels_of(finds, view), labels_of(stated, view));

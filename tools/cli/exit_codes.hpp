@@ -17,7 +17,8 @@ enum ExitCode : int {
   kDeadlinesMissed = 6,  ///< A live run was all right but for deadlines it missed.
   kNotReady = 7,         ///< `terracut doctor` found a problem of the machine.
   // 8 is that of ./tools/compare: a measure got worse.
-  kInterrupted = 9,  ///< Ctrl-C or SIGTERM came before the work was done; reports say so.
+  kInterrupted = 9,     ///< Ctrl-C or SIGTERM came before the work was done; reports say so.
+  kMountNotFound = 10,  ///< The ground did not show the mount, which was not stated: no labels.
 };
 
 /// The exit code that an error of a library leads to.
@@ -29,6 +30,8 @@ enum ExitCode : int {
     case ErrorCode::kUnsupported:
     case ErrorCode::kNoCalibration:
       return kInputRefused;
+    case ErrorCode::kMountNotFound:
+      return kMountNotFound;
     case ErrorCode::kNothingCameOut:
       return kNothingCameOut;
     case ErrorCode::kInvalidArgument:

@@ -48,6 +48,7 @@ struct CaptureOptions {
 struct MountOptions {
   std::filesystem::path setup;
   std::optional<double> height_m, roll_deg, pitch_deg;  ///< They win over the setup.
+  bool may_guess = false;  ///< Level at 1.73 m where the ground shows nothing better.
 };
 
 enum class Profile : std::uint8_t { kPaper, kTerracut };

@@ -104,7 +104,7 @@ TEST(MountFinder, StandsByItsUncertaintyOnUnevenGround) {
     ASSERT_TRUE(found) << found.error().message;
     EXPECT_LT(found->uncertainty.height_m, 0.04);
     EXPECT_LT(found->uncertainty.pitch_rad, beams::deg_to_rad(0.5));
-    const auto holds = [&](double Mount::*figure) {
+    const auto holds = [&](double Mount::* figure) {
       return std::abs(found->mount.*figure - truth.*figure) <= found->uncertainty.*figure ? 1 : 0;
     };
     height_held += holds(&Mount::height_m);
@@ -129,6 +129,10 @@ TEST(MountFinder, IsLessCertainTheLessGroundItSees) {
   EXPECT_TRUE(wide.is_certain());
   EXPECT_FALSE(one_ring.is_certain()) << "the road between may be a hollow";
   EXPECT_NEAR(one_ring.mount.height_m, 3, 0.01);
+  MountFinder finder;
+  finder.add_frame(lane(truth, 13.8, level).points());
+  EXPECT_THAT(finder.certain(), calib::IsRefusedWith(ErrorCode::kMountNotFound,
+                                                     HasSubstr("it is uncertain: height 3.0")));
 }
 
 TEST(MountFinder, IsLessCertainTheMoreFramesDiffer) {
@@ -156,13 +160,14 @@ TEST(MountFinder, AnswersAMountThatCanBeStatedAsItIsPrinted) {
 
 TEST(MountFinder, SaysWhyThereIsNoMount) {
   MountFinder finder;
-  EXPECT_THAT(finder.found(), calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr("no frame")));
+  EXPECT_THAT(finder.found(),
+              calib::IsRefusedWith(ErrorCode::kMountNotFound, HasSubstr("no frame")));
   const auto seen = lane(mount(1.73, 0, 0), 3, level);
   finder.add_frame(seen.points());
   finder.add_frame({});
   EXPECT_TRUE(finder.found()) << "half of the frames are enough";
   finder.add_frame({});
-  EXPECT_THAT(finder.found(), calib::IsRefusedWith(ErrorCode::kMalformed,
+  EXPECT_THAT(finder.found(), calib::IsRefusedWith(ErrorCode::kMountNotFound,
                                                    HasSubstr("of 3 frames 1 show a ground; of the "
                                                              "ground 3 to 15 m")));
 }

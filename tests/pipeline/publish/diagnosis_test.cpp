@@ -45,7 +45,7 @@ TEST(Diagnoses, NameWhatIsWrongNow) {
   figures->consecutive_misses = 1;
   figures->link = status::LinkState::kSilent;
   figures->threads[0].scheduling = {"SCHED_OTHER, core 1"};
-  figures->mount.contradicted = 1;
+  figures->mount.guessed = 1;
   auto all = diagnoses.of(*figures);
   EXPECT_EQ(severity_of(all, "deadline"), Severity::kWarn);
   EXPECT_EQ(severity_of(all, "input"), Severity::kError);

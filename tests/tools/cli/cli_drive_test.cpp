@@ -2,8 +2,10 @@
 // Copyright 2026 The terracut authors
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstdio>
 
+#include "calib/beams/angle.hpp"
 #include "cli_fixture.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
@@ -268,13 +270,57 @@ TEST_F(Cli, ReplayFindsTheMountThatIsNotStated) {
   EXPECT_THAT(in_part.err, AllOf(HasSubstr("height 2.500 m (stated)"), HasSubstr("pitch 4.0")));
 }
 
-TEST_F(Cli, AMountThatIsNotFoundIsSaidAndTheRunGoesOn) {
+TEST_F(Cli, AMountThatIsNotFoundGivesNoLabelsUnlessItIsStatedOrMayBeGuessed) {
   // A fifth of a revolution, and so no ground behind the vehicle nor straight ahead.
-  const Outcome outcome = run("replay " + quoted(kDrive) + " --start 0.02 --duration 0.02 " +
-                              "--calibration " + quoted(kDriveCalibration));
-  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.err, AllOf(HasSubstr("the mount is not found: of "),
-                                 HasSubstr("1.73 m and level are taken")));
+  const std::string replay = "replay " + quoted(kDrive) +
+                             " --start 0.02 --duration 0.02 --json report.json --calibration " +
+                             quoted(kDriveCalibration);
+  const Outcome refused = run(replay + " --labels labels");
+  EXPECT_EQ(refused.exit_code, kMountNotFound) << refused.err;
+  EXPECT_THAT(refused.err, AllOf(HasSubstr("error: the mount is not found: of "),
+                                 HasSubstr("--mount-height"), HasSubstr("--mount-guess")));
+  EXPECT_FALSE(fs::exists(folder_ / "labels"));
+  EXPECT_FALSE(fs::exists(folder_ / "report.json"));
+
+  const Outcome guessed = run(replay + " --labels labels --mount-guess");
+  EXPECT_EQ(guessed.exit_code, 0) << guessed.err;
+  EXPECT_THAT(guessed.err, HasSubstr("warning: the mount is not found: of "));
+  EXPECT_THAT(guessed.err, HasSubstr("a guess, and labels suffer where it is wrong: height 1.730"));
+  EXPECT_THAT(guessed.out, HasSubstr("mount     not found and not stated: a guess"));
+  EXPECT_EQ(json("report.json")["summary"]["mount"]["guessed"], true);
+  EXPECT_GT(files_in(folder_ / "labels", ".label"), 0U);
+
+  const Outcome stated = run(replay + " --mount-height 1.73 --mount-roll 0 --mount-pitch 0");
+  EXPECT_EQ(stated.exit_code, 0) << stated.err;
+  EXPECT_EQ(json("report.json")["summary"]["mount"]["guessed"], false);
+}
+
+TEST_F(Cli, AMountThatIsTooUncertainIsNotFoundEither) {
+  // The street ahead, and nothing behind the sensor nor nearer than 11 m.
+  std::string cloud;
+  for (int ring = 0; ring < 16; ++ring) {
+    const double elevation_rad = beams::deg_to_rad(-9 + 0.6 * ring);
+    for (int step = -300; step <= 300; ++step) {
+      const double azimuth_rad = beams::deg_to_rad(0.1 * step);
+      const double range_m = elevation_rad < -0.02 ? 1.73 / std::tan(-elevation_rad) : 60;
+      cloud +=
+          fmt::format("{:.3f} {:.3f} {:.3f} {}\n", range_m * std::cos(azimuth_rad),
+                      range_m * std::sin(azimuth_rad), range_m * std::tan(elevation_rad), ring);
+    }
+  }
+  const int points = 16 * 601;
+  write("ahead.pcd", fmt::format("VERSION 0.7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\n"
+                                 "COUNT 1 1 1 1\nWIDTH {}\nHEIGHT 1\nPOINTS {}\nDATA ascii\n{}",
+                                 points, points, cloud));
+  const Outcome refused = run("segment ahead.pcd --labels labels");
+  EXPECT_EQ(refused.exit_code, kMountNotFound) << refused.err;
+  EXPECT_THAT(refused.err, HasSubstr("so little of the ground is seen that it is uncertain: "));
+  EXPECT_FALSE(fs::exists(folder_ / "labels"));
+  const Outcome measured = run("calibrate ahead.pcd -o setup.yaml");
+  EXPECT_EQ(measured.exit_code, kMountNotFound) << measured.err;
+  EXPECT_FALSE(fs::exists(folder_ / "setup.yaml"));
+  EXPECT_EQ(run("segment ahead.pcd --labels labels --mount-guess").exit_code, 0);
+  EXPECT_EQ(files_in(folder_ / "labels", ".label"), 1U);
 }
 
 TEST_F(Cli, CalibrateWritesASetupThatReplayReads) {

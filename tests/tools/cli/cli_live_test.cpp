@@ -76,6 +76,29 @@ TEST_F(CliLive, CountsWhatCameBeforeLabellingBegan) {
   EXPECT_GT(json("live.json")["datagrams"]["before_labelling"], 1000) << "a second of packets";
 }
 
+TEST_F(CliLive, GoesOnWithAGuessThatItShowsWhereNoGroundIsSeen) {
+  // Of every revolution a fifth, and so no ground behind the vehicle nor straight ahead.
+  auto capture = capture::PcapSource::open(kDrive);
+  auto part = capture::PcapWriter::create(folder_ / "aside.pcap");
+  ASSERT_TRUE(capture && part);
+  std::int64_t begin_ns = 0;
+  for (auto next = capture->next(); next && *next; next = capture->next()) {
+    if (begin_ns == 0) begin_ns = (*next)->stamp_ns;
+    const std::int64_t into_ns = ((*next)->stamp_ns - begin_ns) % 100'000'000;
+    if (into_ns < 20'000'000 || into_ns > 40'000'000) continue;
+    ASSERT_TRUE(part->write(**next));
+  }
+  ASSERT_TRUE(part->finish());
+  LiveRun run = live_with_table("--mount-guess --json live.json");
+  const Sensors sender({Sensors::kLocalhost}, {{Sensors::kAnyPort, run.port()}},
+                       folder_ / "aside.pcap");
+  EXPECT_TRUE(run.shows([](const auto& figures) { return figures.mount.guessed != 0; }));
+  const Outcome outcome = run.interrupted();
+  EXPECT_THAT(outcome.err, HasSubstr("warning: the mount is not found: of "));
+  EXPECT_THAT(outcome.out, HasSubstr("not found and not stated: a guess, height 1.73 m"));
+  EXPECT_EQ(json("live.json")["mount"]["guessed"], true);
+}
+
 TEST_F(CliLive, LabelsWhatIsSentToIt) {
   LiveRun run = live_with_table("--labels labels --json live.json --trace trace.json");
   const Sensors sender = sensor(run);

@@ -27,7 +27,8 @@ constexpr const char* kExitCodes =
     "Exit codes: 0 done; 1 internal error; 2 wrong command line; 3 an input was refused;\n"
     "4 an output could not be written; 5 packets were read but no frame came out;\n"
     "6 deadlines were missed; 7 doctor found a problem;\n"
-    "9 interrupted (Ctrl-C, SIGTERM) before the work was done.\n"
+    "9 interrupted (Ctrl-C, SIGTERM) before the work was done;\n"
+    "10 the ground does not show how the sensor stands: state it, or --mount-guess.\n"
     "`--config FILE` goes with every command (`terracut config --print-default` prints one).\n"
     "`terracut COMMAND --help` lists a command's options.";
 

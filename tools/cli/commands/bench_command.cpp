@@ -181,7 +181,7 @@ ExitCode run_bench(const Options& options) {
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
   CaptureFrames frames(*capture, options);
-  const auto mount = choose_mount(options.mount, frames);
+  const auto mount = choose_mount(guessing(options.mount), frames);
   if (!mount) return refuse_work(mount.error());
   const auto profile = ring_profile_of(capture->calibration, mount->options);
   if (!profile) return refuse(profile.error());

@@ -64,15 +64,19 @@ Expected<mount::Mount> measured_mount(RecordedFrames& frames, const Options& opt
       return tl::unexpected(shown.error());
     }
     const auto found = finder.found();
-    if (!found) {
-      return fail(found.error().code, found.error().message +
-                                          "; record on level, open ground, or give the mount and "
-                                          "--keep-mount");
+    const auto choice = found.and_then([&](const mount::FoundMount& seen) -> Expected<MountChoice> {
+      MountChoice filled = filled_in(stated, seen);
+      if (!filled.found->is_certain()) return tl::unexpected(mount::uncertain(*filled.found));
+      return filled;
+    });
+    if (!choice) {
+      return fail(choice.error().code,
+                  fmt::format("the mount is not found: {}; record on level, open ground, or give "
+                              "the mount and --keep-mount",
+                              choice.error().message));
     }
-    const MountChoice choice = filled_in(stated, *found);
-    print_out("mount     {}\n", text_of(choice));
-    warn_if_uncertain(*choice.found);
-    stated = choice.options;
+    print_out("mount     {}\n", to_string(*choice->found));
+    stated = choice->options;
   }
   const auto mount = mount_of(stated);
   if (mount && options.keep_mount) {

@@ -10,6 +10,7 @@
 #include "tools/cli/export/output_sinks.hpp"
 #include "tools/cli/input/cloud_input.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
+#include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/cli/view/capture_player.hpp"
 #include "tools/cli/view/played_capture.hpp"
@@ -39,7 +40,9 @@ ExitCode show(PlayedRecording& recording, const publish::Stream& stream, const O
 
 }  // namespace
 
-ExitCode run_view(const Options& options) {
+ExitCode run_view(const Options& as_said) {
+  Options options = as_said;
+  options.mount = guessing(options.mount);
   catch_stop_signals();
   if (holds_clouds(options.capture.file)) {
     if (options.capture.start_s > 0 || options.capture.duration_s) {

@@ -12,6 +12,7 @@ MountWatch::MountWatch(const mount::Mount& mount, const MountChoice& choice) : c
   figures_.height_m = mount.height_m;
   figures_.roll_deg = beams::rad_to_deg(mount.roll_rad);
   figures_.pitch_deg = beams::rad_to_deg(mount.pitch_rad);
+  figures_.guessed = choice.is_guess ? 1 : 0;
   if (!choice.found) return;
   figures_.found_in_frames = choice.found->frames;
   figures_.uncertain_height_m = choice.found->uncertainty.height_m;

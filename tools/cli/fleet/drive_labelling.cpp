@@ -38,6 +38,8 @@ std::string cause_of(ExitCode code) {
       return "an input was refused";
     case kOutputFailed:
       return "the output could not be written";
+    case kMountNotFound:
+      return "the mount is not found";
     case kNothingCameOut:
       return "no frame came out";
     default:

@@ -44,9 +44,8 @@ std::string host_name() {
 std::vector<std::string> mount_words_of(const Options& options) {
   std::vector<std::string> words;
   for (const Setting& setting : settings()) {
-    if (!setting.commands.contains(Command::kRelabel) || !setting.key.starts_with("mount.")) {
-      continue;
-    }
+    const bool is_figure = setting.key.starts_with("mount.") && setting.bare.empty();
+    if (!is_figure || !setting.commands.contains(Command::kRelabel)) continue;
     const std::string value = value_text(setting, options);
     if (!value.empty()) words.insert(words.end(), {std::string(setting.name()), value});
   }

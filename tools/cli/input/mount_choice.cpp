@@ -4,8 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
-#include <string>
+#include <optional>
 
 #include "calib/beams/angle.hpp"
 #include "tools/cli/console.hpp"
@@ -13,9 +14,65 @@
 namespace terracut::cli {
 namespace {
 
-/// The hundredths of a degree that a found angle is, as the command line would read them.
-double stated_deg(double angle_rad) {
-  return std::round(100 * beams::rad_to_deg(angle_rad)) / 100;
+using mount::FoundMount;
+using mount::Mount;
+
+constexpr const char* kHowToState =
+    "state how the sensor stands (--mount-height, --mount-roll, --mount-pitch; --setup with what "
+    "`terracut calibrate` measured where more of the ground is seen)";
+
+/// A figure of the mount as it is stated, metres or degrees, and as it is found.
+struct MountFigure {
+  std::optional<double> MountOptions::* stated;
+  double Mount::* found;
+  bool is_angle;
+
+  /// The hundredths of a degree that a found angle is, as the command line would read them.
+  [[nodiscard]] double as_stated(const Mount& mount) const {
+    const double value = mount.*found;
+    return is_angle ? std::round(100 * beams::rad_to_deg(value)) / 100 : value;
+  }
+  [[nodiscard]] double as_found(double value) const {
+    return is_angle ? beams::deg_to_rad(value) : value;
+  }
+};
+constexpr std::array kMountFigures{MountFigure{&MountOptions::height_m, &Mount::height_m, false},
+                                   MountFigure{&MountOptions::roll_deg, &Mount::roll_rad, true},
+                                   MountFigure{&MountOptions::pitch_deg, &Mount::pitch_rad, true}};
+
+bool is_certain(const FoundMount& found, const MountFigure& figure) {
+  FoundMount alone{.mount = found.mount, .uncertainty = mount::kAtTheSensor};
+  alone.uncertainty.*figure.found = found.uncertainty.*figure.found;
+  return alone.is_certain();
+}
+
+/// As usual, but for what is stated and for what of `found` is certain by itself.
+MountChoice guessed(const MountOptions& stated, const std::optional<FoundMount>& found) {
+  MountChoice choice{.options = stated, .is_guess = true};
+  for (const MountFigure& figure : kMountFigures) {
+    std::optional<double>& value = choice.options.*figure.stated;
+    if (value) continue;
+    value = figure.as_stated(found && is_certain(*found, figure) ? found->mount : Mount{});
+  }
+  return choice;
+}
+
+Expected<MountChoice> guessed_if_allowed(const MountOptions& stated,
+                                         const std::optional<FoundMount>& found,
+                                         const Error& fault) {
+  if (!stated.may_guess) {
+    return fail(fault.code,
+                fmt::format("the mount is not found: {}; {}, or go on by --mount-guess as if it "
+                            "stood level at {:.2f} m",
+                            fault.message, kHowToState, Mount{}.height_m));
+  }
+  const MountChoice guess = guessed(stated, found);
+  warn(
+      fmt::format("the mount is not found: {}. It is a guess, and labels suffer where it is wrong: "
+                  "height {:.3f} m, roll {:.2f} deg, pitch {:.2f} deg; {}",
+                  fault.message, *guess.options.height_m, *guess.options.roll_deg,
+                  *guess.options.pitch_deg, kHowToState));
+  return guess;
 }
 
 }  // namespace
@@ -24,69 +81,43 @@ bool is_mount_open(const MountOptions& stated) noexcept {
   return stated.setup.empty() && !(stated.height_m && stated.roll_deg && stated.pitch_deg);
 }
 
-MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found) {
-  MountChoice choice{stated, found};
-  const auto fill = [](std::optional<double>& figure, double as_found, double& uncertainty) {
-    if (figure) uncertainty = 0;
-    figure = figure.value_or(as_found);
-  };
-  mount::Mount& uncertainty = choice.found->uncertainty;
-  fill(choice.options.height_m, found.mount.height_m, uncertainty.height_m);
-  fill(choice.options.roll_deg, stated_deg(found.mount.roll_rad), uncertainty.roll_rad);
-  fill(choice.options.pitch_deg, stated_deg(found.mount.pitch_rad), uncertainty.pitch_rad);
+MountChoice filled_in(const MountOptions& stated, const FoundMount& found) {
+  MountChoice choice{.options = stated, .found = found};
+  for (const MountFigure& figure : kMountFigures) {
+    std::optional<double>& value = choice.options.*figure.stated;
+    if (value) {
+      choice.found->mount.*figure.found = figure.as_found(*value);
+      choice.found->uncertainty.*figure.found = 0;
+    } else {
+      value = figure.as_stated(found.mount);
+    }
+  }
   return choice;
 }
 
-std::string text_of(const MountChoice& choice) {
-  if (!choice.found) return {};
-  const auto figure = [](const std::string& value, double uncertainty, int decimals) {
-    return uncertainty > 0 ? fmt::format("{} (+-{:.{}f})", value, uncertainty, decimals)
-                           : value + " (stated)";
-  };
-  const auto angle = [&](const char* name, double angle_deg, double uncertainty_rad) {
-    return figure(fmt::format("{} {:.2f} deg", name, angle_deg), beams::rad_to_deg(uncertainty_rad),
-                  1);
-  };
-  const MountOptions& options = choice.options;
-  const mount::Mount& uncertainty = choice.found->uncertainty;
-  const std::size_t frames = choice.found->frames;
-  return fmt::format(
-      "{}, {}, {}, found in {} {}",
-      figure(fmt::format("height {:.3f} m", *options.height_m), uncertainty.height_m, 3),
-      angle("roll", *options.roll_deg, uncertainty.roll_rad),
-      angle("pitch", *options.pitch_deg, uncertainty.pitch_rad), frames,
-      frames == 1 ? "frame" : "frames");
-}
-
-void warn_if_uncertain(const mount::FoundMount& found) {
-  if (found.is_certain()) return;
-  warn(
-      "so little of the ground is seen that the mount is uncertain; state what is known of it, or "
-      "measure it by `terracut calibrate` where more is seen");
-}
-
-MountChoice choose_mount(const MountOptions& stated, const mount::MountFinder& finder) {
+Expected<MountChoice> choose_mount(const MountOptions& stated, const mount::MountFinder& finder) {
   const auto found = finder.found();
-  if (!found) {
-    warn(
-        fmt::format("the mount is not found: {}; {:.2f} m and level are taken for what of it is "
-                    "not stated (--setup, --mount-height, --mount-roll, --mount-pitch)",
-                    found.error().message, mount::Mount{}.height_m));
-    return {stated, {}};
-  }
+  if (!found) return guessed_if_allowed(stated, {}, found.error());
   MountChoice choice = filled_in(stated, *found);
-  say("mount: " + text_of(choice));
-  warn_if_uncertain(*choice.found);
+  if (!choice.found->is_certain()) {
+    return guessed_if_allowed(stated, choice.found, mount::uncertain(*choice.found));
+  }
+  say("mount: " + to_string(*choice.found));
   return choice;
 }
 
 Expected<MountChoice> choose_mount(const MountOptions& stated, RecordedFrames& frames) {
-  if (!is_mount_open(stated)) return MountChoice{stated, {}};
+  if (!is_mount_open(stated)) return MountChoice{.options = stated};
   mount::MountFinder finder;
   if (const Status shown = frames.look_for_mount(mount::kFramesToFind, finder); !shown) {
     return tl::unexpected(shown.error());
   }
   return choose_mount(stated, finder);
+}
+
+MountOptions guessing(MountOptions stated) {
+  stated.may_guess = true;
+  return stated;
 }
 
 }  // namespace terracut::cli

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <string>
 
@@ -18,25 +17,27 @@ namespace terracut::cli {
 
 /// The mount of a run.
 struct MountChoice {
-  MountOptions options;  ///< As stated, and what was open as it was found.
-  /// What the ground showed of what was open; figures that were stated have no uncertainty.
-  std::optional<mount::FoundMount> found;
+  MountOptions options;  ///< As stated, and what was open as it was found or guessed.
+  /// What the ground showed of what was open; figures that were stated have no uncertainty. None
+  /// where all was stated, or where it is a guess.
+  std::optional<mount::FoundMount> found{};
+  bool is_guess = false;  ///< The ground does not show what was open.
 };
-/// "height 1.731 m (+-0.018), roll 0.00 deg (stated), pitch 0.31 deg (+-0.2), found in 10 frames";
-/// empty where nothing was found.
-[[nodiscard]] std::string text_of(const MountChoice& choice);
 
+/// What was found takes the place of what is open.
 [[nodiscard]] MountChoice filled_in(const MountOptions& stated, const mount::FoundMount& found);
 
-/// What `finder` found takes the place of what is open, or where it found nothing a level mount at
-/// 1.73 m; either is said, and where the mount is uncertain that is.
-[[nodiscard]] MountChoice choose_mount(const MountOptions& stated,
-                                       const mount::MountFinder& finder);
-/// The same by frames of the recording, where anything is open. The errors of each_frame().
+/// What `finder` found takes the place of what is open, and is said. Where it found nothing that
+/// labels can be made by: kMountNotFound, or, with MountOptions::may_guess, level at 1.73 m but for
+/// what was found well enough, with a warning.
+[[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
+                                                 const mount::MountFinder& finder);
+/// The same by frames of the recording, where anything is open. Also the errors of each_frame().
 [[nodiscard]] Expected<MountChoice> choose_mount(const MountOptions& stated,
                                                  RecordedFrames& frames);
 
-/// Says it where a found mount is no more than a guess.
-void warn_if_uncertain(const mount::FoundMount& found);
+/// Of a command whose work is not labels that others rely on, or that cannot wait for them: it goes
+/// on with a guess.
+[[nodiscard]] MountOptions guessing(MountOptions stated);
 
 }  // namespace terracut::cli

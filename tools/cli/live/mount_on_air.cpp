@@ -10,11 +10,12 @@ namespace terracut::cli {
 
 MountChoice mount_on_air(net::LiveSource& source, const sensor::SensorOnAir& sensor,
                          const Options& options, const OnWaiting& on_waiting) {
-  if (!is_mount_open(options.mount)) return {options.mount, {}};
+  if (!is_mount_open(options.mount)) return {.options = options.mount};
+  constexpr std::chrono::seconds kForAGuess{3};
   const mount::MountFinder finder = run::mount_on_air(
       source, sensor, decoder_config_of(options, sensor.columns, FramesAreFor::kPoints),
-      stop_wanted, [&] { on_waiting("finding the mount"); });
-  return choose_mount(options.mount, finder);
+      options.mount.may_guess ? kForAGuess : run::kGroundPatience, stop_wanted, on_waiting);
+  return choose_mount(guessing(options.mount), finder).value();
 }
 
 }  // namespace terracut::cli

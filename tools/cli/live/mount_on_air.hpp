@@ -11,8 +11,9 @@
 namespace terracut::cli {
 
 /// The mount of a sensor that is heard: what is not stated as the first frames show it. Listens
-/// for a second, for three where these do not show enough of the ground, and until stop_wanted().
-/// Says what it found, or that it did not.
+/// for a second, for ten where these do not show enough of the ground (three with --mount-guess),
+/// and until stop_wanted(). Says what it found, or that it goes on with a guess: a vehicle needs
+/// labels.
 [[nodiscard]] MountChoice mount_on_air(net::LiveSource& source, const sensor::SensorOnAir& sensor,
                                        const Options& options, const OnWaiting& on_waiting);
 

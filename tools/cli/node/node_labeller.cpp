@@ -43,9 +43,9 @@ Status NodeLabeller::set_up() {
   say(fmt::format("sensor: {}, from {:.1f} to {:.1f} degrees, {} columns", sensor_,
                   beams::rad_to_deg(table.back().elevation_rad),
                   beams::rad_to_deg(table.front().elevation_rad), rows->columns));
-  MountChoice choice{options_.mount, {}};
+  MountChoice choice{.options = options_.mount};
   if (is_mount_open(options_.mount)) {
-    choice = choose_mount(options_.mount, mount_search(clouds, *rows).finder());
+    choice = *choose_mount(guessing(options_.mount), mount_search(clouds, *rows).finder());
   }
   const auto profile = ring_profile_of(table, choice.options);
   if (!profile) return tl::unexpected(profile.error());

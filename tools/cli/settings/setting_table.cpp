@@ -27,6 +27,7 @@ constexpr CommandSet kCaptures = kPlayed | C::kCalibrate | C::kBench;
 constexpr CommandSet kWholeCaptures = C::kReplay | C::kBench | C::kInfo | C::kSend;
 constexpr CommandSet kPackets = kCaptures | C::kLive;
 constexpr CommandSet kMounted = kPackets | C::kSegment | C::kSimulate | C::kEval | C::kNode;
+constexpr CommandSet kGuessing = C::kReplay | C::kSegment | C::kRelabel | C::kLive;
 constexpr CommandSet kMethods = kPackets | C::kSegment | C::kRelabel | C::kPlan | C::kNode;
 constexpr CommandSet kDriven = kPlayed | C::kLive;
 constexpr CommandSet kMoved = kDriven | C::kRelabel;
@@ -145,6 +146,8 @@ constexpr std::array kSettings{
             .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.roll_deg; }},
     Setting{.key = "mount.pitch_deg", .option = "--mount-pitch", .commands = kMounted | C::kRelabel, .unit = "deg", .help = "Looking down in front (default: the setup's, else found; simulate, eval: 0)",
             .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.pitch_deg; }},
+    Setting{.key = "mount.guess", .option = "--mount-guess", .commands = kGuessing, .help = "Go on as if the sensor stood level at 1.73 m where the ground does not show its mount, instead of ending with exit code 10",
+            .bare = "yes", .field = [](O& o) -> F { return &o.mount.may_guess; }},
 
     Setting{.key = "method.profile", .option = "--profile", .commands = kMethods | C::kEval, .help = "paper: the method as printed; terracut: what measured better",
             .excludes = "--method", .field = [](O& o) -> F { return choice(o.method.profile, kProfileWords); }},

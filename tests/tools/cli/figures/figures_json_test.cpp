@@ -114,6 +114,7 @@ TEST(LiveSummary, TellsWhereTheGroundShowsTheSensorWhereThatIsElsewhere) {
   EXPECT_EQ(summary_of(run)["mount"]["contradicted"], false);
   EXPECT_FALSE(summary_of(run)["mount"].contains("seen"));
   run.figures().mount.contradicted = 1;
+  run.figures().mount.seen_height_m = 1.9;
   run.figures().mount.seen_pitch_deg = -2.5;
   EXPECT_EQ(summary_of(run)["mount"]["seen"]["pitch_deg"], -2.5);
 }

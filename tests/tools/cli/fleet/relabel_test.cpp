@@ -7,6 +7,8 @@
 #include <csignal>
 #include <thread>
 
+#include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/capture/pcap_writer.hpp"
 #include "relabel_fixture.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/tools/cli/background_program.hpp"
@@ -18,7 +20,27 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
-constexpr int kOutputFailedCode = 4, kRefusedCode = 3;
+constexpr int kOutputFailedCode = 4, kRefusedCode = 3, kMountNotFoundCode = 10;
+
+/// Of a drive's packets those after the first 0.02 s, for 0.02 s: no ground straight ahead nor
+/// behind.
+void cut_to_a_fifth_of_a_revolution(const fs::path& capture) {
+  const fs::path whole = fs::path(capture).replace_extension("whole");
+  fs::rename(capture, whole);
+  auto source = capture::PcapSource::open(whole);
+  ASSERT_TRUE(source);
+  auto part = capture::PcapWriter::create(capture);
+  ASSERT_TRUE(part);
+  std::int64_t begin_ns = 0;
+  for (auto next = source->next(); next && *next; next = source->next()) {
+    if (begin_ns == 0) begin_ns = (*next)->stamp_ns;
+    const std::int64_t at_ns = (*next)->stamp_ns - begin_ns;
+    if (at_ns < 20'000'000 || at_ns > 40'000'000) continue;
+    ASSERT_TRUE(part->write(**next));
+  }
+  ASSERT_TRUE(part->finish());
+  fs::remove(whole);
+}
 
 TEST_F(Relabel, WritesTheLabelsOfReplay) {
   add_drive("day1/a");
@@ -32,6 +54,24 @@ TEST_F(Relabel, WritesTheLabelsOfReplay) {
   for (const std::string& output : found) expect_labels_of_replay(output);
   expect_outputs_whole();
   EXPECT_TRUE(parts_are_gone());
+}
+
+TEST_F(Relabel, ADriveWhoseMountIsNotFoundFailsForThatAndTheOthersGoOn) {
+  add_drive("a");
+  add_drive("c");
+  fs::create_directories(folder_ / "fleet/b");
+  expect_done("simulate --scene flat --duration 0.2 --mount-height 2 -o fleet/b/b.pcap");
+  cut_to_a_fifth_of_a_revolution(folder_ / "fleet/b/b.pcap");
+  make_manifest();
+  const Outcome outcome = run("relabel m.json -o out");
+  EXPECT_EQ(outcome.exit_code, kMountNotFoundCode) << outcome.out << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("labelled  2 drives"));
+  EXPECT_THAT(outcome.out, HasSubstr("failed    1 drives: the mount is not found: b/b"));
+  EXPECT_THAT(outcome.err, HasSubstr("--mount-guess"));
+  EXPECT_EQ(outputs().size(), 2U);
+  const Outcome guessed = run("relabel m.json -o out --mount-guess");
+  EXPECT_EQ(guessed.exit_code, 0) << guessed.out << guessed.err;
+  EXPECT_THAT(guessed.out, HasSubstr("labelled  3 drives"));
 }
 
 TEST_F(Relabel, DoesNothingTwice) {

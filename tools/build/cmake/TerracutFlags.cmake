@@ -40,14 +40,10 @@ if(TERRACUT_LIBFUZZER)
 endif()
 
 # terracut_test_flags: for tests, after terracut_flags. Compiling a test takes longer than running it,
-# so what is tested is optimised, and the tests themselves hardly.
+# so what is tested is optimised, and the tests themselves are not.
 add_library(terracut_test_flags INTERFACE)
-if(TERRACUT_SANITIZE)
-  target_compile_options(terracut_test_flags INTERFACE -O0)
-  if(TERRACUT_LIBFUZZER)
-    # Coverage guides the fuzzers, which are no tests; in a test it costs an eighth of the compiler's time.
-    target_compile_options(terracut_test_flags INTERFACE -fno-sanitize=fuzzer-no-link)
-  endif()
-else()
-  target_compile_options(terracut_test_flags INTERFACE -O1)
+target_compile_options(terracut_test_flags INTERFACE -O0)
+if(TERRACUT_LIBFUZZER)
+  # Coverage guides the fuzzers, which are no tests; in a test it costs an eighth of the compiler's time.
+  target_compile_options(terracut_test_flags INTERFACE -fno-sanitize=fuzzer-no-link)
 endif()

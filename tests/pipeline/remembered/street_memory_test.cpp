@@ -24,6 +24,7 @@ constexpr Place kHere{.journey = 1};
 const Box kHouse{15, 16, -30, -8, 0, 4};
 const Box kCar{9, 13, -1, 1, 0.15, 1.5};
 const Box kPedestrian{7, 7.4, 1, 1.5, 0, 1.8};
+const Box kKerb{7, 9, -2, 2, 0, 0.25};
 
 struct StreetMemoryTest : testing::Test, test::BaselineScene {
   Segmenter remembering{SegmenterConfig{}, profile, kShape, image.return_capacity(), memory};
@@ -69,6 +70,18 @@ TEST_F(StreetMemoryTest, WhatAppearsIsAnObstacleInTheFirstFrameThatShowsIt) {
   const auto labels = remembered_labels(), own = own_labels();
   for (std::size_t i = 0; i < own.size(); ++i) {
     ASSERT_TRUE(own[i] != Label::kObstacle || labels[i] == Label::kObstacle) << i;
+  }
+}
+
+TEST_F(StreetMemoryTest, ALowThingOnRememberedGroundIsAnObstacleWithinFourFramesAndStaysOne) {
+  for (int frame = 0; frame < 5; ++frame) (void)see({kHouse}, kHere);
+  for (int frame = 0; frame < 20; ++frame) {
+    EXPECT_TRUE(see({kHouse, kKerb}, kHere).used);
+    if (frame < 4) continue;
+    const auto labels = remembered_labels(), own = own_labels();
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      ASSERT_TRUE(own[i] != Label::kObstacle || labels[i] == Label::kObstacle) << frame << ' ' << i;
+    }
   }
 }
 

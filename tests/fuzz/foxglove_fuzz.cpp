@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   }
   const std::string_view protocol = terracut::cli::foxglove_sub_protocol(text);
   if (!protocol.empty() && text.find(protocol) == std::string_view::npos) std::abort();
-  (void)terracut::cli::is_allowed_origin(text, "vehicle", {"https://app.foxglove.dev"});
+  (void)terracut::cli::is_allowed_origin(text, text, "vehicle", {"https://app.foxglove.dev"});
   (void)terracut::cli::warning_text(text);
   return 0;
 }

@@ -21,6 +21,9 @@ struct KnownStart {
   Holds holds = Holds::kNothing;
 };
 
+constexpr auto kPcd = "a PCD point cloud, not packets; `terracut segment` labels clouds"sv,
+               kPly = "a PLY point cloud, not packets; `terracut segment` labels clouds"sv;
+
 constexpr std::array kKnownStarts{
     KnownStart{"\x1f\x8b"sv, "gzip; unpack it first (gunzip)", Holds::kPacked},
     KnownStart{"\x28\xb5\x2f\xfd"sv, "zstd; unpack it first (unzstd)", Holds::kPacked},
@@ -33,8 +36,10 @@ constexpr std::array kKnownStarts{
                "an SQLite file (a ROS 2 bag?); write its packets to a pcap first",
                Holds::kRecording},
     KnownStart{"snoop\0"sv, "a snoop capture; convert it (editcap -F pcap)", Holds::kRecording},
-    KnownStart{"# .PCD"sv, "a PCD point cloud, not packets"},
-    KnownStart{"ply\n"sv, "a PLY point cloud, not packets"},
+    KnownStart{"# .PCD"sv, kPcd},
+    KnownStart{"VERSION "sv, kPcd},
+    KnownStart{"ply\n"sv, kPly},
+    KnownStart{"ply\r"sv, kPly},
     KnownStart{"LASF"sv, "a LAS point cloud, not packets", Holds::kRecording},
     KnownStart{"<?xml"sv, "XML (a calibration?), not packets"},
     KnownStart{"\x89PNG"sv, "a PNG picture"},

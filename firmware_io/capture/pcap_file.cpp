@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "firmware_io/capture/file_kind.hpp"
+#include "rt/files/ending.hpp"
 
 namespace terracut::capture {
 namespace {
@@ -35,7 +36,9 @@ Expected<File> open_file(const std::filesystem::path& path) {
   }
   if (kind == std::filesystem::file_type::directory) {
     return fail(ErrorCode::kUnreadable,
-                fmt::format("{}: is a folder; name the capture file inside it", path.string()));
+                fmt::format("{}: is a folder; name the capture file inside it (`terracut segment` "
+                            "labels folders of clouds)",
+                            path.string()));
   }
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) {
@@ -59,8 +62,11 @@ Error no_capture(const std::string& name, std::FILE* file, std::string_view libp
   return {ErrorCode::kMalformed,
           fmt::format(
               "{}: is not a capture libpcap can read ({}); expected pcap or pcapng, found first "
-              "bytes {}",
-              name, libpcap_says, describe_first_bytes(std::span(first).first(count)))};
+              "bytes {}{}",
+              name, libpcap_says, describe_first_bytes(std::span(first).first(count)),
+              files::ending_of(name) == ".bin" ? ". A cloud by its name? `terracut segment` labels "
+                                                 "clouds"
+                                               : "")};
 }
 
 /// With nanosecond precision asked for, tv_usec holds nanoseconds. libpcap takes the unsigned

@@ -195,6 +195,13 @@ TEST(PcapSource, SaysWhatAFileIsThatIsNoCapture) {
   EXPECT_THAT(message_for("just a few words of text, with no packet in them"), HasSubstr(": text"));
   EXPECT_THAT(message_for("\x01\x02\x03\x04\x05 bytes of no known kind at all, none"),
               HasSubstr("01 02 03 04"));
+  for (const char* cloud : {"# .PCD v0.7 - Point Cloud Data file format", "VERSION .7 and a header",
+                            "ply\nformat ascii 1.0 and a header", "ply\r\nformat ascii 1.0"}) {
+    EXPECT_THAT(message_for(cloud), HasSubstr("`terracut segment` labels clouds"));
+  }
+  test::write_file(folder / "000000.bin", Bytes(64, 1));
+  EXPECT_THAT(PcapSource::open(folder / "000000.bin").error().message,
+              HasSubstr("A cloud by its name? `terracut segment`"));
 }
 
 TEST(PcapSource, SaysWhyAFileCannotBeOpened) {

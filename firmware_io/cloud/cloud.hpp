@@ -19,10 +19,12 @@ inline constexpr int kFewestLasers = 8;
 inline constexpr int kMostLasers = 256;
 
 /// The names of the field that has the laser's number, the usual ones first, and of the
-/// intensity's.
-inline constexpr std::string_view kLaserFields[] = {"ring",     "channel",      "laser",   "row",
-                                                    "laser_id", "laser_number", "ring_id", "line",
-                                                    "beam",     "beam_id"};
+/// intensity's, as FieldTable::field_like() has them.
+inline constexpr std::string_view kLaserFields[] = {
+    "ring",        "channel",      "laser",         "row",          "laserid",
+    "lasernumber", "ringid",       "line",          "beam",         "beamid",
+    "channelid",   "channelindex", "channelnumber", "laserchannel", "laserindex",
+    "ringindex",   "ringnumber",   "beamindex",     "beamnumber"};
 inline constexpr std::string_view kIntensityFields[] = {"intensity", "remission", "reflectivity"};
 
 /// One frame of any spinning LiDAR, in the sensor frame (x ahead, y left, z up, metres), its points
@@ -33,6 +35,8 @@ struct CloudView {
   std::span<const std::uint16_t> laser = {};
   /// Of an organised cloud, whose points stand row after row, as many in each; 1: not organised.
   std::size_t rows = 1;
+  /// For messages, where it is known: as Cloud::laser_note.
+  std::string_view laser_note = {};
 
   [[nodiscard]] bool is_organised() const noexcept {
     return rows > 1 && points.size() > rows && points.size() % rows == 0;
@@ -66,12 +70,12 @@ struct Cloud {
   std::vector<scan::ScanPoint> points;
   std::vector<std::uint16_t> laser;
   std::size_t rows = 1;
-  /// Of a file with named fields, where `laser` is empty: why, for messages. "its fields are x y
-  /// z".
-  std::string no_laser;
+  /// Of a file with named fields, for messages: what tells the lasers, "field ring", or, where
+  /// `laser` is empty, why none does: "its fields are x y z".
+  std::string laser_note;
   bool has_viewpoint = false;  ///< The file says where among the points the sensor stood.
 
-  [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows}; }
+  [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows, laser_note}; }
 };
 
 }  // namespace terracut::cloud

@@ -54,30 +54,34 @@ struct LaserField {
 
 /// Takes the lasers' numbers of the first field that has them; of one that is all 0, as drivers
 /// leave it that know no number, only where no other has. A field with other numbers is no laser's:
-/// cloud.no_laser says so.
+/// cloud.laser_note says so.
 void take_lasers(const FieldTable& table, Cloud& cloud) {
   Values chosen;
+  std::string_view chosen_name;
   for (const std::string_view name : kLaserFields) {
     const Values numbers = table.field_like(name);
     if (!numbers) continue;
     const LaserField field(cloud.points, *numbers);
     if (field.wrong) {
-      if (!cloud.no_laser.empty()) continue;
-      cloud.no_laser =
+      if (!cloud.laser_note.empty()) continue;
+      cloud.laser_note =
           fmt::format("{} of point {} is {}, ", name, *field.wrong, (*numbers)[*field.wrong]) +
           fmt::format(kExpectedLaser, kMostLasers - 1);
       continue;
     }
-    if (!chosen || field.is_filled) chosen = numbers;
+    if (!chosen || field.is_filled) {
+      chosen = numbers;
+      chosen_name = name;
+    }
     if (field.is_filled) break;
   }
   if (!chosen) {
-    if (cloud.no_laser.empty()) {
-      cloud.no_laser = quotable(fmt::format("its fields are {}", fmt::join(table.names, " ")));
+    if (cloud.laser_note.empty()) {
+      cloud.laser_note = quotable(fmt::format("its fields are {}", fmt::join(table.names, " ")));
     }
     return;
   }
-  cloud.no_laser.clear();
+  cloud.laser_note = fmt::format("field {}", chosen_name);
   cloud.laser.resize(table.points);
   for (std::size_t i = 0; i < table.points; ++i) {
     const double number = (*chosen)[i];
@@ -162,7 +166,7 @@ void clear(Cloud& cloud) {
   cloud.points.clear();
   cloud.laser.clear();
   cloud.rows = 1;
-  cloud.no_laser.clear();
+  cloud.laser_note.clear();
   cloud.has_viewpoint = false;
 }
 

@@ -32,14 +32,18 @@ struct FieldTable {
     return values[static_cast<std::size_t>(found - names.begin())];
   }
 
-  /// The same with upper case taken for lower case, and without CloudCompare's `scalar_`.
+  /// The same with upper case taken for lower case, and without underscores and CloudCompare's
+  /// `scalar_`: `Laser_ID` is `laserid`, and so is `scalar_laser_id`.
   [[nodiscard]] std::optional<std::span<const double>> field_like(std::string_view name) const {
     if (const auto exact = field(name)) return exact;
     for (std::size_t i = 0; i < names.size(); ++i) {
-      std::string plain = names[i];
-      std::ranges::transform(plain, plain.begin(),
-                             [](char c) { return c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c; });
-      if (std::string_view(plain).substr(plain.starts_with("scalar_") ? 7 : 0) == name) {
+      std::string plain;
+      for (const char c : names[i]) {
+        if (c != '_') plain += c >= 'A' && c <= 'Z' ? char(c - 'A' + 'a') : c;
+      }
+      constexpr std::string_view kCloudCompares = "scalar";
+      if (plain == name) return values[i];
+      if (plain.starts_with(kCloudCompares) && plain.substr(kCloudCompares.size()) == name) {
         return values[i];
       }
     }

@@ -46,7 +46,7 @@ Status check_apart(const scan::FittedRings& rings) {
   return fail(ErrorCode::kMalformed,
               fmt::format("{} of {} lasers look the same way as the one above them: had the driver "
                           "the lasers' angles, are the numbers the lasers', are WIDTH and HEIGHT "
-                          "exchanged?",
+                          "exchanged, is z not along the sensor's axis?",
                           rings.coinciding, rings.with_line));
 }
 
@@ -94,6 +94,17 @@ Expected<SensorRows> learn_by_number(RowSource source, std::size_t lasers, std::
   });
   if (!fitted) return tl::unexpected(fitted.error());
   return SensorRows{source, std::move(fitted->rings), std::move(fitted->ring_of_laser), 0};
+}
+
+/// Drivers write -1 where a beam had no return, which is 255 in a byte.
+void add_numbers(const CloudView& cloud, std::vector<bool>& numbers) {
+  constexpr std::size_t kNone = 255;
+  for (std::size_t i = 0; i < cloud.laser.size(); ++i) {
+    const std::size_t laser = cloud.laser[i];
+    if (laser == kNone && !scan::is_place(cloud.points[i])) continue;
+    if (laser >= numbers.size()) numbers.resize(laser + 1);
+    numbers[laser] = true;
+  }
 }
 
 Expected<SensorRows> learn_by_order(std::size_t clouds, const ReadCloud& read) {
@@ -168,9 +179,9 @@ double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint>
   return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
-/// `first`: a cloud that can be read.
-Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds,
-                                       const ReadCloud& read) {
+/// `first`: a cloud that can be read; `no_number`: why there is no number of a point's laser.
+Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, const ReadCloud& read,
+                                       const std::string& no_number) {
   RingRecovery rings;
   const bool in_kittis_order = scan::split_into_rings(read(first)->points, rings).has_value();
   if (in_kittis_order && rings.rings == scan::kScanRings) return learn_by_order(clouds, read);
@@ -184,10 +195,10 @@ Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds,
   if (lines && share_near_lines(lines->rings.table, read(first)->points) >= kLeastNearLines)
     return lines;
   return fail(ErrorCode::kUnsupported,
-              fmt::format("nothing tells which laser measured a point: no field with its number, "
-                          "not organised, not in the order of KITTI's files, and {}; give a cloud "
-                          "of one revolution with the number of each point's laser",
-                          comb.error().message));
+              fmt::format("nothing tells which laser measured a point: {}, not organised, not in "
+                          "the order of KITTI's files, and {}; give a cloud of one revolution with "
+                          "the number of each point's laser",
+                          no_number, comb.error().message));
 }
 
 void find_by_place(const NearestRing& nearest, std::span<const scan::ScanPoint> points,
@@ -267,26 +278,31 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
   while (!cloud && first + 1 < clouds) cloud = read(++first);
   if (!cloud) return tl::unexpected(cloud.error());
 
-  const bool is_organised = cloud->is_organised();
-  const auto learn_without_numbers = [&, lasers =
-                                             is_organised ? OrganisedLasers(*cloud).lasers() : 0] {
-    return is_organised ? learn_by_number(RowSource::kOrganisation, lasers, clouds, read)
-                        : learn_from_places(first, clouds, read);
+  const bool has_numbers = !cloud->laser.empty(), is_organised = cloud->is_organised();
+  const std::size_t rows_or_columns = is_organised ? OrganisedLasers(*cloud).lasers() : 0;
+  const std::string note(cloud->laser_note);
+  const auto learn_without_numbers = [&](const std::string& no_number) {
+    return is_organised ? learn_by_number(RowSource::kOrganisation, rows_or_columns, clouds, read)
+                        : learn_from_places(first, clouds, read, no_number);
   };
   Expected<SensorRows> rows = SensorRows{};
-  if (!cloud->laser.empty()) {
-    std::size_t most = 0;
+  if (has_numbers) {
+    std::vector<bool> numbers;  // which of them there are
     const Status looked = for_some(clouds, read, [&](const CloudView& some) -> Status {
-      for (const std::uint16_t laser : some.laser) most = std::max<std::size_t>(most, laser);
+      add_numbers(some, numbers);
       return {};
     });
     if (!looked) return tl::unexpected(looked.error());
-    rows = learn_by_number(RowSource::kLaserNumbers, most + 1, clouds, read);
-    if (!rows && most + 1 < kFewestLasers) {  // a field that the driver left empty?
-      if (auto others = learn_without_numbers()) rows = std::move(others);
+    rows = learn_by_number(RowSource::kLaserNumbers, numbers.size(), clouds, read);
+    const auto different = std::ranges::count(numbers, true);
+    if (!rows && different < kFewestLasers) {  // a field that the driver left empty?
+      rows = learn_without_numbers(fmt::format("{} has only {} different number{}",
+                                               note.empty() ? "the laser of a point" : note,
+                                               different, different == 1 ? "" : "s"));
     }
   } else {
-    rows = learn_without_numbers();
+    rows = learn_without_numbers("no field with its number" +
+                                 (note.empty() ? "" : fmt::format(" ({})", note)));
   }
   if (!rows) return rows;
 

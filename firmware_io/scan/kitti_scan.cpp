@@ -46,9 +46,12 @@ Status read_kitti_points(const std::filesystem::path& bin_file, std::vector<Scan
   if (Status status = files::read_records(bin_file, layout, points); !status) {
     std::error_code none;
     const std::uintmax_t bytes = std::filesystem::file_size(bin_file, none);
-    const bool fits_five =
-        !none && bytes % sizeof(ScanPoint) != 0 && bytes % (kFloatsOfFive * sizeof(float)) == 0;
-    if (fits_five) status.error().message += kFiveFloats;
+    if (none || bytes % sizeof(ScanPoint) == 0) return status;
+    if (bytes % (kFloatsOfFive * sizeof(float)) == 0) {
+      status.error().message += kFiveFloats;
+    } else if (bytes % (3 * sizeof(float)) == 0) {
+      status.error().message += "; are these 3 or 6 floats a point? Expected are 4";
+    }
     return status;
   }
   if (has_five_floats(points)) {

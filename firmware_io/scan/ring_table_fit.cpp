@@ -33,6 +33,9 @@ HeightResidual summarise(std::vector<double>& sizes) {
   const auto p95 = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() * 95 / 100);
   std::nth_element(sizes.begin(), p95, sizes.end());
   residual.p95_m = *p95;
+  const auto median = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), median, sizes.end());
+  residual.median_m = *median;
   return residual;
 }
 

@@ -18,6 +18,7 @@ namespace terracut::scan {
 struct HeightResidual {
   std::size_t points = 0;
   double rms_m = 0;
+  double median_m = 0;
   double p95_m = 0;  ///< 95 % of the points lie nearer to the line than this.
 };
 

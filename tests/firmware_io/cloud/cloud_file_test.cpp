@@ -75,8 +75,9 @@ TEST(CloudFile, IsReadByTheEndingOfItsName) {
 TEST(CloudFile, TellsTheLaserByAnyOfTheNamesInUseAndKeepsTheOrganisation) {
   const scan::ScratchFolder folder;
   Cloud cloud;
-  for (const std::string name : {"ring", "channel", "laser", "row", "laser_id", "line", "Ring",
-                                 "scalar_ring", "scalar_Laser_ID"}) {
+  for (const std::string name :
+       {"ring", "channel", "laser", "row", "laser_id", "line", "Ring", "scalar_ring",
+        "scalar_Laser_ID", "laserId", "beam_index", "CHANNEL_ID"}) {
     const auto file =
         folder.write("a.pcd", pcd("time x " + name + " y z", "F F U F F", "8 4 1 4 4",
                                   "0 3 7 -1 0.5\n0.1 nan 31 nan nan\n", "WIDTH 1\nHEIGHT 2\n"));
@@ -131,17 +132,17 @@ TEST(CloudFile, TakesNoFieldForTheLasersNumberThatHasOtherNumbersAndSaysSo) {
   for (const std::string bad : {"1.5", "256", "58792", "-1", "nan"}) {
     read("x y z ring", "1 1 1 " + bad + "\n1 1 1 1\n");
     EXPECT_THAT(cloud.laser, IsEmpty()) << bad;
-    EXPECT_THAT(cloud.no_laser, HasSubstr("ring of point 0 is " + bad + ", expected a whole"));
+    EXPECT_THAT(cloud.laser_note, HasSubstr("ring of point 0 is " + bad + ", expected a whole"));
     read("x y z ring channel", "1 1 1 " + bad + " 3\n1 1 1 1 4\n");
     EXPECT_THAT(cloud.laser, ElementsAre(3, 4)) << "another field has it";
-    EXPECT_THAT(cloud.no_laser, IsEmpty());
+    EXPECT_THAT(cloud.laser_note, HasSubstr("field "));
   }
   read("x y z ring channel", "1 1 1 0 3\n1 1 1 0 4\n");
   EXPECT_THAT(cloud.laser, ElementsAre(3, 4)) << "a field that is all 0 is one nobody filled";
   read("x y z ring", "1 1 1 0\n1 1 1 0\n");
   EXPECT_THAT(cloud.laser, ElementsAre(0, 0));
   read("x y z time", "1 1 1 0\n1 1 1 0\n");
-  EXPECT_THAT(cloud.no_laser, HasSubstr("its fields are x y z time"));
+  EXPECT_THAT(cloud.laser_note, HasSubstr("its fields are x y z time"));
 }
 
 TEST(CloudFile, KeepsWhatIntensitiesMeanWhateverTheirScale) {
@@ -183,6 +184,8 @@ TEST(CloudFile, OfAnotherNumberOfFloatsAPointSaysHowToNameIt) {
   five.resize(75);
   EXPECT_THAT(error_of("a.bin", five),
               testing::AllOf(HasSubstr("truncated"), HasSubstr("5 floats")));
+  five.resize(66);
+  EXPECT_THAT(error_of("a.bin", five), HasSubstr("3 or 6 floats a point? Expected are 4"));
   five.resize(73);
   EXPECT_THAT(error_of("a.bin", five), testing::Not(HasSubstr("5 floats")));
 

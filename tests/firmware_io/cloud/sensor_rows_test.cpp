@@ -12,6 +12,7 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "firmware_io/cloud/row_doubt.hpp"
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
 
 namespace terracut::cloud {
@@ -173,6 +174,19 @@ TEST(SensorRows, LeavePointsThatAreNoReturnsAndOfLasersNeverSeenWithoutOne) {
   EXPECT_EQ(found.no_ring, 3U);
 }
 
+TEST(SensorRows, AreNotOneMoreForEachNumberThatStandsForNoReturn) {
+  const RingTable table = uneven_rings(16, 15, 1);
+  KnownCloud cloud = known_cloud(table, 900, [](int ring) { return ring; });
+  for (const std::size_t i : {7, 900, 14'000}) {
+    cloud.points[i] = {};
+    cloud.laser[i] = 255;
+    cloud.ring[i] = kNoRing;
+  }
+  const auto rows = learnt_from({cloud.points, cloud.laser});
+  expect_rings(rows, {cloud.points, cloud.laser}, cloud.ring);
+  EXPECT_EQ(rows->rings.table.size(), 16U);
+}
+
 TEST(SensorRows, OfALaserWithoutReturnsInTheFirstCloudHaveTheirPlaceByItsNumber) {
   const RingTable table = uneven_rings(16, 15, 1);
   const KnownCloud whole = known_cloud(table, 900, [](int ring) { return 15 - ring; });
@@ -279,6 +293,55 @@ TEST(SensorRows, OfACloudWithoutAPlaceAreNoneWhateverItLacks) {
   }
 }
 
+TEST(SensorRows, AreDoubtedWhereTheirPointsAreOfTwoSensorsOrInAVehiclesFrame) {
+  KnownCloud cloud = known_cloud(uneven_rings(16, 15, 1), 900, [](int ring) { return ring; });
+  EXPECT_EQ(doubt_of(*learnt_from({cloud.points, cloud.laser})), "");
+  KnownCloud apart = cloud, high = cloud;
+  for (std::size_t i = 0; i < cloud.points.size(); ++i) {
+    apart.points[i].x_m += i % 2 == 0 ? 1.5F : -1.5F;
+    high.points[i].z_m += 1.6F;
+  }
+  const auto two = learnt_from({apart.points, apart.laser});
+  ASSERT_TRUE(two) << two.error().message;
+  EXPECT_THAT(doubt_of(*two), HasSubstr("of several sensors or revolutions"));
+  const auto vehicle = learnt_from({high.points, high.laser});
+  ASSERT_TRUE(vehicle) << vehicle.error().message;
+  EXPECT_THAT(doubt_of(*vehicle), HasSubstr("start 1.60 m above the origin"));
+}
+
+TEST(SensorRows, AreThoseThatSeeNothingBeyondAMetre) {
+  // Of a robot half a metre high, which looks straight down at the floor and the steps beside it.
+  const RingTable table = uneven_rings(60, 52, 0.8);
+  const std::vector<ScanPoint> points =
+      synthetic::scan(table, {.ground_m = -0.5, .points_per_ring = 600});
+  const auto rows = learnt_from({points});
+  ASSERT_TRUE(rows) << rows.error().message;
+  EXPECT_EQ(rows->source, RowSource::kElevations);
+  expect_table(rows->rings.table, table);
+  // Between rows that see far, too.
+  std::vector<ScanPoint> some_near = points;
+  for (std::size_t i = 0; i < 600; ++i) {
+    ScanPoint& point = some_near[20 * 600 + i];
+    const float shrink = 0.8F / std::hypot(point.x_m, point.y_m);
+    point = {point.x_m * shrink, point.y_m * shrink, point.z_m * shrink, 0};
+  }
+  expect_table(learnt_from({some_near})->rings.table, table);
+}
+
+TEST(SensorRows, AreNotTakenFromNearPointsOfBeamsThatStartBesideTheOrigin) {
+  const RingTable table = uneven_rings(32, 20, 0.8);
+  std::vector<ScanPoint> points = synthetic::scan(table, {.points_per_ring = 900});
+  const auto without = learnt_from({points});
+  ASSERT_TRUE(without) << without.error().message;
+  for (int i = 0; i < 900; ++i) {  // the edge of a roof
+    const float distance_m = 0.5F + 0.3F * static_cast<float>(i % 100) / 100;
+    points.push_back({distance_m, 0, -0.3F * distance_m - 0.02F, 0});
+  }
+  const auto with = learnt_from({points});
+  ASSERT_TRUE(with) << with.error().message;
+  EXPECT_EQ(with->rings.table.size(), without->rings.table.size());
+}
+
 TEST(SensorRows, AreNotSeenInTheFewPointsOfADrawing) {
   std::vector<ScanPoint> curve;
   for (int i = 0; i < 110; ++i) {
@@ -306,7 +369,10 @@ TEST(SensorRows, AreRefusedWhereThereAreNone) {
   for (std::size_t i = 0; i < laser.size(); ++i) laser[i] = static_cast<std::uint16_t>(i % 16);
   EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("look the same way"));
   for (std::uint16_t& number : laser) number %= 4;
-  EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("4 lasers by the field"));
+  EXPECT_THAT(learnt_from({points, laser}).error().message,
+              HasSubstr("the laser of a point has only 4 different numbers, not organised"));
+  EXPECT_THAT(learnt_from({points, laser, 1, "field beam"}).error().message,
+              HasSubstr("field beam has only 4 different numbers, not organised"));
   laser.pop_back();
   EXPECT_THAT(learnt_from({points, laser}).error().message, HasSubstr("49999 numbers of lasers"));
 }

@@ -287,43 +287,6 @@ TEST_F(CliScans, AreEncodedWithTheirMotionPutBackWherePosesLieBesideThem) {
   EXPECT_EQ(run("encode scans -o x.pcap --keep-compensation --undo-compensation").exit_code, 2);
 }
 
-/// A folder of clouds of 16 lasers above level ground.
-void write_clouds(const fs::path& folder, int count, const std::string& ending = ".pcd") {
-  fs::create_directories(folder);
-  std::string points;
-  for (int ring = 0; ring < 16; ++ring) {
-    const double elevation = (-15 + 2 * ring) * M_PI / 180;
-    for (int column = 0; column < 900; ++column) {
-      const double azimuth = column * M_PI / 450;
-      const double distance_m = elevation < -0.02 ? 1.8 / std::tan(-elevation) : 30;
-      points += std::to_string(distance_m * std::cos(azimuth)) + ' ' +
-                std::to_string(distance_m * std::sin(azimuth)) + ' ' +
-                std::to_string(distance_m * std::tan(elevation)) + ' ' + std::to_string(ring) +
-                '\n';
-    }
-  }
-  for (int i = 0; i < count; ++i) {
-    const std::string number = std::to_string(i);
-    std::ofstream(folder / (std::string(6 - number.size(), '0') + number + ending))
-        << "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH "
-           "14400\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 14400\nDATA ascii\n"
-        << points;
-  }
-}
-
-TEST_F(CliScans, OfOneNameAreRefusedBeforeWorkStarts) {
-  write_clouds(folder_ / "scans", 2);
-  write_clouds(folder_ / "scans", 1, ".PCD");
-  for (const std::string output : {"--labels", "--pcd", "--png"}) {
-    const Outcome outcome = run("segment scans " + output + " made");
-    EXPECT_EQ(outcome.exit_code, 3);
-    EXPECT_THAT(outcome.err, AllOf(HasSubstr("000000.PCD"), HasSubstr("000000.pcd"),
-                                   HasSubstr("two scans of one name")));
-    EXPECT_FALSE(fs::exists(folder_ / "made"));
-  }
-  expect_done("segment scans/000000.PCD --labels made");
-}
-
 TEST_F(CliScans, ThatAreDamagedAreRefusedByName) {
   fs::create_directories(folder_ / "scans");
   write("scans/000000.bin", "seventeen bytes!!");

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware_io/cloud/row_doubt.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "tools/cli/clouds/cloud_labeller.hpp"
 #include "tools/cli/commands.hpp"
@@ -20,6 +21,35 @@
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
+namespace {
+
+/// What of a folder could not be used: said at once, and again in the end.
+class UnusedFiles {
+ public:
+  void add(const Error& fault) {
+    warn(fault.message);
+    if (count_++ == 0) first_ = fault.message;
+  }
+  [[nodiscard]] bool any() const { return count_ > 0; }
+  [[nodiscard]] std::string text(std::size_t clouds) const {
+    return fmt::format("{} of {} clouds, or their truth, could not be used: {}{}", count_, clouds,
+                       first_, count_ > 1 ? ", and others" : "");
+  }
+
+ private:
+  std::size_t count_ = 0;
+  std::string first_;
+};
+
+/// A car's sensor at 1.4 m or more whose points are feet; few stand so high.
+std::string doubt_of_height(const MountOptions& stated, const MountChoice& mount) {
+  constexpr double kRarelyHigher_m = 4.5;
+  if (stated.height_m || !mount.found || mount.found->mount.height_m < kRarelyHigher_m) return {};
+  return fmt::format("the sensor stands {:.1f} m above the ground: are the points feet?",
+                     mount.found->mount.height_m);
+}
+
+}  // namespace
 
 ExitCode run_segment(const Options& options) {
   catch_stop_signals();
@@ -33,6 +63,8 @@ ExitCode run_segment(const Options& options) {
   if (!mount) return refuse_work(mount.error());
   const auto profile = ring_profile_of(rows->rings.table, mount->options);
   if (!profile) return refuse(profile.error());
+  const std::string high = doubt_of_height(options.mount, *mount);
+  if (!high.empty()) warn(options.scans.string() + ": " + high);
   const std::string sensor_line = fmt::format(
       "{} rows by {}", rows->rings.table.size(),
       options.capture.calibration.empty() ? description_of(rows->source) : "the calibration given");
@@ -50,6 +82,9 @@ ExitCode run_segment(const Options& options) {
   if (!outputs_open) return refuse(outputs_open.error());
   Report report{"segment", options.scans.string(), "", sensor_line, options.method};
   if (!options.output.json.empty()) report.entries.emplace(options.output.json);
+  report.sensor_warning = cloud::doubt_of(*rows);
+  if (report.sensor_warning.empty()) report.sensor_warning = high;
+  UnusedFiles unused;
   Progress progress("labelling", "scans", static_cast<double>(reader.size()));
   for (std::size_t i = 0; i < reader.size(); ++i) {
     if (stop_wanted()) {
@@ -58,17 +93,22 @@ ExitCode run_segment(const Options& options) {
     }
     const scan::ScanFile& file = reader.file(i);
     const auto cloud = reader.read(i);
-    if (!cloud) return refuse(cloud.error());
+    if (!cloud) {
+      unused.add(cloud.error());
+      continue;
+    }
     if (const Status read = reader.read_labels(i, cloud->points.size(), truth); !read) {
-      return refuse(read.error());
+      unused.add(read.error());
+      truth.clear();
     }
     status::FrameRecord record;
     record.info.complete = true;
     record.info.number = file.frame.value_or(static_cast<std::uint32_t>(i));
     Status labelled = labeller.label(*cloud, record);
     if (!labelled) {
-      labelled.error().message = file.points.string() + ": " + labelled.error().message;
-      return refuse(labelled.error());
+      labelled.error().message.insert(0, file.points.string() + ": ");
+      unused.add(labelled.error());
+      continue;
     }
     watch.add_frame(labeller.image);
     points.no_place += labeller.placed.no_place;
@@ -98,7 +138,9 @@ ExitCode run_segment(const Options& options) {
   if (const Status finished = outputs.finish(); !finished) return refuse(finished.error());
   report.mount = watch.figures();
   report.scan_points = points;
-  return conclude_with(report, options.output.json);
+  if (unused.any()) report.input_warning = unused.text(reader.size());
+  const ExitCode concluded = conclude_with(report, options.output.json);
+  return concluded == kOk && unused.any() ? refuse(kInputRefused, report.input_warning) : concluded;
 }
 
 }  // namespace terracut::cli

@@ -27,6 +27,11 @@ bool is_deskewed(const FrameRecord& frame) {
   return frame.info.deskew.state == frame::DeskewState::kDone;
 }
 
+/// A cloud is there at once: nothing of its work is done while it arrives.
+bool arrived_in_packets(const FrameRecord& frame) {
+  return frame.decode_cpu_ns > 0;
+}
+
 /// What the report has of every frame: of its cut, how many cells it had to decide, how many kept
 /// their coarse label for want of budget, and the operations it took.
 std::vector<Figure> frame_figures(const FrameRecord& frame) {
@@ -47,7 +52,7 @@ std::vector<Figure> frame_figures(const FrameRecord& frame) {
     add_ms(to_string(static_cast<stage::Stage>(i)), frame.stages.stage_ns[i]);
   }
   add_ms("total", frame.decode_cpu_ns + frame.stages.sum_ns());
-  add_ms("after_frame", frame.after_frame_cpu_ns());
+  if (arrived_in_packets(frame)) add_ms("after_frame", frame.after_frame_cpu_ns());
   figures.insert(figures.end(),
                  {{"segment_wall_ms", status::Duration{frame.stages.segment_wall_ns}},
                   {"unknown", count(cut.unknown), {}, {}, "min_cut"},
@@ -108,7 +113,7 @@ void TimeSummary::add(const FrameRecord& frame) noexcept {
   for (std::size_t i = 0; i < stages.size(); ++i) stages[i].record(frame.stages.stage_ns[i]);
   decode.record(frame.decode_cpu_ns);
   total.record(frame.decode_cpu_ns + frame.stages.sum_ns());
-  after_frame.record(frame.after_frame_cpu_ns());
+  if (arrived_in_packets(frame)) after_frame.record(frame.after_frame_cpu_ns());
   wall.record(frame.stages.segment_wall_ns);
 }
 
@@ -122,7 +127,7 @@ std::vector<Figure> TimeSummary::figures() const {
     add(to_string(static_cast<stage::Stage>(i)), stages[i]);
   }
   add("total", total);
-  add("after_frame", after_frame);
+  if (after_frame.count() > 0) add("after_frame", after_frame);
   return figures;
 }
 
@@ -182,6 +187,7 @@ std::vector<Figure> Report::run_figures() const {
   const auto add_any = [&](std::string_view key, const std::string& text, std::string_view line) {
     if (!text.empty()) figures.push_back({key, text, {}, {line}});
   };
+  add_any("sensor_warning", sensor_warning, {});
   add_any("input_warning", input_warning, {});
   add_any("sensor", sensor, "sensor");
   add_any({}, calibration, "table");

@@ -86,9 +86,10 @@ struct Report {
     std::uint64_t no_place = 0, no_ring = 0;
   };
   std::optional<ScanPoints> scan_points{};
-  std::string device_clock{};   ///< What is known of the sensor's clock, for people.
-  std::string input_warning{};  ///< The input broke off, and where.
-  bool interrupted = false;     ///< Ended before its work was done: not of all its input.
+  std::string device_clock{};    ///< What is known of the sensor's clock, for people.
+  std::string sensor_warning{};  ///< Why clouds may not be one sensor's in its own frame.
+  std::string input_warning{};   ///< What of the input is missing: where it broke off.
+  bool interrupted = false;      ///< Ended before its work was done: not of all its input.
 
   void add(const status::FrameRecord& frame);
   void score(std::span<const frame::Label> labels, std::span<const std::uint32_t> truth);
@@ -100,7 +101,8 @@ struct Report {
   ///   terracut, command, input, calibration   of what ran on what
   ///   profile, stages; or method, where --method named it
   ///   interrupted     the run was ended before all of its input was read
-  ///   input_warning   where the input broke off, if it did
+  ///   sensor_warning  why clouds may not be one sensor's in its own frame
+  ///   input_warning   where the input broke off, if it did; of clouds what could not be used
   ///   frames[]        frame (number), first_packet_ns, complete, returns_in, returns_labelled,
   ///                   losses{cause: count}, ms{stage: processor time; decode, total, and
   ///                   after_frame: of it, after the frame's last packet}, segment_wall_ms,

@@ -9,22 +9,44 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_file.hpp"
-#include "firmware_io/cloud/cloud_file.hpp"
+#include "firmware_io/cloud/row_doubt.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
+namespace {
+
+Expected<cloud::SensorRows> learn_rows(CloudReader& clouds) {
+  const auto learn = [&] {
+    return cloud::learn_rows(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
+  };
+  const auto is_beyond_doubt = [](const Expected<cloud::SensorRows>& rows) {
+    return rows && cloud::doubt_of(*rows).empty();
+  };
+  auto rows = learn();
+  if (is_beyond_doubt(rows) || !clouds.has_viewpoint()) return rows;
+  clouds.take_sensor_at(cloud::SensorPlace::kViewpoint);
+  if (auto by_viewpoint = learn(); is_beyond_doubt(by_viewpoint)) {
+    say("sensor: stood at each file's VIEWPOINT, not at the origin of the points, which are taken "
+        "from there");
+    return by_viewpoint;
+  }
+  clouds.take_sensor_at(cloud::SensorPlace::kOrigin);
+  return rows;
+}
+
+}  // namespace
 
 Expected<CloudReader> CloudReader::open(const std::filesystem::path& clouds) {
   auto folder = scan::list_scan_folder(clouds, cloud::kCloudFiles);
   if (!folder) return tl::unexpected(folder.error());
-  return CloudReader(std::move(folder->scans));
+  return CloudReader(clouds, std::move(folder->scans));
 }
 
 Expected<cloud::CloudView> CloudReader::read(std::size_t index) {
-  if (const Status read = cloud::read_cloud(files_[index].points, cloud_); !read) {
-    return tl::unexpected(read.error());
-  }
+  const Status read = cloud::read_cloud(files_[index].points, cloud_, place_);
+  has_viewpoint_ = has_viewpoint_ || cloud_.has_viewpoint;
+  if (!read) return tl::unexpected(read.error());
   return cloud_.view();
 }
 
@@ -49,9 +71,13 @@ Expected<cloud::SensorRows> rows_of(CloudReader& clouds, const std::filesystem::
                              {},
                              frame::ImageShape{}.columns};
   }
-  auto rows =
-      cloud::learn_rows(clouds.size(), [&](std::size_t index) { return clouds.read(index); });
-  if (!rows) return rows;
+  auto rows = learn_rows(clouds);
+  if (!rows) {
+    Error error = rows.error();
+    const std::string input = clouds.input().string();
+    if (!error.message.starts_with(input)) error.message.insert(0, input + ": ");
+    return tl::unexpected(std::move(error));
+  }
   const scan::RingTable& table = rows->rings.table;
   say(fmt::format("sensor: {} rows from {:.1f} to {:.1f} degrees, {} columns, by {}", table.size(),
                   beams::rad_to_deg(table.back().elevation_rad),
@@ -64,6 +90,9 @@ Expected<cloud::SensorRows> rows_of(CloudReader& clouds, const std::filesystem::
   if (rows->rings.from_nominal_table) {
     say("        no scan has all rows, so they were told apart by a nominal HDL-64E's table; "
         "--calibration takes the unit's own");
+  }
+  if (const std::string doubt = cloud::doubt_of(*rows); !doubt.empty()) {
+    warn(clouds.input().string() + ": " + doubt);
   }
   return rows;
 }

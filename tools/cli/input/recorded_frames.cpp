@@ -106,18 +106,25 @@ Status CloudFrames::each_frame(const mount::Mount& mount, std::size_t most,
   scan::RingRecovery rings;
   const cloud::RowFinder finder(rows_);
   const std::size_t step = (clouds_.size() + most - 1) / most;
+  std::size_t shown = 0;
+  Status last_fault;
   for (std::size_t i = 0; i < clouds_.size(); i += step) {
     if (Status going = go_on(); !going) return going;
     const auto cloud = clouds_.read(i);
-    if (!cloud) return tl::unexpected(cloud.error());
+    if (!cloud) {
+      last_fault = tl::unexpected(cloud.error());
+      continue;
+    }
     if (Status found = finder.find(*cloud, rings); !found) {
       found.error().message = clouds_.file(i).points.string() + ": " + found.error().message;
-      return found;
+      last_fault = found;
+      continue;
     }
     (void)to_image.place(cloud->points, rings.ring_of_point, image);
     if (Status going = on_frame(image); !going) return going;
+    ++shown;
   }
-  return {};
+  return shown > 0 ? Status{} : last_fault;
 }
 
 mount::RingProfile CloudFrames::ring_profile(const mount::Mount& mount) const {

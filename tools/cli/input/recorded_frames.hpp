@@ -65,7 +65,7 @@ class CaptureFrames : public RecordedFrames {
   capture::PcapCounters counters_;
 };
 
-/// Of clouds, evenly taken ones.
+/// Of clouds, evenly taken ones. Those that cannot be read are passed over.
 class CloudFrames : public RecordedFrames {
  public:
   /// Both must outlive this.

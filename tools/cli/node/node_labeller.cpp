@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "calib/beams/angle.hpp"
+#include "firmware_io/cloud/row_doubt.hpp"
 #include "pipeline/ground/mount_search.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
@@ -43,6 +44,7 @@ Status NodeLabeller::set_up() {
   say(fmt::format("sensor: {}, from {:.1f} to {:.1f} degrees, {} columns", sensor_,
                   beams::rad_to_deg(table.back().elevation_rad),
                   beams::rad_to_deg(table.front().elevation_rad), rows->columns));
+  if (const std::string doubt = cloud::doubt_of(*rows); !doubt.empty()) warn(doubt);
   MountChoice choice{.options = options_.mount};
   if (is_mount_open(options_.mount)) {
     choice = *choose_mount(guessing(options_.mount), mount_search(clouds, *rows).finder());

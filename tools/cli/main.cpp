@@ -34,7 +34,7 @@ void hold_standard_descriptors() {
 }
 
 ExitCode run_command(const std::vector<std::string>& words) {
-  const auto arguments = parse_arguments(words);
+  auto arguments = parse_arguments(words);
   if (!arguments) {
     const ExitCode code = refuse(arguments.error());
     if (code == kUsage) say("`terracut --help` and `terracut COMMAND --help` say what is expected");
@@ -46,9 +46,12 @@ ExitCode run_command(const std::vector<std::string>& words) {
   }
   std::vector<Error> unwritable;  // which a live run goes on without
   const bool goes_on = arguments->command == Command::kLive;
-  const auto claims = claim_outputs(files_of(*arguments), goes_on ? &unwritable : nullptr);
+  const RunFiles files = files_of(*arguments);
+  const auto claims = claim_outputs(files, goes_on ? &unwritable : nullptr);
   if (!claims) return refuse(claims.error());
   for (const Error& each : unwritable) warn(each.message);
+  if (const std::string replaced = replaced_by(files); !replaced.empty()) say(replaced);
+  arguments->options.output.made_of = files.made_of;
   return kRun[static_cast<std::size_t>(*arguments->command)](arguments->options);
 }
 

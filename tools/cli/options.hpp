@@ -93,12 +93,14 @@ struct DdsOptions {
 /// Where results go.
 struct OutputOptions {
   std::filesystem::path labels, pcd, png;  ///< Folders.
+  bool overwrite = false;                  ///< In them also what was made of another input.
+  std::string made_of;                     ///< RunFiles::made_of
   std::filesystem::path json, parquet;     ///< Files.
   std::vector<std::string> metadata;       ///< KEY=VALUE, for the Parquet and the MCAP file.
   McapOptions mcap;
   std::string foxglove;                       ///< ADDRESS:PORT or PORT; empty: not served.
   std::vector<std::string> foxglove_origins;  ///< Of pages elsewhere that may connect to it.
-  std::string view;  ///< Where a browser sees frames; empty, off: nowhere.
+  std::string view;                           ///< Where a browser sees frames; empty, off: nowhere.
   /// Names of coordinate frames (pipeline/publish/stream.hpp); the sensor's "off": none.
   std::string frame_id = "terracut_ground", sensor_frame_id = "terracut_lidar";
   std::filesystem::path truth;  ///< Folder of NNNNNN.label: scores the labels.
@@ -250,10 +252,10 @@ struct Options {
 
   PlayOptions replay;
   std::string view_at = "127.0.0.1:8480";  ///< Where a browser sees a capture.
-  std::filesystem::path can_recording;  ///< Of the vehicle's bus; empty: none.
-  int bench_repeat = 10;                ///< Passes over the capture's frames.
-  int bench_core = -1;                  ///< To be pinned to; -1: the last one allowed.
-  bool keep_mount = false;              ///< Calibrate: the mount is given, not to be found.
+  std::filesystem::path can_recording;     ///< Of the vehicle's bus; empty: none.
+  int bench_repeat = 10;                   ///< Passes over the capture's frames.
+  int bench_core = -1;                     ///< To be pinned to; -1: the last one allowed.
+  bool keep_mount = false;                 ///< Calibrate: the mount is given, not to be found.
 
   SimulateOptions simulate;
   EncodeOptions encode;

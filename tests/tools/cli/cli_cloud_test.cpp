@@ -78,6 +78,21 @@ TEST_F(CliClouds, OfOneNameAreRefusedBeforeWorkStarts) {
   expect_done("segment scans/000000.PCD --labels made");
 }
 
+TEST_F(CliClouds, OfOneFolderNeverTakeAwayTheLabelsOfAnother) {
+  write_clouds("two", 2);
+  write_clouds("one", 1);
+  expect_done("segment two --labels labels");
+  const Outcome other = run("segment one --labels labels");
+  EXPECT_EQ(other.exit_code, 2);
+  EXPECT_THAT(other.err, AllOf(HasSubstr("there are 2 .label files in it that were made of "),
+                               HasSubstr("/two,"), HasSubstr("--overwrite")));
+  EXPECT_EQ(files_in(folder_ / "labels", ".label"), 2u);
+  const std::string said = "labels: 2 .label files of an earlier run were taken away";
+  EXPECT_THAT(run("segment two --labels labels").err, HasSubstr(said)) << "the same input";
+  EXPECT_THAT(run("segment one --labels labels --overwrite").err, HasSubstr(said));
+  EXPECT_EQ(files_in(folder_ / "labels", ".label"), 1u);
+}
+
 TEST_F(CliClouds, OfTwoSensorsInOneAreLabelledWithOneWarningForTheFolder) {
   const auto two_places = [](int point, const Place& place) {
     const double apart_m = point % 2 == 0 ? 1.5 : -1.5;

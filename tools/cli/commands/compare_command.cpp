@@ -24,7 +24,7 @@ ExitCode run_compare(const Options& options) {
     return refuse(written.error());
   }
   if (options.output.png.empty()) return kOk;
-  return done_or_refused(draw_changes(*before, *after, changes->most, options.output.png));
+  return done_or_refused(draw_changes(*before, *after, changes->most, options.output));
 }
 
 }  // namespace terracut::cli

@@ -18,13 +18,13 @@
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/scan/label_file.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
-#include "pipeline/output/frame_folder.hpp"
 #include "pipeline/pictures/bird_eye_picture.hpp"
 #include "pipeline/pictures/caption.hpp"
 #include "rt/files/plain_file.hpp"
 #include "tools/cli/arguments/arguments.hpp"
 #include "tools/cli/fleet/manifest.hpp"
 #include "tools/cli/fleet/relabel_job.hpp"
+#include "tools/cli/input/frame_folder_of.hpp"
 #include "tools/cli/input/open_capture.hpp"
 #include "tools/cli/input/recorded_motion.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
@@ -169,7 +169,7 @@ Expected<Options> options_of(const Labelling& labelling, const FleetDrive& drive
 }  // namespace
 
 Status draw_changes(const Labelling& before, const Labelling& after,
-                    std::span<const FrameChange> frames, const fs::path& folder) {
+                    std::span<const FrameChange> frames, const OutputOptions& output) {
   if (after.state.empty()) {
     return fail(ErrorCode::kInvalidArgument,
                 "--png: only of a folder of `terracut relabel` it is known where the recordings "
@@ -179,7 +179,7 @@ Status draw_changes(const Labelling& before, const Labelling& after,
   if (!job) return tl::unexpected(job.error());
   const auto manifest = read_manifest(job->manifest);
   if (!manifest) return tl::unexpected(manifest.error());
-  output::FrameFolder place(folder, ".png");
+  output::FrameFolder place = frame_folder_of(output, output.png, ".png");
   for (const FleetDrive& drive : manifest->drives) {
     Wanted wanted;
     for (const FrameChange& frame : frames) {

@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <functional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -36,6 +38,10 @@ mcap::McapSink::Config mcap_config_of(const OutputOptions& options, bool unatten
 
 Expected<Sink> open_mcap(const OutputOptions& options, const publish::Stream& stream,
                          bool unattended) {
+  std::error_code error;
+  if (!unattended && std::filesystem::is_regular_file(options.mcap.path, error)) {
+    say("will be replaced: " + options.mcap.path.string());
+  }
   auto sink = mcap::McapSink::open(mcap_config_of(options, unattended), stream);
   if (!sink) return tl::unexpected(sink.error());
   if (unattended) say("recording to " + (*sink)->path().string());

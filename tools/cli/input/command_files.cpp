@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <string_view>
 #include <system_error>
 #include <variant>
 
@@ -56,6 +57,29 @@ RunFiles drive_of(const Options& options) {
   return files;
 }
 
+/// The stream of a live run, or what a command has as arguments; of a capture with the sensor's
+/// address and port, where one of several is chosen by them.
+std::string made_of(Command command, const RunFiles& files, const Options& options) {
+  const auto with = [](std::string_view word, const std::string& text) {
+    return text.empty() ? std::string() : fmt::format(" {} {}", word, text);
+  };
+  const CaptureOptions& capture = options.capture;
+  if (command == Command::kLive) {
+    return "packets at " + options.listen.address + with("by", options.listen.interface) +
+           with("from", capture.from);
+  }
+  std::string text;
+  std::string_view named;
+  for (const RunFiles::Input& input : files.inputs) {
+    if (input.option.starts_with('-') || input.option == named) continue;
+    named = input.option;
+    text += (text.empty() ? "" : " and ") + files::FilePlace(input.path).path().string();
+  }
+  if (text.empty()) return text;
+  return text + with("from", capture.from) +
+         with("port", capture.port ? std::to_string(*capture.port) : "");
+}
+
 void add_evaluation(RunFiles& files, const Options& options) {
   if (options.eval.dataset == "semantickitti") {
     files.read("ROOT", options.eval.root / "sequences", "the dataset");
@@ -89,6 +113,8 @@ RunFiles files_of(Command command, const Options& options) {
     std::ranges::move(drive_of(options).outputs, std::back_inserter(files.outputs));
   }
   if (command == Command::kEval) add_evaluation(files, options);
+  files.made_of = made_of(command, files, options);
+  files.replaces_others = options.output.overwrite;
   return files;
 }
 

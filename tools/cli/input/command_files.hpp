@@ -10,7 +10,7 @@
 namespace terracut::cli {
 
 /// What a command reads and writes: the paths that the table of settings marks so, and what lies
-/// beside or below some of them.
+/// beside or below some of them; and what its outputs come of, by absolute paths.
 [[nodiscard]] RunFiles files_of(Command command, const Options& options);
 
 /// The same with the configuration file.

@@ -18,6 +18,7 @@
 #include "pipeline/stream/labelled_points.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/export/output_sinks.hpp"
+#include "tools/cli/input/frame_folder_of.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/parquet/returns_file.hpp"
 
@@ -28,9 +29,9 @@ class FrameOutputs {
  public:
   explicit FrameOutputs(const OutputOptions& options)
       : options_(options),
-        labels_(options.labels, ".label"),
-        pcd_(options.pcd, ".pcd"),
-        png_(options.png, ".png") {}
+        labels_(frame_folder_of(options, options.labels, ".label")),
+        pcd_(frame_folder_of(options, options.pcd, ".pcd")),
+        png_(frame_folder_of(options, options.png, ".png")) {}
 
   /// Whether any of them is made of points, not of labels alone.
   [[nodiscard]] static bool need_points(const OutputOptions& options) {

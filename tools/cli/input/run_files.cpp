@@ -113,9 +113,13 @@ void tidy_up(const Output& output) {
   }
 }
 
-Status check_origin(const Output& output) {
+Status check_origin(const Output& output, const RunFiles& files) {
   if (output.kind != Kind::kFrames) return {};
-  const Status own = output::FrameFolder(output.path, output.ending).check();
+  const Status own = output::FrameFolder({.folder = output.path,
+                                          .ending = output.ending,
+                                          .made_of = files.made_of,
+                                          .replaces_others = files.replaces_others})
+                         .check();
   return own ? own : fail(own.error().code, output.option + " " + own.error().message);
 }
 
@@ -158,10 +162,25 @@ Expected<std::vector<files::OutputClaim>> claim_outputs(const RunFiles& files,
       claims.push_back(*std::move(claimed));
       held.emplace_back(output.path);
     }
-    if (const Status own = check_origin(output); !own) return tl::unexpected(own.error());
+    const Status own = check_origin(output, files);
+    if (!own && unwritable == nullptr) return tl::unexpected(own.error());
+    if (!own) unwritable->push_back(own.error());
     tidy_up(output);
   }
   return claims;
+}
+
+std::string replaced_by(const RunFiles& files) {
+  std::string text;
+  for (const Output& output : files.outputs) {
+    std::error_code error;
+    const bool is_file = output.kind == Kind::kFile && fs::is_regular_file(output.path, error);
+    const bool is_folder =
+        output.kind == Kind::kReplacedFolder && fs::is_directory(output.path, error);
+    if (!is_file && !is_folder) continue;
+    text += (text.empty() ? "will be replaced: " : ", ") + output.path.string();
+  }
+  return text;
 }
 
 }  // namespace terracut::cli

@@ -35,6 +35,8 @@ struct RunFiles {
 
   std::vector<Input> inputs;
   std::vector<Output> outputs;
+  std::string made_of{};         ///< What the outputs come of; empty: unknown.
+  bool replaces_others = false;  ///< In folders of frames also what came of something else.
 
   /// Both leave out what was not given, an empty path.
   void read(std::string option, const std::filesystem::path& path, std::string what);
@@ -45,10 +47,15 @@ struct RunFiles {
 /// The one check of all commands, before any work: that no output is, lies in or replaces an input,
 /// that no two outputs are one, and that each can be what it is named for. Files are compared by
 /// what they are, not by their names (files::FilePlace). Then every output is held against other
-/// runs as long as the claims live. The errors of files::OutputClaim, naming options and files;
-/// kInvalidArgument where a folder for frames holds files of another origin. What cannot be written
-/// to now (kWriteFailed) is put into `unwritable` instead, where that is given, and not held.
+/// runs as long as the claims live. The errors of files::OutputClaim, and for folders of frames of
+/// FrameFolder::check(), naming options and files. What cannot be written to now
+/// (kWriteFailed, and what FrameFolder::check() says) is put into `unwritable` instead, where that
+/// is given.
 [[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(
     const RunFiles& files, std::vector<Error>* unwritable = nullptr);
+
+/// "will be replaced: r.json, t.parquet": files and folders that stand where the run will put its
+/// own as a whole. Empty: there are none.
+[[nodiscard]] std::string replaced_by(const RunFiles& files);
 
 }  // namespace terracut::cli

@@ -9,12 +9,13 @@
 #include "rt/files/room_left.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/input/frame_folder_of.hpp"
 
 namespace terracut::cli {
 
-LabelWriter::LabelWriter(const std::filesystem::path& folder, Slots& slots)
-    : place_(folder),
-      folder_(folder, ".label"),
+LabelWriter::LabelWriter(const OutputOptions& options, Slots& slots)
+    : place_(options.labels),
+      folder_(frame_folder_of(options, options.labels, ".label")),
       slots_(slots),
       thread_(
           [this] { work(); },

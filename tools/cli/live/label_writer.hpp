@@ -12,6 +12,7 @@
 #include "pipeline/run/frame_pool.hpp"
 #include "rt/error.hpp"
 #include "rt/threads/background_thread.hpp"
+#include "tools/cli/options.hpp"
 
 namespace terracut::cli {
 
@@ -24,7 +25,7 @@ class LabelWriter {
   using Slots = run::FramePool<frame::Label>;
 
   /// `slots` must outlive this.
-  LabelWriter(const std::filesystem::path& folder, Slots& slots);
+  LabelWriter(const OutputOptions& options, Slots& slots);
   ~LabelWriter() { finish_ = true; }
 
   /// After LiveThreads::stop(): writes what is left. False when the disk does not answer; then the

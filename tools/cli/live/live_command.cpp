@@ -239,7 +239,7 @@ class Writers {
       outlet_.emplace(std::move(stream), *publisher_, *parts.threads.points(),
                       parts.threads.points_ready());
     }
-    if (parts.threads.labels()) labels_.emplace(options.output.labels, *parts.threads.labels());
+    if (parts.threads.labels()) labels_.emplace(options.output, *parts.threads.labels());
     if (parts.recorder) {
       dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames);
     } else {

@@ -207,6 +207,8 @@ constexpr std::array kSettings{
             .writes = Kind::kFrames, .ending = ".pcd", .field = [](O& o) -> F { return &o.output.pcd; }},
     Setting{.key = "output.png", .option = "--png", .commands = kFrames, .help = "Folder for pictures: from above and as the sensor sees it",
             .writes = Kind::kFrames, .ending = ".png", .field = [](O& o) -> F { return &o.output.png; }},
+    Setting{.option = "--overwrite", .commands = kFrames | C::kLive | C::kCompare, .help = "In these folders, take away what was made of another input, too; of the same input it is always replaced",
+            .bare = "yes", .field = [](O& o) -> F { return &o.output.overwrite; }},
     Setting{.key = "output.parquet", .option = "--parquet", .commands = kFrames, .help = "File for a table of all returns, Parquet: frame return stamp ring column x y z intensity label height",
             .writes = Kind::kFile, .field = [](O& o) -> F { return &o.output.parquet; }},
     Setting{.option = "--metadata", .commands = kFrames, .help = "KEY=VALUE: what the table, and the recording, are to say of themselves; repeatable",

@@ -230,6 +230,58 @@ TEST_F(RunFilesTest, LabelsOfAnotherOriginAreNotMixedWithARuns) {
               AllOf(HasSubstr("--labels d.truth"), HasSubstr("000000.label")));
 }
 
+TEST_F(RunFilesTest, FramesOfAnotherInputAreNotTakenAway) {
+  make("01/velodyne/000000.bin");
+  make("d.pcap");
+  fs::create_symlink("d.pcap", "link");
+  const std::string capture = fs::absolute("d.pcap").lexically_normal().string();
+  make("labels/000000.label");
+  std::ofstream("labels/.label.terracut")
+      << "of: " << fs::canonical(capture).string() << "\n000000.label\n";
+  EXPECT_EQ(refusal_of(Command::kReplay, replay_of("./link", "labels", "")), "");
+  EXPECT_THAT(refusal_of(Command::kSegment, segment_of("01", "labels", "")),
+              AllOf(HasSubstr("--labels labels"), HasSubstr("d.pcap"), HasSubstr("--overwrite")));
+  Options replay = replay_of("d.pcap", "labels", "");
+  replay.capture.from = "192.168.1.201";
+  EXPECT_THAT(refusal_of(Command::kReplay, replay), HasSubstr("d.pcap"))
+      << "another sensor of that capture";
+  replay.output.overwrite = true;
+  EXPECT_EQ(refusal_of(Command::kReplay, replay), "");
+
+  Options live;
+  live.output.labels = "labels";
+  std::vector<Error> unwritable;
+  EXPECT_TRUE(claim_outputs(files_of(Command::kLive, live), &unwritable));
+  ASSERT_EQ(unwritable.size(), 1u) << "a live run goes on without";
+  EXPECT_THAT(unwritable[0].message, HasSubstr("d.pcap"));
+}
+
+TEST_F(RunFilesTest, TheSameInputIsTheSameByWhateverNameAndAsASequenceOrItsPoints) {
+  make("01/velodyne/000000.bin");
+  const auto made_of = [](const fs::path& scans) {
+    return files_of(Command::kSegment, segment_of(scans, "", "")).made_of;
+  };
+  EXPECT_EQ(made_of("01"), made_of("./01/velodyne/"));
+  Options compare;
+  compare.compare.before = "a";
+  compare.compare.after = "b";
+  EXPECT_EQ(files_of(Command::kCompare, compare).made_of,
+            fs::absolute("a").string() + " and " + fs::absolute("b").string());
+}
+
+TEST_F(RunFilesTest, WhatIsReplacedAsAWholeIsSaid) {
+  EXPECT_EQ(replaced_by(files_of(Command::kReplay, replay_of("d.pcap", "", "r.json"))), "");
+  make("r.json");
+  EXPECT_EQ(replaced_by(files_of(Command::kReplay, replay_of("d.pcap", "", "r.json"))),
+            "will be replaced: r.json");
+  make("d.pcap");
+  make("d.truth/000000.label");
+  Options simulate;
+  simulate.written = "d.pcap";
+  EXPECT_EQ(replaced_by(files_of(Command::kSimulate, simulate)),
+            "will be replaced: d.pcap, d.truth");
+}
+
 TEST_F(RunFilesTest, ARunWritesWhereNoOtherDoes) {
   const Options replay = replay_of("d", "labels", "r.json");
   const auto first = claim_outputs(files_of(Command::kReplay, replay));

@@ -113,6 +113,15 @@ ExitCode done_or_refused(const Status& status) {
   return status ? kOk : refuse(status.error());
 }
 
+std::string progress_line(const ProgressState& state) {
+  const int places = state.unit == "s" ? 1 : 0;
+  std::string line = fmt::format("{}: {:.{}f}", state.task, state.done, places);
+  if (state.total > 0) line += fmt::format(" of {:.0f}", state.total);
+  line += fmt::format(" {}", state.unit);
+  if (state.total > 0) line += fmt::format(", {:.0f} %", 100.0 * state.done / state.total);
+  return line + fmt::format(", after {:.0f} s", state.lasts_s);
+}
+
 Progress::Progress(std::string task, std::string unit, double total)
     : task_(std::move(task)),
       unit_(std::move(unit)),
@@ -132,11 +141,7 @@ void Progress::update(double done) {
   if (now_ns - shown_ns_ < (terminal_ ? kSecond_ns / 5 : 5 * kSecond_ns)) return;
   shown_ns_ = now_ns;
   const double seconds = static_cast<double>(now_ns - started_ns_) * 1e-9;
-  std::string line = fmt::format("{}: {:.4g}", task_, done);
-  if (total_ > 0) line += fmt::format(" of {:.4g}", total_);
-  line += fmt::format(" {}", unit_);
-  if (total_ > 0) line += fmt::format(", {:.0f} %", 100.0 * done / total_);
-  line += fmt::format(", {:.0f} s", seconds);
+  const std::string line = progress_line({task_, unit_, done, total_, seconds});
   if (terminal_) {
     write_message(kWipeLine + line);
     progress_line_stands = true;

@@ -57,11 +57,19 @@ class HeardLines {
 /// kOk, or the error as above.
 [[nodiscard]] ExitCode done_or_refused(const Status& status);
 
+/// How far long work has come: `done` of `total` (0: unknown) after `lasts_s` seconds.
+struct ProgressState {
+  std::string_view task, unit;
+  double done = 0, total = 0, lasts_s = 0;
+};
+/// "simulating: 0.3 of 3 s, 11 %, after 5 s"
+[[nodiscard]] std::string progress_line(const ProgressState& state);
+
 /// Shows how far long work has come: on a terminal one line that is redrawn, else a line every few
 /// seconds. Nothing is shown for work that ends at once.
 class Progress {
  public:
-  /// `unit`: what is counted ("frames"); `total`: how many there will be, 0 when unknown.
+  /// `unit`: what is counted ("frames", "s"); `total`: how many there will be, 0 when unknown.
   Progress(std::string task, std::string unit, double total);
   ~Progress();
   Progress(const Progress&) = delete;

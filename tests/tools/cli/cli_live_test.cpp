@@ -334,6 +334,19 @@ TEST_F(CliLive, AnswersAtOnceThatItKeepsNoPackets) {
   EXPECT_THAT(dumped.err, HasSubstr("--recorder-folder"));
 }
 
+TEST_F(CliLive, AnswersAtOnceThatThereIsNothingToDumpBeforeItHasHeardItsSensor) {
+  LiveRun waiting = live_with_table("--recorder-folder dumps");
+  EXPECT_TRUE(waiting.shows([](const auto&) { return true; }));
+  for (int asked = 0; asked < 2; ++asked) {
+    const Outcome refused = run("dump " + LiveRun::name() + " --wait 60");
+    EXPECT_EQ(refused.exit_code, kOutputFailed);
+    EXPECT_THAT(refused.err, HasSubstr("refused (nothing_held): labelling has not begun"));
+  }
+  const Sensors sender = sensor(waiting);
+  EXPECT_EQ(dump_of(waiting).exit_code, kOk);
+  (void)waiting.interrupted();
+}
+
 TEST_F(CliLive, WarnsOfATableThatIsNotTheOneInThePackets) {
   std::string table = content_of(kDriveCalibration);
   const std::string key = "<vertOffsetCorrection_>";

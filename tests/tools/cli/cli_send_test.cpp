@@ -8,6 +8,8 @@
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/net/udp_source.hpp"
+#include "firmware_io/sensor/hdl64e_survey.hpp"
+#include "tools/cli/exit_codes.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -150,8 +152,26 @@ TEST_F(CliSend, IsWhatASimulatedSensorDoes) {
   EXPECT_EQ(files_in(folder_, ".pcap"), 0U) << "no file was asked for";
 }
 
+TEST_F(CliSend, ASimulatedSensorTellsItsTableBeforeItsDriveIsComputed) {
+  BackgroundProgram sensor(folder_, "sensor",
+                           "simulate --scene flat --duration 3600 --spin-hz 20 --udp 127.0.0.1:" +
+                               std::to_string(source_->local().port));
+  sensor::Hdl64eSurvey told;
+  constexpr std::size_t kSeconds = 10, kPacketsASecond = 3472;
+  std::size_t heard = 0;
+  while (!told.facts().table && heard < kSeconds * kPacketsASecond) {
+    for (const auto& each : source_->receive(10'000'000)) {
+      told.add(each.payload);
+      ++heard;
+    }
+  }
+  EXPECT_TRUE(told.facts().table) << heard << " packets";
+  sensor.interrupt();
+  EXPECT_EQ(sensor.end().exit_code, kInterrupted);
+}
+
 TEST_F(CliSend, ASimulatedSensorIsHeardBeforeItsDriveIsComputed) {
-  expect_done("simulate --scene flat --duration 1 --spin-hz 20 --udp 127.0.0.1:" +
+  expect_done("simulate --sensor vlp16 --scene flat --duration 1 --spin-hz 20 --udp 127.0.0.1:" +
               std::to_string(source_->local().port) + " --json sent.json");
   const auto report = json("sent.json");
   // Of the beginning, 0.4 s, some packets at least came before the drive's own.

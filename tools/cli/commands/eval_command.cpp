@@ -290,7 +290,7 @@ Expected<eval::EvaluationOutcome> evaluate_drives(const Options& options,
   const eval::SimulatedProgress progress{[&](double done_s, double of_s) {
                                            evaluating.reset();
                                            if (!simulating)
-                                             simulating.emplace("simulating", "seconds", of_s);
+                                             simulating.emplace("simulating", "s", of_s);
                                            simulating->update(done_s);
                                          },
                                          [&](std::size_t done, std::size_t of) {

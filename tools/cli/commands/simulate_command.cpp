@@ -77,7 +77,7 @@ Expected<drive::DriveSummary> simulate(const Options& options,
       drive::DriveWriter<EncoderTraits>::create(output, config->calibration, config->sensor);
   if (!writer) return tl::unexpected(writer.error());
 
-  Progress progress("simulating", "seconds", options.simulate.duration_s);
+  Progress progress("simulating", "s", options.simulate.duration_s);
   const auto simulated = simulator::simulate_drive(
       *config, [&](const simulator::SimulatedColumn<EncoderTraits>& column) -> Status {
         if (Status status = go_on(); !status) return status;
@@ -114,20 +114,26 @@ ExitCode simulate_and_say(const Options& options, const std::filesystem::path& o
 }
 
 /// Rays take longer to trace than a frame lasts: the drive is computed first, then sent on time.
-/// Meanwhile its beginning goes out over and over, so that a sensor is heard within seconds.
-constexpr double kBeginning_s = 0.4;
+/// Meanwhile its beginning goes out over and over, so that a sensor is heard within seconds: as
+/// much as tells the unit's table, which of an HDL-64E takes 1.2 s.
+double beginning_s(const Options& options) {
+  return options.capture.sensor.value_or(sensor::SensorModel::kHdl64e) ==
+                 sensor::SensorModel::kHdl64e
+             ? 1.3
+             : 0.4;
+}
 
 ExitCode simulate_sending_the_beginning(const Options& options, const std::filesystem::path& folder,
                                         const std::filesystem::path& drive) {
   Options beginning = options;
-  beginning.simulate.duration_s = kBeginning_s;
+  beginning.simulate.duration_s = beginning_s(options);
   beginning.can_log = false;
   beginning.send.faults.clear();
   beginning.capture.file = folder / "beginning.pcap";
   const auto begun = simulate_to(beginning, beginning.capture.file);
   if (!begun) return refuse_work(begun.error());
   say(fmt::format("sending the first {} s over and over, until all of the drive is computed",
-                  kBeginning_s));
+                  beginning_s(options)));
   std::atomic<bool> is_computed{false};
   ExitCode simulated = kOk;
   std::jthread computing([&] {
@@ -155,7 +161,7 @@ ExitCode run_simulate(const Options& options) {
   if (scratch.path().empty()) return refuse(kOutputFailed, "no temporary folder can be made");
   Options sending = options;
   sending.capture.file = options.written.empty() ? scratch.path() / "drive.pcap" : options.written;
-  const bool is_short = options.simulate.duration_s < 2 * kBeginning_s;
+  const bool is_short = options.simulate.duration_s < 2 * beginning_s(options);
   const ExitCode simulated =
       is_short ? simulate_and_say(options, sending.capture.file)
                : simulate_sending_the_beginning(options, scratch.path(), sending.capture.file);

@@ -9,7 +9,6 @@
 #include <utility>
 #include <variant>
 
-#include "pipeline/page/status_page.hpp"
 #include "rt/caught.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/lab/encode/hdl64e_encoder_traits.hpp"
@@ -35,12 +34,12 @@ recorder::DumpFolderLimits dump_folder_of(const Options& options) {
 
 DumpWriter::DumpWriter(const Options& options, calib::SensorCalibration calibration,
                        recorder::FlightRecorder& recorder,
-                       std::span<const std::string_view> stage_names)
+                       std::span<const std::string_view> stage_names, DumpAnswers& answers)
     : calibration_(std::move(calibration)),
       recorder_(recorder),
       stage_names_(stage_names),
       policy_({.folder = dump_folder_of(options)}),
-      answers_(page::status_page_folder(), options.watch.name),
+      answers_(answers),
       thread_([this] { work(); },
               [](std::string_view why) { warn(fmt::format("no more dumps: {}", why)); }) {}
 

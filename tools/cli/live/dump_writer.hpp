@@ -27,9 +27,11 @@ namespace terracut::cli {
 /// waits for it. What is wanted while a dump is being written is written after it, once.
 class DumpWriter {
  public:
-  /// `recorder` and `stage_names` must outlive this. `calibration`, in use, goes beside each dump.
+  /// `recorder`, `stage_names` and `answers`, which only this uses meanwhile, must outlive this.
+  /// `calibration`, in use, goes beside each dump.
   DumpWriter(const Options& options, calib::SensorCalibration calibration,
-             recorder::FlightRecorder& recorder, std::span<const std::string_view> stage_names);
+             recorder::FlightRecorder& recorder, std::span<const std::string_view> stage_names,
+             DumpAnswers& answers);
   ~DumpWriter() { begin_to_finish(); }
 
   /// `frames`: the times of the newest frames.
@@ -48,7 +50,7 @@ class DumpWriter {
   recorder::FlightRecorder& recorder_;
   std::span<const std::string_view> stage_names_;
   recorder::DumpPolicy policy_;
-  DumpAnswers answers_;
+  DumpAnswers& answers_;
 
   std::mutex mutex_;  ///< Between threads without a deadline.
   std::condition_variable changed_;

@@ -60,6 +60,10 @@ void say_refusals(const std::vector<threads::Grant>& grants) {
   }
 }
 
+[[nodiscard]] bool keeps_packets(const Options& options) {
+  return options.recorder.seconds > 0 && !options.recorder.folder.empty();
+}
+
 Expected<net::LiveSource> open_source(const Options& options, memory::FixedMemory& memory) {
   auto source = net::LiveSource::open(listen_config_of(options), memory);
   if (!source) return source;
@@ -74,16 +78,38 @@ std::string describe(const sensor::SensorOnAir& sensor) {
                      sensor.dual_return ? "dual" : "single");
 }
 
+/// The answer to whoever asks for a dump where no packets are kept.
+recorder::RefusedDump nothing_to_dump(const Options& options) {
+  if (keeps_packets(options)) {
+    return {recorder::DumpRefusal::kNothingHeld,
+            "labelling has not begun, and packets are kept from then on; `terracut top` shows what "
+            "is waited for"};
+  }
+  return {recorder::DumpRefusal::kNoRecorder,
+          "this run keeps no packets; start it with --recorder-folder FOLDER (and "
+          "--recorder-seconds above 0)"};
+}
+
+void refuse_dump(const Options& options, DumpAnswers& answers) {
+  const Status told = answers.publish(tl::unexpected(nothing_to_dump(options)));
+  if (!told) warn(told.error().message);
+}
+
 /// Shows whoever looks what a run waits for that has not heard its sensor yet.
 class Waiting {
  public:
-  Waiting(const net::LiveSource& source, std::int64_t deadline_ns, FiguresDisplay& display,
-          LiveService& service)
-      : source_(source), display_(display), service_(service) {
+  Waiting(const Options& options, const net::LiveSource& source, FiguresDisplay& display,
+          LiveService& service, DumpSignal& dump_wanted, DumpAnswers& answers)
+      : options_(options),
+        source_(source),
+        display_(display),
+        service_(service),
+        dump_wanted_(dump_wanted),
+        answers_(answers) {
     figures_->version = {TERRACUT_VERSION};
     figures_->input = {source.name()};
     figures_->started_ns = measure::realtime_ns();
-    figures_->deadline_ns = deadline_ns;
+    figures_->deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
     show("waiting for a sensor");
     service_.ready(*figures_, measure::monotonic_ns());
   }
@@ -91,6 +117,7 @@ class Waiting {
   void work_round(const std::string& what) {
     show(what);
     service_.work_round(*figures_, measure::monotonic_ns());
+    if (dump_wanted_.take()) refuse_dump(options_, answers_);
     // What is heard soon need not be said to be waited for; counts in it change all the time.
     const std::int64_t now_ns = measure::monotonic_ns();
     if (now_ns < say_at_ns_ || what == said_) return;
@@ -100,11 +127,11 @@ class Waiting {
   }
 
   /// The run was stopped before labelling began.
-  [[nodiscard]] ExitCode end(const Options& options) const {
+  [[nodiscard]] ExitCode end() const {
     fmt::print("{}", closing_lines(*figures_));
-    const Status written = write_json(options.output.json, live_summary(*figures_));
+    const Status written = write_json(options_.output.json, live_summary(*figures_));
     if (!written) return refuse(written.error());
-    return options.capture.duration_s ? kInterrupted : kOk;
+    return options_.capture.duration_s ? kInterrupted : kOk;
   }
 
  private:
@@ -121,9 +148,12 @@ class Waiting {
     display_.show(*figures_);
   }
 
+  const Options& options_;
   const net::LiveSource& source_;
   FiguresDisplay& display_;
   LiveService& service_;
+  DumpSignal& dump_wanted_;
+  DumpAnswers& answers_;
   status::InputState intake_;
   status::InputStatus input_;
   std::unique_ptr<status::MonitorSnapshot> figures_ = std::make_unique<status::MonitorSnapshot>();
@@ -207,7 +237,7 @@ struct LiveParts {
   static std::optional<recorder::FlightRecorder> recorder_of(const Options& options,
                                                              sensor::SensorModel model,
                                                              memory::FixedMemory& memory) {
-    if (options.recorder.seconds <= 0 || options.recorder.folder.empty()) return std::nullopt;
+    if (!keeps_packets(options)) return std::nullopt;
     return std::make_optional<recorder::FlightRecorder>(
         net::packet_ring_size(options.recorder.seconds, most_packets_per_second(model),
                               kLongestPacketBytes),
@@ -218,6 +248,9 @@ struct LiveParts {
 /// What leaves a run, on threads that nothing waits for.
 class Writers {
  public:
+  /// `answers`: to those who ask for dumps.
+  explicit Writers(DumpAnswers& answers) noexcept : answers_(answers) {}
+
   /// What cannot be had is tried again as long as the run goes on.
   void open(const Options& options, const sensor::SensorOnAir& sensor, const mount::Mount& mount,
             LiveParts& parts) {
@@ -241,9 +274,8 @@ class Writers {
     }
     if (parts.threads.labels()) labels_.emplace(options.output, *parts.threads.labels());
     if (parts.recorder) {
-      dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames);
-    } else {
-      refusals_.emplace(page::status_page_folder(), options.watch.name);
+      dumps_.emplace(options, sensor.calibration, *parts.recorder, LiveWatch::kStageNames,
+                     answers_);
     }
   }
 
@@ -251,14 +283,12 @@ class Writers {
   [[nodiscard]] const run::FrameOutlet* outlet() const { return outlet_ ? &*outlet_ : nullptr; }
   [[nodiscard]] publish::Publisher& publisher() { return *publisher_; }
 
-  void want_dump(recorder::DumpReason reason, const LiveWatch& watch) {
-    if (dumps_) dumps_->want(reason, watch.newest());
-    if (!refusals_ || reason != recorder::DumpReason::kAsked) return;
-    const Status told = refusals_->publish(tl::unexpected(recorder::RefusedDump{
-        recorder::DumpRefusal::kNoRecorder,
-        "this run keeps no packets; start it with --recorder-folder FOLDER (and "
-        "--recorder-seconds above 0)"}));
-    if (!told) warn(told.error().message);
+  void want_dump(recorder::DumpReason reason, const Options& options, const LiveWatch& watch) {
+    if (dumps_) {
+      dumps_->want(reason, watch.newest());
+    } else if (reason == recorder::DumpReason::kAsked) {
+      refuse_dump(options, answers_);
+    }
   }
 
   /// False when the disk does not answer, or another output.
@@ -293,13 +323,13 @@ class Writers {
             .on_news = [](const Status& now) { tell_of_door("stream of labelled points", now); }};
   }
 
+  DumpAnswers& answers_;
   /// Of the outlet's thread; not locked: no thread with a deadline touches it.
   memory::FixedMemory stream_memory_;
   std::optional<publish::Publisher> publisher_;
   std::optional<run::FrameOutlet> outlet_;
   std::optional<LabelWriter> labels_;
   std::optional<DumpWriter> dumps_;
-  std::optional<DumpAnswers> refusals_;  ///< Where there is nothing to dump.
 };
 
 void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor, LiveParts& parts,
@@ -317,8 +347,8 @@ void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor
     service.work_round(watch.figures(), measure::monotonic_ns());
     const std::string other = parts.threads.told_table().take_warning(sensor.calibration);
     if (!other.empty()) warn(other);
-    if (round.missed > 0) writers.want_dump(recorder::DumpReason::kMissedDeadline, watch);
-    if (dump_wanted.take()) writers.want_dump(recorder::DumpReason::kAsked, watch);
+    if (round.missed > 0) writers.want_dump(recorder::DumpReason::kMissedDeadline, options, watch);
+    if (dump_wanted.take()) writers.want_dump(recorder::DumpReason::kAsked, options, watch);
   }
   if (options.capture.duration_s && !is_over()) watch.note_interruption();
 }
@@ -359,10 +389,11 @@ ExitCode run_live(const Options& options) {
     signals = *std::move(found);
   }
   FiguresDisplay display(options.watch);
-  Waiting waiting(*source, static_cast<std::int64_t>(options.deadline_ms * 1e6), display, service);
+  DumpAnswers dump_answers(page::status_page_folder(), options.watch.name);
+  Waiting waiting(options, *source, display, service, dump_wanted, dump_answers);
   const auto sensor = listen_for_sensor(*source, options,
                                         [&](const std::string& what) { waiting.work_round(what); });
-  if (stop_wanted()) return waiting.end(options);
+  if (stop_wanted()) return waiting.end();
   if (!sensor) return refuse(sensor.error());
   source->accept_only(sensor->address);
   say("sensor: " + describe(*sensor));
@@ -371,7 +402,7 @@ ExitCode run_live(const Options& options) {
                   calib::fingerprint(sensor->calibration)));
   const MountChoice mount = mount_on_air(
       *source, *sensor, options, [&](const std::string& what) { waiting.work_round(what); });
-  if (stop_wanted()) return waiting.end(options);
+  if (stop_wanted()) return waiting.end();
   const auto profile = ring_profile_of(sensor->calibration, mount.options);
   if (!profile) return refuse(profile.error());
 
@@ -396,7 +427,7 @@ ExitCode run_live(const Options& options) {
                   memory);
   if (const Status fits = memory.within_plan(); !fits) return refuse(fits.error());
 
-  Writers writers;
+  Writers writers(dump_answers);
   writers.open(options, *sensor, profile->mount, parts);
   say_refusals(parts.start(options));
   parts.watch.open(describe(*sensor), source->name(), writers.outlet(), writers.publisher());

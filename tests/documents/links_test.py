@@ -3,7 +3,7 @@
 # Copyright 2026 The terracut authors
 """The documents hold together: links lead somewhere, files they name exist, each is in the index.
 
-documents_test.py REPOSITORY
+links_test.py REPOSITORY
 """
 
 import re

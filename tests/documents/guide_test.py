@@ -1,10 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 # Copyright 2026 The terracut authors
-"""What README and the guide tell a reader to type works: every `terracut` command, ./tools/report, ./tools/compare and
-every Python block is run.
+"""What the guide tells a reader to type works: every `terracut` command and every Python block is run.
 
-readme_test.py REPOSITORY PROGRAM DRIVE WORK_FOLDER
+guide_test.py REPOSITORY PROGRAM DRIVE WORK_FOLDER
 
 DRIVE is a capture of an HDL-64E with its table and truth beside it. Everything runs in a network of its own (unshare), so
 that ports are free and nothing leaves the machine; simulated drives are cut short. A command that cannot be run here is
@@ -22,9 +21,12 @@ import time
 import urllib.request
 from pathlib import Path
 
+from blocks import blocks_of
+from made_scans import write_sequence
+from own_network import skip_without_own_network
+
 DRIVE_S = "0.3"
 SETUP = "front.setup.yaml"  # as a configuration of the guide names it
-BLOCK = re.compile(r"^```(\w*)\n(.*?)^```", re.MULTILINE | re.DOTALL)
 # Pattern of a command -> why it is not run.
 NOT_HERE = {
     r"--can can\d": "needs a CAN interface",
@@ -32,7 +34,6 @@ NOT_HERE = {
     r"\brear\b|\bfront$": "needs two sensors",
     r"\bCOMMAND\b|--config FILE": "is a pattern, not a command",
 }
-SCRIPTS = ("./tools/report", "./tools/compare")  # in the distribution's Python
 PATIENCE_S = 120
 
 
@@ -40,16 +41,11 @@ class Failed(Exception):
     """What a document promises did not happen."""
 
 
-def blocks_of(page: Path):
-    """(language, text) of every fenced block."""
-    return BLOCK.findall(page.read_text())
-
-
 def commands_of(text: str):
-    """Every `terracut ...` and script of a block, without its comment, as a list of words."""
+    """Every `terracut ...` of a block, without its comment, as a list of words."""
     for line in text.splitlines():
-        if line.startswith(tuple(f"{name} " for name in ("terracut", *SCRIPTS))):
-            yield shlex.split(line, comments=True)
+        if line.startswith("terracut "):
+            yield shlex.split(line, comments=True)[1:]
 
 
 class Sensor:
@@ -83,10 +79,7 @@ class Page:
         if not (self.folder.parent / SETUP).exists():
             self.check(["calibrate", "drive.pcap", "-o", f"../{SETUP}"])
         shutil.copy(self.folder.parent / SETUP, self.folder)
-        scans = self.repository.parent / "shared/data/semantickitti/sequences"
-        if scans.exists():
-            (self.folder / "ROOT").symlink_to(scans.parent)
-            (self.folder / "sequences").symlink_to(scans)
+        (self.folder / "sequences").symlink_to("../ROOT/sequences")
 
     def take_drive(self):
         for path in self.drive.parent.glob(f"{self.drive.stem}.*"):
@@ -105,11 +98,8 @@ class Page:
                 elif language == "python":
                     self.run_python(text)
                 else:
-                    for name, *words in commands_of(text):
-                        if name in SCRIPTS:
-                            self.run_script(name, words)
-                        else:
-                            self.run_command(words)
+                    for words in commands_of(text):
+                        self.run_command(words)
         finally:
             self.end_live()
             shutil.rmtree(self.environment["TERRACUT_STATUS_FOLDER"])
@@ -122,9 +112,6 @@ class Page:
                 return
         if {"node", "--dds"} & set(words) and not self.has_dds():
             self.left_out.append(f"terracut {said}: needs a program that was built with DDS")
-            return
-        if {"ROOT", "sequences/00"} & set(words) and not (self.folder / "ROOT").exists():
-            self.left_out.append(f"terracut {said}: needs SemanticKITTI's scans")
             return
         if words[0] == "live":
             self.begin_live(words)
@@ -148,14 +135,6 @@ class Page:
                               capture_output=True, text=True, check=False)
         return "built without DDS" not in said.stderr
 
-    def run_script(self, name: str, words: list[str]):
-        packages = subprocess.run(["/usr/bin/python3", "-c", "import jinja2, matplotlib, scipy"], capture_output=True, check=False)
-        if packages.returncode != 0:
-            self.left_out.append(f"{name} {shlex.join(words)}: needs the packages of ./tools/setup --report")
-            return
-        self.check(words, self.repository / name)
-        self.passed += 1
-
     def shortened(self, words: list[str]) -> list[str]:
         if words[0] != "simulate":
             return words
@@ -164,14 +143,13 @@ class Page:
             return [*words[:at], DRIVE_S, *words[at + 1:]]
         return [*words, "--duration", DRIVE_S]
 
-    def check(self, words: list[str], program: Path | None = None):
-        done = subprocess.run([program or self.program, *words], cwd=self.folder, env=self.environment, timeout=PATIENCE_S,
+    def check(self, words: list[str]):
+        done = subprocess.run([self.program, *words], cwd=self.folder, env=self.environment, timeout=PATIENCE_S,
                               capture_output=True, text=True, check=False)
         # 7: this machine is not a vehicle's; 5: nobody publishes clouds here.
         ready = (0, 7) if words[-1] == "doctor" else (5,) if words[0] == "node" else (0,)
         if done.returncode not in ready:
-            name = program.name if program else "terracut"
-            raise Failed(f"{name} {shlex.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
+            raise Failed(f"terracut {shlex.join(words)}: exit code {done.returncode}\n{done.stdout}{done.stderr}")
 
     def look_at(self, words: list[str]):
         """A page that is served until somebody ends it."""
@@ -261,7 +239,8 @@ def main() -> int:
     shutil.rmtree(work, ignore_errors=True)
     work.mkdir(parents=True)
     failures = 0
-    for document in (repository / "README.md", *sorted((repository / "docs/guide").glob("*.md"))):
+    write_sequence(work / "ROOT/sequences/00")
+    for document in sorted((repository / "docs/guide").glob("*.md")):
         page = Page(repository, program, work / document.stem)
         page.folder.mkdir()
         try:
@@ -276,24 +255,6 @@ def main() -> int:
     return 1 if failures else 0
 
 
-def in_own_network() -> bool:
-    """Goes on in a network with nothing but a loopback interface; False where the system does not allow that."""
-    if os.environ.get("TERRACUT_OWN_NETWORK"):
-        return True
-    begin = ["unshare", "--user", "--map-root-user", "--net"]
-    up = "ip link set lo up && exec "
-    try:
-        allowed = subprocess.run([*begin, "sh", "-c", up + "true"], capture_output=True, check=False).returncode == 0
-    except FileNotFoundError:
-        return False
-    if allowed:
-        os.environ["TERRACUT_OWN_NETWORK"] = "1"
-        os.execvp(begin[0], [*begin, "sh", "-c", up + shlex.join([sys.executable, *sys.argv])])
-    return False
-
-
 if __name__ == "__main__":
-    if not in_own_network():
-        print("skipped: no network of its own is to be had here (unshare, iproute2)")
-        sys.exit(0)
+    skip_without_own_network()
     sys.exit(main())

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "calib/mount/mount.hpp"
 
@@ -23,6 +24,16 @@ struct Pose {
   // The inverse of a rotation is its transpose; of its quaternion, the conjugate.
   return {{-mount.height_m * T[8], -mount.height_m * T[9], -mount.height_m * T[10]},
           {-cp * sr, -sp * cr, sp * sr, cp * cr}};
+}
+
+/// The transform back.
+[[nodiscard]] constexpr RigidTransform inverse(const RigidTransform& T) noexcept {
+  const auto turned_back = [&](std::size_t axis) {
+    return -(T[axis] * T[3] + T[4 + axis] * T[7] + T[8 + axis] * T[11]);
+  };
+  return {T[0], T[4], T[8],  turned_back(0),  //
+          T[1], T[5], T[9],  turned_back(1),  //
+          T[2], T[6], T[10], turned_back(2)};
 }
 
 }  // namespace terracut::mount

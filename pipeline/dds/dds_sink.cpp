@@ -16,12 +16,24 @@ using ros_messages::CloudOf;
 using ros_messages::CloudPoint;
 
 /// As the C type has them. Its texts are not const, but nobody writes to them.
-std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields() {
+std::vector<sensor_msgs_msg_dds__PointField_> cloud_fields(bool with_label) {
   std::vector<sensor_msgs_msg_dds__PointField_> fields;
   for (const ros_messages::CloudField& field : ros_messages::kCloudFields) {
+    if (field.name == "label" && !with_label) continue;
     fields.push_back({const_cast<char*>(field.name.data()), field.offset, field.datatype, 1});
   }
   return fields;
+}
+
+/// Of the frame's first packet, after the stamp of its header.
+float time_of_first_s_of(const publish::LabelledFrame& frame) noexcept {
+  const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
+  return static_cast<float>(frame.record.info.first_packet_ns - stamp_ns) * 1e-9F;
+}
+
+std::uint8_t* put_point(const CloudPoint& point, std::uint8_t* to) noexcept {
+  std::memcpy(to, &point, sizeof(point));
+  return to + sizeof(point);
 }
 
 }  // namespace
@@ -33,7 +45,11 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
   std::unique_ptr<DdsSink> sink(new DdsSink(*std::move(participant)));
   sink->config_ = config;
   sink->frame_id_ = stream.frame_id;
-  sink->fields_ = cloud_fields();
+  sink->sensor_frame_id_ =
+      stream.sensor_frame_id.empty() ? stream.frame_id : stream.sensor_frame_id;
+  sink->T_lidar_vehicle_ = mount::inverse(mount::T_vehicle_lidar(stream.mount));
+  sink->fields_ = cloud_fields(true);
+  sink->raw_fields_ = cloud_fields(false);
   Writer diagnostics;
   struct Wanted {
     Writer& writer;
@@ -47,6 +63,7 @@ Expected<std::unique_ptr<DdsSink>> DdsSink::open(const Config& config,
         Wanted{sink->ground_, config.ground, kPointCloud2, config.quality},
         Wanted{sink->obstacles_, config.obstacles, kPointCloud2, config.quality},
         Wanted{sink->road_, config.road, kPointCloud2, config.quality},
+        Wanted{sink->raw_, config.raw, kPointCloud2, config.quality},
         Wanted{diagnostics, config.diagnostics, kDiagnosticArray, {}},
         Wanted{sink->tf_static_, config.tf_static, kTfMessage, latched}}) {
     if (wanted.topic.empty()) continue;
@@ -78,6 +95,7 @@ Status DdsSink::put(const publish::LabelledFrame& frame) {
   put_points(ground_, frame, CloudOf::kGround);
   put_points(road_, frame, CloudOf::kRoad);
   put_points(points_, frame, CloudOf::kAll);
+  put_raw(frame);
   return {};
 }
 
@@ -86,38 +104,57 @@ void DdsSink::await_readers() {
   const auto all_have_it = [&](Writer& writer) {
     return !writer || writer->is_acknowledged(config_.patience_ns);
   };
-  const bool all =
-      all_have_it(points_) && all_have_it(obstacles_) && all_have_it(ground_) && all_have_it(road_);
+  const bool all = all_have_it(points_) && all_have_it(obstacles_) && all_have_it(ground_) &&
+                   all_have_it(road_) && all_have_it(raw_);
   behind_ = all ? 0 : behind_ + 1;
   if (behind_ > config_.quality.depth) unacknowledged_.fetch_add(1, std::memory_order_relaxed);
 }
 
 void DdsSink::put_points(Writer& writer, const publish::LabelledFrame& frame, CloudOf which) {
   if (!writer || writer->readers() == 0) return;
-  const std::int64_t stamp_ns = ros_messages::stamp_ns_of(frame.record);
-  const float time_of_first_s =
-      static_cast<float>(frame.record.info.first_packet_ns - stamp_ns) * 1e-9F;
   bytes_.resize(frame.points.size() * sizeof(CloudPoint));
   std::uint8_t* to = bytes_.data();
+  const float time_of_first_s = time_of_first_s_of(frame);
   for (const stream::LabelledPoint& point : frame.points) {
     if (!ros_messages::belongs_to(which, point.label)) continue;
-    const CloudPoint packed = ros_messages::cloud_point(point, time_of_first_s);
-    std::memcpy(to, &packed, sizeof(packed));
-    to += sizeof(packed);
+    to = put_point(ros_messages::cloud_point(point, time_of_first_s), to);
   }
-  const auto bytes = static_cast<std::uint32_t>(to - bytes_.data());
+  bytes_.resize(static_cast<std::size_t>(to - bytes_.data()));
+  write(*writer, frame, frame_id_, fields_);
+}
+
+void DdsSink::put_raw(const publish::LabelledFrame& frame) {
+  if (!raw_ || raw_->readers() == 0) return;
+  bytes_.resize(frame.points.size() * sizeof(CloudPoint));
+  std::uint8_t* to = bytes_.data();
+  const float time_of_first_s = time_of_first_s_of(frame);
+  for (const stream::LabelledPoint& point : frame.points) {
+    CloudPoint raw = ros_messages::cloud_point(point, time_of_first_s);
+    const auto at_m = mount::apply(T_lidar_vehicle_, point.x_m, point.y_m, point.z_m);
+    raw.x_m = static_cast<float>(at_m[0]);
+    raw.y_m = static_cast<float>(at_m[1]);
+    raw.z_m = static_cast<float>(at_m[2]);
+    raw.label = 0;
+    to = put_point(raw, to);
+  }
+  write(*raw_, frame, sensor_frame_id_, raw_fields_);
+}
+
+void DdsSink::write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
+                    std::vector<sensor_msgs_msg_dds__PointField_>& fields) {
+  const auto bytes = static_cast<std::uint32_t>(bytes_.size());
   sensor_msgs_msg_dds__PointCloud2_ cloud{};
-  cloud.header = {ros_time(stamp_ns), frame_id_.data()};
+  cloud.header = {ros_time(ros_messages::stamp_ns_of(frame.record)), frame_id.data()};
   cloud.height = 1;
   cloud.width = bytes / sizeof(CloudPoint);
-  cloud.fields._buffer = fields_.data();
-  cloud.fields._length = cloud.fields._maximum = static_cast<std::uint32_t>(fields_.size());
+  cloud.fields._buffer = fields.data();
+  cloud.fields._length = cloud.fields._maximum = static_cast<std::uint32_t>(fields.size());
   cloud.point_step = sizeof(CloudPoint);
   cloud.row_step = bytes;
   cloud.data._buffer = bytes_.data();
   cloud.data._length = cloud.data._maximum = bytes;
   cloud.is_dense = true;
-  if (!writer->write(&cloud)) refused_.fetch_add(1, std::memory_order_relaxed);
+  if (!writer.write(&cloud)) refused_.fetch_add(1, std::memory_order_relaxed);
 }
 
 Status DdsSink::put_figures(const status::MonitorSnapshot& figures) {
@@ -130,7 +167,7 @@ Status DdsSink::put_figures(const status::MonitorSnapshot& figures) {
 Status DdsSink::finish() {
   // What was written last is still on its way to reliable readers when the writers go.
   constexpr std::int64_t kPatience_ns = 1'000'000'000;
-  for (Writer* writer : {&points_, &obstacles_, &ground_, &road_}) {
+  for (Writer* writer : {&points_, &obstacles_, &ground_, &road_, &raw_}) {
     if (*writer) (void)(*writer)->is_acknowledged(kPatience_ns);
   }
   return {};

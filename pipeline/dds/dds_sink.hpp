@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "calib/mount/mount.hpp"
 #include "diagnostics_writer.hpp"
 #include "participant.hpp"
 #include "pipeline/publish/frame_sink.hpp"
@@ -20,14 +21,15 @@
 namespace terracut::dds {
 
 /// Publishes labelled frames as ROS 2 messages: points, each with its label; ground, obstacles and
-/// road by themselves; diagnostics, and where the sensor stands.
+/// road by themselves; points without labels, in the sensor's frame, as its driver would send them;
+/// diagnostics, and where the sensor stands.
 class DdsSink final : public publish::FrameSink {
  public:
   struct Config {
     Participant::Config participant{};
     Quality quality{};
     /// Of dds_topic(); empty: not published.
-    std::string points{}, ground{}, obstacles{}, road{}, diagnostics{}, tf_static{};
+    std::string points{}, ground{}, obstacles{}, road{}, raw{}, diagnostics{}, tf_static{};
     /// How long a frame waits for reliable readers of those before it; 0: not at all.
     std::int64_t patience_ns = 0;
   };
@@ -53,13 +55,18 @@ class DdsSink final : public publish::FrameSink {
   [[nodiscard]] Status write_mount(const publish::Stream& stream);
   void await_readers();
   void put_points(Writer& writer, const publish::LabelledFrame& frame, ros_messages::CloudOf which);
+  void put_raw(const publish::LabelledFrame& frame);
+  /// The points in bytes_, of that frame.
+  void write(TopicWriter& writer, const publish::LabelledFrame& frame, std::string& frame_id,
+             std::vector<sensor_msgs_msg_dds__PointField_>& fields);
 
   Participant participant_;
   Config config_;
-  std::string frame_id_;
-  Writer points_, ground_, obstacles_, road_, tf_static_;
+  std::string frame_id_, sensor_frame_id_;
+  mount::RigidTransform T_lidar_vehicle_{};
+  Writer points_, ground_, obstacles_, road_, raw_, tf_static_;
   std::optional<DiagnosticsWriter> diagnostics_;
-  std::vector<sensor_msgs_msg_dds__PointField_> fields_;
+  std::vector<sensor_msgs_msg_dds__PointField_> fields_, raw_fields_;
   std::vector<std::uint8_t> bytes_;  ///< Of a message's points.
   int behind_ = 0;  ///< Frames in a row that some reader had not acknowledged when the next came.
   std::atomic<std::uint64_t> unacknowledged_{0}, refused_{0};

@@ -155,8 +155,9 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
     {"returns", f.returns, {"terracut_returns_total", "Returns in these frames."},
      {"frames", "{} returns"}},
     {"unjudged", f.unjudged,
-     {"terracut_unjudged_frames_total", "Frames whose stamps give no latency."},
-     {"frames", "{} not judged: their stamps give no latency", Shown::kIfAny}},
+     {"terracut_unjudged_frames_total", "Frames whose latency is not known: without stamps, or come "
+      "before a node knew its sensor."},
+     {"frames", "{} without a latency, so not judged", Shown::kIfAny}},
     {"levels", counts_of<Level>("level", f.levels),
      {"terracut_frames_total", "Frames judged, by the degradation level they got to."},
      {"levels", "{}", f.frames > 0 ? Shown::kAlways : Shown::kIfAny}}});

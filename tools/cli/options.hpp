@@ -82,6 +82,7 @@ struct DdsOptions {
   DdsPreset preset = DdsPreset::kRos;
   std::string points, ground, obstacles, road;  ///< Empty: the preset's; "off": none.
   std::string diagnostics = "/diagnostics";     ///< "off": none.
+  std::string raw;  ///< Of clouds without labels, as a driver sends them; empty: labelled ones.
   bool reliable = true;
   int depth = 5;
   std::optional<int> domain;  ///< None: ROS_DOMAIN_ID, else 0.

@@ -31,6 +31,14 @@ TEST(MountPose, TakesAPointBackToTheSensorFromWhichTheMountTookIt) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(back[i], seen[i], 1e-12);
 }
 
+TEST(MountPose, AnInverseTakesAPointBackAsThePoseDoes) {
+  const Mount mount{.height_m = 1.9, .roll_rad = 0.05, .pitch_rad = -0.12};
+  const RigidTransform back = inverse(T_vehicle_lidar(mount));
+  const auto taken = mount::apply(back, 3, -4, 0.5);
+  const auto expected = moved_by(vehicle_in_lidar(mount), {3, -4, 0.5});
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(taken[i], expected[i], 1e-12);
+}
+
 TEST(MountPose, OfALevelSensorIsTheGroundBelowIt) {
   const Pose pose = vehicle_in_lidar({.height_m = 1.73, .roll_rad = 0, .pitch_rad = 0});
   EXPECT_DOUBLE_EQ(pose.translation_m[2], -1.73);

@@ -15,17 +15,19 @@
 namespace terracut::cli {
 
 DdsTopics dds_topics_of(const DdsOptions& options) {
-  DdsTopics topics{"~/points", "~/ground", "~/obstacles", "~/road", ""};
+  DdsTopics topics{
+      .points = "~/points", .ground = "~/ground", .obstacles = "~/obstacles", .road = "~/road"};
   switch (options.preset) {
     case DdsPreset::kRos:
       break;
     case DdsPreset::kAutoware:  // what its planner stops for
-      topics = {"", "", "/perception/obstacle_segmentation/pointcloud", "", ""};
+      topics = {.obstacles = "/perception/obstacle_segmentation/pointcloud"};
       break;
     case DdsPreset::kNav2:  // the defaults of its GroundConsistencyLayer
-      topics = {"", "/ground_points", "/nonground_points", "", ""};
+      topics = {.ground = "/ground_points", .obstacles = "/nonground_points"};
       break;
   }
+  if (!options.raw.empty() && options.raw != "off") topics = {.raw = options.raw};
   const auto state = [](const std::string& stated, std::string& topic) {
     if (!stated.empty()) topic = stated == "off" ? "" : stated;
   };
@@ -51,7 +53,7 @@ std::string dds_topic_of(const std::string& name, const DdsOptions& options) {
 std::string topic_list(const DdsOptions& options) {
   const DdsTopics topics = dds_topics_of(options);
   std::string list;
-  for (const std::string& topic : {topics.points, topics.ground, topics.obstacles}) {
+  for (const std::string& topic : {topics.points, topics.ground, topics.obstacles, topics.raw}) {
     const std::string name = dds_topic_of(topic, options);
     if (!name.empty()) list += (list.empty() ? "" : ", ") + name.substr(2);  // without "rt"
   }
@@ -74,6 +76,7 @@ Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& op
                           .ground = topic(topics.ground),
                           .obstacles = topic(topics.obstacles),
                           .road = stream.has_road ? topic(topics.road) : "",
+                          .raw = topic(topics.raw),
                           .diagnostics = topic(topics.diagnostics),
                           .tf_static = topic("/tf_static"),
                           // Nothing of a recording is to be lost; a live run waits for nobody.

@@ -14,7 +14,7 @@ namespace terracut::cli {
 
 /// Names of topics, as stated or else by the preset; empty: not published.
 struct DdsTopics {
-  std::string points, ground, obstacles, road, diagnostics;
+  std::string points{}, ground{}, obstacles{}, road{}, diagnostics{}, raw{};
 };
 [[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
 

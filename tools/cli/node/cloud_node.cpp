@@ -59,6 +59,7 @@ void CloudNode::take_clouds() {
   while (!finish_) {
     reader_.wait(kLookAtEnd_ns);
     while (dds::TakenCloud cloud = reader_.take()) {
+      look_for_gap(*cloud);
       Job job{std::move(cloud), {}, {}};
       job.record.info.number = number++;
       job.record.info.complete = true;
@@ -71,6 +72,13 @@ void CloudNode::take_clouds() {
   came_.close();
 }
 
+void CloudNode::look_for_gap(const dds::RosCloud& cloud) {
+  if (reader_.writers() > 1) return gaps_.restart();
+  const auto& stamp = cloud.header.stamp;
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  missing_ += gaps_.missing_before(stamp.sec * kSecond_ns + stamp.nanosec);
+}
+
 void CloudNode::label_clouds() {
   while (!came_.is_over()) {
     auto job = came_.pop(kPatience);
@@ -78,6 +86,7 @@ void CloudNode::label_clouds() {
       if (!first_clouds_.empty()) set_up();
       continue;
     }
+    job->record.handed_over_ns = measure::realtime_ns();
     if (labeller_.skip_if_late(job->record)) {  // before it costs what the next one needs
       news_.add(job->record);
       continue;

@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <string>
@@ -12,6 +13,7 @@
 #include "node_news.hpp"
 #include "node_topics.hpp"
 #include "rt/queues/bounded_queue.hpp"
+#include "stamp_gaps.hpp"
 
 namespace terracut::cli {
 
@@ -26,8 +28,10 @@ class CloudNode {
   CloudNode(const Options& options, dds::CloudReader reader, NodeAnswers answers, NodeNews& news);
   ~CloudNode();
 
-  /// As far as DDS knows. From any thread.
-  [[nodiscard]] std::uint64_t lost_clouds() const { return reader_.lost(); }
+  /// As far as DDS, or gaps in the clouds' stamps, tell. From any thread.
+  [[nodiscard]] std::uint64_t lost_clouds() const {
+    return std::max(reader_.lost(), missing_.load(std::memory_order_relaxed));
+  }
 
  private:
   struct Job {
@@ -38,6 +42,7 @@ class CloudNode {
 
   void end();
   void take_clouds();
+  void look_for_gap(const dds::RosCloud& cloud);
   void label_clouds();
   void write_answers();
 
@@ -58,6 +63,8 @@ class CloudNode {
   std::vector<Job> first_clouds_;
   std::vector<std::string> said_;
   queues::BoundedQueue<Job> came_, labelled_;
+  StampGaps gaps_;
+  std::atomic<std::uint64_t> missing_{0};
   std::atomic<bool> finish_{false};
   std::jthread taker_, labelling_, writer_;  ///< Last: they use all of the above.
 };

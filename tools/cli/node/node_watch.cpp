@@ -4,8 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/loss_causes.hpp"
+#include "rt/measure/milliseconds.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/live/live_watch.hpp"
@@ -32,7 +35,10 @@ void NodeWatch::work_round(std::uint64_t lost) {
   lost_ = lost;
   NodeNews::State state = news_.look();
   status::MonitorSnapshot& figures = monitor_.snapshot();
-  for (status::FrameRecord& record : state.records) monitor_.judge(record);
+  for (status::FrameRecord& record : state.records) {
+    monitor_.judge(record);
+    look_at_pace(record);
+  }
   figures.taken_ns = measure::realtime_ns();
   monitor_.look_at_rate(figures.taken_ns);
   if (!state.sensor.empty()) figures.sensor = {state.sensor};
@@ -48,6 +54,22 @@ void NodeWatch::work_round(std::uint64_t lost) {
   display_.add_losses(figures);
   display_.show(figures);
   service_.work_round(figures, measure::monotonic_ns());
+}
+
+void NodeWatch::look_at_pace(const status::FrameRecord& record) {
+  constexpr std::size_t kEnough = 20;
+  const bool is_first_cloud = record.info.last_packet_ns == 0;  // read twice
+  if (is_first_cloud || record.level == status::Level::kSkipped || paces_ns_.size() == kEnough) {
+    return;
+  }
+  paces_ns_.push_back(std::max<std::int64_t>(record.labels_ns - record.handed_over_ns, 1));
+  if (paces_ns_.size() < kEnough) return;
+  std::ranges::sort(paces_ns_);
+  const double each_ms = measure::milliseconds(paces_ns_[kEnough / 2]);
+  say(fmt::format(
+      "a cloud is read and labelled in {:.1f} ms: up to {:.0f} a second can be answered "
+      "here",
+      each_ms, 1000 / each_ms));
 }
 
 void NodeWatch::show_input(const NodeNews::State& state, status::MonitorSnapshot& figures) {

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "node_news.hpp"
 #include "pipeline/status/deadline_monitor.hpp"
@@ -20,7 +21,7 @@ class NodeWatch {
   /// `news` must outlive this.
   NodeWatch(const Options& options, const std::string& input, NodeNews& news);
 
-  /// `lost`: clouds that DDS knows to have lost.
+  /// `lost`: clouds that were sent and did not come.
   void work_round(std::uint64_t lost);
   void note_interruption() { monitor_.snapshot().interrupted = 1; }
   /// When the node's threads have ended.
@@ -33,6 +34,8 @@ class NodeWatch {
   [[nodiscard]] std::string why_no_frames() const;
 
  private:
+  /// Says once how many clouds a second can be answered.
+  void look_at_pace(const status::FrameRecord& record);
   void show_input(const NodeNews::State& state, status::MonitorSnapshot& figures);
 
   NodeNews& news_;
@@ -41,6 +44,7 @@ class NodeWatch {
   FiguresDisplay display_;
   LiveService service_;
   std::uint64_t lost_ = 0;
+  std::vector<std::int64_t> paces_ns_;  ///< Of the first clouds, from the queue to their labels.
 };
 
 }  // namespace terracut::cli

@@ -69,14 +69,14 @@ class Peer {
     while (!all_matched()) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
 
-  void write(const OwnCloud& cloud, std::int32_t stamp_s) const {
+  void write(const OwnCloud& cloud, std::int32_t stamp_s, std::uint32_t stamp_ns = 5) const {
     std::string frame = "lidar_top";
     std::vector<sensor_msgs_msg_dds__PointField_> fields;
     for (const auto& [name, place] : cloud.fields) {
       fields.push_back({const_cast<char*>(name.c_str()), place.first, place.second, 1});
     }
     Message message{};
-    message.header = {{stamp_s, 5}, frame.data()};
+    message.header = {{stamp_s, stamp_ns}, frame.data()};
     message.height = cloud.height;
     message.width = cloud.width;
     const auto count = static_cast<std::uint32_t>(fields.size());
@@ -314,6 +314,54 @@ TEST_F(NodeInterop, CloudsInAutowaresLayoutComeBackAsSegmentLabelsThem) {
     cloud.fields.push_back({name, {at, kF32}});
   }
   expect_answers(cloud, labels_by_segment());
+}
+
+TEST_F(NodeInterop, CloudsThatNeverCameAreCountedByTheGapsInTheirStamps) {
+  const OwnCloud cloud = cloud_of(plain_scan(), 16, "ring", 12);
+  BackgroundProgram node(folder_, "node", node_arguments());
+  const Peer peer(domain_);
+  peer.await_node();
+  for (std::uint32_t tenth = 0; tenth < 10; ++tenth) {
+    if (tenth == 6 || tenth == 7) continue;
+    peer.write(cloud, 100, tenth * 100'000'000 + 5);
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));  // a history keeps the last five
+  }
+  peer.write(cloud, 200);
+  (void)peer.answer_to(cloud, 200, "points");
+  node.interrupt();
+  const Outcome ended = node.end();
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_EQ(json("report.json")["losses"]["lost_clouds"], 2);
+}
+
+TEST_F(NodeInterop, CapturesAreReplayedAsADriverWouldSendThem) {
+  BackgroundProgram node(folder_, "node",
+                         fmt::format("node --dds-domain {} --dds-interface lo --deadline 10000 "
+                                     "--metrics off --name raw_{} --json report.json",
+                                     domain_, ::getpid()));
+  ASSERT_TRUE(node.says("are answered on"));
+  BackgroundProgram driver(
+      folder_, "driver",
+      fmt::format("replay {} --calibration {} --mount-height 1.73 --mount-roll 0 --mount-pitch 0 "
+                  "--rate 1 --loop --dds --raw --dds-domain {} --dds-interface lo",
+                  quoted(kDrive), quoted(kDriveCalibration), domain_));
+  EXPECT_TRUE(driver.says("/points_raw"));
+  EXPECT_TRUE(node.says("a cloud is read and labelled in")) << "twenty clouds are labelled";
+  driver.interrupt();
+  (void)driver.end();
+  node.interrupt();
+  const Outcome ended = node.end();
+  EXPECT_EQ(ended.exit_code, 0) << ended.out << ended.err;
+  EXPECT_THAT(ended.err, testing::HasSubstr("64 rows by the field of the laser's number"));
+  const nlohmann::json report = json("report.json");
+  EXPECT_GE(report["frames"]["count"], 20);
+  EXPECT_NEAR(report["mount"]["height_m"], 1.73, 0.05) << "points are in the sensor's frame";
+  EXPECT_EQ(report["mount"]["contradicted"], false);
+  for (const auto& [cause, count] : report["losses"].items()) {
+    if (cause.starts_with("refused_clouds")) {
+      EXPECT_EQ(count, 0) << cause;
+    }
+  }
 }
 
 TEST_F(NodeInterop, CloudsThatAreNotWhatTheySayAreRefusedByNameAndGoodOnesAnsweredAllTheSame) {

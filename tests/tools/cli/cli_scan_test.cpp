@@ -68,7 +68,7 @@ class CliScans : public Cli {
     expect_done(
         "replay drive.pcap --calibration drive.calibration.xml --truth drive.truth "
         "--labels packets --json packets.json");
-    expect_done("segment " + quoted(sequence) + " --labels direct --json direct.json");
+    expect_done("segment " + quoted(sequence) + " --labels direct --overwrite --json direct.json");
     const auto packets = json("packets.json")["summary"], direct = json("direct.json")["summary"];
     EXPECT_EQ(packets["returns_in"], packets["returns_labelled"]);
     EXPECT_EQ(direct["returns_in"], direct["returns_labelled"]);

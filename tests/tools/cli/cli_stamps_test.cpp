@@ -56,8 +56,8 @@ class CliStamps : public Cli {
 };
 
 TEST_F(CliStamps, AreNoReasonToLeaveAPacketOut) {
-  expect_done(replay(quoted(kDrive), "--labels labels"));
-  const std::string as_recorded = labels_in("labels");
+  expect_done(replay(quoted(kDrive), "--labels recorded"));
+  const std::string as_recorded = labels_in("recorded");
   const std::vector<std::function<std::int64_t(std::size_t)>> clocks{
       [](std::size_t number) { return number < 2000 ? 0 : -2 * kSecond_ns; },
       [](std::size_t number) { return number < 2000 ? 3600 * kSecond_ns : 0; },

@@ -22,8 +22,11 @@ from .tiny_disk import TinyDisk
 DRIVE_S = 2
 
 
-def hold(program: Program, report: Report, seconds: float, deadline_ms: float) -> None:
-    drive = program.drive("hdl64e", "single", "street", DRIVE_S)
+def drive(program: Program) -> Drive:
+    return program.drive("hdl64e", "single", "street", DRIVE_S)
+
+
+def hold(program: Program, report: Report, drive: Drive, seconds: float, deadline_ms: float) -> None:
     killed_readers(program, report, drive, seconds, deadline_ms)
     second_process(program, report, drive, deadline_ms)
     full_disk(program, report, drive, deadline_ms)

@@ -116,6 +116,7 @@ def attacked(program: Program, report: Report, drive: Drive, undisturbed: Undist
         sent = sending.wait()
         report.check(of + "stays up, and answers", live.runs(), live.settled()["link"]["state"])
         summary = live.stop()
+    report.check(of + "exit code (0, or 6: deadlines were missed)", live.exit_code in (0, 6), live.exit_code)
 
     judge_accounting(report, of, summary, sent["sent"] + others["sent"])
     if attack.is_flood and not short:

@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from . import adversarial, breakage, hostile, loaded, loopback, machine, outputs, scripted_faults, stalled, steady
+from . import adversarial, breakage, doors, hostile, loaded, loopback, machine, outputs, scripted_faults, stalled, steady
 from .program import Program, TrialError
 from .report import Report
 
@@ -50,6 +50,8 @@ def parse(arguments: list[str]) -> argparse.Namespace:
     sub.add_argument("--short", action="store_true", help="all faults in one run")
     sub = add("breakage", "killed readers, a lost interface, a full disk, a taken port, all doors at once")
     sub.add_argument("--short", action="store_true", help="seconds instead of a minute, and a deadline for busy machines")
+    sub = add("doors", "the last of these alone: all that others can do from outside, at once")
+    sub.add_argument("--short", action="store_true", help="as of breakage")
     sub = add("hostile", "floods, second sensors, stamps from the past, a sensor that reboots, clocks that step")
     sub.add_argument("--seconds", type=float, help="of each (default 10, with --short 3)")
     sub.add_argument("--sensor", choices=[*loopback.SENSORS], help="only this one (default: one after the other)")
@@ -74,7 +76,8 @@ def hold(options: argparse.Namespace, program: Program, report: Report) -> None:
         sensors = [options.sensor] if options.sensor else [*loopback.SENSORS][: 1 if options.short else None]
         hostile.hold(program, report, options.seconds or (3 if options.short else 10), sensors, options.short)
     else:
-        breakage.hold(program, report, 3 if options.short else 20, 2000 if options.short else loopback.DEADLINE_MS)
+        trial = {"breakage": breakage, "doors": doors}[options.trial]
+        trial.hold(program, report, breakage.drive(program), 3 if options.short else 20, 2000 if options.short else loopback.DEADLINE_MS)
 
 
 def main(arguments: list[str]) -> int:

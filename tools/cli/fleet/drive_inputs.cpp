@@ -11,6 +11,7 @@
 #include "content_hash.hpp"
 #include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
+#include "tools/cli/input/beside.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -47,6 +48,10 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
       {"capture", drive.capture}, {"scans", drive.scans}, {"calibration", drive.calibration},
       {"setup", drive.setup},     {"can", drive.can},     {"dbc", drive.dbc}};
   std::erase_if(inputs, [](const DriveInput& input) { return input.path.empty(); });
+  if (drive.capture.empty() || !drive.calibration.empty()) return inputs;
+  // A run may take it where the packets hold none.
+  const auto beside = calibration_beside(drive.capture);
+  if (beside && !beside->empty()) inputs.push_back({"calibration", *beside});
   return inputs;
 }
 

@@ -19,7 +19,7 @@ struct DriveInput {
   std::filesystem::path path;
 };
 
-/// Those that the manifest names.
+/// Those that the manifest names, and a calibration that lies beside a capture.
 [[nodiscard]] std::vector<DriveInput> inputs_of(const FleetDrive& drive);
 
 /// Lengths and times of change by role, in some form: what has the same as before has not been

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "firmware_io/capture/file_kind.hpp"
+#include "tools/cli/input/beside.hpp"
 #include "tools/cli/input/recording_tree.hpp"
 #include "tools/cli/terminal_text.hpp"
 
@@ -26,22 +27,6 @@ struct Beside {
   fs::path folder, root;
   std::string stem;
 };
-
-/// The one file of those names that is there; empty: none.
-Expected<fs::path> only_one(const fs::path& folder, const std::vector<std::string>& names) {
-  std::vector<fs::path> found;
-  std::error_code none;
-  for (const std::string& name : names) {
-    if (fs::is_regular_file(folder / name, none)) found.push_back(folder / name);
-  }
-  if (found.size() > 1) {
-    return fail(ErrorCode::kMalformed,
-                fmt::format("{} and {}: either might be meant; name the right one as the drive, "
-                            "beside it, or take one away",
-                            found[0].string(), found[1].string()));
-  }
-  return found.empty() ? fs::path() : found.front();
-}
 
 /// Of the drive's own name, else of a folder's, the nearest.
 Expected<fs::path> find_beside(const Beside& drive, const std::vector<std::string>& suffixes,
@@ -66,11 +51,10 @@ Status add_companions(const Beside& beside, FleetDrive& drive) {
       !setup || drive.capture.empty()) {
     return setup;
   }
-  Status found =
-      take(find_beside(beside, {".calibration.xml", ".calibration.yaml", ".calibration.csv"},
-                       {"db.xml", "db.yaml", "angle.csv", "calibration.xml", "calibration.yaml",
-                        "calibration.csv"}),
-           drive.calibration);
+  Status found = take(find_beside(beside, calibration_endings(),
+                                  {"db.xml", "db.yaml", "angle.csv", "calibration.xml",
+                                   "calibration.yaml", "calibration.csv"}),
+                      drive.calibration);
   if (found) found = take(only_one(beside.folder, {beside.stem + ".can.log"}), drive.can);
   if (!found || drive.can.empty()) return found;
   found = take(find_beside(beside, {".can.dbc"}, {"vehicle.dbc"}), drive.dbc);
@@ -79,12 +63,6 @@ Status add_companions(const Beside& beside, FleetDrive& drive) {
               fmt::format("{}: there is neither {}.can.dbc nor a vehicle.dbc that says what its "
                           "frames mean; add one, or take the recording away",
                           drive.can.string(), beside.stem));
-}
-
-std::string stem_of(const fs::path& capture) {
-  const std::string name = capture.filename().string();
-  const std::string_view stem = capture::capture_stem(name);
-  return stem.empty() ? name : std::string(stem);
 }
 
 /// How many captures of each folder would be called the same without their endings.

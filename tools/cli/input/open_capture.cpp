@@ -7,6 +7,7 @@
 #include <limits>
 #include <utility>
 
+#include "beside.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "tools/cli/console.hpp"
@@ -45,6 +46,23 @@ Expected<PcapSource> open_unit(const CaptureOptions& options, std::uint32_t addr
   return PcapSource::open(options.file, its_own);
 }
 
+/// The one given; else what the packets say; else what lies beside the capture under its name;
+/// else, where that is allowed, the model's.
+Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
+                                                  sensor::SensorModel model, PcapSource& source) {
+  auto own = sensor::unit_calibration({{}, options.calibration, false}, model, source);
+  if (own || own.error().code != ErrorCode::kNoCalibration) return own;
+  const auto beside = calibration_beside(options.file);
+  if (!beside) return tl::unexpected(beside.error());
+  if (!beside->empty()) return sensor::unit_calibration({{}, *beside, false}, model, source);
+  if (options.nominal_calibration) return sensor::unit_calibration({{}, {}, true}, model, source);
+  return fail(own.error().code,
+              fmt::format("{}. Beside the capture it would be found as {}{}", own.error().message,
+                          stem_of(options.file),
+                          model == sensor::SensorModel::kRuby128 ? ".calibration.csv"
+                                                                 : ".calibration.xml"));
+}
+
 }  // namespace
 
 capture::PcapFilter filter_of(const CaptureOptions& options) {
@@ -61,8 +79,7 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   warn_of_unused(options, sensor->model);
   auto unit = open_unit(options, sensor->address);
   if (!unit) return tl::unexpected(unit.error());
-  auto calibration = sensor::unit_calibration(
-      {{}, options.calibration, options.nominal_calibration}, sensor->model, *unit);
+  auto calibration = calibration_of(options, sensor->model, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
   if (Status status = unit->rewind(); !status) return tl::unexpected(status.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);

@@ -66,7 +66,7 @@ enum class McapClouds : std::uint8_t { kAll, kPoints };
 /// A recording for ROS 2 and its viewers.
 struct McapOptions {
   std::filesystem::path path;  ///< NAME.mcap, or the folder of a bag; empty: none.
-  McapClouds clouds = McapClouds::kAll;
+  McapClouds clouds = McapClouds::kPoints;
   double split_mb = 0, split_s = 0;  ///< Of a bag's files; 0: not for that.
 };
 

@@ -231,7 +231,7 @@ constexpr std::array kSettings{
             .field = [](O& o) -> F { return choice(o.stream_mode, kStreamModeWords); }},
     Setting{.key = "output.mcap", .option = "--mcap", .commands = kPublished, .help = "Recording for ROS 2, Foxglove, Lichtblick and Rerun: NAME.mcap is one file, else the folder of a bag for `ros2 bag` (docs/guide/mcap.md)",
             .field = [](O& o) -> F { return &o.output.mcap.path; }},
-    Setting{.key = "output.mcap_clouds", .option = "--mcap-clouds", .commands = kPublished, .help = "Clouds in it: all, with ground and obstacles apart; points: one a frame, whose labels tell them apart, in half the room",
+    Setting{.key = "output.mcap_clouds", .option = "--mcap-clouds", .commands = kPublished, .help = "Clouds in it: points, one a frame, whose labels tell ground from obstacles; all, these two apart as well, in twice the room",
             .field = [](O& o) -> F { return choice(o.output.mcap.clouds, kMcapCloudsWords); }},
     Setting{.key = "output.mcap_split_mb", .option = "--mcap-split-mb", .commands = kPublished, .unit = "MB", .help = "A bag's file ends when it is so large; 0: not for that",
             .least = 0, .most = 1e6, .field = [](O& o) -> F { return &o.output.mcap.split_mb; }},

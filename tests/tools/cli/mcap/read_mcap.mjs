@@ -105,7 +105,7 @@ function checkCloud({ message }, first_ns, labels, rings) {
 }
 
 async function checkWhole() {
-  replay('--duration', '1', '--labels', 'labels', '--json', 'report.json', '--mcap', 'drive.mcap')
+  replay('--duration', '1', '--labels', 'labels', '--json', 'report.json', '--mcap', 'drive.mcap', '--mcap-clouds', 'all')
   const report = JSON.parse(fs.readFileSync(path.join(folder, 'report.json')))
   const labelFiles = fs.readdirSync(path.join(folder, 'labels')).filter(name => name.endsWith('.label')).sort()
   const file = path.join(folder, 'drive.mcap')
@@ -149,7 +149,7 @@ async function checkWhole() {
 }
 
 async function checkBag() {
-  replay('--duration', '1', '--mcap', 'bag', '--mcap-split-s', '0.4', '--mcap-clouds', 'points')
+  replay('--duration', '1', '--mcap', 'bag', '--mcap-split-s', '0.4')
   const metadata = fs.readFileSync(path.join(folder, 'bag/metadata.yaml'), 'utf8')
   const files = [...metadata.matchAll(/path: "(.*)"[\s\S]*?message_count: (\d+)/g)]
   assert.ok(files.length >= 2)
@@ -158,6 +158,7 @@ async function checkBag() {
     const { reader, topics } = await readIndexed(path.join(folder, 'bag', name))
     assert.equal(Number(reader.statistics.messageCount), Number(count))
     assert.equal(topics['/tf_static'].length, 1, 'each file stands for itself')
+    assert.ok(topics['/terracut/points'] && !topics['/terracut/ground'], 'each point once')
     messages += Number(count)
   }
   assert.equal(Number(/^  message_count: (\d+)/m.exec(metadata)[1]), messages)

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "pipeline/status/loss_causes.hpp"
+
 namespace terracut::health {
 namespace {
 
@@ -56,7 +58,9 @@ HealthReport health_report_of(const status::MonitorSnapshot& figures,
   report.link = figures.link;
   report.misses = figures.all_misses();
   report.skipped = figures.levels[static_cast<std::size_t>(status::Level::kSkipped)];
-  for (const status::NamedCount& loss : figures.losses_in_use()) report.losses += loss.count;
+  for (const status::NamedCount& loss : figures.losses_in_use()) {
+    if (!status::is_of_onlookers(loss.name.view())) report.losses += loss.count;
+  }
   return report;
 }
 

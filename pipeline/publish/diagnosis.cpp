@@ -8,6 +8,7 @@
 
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/figures.hpp"
+#include "pipeline/status/loss_causes.hpp"
 #include "rt/measure/milliseconds.hpp"
 
 namespace terracut::publish {
@@ -72,7 +73,7 @@ std::vector<Diagnosis> Diagnoses::of(const status::MonitorSnapshot& f) {
   Diagnosis losses{.name = "terracut: losses", .message = "none in the last second"};
   std::uint64_t lost = 0, clock_jumps = 0;
   for (const status::NamedCount& cause : f.losses_in_use()) {
-    lost += cause.count;
+    if (!status::is_of_onlookers(cause.name.view())) lost += cause.count;
     if (cause.name.view() == "rejected_clock_jump") clock_jumps = cause.count;
     if (cause.count > 0) {
       losses.values.emplace_back(cause.name.view(), std::to_string(cause.count));

@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "calib/beams/angle.hpp"
+#include "pipeline/status/loss_causes.hpp"
 
 namespace terracut::status {
 namespace {
@@ -63,6 +64,13 @@ Counts counts_of(std::string_view label, std::span<const std::uint64_t> counts) 
   const auto names = names_of<Enumeration>();
   for (std::size_t i = 0; i < names.size(); ++i) result.each.emplace_back(names[i], counts[i]);
   return result;
+}
+/// Of those who only look on, or all others.
+Counts losses_of(const MonitorSnapshot& f, bool of_onlookers) {
+  Counts losses = counts_of("cause", f.losses_in_use());
+  std::erase_if(losses.each,
+                [&](const auto& each) { return is_of_onlookers(each.first) != of_onlookers; });
+  return losses;
 }
 Histograms stages_of(const MonitorSnapshot& f) {
   Histograms result{"stage", {}};
@@ -182,8 +190,10 @@ void add_frames(const MonitorSnapshot& f, Table& table) {
   table.add("", {
     {"losses", counts_of("cause", f.losses_in_use()),
      {"terracut_losses_total",
-      "What was lost between sensor and label, by cause; the cause names the unit."},
-     {"losses", "{}", Shown::kAlarmOrNone}}});
+      "What was lost between sensor and label, or did not reach an output, by cause; the cause "
+      "names the unit."}},
+    {{}, losses_of(f, false), {}, {"losses", "{}", Shown::kAlarmOrNone}},
+    {{}, losses_of(f, true), {}, {"onlookers", "{}", Shown::kIfAny}}});
 }
 
 void add_motion(const MotionFigures& f, Table& table) {

@@ -50,6 +50,11 @@ std::vector<NamedCount> causes_of(const net::ReceiveCounters& counters) {
           {"link_losses", counters.link_losses}};
 }
 
+bool is_of_onlookers(std::string_view cause) noexcept {
+  return cause.starts_with("view_") || cause.starts_with("foxglove_") ||
+         cause.starts_with("metrics_") || cause == "unviewed_frames";
+}
+
 std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account) {
   std::vector<NamedCount> outcomes{{"decoded", account.decoded},
                                    {"device_info", account.device_info},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "firmware_io/frame/loss_counters.hpp"
@@ -20,6 +21,10 @@ namespace terracut::status {
 /// What a live source did not pass on, or not as it should be; kernel_drops is among the other
 /// losses.
 [[nodiscard]] std::vector<NamedCount> causes_of(const net::ReceiveCounters& counters);
+
+/// Whether a cause counts what a client that looks on did not get, of the page, of Foxglove's door
+/// or of /metrics: nothing is lost between sensor and label, nor in what is recorded or handed on.
+[[nodiscard]] bool is_of_onlookers(std::string_view cause) noexcept;
 
 /// Where the datagrams of a live run went. With those in doubt they are what was received.
 [[nodiscard]] std::vector<NamedCount> outcomes_of(const net::DatagramAccount& account);

@@ -132,10 +132,11 @@ TEST(HealthReport, SaysWhatTheFiguresOfALiveProcessSay) {
   figures->link = status::LinkState::kReceiving;
   figures->misses = {1, 2, 3, 4};
   figures->levels[static_cast<std::size_t>(status::Level::kSkipped)] = 5;
-  figures->loss_count = 2;
+  figures->loss_count = 3;
   figures->losses[0].count = 6;
   figures->losses[1].count = 7;
-  figures->losses[2].count = 100;  // not in use
+  figures->losses[2] = {"foxglove_messages_skipped", 50};  // no loss
+  figures->losses[3].count = 100;                          // not in use
   HealthReport report = health::health_report_of(*figures, newest);
   EXPECT_EQ(report.frame_number, 17U);
   EXPECT_EQ(report.returns, 1000U);

@@ -55,6 +55,13 @@ TEST(Diagnoses, NameWhatIsWrongNow) {
   EXPECT_EQ(severity_of(diagnoses.of(*figures), "deadline"), Severity::kError);
 }
 
+TEST(Diagnoses, WarnOfNothingThatOnlookersAloneDidNotGet) {
+  Diagnoses diagnoses;
+  auto figures = good_figures();
+  figures->losses[0] = {"view_frames_skipped_by_browsers", 5};
+  EXPECT_EQ(severity_of(diagnoses.of(*figures), "losses"), Severity::kOk);
+}
+
 TEST(Diagnoses, WarnOfLossesInTheSecondInWhichTheyHappened) {
   Diagnoses diagnoses;
   auto figures = good_figures();

@@ -23,6 +23,14 @@ void show_thread(status::MonitorSnapshot& figures, std::string_view name,
   shown.major_faults = static_cast<std::uint64_t>(state.major_faults.load());
 }
 
+/// Of frames that their thread did not take: where nobody but viewers gets them, nothing is lost.
+std::string unpublished_name(const Options& options) {
+  const OutputOptions& output = options.output;
+  const bool are_kept =
+      !options.stream.empty() || !output.mcap.path.empty() || output.dds.publishes;
+  return are_kept ? "unpublished_frames" : "unviewed_frames";
+}
+
 }  // namespace
 
 LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
@@ -141,7 +149,7 @@ void LiveWatch::refresh_losses(status::MonitorSnapshot& figures) {
     return slots->unused() + (over_ ? slots->waiting() : 0);
   };
   if (threads_.labels()) more.push_back({"unwritten_label_frames", lost(threads_.labels())});
-  if (threads_.points()) more.push_back({"unstreamed_frames", lost(threads_.points())});
+  if (threads_.points()) more.push_back({unpublished_name(options_), lost(threads_.points())});
   if (outlet_ != nullptr && outlet_->has_stream()) {
     const stream::FrameStreamFigures& stream = outlet_->figures();
     more.insert(more.end(), {{"stream_frames_missed", stream.missed},

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "pipeline/status/loss_causes.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -62,15 +63,19 @@ nlohmann::ordered_json ViewFrames::figures() const {
   for (const Shown& frame : shown_) {
     json["frames"].push_back({frame.ms, static_cast<int>(frame.level), frame.missed});
   }
-  json["losses"] = nlohmann::ordered_json::array();
+  json["losses"] = json["onlookers"] = nlohmann::ordered_json::array();
   const auto add = [&](std::string_view cause, std::uint64_t count) {
-    if (count > 0) json["losses"].push_back({cause, count});
+    if (count == 0) return;
+    json[status::is_of_onlookers(cause) ? "onlookers" : "losses"].push_back({cause, count});
   };
   if (!run_) {
     for (const status::NamedCount& loss : status::causes_of(losses_)) {
       add(loss.name.view(), loss.count);
     }
     return json;
+  }
+  if (run_->link != status::LinkState::kReceiving && run_->last_packet_ns != 0) {
+    json["silent_s"] = milliseconds(measure::realtime_ns() - run_->last_packet_ns) / 1000;
   }
   add("deadlines_missed", run_->all_misses());
   add("frames_skipped", run_->levels[static_cast<std::size_t>(status::Level::kSkipped)]);

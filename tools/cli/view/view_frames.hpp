@@ -42,8 +42,9 @@ class ViewFrames {
   void put_figures(const status::MonitorSnapshot& figures);
 
   [[nodiscard]] Turn newest() const;
-  /// For the page: sensor, rows, deadline_ms or null, frames[] as [ms, level, missed], losses[] as
-  /// [cause, count].
+  /// For the page: sensor, rows, deadline_ms or null, frames[] as [ms, level, missed], losses[] and
+  /// onlookers[] as [cause, count] (status::is_of_onlookers()); of a sensor that sends nothing
+  /// silent_s.
   [[nodiscard]] nlohmann::ordered_json figures() const;
 
  private:

@@ -33,7 +33,7 @@ class Output:
 def outputs(program: Program, folder: Path) -> list[Output]:
     known = [
         Output("--labels", ["--labels", folder / "labels"], None, ("unwritten_label_frames",)),
-        Output("--stream", ["--stream", "127.0.0.1:0"], readers.read_stream, ("unstreamed_frames", "stream_")),
+        Output("--stream", ["--stream", "127.0.0.1:0"], readers.read_stream, ("unpublished_frames", "stream_")),
         Output("--view", ["--view", "127.0.0.1:0"], readers.read_page, ("view_",)),
         Output("--foxglove", ["--foxglove", "127.0.0.1:0"], readers.read_foxglove, ("foxglove_",)),
         Output("--mcap", ["--mcap", folder / "bag.mcap"], None, ("mcap_",)),

@@ -8,7 +8,9 @@
 #include <algorithm>
 #include <sstream>
 #include <string>
+#include <vector>
 
+#include "pipeline/status/loss_causes.hpp"
 #include "tests/pipeline/status/watched_run.hpp"
 
 namespace terracut::cli {
@@ -77,6 +79,18 @@ TEST(Dashboard, ShowsHowFarOffAClockIsThatFitsNoFrame) {
   run.figures().motion.newest_sample_after_frame_ns = -37'000 * status::WatchedRun::kMs;
   EXPECT_THAT(dashboard(run.figures(), kNow_ns, {}),
               HasSubstr("newest sample -37000.0 ms from its frame's end"));
+}
+
+TEST(Dashboard, TellsWhatThoseWhoLookOnDidNotGetFromLosses) {
+  status::WatchedRun run;
+  run.figures().loss_count = 0;
+  status::show_losses(std::vector<status::NamedCount>{{"view_frames_skipped_by_browsers", 55},
+                                                      {"unviewed_frames", 35}},
+                      run.figures());
+  const std::string text = dashboard(run.figures(), kNow_ns, {});
+  EXPECT_EQ(line_of(text, "losses"), "losses    none");
+  EXPECT_EQ(line_of(text, "onlookers"),
+            "onlookers view_frames_skipped_by_browsers 55, unviewed_frames 35");
 }
 
 TEST(Dashboard, DrawsTheLongestStageLongest) {

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "pipeline/status/loss_causes.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
 #include "tests/support/http_client.hpp"
 
 namespace terracut::cli {
@@ -208,6 +210,31 @@ TEST_F(Page, ShowsLatencyAndWhatMissedTheDeadline) {
     ASSERT_TRUE(sink_->put(frame_of(number)));
   }
   EXPECT_EQ(figures().at("frames").size(), ViewFrames::kFramesShown);
+}
+
+TEST_F(Page, KeepsTheLastFrameOfASensorThatIsSilentAndSaysSinceWhen) {
+  ASSERT_TRUE(sink_->put(frame_of(7)));
+  status::MonitorSnapshot run;
+  run.link = status::LinkState::kReceiving;
+  run.last_packet_ns = measure::realtime_ns() - 9'000'000'000;
+  ASSERT_TRUE(sink_->put_figures(run));
+  EXPECT_FALSE(figures().contains("silent_s"));
+  run.link = status::LinkState::kSilent;
+  ASSERT_TRUE(sink_->put_figures(run));
+  EXPECT_NEAR(figures().at("silent_s").get<double>(), 9, 5);
+  (void)browser();  // which comes only now, and gets the frame
+}
+
+TEST_F(Page, TellsWhatThoseWhoLookOnDidNotGetFromLosses) {
+  status::MonitorSnapshot run;
+  status::show_losses(
+      std::vector<status::NamedCount>{
+          {"kernel_drops", 3}, {"view_frames_skipped_by_browsers", 55}, {"unviewed_frames", 35}},
+      run);
+  ASSERT_TRUE(sink_->put_figures(run));
+  EXPECT_EQ(figures().at("losses"), json::parse(R"([["kernel_drops", 3]])"));
+  EXPECT_EQ(figures().at("onlookers"),
+            json::parse(R"([["view_frames_skipped_by_browsers", 55], ["unviewed_frames", 35]])"));
 }
 
 TEST_F(Page, OfALiveRunHasNobodyPlayIt) {

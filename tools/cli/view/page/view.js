@@ -167,6 +167,9 @@ async function watch() {
   }
 }
 
+const durationText = (seconds) => (seconds < 120 ? `${Math.round(seconds)} s` : `${Math.round(seconds / 60)} min`);
+const countText = (cause, count) => `${count} ${cause.replaceAll("_", " ")}`;
+
 function show(figures) {
   at("sensor").textContent = figures.sensor;
   if (figures.rows > 1) RANGES.ring[1] = figures.rows - 1;
@@ -175,13 +178,16 @@ function show(figures) {
   drawStrip(at("strip"), figures.frames, figures.deadline_ms);
   const losses = at("losses");
   losses.replaceChildren();
-  const lost = [degradedText(figures.frames), ...figures.losses.map(([cause, count]) => `${count} ${cause.replaceAll("_", " ")}`)];
+  const lost = [degradedText(figures.frames), ...figures.losses.map(([cause, count]) => countText(cause, count))];
   for (const text of lost.filter(Boolean)) losses.append(Object.assign(document.createElement("b"), { textContent: text }));
-  if (!losses.childElementCount) losses.textContent = "nothing lost, nothing degraded";
+  if (!losses.childElementCount) losses.append("nothing lost, nothing degraded");
+  for (const [cause, count] of figures.onlookers) losses.append(Object.assign(document.createElement("span"), { textContent: countText(cause, count) }));
   showCapture(figures.capture);
   const since = performance.now() - 2000;
   while (drawn.length > 0 && drawn[0] < since) drawn.shift();
-  at("rate").textContent = drawn.length > 1 ? `${(drawn.length / 2).toFixed(1)} pictures/s` : "";
+  const silent = figures.silent_s > 1;
+  at("rate").classList.toggle("silent", silent);
+  at("rate").textContent = silent ? `silent since ${durationText(figures.silent_s)}` : drawn.length > 1 ? `${(drawn.length / 2).toFixed(1)} pictures/s` : "";
 }
 
 // --- hands ---

@@ -61,7 +61,7 @@ std::string_view likely_cause(std::span<const ScanPoint> points) {
 
 Status check_reach(std::span<const ScanPoint> points) {
   constexpr double kReach_m = scan::RingTableFit::kReach_m;
-  constexpr std::size_t kFewest = 20;  // Of fewer, stray ones may be most.
+  constexpr std::size_t kFewestToTell = 20;  // Of fewer, stray ones may be most.
   std::size_t beyond = 0, all = 0;
   for (const ScanPoint& p : points) {
     if (!is_measured(p)) continue;
@@ -69,7 +69,7 @@ Status check_reach(std::span<const ScanPoint> points) {
     ++all;
     beyond += x * x + y * y + z * z > kReach_m * kReach_m ? 1U : 0U;
   }
-  if (all < kFewest || 2 * beyond <= all) return {};
+  if (all < kFewestToTell || 2 * beyond <= all) return {};
   std::vector<ScanPoint> measured;
   std::ranges::copy_if(points, std::back_inserter(measured), is_measured);
   return fail(ErrorCode::kMalformed,

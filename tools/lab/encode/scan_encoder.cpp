@@ -197,7 +197,9 @@ Expected<EncodeSummary> ScanEncoder::finish() {
         std::max(summary_.max_azimuth_shift_deg, frame.max_azimuth_shift_deg);
   }
   summary_.median_azimuth_shift_deg = azimuth_shifts_deg_.percentile(50);
-  summary_.height = {summary_.encoded, height_errors_m_.rms(), height_errors_m_.percentile(95)};
+  summary_.height = {.points = summary_.encoded,
+                     .rms_m = height_errors_m_.rms(),
+                     .p95_m = height_errors_m_.percentile(95)};
   return summary_;
 }
 

@@ -80,16 +80,34 @@ Expected<double> angle_from(std::string_view field, std::string_view what) {
   return *value;
 }
 
+/// What stands between angles in place of the comma; empty: nothing does.
+std::string_view other_separator(std::string_view line) {
+  if (line.find(';') != std::string_view::npos) return "semicolon";
+  if (line.find(',') != std::string_view::npos) return {};
+  if (line.find('|') != std::string_view::npos) return "vertical bar";
+  return line.find('\t') != std::string_view::npos ? "tab" : "";
+}
+
+/// Of angles that are plainly not in degrees; empty: they may be.
+std::string_view unit_of(const Ruby128Calibration& calibration) {
+  double lowest_deg = 0;
+  for (const Ruby128Channel& channel : calibration.channels) {
+    lowest_deg = std::min(lowest_deg, beams::rad_to_deg(channel.elevation_rad));
+  }
+  if (lowest_deg <= -10'000) return "thousandths of a degree";
+  return lowest_deg <= -1'000 ? "hundredths of a degree" : "";
+}
+
 /// The error has no file and line yet.
 Expected<Angles> angles_from(std::string_view line) {
   if (line.empty()) {
     return fail(ErrorCode::kMalformed, "blank line before the last channel");
   }
-  if (line.find(';') != std::string_view::npos) {
+  if (const std::string_view separator = other_separator(line); !separator.empty()) {
     return fail(ErrorCode::kMalformed,
-                fmt::format("{} has a semicolon; expected a comma between the two angles and a "
+                fmt::format("{} has a {}; expected a comma between the two angles and a "
                             "point for decimals",
-                            quoted(line)));
+                            quoted(line), separator));
   }
   const auto commas = std::count(line.begin(), line.end(), ',');
   if (commas > 1) {
@@ -111,7 +129,7 @@ Expected<Angles> angles_from(std::string_view line) {
 }
 
 bool starts_like_a_header(std::string_view line) {
-  return !line.empty() && !text::number_from(line.substr(0, line.find_first_of(",;")));
+  return !line.empty() && !text::number_from(line.substr(0, line.find_first_of(",;|\t")));
 }
 
 /// Whose table a number of lines may be.
@@ -176,6 +194,10 @@ Expected<Ruby128Calibration> parse_ruby128_csv(std::span<const char> text,
                             "to either side of the head, so without the second column (azimuth "
                             "offset in degrees) every point would be at a wrong place",
                             name));
+  }
+  if (const std::string_view unit = unit_of(calibration); !unit.empty()) {
+    return fail(ErrorCode::kMalformed,
+                fmt::format("{}: the angles are given in {}; expected degrees", name, unit));
   }
   if (const Status status = validate(calibration); !status) {
     return fail(status.error().code,

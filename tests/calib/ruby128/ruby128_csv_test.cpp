@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <locale>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "calib/beams/angle.hpp"
@@ -16,6 +17,7 @@ namespace {
 
 using testing::AllOf;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 std::vector<std::string> nominal_lines() {
@@ -164,6 +166,32 @@ TEST(Ruby128Csv, NamesSemicolonsAndDecimalCommas) {
               calib::IsRefusedWith(ErrorCode::kMalformed,
                                    AllOf(StartsWith("angle.csv:1:"), HasSubstr("4 fields"),
                                          HasSubstr("point for decimals"))));
+}
+
+TEST(Ruby128Csv, NamesBarsAndTabsBetweenAnglesAndTakesThemForNoHeader) {
+  for (const auto& [separator, name] :
+       {std::pair{" | ", "vertical bar"}, {"\t", "tab"}, {" ; ", "semicolon"}}) {
+    std::string text;
+    for (std::string line : nominal_lines()) {
+      text += line.replace(line.find(','), 1, separator) + "\n";
+    }
+    EXPECT_THAT(parsed(text),
+                calib::IsRefusedWith(
+                    ErrorCode::kMalformed,
+                    AllOf(StartsWith("angle.csv:1:"), HasSubstr(name), Not(HasSubstr("header")))));
+  }
+}
+
+TEST(Ruby128Csv, NamesTheUnitOfAnglesThatAreNotInDegrees) {
+  for (const auto& [factor, unit] :
+       {std::pair{100.0, "hundredths of a degree"}, {1000.0, "thousandths of a degree"}}) {
+    std::string text;
+    for (const Ruby128Channel& channel : nominal_ruby128().channels) {
+      text += std::to_string(factor * beams::rad_to_deg(channel.elevation_rad)) + "," +
+              std::to_string(factor * beams::rad_to_deg(channel.azimuth_offset_rad)) + "\n";
+    }
+    EXPECT_THAT(parsed(text), calib::IsRefusedWith(ErrorCode::kMalformed, HasSubstr(unit)));
+  }
 }
 
 TEST(Ruby128Csv, NamesTheNumberOfLinesWhenItIsWrong) {

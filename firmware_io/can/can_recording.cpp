@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <fstream>
 
+#include "rt/files/plain_file.hpp"
+
 namespace terracut::can {
 namespace {
 
@@ -29,6 +31,9 @@ Expected<CanRecording> CanRecording::open(const std::filesystem::path& path,
     if (!source) return tl::unexpected(source.error());
     return CanRecording(*std::move(source));
   };
+  if (const Status twice = files::check_readable_twice(path); !twice) {
+    return tl::unexpected(twice.error());
+  }
   if (begins_like_capture(path)) return made(CanPcapSource::open(path));
   return made(CandumpSource::open(path, std::move(interface)));
 }

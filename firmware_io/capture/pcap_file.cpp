@@ -14,6 +14,7 @@
 
 #include "firmware_io/capture/file_kind.hpp"
 #include "rt/files/ending.hpp"
+#include "rt/files/plain_file.hpp"
 
 namespace terracut::capture {
 namespace {
@@ -39,6 +40,9 @@ Expected<File> open_file(const std::filesystem::path& path) {
                 fmt::format("{}: is a folder; name the capture file inside it (`terracut segment` "
                             "labels folders of clouds)",
                             path.string()));
+  }
+  if (const Status twice = files::check_readable_twice(path); !twice) {
+    return tl::unexpected(twice.error());
   }
   File file(std::fopen(path.c_str(), "rb"));
   if (!file) {

@@ -26,18 +26,18 @@ std::uint64_t PcapCounters::refused_total() const noexcept {
 }
 
 Expected<PcapSource> PcapSource::open(std::filesystem::path path, PcapFilter filter) {
-  return over(PcapFile::open(std::move(path)), filter);
+  return over(PcapFile::open(std::move(path)), std::move(filter));
 }
 
 Expected<PcapSource> PcapSource::open_memory(std::span<const std::uint8_t> capture,
                                              std::string name, PcapFilter filter) {
-  return over(PcapFile::open_memory(capture, std::move(name)), filter);
+  return over(PcapFile::open_memory(capture, std::move(name)), std::move(filter));
 }
 
-Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, const PcapFilter& filter) {
+Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, PcapFilter filter) {
   if (!file) return tl::unexpected(file.error());
   if (Status valid = check_link_type(*file); !valid) return tl::unexpected(valid.error());
-  return PcapSource(*std::move(file), filter);
+  return PcapSource(*std::move(file), std::move(filter));
 }
 
 Expected<std::optional<decode::Datagram>> PcapSource::next() {
@@ -53,11 +53,22 @@ Expected<std::optional<decode::Datagram>> PcapSource::next() {
       ++counters_.other_port;
     } else if (filter_.source_address && datagram->source_address != *filter_.source_address) {
       ++counters_.other_source;
+    } else if (!is_in_stream(*datagram)) {
+      ++counters_.other_stream;
     } else {
       ++counters_.delivered;
       return *datagram;
     }
   }
+}
+
+bool PcapSource::is_in_stream(const decode::Datagram& datagram) const {
+  const auto is_it = [](const auto& wanted, auto value) { return !wanted || *wanted == value; };
+  return is_it(filter_.source_port, datagram.source_port) &&
+         is_it(filter_.source_mac, datagram.source_mac) &&
+         is_it(filter_.destination_address, datagram.destination_address) &&
+         is_it(filter_.vlan, datagram.vlan) &&
+         (!filter_.is_of_stream || filter_.is_of_stream(datagram));
 }
 
 Status PcapSource::rewind() {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -18,10 +19,15 @@
 
 namespace terracut::capture {
 
-/// Which datagrams of a capture are wanted; an empty filter lets all pass.
+/// Which datagrams of a capture are wanted; an empty filter lets all pass. As in Datagram.
 struct PcapFilter {
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
+  std::optional<std::uint16_t> source_port{};
+  std::optional<std::uint64_t> source_mac{};
+  std::optional<std::uint32_t> destination_address{};
+  std::optional<std::uint32_t> vlan{};                          ///< 0: those in none.
+  std::function<bool(const decode::Datagram&)> is_of_stream{};  ///< Of those that pass all this.
 };
 
 /// frames == delivered + left_out().
@@ -31,10 +37,12 @@ struct PcapCounters {
   std::array<std::uint64_t, kFrameRejects> refused{};  ///< Frames, by FrameReject.
   std::uint64_t other_port = 0;                        ///< Datagrams the filter's port kept out.
   std::uint64_t other_source = 0;  ///< Datagrams of the right port from another sender.
+  /// Datagrams of the right port and sender that the rest of the filter kept out.
+  std::uint64_t other_stream = 0;
 
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
   [[nodiscard]] std::uint64_t left_out() const noexcept {
-    return refused_total() + other_port + other_source;
+    return refused_total() + other_port + other_source + other_stream;
   }
 };
 
@@ -68,8 +76,11 @@ class PcapSource {
   [[nodiscard]] const std::string& name() const noexcept { return file_.name(); }
 
  private:
-  PcapSource(PcapFile file, const PcapFilter& filter) : file_(std::move(file)), filter_(filter) {}
-  [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, const PcapFilter& filter);
+  PcapSource(PcapFile file, PcapFilter filter)
+      : file_(std::move(file)), filter_(std::move(filter)) {}
+  /// Beyond its port and its sender.
+  [[nodiscard]] bool is_in_stream(const decode::Datagram& datagram) const;
+  [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, PcapFilter filter);
 
   PcapFile file_;
   PcapFilter filter_;

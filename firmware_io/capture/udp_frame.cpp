@@ -36,29 +36,51 @@ constexpr bool is_vlan_tag(std::uint16_t ether_type) noexcept {
   return ether_type == 0x8100 || ether_type == 0x88A8 || ether_type == 0x9100;
 }
 
-tl::expected<Bytes, FrameReject> after_ether_type(Bytes frame, std::size_t type_at,
-                                                  std::size_t header_bytes) noexcept {
-  if (frame.size() < header_bytes) return Rejected(FrameReject::kShortCapture);
-  std::uint16_t type = big_u16(frame, type_at);
-  Bytes rest = frame.subspan(header_bytes);
+/// What the link layer carries, and what it says of its way.
+struct LinkPayload {
+  Bytes ip;
+  std::uint32_t vlan = 0;        ///< As in Datagram.
+  std::uint64_t source_mac = 0;  ///< As in Datagram.
+};
+
+/// Where a link-layer header says what.
+struct LinkHeader {
+  std::size_t bytes, type_at, mac_at;
+};
+constexpr LinkHeader kEthernetHeader{14, 12, 6};
+constexpr LinkHeader kCookedV1Header{16, 14, 6};
+constexpr LinkHeader kCookedV2Header{20, 0, 12};
+
+tl::expected<LinkPayload, FrameReject> after_ether_type(Bytes frame,
+                                                        const LinkHeader& header) noexcept {
+  if (frame.size() < header.bytes) return Rejected(FrameReject::kShortCapture);
+  std::uint16_t type = big_u16(frame, header.type_at);
+  LinkPayload payload{.ip = frame.subspan(header.bytes)};
   while (is_vlan_tag(type)) {
+    Bytes& rest = payload.ip;
     if (rest.size() < 4) return Rejected(FrameReject::kShortCapture);
+    constexpr std::uint32_t kVlanBits = 0xFFF;
+    if (const std::uint32_t id = big_u16(rest, 0) & kVlanBits; id != 0) {  // 0: priority alone
+      payload.vlan = (payload.vlan & kVlanBits) << 12 | id;
+    }
     type = big_u16(rest, 2);
     rest = rest.subspan(4);
   }
   if (type == kEtherTypeIpv6) return Rejected(FrameReject::kIpv6);
   if (type != kEtherTypeIpv4) return Rejected(FrameReject::kNotIpv4);
-  return rest;
+  payload.source_mac =
+      std::uint64_t{big_u16(frame, header.mac_at)} << 32 | big_u32(frame, header.mac_at + 2);
+  return payload;
 }
 
 /// NULL writes the address family in the capturing machine's byte order, LOOP in the network's.
-tl::expected<Bytes, FrameReject> after_family(Bytes frame) noexcept {
+tl::expected<LinkPayload, FrameReject> after_family(Bytes frame) noexcept {
   if (frame.size() < 4) return Rejected(FrameReject::kShortCapture);
   const std::uint32_t big = big_u32(frame, 0);
   const std::uint32_t family = (big & 0xFFFF) != 0 ? big : big >> 24;
   switch (family) {
     case 2:  // AF_INET everywhere
-      return frame.subspan(4);
+      return LinkPayload{.ip = frame.subspan(4)};
     case 10:  // AF_INET6 of Linux, NetBSD/OpenBSD, FreeBSD, macOS
     case 24:
     case 28:
@@ -69,14 +91,14 @@ tl::expected<Bytes, FrameReject> after_family(Bytes frame) noexcept {
   }
 }
 
-tl::expected<Bytes, FrameReject> ip_packet(int link_type, Bytes frame) noexcept {
+tl::expected<LinkPayload, FrameReject> link_payload(int link_type, Bytes frame) noexcept {
   switch (link_type) {
     case kEthernet:
-      return after_ether_type(frame, 12, 14);
+      return after_ether_type(frame, kEthernetHeader);
     case kCookedV1:
-      return after_ether_type(frame, 14, 16);
+      return after_ether_type(frame, kCookedV1Header);
     case kCookedV2:
-      return after_ether_type(frame, 0, 20);
+      return after_ether_type(frame, kCookedV2Header);
     case kNull:
     case kLoop:
       return after_family(frame);
@@ -84,7 +106,7 @@ tl::expected<Bytes, FrameReject> ip_packet(int link_type, Bytes frame) noexcept 
     case kRawOpenBsd:
     case kRawInFiles:
     case kIpv4:
-      return frame;
+      return LinkPayload{.ip = frame};
     default:
       return Rejected(FrameReject::kUnsupportedLinkType);
   }
@@ -116,16 +138,41 @@ std::string_view to_string(FrameReject reason) noexcept {
   return "unknown";
 }
 
+std::string_view description_of(FrameReject reason) noexcept {
+  switch (reason) {
+    case FrameReject::kShortCapture:
+      return "were cut by the recording (a snap length; record with tcpdump -s 0)";
+    case FrameReject::kNotIpv4:
+      return "are of no IP (ARP, LLDP, ...)";
+    case FrameReject::kIpv6:
+      return "are IPv6, which no sensor read here speaks";
+    case FrameReject::kBadIpHeader:
+      return "have an impossible IP header";
+    case FrameReject::kNotUdp:
+      return "are of no UDP (TCP, ICMP, a tunnel, ...)";
+    case FrameReject::kFragment:
+      return "are IP fragments of datagrams, which are not put together (let the way from the "
+             "sensor have an MTU of 1500)";
+    case FrameReject::kTruncatedUdp:
+      return "hold a UDP length that does not fit";
+    case FrameReject::kUnsupportedLinkType:
+      return "are of a link layer that is not read";
+    case FrameReject::kCount:
+      break;
+  }
+  return "are unknown";
+}
+
 bool is_supported_link_type(int link_type) noexcept {
-  const auto probe = ip_packet(link_type, {});
+  const auto probe = link_payload(link_type, {});
   return probe || probe.error() != FrameReject::kUnsupportedLinkType;
 }
 
 tl::expected<decode::Datagram, FrameReject> parse_udp_frame(int link_type, Bytes captured,
                                                             std::int64_t stamp_ns) noexcept {
-  const auto network = ip_packet(link_type, captured);
+  const auto network = link_payload(link_type, captured);
   if (!network) return Rejected(network.error());
-  const Bytes ip = *network;
+  const Bytes ip = network->ip;
 
   if (ip.empty()) return Rejected(FrameReject::kShortCapture);
   const int version = ip[0] >> 4;
@@ -161,7 +208,9 @@ tl::expected<decode::Datagram, FrameReject> parse_udp_frame(int link_type, Bytes
                           .source_address = big_u32(ip, 12),
                           .destination_address = big_u32(ip, 16),
                           .source_port = big_u16(udp, 0),
-                          .destination_port = big_u16(udp, 2)};
+                          .destination_port = big_u16(udp, 2),
+                          .vlan = network->vlan,
+                          .source_mac = network->source_mac};
 }
 
 }  // namespace terracut::capture

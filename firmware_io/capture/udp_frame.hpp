@@ -29,6 +29,8 @@ inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameRejec
 
 /// Stable lower_snake_case name, as in the JSON report.
 [[nodiscard]] std::string_view to_string(FrameReject reason) noexcept;
+/// For people, of several such frames, "are IPv6, ...", with what helps where something does.
+[[nodiscard]] std::string_view description_of(FrameReject reason) noexcept;
 
 /// libpcap's DLT_ numbers of the link layers understood: NULL (0), Ethernet (1), RAW (12, 14, 101),
 /// LOOP (108), Linux cooked v1 (113) and v2 (276), IPv4 (228).

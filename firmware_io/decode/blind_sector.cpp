@@ -191,9 +191,10 @@ void BlindSector::fill(const RotorInterval& found) noexcept {
   if (gaps_known_ == 0 || !newest.is_pending) return;
   if (intersection(newest.head, found).ticks() == 0) return;
   newest.packets = std::max<std::int64_t>(0, newest.packets - 1);
-  // What came late lies, but for one packet, at the beginning of the gap.
   if (found.from_ticks <= newest.head.from_ticks + kJitter_ticks) {
     newest.head.from_ticks = std::max(newest.head.from_ticks, found.to_ticks);
+  } else if (found.to_ticks >= newest.head.to_ticks - kJitter_ticks) {
+    newest.head.to_ticks = std::min(newest.head.to_ticks, found.from_ticks);
   }
 }
 

@@ -65,7 +65,8 @@ class BlindSector {
   /// seen of it, inside.
   [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
-  /// A packet came late and fills a part of a gap.
+  /// A packet came late and fills a part of a gap, the first or the last of what is left of it but
+  /// where several came late in no order.
   void fill(const RotorInterval& found) noexcept TERRACUT_NONBLOCKING;
   /// What pass() and judge() have found to be lost since it was last taken.
   [[nodiscard]] Loss take_due() noexcept TERRACUT_NONBLOCKING;

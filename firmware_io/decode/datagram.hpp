@@ -15,6 +15,10 @@ struct Datagram {
   std::uint32_t destination_address = 0;
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
+  /// VLAN, [1, 4094]; of tags within tags the innermost two, OUTER << 12 | INNER. 0: none, or not
+  /// known, as on a socket.
+  std::uint32_t vlan = 0;
+  std::uint64_t source_mac = 0;  ///< Link-layer address of the last sender, 48 bits; 0: not known.
 };
 
 }  // namespace terracut::decode

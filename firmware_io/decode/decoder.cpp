@@ -27,7 +27,7 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
     if (unit.lasers.size() != std::size_t{Sensor::kRows}) {
       throw std::invalid_argument("Decoder: the table has other lasers than the sensor");
     }
-    return use(trait, unit, typename Sensor::Config());
+    return use(trait, unit, config.velodyne);
   };
   switch (unit.model) {
     case velodyne::VelodyneModel::kVlp16:

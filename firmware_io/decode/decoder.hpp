@@ -73,6 +73,7 @@ class Decoder {
     frame::FrameInstant deskew_at = frame::FrameInstant::kEnd;
     hdl64e::Hdl64eSensor::Config hdl64e;
     ruby128::Ruby128Sensor::Config ruby128;
+    velodyne::VelodyneConfig velodyne;
   };
 
   /// Of the sensor that the calibration belongs to.

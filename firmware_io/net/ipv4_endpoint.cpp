@@ -40,6 +40,18 @@ Expected<Ipv4Endpoint> parse_ipv4_endpoint(std::string_view text) {
   return endpoint;
 }
 
+Expected<Sender> parse_ipv4_sender(std::string_view text) {
+  const std::size_t colon = text.find(':');
+  const auto address = parse_ipv4_address(text.substr(0, colon));
+  if (address && colon == std::string_view::npos) return Sender{*address, {}};
+  const auto port = colon == std::string_view::npos
+                        ? std::nullopt
+                        : rt::number_of<std::uint16_t>(text.substr(colon + 1));
+  if (address && port && *port != 0) return Sender{*address, *port};
+  return fail(ErrorCode::kInvalidArgument,
+              fmt::format("'{}' is no sender; expected an IPv4 address, or ADDRESS:PORT", text));
+}
+
 std::string ipv4_text(std::uint32_t address) {
   return fmt::format("{}.{}.{}.{}", address >> 24, address >> 16 & 0xFF, address >> 8 & 0xFF,
                      address & 0xFF);
@@ -47,6 +59,11 @@ std::string ipv4_text(std::uint32_t address) {
 
 std::string to_string(const Ipv4Endpoint& endpoint) {
   return fmt::format("{}:{}", ipv4_text(endpoint.address), endpoint.port);
+}
+
+std::string to_string(const Sender& sender) {
+  return sender.port ? to_string(Ipv4Endpoint{sender.address, *sender.port})
+                     : ipv4_text(sender.address);
 }
 
 sockaddr_in socket_address(const Ipv4Endpoint& endpoint) noexcept {

@@ -5,6 +5,7 @@
 #include <netinet/in.h>
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -21,6 +22,14 @@ struct Ipv4Endpoint {
   friend bool operator==(const Ipv4Endpoint&, const Ipv4Endpoint&) = default;
 };
 
+/// Who sends a UDP stream.
+struct Sender {
+  std::uint32_t address = 0;            ///< IPv4, host byte order.
+  std::optional<std::uint16_t> port{};  ///< None: whichever.
+
+  friend bool operator==(const Sender&, const Sender&) = default;
+};
+
 /// "192.168.3.43" -> number. kInvalidArgument for anything else, names of hosts included.
 [[nodiscard]] Expected<std::uint32_t> parse_ipv4_address(std::string_view text);
 
@@ -28,8 +37,13 @@ struct Ipv4Endpoint {
 /// expected, for anything else.
 [[nodiscard]] Expected<Ipv4Endpoint> parse_ipv4_endpoint(std::string_view text);
 
+/// "192.168.3.43:2368", or "192.168.3.43" for any port. kInvalidArgument for anything else.
+[[nodiscard]] Expected<Sender> parse_ipv4_sender(std::string_view text);
+
 [[nodiscard]] std::string ipv4_text(std::uint32_t address);
 [[nodiscard]] std::string to_string(const Ipv4Endpoint& endpoint);
+/// As parse_ipv4_sender() reads it.
+[[nodiscard]] std::string to_string(const Sender& sender);
 
 /// 224.0.0.0 .. 239.255.255.255.
 [[nodiscard]] constexpr bool is_multicast(std::uint32_t address) noexcept {

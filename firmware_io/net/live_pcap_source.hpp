@@ -11,6 +11,7 @@
 
 #include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/net/drop_counter.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/receive_counters.hpp"
 #include "rt/error.hpp"
 #include "rt/files/owned_descriptor.hpp"
@@ -26,6 +27,7 @@ struct LivePcapConfig {
   std::string interface{};
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< Only this sender; others count as foreign.
+  std::optional<std::uint16_t> source_port{};     ///< Only from this port of it.
 
   std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, > 0.
   std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0.
@@ -49,8 +51,9 @@ class LivePcapSource {
   void wake() const noexcept { wake_.wake(); }
 
   /// From now on only this sender; others count as foreign. From the thread that receives.
-  void accept_only(std::uint32_t source_address) noexcept {
-    config_.source_address = source_address;
+  void accept_only(const Sender& sender) noexcept {
+    config_.source_address = sender.address;
+    config_.source_port = sender.port;
   }
 
   /// kernel_drops is as of the last refresh_drops(), which receive() calls after every full batch

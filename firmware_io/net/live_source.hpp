@@ -23,7 +23,7 @@ struct ListenConfig {
   std::string interface;                         ///< Empty: any; libpcap needs one.
   std::optional<std::uint32_t> multicast_group;  ///< To join.
   bool share_port = false;
-  std::optional<std::uint32_t> sender;  ///< The only one heard; others count as foreign.
+  std::optional<Sender> sender;  ///< The only one heard; others count as foreign.
 };
 
 /// Where live datagrams come from: a socket, or libpcap. A DatagramSource
@@ -59,8 +59,8 @@ class LiveSource {
     return udp_ ? udp_->room_packets() : kOfLibpcap;
   }
   /// From now on only this sender; others count as foreign.
-  void accept_only(std::uint32_t source_address) noexcept {
-    udp_ ? udp_->accept_only(source_address) : pcap_->accept_only(source_address);
+  void accept_only(const Sender& sender) noexcept {
+    udp_ ? udp_->accept_only(sender) : pcap_->accept_only(sender);
   }
 
   /// For people: "0.0.0.0:2368", "port 2368 on eth0 by libpcap".

@@ -37,14 +37,15 @@ struct UdpSourceConfig {
   std::optional<std::uint32_t> multicast_group{};  ///< Joined on `interface`, else by the routes.
   std::string interface{};                         ///< Only what comes in here; empty: anywhere.
   std::optional<std::uint32_t> source_address{};   ///< Only this sender; others count as foreign.
+  std::optional<std::uint16_t> source_port{};      ///< Only from this port of it.
   /// Lets other sockets with the same option bind the port too. Of broadcasts and multicasts each
   /// then gets a copy; of datagrams to one address only one socket gets any.
   bool share_port = false;
 
   std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
-  std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, > 0.
-  std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0; by default all of one
-                                        ///< Ethernet frame.
+  std::size_t batch = kBatchDatagrams;          ///< Datagrams a receive() returns at most, > 0.
+  std::size_t slot_bytes = 1536;  ///< The longest payload taken, > 0; by default all of one
+                                  ///< Ethernet frame.
 };
 
 /// UDP datagrams over IPv4 as they arrive, many for one system call, with the kernel's time stamps
@@ -66,8 +67,9 @@ class UdpSource {
   void wake() const noexcept { wake_.wake(); }
 
   /// From now on only this sender; others count as foreign. From the thread that receives.
-  void accept_only(std::uint32_t source_address) noexcept {
-    config_.source_address = source_address;
+  void accept_only(const Sender& sender) noexcept {
+    config_.source_address = sender.address;
+    config_.source_port = sender.port;
   }
 
   /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks

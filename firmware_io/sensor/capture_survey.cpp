@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "firmware_io/sensor/head_reader.hpp"
+#include "firmware_io/streams/unknown_packets.hpp"
 
 namespace terracut::sensor {
 namespace {
@@ -16,7 +17,8 @@ namespace {
 /// Distinct payload sizes told apart in a stream; the rest is told under the size 0.
 constexpr std::size_t kMostSizes = 64;
 
-using StreamKey = std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t>;
+using StreamKey =
+    std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t, std::uint32_t>;
 
 /// What the data packets of a model tell that send nothing else.
 class HeadSurvey {
@@ -64,7 +66,10 @@ struct StreamUnderSurvey {
     ++stream.payload_sizes[tell_size ? datagram.payload.size() : 0];
 
     const SensorModel model = recognise_sensor(datagram.payload);
-    if (++votes[model] == 1) hints[model] = describe_sensor_hints(datagram.payload);
+    if (++votes[model] == 1) {
+      hints[model] = model == SensorModel::kUnknown ? streams::guess_of_unknown(datagram)
+                                                    : describe_sensor_hints(datagram.payload);
+    }
     if (model == SensorModel::kHdl64e) {
       if (!hdl64e) hdl64e = std::make_unique<Hdl64eSurvey>();
       hdl64e->add(datagram.payload);
@@ -122,14 +127,14 @@ CaptureSurvey survey_capture(capture::PcapSource& source,
     if (!*next) break;
     const decode::Datagram& datagram = **next;
     const StreamKey key{datagram.source_address, datagram.destination_address, datagram.source_port,
-                        datagram.destination_port};
+                        datagram.destination_port, datagram.vlan};
     if (streams.size() >= CaptureSurvey::kMostStreams && !streams.contains(key)) {
       ++survey.packets_of_further_streams;
       continue;
     }
     StreamUnderSurvey& entry = streams[key];
     std::tie(entry.stream.source_address, entry.stream.destination_address,
-             entry.stream.source_port, entry.stream.destination_port) = key;
+             entry.stream.source_port, entry.stream.destination_port, entry.stream.vlan) = key;
     entry.add(datagram);
   }
   survey.counters = source.counters();
@@ -137,7 +142,7 @@ CaptureSurvey survey_capture(capture::PcapSource& source,
   const auto by_size_then_key = [](const UdpStream& a, const UdpStream& b) {
     const auto key = [](const UdpStream& stream) {
       return std::tuple(~stream.packets, stream.source_address, stream.destination_address,
-                        stream.source_port, stream.destination_port);
+                        stream.source_port, stream.destination_port, stream.vlan);
     };
     return key(a) < key(b);
   };

@@ -19,12 +19,13 @@
 
 namespace terracut::sensor {
 
-/// The datagrams of one sender and receiver (addresses and ports) in a capture.
+/// The datagrams of one sender and receiver (addresses, ports and VLAN) in a capture.
 struct UdpStream {
   std::uint32_t source_address = 0;  ///< IPv4, host byte order.
   std::uint32_t destination_address = 0;
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
+  std::uint32_t vlan = 0;  ///< As in Datagram.
   std::uint64_t packets = 0;
   std::uint64_t payload_bytes = 0;
   std::map<std::size_t, std::uint64_t> payload_sizes;  ///< Packets by payload size.
@@ -32,7 +33,8 @@ struct UdpStream {
   std::int64_t last_stamp_ns = 0;
 
   SensorModel sensor = SensorModel::kUnknown;  ///< What most of its packets are.
-  std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet.
+  std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet, or
+                                        ///< streams::guess_of_unknown().
   std::optional<Hdl64eFacts> hdl64e;    ///< Where any packet is an HDL-64E's.
   std::optional<Ruby128Facts> ruby128;  ///< Where any is an RS-Ruby128's data packet.
   std::optional<StreamFacts> head;      ///< Where most are of a decoded model that tells no more.

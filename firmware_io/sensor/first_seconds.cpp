@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,13 +22,28 @@ constexpr std::int64_t kAnotherShows_ns = 300'000'000;
 /// A sensor that rotates sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
 constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
 
+std::string name_of(const HeardSenders::Sensor& sensor) {
+  std::string name =
+      fmt::format("{} at {}", to_string(sensor.model), net::ipv4_text(sensor.address));
+  if (sensor.port) return name + fmt::format(":{}", *sensor.port);
+  return sensor.to == 0 ? name : name + " to " + net::ipv4_text(sensor.to);
+}
+
 std::string names_of(const std::vector<HeardSenders::Sensor>& sensors) {
   std::string all;
-  for (const auto& [address, model] : sensors) {
-    all += fmt::format("{}{} at {}", all.empty() ? "" : ", ", to_string(model),
-                       net::ipv4_text(address));
-  }
+  for (const auto& sensor : sensors) all += (all.empty() ? "" : ", ") + name_of(sensor);
   return all;
+}
+
+/// What chooses one of several.
+std::string_view choice_among(const std::vector<HeardSenders::Sensor>& sensors) {
+  const auto is_elsewhere = [&](const auto& one) {
+    return std::ranges::count(sensors, one.address, &HeardSenders::Sensor::address) == 1;
+  };
+  if (std::ranges::all_of(sensors, is_elsewhere)) return "--from";
+  const bool have_ports =
+      std::ranges::all_of(sensors, [](const auto& one) { return one.port.has_value(); });
+  return have_ports ? "--from ADDRESS:PORT" : "--from, or the address they send to with --listen";
 }
 
 }  // namespace
@@ -39,14 +56,13 @@ bool FirstSeconds::wants_device_port() const {
 bool FirstSeconds::is_enough() const {
   const Sensors sensors = chosen_of(senders_.rotating());
   if (sensors.empty() || senders_.known_for_ns() < kAnotherShows_ns) return false;
-  if (config_.known_address && senders_.is_steady_but_stands(*config_.known_address)) return false;
+  if (config_.known && senders_.is_steady_but_stands(config_.known->address)) return false;
   return sensors.size() > 1 || config_.calibration.is_given() ||
          senders_.has_told(sensors.front()) || senders_.known_for_ns() >= kCalibrationComes_ns;
 }
 
 std::string FirstSeconds::waits_for() const {
-  const bool known_stands =
-      config_.known_address && senders_.is_steady_but_stands(*config_.known_address);
+  const bool known_stands = config_.known && senders_.is_steady_but_stands(config_.known->address);
   if (const Sensors sensors = chosen_of(senders_.rotating()); !sensors.empty() && !known_stands) {
     return fmt::format("{} at {} is heard; waiting for its calibration",
                        to_string(sensors.front().model), net::ipv4_text(sensors.front().address));
@@ -61,16 +77,16 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
   if (found.empty()) found = chosen_of(senders_.steady());
   if (found.empty()) return tl::unexpected(nobody(patience_s));
   if (found.size() > 1) {
-    return fail(
-        ErrorCode::kInvalidArgument,
-        fmt::format("several sensors send here: {}; choose one with --from", names_of(found)));
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("several sensors send here: {}; choose one with {}", names_of(found),
+                            choice_among(found)));
   }
   const HeardSenders::Sensor& sensor = found.front();
   const SensorProbe& probe = senders_.probe(sensor.address);
   auto calibration = unit_calibration(config_.calibration, sensor.model,
                                       [&] { return from_packets(sensor.model, sensor.address); });
   if (!calibration) return tl::unexpected(calibration.error());
-  return SensorOnAir{.address = sensor.address,
+  return SensorOnAir{.sender = {sensor.address, sensor.port},
                      .model = sensor.model,
                      .columns = config_.columns.value_or(probe.columns(sensor.model)),
                      .spin_hz = probe.spin_hz(sensor.model),
@@ -79,17 +95,21 @@ Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) c
 }
 
 FirstSeconds::Sensors FirstSeconds::chosen_of(Sensors heard) const {
-  if (heard.size() < 2 || !config_.known_address) return heard;
-  const auto known =
-      std::ranges::find(heard, *config_.known_address, &HeardSenders::Sensor::address);
-  return known == heard.end() ? heard : Sensors{*known};
+  if (heard.size() < 2 || !config_.known) return heard;
+  Sensors known;
+  std::ranges::copy_if(heard, std::back_inserter(known), [&](const HeardSenders::Sensor& sensor) {
+    return sensor.is_sent_by(*config_.known);
+  });
+  return known.size() == 1 ? known : heard;
 }
 
 std::string FirstSeconds::other_sensors() const {
   Sensors others = senders_.rotating();
   const Sensors chosen = chosen_of(others);
   if (chosen.size() == 1) {
-    std::erase_if(others, [&](const auto& each) { return each.address == chosen.front().address; });
+    std::erase_if(others, [&](const auto& each) {
+      return each.address == chosen.front().address && each.port == chosen.front().port;
+    });
   }
   return names_of(others);
 }

@@ -9,6 +9,7 @@
 
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/sensor/heard_senders.hpp"
 #include "firmware_io/sensor/sensor_model.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
@@ -18,7 +19,7 @@ namespace terracut::sensor {
 
 /// Who sends, and what is needed to decode it.
 struct SensorOnAir {
-  std::uint32_t address = 0;  ///< IPv4, as in Datagram.
+  net::Sender sender;
   SensorModel model{};
   int columns = 0;  ///< For the range image: firings a frame.
   double spin_hz = 0;
@@ -39,8 +40,8 @@ class FirstSeconds {
     CalibrationChoice calibration;
     std::string place;              ///< For people: where packets come in, "0.0.0.0:2368".
     std::uint16_t device_port = 0;  ///< Where an RS-Ruby128 was heard as well; 0: nowhere.
-    /// IPv4 of the sensor that was in use before: of several it is the one.
-    std::optional<std::uint32_t> known_address{};
+    /// The sensor that was in use before: of several it is the one.
+    std::optional<net::Sender> known{};
   };
   explicit FirstSeconds(Config config) : config_(std::move(config)), senders_(config_.model) {}
 

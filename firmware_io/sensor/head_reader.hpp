@@ -28,8 +28,8 @@ inline constexpr std::array<velodyne::PacketLayout, velodyne::kVelodyneModels> k
 /// decoder. One stream, one thread.
 class HeadReader {
  public:
-  /// As the check() of the model's trait. An RS-Ruby128's packets with a blind sector inside are
-  /// rejected.
+  /// As the check() of the model's trait, the model being a named one (VelodyneConfig). An
+  /// RS-Ruby128's packets with a blind sector inside are rejected.
   [[nodiscard]] std::optional<frame::Reject> read(SensorModel model,
                                                   const decode::Datagram& datagram,
                                                   decode::PacketAzimuths& azimuths) noexcept;
@@ -38,8 +38,10 @@ class HeadReader {
   hdl64e::S1Reader s1_;
   ruby128::RubyTimestampDetector ruby_timestamp_;
   std::array<velodyne::PacketReader, velodyne::kVelodyneModels> velodyne_{
-      velodyne::PacketReader(kVelodyneLayouts[0]), velodyne::PacketReader(kVelodyneLayouts[1]),
-      velodyne::PacketReader(kVelodyneLayouts[2]), velodyne::PacketReader(kVelodyneLayouts[3])};
+      velodyne::PacketReader(kVelodyneLayouts[0], true),
+      velodyne::PacketReader(kVelodyneLayouts[1], true),
+      velodyne::PacketReader(kVelodyneLayouts[2], true),
+      velodyne::PacketReader(kVelodyneLayouts[3], true)};
 };
 
 }  // namespace terracut::sensor

@@ -6,16 +6,27 @@
 
 #include <algorithm>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include "firmware_io/hdl64e/wire.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 
 namespace terracut::sensor {
+namespace {
 
-void HeardSenders::Sender::add(const decode::Datagram& datagram) {
+/// Who sends less than this part of what the one heard most does sent stray packets.
+constexpr std::uint64_t kStrayShare = 100;
+
+}  // namespace
+
+void HeardSenders::Sender::add(const decode::Datagram& datagram,
+                               std::optional<SensorModel> wanted) {
   newest_ns = datagram.stamp_ns;
   probe.add(datagram);
+  if (const SensorModel model = recognise_sensor_as(wanted, datagram.payload); is_decoded(model)) {
+    streams.try_emplace(model, model).first->second.add(datagram);
+  }
   (void)ruby128_device.add(datagram.payload);
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {
@@ -29,11 +40,25 @@ std::uint64_t HeardSenders::Sender::data_packets() const {
   return packets;
 }
 
+std::vector<HeardSenders::Sensor> HeardSenders::Sender::sensors_of(SensorModel model) const {
+  std::vector<streams::SensorStream> all = streams.at(model).sensors();
+  std::erase_if(all, [most = all.front().packets](const auto& stream) {
+    return stream.packets * kStrayShare < most;
+  });
+  if (all.size() == 1) return {{all.front().source_address, model}};
+  std::vector<Sensor> sensors;
+  for (const auto& stream : all) {
+    sensors.push_back(
+        {stream.source_address, model, stream.source_port, stream.destinations.front().address});
+  }
+  return sensors;
+}
+
 void HeardSenders::add(const decode::Datagram& datagram) {
   newest_ns_ = datagram.stamp_ns;
   Sender* const sender = sender_of(datagram);
   if (sender == nullptr) return void(++forgotten_datagrams_);
-  sender->add(datagram);
+  sender->add(datagram, wanted_);
   if (first_known_ns_ == 0 && !rotating().empty()) first_known_ns_ = newest_ns_;
 }
 
@@ -41,7 +66,7 @@ HeardSenders::Sender* HeardSenders::sender_of(const decode::Datagram& datagram) 
   const auto known = senders_.find(datagram.source_address);
   if (known != senders_.end()) return &known->second;
   if (senders_.size() >= kMostSenders) {
-    SensorProbe newcomer;
+    SensorProbe newcomer(wanted_);
     newcomer.add(datagram);
     const bool is_data = std::ranges::any_of(
         kDecodedModels, [&](SensorModel model) { return newcomer.packets_of(model) > 0; });
@@ -54,7 +79,7 @@ HeardSenders::Sender* HeardSenders::sender_of(const decode::Datagram& datagram) 
     }
     senders_.erase(least);
   }
-  return &senders_[datagram.source_address];
+  return &senders_.try_emplace(datagram.source_address, wanted_).first->second;
 }
 
 template <class Predicate>
@@ -62,7 +87,8 @@ std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& ar
   std::vector<Sensor> found;
   for (const auto& [address, sender] : senders_) {
     for (const SensorModel model : kDecodedModels) {
-      if (wants(model) && std::invoke(are, sender.probe, model)) found.push_back({address, model});
+      if (!wants(model) || !std::invoke(are, sender.probe, model)) continue;
+      std::ranges::move(sender.sensors_of(model), std::back_inserter(found));
     }
   }
   return found;

@@ -10,8 +10,10 @@
 
 #include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "firmware_io/sensor/sensor_probe.hpp"
+#include "firmware_io/streams/sender_streams.hpp"
 
 namespace terracut::sensor {
 
@@ -26,6 +28,14 @@ class HeardSenders {
   struct Sensor {
     std::uint32_t address = 0;  ///< IPv4, as in Datagram.
     SensorModel model{};
+    /// Where others of its address send as well (streams::SenderStreams): the port it sends from,
+    /// if it is told from them by that, and where it sends to.
+    std::optional<std::uint16_t> port{};
+    std::uint32_t to{};
+
+    [[nodiscard]] bool is_sent_by(const net::Sender& sender) const {
+      return address == sender.address && (!sender.port || port == sender.port);
+    }
   };
 
   /// `wanted`: the only model that counts; none: every one that can be decoded.
@@ -68,13 +78,17 @@ class HeardSenders {
 
   /// What came from one address.
   struct Sender {
+    explicit Sender(std::optional<SensorModel> wanted) : probe(wanted) {}
+
     SensorProbe probe;
+    std::map<SensorModel, streams::SenderStreams> streams;
     hdl64e::StatusStreamReader hdl64e_status;
     Ruby128DeviceReader ruby128_device;
     std::int64_t newest_ns = 0;
 
-    void add(const decode::Datagram& datagram);
+    void add(const decode::Datagram& datagram, std::optional<SensorModel> wanted);
     [[nodiscard]] std::uint64_t data_packets() const;
+    [[nodiscard]] std::vector<Sensor> sensors_of(SensorModel model) const;
   };
   /// Its sender's entry, which may be a new one; null where there is no room for it.
   [[nodiscard]] Sender* sender_of(const decode::Datagram& datagram);

@@ -171,6 +171,14 @@ SensorModel recognise_sensor(Bytes payload) noexcept {
   return SensorModel::kUnknown;
 }
 
+SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload) noexcept {
+  const SensorModel model = recognise_sensor(payload);
+  // The VLS-128's blocks have ids of their own and tell it without.
+  const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
+                            velodyne_model_of(*named) && *named != SensorModel::kVls128;
+  return may_be_named ? *named : model;
+}
+
 std::string describe_sensor_hints(Bytes payload) {
   switch (recognise_sensor(payload)) {
     case SensorModel::kHdl32e:

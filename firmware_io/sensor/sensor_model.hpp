@@ -80,6 +80,13 @@ inline constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF
 [[nodiscard]] SensorModel recognise_sensor(std::span<const std::uint8_t> payload) noexcept
     TERRACUT_NONBLOCKING;
 
+/// The same where somebody knows that the sensor is a `named` one: so are Velodyne's data packets
+/// with a product number not known here, which simulators, old firmware and the VLP-32A send, if
+/// their blocks are such a model's.
+[[nodiscard]] SensorModel recognise_sensor_as(std::optional<SensorModel> named,
+                                              std::span<const std::uint8_t> payload) noexcept
+    TERRACUT_NONBLOCKING;
+
 /// What else the payload says of the model, for people: product number and return mode of a
 /// Velodyne, type bytes of a RoboSense and what documents say they mean. Empty when nothing.
 [[nodiscard]] std::string describe_sensor_hints(std::span<const std::uint8_t> payload);

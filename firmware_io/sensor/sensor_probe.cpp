@@ -65,12 +65,22 @@ void SensorProbe::Head::add(const decode::PacketAzimuths& azimuths) {
 }
 
 void SensorProbe::add(const decode::Datagram& datagram) {
-  const SensorModel model = recognise_sensor(datagram.payload);
+  const SensorModel model = recognise_sensor_as(named_, datagram.payload);
   ++votes_[model];
+  if (model == SensorModel::kOtherVelodyne) other_product_ = datagram.payload.back();
+  if (!is_decoded(model)) return;
   decode::PacketAzimuths azimuths;
-  if (is_decoded(model) && !reader_.read(model, datagram, azimuths)) {
-    azimuths_[model].add(azimuths);
+  const auto reject = reader_.read(model, datagram, azimuths);
+  if (!reject) azimuths_[model].add(azimuths);
+  if (reject == frame::Reject::kAzimuthJump &&
+      beams::step_cdeg(azimuths.first_cdeg(), azimuths.last_cdeg()) < 0) {
+    ++backward_packets_[model];
   }
+}
+
+std::uint64_t SensorProbe::backward_packets(SensorModel model) const {
+  const auto found = backward_packets_.find(model);
+  return found == backward_packets_.end() ? 0 : found->second;
 }
 
 std::uint64_t SensorProbe::packets_of(SensorModel model) const {
@@ -118,8 +128,15 @@ std::string SensorProbe::foreign_models() const {
         model == SensorModel::kRoboSenseDeviceInfo || model == SensorModel::kVelodynePosition) {
       continue;
     }
-    text +=
-        fmt::format("{}{} packets of a {}", text.empty() ? "" : ", ", packets, to_string(model));
+    const std::string_view name = to_string(model);
+    text += fmt::format("{}{} packets of a{}{}", text.empty() ? "" : ", ", packets,
+                        name.starts_with("other") ? "n" : " ", name);
+    if (model == SensorModel::kOtherVelodyne) {
+      text += fmt::format(
+          " model (product number 0x{:02X}; if it fires as one that is read does, name that with "
+          "--sensor)",
+          other_product_);
+    }
   }
   return text;
 }

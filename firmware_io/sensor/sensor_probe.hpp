@@ -18,6 +18,9 @@ namespace terracut::sensor {
 /// that a decoder can be made for it. Not for the receive thread: allocates.
 class SensorProbe {
  public:
+  /// `named`: the model that the sensor is said to be of (recognise_sensor_as()).
+  explicit SensorProbe(std::optional<SensorModel> named = {}) : named_(named) {}
+
   void add(const decode::Datagram& datagram);
 
   /// Datagrams by what they are; device information and unknown ones included.
@@ -36,7 +39,10 @@ class SensorProbe {
   /// else, and while unknown, the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
-  /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLS-128".
+  /// Data packets in which the head of that model turns backwards, which no sensor's does.
+  [[nodiscard]] std::uint64_t backward_packets(SensorModel model) const;
+
+  /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLP-16 Hi-Res".
   /// Empty when there are none.
   [[nodiscard]] std::string foreign_models() const;
 
@@ -52,8 +58,11 @@ class SensorProbe {
   };
   [[nodiscard]] const Head* head_of(SensorModel model) const;
 
+  std::optional<SensorModel> named_;
   std::map<SensorModel, std::uint64_t> votes_;
   std::map<SensorModel, Head> azimuths_;  ///< Of decoded models.
+  std::map<SensorModel, std::uint64_t> backward_packets_;
+  std::uint8_t other_product_ = 0;  ///< Of the newest Velodyne that is not known here.
   HeadReader reader_;
 };
 

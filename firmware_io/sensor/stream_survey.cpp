@@ -16,7 +16,7 @@ constexpr std::int64_t kJump_us = 10'000'000;
 /// one.
 constexpr std::int64_t kSurelyUnderHalfARevolution_us = 20'000;
 constexpr std::int64_t kShortestPeriod_us = 50;
-constexpr std::int64_t kLongestPeriod_us = 1'000;
+constexpr std::int64_t kLongestPeriod_us = 1'500;  ///< A VLP-16's are 1327 in single return.
 /// Bounds the memory a senseless capture can take.
 constexpr std::size_t kMostDistinctSteps = 100'000;
 

@@ -6,8 +6,9 @@ namespace terracut::velodyne {
 namespace {
 
 std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload,
-                                          sensor::SensorModel expected) noexcept {
-  const sensor::SensorModel model = sensor::recognise_sensor(payload);
+                                          sensor::SensorModel expected, bool is_named) noexcept {
+  const sensor::SensorModel model =
+      is_named ? sensor::recognise_sensor_as(expected, payload) : sensor::recognise_sensor(payload);
   if (model == expected) return std::nullopt;
   if (model == sensor::SensorModel::kVelodynePosition) return frame::Reject::kDeviceInfo;
   if (model != sensor::SensorModel::kUnknown) return frame::Reject::kWrongModel;
@@ -18,7 +19,7 @@ std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload,
 
 std::optional<frame::Reject> PacketReader::read(std::span<const std::uint8_t> payload,
                                                 decode::PacketAzimuths& azimuths) noexcept {
-  if (const auto reason = reject_model(payload, layout_.model)) return reason;
+  if (const auto reason = reject_model(payload, layout_.model, is_named_)) return reason;
   const auto* packet = hdl64e::packet_in(payload);
   if (packet == nullptr) return frame::Reject::kWrongSize;
   if (const auto reason = read_blocks(*packet, azimuths)) return reason;
@@ -30,9 +31,9 @@ std::optional<frame::Reject> PacketReader::read(std::span<const std::uint8_t> pa
 
 std::optional<frame::Reject> PacketReader::read_blocks(
     const hdl64e::wire::Packet& packet, decode::PacketAzimuths& azimuths) const noexcept {
-  const std::uint8_t mode = packet.status_type;
-  if (mode != kStrongest && mode != kLast && mode != kDual) return frame::Reject::kWrongMagic;
-  const bool dual_return = mode == kDual;
+  const std::optional<bool> mode = dual_return_of(packet);
+  if (!mode) return frame::Reject::kWrongMagic;
+  const bool dual_return = *mode;
   const int columns = layout_.columns(dual_return);
   bool ids_right = true, in_range = true, blocks_agree = true;
   for (int column = 0; column < columns; ++column) {
@@ -56,6 +57,20 @@ std::optional<frame::Reject> PacketReader::read_blocks(
   azimuths.device_stamp_us = packet.stamp_us.value() % kClockWrap_us;
   if (!in_range) return frame::Reject::kAzimuthOutOfRange;
   return blocks_agree ? std::nullopt : std::optional(frame::Reject::kAzimuthMismatch);
+}
+
+std::optional<bool> PacketReader::dual_return_of(
+    const hdl64e::wire::Packet& packet) const noexcept {
+  const std::uint8_t mode = packet.status_type;
+  if (mode == kStrongest || mode == kLast || mode == kDual) return mode == kDual;
+  const bool is_product_known = packet.status_value == sensor::product_number(layout_.model);
+  if (!is_named_ || is_product_known) return std::nullopt;
+  const auto azimuth = [&](std::size_t block) { return packet.blocks[block].azimuth_cdeg.value(); };
+  bool are_pairs = true;
+  for (std::size_t block = 0; block < packet.blocks.size(); block += 2) {
+    are_pairs &= azimuth(block) == azimuth(block + 1);
+  }
+  return are_pairs;
 }
 
 std::optional<frame::Reject> PacketReader::judge_steps(decode::PacketAzimuths& azimuths) noexcept {

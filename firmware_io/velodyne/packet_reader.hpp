@@ -31,7 +31,11 @@ namespace terracut::velodyne {
 /// one thread; real-time safe.
 class PacketReader {
  public:
-  explicit PacketReader(const PacketLayout& layout) noexcept : layout_(layout) {}
+  /// `is_named`: the model was stated, so a product number that is not known here is one of it
+  /// (sensor::recognise_sensor_as()), whose return mode may be any, too: by its azimuths it is dual
+  /// or not.
+  explicit PacketReader(const PacketLayout& layout, bool is_named = false) noexcept
+      : layout_(layout), is_named_(is_named) {}
 
   [[nodiscard]] std::optional<frame::Reject> read(std::span<const std::uint8_t> payload,
                                                   decode::PacketAzimuths& azimuths) noexcept
@@ -40,12 +44,16 @@ class PacketReader {
  private:
   [[nodiscard]] std::optional<frame::Reject> read_blocks(
       const hdl64e::wire::Packet& packet, decode::PacketAzimuths& azimuths) const noexcept;
+  /// None: not one that is known.
+  [[nodiscard]] std::optional<bool> dual_return_of(
+      const hdl64e::wire::Packet& packet) const noexcept;
   [[nodiscard]] std::optional<frame::Reject> judge_steps(decode::PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] std::int32_t step_of(const decode::PacketAzimuths& azimuths,
                                      std::int32_t advance_cdeg) noexcept;
   void complete(decode::PacketAzimuths& azimuths) const noexcept;
 
   PacketLayout layout_;
+  bool is_named_;
   std::int32_t step_ticks_ = 0;  ///< Of the last packet that had one; 0: none yet.
   bool is_step_guessed_ = false;
   struct {

@@ -23,6 +23,10 @@
 
 namespace terracut::velodyne {
 
+struct VelodyneConfig {
+  bool is_named = false;  ///< As in PacketReader.
+};
+
 /// What Decoder needs to know of a Velodyne sensor (see there), but for the numbers of `Model`:
 /// - `kModel`, `kLayout`, `kMetresPerCount`, `kDefaultColumns`;
 /// - `kLasers`, and `kChannels`, the readings of a column: a multiple of kLasers where these fire
@@ -34,7 +38,7 @@ template <class Model>
 class VelodyneSensor {
  public:
   using Calibration = VelodyneCalibration;
-  struct Config {};
+  using Config = VelodyneConfig;
   static constexpr VelodyneModel kModel = Model::kModel;
   static constexpr int kRows = Model::kLasers;
   static constexpr int kChannels = Model::kChannels;
@@ -46,8 +50,10 @@ class VelodyneSensor {
   static constexpr int kDefaultReturnsPerCell = 3;
   using Returns = decode::FiringReturns<static_cast<std::size_t>(kChannels)>;
 
-  VelodyneSensor(const Calibration& calibration, const mount::Mount& mount, const Config&)
-      : reader_(Model::kLayout), kernel_(calibration, mount), offsets_(calibration) {
+  VelodyneSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config)
+      : reader_(Model::kLayout, config.is_named),
+        kernel_(calibration, mount),
+        offsets_(calibration) {
     const std::vector<int> rows = rows_by_elevation(calibration);
     for (std::size_t channel = 0; channel < rows_.size(); ++channel) {
       rows_[channel] = rows[laser_of(channel)];

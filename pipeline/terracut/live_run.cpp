@@ -163,7 +163,7 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   if (!source) return tl::unexpected(source.error());
   auto sensor = listen(*source, config, stop_wanted);
   if (!sensor) return tl::unexpected(sensor.error());
-  source->accept_only(sensor->address);
+  source->accept_only(sensor->sender);
   std::optional<FoundMount> mount;
   if (config.find_mount) {
     const auto found = run::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor),

@@ -28,13 +28,26 @@ tl::unexpected<Error> refused(const std::filesystem::path& path, int error_numbe
 Expected<OwnedDescriptor> open_plain_file(const std::filesystem::path& path) {
   // O_NONBLOCK: who has put a named pipe there shall not make us wait.
   OwnedDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
-  struct stat status {};
+  struct stat status{};
   if (!file || ::fstat(file.get(), &status) != 0) return refused(path, errno);
   if (S_ISDIR(status.st_mode)) return unreadable(path, "a folder, where a file was expected");
   if (!S_ISREG(status.st_mode)) {
     return unreadable(path, "a pipe or device, where a plain file was expected");
   }
   return file;
+}
+
+Status check_readable_twice(const std::filesystem::path& path) {
+  struct stat status{};
+  if (::stat(path.c_str(), &status) != 0) return {};
+  const auto refuse = [&](const char* what) {
+    return unreadable(
+        path, std::string("is a ") + what + " and cannot be read twice; write it to a file first");
+  };
+  if (S_ISFIFO(status.st_mode)) return refuse("pipe");
+  if (S_ISSOCK(status.st_mode)) return refuse("socket");
+  if (S_ISCHR(status.st_mode)) return refuse("device");
+  return {};
 }
 
 Expected<std::string> read_plain_file(const std::filesystem::path& path, std::size_t most_bytes) {

@@ -16,6 +16,10 @@ namespace terracut::files {
 /// kUnreadable.
 [[nodiscard]] Expected<OwnedDescriptor> open_plain_file(const std::filesystem::path& path);
 
+/// kUnreadable for a pipe, a socket or a device, which cannot be read a second time; nothing else
+/// is looked at, and nothing opened. Links are followed.
+[[nodiscard]] Status check_readable_twice(const std::filesystem::path& path);
+
 /// All that is in such a file. kUnreadable, too, where it holds more than `most_bytes`.
 [[nodiscard]] Expected<std::string> read_plain_file(const std::filesystem::path& path,
                                                     std::size_t most_bytes);

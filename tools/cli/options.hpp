@@ -30,7 +30,9 @@ namespace terracut::cli {
 struct CaptureOptions {
   std::filesystem::path file;
   std::optional<std::uint16_t> port;
-  std::string from;                           ///< Dotted IPv4.
+  std::string from;                           ///< Dotted IPv4, or that and a port.
+  std::string to;                             ///< Dotted IPv4.
+  std::string vlan, mac;                      ///< As in firmware_io/streams/stream_text.hpp.
   std::optional<sensor::SensorModel> sensor;  ///< kHdl64e or kRuby128; none: the one found.
   std::filesystem::path calibration;
   bool nominal_calibration = false;

@@ -71,6 +71,33 @@ TEST(PcapSource, CountsEveryFrameByWhatBecameOfIt) {
   EXPECT_EQ(counters.refused_total(), 3U);
 }
 
+TEST(PcapSource, CountsWhatTheRestOfItsFilterKeepsOut) {
+  IpFrame from_elsewhere;
+  from_elsewhere.source_port = 444;
+  CaptureFile file;
+  file.add(ethernet(IpFrame{}.bytes()))
+      .add(ethernet(from_elsewhere.bytes()))
+      .add(ethernet(IpFrame{}.bytes(), 0x0800, {0x8100}));
+  const auto delivered = [&](PcapFilter filter) {
+    auto source = PcapSource::open_memory(file.bytes(), "memory", std::move(filter));
+    const std::size_t payloads = payloads_of(*source).size();
+    EXPECT_EQ(payloads + source->counters().other_stream, 3U);
+    EXPECT_EQ(source->counters().frames,
+              source->counters().delivered + source->counters().left_out());
+    return payloads;
+  };
+  EXPECT_EQ(delivered({.source_port = 443}), 2U);
+  EXPECT_EQ(delivered({.vlan = 0}), 2U);
+  EXPECT_EQ(delivered({.vlan = 7}), 1U);
+  EXPECT_EQ(delivered({.destination_address = 0xC0A803FF}), 3U);
+  EXPECT_EQ(delivered({.destination_address = 1}), 0U);
+  EXPECT_EQ(delivered({.source_mac = 0x0202'0202'0202U}), 3U);
+  EXPECT_EQ(delivered({.source_mac = 1}), 0U);
+  EXPECT_EQ(
+      delivered({.is_of_stream = [](const auto& datagram) { return datagram.source_port == 444; }}),
+      1U);
+}
+
 TEST(PcapSource, ReadsMicroAndNanosecondStampsInEitherByteOrder) {
   const Bytes frame = ethernet(IpFrame{}.bytes());
   const CaptureFile micro = CaptureFile(1, 0xA1B2C3D4).add(frame);

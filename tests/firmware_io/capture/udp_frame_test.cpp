@@ -73,6 +73,32 @@ INSTANTIATE_TEST_SUITE_P(
                                                3,    6,    2, 2, 2, 2, 2, 2, 0, 0}}),
     [](const auto& link) { return std::string(link.param.name); });
 
+TEST(UdpFrame, TellsItsVlanAndItsLastSender) {
+  struct Case {
+    Bytes tags;
+    std::uint32_t vlan;
+  };
+  const Bytes priority{0x81, 0, 0xE0, 0}, ten{0x81, 0, 0x20, 10}, hundred{0x88, 0xA8, 0, 100};
+  for (const auto& [tags, vlan] :
+       {Case{{}, 0}, Case{priority, 0}, Case{ten, 10}, Case{joined({hundred, ten}), 100 << 12 | 10},
+        Case{joined({priority, ten}), 10}, Case{joined({ten, hundred, ten}), 100 << 12 | 10}}) {
+    const Bytes addresses{2, 2, 2, 2, 2, 2, 0x60, 0x76, 0x88, 0x10, 0x23, 0xA1};
+    const Bytes frame = joined({addresses, tags, {0x08, 0x00}, IpFrame{}.bytes()});
+    const auto datagram = parse_udp_frame(kEthernet, frame, 0);
+    ASSERT_TRUE(datagram);
+    EXPECT_EQ(datagram->vlan, vlan);
+    EXPECT_EQ(datagram->source_mac, 0x6076'8810'23A1U);
+  }
+}
+
+TEST(UdpFrame, SaysInWordsWhatEachRejectIs) {
+  std::set<std::string_view> words;
+  for (std::size_t i = 0; i < kFrameRejects; ++i) {
+    words.insert(description_of(static_cast<FrameReject>(i)));
+  }
+  EXPECT_EQ(words.size(), kFrameRejects);
+}
+
 TEST(UdpFrame, StepsOverIpOptionsAndEthernetPadding) {
   IpFrame ip;
   ip.option_bytes = 12;

@@ -42,5 +42,16 @@ TEST(Ipv4Endpoint, KnowsMulticastGroups) {
   EXPECT_FALSE(net::is_multicast(0xF0000000));
 }
 
+TEST(Ipv4Sender, IsAnAddressOrOneWithAPort) {
+  EXPECT_EQ(*net::parse_ipv4_sender("10.0.0.7"), net::Sender{0x0A000007});
+  EXPECT_EQ(*net::parse_ipv4_sender("10.0.0.7:2368"), (net::Sender{0x0A000007, 2368}));
+  for (const char* const text : {"10.0.0.7", "10.0.0.7:2368"}) {
+    EXPECT_EQ(to_string(*net::parse_ipv4_sender(text)), text);
+  }
+  for (const char* const text : {"", "2368", ":2368", "10.0.0.7:", "10.0.0.7:0", "10.0.0:1"}) {
+    EXPECT_FALSE(net::parse_ipv4_sender(text)) << text;
+  }
+}
+
 }  // namespace
 }  // namespace terracut::test

@@ -152,6 +152,22 @@ TEST_F(UdpSourceTest, AcceptsOnlyTheConfiguredSenderAndCountsTheOthers) {
   EXPECT_EQ(source.counters().foreign, 60U);
 }
 
+TEST_F(UdpSourceTest, AcceptsOnlyOnePortOfASender) {
+  auto source = open();
+  auto sensor = sender_to(source, kLocalhost);
+  auto relay = sender_to(source, kLocalhost);
+  Numbered wanted(5), strange(5, 64, 100);
+  sensor.send(wanted.datagrams());
+  std::vector<Received> received;
+  EXPECT_TRUE(receive_until(source, received, [&] { return received.size() == 5; }));
+  source.accept_only({kLocalhost, received.front().datagram.source_port});
+  relay.send(strange.datagrams());
+  sensor.send(wanted.datagrams());
+  EXPECT_TRUE(receive_until(source, received, [&] { return source.counters().received == 15; }));
+  EXPECT_EQ(source.counters().delivered, 10U);
+  EXPECT_EQ(source.counters().foreign, 5U);
+}
+
 TEST_F(UdpSourceTest, TellsSeveralSensorsOnOnePortApartByAddress) {
   auto source = open();
   auto left = sender_to(source, kLocalhost);

@@ -66,7 +66,7 @@ TEST(FirstSeconds, AreEnoughWhenASensorRotatesThatNobodyElseSendsBeside) {
   EXPECT_TRUE(first.is_enough());
   const auto found = first.conclude();
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_EQ(found->address, kSensorAddress);
+  EXPECT_EQ(found->sender.address, kSensorAddress);
   EXPECT_EQ(found->model, SensorModel::kHdl64e);
   EXPECT_NEAR(found->spin_hz, kFrames_hz, 0.2);
   EXPECT_EQ(calib::fingerprint(found->calibration), hdl64e::fingerprint(hdl64e::nominal_hdl64e()));
@@ -98,7 +98,7 @@ TEST(FirstSeconds, OneStrayPacketOfAnotherSenderRefusesNothing) {
   hear(first, packets);
   EXPECT_TRUE(first.is_enough());
   ASSERT_TRUE(first.conclude());
-  EXPECT_EQ(first.conclude()->address, kSensorAddress);
+  EXPECT_EQ(first.conclude()->sender.address, kSensorAddress);
 }
 
 TEST(FirstSeconds, SeveralSensorsAreNamedAndNoneIsChosen) {
@@ -115,7 +115,7 @@ TEST(FirstSeconds, SeveralSensorsAreNamedAndNoneIsChosen) {
 
 TEST(FirstSeconds, OfSeveralSensorsTheOneThatWasInUseBeforeIsTaken) {
   FirstSeconds::Config config = with_table();
-  config.known_address = kSensorAddress;
+  config.known = net::Sender{kSensorAddress};
   FirstSeconds first(config);
   const auto packets = seconds(1);
   hear(first, packets, kOtherAddress);
@@ -123,14 +123,46 @@ TEST(FirstSeconds, OfSeveralSensorsTheOneThatWasInUseBeforeIsTaken) {
   EXPECT_TRUE(first.is_enough());
   const auto found = first.conclude();
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_EQ(found->address, kSensorAddress);
+  EXPECT_EQ(found->sender.address, kSensorAddress);
   EXPECT_THAT(first.other_sensors(),
               AllOf(HasSubstr("192.168.1.7"), testing::Not(HasSubstr("192.168.1.201"))));
 }
 
+TEST(FirstSeconds, OfTwoSensorsBehindOneAddressNameThePortsTheySendFrom) {
+  constexpr std::size_t kAhead = 500;
+  const auto packets = seconds(1);
+  const auto heard_by = [&](FirstSeconds& first) {
+    for (std::size_t n = 0; n + kAhead < packets.size(); ++n) {
+      for (const std::uint16_t port : {std::uint16_t{50'001}, std::uint16_t{50'002}}) {
+        decode::Datagram datagram = packets[port == 50'001 ? n : n + kAhead].datagram();
+        datagram.stamp_ns = packets[n].stamp_ns;
+        datagram.source_address = kSensorAddress;
+        datagram.source_port = port;
+        first.add(datagram);
+      }
+    }
+  };
+  FirstSeconds first(with_table());
+  heard_by(first);
+  EXPECT_TRUE(first.is_enough());
+  const auto found = first.conclude();
+  ASSERT_FALSE(found);
+  EXPECT_THAT(found.error().message,
+              AllOf(HasSubstr("192.168.1.201:50001"), HasSubstr("192.168.1.201:50002"),
+                    HasSubstr("--from ADDRESS:PORT")));
+
+  FirstSeconds::Config config = with_table();
+  config.known = net::Sender{kSensorAddress, 50'002};
+  FirstSeconds again(config);
+  heard_by(again);
+  ASSERT_TRUE(again.conclude());
+  EXPECT_EQ(again.conclude()->sender, (net::Sender{kSensorAddress, 50'002}));
+  EXPECT_THAT(again.other_sensors(), HasSubstr("192.168.1.201:50001"));
+}
+
 TEST(FirstSeconds, TheOneThatWasInUseBeforeIsWaitedForUntilItsHeadRotates) {
   FirstSeconds::Config config = with_table();
-  config.known_address = kSensorAddress;
+  config.known = net::Sender{kSensorAddress};
   FirstSeconds first(config);
   const auto packets = seconds(1);
   std::vector<test::Packet> standing(100, packets.front());
@@ -141,17 +173,17 @@ TEST(FirstSeconds, TheOneThatWasInUseBeforeIsWaitedForUntilItsHeadRotates) {
   hear(first, packets);
   EXPECT_TRUE(first.is_enough());
   ASSERT_TRUE(first.conclude());
-  EXPECT_EQ(first.conclude()->address, kSensorAddress);
+  EXPECT_EQ(first.conclude()->sender.address, kSensorAddress);
 }
 
 TEST(FirstSeconds, AnotherSensorIsTakenWhereTheOneBeforeDoesNotSend) {
   FirstSeconds::Config config = with_table();
-  config.known_address = kSensorAddress;
+  config.known = net::Sender{kSensorAddress};
   FirstSeconds first(config);
   hear(first, seconds(1), kOtherAddress);
   EXPECT_TRUE(first.is_enough());
   ASSERT_TRUE(first.conclude());
-  EXPECT_EQ(first.conclude()->address, kOtherAddress);
+  EXPECT_EQ(first.conclude()->sender.address, kOtherAddress);
   EXPECT_EQ(first.other_sensors(), "");
 }
 
@@ -173,7 +205,7 @@ TEST(FirstSeconds, AHeadThatDoesNotRotateIsTakenWhenThePatienceEnds) {
   EXPECT_FALSE(first.is_enough());
   const auto found = first.conclude();
   ASSERT_TRUE(found) << found.error().message;
-  EXPECT_EQ(found->address, kSensorAddress);
+  EXPECT_EQ(found->sender.address, kSensorAddress);
   EXPECT_EQ(found->spin_hz, 0);
 }
 

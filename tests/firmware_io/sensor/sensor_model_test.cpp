@@ -111,5 +111,15 @@ TEST(SensorModel, EveryModelHasItsOwnName) {
   EXPECT_EQ(names.size(), static_cast<std::size_t>(kModels));
 }
 
+TEST(SensorModel, ThatIsNamedIsBelievedWhereTheProductIsNotKnown) {
+  const auto other = velodyne({0xEEFF}, 0x00, 0x00);
+  EXPECT_EQ(recognise_sensor_as({}, other), SensorModel::kOtherVelodyne);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kVlp16, other), SensorModel::kVlp16);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kVls128, other), SensorModel::kOtherVelodyne);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kHdl64e, other), SensorModel::kOtherVelodyne);
+  const auto hdl32e = velodyne({0xEEFF}, 0x37, 0x21);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kVlp16, hdl32e), SensorModel::kHdl32e);
+}
+
 }  // namespace
 }  // namespace terracut::sensor

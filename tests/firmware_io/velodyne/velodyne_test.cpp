@@ -135,6 +135,34 @@ TYPED_TEST(VelodyneStream, CountsLostPacketsByTheDevicesStamps) {
   }
 }
 
+TYPED_TEST(VelodyneStream, HasNoHolesWherePacketsCameLateAndSwapped) {
+  std::mt19937 random(7);
+  auto payloads = TypeParam::payloads({.packets = 400});
+  std::swap(payloads[200], payloads[202]);
+  const Both both = decode_both(payloads, TypeParam::random_unit(random), 1808);
+  EXPECT_EQ(both.decoded, payloads.size());
+  EXPECT_EQ(both.losses.network_gap_packets, 0U);
+  EXPECT_EQ(both.losses.azimuth_hole_columns, 0U);
+}
+
+TYPED_TEST(VelodyneStream, OfAModelThatWasNamedIsBelievedWhateverItsFactoryBytes) {
+  if (TypeParam::kLasers == 128) GTEST_SKIP() << "its blocks tell it";
+  velodyne::PacketReader reader(TypeParam::layout(), true);
+  for (const bool dual_return : {false, true}) {
+    auto bytes = TypeParam::payloads({.dual_return = dual_return, .packets = 1})[0].bytes;
+    bytes[1204] = 0;
+    for (const std::uint8_t product : {std::uint8_t{0x00}, std::uint8_t{0x23}}) {
+      bytes[1205] = product;
+      decode::PacketAzimuths azimuths;
+      EXPECT_EQ(reader.read(bytes, azimuths), std::nullopt);
+      EXPECT_EQ(azimuths.dual_return, dual_return);
+    }
+    bytes[1205] = 0x24;  // a VLP-16 Hi-Res says what it is
+    decode::PacketAzimuths azimuths;
+    EXPECT_EQ(reader.read(bytes, azimuths), frame::Reject::kWrongModel);
+  }
+}
+
 TYPED_TEST(VelodyneStream, RefusesWhatIsNoDataPacketOfTheModel) {
   velodyne::PacketReader reader(TypeParam::layout());
   const auto good = TypeParam::payloads({.packets = 1})[0].bytes;

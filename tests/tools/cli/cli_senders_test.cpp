@@ -36,6 +36,24 @@ class CliSenders : public Cli {
     }
     ASSERT_TRUE(capture->finish());
   }
+  /// The drive, and by turns with its packets those of a sensor whose head and clock are ahead, or
+  /// the same ones, on a way of their own.
+  void write_two(const std::string& name, std::size_t ahead,
+                 const std::function<void(Datagram&)>& lead) const {
+    auto drive = capture::PcapSource::open(kDrive);
+    auto later = capture::PcapSource::open(kDrive);
+    auto capture = capture::PcapWriter::create(folder_ / name);
+    ASSERT_TRUE(drive && later && capture);
+    for (std::size_t i = 0; i < ahead; ++i) ASSERT_TRUE(*later->next());
+    while (const auto second = *later->next()) {
+      const auto first = *drive->next();
+      Datagram datagram = *second;
+      datagram.stamp_ns = first->stamp_ns;
+      lead(datagram);
+      ASSERT_TRUE(capture->write(*first) && capture->write(datagram));
+    }
+    ASSERT_TRUE(capture->finish());
+  }
   [[nodiscard]] static std::string with_calibration(const std::string& arguments) {
     return arguments + " --duration 0.35 --calibration " + quoted(kDriveCalibration);
   }
@@ -58,6 +76,62 @@ TEST_F(CliSenders, OfTwoSensorsAreRefusedByNameUntilOneIsChosen) {
   }
   expect_done(with_calibration("replay two.pcap --from 10.0.0.7 --labels chosen"));
   expect_labels_of_the_drive("chosen");
+}
+
+TEST_F(CliSenders, OfTwoSensorsBehindOneAddressAreRefusedUntilOneIsChosen) {
+  struct Case {
+    std::function<void(Datagram&)> lead;
+    std::string first, second;
+  };
+  for (const auto& [lead, first, second] :
+       {Case{[](Datagram& datagram) { datagram.destination_port = 2369; }, "--port 2368",
+             "--port 2369"},
+        Case{[](Datagram& datagram) { datagram.destination_address = kOther; },
+             "--to 192.168.3.255", "--to 10.0.0.7"},
+        Case{[](Datagram& datagram) { datagram.source_port = 4444; }, "--from 192.168.3.43:443",
+             "--from 192.168.3.43:4444"}}) {
+    write_two("two.pcap", 300, lead);
+    for (const std::string command : {"replay two.pcap", "bench two.pcap",
+                                      "calibrate two.pcap -o setup.yaml", "view two.pcap"}) {
+      const Outcome outcome = run(with_calibration(command));
+      EXPECT_EQ(outcome.exit_code, kUsage) << outcome.err;
+      EXPECT_THAT(outcome.err,
+                  AllOf(HasSubstr("several sensors"), HasSubstr(first), HasSubstr(second)));
+    }
+    EXPECT_THAT(run("info two.pcap").out, AllOf(HasSubstr(first), HasSubstr(second)));
+    expect_done(with_calibration("replay two.pcap --labels chosen " + first));
+    expect_labels_of_the_drive("chosen");
+    expect_done(with_calibration("replay two.pcap --labels other " + second));
+  }
+}
+
+TEST_F(CliSenders, OfOneSensorThatIsHeardTwiceAreOneSensors) {
+  write_two("twice.pcap", 0, [](Datagram& datagram) { datagram.destination_address = kOther; });
+  const Outcome outcome = run(with_calibration("replay twice.pcap --labels labels"));
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("rejected_repeated"));
+  expect_labels_of_the_drive("labels");
+}
+
+TEST_F(CliSenders, OfASensorThatJoinsLaterAreLeftOutAndCounted) {
+  auto drive = capture::PcapSource::open(kDrive);
+  auto capture = capture::PcapWriter::create(folder_ / "joins.pcap");
+  ASSERT_TRUE(drive && capture);
+  constexpr std::size_t kHeardAtTheStart = 6000;
+  for (std::size_t number = 0; const auto next = *drive->next(); ++number) {
+    Datagram datagram = *next;
+    ASSERT_TRUE(capture->write(datagram));
+    datagram.destination_port = 2369;
+    if (number == kHeardAtTheStart) {
+      ASSERT_TRUE(capture->write(datagram));
+    }
+  }
+  ASSERT_TRUE(capture->finish());
+  const Outcome outcome = run("replay joins.pcap --json report.json");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("warning: 1 data packets of 192.168.3.43 are not of the "
+                                     "sensor that sends to 192.168.3.255:2368"));
+  EXPECT_EQ(json("report.json")["summary"]["datagrams"]["other_stream"], 1);
 }
 
 TEST_F(CliSenders, OfStrayPacketsAreLeftOutAndCounted) {

@@ -180,6 +180,7 @@ ExitCode run_bench(const Options& options) {
   catch_stop_signals();
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
+  say_what_is_read(*capture);
   CaptureFrames frames(*capture, options);
   const auto mount = choose_mount(guessing(options.mount), frames);
   if (!mount) return refuse_work(mount.error());
@@ -201,7 +202,6 @@ ExitCode run_bench(const Options& options) {
   if (core < 0) warn("could not stay on one core; times include moves between cores");
 
   run_frames(pipeline, *packets, nullptr);  // warms caches and branch predictors; not counted
-  const frame::LossCounters first_pass_losses = pipeline.decoder().losses();
   BenchResult result;
   Progress progress("measuring", "passes", options.bench_repeat);
   for (int pass = 0; pass < options.bench_repeat; ++pass) {
@@ -212,7 +212,7 @@ ExitCode run_bench(const Options& options) {
   }
   if (result.each.empty()) {
     return refuse(
-        nothing_came_out(capture->source, part, packets->datagrams.size(), first_pass_losses));
+        nothing_came_out(capture->source, part, packets->datagrams.size(), pipeline.decoder()));
   }
   return conclude(options, part, result, core);
 }

@@ -129,8 +129,10 @@ ExitCode run_calibrate(const Options& options) {
   if (holds_clouds(options.capture.file)) return calibrate_clouds(options);
   auto capture = open_capture(options.capture);
   if (!capture) return refuse(capture.error());
+  say_what_is_read(*capture);
   CaptureFrames frames(*capture, options);
   const ExitCode done = calibrate(frames, options);
+  if (!frames.fault().empty()) warn(frames.fault());
   if (done == kOk) warn_of_other_senders(*capture, frames.counters(), options.capture);
   return done;
 }

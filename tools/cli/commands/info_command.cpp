@@ -4,18 +4,24 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "calib/hdl64e/hdl64e_stream_table.hpp"
 #include "firmware_io/sensor/capture_survey.hpp"
+#include "firmware_io/streams/stream_text.hpp"
 #include "pipeline/status/figures.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/figures_json.hpp"
+#include "tools/cli/input/open_capture.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/sensor_choice.hpp"
+#include "tools/cli/settings/stream_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -32,6 +38,12 @@ using Json = nlohmann::ordered_json;
 std::string endpoint(std::uint32_t address, std::uint16_t port) {
   return fmt::format("{}.{}.{}.{}:{}", address >> 24, address >> 16 & 0xFFU, address >> 8 & 0xFFU,
                      address & 0xFFU, port);
+}
+
+/// Where a stream goes to, its VLAN included.
+std::string destination(const UdpStream& stream) {
+  const std::string text = endpoint(stream.destination_address, stream.destination_port);
+  return stream.vlan == 0 ? text : text + " VLAN " + streams::vlan_text(stream.vlan);
 }
 
 std::string sizes(const UdpStream& stream) {
@@ -65,14 +77,17 @@ std::string calibration_in(const Hdl64eFacts& facts) {
 }
 
 std::string text_of(const StreamFacts& facts) {
+  const std::string period = facts.packet_period_us > 0
+                                 ? fmt::format("a packet every {:.1f} us", facts.packet_period_us)
+                                 : "too few packets to tell their period";
   std::string text = fmt::format(
-      "  head         {:.1f} rpm, {:.1f} frames, {:.4f} deg a column\n"
-      "  mode         {} return, a packet every {:.1f} us\n"
+      "  head         {:.1f} rpm{}, {:.1f} frames, {:.4f} deg a column\n"
+      "  mode         {} return, {}\n"
       "  lost         {} packets by stamps and azimuths; {} repeated, {} out of order, {} clock "
       "jumps\n",
-      facts.spin_rpm, facts.frames, facts.step_deg, to_string(facts.return_mode),
-      facts.packet_period_us, facts.packets_lost, facts.packets_repeated, facts.packets_reordered,
-      facts.clock_jumps);
+      facts.spin_rpm, facts.spin_rpm < 0 ? " (backwards, as no sensor that is read turns)" : "",
+      facts.frames, facts.step_deg, to_string(facts.return_mode), period, facts.packets_lost,
+      facts.packets_repeated, facts.packets_reordered, facts.clock_jumps);
   if (!facts.blind.is_none()) {
     text +=
         fmt::format("  blind        from {:.1f} to {:.1f} deg of the head; its time is no loss\n",
@@ -145,18 +160,21 @@ std::string text_of(const CaptureSurvey& survey) {
                                  survey.link_type_name);
   for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
     if (survey.counters.refused[i] == 0) continue;
-    text += fmt::format("  {} hold no UDP datagram: {}\n", survey.counters.refused[i],
-                        to_string(static_cast<capture::FrameReject>(i)));
+    text += fmt::format("  {} {}\n", survey.counters.refused[i],
+                        capture::description_of(static_cast<capture::FrameReject>(i)));
   }
-  text += fmt::format("\n{:<22} {:<22} {:>9} {:>10} {:>8}  {:<18} {}\n", "source", "destination",
-                      "packets", "packets/s", "seconds", "payload bytes", "sensor");
+  std::size_t width = 22;
   for (const UdpStream& stream : survey.streams) {
-    text +=
-        fmt::format("{:<22} {:<22} {:>9} {:>10.1f} {:>8.1f}  {:<18} {}{}\n",
-                    endpoint(stream.source_address, stream.source_port),
-                    endpoint(stream.destination_address, stream.destination_port), stream.packets,
-                    stream.rate_hz(), duration_s(stream), sizes(stream), to_string(stream.sensor),
-                    stream.sensor_hints.empty() ? "" : " (" + stream.sensor_hints + ")");
+    width = std::max(width, destination(stream).size());
+  }
+  text += fmt::format("\n{:<22} {:<{}} {:>9} {:>10} {:>8}  {:<18} {}\n", "source", "destination",
+                      width, "packets", "packets/s", "seconds", "payload bytes", "sensor");
+  for (const UdpStream& stream : survey.streams) {
+    text += fmt::format("{:<22} {:<{}} {:>9} {:>10.1f} {:>8.1f}  {:<18} {}{}\n",
+                        endpoint(stream.source_address, stream.source_port), destination(stream),
+                        width, stream.packets, stream.rate_hz(), duration_s(stream), sizes(stream),
+                        to_string(stream.sensor),
+                        stream.sensor_hints.empty() ? "" : " (" + stream.sensor_hints + ")");
   }
   if (survey.packets_of_further_streams > 0) {
     text += fmt::format("{} packets of further streams\n", survey.packets_of_further_streams);
@@ -249,6 +267,7 @@ Json json_of(const CaptureSurvey& survey) {
              {"last_stamp_ns", stream.last_stamp_ns},
              {"sensor", to_string(stream.sensor)},
              {"hints", stream.sensor_hints}});
+    if (stream.vlan != 0) entry["vlan"] = streams::vlan_text(stream.vlan);
     if (stream.hdl64e) entry["hdl64e"] = json_of(*stream.hdl64e);
     if (stream.ruby128) entry["ruby128"] = json_of(*stream.ruby128);
     if (stream.head) entry["head"] = json_of(*stream.head);
@@ -256,6 +275,35 @@ Json json_of(const CaptureSurvey& survey) {
   }
   if (survey.broke_off) json["broke_off"] = survey.broke_off->message;
   return json;
+}
+
+/// What chooses each of several sensors.
+std::string text_of(const std::vector<StreamName>& sensors) {
+  if (sensors.empty()) return {};
+  std::string text = "\nseveral sensors; choose one:\n";
+  for (const StreamName& sensor : sensors) {
+    text += fmt::format("  {:<24} {}\n", sensor.options, sensor.name);
+  }
+  return text;
+}
+
+/// Of a capture of several.
+std::vector<StreamName> several_sensors_of(const CaptureOptions& options) {
+  auto source = capture::PcapSource::open(options.file);
+  if (!source) return {};
+  const auto sensors = sensors_in(options, *source);
+  return sensors.size() < 2 ? std::vector<StreamName>() : names_of(sensors);
+}
+
+/// That a calibration lies beside a capture whose packets hold none.
+std::string note_of_calibration(const CaptureSurvey& survey, const CaptureOptions& options) {
+  const auto lacks_one = [](const UdpStream& stream) {
+    return stream.hdl64e && !stream.hdl64e->table;
+  };
+  const auto beside = beside_capture(options.file);
+  if (std::ranges::none_of(survey.streams, lacks_one) || !beside || beside->empty()) return {};
+  return fmt::format("\n{} beside the capture is taken where the packets hold no calibration\n",
+                     beside->string());
 }
 
 }  // namespace
@@ -266,9 +314,19 @@ ExitCode run_info(const Options& options) {
   if (!source) return refuse(source.error());
   const CaptureSurvey survey = sensor::survey_capture(*source, stop_wanted);
   if (const Status whole = go_on(); !whole) return refuse_work(whole.error());
-  print_text(text_of(survey));
-  if (survey.broke_off) warn(survey.broke_off->message);
-  return done_or_refused(write_json(options.output.json, json_of(survey)));
+  const std::vector<StreamName> several = several_sensors_of(options.capture);
+  print_text(text_of(survey) + note_of_calibration(survey, options.capture) + text_of(several));
+  Json json = json_of(survey);
+  for (const StreamName& sensor : several) {
+    json["several_sensors"].push_back({{"name", sensor.name}, {"options", sensor.options}});
+  }
+  if (const Status written = write_json(options.output.json, json); !written) {
+    return refuse(written.error());
+  }
+  if (!survey.broke_off) return kOk;
+  if (survey.counters.frames == 0) return refuse(*survey.broke_off);
+  warn(survey.broke_off->message);
+  return kOk;
 }
 
 }  // namespace terracut::cli

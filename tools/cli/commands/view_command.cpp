@@ -58,6 +58,7 @@ ExitCode run_view(const Options& as_said) {
   }
   auto capture = LabelledCapture::open(options, FramesAreFor::kPoints);
   if (!capture) return refuse_work(capture.error());
+  say_what_is_read((*capture)->capture());
   PlayedCapture played(**capture, options);
   return show(played,
               {.sensor = (*capture)->capture().sensor_line,

@@ -81,6 +81,7 @@ std::vector<Figure> datagram_figures(const capture::CaptureAccount& account) {
   add("no_datagram", account.read.refused_total());
   add("other_port", account.read.other_port);
   add("other_source", account.read.other_source);
+  add("other_stream", account.read.other_stream);
   return figures;
 }
 

@@ -12,9 +12,8 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/capture/file_kind.hpp"
-#include "tools/cli/input/beside.hpp"
 #include "tools/cli/input/recording_tree.hpp"
+#include "tools/cli/settings/companion_files.hpp"
 #include "tools/cli/terminal_text.hpp"
 
 namespace terracut::cli {
@@ -22,42 +21,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where to look for what goes with a drive.
-struct Beside {
-  fs::path folder, root;
-  std::string stem;
-};
-
-/// Of the drive's own name, else of a folder's, the nearest.
-Expected<fs::path> find_beside(const Beside& drive, const std::vector<std::string>& suffixes,
-                               const std::vector<std::string>& names) {
-  std::vector<std::string> own;
-  for (const std::string& suffix : suffixes) own.push_back(drive.stem + suffix);
-  auto found = only_one(drive.folder, own);
-  for (fs::path at = drive.folder; found && found->empty(); at = at.parent_path()) {
-    found = only_one(at, names);
-    if (at == drive.root || at == at.parent_path()) break;
-  }
-  return found;
-}
-
 Status add_companions(const Beside& beside, FleetDrive& drive) {
   const auto take = [](Expected<fs::path> found, fs::path& place) -> Status {
     if (!found) return tl::unexpected(found.error());
     place = *std::move(found);
     return {};
   };
-  if (Status setup = take(find_beside(beside, {".setup.yaml"}, {"setup.yaml"}), drive.setup);
-      !setup || drive.capture.empty()) {
+  if (Status setup = take(setup_beside(beside), drive.setup); !setup || drive.capture.empty()) {
     return setup;
   }
-  Status found = take(find_beside(beside, calibration_endings(),
-                                  {"db.xml", "db.yaml", "angle.csv", "calibration.xml",
-                                   "calibration.yaml", "calibration.csv"}),
-                      drive.calibration);
-  if (found) found = take(only_one(beside.folder, {beside.stem + ".can.log"}), drive.can);
+  Status found = take(calibration_beside(beside), drive.calibration);
+  if (found) found = take(can_beside(beside), drive.can);
   if (!found || drive.can.empty()) return found;
-  found = take(find_beside(beside, {".can.dbc"}, {"vehicle.dbc"}), drive.dbc);
+  found = take(dbc_beside(beside), drive.dbc);
   if (!found || !drive.dbc.empty()) return found;
   return fail(ErrorCode::kMalformed,
               fmt::format("{}: there is neither {}.can.dbc nor a vehicle.dbc that says what its "

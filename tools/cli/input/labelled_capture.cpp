@@ -26,7 +26,8 @@ Status LabelledCapture::prepare(FramesAreFor purpose) {
   if (!capture) return tl::unexpected(capture.error());
   capture_ = *std::move(capture);
   CaptureFrames frames(*capture_, options_);
-  const auto mount = choose_mount(options_.mount, frames);
+  auto mount = choose_mount(options_.mount, frames);
+  if (!mount && !frames.fault().empty()) mount.error().message += "; " + frames.fault();
   if (!mount) return tl::unexpected(mount.error());
   mount_choice_ = *mount;
   const auto profile = ring_profile_of(capture_->calibration, mount->options);
@@ -136,7 +137,7 @@ capture::CaptureAccount LabelledCapture::account() const {
 Status LabelledCapture::conclude() {
   const frame::LossCounters losses = pipeline_->decoder().losses();
   if (report_.totals.frames == 0) {
-    return tl::unexpected(nothing_came_out(capture_->source, *part_, offered_, losses));
+    return tl::unexpected(nothing_came_out(capture_->source, *part_, offered_, decoder()));
   }
   if (const std::string other = sensor::other_table_warning(status_, capture_->calibration);
       !other.empty()) {

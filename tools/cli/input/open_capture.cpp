@@ -7,11 +7,12 @@
 #include <limits>
 #include <utility>
 
-#include "beside.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/sensor/unit_calibration.hpp"
 #include "tools/cli/console.hpp"
+#include "tools/cli/settings/companion_files.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
+#include "tools/cli/settings/stream_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {
@@ -40,35 +41,43 @@ std::string describe(const calib::SensorCalibration& calibration) {
 }
 
 /// One unit alone: packets of another would end up in the same frames.
-Expected<PcapSource> open_unit(const CaptureOptions& options, std::uint32_t address) {
+Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::SensorStream& unit) {
   capture::PcapFilter its_own = filter_of(options);
-  its_own.source_address = address;
-  return PcapSource::open(options.file, its_own);
+  its_own.source_address = unit.source_address;
+  its_own.is_of_stream = [unit](const decode::Datagram& datagram) {
+    return unit.may_hold(datagram);
+  };
+  return PcapSource::open(options.file, std::move(its_own));
 }
 
-/// The one given; else what the packets say; else what lies beside the capture under its name;
-/// else, where that is allowed, the model's.
+/// As sensor::unit_calibration(), and where the packets hold none, of a file beside the capture.
 Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
-                                                  sensor::SensorModel model, PcapSource& source) {
-  auto own = sensor::unit_calibration({{}, options.calibration, false}, model, source);
-  if (own || own.error().code != ErrorCode::kNoCalibration) return own;
-  const auto beside = calibration_beside(options.file);
+                                                  sensor::SensorModel model, PcapSource& unit) {
+  sensor::CalibrationChoice choice{.file = options.calibration};
+  auto told = sensor::unit_calibration(choice, model, unit);
+  if (told || choice.is_given() || told.error().code != ErrorCode::kNoCalibration) return told;
+  const auto beside = beside_capture(options.file);
   if (!beside) return tl::unexpected(beside.error());
-  if (!beside->empty()) return sensor::unit_calibration({{}, *beside, false}, model, source);
-  if (options.nominal_calibration) return sensor::unit_calibration({{}, {}, true}, model, source);
-  return fail(own.error().code,
-              fmt::format("{}. Beside the capture it would be found as {}{}", own.error().message,
-                          stem_of(options.file),
-                          model == sensor::SensorModel::kRuby128 ? ".calibration.csv"
-                                                                 : ".calibration.xml"));
+  const bool is_of_ruby128 = model == sensor::SensorModel::kRuby128;
+  if (!beside->empty() && (beside->extension() == ".csv") == is_of_ruby128) {
+    choice.file = *beside;
+    say(fmt::format("the packets hold no calibration; {} beside the capture is taken",
+                    beside->string()));
+  }
+  choice.allows_nominal = options.nominal_calibration;
+  if (choice.is_given() || choice.allows_nominal) {
+    return sensor::unit_calibration(choice, model, unit);
+  }
+  told.error().message += fmt::format("; or put it beside the capture as {}.calibration.{}",
+                                      stem_of(options.file), is_of_ruby128 ? "csv" : "xml");
+  return told;
 }
 
 }  // namespace
 
-capture::PcapFilter filter_of(const CaptureOptions& options) {
-  capture::PcapFilter filter{.port = options.port};
-  if (const auto from = net::parse_ipv4_address(options.from)) filter.source_address = *from;
-  return filter;
+Expected<std::filesystem::path> beside_capture(const std::filesystem::path& capture) {
+  const std::filesystem::path folder = capture.parent_path();
+  return calibration_beside({folder, folder, stem_of(capture)});
 }
 
 Expected<OpenCapture> open_capture(const CaptureOptions& options) {
@@ -77,30 +86,45 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   const auto sensor = choose_sensor(options, *source);
   if (!sensor) return tl::unexpected(sensor.error());
   warn_of_unused(options, sensor->model);
-  auto unit = open_unit(options, sensor->address);
+  auto unit = open_unit(options, sensor->stream);
   if (!unit) return tl::unexpected(unit.error());
   auto calibration = calibration_of(options, sensor->model, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
   if (Status status = unit->rewind(); !status) return tl::unexpected(status.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);
-  say("sensor: " + sensor_line);
-  say("calibration: " + calibration_line);
   return OpenCapture{*std::move(unit), *sensor, *std::move(calibration), std::move(sensor_line),
                      std::move(calibration_line)};
 }
 
+void say_what_is_read(const OpenCapture& capture) {
+  say("sensor: " + capture.sensor_line);
+  say("calibration: " + capture.calibration_line);
+}
+
 Expected<PcapSource> open_again(const OpenCapture& capture, const CaptureOptions& options) {
-  return open_unit(options, capture.sensor.address);
+  return open_unit(options, capture.sensor.stream);
 }
 
 void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
                            const CaptureOptions& options) {
-  const std::uint64_t others = pass.other_source;
-  if (others == 0 || !options.from.empty()) return;
-  warn(
-      fmt::format("{} datagrams came from other addresses than {}, the sensor's, and were left "
-                  "out; `terracut info` lists who sends, --from chooses",
-                  others, net::ipv4_text(capture.sensor.address)));
+  const std::string unit = net::ipv4_text(capture.sensor.stream.source_address);
+  if (const std::uint64_t others = pass.other_source; others > 0 && options.from.empty()) {
+    warn(
+        fmt::format("{} datagrams came from other addresses than {}, the sensor's, and were left "
+                    "out; `terracut info` lists who sends, --from chooses",
+                    others, unit));
+  }
+  // Where one of the stream's marks was asked for, others are to be left out.
+  const bool is_asked_for = options.from.find(':') != std::string::npos || !options.to.empty() ||
+                            !options.vlan.empty() || !options.mac.empty();
+  if (const std::uint64_t others = pass.other_stream; others > 0 && !is_asked_for) {
+    const streams::Destination& to = capture.sensor.stream.destinations.front();
+    warn(
+        fmt::format("{} data packets of {} are not of the sensor that sends to {}:{}, and were "
+                    "left out; `terracut info` lists the streams, --port, --to, --vlan and --mac "
+                    "choose",
+                    others, unit, net::ipv4_text(to.address), to.port));
+  }
 }
 
 CapturePart::CapturePart(PcapSource& source, const CaptureOptions& options)
@@ -148,8 +172,12 @@ void CapturePart::warn_of_oddities() const {
 }
 
 Error nothing_came_out(const PcapSource& source, const CapturePart& part, std::uint64_t offered,
-                       const frame::LossCounters& losses) {
-  std::string why = why_nothing_came(source.counters(), offered, losses);
+                       const decode::Decoder& decoder) {
+  const frame::LossCounters losses = decoder.losses();
+  const bool had_none =
+      decoder.frames() == 0 && losses.overflow_full_returns + losses.late_returns == 0;
+  const std::uint64_t empty = had_none ? decoder.packets_decoded() : 0;
+  std::string why = why_nothing_came(source.counters(), offered, empty, losses);
   if (!part.fault().empty()) why += "; " + part.fault();
   return {ErrorCode::kNothingCameOut, fmt::format("{}: no frame came out: {}", source.name(), why)};
 }

@@ -9,7 +9,7 @@
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/capture_clock.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/decode/decoder.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
@@ -25,19 +25,23 @@ struct OpenCapture {
   std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
 };
 
-/// --port and --from.
-[[nodiscard]] capture::PcapFilter filter_of(const CaptureOptions& options);
+/// The calibration that lies beside a capture (companion_files.hpp), which is used where its
+/// packets hold none; empty: there is none. The errors of calibration_beside().
+[[nodiscard]] Expected<std::filesystem::path> beside_capture(const std::filesystem::path& capture);
 
 /// Opens the capture, of which one unit's datagrams alone are read, and chooses sensor and
-/// calibration (sensor_choice.hpp, unit_calibration.hpp). Says on stderr which they are.
+/// calibration (sensor_choice.hpp, unit_calibration.hpp, beside_capture()).
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
+
+/// On stderr, for who prints no report that has these lines.
+void say_what_is_read(const OpenCapture& capture);
 
 /// The datagrams of that unit once more, from the beginning and with counters of their own.
 [[nodiscard]] Expected<capture::PcapSource> open_again(const OpenCapture& capture,
                                                        const CaptureOptions& options);
 
-/// Says how many datagrams of a pass were left out because others sent them, where --from did not
-/// ask for that.
+/// Says how many datagrams of a pass were left out because others sent them, or sent them
+/// elsewhere, where no option asked for that.
 void warn_of_other_senders(const OpenCapture& capture, const capture::PcapCounters& pass,
                            const CaptureOptions& options);
 
@@ -83,6 +87,6 @@ class CapturePart {
 /// kNothingCameOut for a part of `source` that gave no frame, naming the checks its packets failed.
 /// `offered`: datagrams that the decoder was given.
 [[nodiscard]] Error nothing_came_out(const capture::PcapSource& source, const CapturePart& part,
-                                     std::uint64_t offered, const frame::LossCounters& losses);
+                                     std::uint64_t offered, const decode::Decoder& decoder);
 
 }  // namespace terracut::cli

@@ -58,6 +58,7 @@ Status CaptureFrames::pass(Frames& frames, std::size_t most, Take take) {
     hand_out();
   }
   counters_ = source->counters();
+  fault_ = part.fault();
   if (going) going = go_on();
   if (going && shown < most) {
     frames.end_stream();
@@ -65,7 +66,7 @@ Status CaptureFrames::pass(Frames& frames, std::size_t most, Take take) {
   }
   if (!going) return going;
   if (shown == 0) {
-    return tl::unexpected(nothing_came_out(*source, part, offered, decoder_of(frames).losses()));
+    return tl::unexpected(nothing_came_out(*source, part, offered, decoder_of(frames)));
   }
   return {};
 }

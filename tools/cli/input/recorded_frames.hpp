@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <string>
 
 #include "calib/mount/mount_finder.hpp"
 #include "calib/mount/ring_profile.hpp"
@@ -53,6 +54,8 @@ class CaptureFrames : public RecordedFrames {
 
   /// Of the last pass.
   [[nodiscard]] const capture::PcapCounters& counters() const noexcept { return counters_; }
+  /// Where it broke off; empty: it did not.
+  [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
  private:
   /// Pushes the capture's datagrams into `frames`, a Decoder or what is made like it, until `take`
@@ -63,6 +66,7 @@ class CaptureFrames : public RecordedFrames {
   const OpenCapture& capture_;
   const Options& options_;
   capture::PcapCounters counters_;
+  std::string fault_;
 };
 
 /// Of clouds, evenly taken ones. Those that cannot be read are passed over.

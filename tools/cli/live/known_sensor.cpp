@@ -32,7 +32,7 @@ std::filesystem::path folder() {
 KnownSensor::KnownSensor(std::string name)
     : path_(folder() / (std::move(name) + ".terracut-sensor")) {}
 
-std::optional<std::uint32_t> KnownSensor::address() const {
+std::optional<net::Sender> KnownSensor::sender() const {
   const files::OwnedDescriptor file(
       ::open(path_.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
   struct stat status{};
@@ -44,13 +44,13 @@ std::optional<std::uint32_t> KnownSensor::address() const {
   std::array<char, 64> bytes{};
   const ::ssize_t got = ::read(file.get(), bytes.data(), bytes.size());
   const std::string_view text(bytes.data(), got < 0 ? 0 : static_cast<std::size_t>(got));
-  const auto address = net::parse_ipv4_address(text.substr(0, text.find('\n')));
-  return address ? std::optional(*address) : std::nullopt;
+  const auto sender = net::parse_ipv4_sender(text.substr(0, text.find('\n')));
+  return sender ? std::optional(*sender) : std::nullopt;
 }
 
-void KnownSensor::remember(std::uint32_t address) const {
-  if (this->address() == address) return;
-  const Status written = files::write_whole_file(path_, net::ipv4_text(address) + "\n");
+void KnownSensor::remember(const net::Sender& sender) const {
+  if (this->sender() == sender) return;
+  const Status written = files::write_whole_file(path_, to_string(sender) + "\n");
   if (!written) warn("the sensor in use is not remembered: " + written.error().message);
 }
 

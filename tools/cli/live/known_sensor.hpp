@@ -2,9 +2,10 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
+
+#include "firmware_io/net/ipv4_endpoint.hpp"
 
 namespace terracut::cli {
 
@@ -17,10 +18,10 @@ class KnownSensor {
  public:
   explicit KnownSensor(std::string name);
 
-  /// IPv4, as in Datagram; none: none is known.
-  [[nodiscard]] std::optional<std::uint32_t> address() const;
+  /// Its port is known where there was another sensor at its address; none: none is known.
+  [[nodiscard]] std::optional<net::Sender> sender() const;
   /// Writes only where it was another one. Warns where it cannot.
-  void remember(std::uint32_t address) const;
+  void remember(const net::Sender& sender) const;
 
  private:
   std::string path_;

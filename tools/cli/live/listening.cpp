@@ -47,7 +47,7 @@ net::ListenConfig listen_config_of(const Options& options) {
     config.multicast_group = net::parse_ipv4_address(listen.multicast).value();
   }
   if (!options.capture.from.empty()) {
-    config.sender = net::parse_ipv4_address(options.capture.from).value();
+    config.sender = net::parse_ipv4_sender(options.capture.from).value();
   }
   return config;
 }
@@ -61,7 +61,7 @@ Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const O
        .calibration = {{}, options.capture.calibration, options.capture.nominal_calibration},
        .place = source.name(),
        .device_port = options.listen.device_port,
-       .known_address = known.address()});
+       .known = known.sender()});
   memory::FixedMemory device_memory;
   std::optional<net::LiveSource> device;
   if (first.wants_device_port()) device = open_device_port(options, device_memory);
@@ -86,9 +86,9 @@ Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const O
     warn(
         fmt::format("several sensors send here; {}, which was in use before, is heard and not {}. "
                     "--from chooses one for good",
-                    net::ipv4_text(sensor->address), others));
+                    to_string(sensor->sender), others));
   }
-  known.remember(sensor->address);
+  known.remember(sensor->sender);
   return sensor;
 }
 

@@ -74,7 +74,7 @@ Expected<net::LiveSource> open_source(const Options& options, memory::FixedMemor
 
 std::string describe(const sensor::SensorOnAir& sensor) {
   return fmt::format("{} at {}, {:.1f} Hz, {} return", to_string(sensor.model),
-                     net::ipv4_text(sensor.address), sensor.spin_hz,
+                     to_string(sensor.sender), sensor.spin_hz,
                      sensor.dual_return ? "dual" : "single");
 }
 
@@ -395,7 +395,7 @@ ExitCode run_live(const Options& options) {
                                         [&](const std::string& what) { waiting.work_round(what); });
   if (stop_wanted()) return waiting.end();
   if (!sensor) return refuse(sensor.error());
-  source->accept_only(sensor->address);
+  source->accept_only(sensor->sender);
   say("sensor: " + describe(*sensor));
   warn_of_unused(options.capture, sensor->model);
   say(fmt::format("calibration: {}, fingerprint {:016x}", calib::origin_of(sensor->calibration),

@@ -16,6 +16,7 @@ decode::Decoder::Config decoder_config_of(const Options& options, int columns, F
   config.dual_owner = capture.cell_owner;
   config.hdl64e.geometry = capture.geometry;
   config.ruby128.timestamp = capture.timestamp;
+  config.velodyne.is_named = capture.sensor.has_value();
   config.keeps_measured = purpose == FramesAreFor::kLabels &&
                           !ground::needs_all_points(method_config_of(options.method));
   config.motion = motion;

@@ -5,13 +5,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <map>
+#include <optional>
 #include <string_view>
 #include <vector>
 
-#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/streams/sender_streams.hpp"
+#include "firmware_io/streams/unknown_packets.hpp"
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/loss_causes.hpp"
+#include "stream_choice.hpp"
 #include "tools/cli/console.hpp"
 
 namespace terracut::cli {
@@ -24,7 +28,8 @@ using sensor::SensorModel;
 constexpr std::uint64_t kDatagramsToProbe = 6'000;
 
 /// What there is instead of packets of the sensors that are wanted.
-std::string found_instead(const sensor::SensorProbe& probe, const capture::PcapSource& source) {
+std::string found_instead(const sensor::SensorProbe& probe, const capture::PcapSource& source,
+                          const std::string& first_unknown) {
   std::string others = probe.foreign_models();
   for (const SensorModel model : sensor::kDecodedModels) {
     const std::uint64_t packets = probe.packets_of(model);
@@ -34,8 +39,13 @@ std::string found_instead(const sensor::SensorProbe& probe, const capture::PcapS
   }
   if (!others.empty()) return others;
   const std::uint64_t unknown = probe.packets_of(SensorModel::kUnknown);
-  if (unknown > 0) return fmt::format("{} datagrams of no sensor known here", unknown);
-  return why_nothing_came(source.counters(), 0, {});
+  if (unknown > 0) {
+    return fmt::format(
+        "{} datagrams of no sensor known here{}. Clouds that its own driver makes of them are "
+        "labelled by `terracut segment` (files) and `terracut node` (ROS 2)",
+        unknown, first_unknown.empty() ? "" : ", " + first_unknown);
+  }
+  return why_nothing_came(source.counters(), 0, 0, {});
 }
 
 /// What became of the frames of a capture of which no datagram was delivered.
@@ -47,56 +57,75 @@ std::string where_frames_went(const capture::PcapCounters& read) {
   };
   add(read.other_port, "went to another port than --port");
   add(read.other_source, "came from another address than --from");
+  add(read.other_stream, "are of another port of --from, or not of --to, --vlan or --mac");
   for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
-    add(read.refused[i], to_string(static_cast<capture::FrameReject>(i)));
+    add(read.refused[i], capture::description_of(static_cast<capture::FrameReject>(i)));
   }
   return text + "; `terracut info` lists the streams";
 }
 
-/// A sensor of the capture.
-struct Unit {
-  std::uint32_t address;
-  SensorModel model;
-  std::uint64_t packets;
-};
+/// What was heard at the beginning of a capture.
+struct Heard {
+  struct Sender {
+    explicit Sender(const CaptureOptions& options) : probe(options.sensor) {}
 
-/// Those of the wanted models, without who sent but stray packets of them.
-std::vector<Unit> units_among(const std::map<std::uint32_t, sensor::SensorProbe>& by_sender,
-                              const CaptureOptions& options) {
-  std::vector<Unit> units;
-  std::uint64_t most = 0;
-  for (const auto& [address, probe] : by_sender) {
-    for (const SensorModel model : sensor::kDecodedModels) {
-      const std::uint64_t packets = probe.packets_of(model);
-      const bool wanted = sensor::is_wanted(options.sensor, model);
-      if (wanted && packets > 0) units.push_back({address, model, packets});
+    sensor::SensorProbe probe;
+    std::map<SensorModel, streams::SenderStreams> streams;
+  };
+
+  sensor::SensorProbe all;
+  std::map<std::uint32_t, Sender> by_address;
+  std::optional<Error> broke_off;
+  std::string first_unknown;  ///< "1218 bytes to port 2368: ..."; empty: none.
+
+  Heard(const CaptureOptions& options, capture::PcapSource& source) : all(options.sensor) {
+    for (std::uint64_t i = 0; i < kDatagramsToProbe; ++i) {
+      const auto next = source.next();
+      if (!next) broke_off = next.error();
+      if (!next || !*next) break;
+      all.add(**next);
+      Sender& sender = by_address.try_emplace((*next)->source_address, options).first->second;
+      sender.probe.add(**next);
+      const SensorModel model = sensor::recognise_sensor_as(options.sensor, (*next)->payload);
+      if (model == SensorModel::kUnknown && first_unknown.empty()) {
+        const std::string guess = streams::guess_of_unknown(**next);
+        first_unknown = fmt::format("{} bytes to port {}{}{}", (*next)->payload.size(),
+                                    (*next)->destination_port, guess.empty() ? "" : ": ", guess);
+      }
+      if (sensor::is_decoded(model) && sensor::is_wanted(options.sensor, model)) {
+        sender.streams.try_emplace(model, model).first->second.add(**next);
+      }
     }
   }
-  for (const Unit& unit : units) most = std::max(most, unit.packets);
-  constexpr std::uint64_t kStrayShare = 100;
-  std::erase_if(units, [&](const Unit& unit) { return unit.packets * kStrayShare < most; });
-  return units;
-}
 
-tl::unexpected<Error> several(const std::vector<Unit>& units, const std::string& name) {
-  std::string list;
-  for (const Unit& unit : units) {
-    list += fmt::format("{}{} at {}", list.empty() ? "" : ", ", to_string(unit.model),
-                        net::ipv4_text(unit.address));
+  [[nodiscard]] std::vector<streams::SensorStream> sensors() const {
+    std::vector<streams::SensorStream> sensors;
+    for (const auto& [address, sender] : by_address) {
+      for (const auto& [model, of_model] : sender.streams) {
+        std::ranges::move(of_model.sensors(), std::back_inserter(sensors));
+      }
+    }
+    std::uint64_t most = 0;
+    for (const auto& sensor : sensors) most = std::max(most, sensor.packets);
+    constexpr std::uint64_t kStrayShare = 100;
+    std::erase_if(sensors, [&](const auto& sensor) { return sensor.packets * kStrayShare < most; });
+    return sensors;
   }
-  const bool one_address = units.front().address == units.back().address;
-  return fail(ErrorCode::kInvalidArgument,
-              fmt::format("{}: there are packets of several sensors: {}; choose one with {}", name,
-                          list, one_address ? "--sensor or --port" : "--from"));
-}
+};
 
 }  // namespace
 
 std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t offered,
-                             const frame::LossCounters& losses) {
+                             std::uint64_t empty, const frame::LossCounters& losses) {
   if (read.frames == 0) return "the capture holds no packets";
   if (read.delivered == 0) return where_frames_went(read);
   if (offered == 0) return "it ends before --start; `terracut info` tells how long it is";
+  if (empty > 0) {
+    return fmt::format(
+        "{} data packets were decoded, and none holds a return: is the sensor covered, its window "
+        "wet, its laser off, or nothing within its reach?",
+        empty);
+  }
   if (losses.rejected_total() == 0) {
     return fmt::format("{} datagrams were read and none rejected, but they do not make a frame",
                        offered);
@@ -107,32 +136,46 @@ std::string why_nothing_came(const capture::PcapCounters& read, std::uint64_t of
       offered, status::counts_text(status::causes_of(losses)));
 }
 
+std::vector<streams::SensorStream> sensors_in(const CaptureOptions& options,
+                                              capture::PcapSource& source) {
+  return Heard(options, source).sensors();
+}
+
 Expected<SensorChoice> choose_sensor(const CaptureOptions& options, capture::PcapSource& source) {
-  sensor::SensorProbe all;
-  std::map<std::uint32_t, sensor::SensorProbe> by_sender;
-  for (std::uint64_t i = 0; i < kDatagramsToProbe; ++i) {
-    const auto next = source.next();
-    if (!next || !*next) break;
-    all.add(**next);
-    by_sender[(*next)->source_address].add(**next);
-  }
-  const std::vector<Unit> units = units_among(by_sender, options);
-  if (units.empty()) {
+  const Heard heard(options, source);
+  const std::vector<streams::SensorStream> sensors = heard.sensors();
+  if (sensors.empty() && heard.broke_off) return tl::unexpected(*heard.broke_off);
+  if (sensors.empty()) {
     const std::string expected = options.sensor ? fmt::format("a {}", to_string(*options.sensor))
                                                 : "a Velodyne or RS-Ruby128";
     return fail(ErrorCode::kUnsupported,
                 fmt::format("{}: expected data packets of {}, found none: {}", source.name(),
-                            expected, found_instead(all, source)));
+                            expected, found_instead(heard.all, source, heard.first_unknown)));
   }
-  if (units.size() > 1) return several(units, source.name());
-  const Unit& unit = units.front();
-  const sensor::SensorProbe& probe = by_sender.at(unit.address);
-  SensorChoice choice;
-  choice.address = unit.address;
-  choice.model = unit.model;
-  choice.columns = options.columns.value_or(probe.columns(unit.model));
-  choice.spin_hz = probe.spin_hz(unit.model);
-  choice.dual_return = probe.dual_return(unit.model);
+  if (sensors.size() > 1) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("{}: there are packets of several sensors: {}", source.name(),
+                            choice_text(sensors)));
+  }
+  SensorChoice choice{.stream = sensors.front(), .model = sensors.front().model};
+  const sensor::SensorProbe& probe = heard.by_address.at(choice.stream.source_address).probe;
+  if (probe.backward_packets(choice.model) * 2 > probe.packets_of(choice.model)) {
+    return fail(ErrorCode::kUnsupported,
+                fmt::format("{}: the head of this {} turns backwards, as none that is read here "
+                            "does: its azimuths fall within {} of {} packets. Were they turned "
+                            "round by a simulator or converter?",
+                            source.name(), to_string(choice.model),
+                            probe.backward_packets(choice.model), probe.packets_of(choice.model)));
+  }
+  if (choice.stream.contradicts_itself) {
+    warn(fmt::format(
+        "{}: the packets contradict each other as those of several sensors do, which nothing in "
+        "their headers tells apart: frames may be mixed. Record each sensor by itself",
+        source.name()));
+  }
+  choice.columns = options.columns.value_or(probe.columns(choice.model));
+  choice.spin_hz = probe.spin_hz(choice.model);
+  choice.dual_return = probe.dual_return(choice.model);
   return choice;
 }
 

@@ -35,6 +35,9 @@ using SettingField =
 enum class TextForm : std::uint8_t {
   kAny,
   kAddress,
+  kSender,  ///< An address, or one with a port.
+  kVlan,
+  kMac,
   kEndpoint,      ///< To listen at; a port alone: at any address.
   kServing,       ///< To serve others at; a port alone: this machine's programs.
   kServingOrOff,  ///< The same, or off.

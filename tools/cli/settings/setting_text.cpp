@@ -11,6 +11,7 @@
 #include <type_traits>
 
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/streams/stream_text.hpp"
 #include "pipeline/dds/ros_topic.hpp"
 #include "pipeline/ground/parameter_table.hpp"
 #include "pipeline/stream/stream_address.hpp"
@@ -70,6 +71,12 @@ constexpr std::array kForms{
     Form{"TEXT", "text", is_text},
     Form{"ADDRESS", "an IPv4 address",
          [](std::string_view text) { return net::parse_ipv4_address(text).has_value(); }},
+    Form{"ADDRESS[:PORT]", "an IPv4 ADDRESS or ADDRESS:PORT",
+         [](std::string_view text) { return net::parse_ipv4_sender(text).has_value(); }},
+    Form{"VLAN", "a VLAN's number, OUTER.INNER, or 0 for none",
+         [](std::string_view text) { return streams::parse_vlan(text).has_value(); }},
+    Form{"MAC", "a link-layer address, like 60:76:88:10:23:a1",
+         [](std::string_view text) { return streams::parse_mac(text).has_value(); }},
     Form{"[ADDRESS:]PORT", "an IPv4 ADDRESS:PORT or a PORT",
          [](std::string_view text) { return net::parse_ipv4_endpoint(text).has_value(); }},
     Form{"[ADDRESS:]PORT", "an IPv4 ADDRESS:PORT or a PORT",

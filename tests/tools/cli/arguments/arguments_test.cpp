@@ -143,7 +143,8 @@ TEST(Arguments, ValuesThatAreNotAllowedAreRefusedWithThoseThatAre) {
          "simulate: --scene: expected one of street, highway, rural, flat, hill, found 'moon'");
   expect("simulate --returns triple -o x",
          "simulate: --returns: expected one of single, dual, found 'triple'");
-  expect("replay x --from here", "replay: --from: expected an IPv4 address, found 'here'");
+  expect("replay x --from here",
+         "replay: --from: expected an IPv4 ADDRESS or ADDRESS:PORT, found 'here'");
   EXPECT_THAT(refusal_of("replay x --start 1e300"), HasSubstr("--start"));
   EXPECT_THAT(refusal_of("replay x --method zang"), HasSubstr("zhang"));
   EXPECT_THAT(refusal_of("simulate --sensor os1 -o x"), HasSubstr("hdl64e"));

@@ -123,7 +123,8 @@ TEST(ConfigurationFile, ValuesOutOfRangeAreRefusedWithTheRange) {
                  {"sensor.model: expected one of auto, hdl64e, ruby128, vlp16, hdl32e, vlp32c, "
                   "vls128, found 'os1'"});
   expect_refused("realtime:\n  lock_memory: maybe\n", "2", {"expected yes or no, found 'maybe'"});
-  expect_refused("input:\n  from: 192.168.1\n", "2", {"an IPv4 address, found '192.168.1'"});
+  expect_refused("input:\n  from: 192.168.1\n", "2",
+                 {"an IPv4 ADDRESS or ADDRESS:PORT, found '192.168.1'"});
   expect_refused("input:\n  listen: 0.0.0.0\n", "2", {"an IPv4 ADDRESS:PORT"});
   expect_refused("metrics:\n  address: '127.0.0.1:70000'\n", "2",
                  {"an IPv4 ADDRESS:PORT, a PORT or off"});

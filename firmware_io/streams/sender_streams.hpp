@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "firmware_io/sensor/head_reader.hpp"
+#include "sensor_stream.hpp"
+
+namespace terracut::streams {
+
+/// How many sensors of one model send from one address, and which packets are whose.
+///
+/// Packets that go to different places (address, port, VLAN) are of different sensors, unless one
+/// place gets copies of what another gets (a bridge, a mirror), or one stream is spread over them.
+/// Packets of different source ports or link-layer addresses are of one sensor, whose sender may
+/// open a new socket for each, unless they contradict each other: one head is not at two places
+/// within a packet's time. That takes a clock of the sensor's own, so an HDL-64E S1's always are of
+/// one.
+///
+/// For starts and reports: allocates, within bounds. One thread.
+class SenderStreams {
+ public:
+  explicit SenderStreams(sensor::SensorModel model) : model_(model) {}
+
+  /// A data packet of the model, from the one address.
+  void add(const decode::Datagram& datagram);
+
+  /// Most packets first.
+  [[nodiscard]] std::vector<SensorStream> sensors() const;
+
+ private:
+  /// What is beyond is somebody's port scan.
+  static constexpr std::size_t kMostDestinations = 64;
+  static constexpr std::size_t kMostPayloads = 64;  ///< A copy comes within so many packets.
+
+  /// What packets that followed one from elsewhere say together.
+  struct Turns {
+    std::uint64_t all = 0, contradicting = 0;
+
+    void add(bool contradicts);
+    [[nodiscard]] bool are_of_one_head() const { return contradicting * 4 < all; }
+    [[nodiscard]] bool are_of_several() const;
+  };
+  /// The senders of one destination's packets, by a mark that may tell them apart.
+  struct Sources {
+    std::map<std::uint64_t, std::uint64_t> packets;  ///< By mark.
+    std::uint64_t newest = 0;
+    Turns turns;
+
+    void add(std::uint64_t mark, std::optional<bool> contradicts);
+    [[nodiscard]] bool tell_apart() const;
+  };
+  struct Place {
+    std::uint64_t packets = 0;
+    Sources ports, macs;
+    Turns steps;                            ///< From packet to packet, whoever sent them.
+    std::optional<std::int64_t> newest_us;  ///< By the sensor's clock.
+  };
+  using Group = std::vector<Destination>;
+
+  [[nodiscard]] bool is_copy(const decode::Datagram& datagram);
+  [[nodiscard]] bool are_copies(const Destination& a, const Destination& b) const;
+  [[nodiscard]] bool is_one_stream_spread() const;
+  [[nodiscard]] std::vector<Group> groups() const;
+  void add_sensors_of(const Group& group, std::vector<SensorStream>& sensors) const;
+
+  sensor::SensorModel model_;
+  std::uint32_t source_address_ = 0;
+  sensor::HeadReader reader_;
+  std::map<Destination, Place> places_;
+  Destination newest_;
+  std::optional<std::int64_t> newest_us_;
+  bool has_clock_ = false;     ///< Of simulators all stamps may be the same.
+  Turns turns_;                ///< From one destination to another.
+  std::uint64_t packets_ = 0;  ///< Copies are none.
+  std::unordered_map<std::uint64_t, Destination> first_at_;  ///< By the payload's hash.
+  std::deque<std::uint64_t> payloads_;                       ///< These, oldest first.
+  std::map<std::pair<Destination, Destination>, std::uint64_t> copies_;
+};
+
+}  // namespace terracut::streams

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "rt/error.hpp"
+
+/// VLANs and link-layer addresses as people write them; numbers as in Datagram.
+namespace terracut::streams {
+
+/// "10"; of tags within tags "100.10", the outermost first; "0" for none.
+[[nodiscard]] std::string vlan_text(std::uint32_t vlan);
+/// kInvalidArgument for anything else.
+[[nodiscard]] Expected<std::uint32_t> parse_vlan(std::string_view text);
+
+/// "60:76:88:10:23:a1"
+[[nodiscard]] std::string mac_text(std::uint64_t mac);
+/// kInvalidArgument for anything else; digits of either case.
+[[nodiscard]] Expected<std::uint64_t> parse_mac(std::string_view text);
+
+}  // namespace terracut::streams

@@ -63,8 +63,8 @@ std::optional<bool> PacketReader::dual_return_of(
     const hdl64e::wire::Packet& packet) const noexcept {
   const std::uint8_t mode = packet.status_type;
   if (mode == kStrongest || mode == kLast || mode == kDual) return mode == kDual;
-  const bool is_product_known = packet.status_value == sensor::product_number(layout_.model);
-  if (!is_named_ || is_product_known) return std::nullopt;
+  const bool is_known = sensor::recognise_sensor(hdl64e::payload_of(packet)) == layout_.model;
+  if (!is_named_ || is_known) return std::nullopt;
   const auto azimuth = [&](std::size_t block) { return packet.blocks[block].azimuth_cdeg.value(); };
   bool are_pairs = true;
   for (std::size_t block = 0; block < packet.blocks.size(); block += 2) {

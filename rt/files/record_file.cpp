@@ -3,9 +3,12 @@
 #include "rt/files/record_file.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <fstream>
+#include <cerrno>
 #include <system_error>
+
+#include "rt/files/plain_file.hpp"
 
 namespace terracut::files {
 
@@ -44,19 +47,19 @@ Expected<std::size_t> count_records(const std::filesystem::path& path, const Rec
 }
 
 Status read_bytes(const std::filesystem::path& path, void* to, std::size_t bytes) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) {
-    return fail(
-        ErrorCode::kUnreadable,
-        fmt::format("{}: cannot be opened for reading; check its permissions", path.string()));
+  // Since it was counted somebody may have put a pipe in its place.
+  const auto file = open_plain_file(path);
+  if (!file) return tl::unexpected(file.error());
+  std::size_t done = 0;
+  while (done < bytes) {
+    const ::ssize_t read = ::read(file->get(), static_cast<char*>(to) + done, bytes - done);
+    if (read < 0 && errno == EINTR) continue;
+    if (read <= 0) break;
+    done += static_cast<std::size_t>(read);
   }
-  file.read(static_cast<char*>(to), static_cast<std::streamsize>(bytes));
-  if (static_cast<std::size_t>(file.gcount()) != bytes) {
-    return fail(ErrorCode::kUnreadable,
-                fmt::format("{}: expected {} bytes, the system delivered {}", path.string(), bytes,
-                            file.gcount()));
-  }
-  return {};
+  if (done == bytes) return {};
+  return fail(ErrorCode::kUnreadable, fmt::format("{}: expected {} bytes, the system delivered {}",
+                                                  path.string(), bytes, done));
 }
 
 }  // namespace terracut::files

@@ -3,6 +3,7 @@
 #include "labelling.hpp"
 
 #include <system_error>
+#include <utility>
 
 #include "tools/cli/fleet/labelled_drive.hpp"
 #include "tools/cli/fleet/relabel_job.hpp"
@@ -24,15 +25,20 @@ Labelling labelling_of(const KnownJob& job) {
   return labelling;
 }
 
-Labelling plain_labelling(const fs::path& folder) {
+Expected<Labelling> plain_labelling(const fs::path& folder) {
   Labelling labelling;
-  std::error_code error;
+  std::error_code error, none;
   fs::recursive_directory_iterator entry(folder, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error)) {
     const fs::path& path = entry->path();
     if (path.extension() != ".label" || path.filename().native().starts_with('.')) continue;
     const fs::path place = path.parent_path();
     labelling.drives[place.lexically_relative(folder).string()] = place;
+  }
+  // What is not seen would not be compared, and nothing would be said to differ.
+  if (error && fs::exists(folder, none)) {
+    return fail(ErrorCode::kUnreadable,
+                folder.string() + ": a folder in it cannot be listed: " + error.message());
   }
   return labelling;
 }
@@ -51,7 +57,9 @@ Expected<Labelling> find_labelling(const fs::path& folder) {
     if (!jobs) return tl::unexpected(jobs.error());
     labelling = labelling_of(jobs->back());
   } else {
-    labelling = plain_labelling(folder);
+    auto plain = plain_labelling(folder);
+    if (!plain) return plain;
+    labelling = *std::move(plain);
   }
   if (!labelling.drives.empty()) return labelling;
   return fail(ErrorCode::kNotFound, folder.string() + ": there are no label files in it");

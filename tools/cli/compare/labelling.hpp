@@ -18,7 +18,8 @@ struct Labelling {
 
 /// What lies in a folder: of `terracut relabel`, what the job that began last there has done; of
 /// FOLDER/.relabel/ID, what that one has; of any other, each folder with .label files is a drive,
-/// by its place below. kNotFound where there are no label files; the errors of read_job().
+/// by its place below. kNotFound where there are no label files; kUnreadable where a
+/// folder cannot be listed; the errors of read_job().
 [[nodiscard]] Expected<Labelling> find_labelling(const std::filesystem::path& folder);
 
 }  // namespace terracut::cli

@@ -42,6 +42,26 @@ std::pair<std::uint64_t, std::uint64_t> extent_of(const fs::path& folder) {
   return extent;
 }
 
+/// As sha256sum writes it: of a name with a line break in it one line all the same, marked by a
+/// backslash at its begin.
+std::string sum_line(const std::string& sum, const std::string& name) {
+  if (name.find('\n') == std::string::npos) return fmt::format("{}  {}\n", sum, name);
+  std::string escaped;
+  for (const char c : name) escaped += c == '\n' ? "\\n" : c == '\\' ? "\\\\" : std::string(1, c);
+  return fmt::format("\\{}  {}\n", sum, escaped);
+}
+
+/// The name behind such a mark.
+std::string unescaped(std::string_view text) {
+  std::string name;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const bool is_escape = text[i] == '\\' && i + 1 < text.size();
+    if (is_escape) ++i;
+    name += is_escape && text[i] == 'n' ? '\n' : text[i];
+  }
+  return name;
+}
+
 Expected<std::string> sums_of(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code error;
@@ -54,7 +74,7 @@ Expected<std::string> sums_of(const fs::path& folder) {
   for (const std::string& name : names) {
     const auto sum = sha256_of_file(folder / name);
     if (!sum) return sum;
-    sums += fmt::format("{}  {}\n", *sum, name);
+    sums += sum_line(*sum, name);
   }
   return sums;
 }
@@ -93,10 +113,13 @@ std::map<std::string, std::string> listed_sums(const fs::path& folder) {
   if (!text || !text->ends_with('\n')) return sums;
   for (std::size_t begin = 0; begin < text->size();) {
     const std::size_t end = text->find('\n', begin);
-    const std::string line = text->substr(begin, end - begin);
+    std::string line = text->substr(begin, end - begin);
     begin = end + 1;
+    const bool is_escaped = line.starts_with('\\');
+    if (is_escaped) line.erase(0, 1);
     if (line.size() <= kSumDigits + kGap || line.find('/') != std::string::npos) return {};
-    sums.emplace(line.substr(kSumDigits + kGap), line.substr(0, kSumDigits));
+    std::string name = line.substr(kSumDigits + kGap);
+    sums.emplace(is_escaped ? unescaped(name) : std::move(name), line.substr(0, kSumDigits));
   }
   return sums;
 }
@@ -138,7 +161,7 @@ Status check_place(const fs::path& place) {
   std::error_code error;
   fs::create_directories(place.parent_path(), error);
   if (error) return write_failed(place.parent_path(), error.value());
-  struct stat standing {};
+  struct stat standing{};
   if (::lstat(place.c_str(), &standing) != 0) {
     if (errno != ENOENT) return write_failed(place, errno);
     if (::access(place.parent_path().c_str(), W_OK | X_OK) == 0) return {};

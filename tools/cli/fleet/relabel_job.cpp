@@ -35,8 +35,7 @@ std::string host_name() {
   std::array<char, 256> name{};
   if (::gethostname(name.data(), name.size() - 1) != 0) return "unknown";
   std::string text(name.data());
-  std::ranges::replace_if(
-      text, [](char c) { return c == '/' || c == '@'; }, '_');
+  std::ranges::replace_if(text, [](char c) { return c == '/' || c == '@'; }, '_');
   return text;
 }
 
@@ -139,7 +138,7 @@ Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest)
     return fail(ErrorCode::kWriteFailed,
                 fmt::format("{}: {}", job.parts().string(), error.message()));
   }
-  if (fs::exists(job.state() / kJobFile, error)) return job;
+  if (read_job(job.state())) return job;  // what others have put there is replaced
   Status written = files::write_whole_file(job.state() / kJobSettings, job.settings);
   if (written) written = write_json(job.state() / kJobFile, json_of(job, manifest));
   if (!written) return tl::unexpected(written.error());

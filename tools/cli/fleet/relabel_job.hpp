@@ -39,7 +39,7 @@ struct RelabelJob {
   [[nodiscard]] std::string part_prefix(const FleetDrive& drive) const;
 };
 
-/// Writes job.json and terracut.yaml where they are not there yet. The errors of reading this
+/// Writes job.json and terracut.yaml unless the job is there already. The errors of reading this
 /// program's file and of writing.
 [[nodiscard]] Expected<RelabelJob> begin_job(const Options& options, const Manifest& manifest);
 

@@ -102,6 +102,8 @@ std::string pace_text(const Tally& tally, std::int64_t now_ns) {
       tally.lately_process_s / span_s);
   if (tally.missing_bytes == 0 || bytes_per_s <= 0) return text;
   const double left_s = static_cast<double>(tally.missing_bytes) / bytes_per_s;
+  constexpr double kYears_s = 3e9;  // records are others' to write, and so is their speed
+  if (left_s > kYears_s) return text + "end       not within a hundred years at that speed\n";
   return text + fmt::format("end       in {:.1f} h at that speed, {}\n", left_s / 3600,
                             when(now_ns + static_cast<std::int64_t>(left_s * 1e9)));
 }

@@ -113,10 +113,8 @@ void ShardRun::note(const RelabelRecord& record) {
   // Another's success is not to be covered by this process's failure.
   const RelabelRecord before = read_record(job_.state(), record.drive);
   if (!record.done && is_there(before, record)) return;
-  if (const Status written = write_record(job_, ended); !written) {
-    worst_ = refuse(written.error());
-    ended_ = true;
-  }
+  // On a full disk the next drive's labels end the shard; a record's place alone costs its record.
+  if (const Status written = write_record(job_, ended); !written) worst_ = refuse(written.error());
 }
 
 ExitCode ShardRun::conclude() const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
 // `terracut compare` of two labelings.
+#include <unistd.h>
+
 #include <chrono>
 #include <fstream>
 
@@ -42,6 +44,22 @@ TEST_F(Compare, CountsWhatChangedAndPutsTheMostChangedFirst) {
   EXPECT_EQ(report["most"][0]["drive"], "a");
   EXPECT_EQ(report["most"][1]["frame"], "000001");
   EXPECT_EQ(report["most"].size(), 2U);
+}
+
+TEST_F(Compare, SaysSoWhereAFolderCannotBeListed) {
+  constexpr ::uid_t kNobody = 65534;
+  const ::uid_t self = ::geteuid();
+  write_labels("labels/a/000000.label", {40});
+  write_labels("labels/closed/000000.label", {40});
+  EXPECT_TRUE(find_labelling(folder_ / "labels"));
+  fs::permissions(folder_, fs::perms(0755));
+  fs::permissions(folder_ / "labels/closed", fs::perms::none);
+  if (self == 0 && ::seteuid(kNobody) != 0) GTEST_SKIP() << "root reads everything";
+  const auto labelling = find_labelling(folder_ / "labels");
+  ASSERT_EQ(::seteuid(self), 0);
+  fs::permissions(folder_ / "labels/closed", fs::perms::owner_all);
+  ASSERT_FALSE(labelling);
+  EXPECT_THAT(labelling.error().message, HasSubstr("cannot be listed"));
 }
 
 TEST_F(Compare, NamesNoMoreFramesThanItIsAskedFor) {

@@ -58,6 +58,18 @@ TEST_F(LabelledDrive, HasSumsThatSha256sumTakes) {
   EXPECT_NE(std::system(check.c_str()), 0) << "a bit has changed";
 }
 
+TEST_F(LabelledDrive, IsWholeWhateverItsFilesAreCalled) {
+  const fs::path a = folder_ / "a";
+  fs::create_directories(a);
+  const std::string name = "line\nbreak \\n.label";
+  write("a/" + name, "ground");
+  ASSERT_TRUE(seal(a, {{"drive", "d"}}));
+  EXPECT_FALSE(facts_of_whole(a).is_null());
+  EXPECT_TRUE(listed_sums(a).contains(name));
+  const std::string check = "cd '" + a.string() + "' && sha256sum --quiet -c SHA256SUMS";
+  EXPECT_EQ(std::system(check.c_str()), 0);
+}
+
 TEST_F(LabelledDrive, IsNotWholeWithAFileCutShortOrGone) {
   write(sealed("short").filename().string() + "/000001.label", "gro");
   fs::remove(sealed("gone") / "000000.label");

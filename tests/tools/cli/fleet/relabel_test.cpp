@@ -86,6 +86,35 @@ TEST_F(Relabel, DoesNothingTwice) {
   EXPECT_EQ(fs::last_write_time(label), written);
 }
 
+TEST_F(Relabel, BeginsAnewAJobWhoseFileIsNone) {
+  add_drive("a");
+  make_manifest();
+  expect_done("relabel m.json -o out");
+  fs::path job;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/.relabel")) {
+    if (fs::exists(entry.path() / "job.json")) job = entry.path() / "job.json";
+  }
+  fs::remove(job);
+  ASSERT_EQ(::mkfifo(job.c_str(), 0600), 0);
+  EXPECT_THAT(run("relabel m.json -o out").out, HasSubstr("there     1 drives"));
+  EXPECT_THAT(run("relabel --status out").out, HasSubstr("done      1 drives"));
+}
+
+TEST_F(Relabel, ARecordThatCannotBeKeptCostsItselfAlone) {
+  for (const char* const name : {"a", "b"}) add_drive(name);
+  make_manifest();
+  expect_done("relabel m.json -o out --shard 1/9");
+  fs::path records;
+  for (const auto& entry : fs::directory_iterator(folder_ / "out/.relabel")) {
+    if (fs::exists(entry.path() / "job.json")) records = entry.path() / "records";
+  }
+  fs::remove_all(records);
+  std::ofstream(records) << "in its place";
+  const Outcome outcome = run("relabel m.json -o out");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.out << outcome.err;
+  EXPECT_EQ(outputs().size(), 2U);
+}
+
 TEST_F(Relabel, FindsLabelsByContentWhereItsRecordsAreLost) {
   add_drive("a");
   make_manifest();

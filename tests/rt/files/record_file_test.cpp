@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "rt/files/record_file.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/scratch_folder.hpp"
+
+namespace terracut::files {
+namespace {
+
+namespace fs = std::filesystem;
+
+class RecordFiles : public testing::Test {
+ protected:
+  void SetUp() override { folder_ = test::make_scratch_folder(); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  /// What reading eight bytes of a file of the folder ends with.
+  [[nodiscard]] Status read(const char* name) const {
+    std::array<char, 8> bytes{};
+    return read_bytes(folder_ / name, bytes.data(), bytes.size());
+  }
+  fs::path folder_;
+};
+
+TEST_F(RecordFiles, ThatBecameAPipeOrShorterSinceTheyWereCountedAreRefused) {
+  std::ofstream(folder_ / "whole") << "12345678";
+  std::ofstream(folder_ / "shorter") << "1234567";
+  ASSERT_EQ(::mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(read("whole"));
+  for (const char* const name : {"shorter", "pipe"}) {
+    const Status refused = read(name);
+    ASSERT_FALSE(refused) << name;
+    EXPECT_EQ(refused.error().code, ErrorCode::kUnreadable) << refused.error().message;
+  }
+}
+
+}  // namespace
+}  // namespace terracut::files

@@ -95,8 +95,8 @@ class TreeSearch {
     }
     if (fs::is_regular_file(status)) return look_at_file(path);
     if (!is_named_as_recording(path)) return;
-    leave_out(path,
-              entry.is_symlink(error) ? "a link that leads nowhere" : "neither file nor folder");
+    const bool leads_nowhere = entry.is_symlink(error) && !fs::exists(status);
+    leave_out(path, leads_nowhere ? "a link that leads nowhere" : "neither file nor folder");
   }
 
   void look_at_file(const fs::path& path) {

@@ -106,6 +106,7 @@ TEST_F(FleetManifest, NamesWhatLooksLikeARecordingAndIsNotTaken) {
   write("notes.txt.gz", "\x1f\x8b\x08");
   fs::create_symlink("nowhere", folder_ / "moved.pcap");
   fs::create_symlink("nowhere", folder_ / "moved.txt");
+  fs::create_symlink("/dev/zero", folder_ / "device.pcap");
   const auto manifest = find_drives(folder_);
   ASSERT_TRUE(manifest) << manifest.error().message;
   EXPECT_EQ(manifest->drives.size(), 1U);
@@ -113,7 +114,7 @@ TEST_F(FleetManifest, NamesWhatLooksLikeARecordingAndIsNotTaken) {
   for (const LeftOut& each : manifest->left_out) {
     left_out[each.path.lexically_relative(folder_)] = each.why;
   }
-  EXPECT_EQ(left_out.size(), 7U);
+  EXPECT_EQ(left_out.size(), 8U);
   EXPECT_THAT(left_out["b.pcap.gz"], HasSubstr("gunzip"));
   EXPECT_THAT(left_out["c.PCAP2.zst"], HasSubstr("unzstd"));
   EXPECT_THAT(left_out["clouds/000000.bin.gz"], HasSubstr("gunzip"));
@@ -121,6 +122,7 @@ TEST_F(FleetManifest, NamesWhatLooksLikeARecordingAndIsNotTaken) {
   EXPECT_THAT(left_out["M\xe4rz.pcap"], HasSubstr("UTF-8"));
   EXPECT_THAT(left_out["M\xe4rz/1.pcd"], HasSubstr("UTF-8"));
   EXPECT_THAT(left_out["moved.pcap"], HasSubstr("leads nowhere"));
+  EXPECT_THAT(left_out["device.pcap"], HasSubstr("neither file nor folder"));
   ASSERT_TRUE(write_manifest(folder_ / "m.json", *manifest));
   EXPECT_TRUE(read_manifest(folder_ / "m.json"));
 }

@@ -182,16 +182,19 @@ TEST_F(CliClouds, ThatAreDamagedAreNamedAndTheOthersOfTheFolderLabelled) {
     write(damaged, whole.substr(0, whole.size() / 2));
   }
   write("drive/000004.label", "seven b");
+  for (const char* covered : {"drive/000005.pcd", "drive/000006.pcd", "drive/000007.pcd"}) {
+    write_cloud(folder_ / covered, [](int, const Place&) { return Place{0, 0, 0}; }, laser_of);
+  }
   const Outcome outcome = run("segment drive --labels labels --json report.json");
   EXPECT_EQ(outcome.exit_code, 3);
   EXPECT_THAT(outcome.err, AllOf(HasSubstr("warning: drive/000000.pcd: line "),
                                  HasSubstr("warning: drive/000003.pcd: line "),
                                  HasSubstr("warning: drive/000004.label"),
-                                 HasSubstr("error: 3 of 5 clouds, or their truth,")));
-  EXPECT_THAT(outcome.out, HasSubstr("frames    3"));
-  EXPECT_EQ(files_in(folder_ / "labels", ".label"), 3U);
+                                 HasSubstr("error: 3 of 8 clouds, or their truth,")));
+  EXPECT_THAT(outcome.out, HasSubstr("frames    6"));
+  EXPECT_EQ(files_in(folder_ / "labels", ".label"), 6U);
   EXPECT_TRUE(fs::exists(folder_ / "labels/000004.label"));
-  EXPECT_EQ(json("report.json")["frames"].size(), 3U);
+  EXPECT_EQ(json("report.json")["frames"].size(), 6U);
   EXPECT_THAT(json("report.json")["input_warning"], HasSubstr("000000.pcd"));
 }
 

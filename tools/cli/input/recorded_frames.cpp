@@ -121,9 +121,10 @@ Status CloudFrames::each_frame(const mount::Mount& mount, std::size_t most,
       last_fault = found;
       continue;
     }
+    ++shown;
+    if (!cloud::has_places(cloud->points)) continue;
     (void)to_image.place(cloud->points, rings.ring_of_point, image);
     if (Status going = on_frame(image); !going) return going;
-    ++shown;
   }
   return shown > 0 ? Status{} : last_fault;
 }

@@ -69,7 +69,8 @@ class CaptureFrames : public RecordedFrames {
   std::string fault_;
 };
 
-/// Of clouds, evenly taken ones. Those that cannot be read are passed over.
+/// Of clouds, evenly taken ones. Those that cannot be read, and those of a covered sensor, which
+/// have no place, are passed over.
 class CloudFrames : public RecordedFrames {
  public:
   /// Both must outlive this.

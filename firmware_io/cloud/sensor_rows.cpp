@@ -179,14 +179,18 @@ double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint>
   return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
-/// `first`: a cloud that can be read; `no_number`: why there is no number of a point's laser.
+/// Rings whose points tell no line, as where each sees but the floor, stand in the comb all the
+/// same. `first`: a cloud that can be read; `no_number`: why there is no number of a point's laser.
 Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, const ReadCloud& read,
                                        const std::string& no_number) {
   RingRecovery rings;
   const bool in_kittis_order = scan::split_into_rings(read(first)->points, rings).has_value();
-  if (in_kittis_order && rings.rings == scan::kScanRings) return learn_by_order(clouds, read);
+  const bool has_all_rings = in_kittis_order && rings.rings == scan::kScanRings;
+  auto ordered = has_all_rings ? learn_by_order(clouds, read) : Expected<SensorRows>{};
+  if (has_all_rings && ordered && ordered->rings.coinciding == 0) return ordered;
   auto comb = learn_by_comb(clouds, read);
   if (comb) return comb;
+  if (has_all_rings) return ordered;
   if (in_kittis_order) {
     if (auto torn = learn_by_order(clouds, read)) return torn;
   }

@@ -311,13 +311,21 @@ TEST(SensorRows, AreDoubtedWhereTheirPointsAreOfTwoSensorsOrInAVehiclesFrame) {
 
 TEST(SensorRows, AreThoseThatSeeNothingBeyondAMetre) {
   // Of a robot half a metre high, which looks straight down at the floor and the steps beside it.
+  for (const int rings : {60, 64}) {  // the latter as many as in KITTI's order
+    const RingTable table = uneven_rings(rings, 52, 0.8);
+    std::vector<ScanPoint> points =
+        synthetic::scan(table, {.ground_m = -0.5, .points_per_ring = 600});
+    for (const bool is_from_the_top : {true, false}) {
+      if (!is_from_the_top) std::ranges::reverse(points);
+      const auto rows = learnt_from({points});
+      ASSERT_TRUE(rows) << rows.error().message;
+      EXPECT_EQ(rows->source, RowSource::kElevations);
+      expect_table(rows->rings.table, table);
+    }
+  }
   const RingTable table = uneven_rings(60, 52, 0.8);
   const std::vector<ScanPoint> points =
       synthetic::scan(table, {.ground_m = -0.5, .points_per_ring = 600});
-  const auto rows = learnt_from({points});
-  ASSERT_TRUE(rows) << rows.error().message;
-  EXPECT_EQ(rows->source, RowSource::kElevations);
-  expect_table(rows->rings.table, table);
   // Between rows that see far, too.
   std::vector<ScanPoint> some_near = points;
   for (std::size_t i = 0; i < 600; ++i) {

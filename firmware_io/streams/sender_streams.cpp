@@ -6,6 +6,8 @@
 #include <functional>
 #include <span>
 #include <string_view>
+#include <tuple>
+#include <utility>
 
 #include "firmware_io/hdl64e/wire.hpp"
 
@@ -15,6 +17,11 @@ namespace {
 constexpr std::uint64_t kNoChance = 5;  ///< So many contradictions are no packets out of order.
 constexpr std::size_t kMostSources = 16;
 constexpr std::int64_t kLongestStep_us = 10'000'000;
+
+/// To sort by: what has more packets stands first.
+constexpr std::uint64_t most_first(std::uint64_t packets) noexcept {
+  return ~packets;
+}
 
 std::uint64_t hash_of(std::span<const std::uint8_t> payload) {
   return std::hash<std::string_view>{}(
@@ -111,8 +118,8 @@ bool SenderStreams::is_one_stream_spread() const {
 std::vector<SenderStreams::Group> SenderStreams::groups() const {
   Group all;
   for (const auto& [destination, place] : places_) all.push_back(destination);
-  std::ranges::stable_sort(all, std::ranges::greater{}, [&](const Destination& destination) {
-    return places_.at(destination).packets;
+  std::ranges::sort(all, {}, [&](const Destination& destination) {
+    return std::pair(most_first(places_.at(destination).packets), destination);
   });
   if (all.empty()) return {};
   if (is_one_stream_spread()) return {all};
@@ -161,7 +168,10 @@ void SenderStreams::add_sensors_of(const Group& group, std::vector<SensorStream>
 std::vector<SensorStream> SenderStreams::sensors() const {
   std::vector<SensorStream> sensors;
   for (const Group& group : groups()) add_sensors_of(group, sensors);
-  std::ranges::stable_sort(sensors, std::ranges::greater{}, &SensorStream::packets);
+  std::ranges::sort(sensors, {}, [](const SensorStream& sensor) {
+    return std::tuple(most_first(sensor.packets), sensor.destinations, sensor.source_port,
+                      sensor.source_mac);
+  });
   return sensors;
 }
 

@@ -18,8 +18,8 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/figures_json.hpp"
-#include "tools/cli/input/open_capture.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/settings/companion_files.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
 #include "tools/cli/settings/stream_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
@@ -300,7 +300,7 @@ std::string note_of_calibration(const CaptureSurvey& survey, const CaptureOption
   const auto lacks_one = [](const UdpStream& stream) {
     return stream.hdl64e && !stream.hdl64e->table;
   };
-  const auto beside = beside_capture(options.file);
+  const auto beside = calibration_beside(options.file);
   if (std::ranges::none_of(survey.streams, lacks_one) || !beside || beside->empty()) return {};
   return fmt::format("\n{} beside the capture is taken where the packets hold no calibration\n",
                      beside->string());

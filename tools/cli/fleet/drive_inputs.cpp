@@ -11,7 +11,7 @@
 #include "content_hash.hpp"
 #include "firmware_io/cloud/cloud_file.hpp"
 #include "firmware_io/scan/scan_folder.hpp"
-#include "tools/cli/input/open_capture.hpp"
+#include "tools/cli/settings/companion_files.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -50,7 +50,7 @@ std::vector<DriveInput> inputs_of(const FleetDrive& drive) {
   std::erase_if(inputs, [](const DriveInput& input) { return input.path.empty(); });
   if (drive.capture.empty() || !drive.calibration.empty()) return inputs;
   // A run may take it where the packets hold none.
-  const auto beside = beside_capture(drive.capture);
+  const auto beside = calibration_beside(drive.capture);
   if (beside && !beside->empty()) inputs.push_back({"calibration", *beside});
   return inputs;
 }

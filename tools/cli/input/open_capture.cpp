@@ -56,7 +56,7 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
   sensor::CalibrationChoice choice{.file = options.calibration};
   auto told = sensor::unit_calibration(choice, model, unit);
   if (told || choice.is_given() || told.error().code != ErrorCode::kNoCalibration) return told;
-  const auto beside = beside_capture(options.file);
+  const auto beside = calibration_beside(options.file);
   if (!beside) return tl::unexpected(beside.error());
   const bool is_of_ruby128 = model == sensor::SensorModel::kRuby128;
   if (!beside->empty() && (beside->extension() == ".csv") == is_of_ruby128) {
@@ -74,11 +74,6 @@ Expected<calib::SensorCalibration> calibration_of(const CaptureOptions& options,
 }
 
 }  // namespace
-
-Expected<std::filesystem::path> beside_capture(const std::filesystem::path& capture) {
-  const std::filesystem::path folder = capture.parent_path();
-  return calibration_beside({folder, folder, stem_of(capture)});
-}
 
 Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   auto source = PcapSource::open(options.file, filter_of(options));

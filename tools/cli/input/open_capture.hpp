@@ -25,12 +25,8 @@ struct OpenCapture {
   std::string calibration_line;  ///< Origin and fingerprint; a warning where it is not the unit's.
 };
 
-/// The calibration that lies beside a capture (companion_files.hpp), which is used where its
-/// packets hold none; empty: there is none. The errors of calibration_beside().
-[[nodiscard]] Expected<std::filesystem::path> beside_capture(const std::filesystem::path& capture);
-
 /// Opens the capture, of which one unit's datagrams alone are read, and chooses sensor and
-/// calibration (sensor_choice.hpp, unit_calibration.hpp, beside_capture()).
+/// calibration (sensor_choice.hpp, unit_calibration.hpp, calibration_beside()).
 [[nodiscard]] Expected<OpenCapture> open_capture(const CaptureOptions& options);
 
 /// On stderr, for who prints no report that has these lines.

@@ -62,6 +62,11 @@ Expected<fs::path> calibration_beside(const Beside& recording) {
       {"db.xml", "db.yaml", "angle.csv", "calibration.xml", "calibration.yaml", "calibration.csv"});
 }
 
+Expected<fs::path> calibration_beside(const fs::path& capture) {
+  const fs::path folder = capture.parent_path();
+  return calibration_beside(Beside{folder, folder, stem_of(capture)});
+}
+
 Expected<fs::path> can_beside(const Beside& recording) {
   return only_one(recording.folder, {recording.stem + ".can.log"});
 }

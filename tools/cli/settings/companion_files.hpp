@@ -23,6 +23,9 @@ struct Beside {
 /// meant.
 [[nodiscard]] Expected<std::filesystem::path> setup_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> calibration_beside(const Beside& recording);
+/// That of a capture's own folder, which is used where its packets hold none.
+[[nodiscard]] Expected<std::filesystem::path> calibration_beside(
+    const std::filesystem::path& capture);
 [[nodiscard]] Expected<std::filesystem::path> can_beside(const Beside& recording);
 [[nodiscard]] Expected<std::filesystem::path> dbc_beside(const Beside& recording);
 

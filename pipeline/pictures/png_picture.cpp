@@ -46,17 +46,28 @@ void Picture::rectangle(int left, int top, int width, int height, Colour colour)
 
 void Picture::circle(double centre_x, double centre_y, double radius, double width, Colour colour,
                      double opacity) noexcept {
-  const double outer = radius + width / 2 + 1;
+  const double reach = width / 2 + 0.5;
+  const double outer = radius + reach + 1, inner = std::max(radius - reach - 1, 0.0);
   const int top = std::max(0, static_cast<int>(centre_y - outer));
   const int bottom = std::min(height_ - 1, static_cast<int>(centre_y + outer));
-  const int left = std::max(0, static_cast<int>(centre_x - outer));
-  const int right = std::min(width_ - 1, static_cast<int>(centre_x + outer));
   for (int y = top; y <= bottom; ++y) {
-    for (int x = left; x <= right; ++x) {
-      const double distance = std::hypot(x + 0.5 - centre_x, y + 0.5 - centre_y);
-      const double coverage = width / 2 + 0.5 - std::abs(distance - radius);
-      if (coverage > 0) blend(x, y, colour, opacity * std::min(coverage, 1.0));
-    }
+    const double dy = y + 0.5 - centre_y;
+    const auto half_chord = [&](double of_radius) {
+      return std::sqrt(std::max(of_radius * of_radius - dy * dy, 0.0));
+    };
+    const auto blend_between = [&](double from_x, double to_x) {
+      const int right = std::min(width_ - 1, static_cast<int>(to_x));
+      for (int x = std::max(0, static_cast<int>(from_x)); x <= right; ++x) {
+        const double distance = std::hypot(x + 0.5 - centre_x, dy);
+        const double coverage = reach - std::abs(distance - radius);
+        if (coverage > 0) blend(x, y, colour, opacity * std::min(coverage, 1.0));
+      }
+      return right;
+    };
+    // What lies within the ring, most of the line, is passed over.
+    const int left_end = blend_between(centre_x - half_chord(outer), centre_x - half_chord(inner));
+    blend_between(std::max(centre_x + half_chord(inner) - 1, left_end + 1.0),
+                  centre_x + half_chord(outer));
   }
 }
 

@@ -61,9 +61,9 @@ Tally tally_of(const fs::path& folder, const KnownJob& job, std::int64_t now_ns)
       tally.missing_bytes += bytes;
       continue;
     }
-    const auto add = [&, bytes = bytes](Sum& sum) {
+    const auto add = [&, its_bytes = bytes](Sum& sum) {
       ++sum.drives;
-      sum.bytes += bytes;
+      sum.bytes += its_bytes;
       sum.frames += record.frames;
       sum.label_bytes += record.label_bytes;
     };

@@ -11,17 +11,6 @@
 namespace terracut::mount {
 namespace {
 
-/// The mount of a sensor whose ground is seen as by `seen` from a frame that `mount` has already
-/// levelled.
-Mount on_top_of(const Mount& mount, const Mount& seen) {
-  const RigidTransform T = T_vehicle_lidar(mount), T_seen = T_vehicle_lidar(seen);
-  std::array<double, 3> up{};  // the ground's normal seen from the sensor
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < 3; ++i) up[axis] += T_seen[8 + i] * T[4 * i + axis];
-  }
-  return {seen.height_m, std::atan2(up[1], up[2]), std::asin(std::clamp(-up[0], -1.0, 1.0))};
-}
-
 /// Of the points at places where the two grounds, below a sensor at (0, 0, 0), lie apart: how many
 /// lie on the one for each that lies on the other. Both bend as the ground does. 0.06 m is twice
 /// the sensor's own noise to either side, and what 3.5 degrees of roll make 1 m beside the sensor,
@@ -91,14 +80,17 @@ std::optional<Mount> MountCheck::contradiction() const {
                       static_cast<double>(contradicting.size()) >=
                           config_.contradicting_share * static_cast<double>(newest_.size());
   if (!enough) return std::nullopt;
-  const Mount seen = median_of(contradicting);
-  return contradicts(seen) ? std::optional(seen) : std::nullopt;
+  Mount seen = median_of(contradicting);
+  if (!contradicts(seen)) return std::nullopt;
+  seen.roll_rad = nearest_turn(seen.roll_rad, 0);
+  return seen;
 }
 
 std::optional<Mount> MountCheck::by_drive() const {
   if (in_sum_ == 0) return std::nullopt;
   const auto frames = static_cast<double>(in_sum_);
-  return Mount{sum_.height_m / frames, sum_.roll_rad / frames, sum_.pitch_rad / frames};
+  return Mount{sum_.height_m / frames, nearest_turn(sum_.roll_rad / frames, 0),
+               sum_.pitch_rad / frames};
 }
 
 }  // namespace terracut::mount

@@ -2,24 +2,57 @@
 // Copyright 2026 The terracut authors
 #include "calib/mount/ring_profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "calib/ruby128/ruby128_geometry.hpp"
 
 namespace terracut::mount {
 namespace {
 
+/// Of a sensor that leans so far that its rings meet the ground nowhere near where those of a level
+/// one do. What could always be stated of one that stands counts as level.
+bool leans(const Mount& mount) noexcept {
+  constexpr double kLevel_rad = 0.5, kLevelUpsideDown_rad = 0.05;
+  const double roll_rad = std::abs(mount.roll_rad), pitch_rad = std::abs(mount.pitch_rad);
+  return is_upside_down(mount)
+             ? std::max(std::numbers::pi - roll_rad, pitch_rad) > kLevelUpsideDown_rad
+             : std::max(roll_rad, pitch_rad) >= kLevel_rad;
+}
+
+/// How far from its start a beam that turns with the head meets the ground where that is nearest;
+/// infinity where it never does.
+double nearest_ground_m(double elevation_rad, double origin_height_m, const Mount& mount) {
+  constexpr int kDirections = 120;
+  const RigidTransform T = T_vehicle_lidar({0, mount.roll_rad, mount.pitch_rad});
+  const double start_m = mount.height_m + T[10] * origin_height_m;
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kDirections; ++i) {
+    const double azimuth_rad = 2 * std::numbers::pi * i / kDirections;
+    const auto [x, y, z] =
+        apply(T, std::cos(elevation_rad) * std::cos(azimuth_rad),
+              std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
+    if (z < 0) nearest_m = std::min(nearest_m, start_m / -z * std::hypot(x, y));
+  }
+  return nearest_m;
+}
+
 /// A ring whose beam starts `origin_height_m` above the sensor's origin. `past_axis(d)` is how far
 /// from the axis of rotation the beam is after the horizontal distance d from its start.
 template <class PastAxis>
 Ring ring_past_axis(double elevation_rad, double origin_height_m, const Mount& mount,
                     double range_limit_m, const PastAxis& past_axis) {
-  const double along_m = (mount.height_m + origin_height_m) / std::tan(-elevation_rad);
+  const double seen_rad = is_upside_down(mount) ? -elevation_rad : elevation_rad;
+  const double start_m = is_upside_down(mount) ? -origin_height_m : origin_height_m;
+  const double level_m = (mount.height_m + start_m) / std::tan(-seen_rad);
+  const double along_m =
+      leans(mount) ? nearest_ground_m(elevation_rad, origin_height_m, mount) : level_m;
   const double distance_m = past_axis(along_m);
-  const bool reaches = elevation_rad < 0 && along_m > 0 && distance_m <= range_limit_m;
-  return {elevation_rad, origin_height_m,
-          reaches ? distance_m : std::numeric_limits<double>::infinity()};
+  const bool is_level_below = seen_rad < 0 && along_m > 0;
+  const bool reaches = (leans(mount) || is_level_below) && distance_m <= range_limit_m;
+  return {seen_rad, start_m, reaches ? distance_m : std::numeric_limits<double>::infinity()};
 }
 
 }  // namespace
@@ -31,7 +64,7 @@ Ring ring(double elevation_rad, double origin_height_m, const Mount& mount, doub
 
 RingProfile ring_profile(const hdl64e::Hdl64eCalibration& calibration, const Mount& mount,
                          double range_limit_m) {
-  const auto rows = rows_by_elevation(calibration);
+  const auto rows = rows_upward(rows_by_elevation(calibration), mount);
   RingProfile profile{std::vector<Ring>(rows.size()), mount};
   for (std::size_t laser = 0; laser < rows.size(); ++laser) {
     profile.rings[static_cast<std::size_t>(rows[laser])] =
@@ -43,7 +76,7 @@ RingProfile ring_profile(const hdl64e::Hdl64eCalibration& calibration, const Mou
 
 RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration, const Mount& mount,
                          double range_limit_m) {
-  const auto rows = rows_by_elevation(calibration);
+  const auto rows = rows_upward(rows_by_elevation(calibration), mount);
   RingProfile profile{std::vector<Ring>(rows.size()), mount};
   for (std::size_t channel = 0; channel < rows.size(); ++channel) {
     const double offset_rad = calibration.channels[channel].azimuth_offset_rad;
@@ -59,7 +92,7 @@ RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration, const M
 
 RingProfile ring_profile(const velodyne::VelodyneCalibration& calibration, const Mount& mount,
                          double range_limit_m) {
-  const auto rows = rows_by_elevation(calibration);
+  const auto rows = rows_upward(rows_by_elevation(calibration), mount);
   RingProfile profile{std::vector<Ring>(rows.size()), mount};
   for (std::size_t laser = 0; laser < rows.size(); ++laser) {
     profile.rings[static_cast<std::size_t>(rows[laser])] =

@@ -13,10 +13,12 @@ namespace terracut::mount {
 
 /// One row of the range image as the pipeline needs to know it: one laser, rows sorted upwards.
 struct Ring {
-  double elevation_rad = 0;    ///< Of the beam, in the sensor frame; rows ascend in it.
+  /// Of the beam, in the sensor frame, and of one upside down turned over; rows ascend in it.
+  double elevation_rad = 0;
   double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin (vertical offset).
-  /// Mean horizontal distance at which this beam meets the mount's ground plane; infinity where it
-  /// never does (elevation at or above the horizon) or only beyond the range limit.
+  /// Mean horizontal distance at which this beam meets the mount's ground plane, of a sensor that
+  /// leans by more than half a radian the least; infinity where it never does (elevation at or
+  /// above the horizon) or only beyond the range limit.
   double ground_distance_m = 0;
 };
 
@@ -27,7 +29,8 @@ struct RingProfile {
   Mount mount;
 };
 
-/// A ring whose beam starts on the axis of rotation, over level ground; beams that reach the ground
+/// A ring whose beam starts on the axis of rotation, over level ground, the beam being that of the
+/// sensor, which `mount` may turn over; beams that reach the ground
 /// beyond `range_limit_m` count as never reaching it.
 [[nodiscard]] Ring ring(double elevation_rad, double origin_height_m, const Mount& mount,
                         double range_limit_m = 120.0);

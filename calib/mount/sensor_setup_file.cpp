@@ -19,7 +19,7 @@ namespace terracut::mount {
 namespace {
 
 constexpr std::size_t kMaxRings = 1024;
-constexpr double kMaxTilt_rad = 0.5;
+constexpr double kRounding_deg = 1e-6;  ///< The ends of a range are in it.
 
 tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
@@ -75,9 +75,9 @@ Expected<double> number_within(const YAML::Node& node, const std::string& where,
 
 Status read_mount(const YAML::Node& node, const std::string& file, Mount& mount) {
   bool has_height = false;
-  const auto angle = [](double& target_rad) {
-    return [&target_rad](const YAML::Node& value, const std::string& where) -> Status {
-      const double limit_deg = beams::rad_to_deg(kMaxTilt_rad);
+  const auto angle = [](double& target_rad, double most_deg) {
+    return [&target_rad, most_deg](const YAML::Node& value, const std::string& where) -> Status {
+      const double limit_deg = most_deg + kRounding_deg;
       const auto deg = number_within(value, where, -limit_deg, limit_deg);
       if (!deg) return tl::unexpected(deg.error());
       target_rad = beams::deg_to_rad(*deg);
@@ -93,8 +93,8 @@ Status read_mount(const YAML::Node& node, const std::string& file, Mount& mount)
          has_height = true;
          return {};
        }},
-      {"roll_deg", angle(mount.roll_rad)},
-      {"pitch_deg", angle(mount.pitch_rad)},
+      {"roll_deg", angle(mount.roll_rad, 180)},
+      {"pitch_deg", angle(mount.pitch_rad, 90)},
   };
   if (Status status = read_map(node, file, keys); !status) return status;
   if (!has_height) return malformed(text::where_is(node, file) + ": mount has no height_m");

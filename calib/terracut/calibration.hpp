@@ -25,8 +25,8 @@ enum class Sensor : std::uint8_t {
 /// its origin on the ground below the sensor.
 struct Mount {
   double height_m = 1.73;  ///< Sensor above the ground; (0.2, 6).
-  double roll_rad = 0;     ///< (-0.5, 0.5)
-  double pitch_rad = 0;    ///< (-0.5, 0.5)
+  double roll_rad = 0;     ///< Left side up; [-pi, pi], either end being upside down.
+  double pitch_rad = 0;    ///< Looking down in front; [-pi/2, pi/2]
 };
 
 /// How a sensor stands as the ground before and behind it shows.

@@ -22,7 +22,7 @@ Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& m
     : offsets_(calibration),
       kernel_(calibration, config.geometry, mount),
       metres_per_count_(static_cast<float>(calibration.distance_resolution_m)),
-      rows_(rows_by_elevation(calibration)) {}
+      rows_(mount::rows_upward(rows_by_elevation(calibration), mount)) {}
 
 std::optional<frame::Reject> Hdl64eSensor::check(const decode::Datagram& datagram,
                                                  decode::PacketAzimuths& azimuths) noexcept {

@@ -22,7 +22,7 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount&
     : given_timestamp_(config.timestamp),
       offsets_(calibration),
       kernel_(calibration, mount),
-      rows_(rows_by_elevation(calibration)) {}
+      rows_(mount::rows_upward(rows_by_elevation(calibration), mount)) {}
 
 std::optional<frame::Reject> Ruby128Sensor::check(const decode::Datagram& datagram,
                                                   decode::PacketAzimuths& azimuths) noexcept {

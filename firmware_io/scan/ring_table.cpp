@@ -2,6 +2,7 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/scan/ring_table.hpp"
 
+#include <algorithm>
 #include <ranges>
 
 namespace terracut::scan {
@@ -45,6 +46,7 @@ mount::RingProfile ring_profile(const RingTable& table, const mount::Mount& moun
   for (const RingLine& ring : table | std::views::reverse) {
     profile.rings.push_back(mount::ring(ring.elevation_rad, ring.vert_offset_m, mount));
   }
+  if (mount::is_upside_down(mount)) std::ranges::reverse(profile.rings);
   return profile;
 }
 

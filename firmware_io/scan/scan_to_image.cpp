@@ -48,10 +48,18 @@ TERRACUT_VECTOR_CLONES void find_columns(float columns_per_rad, int last_column,
   }
 }
 
+void turn_over(std::span<const ScanPoint> points, std::span<ScanPoint> turned) noexcept {
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    turned[i] = points[i];
+    turned[i].y_m = -points[i].y_m;
+  }
+}
+
 }  // namespace
 
 ScanToImage::ScanToImage(const mount::Mount& mount, std::size_t points_expected)
-    : T_vehicle_lidar_(mount::T_vehicle_lidar(mount)) {
+    : T_vehicle_lidar_(mount::T_vehicle_lidar(mount)),
+      is_upside_down_(mount::is_upside_down(mount)) {
   point_of_return_.reserve(points_expected);
   label_without_return_.reserve(points_expected);
 }
@@ -66,10 +74,16 @@ ScanToImage::Summary ScanToImage::place(std::span<const ScanPoint> points,
   const int rows = image.shape().rows, columns = image.shape().columns;
   const float columns_per_rad = static_cast<float>(columns / (2 * std::numbers::pi));
   Block block;
+  std::array<ScanPoint, kBlock> turned;
   for (std::size_t first = 0; first < points.size(); first += kBlock) {
     const std::size_t count = std::min(kBlock, points.size() - first);
     move(T_vehicle_lidar_, &points[first], count, block);
-    frame::find_azimuths(points.subspan(first, count), block.azimuth_rad);
+    if (is_upside_down_) {
+      turn_over(points.subspan(first, count), turned);
+      frame::find_azimuths(std::span(turned).first(count), block.azimuth_rad);
+    } else {
+      frame::find_azimuths(points.subspan(first, count), block.azimuth_rad);
+    }
     find_columns(columns_per_rad, columns - 1, count, block);
     for (std::size_t i = 0; i < count; ++i) {
       const ScanPoint& p = points[first + i];
@@ -82,7 +96,8 @@ ScanToImage::Summary ScanToImage::place(std::span<const ScanPoint> points,
       }
       const frame::Return point{block.x_m[i], block.y_m[i], block.z_m[i], block.ground_range_m[i],
                                 intensity_of(p.remission)};
-      if (!image.place(rows - 1 - ring, block.column[i], point, frame::CellOwner::kNearest)) {
+      if (!image.place(is_upside_down_ ? ring : rows - 1 - ring, block.column[i], point,
+                       frame::CellOwner::kNearest)) {
         ++summary.overflow_full;
         continue;
       }

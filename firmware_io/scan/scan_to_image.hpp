@@ -19,10 +19,11 @@ namespace terracut::scan {
 /// returns back into the cloud's order.
 ///
 /// Row = rows - 1 - ring (row 0 is the lowest), column = azimuth / pitch clockwise from straight
-/// ahead, the decoder's rule; coordinates are the cloud's own, moved into the vehicle frame by the
-/// mount. Of several points in a cell the nearest owns it, so that their order does not matter.
-/// Returns are numbered in the cloud's order. Points without a ring and points beyond the overflow
-/// list's end are counted and not placed.
+/// ahead, the decoder's rule, of a sensor that hangs upside down as if it stood: row = ring, and
+/// clockwise seen from above the vehicle; coordinates are the cloud's own, moved into the vehicle
+/// frame by the mount. Of several points in a cell the nearest owns it, so that their order does
+/// not matter. Returns are numbered in the cloud's order. Points without a ring and points beyond
+/// the overflow list's end are counted and not placed.
 ///
 /// Allocates nothing for clouds no larger than the largest before, or than `points_expected`.
 class ScanToImage {
@@ -54,6 +55,7 @@ class ScanToImage {
 
  private:
   mount::RigidTransform T_vehicle_lidar_;
+  bool is_upside_down_;
   std::vector<std::uint32_t> point_of_return_;
   std::vector<frame::Label> label_without_return_;  ///< Of every point, for when it has no return.
 };

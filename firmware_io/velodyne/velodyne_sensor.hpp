@@ -54,7 +54,7 @@ class VelodyneSensor {
       : reader_(Model::kLayout, config.is_named),
         kernel_(calibration, mount),
         offsets_(calibration) {
-    const std::vector<int> rows = rows_by_elevation(calibration);
+    const std::vector<int> rows = mount::rows_upward(rows_by_elevation(calibration), mount);
     for (std::size_t channel = 0; channel < rows_.size(); ++channel) {
       rows_[channel] = rows[laser_of(channel)];
     }

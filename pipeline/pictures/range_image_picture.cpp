@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <cstdlib>
 #include <string>
 
@@ -48,16 +49,29 @@ void close_lone_gaps(Picture& picture) noexcept {
   }
 }
 
+/// Whether columns go counter-clockwise, as those of packets of a sensor upside down do.
+bool is_mirrored(const frame::RangeImage& image) noexcept {
+  std::int64_t clockwise = 0;
+  frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+    if (placed.point.y_m == 0) return;
+    const bool is_right = placed.point.y_m < 0;
+    clockwise += is_right == (placed.column < image.shape().columns / 2) ? 1 : -1;
+  });
+  return clockwise < 0;
+}
+
 }  // namespace
 
 Picture range_image_picture(const LabelledFrame& frame) {
   const frame::ImageShape& shape = frame.image.shape();
   Picture picture(shape.columns, shape.rows * kPixelsPerRow + kAzimuthScaleHeight,
                   kPictureBackground);
+  const bool mirrored = is_mirrored(frame.image);
   frame::for_each_return(frame.image, [&](const frame::PlacedReturn& placed) {
     // Column 0 is straight ahead and columns go clockwise, so half a revolution further is the
     // middle.
-    const int x = (placed.column + shape.columns / 2) % shape.columns;
+    const int from_left = (placed.column + shape.columns / 2) % shape.columns;
+    const int x = mirrored ? shape.columns - 1 - from_left : from_left;
     const int y = (shape.rows - 1 - placed.row) * kPixelsPerRow;
     Colour colour = colour_of_return(frame, placed.return_index, placed.point);
     const bool mistaken =

@@ -28,13 +28,14 @@ namespace terracut {
 namespace {
 
 Status check(const Mount& mount) {
-  const bool is_possible = mount.height_m >= 0.2 && mount.height_m <= 6 &&
-                           std::abs(mount.roll_rad) < 0.5 && std::abs(mount.pitch_rad) < 0.5;
+  const bool is_possible =
+      mount.height_m >= 0.2 && mount.height_m <= 6 && mount::has_possible_angles(mount_of(mount));
   if (is_possible) return {};
-  return fail(ErrorCode::kInvalidArgument,
-              fmt::format("mount: expected a height of 0.2 to 6 m, roll and pitch below 0.5 rad, "
-                          "found {} m, {} and {} rad",
-                          mount.height_m, mount.roll_rad, mount.pitch_rad));
+  return fail(
+      ErrorCode::kInvalidArgument,
+      fmt::format("mount: expected a height of 0.2 to 6 m, roll of at most pi and pitch of at "
+                  "most pi/2, found {} m, {} and {} rad",
+                  mount.height_m, mount.roll_rad, mount.pitch_rad));
 }
 
 Expected<ground::SegmenterConfig> method_of(const Segmenter::Config& config) {

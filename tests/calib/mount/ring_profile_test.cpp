@@ -3,6 +3,7 @@
 #include "calib/mount/ring_profile.hpp"
 
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "calib/beams/angle.hpp"
@@ -26,6 +27,30 @@ TEST(RingProfile, HasOneRingARowFromTheLowestUp) {
     EXPECT_GT(profile.rings[row].elevation_rad, profile.rings[row - 1].elevation_rad);
   }
   EXPECT_EQ(profile.mount.height_m, Mount{}.height_m);
+}
+
+TEST(RingProfile, OfASensorUpsideDownIsTurnedOver) {
+  const Mount hanging{.height_m = 1.8, .roll_rad = std::numbers::pi};
+  const RingProfile profile = ring_profile(ruby128::nominal_ruby128(), hanging);
+  const RingProfile standing = ring_profile(ruby128::nominal_ruby128(), Mount{.height_m = 1.8});
+  for (std::size_t row = 0; row < profile.rings.size(); ++row) {
+    const Ring& ring = profile.rings[row];
+    const double elevation_rad = standing.rings[profile.rings.size() - 1 - row].elevation_rad;
+    EXPECT_EQ(ring.elevation_rad, -elevation_rad);
+    EXPECT_EQ(std::isfinite(ring.ground_distance_m), elevation_rad > beams::deg_to_rad(0.9));
+  }
+}
+
+TEST(RingProfile, OfASensorThatLeansMeetsTheGroundWhereItLooksDown) {
+  const Mount hanging{1.8, beams::deg_to_rad(150), 0}, nose_down{1.8, 0, beams::deg_to_rad(45)};
+  for (const Mount& mount : {hanging, nose_down}) {
+    for (const Ring& ring : ring_profile(hdl64e::nominal_hdl64e(), mount).rings) {
+      EXPECT_LT(ring.ground_distance_m, 40) << ring.elevation_rad;
+    }
+  }
+  // 45 + 24.3 degrees down.
+  EXPECT_NEAR(ring_profile(ruby128::nominal_ruby128(), nose_down).rings[0].ground_distance_m,
+              1.8 / std::tan(beams::deg_to_rad(45 + 25)), 0.1);
 }
 
 TEST(RingProfile, MeetsTheGroundWhereTrigonometrySays) {

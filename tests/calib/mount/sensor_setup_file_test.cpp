@@ -3,6 +3,7 @@
 #include "calib/mount/sensor_setup_file.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
@@ -40,6 +41,13 @@ TEST(SensorSetup, AMountAloneIsEnoughAndSoIsItsHeight) {
   EXPECT_TRUE(read->ring_ground_distance_m.empty());
 }
 
+TEST(SensorSetup, HoldsASensorUpsideDown) {
+  const auto read = parsed("mount: {height_m: 2.1, roll_deg: 180, pitch_deg: -90}");
+  ASSERT_TRUE(read.has_value()) << read.error().message;
+  EXPECT_EQ(read->mount.roll_rad, std::numbers::pi);
+  EXPECT_EQ(read->mount.pitch_rad, -std::numbers::pi / 2);
+}
+
 TEST(SensorSetup, UnknownKeysAreErrorsWithTheirLine) {
   EXPECT_THAT(parsed("mount: {height_m: 2}\n\nheigth_m: 3\n"),
               calib::IsRefusedWith(ErrorCode::kMalformed,
@@ -56,10 +64,11 @@ TEST(SensorSetup, RefusesValuesOutOfRangeWithTheirLine) {
       calib::IsRefusedWith(ErrorCode::kMalformed,
                            AllOf(HasSubstr("line 2"), HasSubstr("height_m"), HasSubstr("0.2"))));
   for (const char* bad :
-       {"mount: {height_m: .nan}", "mount: {height_m: 2, pitch_deg: 40}",
-        "mount: {height_m: 2, roll_deg: .inf}", "mount: {height_m: two}", "mount: {height_m: [2]}",
-        "mount: {roll_deg: 2}", "mount: 2", "mount: {height_m: 2, height_m: 2}",
-        "rings: {ground_distance_m: [1]}", "mount: {height_m: 2}\nrings: {ground_distance_m: []}",
+       {"mount: {height_m: .nan}", "mount: {height_m: 2, pitch_deg: 91}",
+        "mount: {height_m: 2, roll_deg: 181}", "mount: {height_m: 2, roll_deg: .inf}",
+        "mount: {height_m: two}", "mount: {height_m: [2]}", "mount: {roll_deg: 2}", "mount: 2",
+        "mount: {height_m: 2, height_m: 2}", "rings: {ground_distance_m: [1]}",
+        "mount: {height_m: 2}\nrings: {ground_distance_m: []}",
         "mount: {height_m: 2}\nrings: {ground_distance_m: [-1]}",
         "mount: {height_m: 2}\nrings: {ground_distance_m: [.nan]}",
         "mount: {height_m: 2}\nrings: {ground_distance_m: [0]}",

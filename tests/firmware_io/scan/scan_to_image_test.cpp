@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <numbers>
 
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "synthetic_scan.hpp"
@@ -43,6 +44,18 @@ TEST(ScanToImage, MovesPointsIntoTheVehicleFrame) {
   const std::size_t cell = 63 * static_cast<std::size_t>(image.shape().stride());
   ASSERT_TRUE(image.has_return(cell));
   EXPECT_NEAR(image.z_m()[cell], 2.0 - 10 * std::sin(0.1), 1e-5);
+}
+
+TEST(ScanToImage, TurnsASensorOverThatHangsUpsideDown) {
+  memory::FixedMemory memory;
+  frame::RangeImage image({64, 360}, 10, memory);
+  ScanToImage place(mount::Mount{.height_m = 2, .roll_rad = std::numbers::pi});
+  // What the sensor has above it to the left is below to the right of the vehicle.
+  place.place(std::vector<ScanPoint>{{0.01F, 5, 1.5F, 0}}, std::vector<std::int16_t>{3}, image);
+  const std::size_t cell = 3 * static_cast<std::size_t>(image.shape().stride()) + 89;
+  ASSERT_TRUE(image.has_return(cell));
+  EXPECT_FLOAT_EQ(image.y_m()[cell], -5);
+  EXPECT_FLOAT_EQ(image.z_m()[cell], 0.5);
 }
 
 TEST(ScanToImage, BringsLabelsBackIntoTheFilesOrder) {

@@ -66,6 +66,15 @@ TEST_F(Pictures, RangeImageShowsTheSkyUpAndStraightAheadInTheMiddle) {
   EXPECT_EQ(picture.at(0, 0), kPictureBackground);
 }
 
+TEST_F(Pictures, RangeImageShowsTheLeftOnTheLeftOfASensorUpsideDown) {
+  output::SmallFrame small;
+  small.add(0, 4, 10, 10, 0, Label::kGround);
+  const Picture picture = range_image_picture(small.frame());
+  const int bottom = picture.height() - kAzimuthScaleHeight - 1;
+  EXPECT_NE(picture.at(11, bottom), kPictureBackground);
+  EXPECT_EQ(picture.at(20, bottom), kPictureBackground);
+}
+
 TEST_F(Pictures, RangeImageClosesOnlyGapsOfOneColumn) {
   output::SmallFrame small;
   for (const int column : {20, 22, 25}) small.add(0, column, 10, 0, 0, Label::kGround);

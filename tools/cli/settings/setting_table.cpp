@@ -148,10 +148,10 @@ constexpr std::array kSettings{
             .reads = "the setup", .field = [](O& o) -> F { return &o.mount.setup; }},
     Setting{.key = "mount.height_m", .option = "--mount-height", .commands = kMounted | C::kRelabel, .unit = "m", .help = "From the ground to the sensor's origin (default: the setup's, else found in the first frames; simulate, eval: 1.73)",
             .least = 0.2, .most = 6, .field = [](O& o) -> F { return &o.mount.height_m; }},
-    Setting{.key = "mount.roll_deg", .option = "--mount-roll", .commands = kMounted | C::kRelabel, .unit = "deg", .help = "Left side up (default: the setup's, else found; simulate, eval: 0)",
-            .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.roll_deg; }},
+    Setting{.key = "mount.roll_deg", .option = "--mount-roll", .commands = kMounted | C::kRelabel, .unit = "deg", .help = "Left side up, 180 for a sensor that hangs upside down (default: the setup's, else found; simulate, eval: 0)",
+            .least = -180, .most = 180, .field = [](O& o) -> F { return &o.mount.roll_deg; }},
     Setting{.key = "mount.pitch_deg", .option = "--mount-pitch", .commands = kMounted | C::kRelabel, .unit = "deg", .help = "Looking down in front (default: the setup's, else found; simulate, eval: 0)",
-            .least = -28, .most = 28, .field = [](O& o) -> F { return &o.mount.pitch_deg; }},
+            .least = -90, .most = 90, .field = [](O& o) -> F { return &o.mount.pitch_deg; }},
     Setting{.key = "mount.guess", .option = "--mount-guess", .commands = kGuessing, .help = "Go on as if the sensor stood level at 1.73 m where the ground does not show its mount, instead of ending with exit code 10",
             .bare = "yes", .field = [](O& o) -> F { return &o.mount.may_guess; }},
 

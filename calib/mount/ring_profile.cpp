@@ -12,14 +12,13 @@
 namespace terracut::mount {
 namespace {
 
-/// Of a sensor that leans so far that its rings meet the ground nowhere near where those of a level
-/// one do. What could always be stated of one that stands counts as level.
+/// Of a sensor upside down whose rings meet the ground nowhere near where those of a level one do:
+/// where all look up of themselves, a level one's meet none. Of one that stands, the rings of a
+/// level one make the better grid.
 bool leans(const Mount& mount) noexcept {
-  constexpr double kLevel_rad = 0.5, kLevelUpsideDown_rad = 0.05;
-  const double roll_rad = std::abs(mount.roll_rad), pitch_rad = std::abs(mount.pitch_rad);
-  return is_upside_down(mount)
-             ? std::max(std::numbers::pi - roll_rad, pitch_rad) > kLevelUpsideDown_rad
-             : std::max(roll_rad, pitch_rad) >= kLevel_rad;
+  constexpr double kLevel_rad = 0.05;
+  return is_upside_down(mount) && std::max(std::numbers::pi - std::abs(mount.roll_rad),
+                                           std::abs(mount.pitch_rad)) > kLevel_rad;
 }
 
 /// How far from its start a beam that turns with the head meets the ground where that is nearest;

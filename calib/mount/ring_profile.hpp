@@ -16,8 +16,8 @@ struct Ring {
   /// Of the beam, in the sensor frame, and of one upside down turned over; rows ascend in it.
   double elevation_rad = 0;
   double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin (vertical offset).
-  /// Mean horizontal distance at which this beam meets the mount's ground plane, of a sensor that
-  /// leans by more than half a radian the least; infinity where it never does (elevation at or
+  /// Mean horizontal distance at which this beam meets the mount's ground plane, of one upside
+  /// down that leans the least; infinity where it never does (elevation at or
   /// above the horizon) or only beyond the range limit.
   double ground_distance_m = 0;
 };

@@ -293,7 +293,9 @@ Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> poi
   const auto even = evened_out(near);
   const auto seed = search(even);
   const auto found = seed ? refine(even, *seed) : std::optional<Fit>();
-  const double share = found ? share_within_reach(even, found->ground) : 0.0;
+  // Least squares may lead from a plane below the sensor to one above it.
+  const bool is_below = found && mount_over(found->ground).height_m > 0;
+  const double share = is_below ? share_within_reach(even, found->ground) : 0.0;
   if (share < kLeastShare) {
     return fail(
         ErrorCode::kMalformed,

@@ -71,13 +71,18 @@ Error uncertain(const FoundMount& found) {
 }
 
 bool MountFinder::add_frame(std::span<const std::array<float, 3>> points) {
+  return add_estimate(estimate_mount(points));
+}
+
+bool MountFinder::add_estimate(const Expected<MountEstimate>& estimated) {
   ++looked_at_;
-  const auto estimated = estimate_mount(points);
   if (!estimated) {
     last_fault_ = estimated.error().message;
     return false;
   }
   seen_.push_back(estimated->mount);
+  // Of a sensor upside down, 179 and -179 degrees are about the same.
+  seen_.back().roll_rad = nearest_turn(estimated->mount.roll_rad, seen_.front().roll_rad);
   deviations_.push_back(estimated->deviation);
   return true;
 }
@@ -88,8 +93,8 @@ Expected<FoundMount> MountFinder::found() const {
                                                        looked_at_, seen_.size(), last_fault_));
   }
   const Mount middle = median_of(std::span(seen_)), deviation = median_of(std::span(deviations_));
-  FoundMount found{{std::round(middle.height_m * 1000) / 1000, rounded_rad(middle.roll_rad),
-                    rounded_rad(middle.pitch_rad)},
+  FoundMount found{{std::round(middle.height_m * 1000) / 1000,
+                    rounded_rad(nearest_turn(middle.roll_rad, 0)), rounded_rad(middle.pitch_rad)},
                    {},
                    seen_.size()};
   for (const auto figure : kFigures) {

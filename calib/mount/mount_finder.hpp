@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "calib/mount/mount.hpp"
+#include "calib/mount/mount_estimate.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::mount {
@@ -50,6 +51,8 @@ class MountFinder {
   /// Near points of one frame, in the sensor's frame, of the strip that the vehicle stands on
   /// (pipeline/ground/near_ground.hpp). Whether they show a ground.
   bool add_frame(std::span<const std::array<float, 3>> points);
+  /// What one frame shows, estimated already.
+  bool add_estimate(const Expected<MountEstimate>& estimated);
 
   [[nodiscard]] std::size_t frames() const noexcept { return seen_.size(); }  ///< With a ground.
   [[nodiscard]] std::size_t frames_looked_at() const noexcept { return looked_at_; }

@@ -5,29 +5,44 @@
 #include <memory>
 
 #include "calib/mount/mount_finder.hpp"
+#include "calib/mount/turned_mount.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 
 namespace terracut::ground {
 
-/// Finds the mount from the near ground of the first frames of a run. Start-up: allocates.
+/// Finds the mount from the near ground of the first frames of a run: of a sensor that stands, and
+/// where these do not show one for certain, of one that hangs upside down or is tilted. Start-up:
+/// allocates.
 class MountSearch {
  public:
   /// Of a sensor whose mount is mount::kAtTheSensor.
   void add_frame(const frame::RangeImage& image) {
     take_near_ground(image, *ground_);
-    finder_.add_frame(ground_->in_use());
+    Expected<mount::MountEstimate> standing = mount::estimate_mount(ground_->in_use());
+    const auto any_way_up = standing ? standing : turned_mount(image);
+    if (!any_way_up) standing.error().message += "; " + any_way_up.error().message;
+    standing_.add_estimate(standing);
+    any_way_up_.add_estimate(any_way_up);
   }
   [[nodiscard]] bool has_enough_frames() const noexcept {
-    return finder_.frames_looked_at() >= mount::kFramesToFind;
+    return standing_.frames_looked_at() >= mount::kFramesToFind;
   }
   /// MountFinder::certain()
-  [[nodiscard]] Expected<mount::FoundMount> found() const { return finder_.certain(); }
-  [[nodiscard]] const mount::MountFinder& finder() const noexcept { return finder_; }
+  [[nodiscard]] Expected<mount::FoundMount> found() const { return finder().certain(); }
+  [[nodiscard]] const mount::MountFinder& finder() const {
+    return standing_.certain() || !any_way_up_.certain() ? standing_ : any_way_up_;
+  }
 
  private:
+  [[nodiscard]] Expected<mount::MountEstimate> turned_mount(const frame::RangeImage& image) const {
+    const auto around = std::make_unique<NearGround>();
+    take_around(image, *around);
+    return mount::estimate_turned_mount(ground_->in_use(), around->in_use());
+  }
+
   std::unique_ptr<NearGround> ground_ = std::make_unique<NearGround>();
-  mount::MountFinder finder_;
+  mount::MountFinder standing_, any_way_up_;
 };
 
 }  // namespace terracut::ground

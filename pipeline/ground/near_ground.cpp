@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware_io/frame/each_return.hpp"
+
 namespace terracut::ground {
 namespace {
 
@@ -43,6 +45,16 @@ void take_near_ground(const frame::PointPlanes& points, std::span<const float> h
       ground.points[ground.count++] = {x_m[cell], y_m[cell], z_m[cell]};
     }
   }
+}
+
+void take_around(const frame::RangeImage& image, NearGround& ground) noexcept {
+  const std::size_t step = image.returns() / NearGround::kMost + 1;
+  std::size_t next = 0;
+  ground.count = 0;
+  frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
+    if (next++ % step != 0 || ground.count == NearGround::kMost) return;
+    ground.points[ground.count++] = {placed.point.x_m, placed.point.y_m, placed.point.z_m};
+  });
 }
 
 }  // namespace terracut::ground

@@ -57,4 +57,7 @@ inline void take_near_ground(const frame::RangeImage& image,
   take_near_ground(image.points(), image.z_m(), image.shape(), ground);
 }
 
+/// Fills `ground` with returns of the whole image instead, near and far, evenly thinned out.
+void take_around(const frame::RangeImage& image, NearGround& ground) noexcept;
+
 }  // namespace terracut::ground

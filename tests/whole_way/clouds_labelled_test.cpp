@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -139,6 +140,26 @@ TEST(CloudsLabelled, OfRecordedScansGiveAPointTheSameLabelHoweverTheyAreFed) {
     std::size_t same = 0;
     for (std::size_t i = 0; i < order.size(); ++i) same += shuffled[i] == expected[order[i]];
     EXPECT_GT(static_cast<double>(same) / static_cast<double>(order.size()), 0.985) << sequence;
+  }
+}
+
+TEST(CloudsLabelled, OfASensorUpsideDownGetTheLabelsOfOneThatStands) {
+  for (const int rings : {16, 64}) {
+    const OrderedCloud cloud = synthetic_cloud(rings);
+    const std::vector<Label> expected = labels_of({cloud.points, cloud.ring});
+    OrderedCloud hanging = cloud;
+    for (CloudPoint& p : hanging.points) p = {p.x_m, -p.y_m, -p.z_m, p.remission};
+    for (auto& ring : hanging.ring) ring = static_cast<std::uint16_t>(rings - 1 - ring);
+    Segmenter stated =
+        Segmenter::make({.mount = {.height_m = 1.73, .roll_rad = std::numbers::pi}}).value();
+    EXPECT_EQ(labels_of(stated, {hanging.points, hanging.ring}), expected);
+    Segmenter finds = Segmenter::make({.find_mount = true}).value();
+    const auto labels = labels_of(finds, {hanging.points, hanging.ring});
+    ASSERT_TRUE(finds.found_mount());
+    EXPECT_NEAR(std::abs(finds.found_mount()->mount.roll_rad), std::numbers::pi, 0.01);
+    std::size_t same = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) same += labels[i] == expected[i];
+    EXPECT_GT(same, labels.size() * 99 / 100);
   }
 }
 

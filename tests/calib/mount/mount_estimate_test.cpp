@@ -41,6 +41,17 @@ class Scene : public test::SensorView {
   }
 };
 
+/// The strip of a recorded scan.
+Cloud strip_of_scan(const std::filesystem::path& path) {
+  const std::string bytes = calib::read_text(path);
+  Cloud points(bytes.size() / 16);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::copy_n(bytes.data() + 16 * i, 12, reinterpret_cast<char*>(points[i].data()));
+  }
+  std::erase_if(points, [](const auto& p) { return std::abs(p[1]) > 1.5F; });
+  return points;
+}
+
 TEST(MountEstimate, FindsHeightRollAndPitchAmongWallsAndCars) {
   for (const double height_m : {0.8, 1.73, 3.0}) {
     for (const double pitch_deg : {-5.0, 0.0, 3.0}) {
@@ -130,19 +141,24 @@ TEST(MountEstimate, SaysWhenThereIsNoGround) {
   EXPECT_FALSE(estimate_mount(line.points()).has_value());
 }
 
+TEST(MountEstimate, DoesNotStandUpsideDown) {
+  const auto folder = test::shared_data("semantickitti_more/sequences");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.path().extension() != ".bin") continue;
+    Cloud points = strip_of_scan(entry.path());
+    for (auto& p : points) p = {p[0], -p[1], -p[2]};
+    EXPECT_FALSE(estimate_mount(points)) << entry.path();
+  }
+}
+
 TEST(MountEstimate, FindsKittisSensorAboutItsPublishedHeight) {
   const auto folder = test::shared_data("semantickitti/sequences");
   if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no " << folder;
   int scans = 0;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
     if (entry.path().extension() != ".bin") continue;
-    const std::string bytes = calib::read_text(entry.path());
-    Cloud points(bytes.size() / 16);
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      std::copy_n(bytes.data() + 16 * i, 12, reinterpret_cast<char*>(points[i].data()));
-    }
-    std::erase_if(points, [](const auto& p) { return std::abs(p[1]) > 1.5F; });
-    const auto found = estimate_mount(points);
+    const auto found = estimate_mount(strip_of_scan(entry.path()));
     ASSERT_TRUE(found.has_value()) << entry.path() << found.error().message;
     EXPECT_NEAR(found->mount.height_m, 1.73, 0.1) << entry.path();
     EXPECT_LT(std::abs(beams::rad_to_deg(found->mount.roll_rad)), 4.0) << entry.path();

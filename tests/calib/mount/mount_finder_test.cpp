@@ -158,6 +158,16 @@ TEST(MountFinder, AnswersAMountThatCanBeStatedAsItIsPrinted) {
   EXPECT_EQ(found->mount.pitch_rad, beams::deg_to_rad(-2.35));
 }
 
+TEST(MountFinder, TakesTheRollOfASensorUpsideDownAcrossTheHalfTurn) {
+  MountFinder finder;
+  for (const double roll_deg : {179.0, -179.8, 179.6, -179.6, -178.0}) {
+    finder.add_estimate(MountEstimate{mount(1.73, roll_deg, 1), mount(0.01, 0.1, 0.1), 0});
+  }
+  const auto found = finder.certain();
+  ASSERT_TRUE(found) << found.error().message;
+  EXPECT_EQ(found->mount.roll_rad, beams::deg_to_rad(-179.8));
+}
+
 TEST(MountFinder, SaysWhyThereIsNoMount) {
   MountFinder finder;
   EXPECT_THAT(finder.found(),

@@ -68,6 +68,18 @@ TEST(NearGround, ThinsLargeImagesOutEvenly) {
   EXPECT_NEAR(share, 1.0 / kStep, 0.02);
 }
 
+TEST(NearGround, OfAllAroundIsEvenlyTakenOfTheWholeImage) {
+  memory::FixedMemory memory;
+  frame::RangeImage image({64, 360}, 1, memory);
+  fill(image);
+  const auto around = std::make_unique<NearGround>();
+  take_around(image, *around);
+  EXPECT_EQ(around->count, 64U * 360 / 3);
+  std::size_t far = 0;
+  for (const auto& [x, y, z] : around->in_use()) far += std::hypot(x, y) > 18.2 ? 1U : 0U;
+  EXPECT_EQ(far, around->count / 2 - 120);
+}
+
 TEST(NearGround, IsEmptyOfAnEmptyFrame) {
   memory::FixedMemory memory;
   frame::RangeImage image({64, 360}, 1, memory);

@@ -270,6 +270,20 @@ TEST_F(Cli, ReplayFindsTheMountThatIsNotStated) {
   EXPECT_THAT(in_part.err, AllOf(HasSubstr("height 2.500 m (stated)"), HasSubstr("pitch 4.0")));
 }
 
+TEST_F(Cli, ReplayFindsAndLabelsASensorThatHangsUpsideDown) {
+  expect_done(
+      "simulate --sensor ruby128 --scene flat --duration 0.3 --mount-height 1.9 --mount-roll 179 "
+      "--mount-pitch 2 -o flat.pcap");
+  const Outcome found =
+      run("replay flat.pcap --calibration flat.calibration.csv --truth flat.truth --json r.json");
+  EXPECT_EQ(found.exit_code, 0) << found.err;
+  const auto summary = json("r.json")["summary"];
+  EXPECT_NEAR(summary["mount"]["height_m"], 1.9, 0.02);
+  EXPECT_NEAR(summary["mount"]["roll_deg"], 179, 0.3);
+  EXPECT_NEAR(summary["mount"]["pitch_deg"], 2, 0.3);
+  EXPECT_GT(summary["iou_g"], 0.95);
+}
+
 TEST_F(Cli, AMountThatIsNotFoundGivesNoLabelsUnlessItIsStatedOrMayBeGuessed) {
   // A fifth of a revolution, and so no ground behind the vehicle nor straight ahead.
   const std::string replay = "replay " + quoted(kDrive) +

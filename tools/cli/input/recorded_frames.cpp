@@ -6,6 +6,7 @@
 
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/scan/scan_to_image.hpp"
+#include "pipeline/ground/mount_search.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "pipeline/run/packet_pipeline.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -27,12 +28,13 @@ const decode::Decoder& decoder_of(const run::PacketPipeline& pipeline) {
 }  // namespace
 
 Status RecordedFrames::look_for_mount(std::size_t most, mount::MountFinder& finder) {
-  const auto ground = std::make_unique<ground::NearGround>();
-  return each_frame(mount::kAtTheSensor, most, [&](const frame::RangeImage& image) {
-    ground::take_near_ground(image, *ground);
-    finder.add_frame(ground->in_use());
+  ground::MountSearch search;
+  const Status shown = each_frame(mount::kAtTheSensor, most, [&](const frame::RangeImage& image) {
+    search.add_frame(image);
     return Status{};
   });
+  finder = search.finder();
+  return shown;
 }
 
 template <class Frames, class Take>
@@ -81,6 +83,12 @@ Status CaptureFrames::each_frame(const mount::Mount& mount, std::size_t most,
 }
 
 Status CaptureFrames::look_for_mount(std::size_t most, mount::MountFinder& finder) {
+  const Status looked = look_for_standing_mount(most, finder);
+  if (!looked || finder.certain()) return looked;
+  return RecordedFrames::look_for_mount(most, finder);
+}
+
+Status CaptureFrames::look_for_standing_mount(std::size_t most, mount::MountFinder& finder) {
   memory::FixedMemory memory;
   run::PacketPipeline pipeline(
       capture_.calibration, ring_profile(mount::kAtTheSensor),

@@ -48,8 +48,9 @@ class CaptureFrames : public RecordedFrames {
   [[nodiscard]] Status each_frame(const mount::Mount& mount, std::size_t most,
                                   const OnFrame& on_frame) override;
   [[nodiscard]] mount::RingProfile ring_profile(const mount::Mount& mount) const override;
-  /// By the objects that label the capture, so that it takes no more memory than the run does:
-  /// frames of points take three times that of frames as measured.
+  /// First by the objects that label the capture, so that it takes no more memory than the run
+  /// does: frames of points, which show a sensor that does not stand, take three times that of
+  /// frames as measured.
   [[nodiscard]] Status look_for_mount(std::size_t most, mount::MountFinder& finder) override;
 
   /// Of the last pass.
@@ -58,6 +59,7 @@ class CaptureFrames : public RecordedFrames {
   [[nodiscard]] const std::string& fault() const noexcept { return fault_; }
 
  private:
+  [[nodiscard]] Status look_for_standing_mount(std::size_t most, mount::MountFinder& finder);
   /// Pushes the capture's datagrams into `frames`, a Decoder or what is made like it, until `take`
   /// had so many of those that come out.
   template <class Frames, class Take>

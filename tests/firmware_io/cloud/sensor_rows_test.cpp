@@ -177,7 +177,7 @@ TEST(SensorRows, LeavePointsThatAreNoReturnsAndOfLasersNeverSeenWithoutOne) {
 TEST(SensorRows, AreNotOneMoreForEachNumberThatStandsForNoReturn) {
   const RingTable table = uneven_rings(16, 15, 1);
   KnownCloud cloud = known_cloud(table, 900, [](int ring) { return ring; });
-  for (const std::size_t i : {7, 900, 14'000}) {
+  for (const std::size_t i : {7U, 900U, 14'000U}) {
     cloud.points[i] = {};
     cloud.laser[i] = 255;
     cloud.ring[i] = kNoRing;

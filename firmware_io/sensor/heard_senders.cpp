@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <iterator>
 #include <utility>
 
@@ -87,15 +86,21 @@ std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& ar
   std::vector<Sensor> found;
   for (const auto& [address, sender] : senders_) {
     for (const SensorModel model : kDecodedModels) {
-      if (!wants(model) || !std::invoke(are, sender.probe, model)) continue;
-      std::ranges::move(sender.sensors_of(model), std::back_inserter(found));
+      if (!wants(model) || !sender.streams.contains(model)) continue;
+      std::vector<Sensor> its_own = sender.sensors_of(model);
+      if (are(sender.probe, model, its_own)) {
+        std::ranges::move(its_own, std::back_inserter(found));
+      }
     }
   }
   return found;
 }
 
 std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
-  return sensors_that(&SensorProbe::knows);
+  return sensors_that([](const SensorProbe& probe, SensorModel model, const auto& its_own) {
+    // Packets of several heads by turns show no rotation, but that they are of several.
+    return its_own.size() > 1 ? probe.packets_of(model) >= kSteady_packets : probe.knows(model);
+  });
 }
 
 bool HeardSenders::is_steady_but_stands(std::uint32_t address) const {
@@ -104,7 +109,7 @@ bool HeardSenders::is_steady_but_stands(std::uint32_t address) const {
 }
 
 std::vector<HeardSenders::Sensor> HeardSenders::steady() const {
-  return sensors_that([](const SensorProbe& probe, SensorModel model) {
+  return sensors_that([](const SensorProbe& probe, SensorModel model, const auto& /*its_own*/) {
     return probe.packets_of(model) >= kSteady_packets;
   });
 }

@@ -153,13 +153,6 @@ TEST(CloudsLabelled, OfASensorUpsideDownGetTheLabelsOfOneThatStands) {
     Segmenter stated =
         Segmenter::make({.mount = {.height_m = 1.73, .roll_rad = std::numbers::pi}}).value();
     EXPECT_EQ(labels_of(stated, {hanging.points, hanging.ring}), expected);
-    Segmenter finds = Segmenter::make({.find_mount = true}).value();
-    const auto labels = labels_of(finds, {hanging.points, hanging.ring});
-    ASSERT_TRUE(finds.found_mount());
-    EXPECT_NEAR(std::abs(finds.found_mount()->mount.roll_rad), std::numbers::pi, 0.01);
-    std::size_t same = 0;
-    for (std::size_t i = 0; i < labels.size(); ++i) same += labels[i] == expected[i];
-    EXPECT_GT(same, labels.size() * 99 / 100);
   }
 }
 

@@ -61,11 +61,11 @@ TEST_F(CliRefusal, OfAShortCaptureEndsWhereItsCalibrationLiesBesideIt) {
   const std::string whole = content_of(kDrive);
   write("short.pcap", whole.substr(0, whole.size() / 2));
   expect_refusal("replay short.pcap", kInputRefused,
-                 HasSubstr("Beside the capture it would be found as short.calibration.xml"));
+                 HasSubstr("put it beside the capture as short.calibration.xml"));
   fs::copy(kDriveCalibration, folder_ / "short.calibration.xml");
   const Outcome found = run("replay short.pcap --mount-guess");
   EXPECT_EQ(found.exit_code, 0) << found.err;
-  EXPECT_THAT(found.err, HasSubstr("calibration: short.calibration.xml"));
+  EXPECT_THAT(found.err, HasSubstr("short.calibration.xml beside the capture is taken"));
   fs::copy(kDriveCalibration, folder_ / "short.calibration.yaml");
   expect_refusal("replay short.pcap", kInputRefused, HasSubstr("either might be meant"));
 }

@@ -99,9 +99,9 @@ TEST_F(CliSenders, OfTwoSensorsBehindOneAddressAreRefusedUntilOneIsChosen) {
                   AllOf(HasSubstr("several sensors"), HasSubstr(first), HasSubstr(second)));
     }
     EXPECT_THAT(run("info two.pcap").out, AllOf(HasSubstr(first), HasSubstr(second)));
-    expect_done(with_calibration("replay two.pcap --labels chosen " + first));
+    expect_done(with_calibration("replay two.pcap --labels chosen --overwrite " + first));
     expect_labels_of_the_drive("chosen");
-    expect_done(with_calibration("replay two.pcap --labels other " + second));
+    expect_done(with_calibration("replay two.pcap --labels other --overwrite " + second));
   }
 }
 
@@ -117,14 +117,15 @@ TEST_F(CliSenders, OfASensorThatJoinsLaterAreLeftOutAndCounted) {
   auto drive = capture::PcapSource::open(kDrive);
   auto capture = capture::PcapWriter::create(folder_ / "joins.pcap");
   ASSERT_TRUE(drive && capture);
-  constexpr std::size_t kHeardAtTheStart = 6000;
+  std::vector<std::uint8_t> earlier;
   for (std::size_t number = 0; const auto next = *drive->next(); ++number) {
     Datagram datagram = *next;
     ASSERT_TRUE(capture->write(datagram));
+    if (number == 3000) earlier.assign(datagram.payload.begin(), datagram.payload.end());
+    if (number != 4000) continue;
+    datagram.payload = earlier;  // no copy of what was just sent
     datagram.destination_port = 2369;
-    if (number == kHeardAtTheStart) {
-      ASSERT_TRUE(capture->write(datagram));
-    }
+    ASSERT_TRUE(capture->write(datagram));
   }
   ASSERT_TRUE(capture->finish());
   const Outcome outcome = run("replay joins.pcap --json report.json");

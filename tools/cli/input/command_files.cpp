@@ -57,8 +57,8 @@ RunFiles drive_of(const Options& options) {
   return files;
 }
 
-/// The stream of a live run, or what a command has as arguments; of a capture with the sensor's
-/// address and port, where one of several is chosen by them.
+/// The stream of a live run, or what a command has as arguments; of a capture with what chooses one
+/// of several sensors.
 std::string made_of(Command command, const RunFiles& files, const Options& options) {
   const auto with = [](std::string_view word, const std::string& text) {
     return text.empty() ? std::string() : fmt::format(" {} {}", word, text);
@@ -77,7 +77,8 @@ std::string made_of(Command command, const RunFiles& files, const Options& optio
   }
   if (text.empty()) return text;
   return text + with("from", capture.from) +
-         with("port", capture.port ? std::to_string(*capture.port) : "");
+         with("port", capture.port ? std::to_string(*capture.port) : "") + with("to", capture.to) +
+         with("in VLAN", capture.vlan) + with("of", capture.mac);
 }
 
 void add_evaluation(RunFiles& files, const Options& options) {

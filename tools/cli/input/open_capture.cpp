@@ -85,7 +85,9 @@ Expected<OpenCapture> open_capture(const CaptureOptions& options) {
   if (!unit) return tl::unexpected(unit.error());
   auto calibration = calibration_of(options, sensor->model, *unit);
   if (!calibration) return tl::unexpected(calibration.error());
-  if (Status status = unit->rewind(); !status) return tl::unexpected(status.error());
+  // Opened once more, so that nothing is counted twice.
+  unit = open_unit(options, sensor->stream);
+  if (!unit) return tl::unexpected(unit.error());
   std::string sensor_line = describe(*sensor), calibration_line = describe(*calibration);
   return OpenCapture{*std::move(unit), *sensor, *std::move(calibration), std::move(sensor_line),
                      std::move(calibration_line)};

@@ -101,7 +101,7 @@ EXPECTED = [
     ("./tools/report page simulated flat --duration 0.5 --method terracut,paper", Shows((r"page +page/index\.html",), files=("page/index.html",))),
     ("terracut eval semantickitti ROOT --method terracut,paper,pfaff --json methods.json",
      Shows((r"terracut +9\d\.", r"paper +\d", r"pfaff +\d"), files=("methods.json",))),
-    ("terracut segment sequences/00 --labels labels", Shows((r"mount: height 1\.7", r"frames +10 \(10 complete\)"), files=("labels/000009.label",))),
+    ("terracut segment sequences/00 --labels scan_labels", Shows((r"mount: height 1\.7", r"frames +10 \(10 complete\)"), files=("scan_labels/000009.label",))),
     ("terracut encode sequences/00 -o scans.pcap", Shows((r"wrote +scans\.pcap",), files=("scans.pcap",))),
 ]
 # Scripts whose packages the test does without, where they are not installed.

@@ -34,6 +34,7 @@ IN_TIME = 0.95  # of the frames
 DOORS_AGAIN_S = 30  # of which it waits ten between two tries
 ANSWERS_AGAIN_S = 30
 CHUNK = 1 << 16
+AT_ONCE, PAUSE_S = 20, 0.01  # connections to a door; more would overflow the host's own queue (netdev_max_backlog)
 
 
 def hold(program: Program, report: Report, drive: Drive, seconds: float, deadline_ms: float) -> None:
@@ -184,7 +185,11 @@ class Crowd:
         hard = resource.getrlimit(resource.RLIMIT_NOFILE)[1]
         resource.setrlimit(resource.RLIMIT_NOFILE, (hard, hard))
         self.over = threading.Event()
-        self.idle = [idle_connection(port) for port in ports.of.values() for _ in range(min(IDLE_CONNECTIONS, hard // 5))]
+        self.idle = []
+        for number in range(min(IDLE_CONNECTIONS, hard // 5)):
+            self.idle += [idle_connection(port) for port in ports.of.values()]
+            if number % AT_ONCE == 0:
+                time.sleep(PAUSE_S)
         self.threads = [threading.Thread(target=self._request, args=(ports.of[door], door, kind), daemon=True)
                         for door in ports.HTTP for kind in self.REQUESTS]  # fmt: skip
         self.sent_bytes = 0
@@ -302,7 +307,7 @@ def all_at_once(program: Program, report: Report, drive: Drive, seconds: float, 
     for door in ports.NAMES:
         refused = {name: count for name, count in lost.items() if name.startswith(door) and "refused" in name}
         report.check(of + f"{door}: what was refused is counted", bool(refused), refused)
-    report.check(of + "idle connections turned away, of all", turned_away > len(crowd.idle) / 2,
+    report.check(of + "idle connections turned away, of all; others wait", turned_away > 0,
                  f"{turned_away} of {len(crowd.idle)}; {sent_mb:.0f} MB were sent by others")  # fmt: skip
     report.check(of + f"memory grew by {MOST_GROWTH_MIB} MiB at most", grown_mib <= MOST_GROWTH_MIB, f"{grown_mib:.1f} MiB")
     report.check(of + "descriptors open at most", max(most_open) < 512, max(most_open))

@@ -173,7 +173,9 @@ try {
   player.tell(0, 2, undefined, 'on')
   const plays = await player.next(message => message.id === 'on')
   assert.deepEqual([plays.status, plays.seeks, plays.speed], [0, 0, 2])
-  await player.next(message => message.op === 'state' && message.status === 3)
+  // Over and over: after its end it begins again.
+  await player.next(message => message.op === 'cloud' && message.time > finish - 300_000_000n)
+  await player.next(message => message.op === 'cloud' && message.time < begin + 300_000_000n)
   player.socket.send(Buffer.from([3, 0]))
   await player.next(message => message.op === 'status' && /cut short/.test(message.message))
   player.socket.close()

@@ -19,14 +19,14 @@ import signal
 import socket
 import subprocess
 import sys
+import threading
 import time
 from pathlib import Path
 
 SHARDS = 12
 PATIENCE_S = 100
 NEEDED = ("sbatch", "squeue", "slurmctld", "slurmd", "munged")
-# Paced by the capture's stamps, so that tasks last for seconds without using a core: there is time to kill.
-PACED = ["--rate", "0.4"]
+HELD_S = 2.5
 
 
 def pause():
@@ -187,10 +187,6 @@ class Fleet:
                     (path.parent / f"again_{path.stem}{ending}").symlink_to(of_drive)
         self.make("manifest", "fleet", "-o", "fleet.json")
         manifest = json.loads((self.folder / "fleet.json").read_text())
-        for drive in manifest["drives"]:
-            if "capture" in drive:
-                drive["arguments"] = PACED
-        (self.folder / "fleet.json").write_text(json.dumps(manifest))
         with open(self.root / "short.pcap", "r+b") as capture:
             capture.truncate(2_000_003)
         (self.root / "missing.pcap").unlink()
@@ -226,15 +222,50 @@ def submit(cluster, fleet):
                 TERRACUT=str(fleet.program))
 
 
-def processes_of(shard):
-    """Of `terracut relabel` of this fleet."""
+def processes_that(are_meant):
+    """Whose words are so."""
     found = []
     for process in Path("/proc").glob("[0-9]*"):
         with contextlib.suppress(OSError):
-            words = (process / "cmdline").read_bytes().split(b"\0")
-            if b"relabel" in words and f"{shard}/{SHARDS}".encode() in words:
+            if are_meant((process / "cmdline").read_bytes().split(b"\0")):
                 found.append(int(process.name))
     return found
+
+
+def processes_of(shard):
+    """Of `terracut relabel` of this fleet."""
+    return processes_that(lambda words: b"relabel" in words and f"{shard}/{SHARDS}".encode() in words)
+
+
+@contextlib.contextmanager
+def tasks_that_last(fleet):
+    """Each drive's labelling is held for a while, without using a core, so that there is time to kill."""
+    over = threading.Event()
+
+    def is_of_a_drive(words):
+        return b"replay" in words and any(word.startswith(bytes(fleet.root)) for word in words)
+
+    def hold():
+        held_since = {}
+        while not over.wait(0.01):
+            for process in processes_that(is_of_a_drive):
+                with contextlib.suppress(ProcessLookupError):
+                    if process not in held_since:
+                        os.kill(process, signal.SIGSTOP)
+                        held_since[process] = time.monotonic()
+                    elif time.monotonic() - held_since[process] > HELD_S:
+                        os.kill(process, signal.SIGCONT)
+        for process in held_since:
+            with contextlib.suppress(ProcessLookupError):
+                os.kill(process, signal.SIGCONT)
+
+    holding = threading.Thread(target=hold)
+    holding.start()
+    try:
+        yield
+    finally:
+        over.set()
+        holding.join()
 
 
 def check_parallel(fleet):
@@ -267,7 +298,8 @@ def run(repository: Path, program: Path, folder: Path):
     bad = ("short", "missing")
     os.chdir(folder)
     started = time.monotonic()
-    with Cluster(folder / "slurm") as cluster:
+    with Cluster(folder / "slurm") as cluster, contextlib.ExitStack() as first:
+        first.enter_context(tasks_that_last(fleet))
         submit(cluster, fleet)
         wait_for("tasks on both nodes", lambda: {node for node, _ in cluster.tasks()} == {"n1", "n2"})
         wait_for("labels", lambda: any((folder / "out").rglob("*.label")))
@@ -289,6 +321,7 @@ def run(repository: Path, program: Path, folder: Path):
         print(f"killed: node n2, and the task of shard {killed[0]}; the array ended {time.monotonic() - started:.0f} s after it began")
         control = (folder / "slurm/slurmctld.log").read_text()
         assert "due to failure of node n2" in control, "nothing was requeued"
+        first.close()
         print(fleet.status())
 
         written = {path: path.stat().st_mtime_ns for path in (folder / "out").rglob("*.label")}

@@ -35,6 +35,7 @@ std::int16_t NearestRing::operator()(const scan::ScanPoint& point) const noexcep
   const float squared_m2 = point.x_m * point.x_m + point.y_m * point.y_m;
   const float distance_m = std::sqrt(squared_m2);
   const float range_m = std::sqrt(squared_m2 + point.z_m * point.z_m);
+  if (range_m == 0) return scan::kNoRing;  // so near the origin that its square is none
   const float position = (point.z_m / range_m + 1) * (0.5F * kBins);
   const auto bin = static_cast<std::size_t>(std::clamp(position, 0.0F, float{kBins}));
   const auto off_m = [&](std::size_t ring) {

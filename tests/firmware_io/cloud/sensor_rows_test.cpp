@@ -12,6 +12,7 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/nominal_hdl64e.hpp"
+#include "firmware_io/cloud/nearest_ring.hpp"
 #include "firmware_io/cloud/row_doubt.hpp"
 #include "tests/firmware_io/scan/synthetic_scan.hpp"
 
@@ -403,6 +404,12 @@ TEST(SensorRows, AreRefusedToACloudThatLacksWhatToldThemInTheFirst) {
   EXPECT_EQ(RowFinder(*organised).find({cloud.points}, found).error().code, ErrorCode::kMalformed);
   EXPECT_EQ(RowFinder(*organised).find({cloud.points, {}, 8}, found).error().code,
             ErrorCode::kMalformed);
+}
+
+TEST(NearestRing, OfAPointThatIsNextToTheOriginIsNone) {
+  const NearestRing nearest({{0.1, 0}, {0, 0}, {-0.1, 0}});
+  EXPECT_EQ(nearest({1e-30F, 0, 1e-30F, 0}), scan::kNoRing);
+  EXPECT_EQ(nearest({10, 0, 0, 0}), 1);
 }
 
 }  // namespace

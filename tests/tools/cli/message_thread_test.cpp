@@ -32,11 +32,11 @@ class Messages : public testing::Test {
     }
     ::fcntl(there(), F_SETFL, 0);
   }
-  /// What was written, up to `end`.
+  /// What was written, up to `end`, and what came with it.
   [[nodiscard]] std::string read_until(const std::string& end) const {
     std::string text;
     std::array<char, 65536> part{};
-    while (!text.ends_with(end)) {
+    while (text.find(end) == std::string::npos) {
       const ::ssize_t got = ::read(ends_[0], part.data(), part.size());
       if (got <= 0) break;
       text.append(part.data(), static_cast<std::size_t>(got));

@@ -12,12 +12,6 @@
 #include "firmware_io/net/ipv4_endpoint.hpp"
 
 namespace terracut::sensor {
-namespace {
-
-/// Who sends less than this part of what the one heard most does sent stray packets.
-constexpr std::uint64_t kStrayShare = 100;
-
-}  // namespace
 
 void HeardSenders::Sender::add(const decode::Datagram& datagram,
                                std::optional<SensorModel> wanted) {
@@ -41,9 +35,7 @@ std::uint64_t HeardSenders::Sender::data_packets() const {
 
 std::vector<HeardSenders::Sensor> HeardSenders::Sender::sensors_of(SensorModel model) const {
   std::vector<streams::SensorStream> all = streams.at(model).sensors();
-  std::erase_if(all, [most = all.front().packets](const auto& stream) {
-    return stream.packets * kStrayShare < most;
-  });
+  streams::drop_strays(all);
   if (all.size() == 1) return {{all.front().source_address, model}};
   std::vector<Sensor> sensors;
   for (const auto& stream : all) {

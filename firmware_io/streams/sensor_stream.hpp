@@ -51,4 +51,12 @@ struct SensorStream {
   }
 };
 
+/// Leaves out who sent but stray packets: less than a hundredth of what the one heard most did.
+inline void drop_strays(std::vector<SensorStream>& sensors) {
+  constexpr std::uint64_t kStrayShare = 100;
+  std::uint64_t most = 0;
+  for (const SensorStream& sensor : sensors) most = std::max(most, sensor.packets);
+  std::erase_if(sensors, [&](const auto& sensor) { return sensor.packets * kStrayShare < most; });
+}
+
 }  // namespace terracut::streams

@@ -105,10 +105,7 @@ struct Heard {
         std::ranges::move(of_model.sensors(), std::back_inserter(sensors));
       }
     }
-    std::uint64_t most = 0;
-    for (const auto& sensor : sensors) most = std::max(most, sensor.packets);
-    constexpr std::uint64_t kStrayShare = 100;
-    std::erase_if(sensors, [&](const auto& sensor) { return sensor.packets * kStrayShare < most; });
+    streams::drop_strays(sensors);
     return sensors;
   }
 };

@@ -27,6 +27,10 @@ struct Sender {
   std::uint32_t address = 0;            ///< IPv4, host byte order.
   std::optional<std::uint16_t> port{};  ///< None: whichever.
 
+  [[nodiscard]] constexpr bool has_sent(std::uint32_t from_address,
+                                        std::uint16_t from_port) const noexcept {
+    return address == from_address && (!port || *port == from_port);
+  }
   friend bool operator==(const Sender&, const Sender&) = default;
 };
 

@@ -195,8 +195,8 @@ void LivePcapSource::take(std::span<const std::uint8_t> frame, std::int64_t stam
   const auto parsed = capture::parse_udp_frame(link_type_, frame, stamp_ns);
   if (!parsed) {
     ++counters_.no_datagram;
-  } else if ((config_.source_address && parsed->source_address != *config_.source_address) ||
-             (config_.source_port && parsed->source_port != *config_.source_port)) {
+  } else if (config_.sender &&
+             !config_.sender->has_sent(parsed->source_address, parsed->source_port)) {
     ++counters_.foreign;
   } else if (parsed->payload.size() > config_.slot_bytes) {
     ++counters_.truncated;

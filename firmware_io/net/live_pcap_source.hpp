@@ -25,9 +25,8 @@ namespace terracut::net {
 
 struct LivePcapConfig {
   std::string interface{};
-  std::optional<std::uint16_t> port{};            ///< UDP destination port.
-  std::optional<std::uint32_t> source_address{};  ///< Only this sender; others count as foreign.
-  std::optional<std::uint16_t> source_port{};     ///< Only from this port of it.
+  std::optional<std::uint16_t> port{};  ///< UDP destination port.
+  std::optional<Sender> sender{};       ///< Only this one; others count as foreign.
 
   std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, > 0.
   std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0.
@@ -51,10 +50,7 @@ class LivePcapSource {
   void wake() const noexcept { wake_.wake(); }
 
   /// From now on only this sender; others count as foreign. From the thread that receives.
-  void accept_only(const Sender& sender) noexcept {
-    config_.source_address = sender.address;
-    config_.source_port = sender.port;
-  }
+  void accept_only(const Sender& sender) noexcept { config_.sender = sender; }
 
   /// kernel_drops is as of the last refresh_drops(), which receive() calls after every full batch
   /// and when nothing came for a while.

@@ -9,20 +9,14 @@
 namespace terracut::net {
 
 Expected<LiveSource> LiveSource::open(const ListenConfig& config, memory::FixedMemory& memory) {
-  const auto address = config.sender ? std::optional(config.sender->address) : std::nullopt;
-  const auto port = config.sender ? config.sender->port : std::nullopt;
   if (config.by_libpcap) {
-    return open_pcap({.interface = config.interface,
-                      .port = config.at.port,
-                      .source_address = address,
-                      .source_port = port},
-                     memory);
+    return open_pcap(
+        {.interface = config.interface, .port = config.at.port, .sender = config.sender}, memory);
   }
   return open_socket({.bind = config.at,
                       .multicast_group = config.multicast_group,
                       .interface = config.interface,
-                      .source_address = address,
-                      .source_port = port,
+                      .sender = config.sender,
                       .share_port = config.share_port},
                      memory);
 }

@@ -270,8 +270,7 @@ bool UdpSource::take(std::size_t slot, decode::Datagram& datagram) noexcept {
     ++counters_.other_interface;
     return false;
   }
-  if ((config_.source_address && sender.address != *config_.source_address) ||
-      (config_.source_port && sender.port != *config_.source_port)) {
+  if (config_.sender && !config_.sender->has_sent(sender.address, sender.port)) {
     ++counters_.foreign;
     return false;
   }

@@ -36,8 +36,7 @@ struct UdpSourceConfig {
   Ipv4Endpoint bind{};
   std::optional<std::uint32_t> multicast_group{};  ///< Joined on `interface`, else by the routes.
   std::string interface{};                         ///< Only what comes in here; empty: anywhere.
-  std::optional<std::uint32_t> source_address{};   ///< Only this sender; others count as foreign.
-  std::optional<std::uint16_t> source_port{};      ///< Only from this port of it.
+  std::optional<Sender> sender{};                  ///< Only this one; others count as foreign.
   /// Lets other sockets with the same option bind the port too. Of broadcasts and multicasts each
   /// then gets a copy; of datagrams to one address only one socket gets any.
   bool share_port = false;
@@ -67,10 +66,7 @@ class UdpSource {
   void wake() const noexcept { wake_.wake(); }
 
   /// From now on only this sender; others count as foreign. From the thread that receives.
-  void accept_only(const Sender& sender) noexcept {
-    config_.source_address = sender.address;
-    config_.source_port = sender.port;
-  }
+  void accept_only(const Sender& sender) noexcept { config_.sender = sender; }
 
   /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks
   /// the kernel; receive() does it by itself after every full batch and when nothing comes for a

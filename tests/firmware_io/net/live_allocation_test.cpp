@@ -13,7 +13,7 @@ class LiveMemory : public LiveTest {};
 
 TEST_F(LiveMemory, ReceivingAndSendingAllocateNothing) {
   if (!allocations_are_counted()) GTEST_SKIP() << "a sanitizer owns the heap";
-  auto source = open({.interface = "lo", .source_address = kLocalhost});
+  auto source = open({.interface = "lo", .sender = net::Sender{kLocalhost}});
   auto sender = sender_to(source);
   auto stranger = sender_to(source, kOtherLocalhost);
   send::PacketPacer pacer(1, memory_);

@@ -57,7 +57,7 @@ TEST_F(LivePcapSourceTest, HearsWhatASocketHears) {
 }
 
 TEST_F(LivePcapSourceTest, LeavesOtherPortsAndOtherSendersOut) {
-  auto source = listen({.source_address = kLocalhost});
+  auto source = listen({.sender = net::Sender{kLocalhost}});
   auto other_port = open();
   auto elsewhere = sender_to(other_port);
   auto stranger = sender_to(socket_, kOtherLocalhost);

@@ -138,7 +138,7 @@ TEST_F(UdpSourceTest, KnowsOfDropsWhileTheBufferIsNeverEmpty) {
 }
 
 TEST_F(UdpSourceTest, AcceptsOnlyTheConfiguredSenderAndCountsTheOthers) {
-  auto source = open({.source_address = kLocalhost});
+  auto source = open({.sender = net::Sender{kLocalhost}});
   auto sensor = sender_to(source, kLocalhost);
   auto stranger = sender_to(source, kOtherLocalhost);
   Numbered strange(30, 1206, 1000), wanted(10);

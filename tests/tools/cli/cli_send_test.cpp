@@ -24,7 +24,7 @@ class CliSend : public Cli {
  protected:
   void SetUp() override {
     Cli::SetUp();
-    auto source = UdpSource::open({.source_address = kLocalhost}, memory_);
+    auto source = UdpSource::open({.sender = net::Sender{kLocalhost}}, memory_);
     ASSERT_TRUE(source) << source.error().message;
     source_.emplace(*std::move(source));
   }

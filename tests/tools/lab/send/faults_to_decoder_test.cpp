@@ -29,7 +29,7 @@ class FaultsToDecoder : public LiveTest {
 
   /// Four frames in 0.4 s, at the sensor's own speed; foreign packets come from another address.
   Result play(const std::string& script) {
-    auto source = open({.source_address = kLocalhost});
+    auto source = open({.sender = net::Sender{kLocalhost}});
     auto sensor = sender_to(source);
     auto stranger = sender_to(source, kOtherLocalhost);
     send::PacketPacer pacer(1, memory_);

@@ -8,7 +8,8 @@ house_test.py REPOSITORY
 
 import re
 import sys
-from collections import Counter
+from collections import defaultdict
+from graphlib import CycleError, TopologicalSorter
 from pathlib import Path
 
 # Lowest first: a room includes itself and the rooms before it.
@@ -20,7 +21,11 @@ ALONE = {
 }
 # One program each, and so one namespace each, however many folders it has.
 PROGRAMS = {"tools/cli": "cli", "tools/doctor": "doctor"}
-MOST_FILES = 25
+# A header and its source are one concept. Commands are many by nature, a file each.
+MOST_CONCEPTS = 16
+ROWS_OF_A_TABLE = {Path("tools/cli/commands")}
+# The public headers of a room (`#include <terracut/...>`), however few.
+PUBLIC = "terracut"
 # What rt knows nothing of: it would serve any program with deadlines.
 PRODUCT_WORDS = re.compile(r"\b(lidar|azimuth|ground|obstacle|calibration|hdl64e|ruby128)\b", re.IGNORECASE)
 
@@ -56,25 +61,53 @@ def upward_includes(repository: Path):
                 yield f"{path} includes {target}: the method needs frames and nothing that reads or writes"
 
 
-def namespace_of(path: Path) -> str:
+def namespace_of(path: Path, named: str) -> str:
+    """A file of a program is in its namespace, any other in its folder's, unless its name begins with another one:
+    packet/hdl64e_wire.hpp is in hdl64e."""
     for folder, name in PROGRAMS.items():
         if path.is_relative_to(folder):
             return name
-    return path.parent.name
+    return named if path.name.startswith(f"{named}_") else path.parent.name
 
 
 def misnamed(repository: Path):
     for path in sources(repository):
         found = re.search(r"^namespace terracut(?:::(\w+))?", (repository / path).read_text(), re.MULTILINE)
-        if found and found.group(1) not in (namespace_of(path), None):
-            yield f"{path} is in namespace {found.group(1)}, its folder says {namespace_of(path)}"
+        if found and found.group(1) and found.group(1) != namespace_of(path, found.group(1)):
+            yield f"{path} is in namespace {found.group(1)}, its folder says {path.parent.name}"
 
 
-def overfull(repository: Path):
-    files = Counter(path.parent for path in sources(repository))
-    for folder, count in files.items():
-        if count > MOST_FILES:
-            yield f"{folder} holds {count} files"
+def crowded_or_lonely(repository: Path):
+    files = defaultdict(list)
+    for path in sources(repository):
+        files[path.parent].append(path)
+    for folder, paths in files.items():
+        concepts = len({path.stem for path in paths})
+        if concepts > MOST_CONCEPTS and folder not in ROWS_OF_A_TABLE:
+            yield f"{folder} holds {concepts} concepts, more than {MOST_CONCEPTS}"
+        if len(paths) == 1 and len(folder.parts) > 1 and folder.name != PUBLIC:
+            yield f"{folder} is a folder for one file, {paths[0].name}"
+
+
+def circles(repository: Path, place_of):
+    """Places that include each other, be it by way of others; place_of() says what a file belongs to."""
+    includes = defaultdict(set)
+    for path in sources(repository):
+        for target in included(repository, path):
+            if place_of(path) != place_of(target):
+                includes[place_of(path)].add(place_of(target))
+    try:
+        TopologicalSorter(includes).prepare()
+    except CycleError as error:
+        yield "a circle of includes: " + " <- ".join(str(place) for place in error.args[1])
+
+
+def circles_of_files(repository: Path):
+    return circles(repository, lambda path: path)
+
+
+def circles_of_folders(repository: Path):
+    return circles(repository, lambda path: path.parent)
 
 
 def product_words(repository: Path):
@@ -87,7 +120,9 @@ def product_words(repository: Path):
 def main() -> int:
     repository = Path(sys.argv[1])
     faults = [
-        fault for check in (upward_includes, misnamed, overfull, product_words) for fault in check(repository)
+        fault for check in (
+            upward_includes, misnamed, crowded_or_lonely, circles_of_files, circles_of_folders, product_words
+        ) for fault in check(repository)
     ]
     print("\n".join(faults) or "the house is in order")
     return 1 if faults else 0

@@ -11,7 +11,7 @@ namespace terracut::capture {
 namespace {
 
 Status check_link_type(const PcapFile& file) {
-  if (is_supported_link_type(file.link_type())) return {};
+  if (packet::is_supported_link_type(file.link_type())) return {};
   return fail(
       ErrorCode::kUnsupported,
       fmt::format("{}: link layer {} carries no UDP that terracut reads; expected Ethernet, Linux "
@@ -40,13 +40,14 @@ Expected<PcapSource> PcapSource::over(Expected<PcapFile> file, PcapFilter filter
   return PcapSource(*std::move(file), std::move(filter));
 }
 
-Expected<std::optional<decode::Datagram>> PcapSource::next() {
+Expected<std::optional<packet::Datagram>> PcapSource::next() {
   for (;;) {
     const auto record = file_.next();
     if (!record) return tl::unexpected(record.error());
     if (!*record) return std::nullopt;
     ++counters_.frames;
-    const auto datagram = parse_udp_frame(file_.link_type(), (*record)->bytes, (*record)->stamp_ns);
+    const auto datagram =
+        packet::parse_udp_frame(file_.link_type(), (*record)->bytes, (*record)->stamp_ns);
     if (!datagram) {
       ++counters_.refused[static_cast<std::size_t>(datagram.error())];
     } else if (filter_.port && datagram->destination_port != *filter_.port) {
@@ -62,7 +63,7 @@ Expected<std::optional<decode::Datagram>> PcapSource::next() {
   }
 }
 
-bool PcapSource::is_in_stream(const decode::Datagram& datagram) const {
+bool PcapSource::is_in_stream(const packet::Datagram& datagram) const {
   const auto is_it = [](const auto& wanted, auto value) { return !wanted || *wanted == value; };
   return is_it(filter_.source_port, datagram.source_port) &&
          is_it(filter_.source_mac, datagram.source_mac) &&

@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "firmware_io/capture/pcap_file.hpp"
-#include "firmware_io/capture/udp_frame.hpp"
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/udp_frame.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::capture {
@@ -27,15 +27,15 @@ struct PcapFilter {
   std::optional<std::uint64_t> source_mac{};
   std::optional<std::uint32_t> destination_address{};
   std::optional<std::uint32_t> vlan{};                          ///< 0: those in none.
-  std::function<bool(const decode::Datagram&)> is_of_stream{};  ///< Of those that pass all this.
+  std::function<bool(const packet::Datagram&)> is_of_stream{};  ///< Of those that pass all this.
 };
 
 /// frames == delivered + left_out().
 struct PcapCounters {
-  std::uint64_t frames = 0;                            ///< Records read from the file.
-  std::uint64_t delivered = 0;                         ///< Datagrams returned by next().
-  std::array<std::uint64_t, kFrameRejects> refused{};  ///< Frames, by FrameReject.
-  std::uint64_t other_port = 0;                        ///< Datagrams the filter's port kept out.
+  std::uint64_t frames = 0;                                    ///< Records read from the file.
+  std::uint64_t delivered = 0;                                 ///< Datagrams returned by next().
+  std::array<std::uint64_t, packet::kFrameRejects> refused{};  ///< Frames, by FrameReject.
+  std::uint64_t other_port = 0;    ///< Datagrams the filter's port kept out.
   std::uint64_t other_source = 0;  ///< Datagrams of the right port from another sender.
   /// Datagrams of the right port and sender that the rest of the filter kept out.
   std::uint64_t other_stream = 0;
@@ -66,7 +66,7 @@ class PcapSource {
   /// that the file breaks off: the message says after which packet and at which byte, and every
   /// further call returns the same error. Everything returned before stays valid, so a replay may
   /// finish with a warning. Reading whole files allocates nothing a packet.
-  [[nodiscard]] Expected<std::optional<decode::Datagram>> next();
+  [[nodiscard]] Expected<std::optional<packet::Datagram>> next();
 
   /// Back to the first packet (a file is opened anew). Counters go on.
   [[nodiscard]] Status rewind();
@@ -79,7 +79,7 @@ class PcapSource {
   PcapSource(PcapFile file, PcapFilter filter)
       : file_(std::move(file)), filter_(std::move(filter)) {}
   /// Beyond its port and its sender.
-  [[nodiscard]] bool is_in_stream(const decode::Datagram& datagram) const;
+  [[nodiscard]] bool is_in_stream(const packet::Datagram& datagram) const;
   [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, PcapFilter filter);
 
   PcapFile file_;

@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-#include "firmware_io/capture/udp_checksum.hpp"
+#include "firmware_io/packet/udp_checksum.hpp"
 
 namespace terracut::capture {
 namespace {
@@ -62,7 +62,7 @@ void append_file_header(std::vector<std::uint8_t>& bytes) {
   append_little_u32(bytes, kEthernetLink);
 }
 
-void append_record(std::vector<std::uint8_t>& bytes, const decode::Datagram& datagram) {
+void append_record(std::vector<std::uint8_t>& bytes, const packet::Datagram& datagram) {
   const std::size_t frame_bytes = kHeaderBytes + datagram.payload.size();
   append_little_u32(bytes, static_cast<std::uint64_t>(datagram.stamp_ns / kNanosecondsPerSecond));
   append_little_u32(bytes, static_cast<std::uint64_t>(datagram.stamp_ns % kNanosecondsPerSecond));
@@ -79,20 +79,20 @@ void append_record(std::vector<std::uint8_t>& bytes, const decode::Datagram& dat
   append(bytes, {0, 0, 0x40, 0, 64, 17, 0, 0});  // no id, do not fragment, 64 hops, UDP, checksum
   append_big_u32(bytes, datagram.source_address);
   append_big_u32(bytes, datagram.destination_address);
-  const std::uint16_t ip_sum = internet_checksum(std::span(bytes).subspan(ip_at, kIpBytes));
+  const std::uint16_t ip_sum = packet::internet_checksum(std::span(bytes).subspan(ip_at, kIpBytes));
   bytes[ip_at + 10] = static_cast<std::uint8_t>(ip_sum >> 8);
   bytes[ip_at + 11] = static_cast<std::uint8_t>(ip_sum & 0xFF);
 
   append_big_u16(bytes, datagram.source_port);
   append_big_u16(bytes, datagram.destination_port);
   append_big_u16(bytes, kUdpBytes + datagram.payload.size());
-  append_big_u16(bytes, udp_checksum(datagram));
+  append_big_u16(bytes, packet::udp_checksum(datagram));
   bytes.insert(bytes.end(), datagram.payload.begin(), datagram.payload.end());
 }
 
 }  // namespace
 
-bool PcapWriter::can_write(const decode::Datagram& datagram) noexcept {
+bool PcapWriter::can_write(const packet::Datagram& datagram) noexcept {
   return datagram.payload.size() <= kMaxPayloadBytes && datagram.stamp_ns >= 0 &&
          datagram.stamp_ns < kStampLimit_ns;
 }
@@ -175,7 +175,7 @@ Status PcapWriter::flush() {
   return {};
 }
 
-Status PcapWriter::write(const decode::Datagram& datagram) {
+Status PcapWriter::write(const packet::Datagram& datagram) {
   if (!part_.lock) return tl::unexpected(closed());
   if (datagram.payload.size() > kMaxPayloadBytes) {
     return fail(ErrorCode::kInvalidArgument,

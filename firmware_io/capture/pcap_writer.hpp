@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <vector>
 
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/error.hpp"
 #include "rt/files/part_file.hpp"
 
@@ -35,13 +35,13 @@ class PcapWriter {
   ~PcapWriter();
 
   /// A pcap can hold it: payload and stamp are in the ranges of write().
-  [[nodiscard]] static bool can_write(const decode::Datagram& datagram) noexcept;
+  [[nodiscard]] static bool can_write(const packet::Datagram& datagram) noexcept;
 
   /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970.
   /// kInvalidArgument for a stamp or payload out of range (the datagram is left out, the capture
   /// stays good); kWriteFailed when the disk refuses, after which every call fails and nothing is
   /// left.
-  [[nodiscard]] Status write(const decode::Datagram& datagram);
+  [[nodiscard]] Status write(const packet::Datagram& datagram);
 
   /// Writes what is still buffered and gives the file its name. Call once; later calls fail.
   [[nodiscard]] Status finish();

@@ -6,19 +6,19 @@
 #include <cstdlib>
 #include <utility>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 
 namespace terracut::decode {
 namespace {
 
 /// Azimuths on the wire are rounded, and heads rotate unevenly.
-constexpr std::int64_t kJitter_ticks = 5 * kTicksPerCdeg;
+constexpr std::int64_t kJitter_ticks = 5 * packet::kTicksPerCdeg;
 /// Of a sensor whose packets begin with its view, gaps are alike but for the wire's rounding.
-constexpr std::int64_t kRounding_ticks = 3 * kTicksPerCdeg;
+constexpr std::int64_t kRounding_ticks = 3 * packet::kTicksPerCdeg;
 
 }  // namespace
 
-BlindSector::Verdict BlindSector::judge(const RotorInterval& head, std::int64_t packets,
+BlindSector::Verdict BlindSector::judge(const packet::RotorInterval& head, std::int64_t packets,
                                         std::int64_t rejected, const Stride& stride) noexcept {
   Gap gap{head, packets, rejected, stride, false};
   const bool is_wide = head.ticks() >= least_ticks();
@@ -41,8 +41,8 @@ BlindSector::Verdict BlindSector::judge(const RotorInterval& head, std::int64_t 
 }
 
 BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
-  const RotorInterval blind = sector_.next(gap.head.from_ticks);
-  const RotorInterval common = intersection(gap.head, blind);
+  const packet::RotorInterval blind = sector_.next(gap.head.from_ticks);
+  const packet::RotorInterval common = packet::intersection(gap.head, blind);
   if (common.ticks() < least_ticks()) return {gap.head, false, gap.packets};
 
   move_to(common);
@@ -65,8 +65,8 @@ BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
 }
 
 /// The sector is known better now.
-void BlindSector::move_to(const RotorInterval& common) noexcept {
-  const RotorInterval blind = sector_.next(common.from_ticks);
+void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
+  const packet::RotorInterval blind = sector_.next(common.from_ticks);
   const std::int64_t later_ticks = std::max<std::int64_t>(0, common.from_ticks - blind.from_ticks);
   const std::int64_t earlier_ticks = std::max<std::int64_t>(0, blind.to_ticks - common.to_ticks);
   earliest_ticks_ = later_ticks < least_ticks() ? earliest_ticks_ + later_ticks : 0;
@@ -92,13 +92,13 @@ std::int64_t BlindSector::packets_in(std::int64_t ticks, const Stride& stride) c
 // --- Learning ---
 
 /// Where the newest gap was a frame ago.
-bool BlindSector::follows(const RotorInterval& gap) const noexcept {
-  const RotorInterval again = shifted(gaps_.back().head, sector_.revolution_ticks);
-  return intersection(again, gap).ticks() >= least_ticks();
+bool BlindSector::follows(const packet::RotorInterval& gap) const noexcept {
+  const packet::RotorInterval again = packet::shifted(gaps_.back().head, sector_.revolution_ticks);
+  return packet::intersection(again, gap).ticks() >= least_ticks();
 }
 
 /// The head has not come again to where the newest gap was.
-bool BlindSector::is_between(const RotorInterval& gap) const noexcept {
+bool BlindSector::is_between(const packet::RotorInterval& gap) const noexcept {
   return gaps_known_ > 0 &&
          gap.to_ticks <= gaps_.back().head.from_ticks + sector_.revolution_ticks + least_ticks();
 }
@@ -111,10 +111,11 @@ void BlindSector::remember(const Gap& gap) noexcept {
 }
 
 void BlindSector::learn() noexcept {
-  RotorInterval common = gaps_.back().head;
+  packet::RotorInterval common = gaps_.back().head;
   for (std::size_t i = 0; i < gaps_.size(); ++i) {
     const auto frames = static_cast<std::int64_t>(gaps_.size() - 1 - i);
-    common = intersection(common, shifted(gaps_[i].head, frames * sector_.revolution_ticks));
+    common = packet::intersection(
+        common, packet::shifted(gaps_[i].head, frames * sector_.revolution_ticks));
   }
   if (common.ticks() < sector_.once.ticks() + least_ticks()) return;  // known, or not alike
   sector_.once = common;
@@ -144,14 +145,14 @@ void BlindSector::count(const Gap& gap) noexcept {
 
 // --- Packets ---
 
-void BlindSector::pass(const RotorInterval& swept) noexcept {
+void BlindSector::pass(const packet::RotorInterval& swept) noexcept {
   if (sector_.is_none()) {
     if (gaps_known_ == 0) return;
     const std::int64_t end_ticks = gaps_.back().head.to_ticks + sector_.revolution_ticks;
     if (swept.from_ticks > end_ticks + least_ticks()) refute();
     return;
   }
-  const RotorInterval blind = sector_.next(swept.from_ticks);
+  const packet::RotorInterval blind = sector_.next(swept.from_ticks);
   // None was expected to begin so late.
   const std::int64_t before_ticks = blind.from_ticks - swept.from_ticks;
   if (before_ticks <= earliest_ticks_ + kRounding_ticks) {
@@ -164,32 +165,33 @@ void BlindSector::pass(const RotorInterval& swept) noexcept {
   gaps_known_ = 0;
 }
 
-bool BlindSector::is_inside(const PacketAzimuths& azimuths) const noexcept {
+bool BlindSector::is_inside(const packet::PacketAzimuths& azimuths) const noexcept {
   if (sector_.is_none()) return false;
-  const RotorInterval inside =
-      azimuths.sector_inside(std::int64_t{azimuths.first_cdeg()} * kTicksPerCdeg);
-  const RotorInterval blind = sector_.next(inside.from_ticks);
+  const packet::RotorInterval inside =
+      azimuths.sector_inside(std::int64_t{azimuths.first_cdeg()} * packet::kTicksPerCdeg);
+  const packet::RotorInterval blind = sector_.next(inside.from_ticks);
   const std::int64_t slack_ticks = azimuths.widest_ticks + kJitter_ticks;
   return std::abs(inside.from_ticks - blind.from_ticks) <= slack_ticks &&
          std::abs(inside.to_ticks - blind.to_ticks) <= slack_ticks;
 }
 
-BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks, const RotorInterval& inside,
+BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks,
+                                        const packet::RotorInterval& inside,
                                         const Stride& stride) noexcept {
   const Verdict verdict = judge(inside, 0, 0, stride);
   // It came when the head did: nothing was to be heard any more from where it begins. That is less
   // than a packet before the sector, those that begin a packet before it come at once: the two are
   // close together, so no more is taken for the wire's rounding than it rounds.
-  const RotorInterval blind = sector_.next(inside.from_ticks);
-  const std::int64_t before_ticks = blind.from_ticks - begin_ticks + kTicksPerCdeg / 2;
+  const packet::RotorInterval blind = sector_.next(inside.from_ticks);
+  const std::int64_t before_ticks = blind.from_ticks - begin_ticks + packet::kTicksPerCdeg / 2;
   earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);
   return verdict;
 }
 
-void BlindSector::fill(const RotorInterval& found) noexcept {
+void BlindSector::fill(const packet::RotorInterval& found) noexcept {
   Gap& newest = gaps_.back();
   if (gaps_known_ == 0 || !newest.is_pending) return;
-  if (intersection(newest.head, found).ticks() == 0) return;
+  if (packet::intersection(newest.head, found).ticks() == 0) return;
   newest.packets = std::max<std::int64_t>(0, newest.packets - 1);
   if (found.from_ticks <= newest.head.from_ticks + kJitter_ticks) {
     newest.head.from_ticks = std::max(newest.head.from_ticks, found.to_ticks);
@@ -204,7 +206,7 @@ BlindSector::Loss BlindSector::take_due() noexcept {
 
 std::int64_t BlindSector::next_packet(std::int64_t rotor_ticks) const noexcept {
   if (sector_.is_none()) return rotor_ticks;
-  const RotorInterval blind = sector_.next(rotor_ticks);
+  const packet::RotorInterval blind = sector_.next(rotor_ticks);
   // No packet has begun so late in any frame before.
   const bool is_last = rotor_ticks >= blind.from_ticks - earliest_ticks_ - kRounding_ticks;
   return is_last ? blind.to_ticks : rotor_ticks;

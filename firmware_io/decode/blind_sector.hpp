@@ -6,16 +6,17 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/decode/rotor_sector.hpp"
 #include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/rotor_sector.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::decode {
 
-[[nodiscard]] inline frame::BlindAzimuths blind_azimuths(const RotorSector& sector) noexcept {
-  return {beams::wrap_cdeg(sector.once.from_ticks / kTicksPerCdeg),
-          beams::wrap_cdeg(sector.once.to_ticks / kTicksPerCdeg)};
+[[nodiscard]] inline frame::BlindAzimuths blind_azimuths(
+    const packet::RotorSector& sector) noexcept {
+  return {beams::wrap_cdeg(sector.once.from_ticks / packet::kTicksPerCdeg),
+          beams::wrap_cdeg(sector.once.to_ticks / packet::kTicksPerCdeg)};
 }
 
 /// Finds out where a sensor with a limited field of view is blind: it sends nothing while its head
@@ -46,7 +47,7 @@ class BlindSector {
   struct Verdict {
     /// What was lost of a gap, and the blind sector where that lies in it; empty where all of it
     /// is blind.
-    RotorInterval lost;
+    packet::RotorInterval lost;
     bool is_pending = false;   ///< It may be blind; if not, take_due() will have the loss.
     std::int64_t packets = 0;  ///< Lost in it, unless it is pending.
   };
@@ -55,19 +56,21 @@ class BlindSector {
 
   /// The head was not seen in `gap`, for so many packets by their stamps; in it came `rejected`
   /// ones.
-  [[nodiscard]] Verdict judge(const RotorInterval& gap, std::int64_t packets, std::int64_t rejected,
+  [[nodiscard]] Verdict judge(const packet::RotorInterval& gap, std::int64_t packets,
+                              std::int64_t rejected,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// A packet sweeps over `swept`; after judge() of the gap before it.
-  void pass(const RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
+  void pass(const packet::RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
   /// The sector lies in a packet as that says (PacketAzimuths::behind_sector), to the packet.
-  [[nodiscard]] bool is_inside(const PacketAzimuths& azimuths) const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] bool is_inside(const packet::PacketAzimuths& azimuths) const noexcept
+      TERRACUT_NONBLOCKING;
   /// Instead of pass(): a packet that begins where `begin_ticks` says, with the sector, or what was
   /// seen of it, inside.
-  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const RotorInterval& inside,
+  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const packet::RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// A packet came late and fills a part of a gap, the first or the last of what is left of it but
   /// where several came late in no order.
-  void fill(const RotorInterval& found) noexcept TERRACUT_NONBLOCKING;
+  void fill(const packet::RotorInterval& found) noexcept TERRACUT_NONBLOCKING;
   /// What pass() and judge() have found to be lost since it was last taken.
   [[nodiscard]] Loss take_due() noexcept TERRACUT_NONBLOCKING;
   /// The stream ends: what was pending is lost. The sector stays known.
@@ -77,11 +80,11 @@ class BlindSector {
   /// or behind the blind sector where none has begun there in the frames before.
   [[nodiscard]] std::int64_t next_packet(std::int64_t rotor_ticks) const noexcept
       TERRACUT_NONBLOCKING;
-  [[nodiscard]] const RotorSector& sector() const noexcept { return sector_; }
+  [[nodiscard]] const packet::RotorSector& sector() const noexcept { return sector_; }
 
  private:
   struct Gap {
-    RotorInterval head;
+    packet::RotorInterval head;
     std::int64_t packets = 0, rejected = 0;
     Stride stride;
     bool is_pending = false;
@@ -94,15 +97,15 @@ class BlindSector {
   static void note_end(std::int64_t ticks, const Stride& stride,
                        std::int64_t& widest_ticks) noexcept;
   [[nodiscard]] std::int64_t packets_in(std::int64_t ticks, const Stride& stride) const noexcept;
-  void move_to(const RotorInterval& common) noexcept;
-  [[nodiscard]] bool follows(const RotorInterval& gap) const noexcept;
-  [[nodiscard]] bool is_between(const RotorInterval& gap) const noexcept;
+  void move_to(const packet::RotorInterval& common) noexcept;
+  [[nodiscard]] bool follows(const packet::RotorInterval& gap) const noexcept;
+  [[nodiscard]] bool is_between(const packet::RotorInterval& gap) const noexcept;
   void remember(const Gap& gap) noexcept;
   void learn() noexcept;
   void refute() noexcept TERRACUT_NONBLOCKING;
   void count(const Gap& gap) noexcept;
 
-  RotorSector sector_;
+  packet::RotorSector sector_;
   /// Gaps without loss have begun so much earlier than the sector, and ended so much later.
   std::int64_t earliest_ticks_ = 0, latest_ticks_ = 0;
   std::array<Gap, kFramesToLearn> gaps_;  ///< Of successive frames, the newest last; the others ...

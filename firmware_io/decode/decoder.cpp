@@ -33,13 +33,13 @@ auto with_trait(const calib::SensorCalibration& calibration, const Decoder::Conf
     case velodyne::VelodyneModel::kVlp16:
       break;
     case velodyne::VelodyneModel::kHdl32e:
-      return of(std::type_identity<hdl32e::Hdl32eSensor>{});
+      return of(std::type_identity<velodyne::Hdl32eSensor>{});
     case velodyne::VelodyneModel::kVlp32c:
-      return of(std::type_identity<vlp32c::Vlp32cSensor>{});
+      return of(std::type_identity<velodyne::Vlp32cSensor>{});
     case velodyne::VelodyneModel::kVls128:
-      return of(std::type_identity<vls128::Vls128Sensor>{});
+      return of(std::type_identity<velodyne::Vls128Sensor>{});
   }
-  return of(std::type_identity<vlp16::Vlp16Sensor>{});
+  return of(std::type_identity<velodyne::Vlp16Sensor>{});
 }
 
 }  // namespace
@@ -81,13 +81,14 @@ FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& con
   constexpr std::size_t kAroundSeam = 16, kCutTiles = 8;
   const auto firings = static_cast<std::size_t>(model.returns_per_cell * model.columns);
   const bool keeps_measured = config.keeps_measured && config.motion == nullptr;
-  return {.shape = shape,
-          .overflow_capacity = spare * static_cast<std::size_t>(model.rows * model.columns),
-          .images = config.images,
-          .revolution_ticks = kRevolution_ticks,
-          .measured_tiles =
-              keeps_measured ? (firings + firings / kAroundSeam) / kTileFirings + kCutTiles : 0,
-          .lasers = model.lasers};
+  return {
+      .shape = shape,
+      .overflow_capacity = spare * static_cast<std::size_t>(model.rows * model.columns),
+      .images = config.images,
+      .revolution_ticks = packet::kRevolution_ticks,
+      .measured_tiles =
+          keeps_measured ? (firings + firings / kAroundSeam) / frame::kTileFirings + kCutTiles : 0,
+      .lasers = model.lasers};
 }
 
 std::unique_ptr<frame::TileReader> Decoder::make_reader(memory::FixedMemory& memory) const {
@@ -120,15 +121,15 @@ Decoder::Decoder(const Model& model, const calib::SensorCalibration& calibration
   });
   beam_turns_ = memory.take<float>("beams off the head", beam_ticks.size());
   std::ranges::transform(beam_ticks, beam_turns_.begin(), [](std::int32_t ticks) {
-    return static_cast<float>(ticks) / static_cast<float>(kRevolution_ticks);
+    return static_cast<float>(ticks) / static_cast<float>(packet::kRevolution_ticks);
   });
   if (config.motion == nullptr) return;
   deskewer_.emplace(
-      Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), kRevolution_ticks},
+      Deskewer::Config{config.motion, config.deskew_at, frames_.shape(), packet::kRevolution_ticks},
       beam_ticks, memory);
 }
 
-void Decoder::push(const Datagram& datagram) noexcept {
+void Decoder::push(const packet::Datagram& datagram) noexcept {
   rejected_.reset();
   auto reason =
       with_sensor([&](auto& sensor) noexcept { return sensor.trait().check(datagram, azimuths_); });
@@ -202,7 +203,7 @@ bool Decoder::go_on() noexcept {
   return true;
 }
 
-void Decoder::keep(const Datagram& datagram, const Placement& placed) noexcept {
+void Decoder::keep(const packet::Datagram& datagram, const Placement& placed) noexcept {
   std::ranges::copy(datagram.payload, kept_bytes(kept_packets_).begin());
   kept_[kept_packets_++] = {azimuths_, datagram.stamp_ns, placed.rotor_cdeg, placed.reject};
 }
@@ -238,7 +239,7 @@ void Decoder::take_pushed() noexcept {
   rejected_.reset();
   step_ = after_packet_ = Step::kNothing;
   azimuths_ = anew_.pushed_azimuths;
-  const Datagram& pushed = anew_.pushed;
+  const packet::Datagram& pushed = anew_.pushed;
   const Placement placed =
       tracker_.go_on(azimuths_, host_began_ns(pushed.stamp_ns), frames_.losses());
   if (placed.arrival == Arrival::kRejected) return reject(placed.reject);
@@ -247,21 +248,22 @@ void Decoder::take_pushed() noexcept {
 
 void Decoder::take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
                    const Placement& placed) noexcept {
-  const BeamSpread spread = with_sensor(
+  const packet::BeamSpread spread = with_sensor(
       [&](auto& sensor) noexcept { return sensor.trait().spread(azimuths_.step_ticks); });
-  const std::int64_t begin_ticks = placed.rotor_cdeg * kTicksPerCdeg;
+  const std::int64_t begin_ticks = placed.rotor_cdeg * packet::kTicksPerCdeg;
   std::int64_t most_ticks = begin_ticks;
   for (int column = 1; column < azimuths_.columns; ++column) {
-    most_ticks = std::max(most_ticks, begin_ticks + azimuths_.advance_cdeg(column) * kTicksPerCdeg);
+    most_ticks =
+        std::max(most_ticks, begin_ticks + azimuths_.advance_cdeg(column) * packet::kTicksPerCdeg);
   }
   const std::int64_t last_frame = frame_of(most_ticks + spread.foremost_ticks);
   const int late_columns = columns_too_late(placed, spread, last_frame);
   const std::int64_t first_ticks =
-      begin_ticks + azimuths_.advance_cdeg(late_columns) * kTicksPerCdeg;
+      begin_ticks + azimuths_.advance_cdeg(late_columns) * packet::kTicksPerCdeg;
   std::int64_t least_ticks = first_ticks;
   for (int column = late_columns + 1; column < azimuths_.columns; ++column) {
     least_ticks =
-        std::min(least_ticks, begin_ticks + azimuths_.advance_cdeg(column) * kTicksPerCdeg);
+        std::min(least_ticks, begin_ticks + azimuths_.advance_cdeg(column) * packet::kTicksPerCdeg);
   }
   job_ = {.payload = payload,
           .stamp_ns = stamp_ns,
@@ -288,7 +290,7 @@ void Decoder::restart() noexcept {
     clock_.reset();
   }
   frames_.start(job_.first_frame, job_.swept.from_ticks);
-  complete_ticks_ = placed_ticks_ = job_.first_frame * kRevolution_ticks;
+  complete_ticks_ = placed_ticks_ = job_.first_frame * packet::kRevolution_ticks;
   frontier_ticks_ = job_.swept.from_ticks;
   steps_ticks_ = steps_ = 0;
   judge();
@@ -297,7 +299,7 @@ void Decoder::restart() noexcept {
 void Decoder::judge() noexcept {
   step_ = after_packet_;
   const Arrival arrival = job_.placed.arrival;
-  const RotorInterval& swept = job_.swept;
+  const packet::RotorInterval& swept = job_.swept;
   const bool is_next = arrival == Arrival::kNext;
   if (job_.first_frame < frames_.oldest()) {
     if (is_next) {
@@ -382,10 +384,10 @@ void Decoder::end() noexcept {
   step_ = Step::kNothing;
 }
 
-void Decoder::judge_gap(const Placement& placed, const RotorInterval& swept,
-                        const BlindSector::Stride& stride, const BeamSpread& spread,
+void Decoder::judge_gap(const Placement& placed, const packet::RotorInterval& swept,
+                        const BlindSector::Stride& stride, const packet::BeamSpread& spread,
                         std::int64_t step_ticks) noexcept {
-  const RotorInterval gap{frontier_ticks_, swept.from_ticks};
+  const packet::RotorInterval gap{frontier_ticks_, swept.from_ticks};
   const std::int64_t missing = missing_before(placed, swept);
   if (gap.ticks() <= step_ticks * 3 / 4) {
     tracker_.miss(missing, frames_.losses());
@@ -399,9 +401,9 @@ void Decoder::judge_gap(const Placement& placed, const RotorInterval& swept,
   }
 }
 
-void Decoder::cross_sector(const RotorInterval& swept, const BlindSector::Stride& stride,
-                           const BeamSpread& spread, std::int64_t step_ticks) noexcept {
-  const RotorInterval inside = azimuths_.sector_inside(swept.from_ticks);
+void Decoder::cross_sector(const packet::RotorInterval& swept, const BlindSector::Stride& stride,
+                           const packet::BeamSpread& spread, std::int64_t step_ticks) noexcept {
+  const packet::RotorInterval inside = azimuths_.sector_inside(swept.from_ticks);
   const BlindSector::Verdict verdict = blind_.cross(swept.from_ticks, inside, stride);
   frames_.set_blind(blind_.sector());
   if (verdict.lost.ticks() > 0) {

@@ -13,21 +13,21 @@
 #include "calib/mount/mount.hpp"
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/decode/blind_sector.hpp"
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/decode/deskewer.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/decode/host_clock.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/decode/packet_returns.hpp"
 #include "firmware_io/decode/stream_tracker.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
-#include "firmware_io/hdl32e/hdl32e_sensor.hpp"
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
-#include "firmware_io/vlp16/vlp16_sensor.hpp"
-#include "firmware_io/vlp32c/vlp32c_sensor.hpp"
-#include "firmware_io/vls128/vls128_sensor.hpp"
+#include "firmware_io/velodyne/hdl32e.hpp"
+#include "firmware_io/velodyne/vlp16.hpp"
+#include "firmware_io/velodyne/vlp32c.hpp"
+#include "firmware_io/velodyne/vls128.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -85,7 +85,7 @@ class Decoder {
   /// A packet that contradicts the stream before it is kept (packets_kept()) until so many agree
   /// with it that it is the beginning of another stream, or until the stream goes on. It is decoded
   /// then, or rejected and counted.
-  void push(const Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
+  void push(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
   /// The stream ends, or the source will jump (a replay loop): what is open is handed out, marked
   /// incomplete unless it was seen whole, and the stream's state is reset, but not its
   /// counters.
@@ -104,12 +104,12 @@ class Decoder {
   /// before it is whole. None of them is complete where the frame will be deskewed.
   [[nodiscard]] frame::ArrivingFrame arriving() noexcept {
     if (!frames_.started()) return {};
-    const RotorInterval to_come{
+    const packet::RotorInterval to_come{
         complete_ticks_ + completes_behind_ticks_,
-        (frames_.oldest() + 1) * kRevolution_ticks + completes_behind_ticks_};
+        (frames_.oldest() + 1) * packet::kRevolution_ticks + completes_behind_ticks_};
     return {&frames_.image(frames_.oldest()), deskewer_ ? 0 : complete_columns(),
             static_cast<float>(blind_.sector().outside_ticks(to_come)) /
-                static_cast<float>(kRevolution_ticks)};
+                static_cast<float>(packet::kRevolution_ticks)};
   }
 
   /// Since construction. Packets still expected out of order become losses a few packets later.
@@ -148,8 +148,8 @@ class Decoder {
  private:
   using SensorReturns =
       std::variant<PacketReturns<hdl64e::Hdl64eSensor>, PacketReturns<ruby128::Ruby128Sensor>,
-                   PacketReturns<vlp16::Vlp16Sensor>, PacketReturns<hdl32e::Hdl32eSensor>,
-                   PacketReturns<vlp32c::Vlp32cSensor>, PacketReturns<vls128::Vls128Sensor>>;
+                   PacketReturns<velodyne::Vlp16Sensor>, PacketReturns<velodyne::Hdl32eSensor>,
+                   PacketReturns<velodyne::Vlp32cSensor>, PacketReturns<velodyne::Vls128Sensor>>;
 
   /// What the sensors differ in beside their traits' work.
   struct Model {
@@ -179,8 +179,8 @@ class Decoder {
   }
 
   [[nodiscard]] static std::int64_t frame_of(std::int64_t ticks) noexcept {
-    const std::int64_t frame = ticks / kRevolution_ticks;
-    return ticks % kRevolution_ticks < 0 ? frame - 1 : frame;
+    const std::int64_t frame = ticks / packet::kRevolution_ticks;
+    return ticks % packet::kRevolution_ticks < 0 ? frame - 1 : frame;
   }
 
   /// From firing to firing, over some hundred packets: one packet's own step is rounded to the
@@ -200,15 +200,17 @@ class Decoder {
 
   /// Of the oldest frame. Beams' columns are rounded, each by less than one.
   [[nodiscard]] int complete_columns() const noexcept {
-    const std::int64_t complete_ticks = placed_ticks_ - frames_.oldest() * kRevolution_ticks;
-    const std::int64_t columns = complete_ticks * frames_.shape().columns / kRevolution_ticks - 1;
+    const std::int64_t complete_ticks =
+        placed_ticks_ - frames_.oldest() * packet::kRevolution_ticks;
+    const std::int64_t columns =
+        complete_ticks * frames_.shape().columns / packet::kRevolution_ticks - 1;
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
   /// Of packets missing over many frames, those that a sensor sends while it is not blind.
   [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
-    return packets -
-           packets * (blind_.sector().once.ticks() / kTicksPerCdeg) / beams::kRevolution_cdeg;
+    return packets - packets * (blind_.sector().once.ticks() / packet::kTicksPerCdeg) /
+                         beams::kRevolution_cdeg;
   }
   void count_rejected(frame::Reject reason) noexcept {
     ++frames_.losses().rejected[static_cast<std::size_t>(reason)];
@@ -219,12 +221,12 @@ class Decoder {
   }
   /// A packet that contradicts the stream.
   struct KeptPacket {
-    PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     std::int64_t stamp_ns;
     std::int64_t rotor_cdeg;  ///< Placement::rotor_cdeg
     frame::Reject reason;     ///< Unless others agree with it.
   };
-  void keep(const Datagram& datagram, const Placement& placed) noexcept;
+  void keep(const packet::Datagram& datagram, const Placement& placed) noexcept;
   [[nodiscard]] std::span<std::uint8_t> kept_bytes(std::size_t number) noexcept {
     return kept_bytes_.subspan(number * packet_bytes_, packet_bytes_);
   }
@@ -243,8 +245,8 @@ class Decoder {
     std::span<const std::uint8_t> payload;
     std::int64_t stamp_ns = 0;
     Placement placed;
-    BeamSpread spread;
-    RotorInterval swept;  ///< Where the head is while it fires, its late columns left out.
+    packet::BeamSpread spread;
+    packet::RotorInterval swept;  ///< Where the head is while it fires, its late columns left out.
     int late_columns = 0;
     std::int64_t first_frame = 0, last_frame = 0;  ///< Which its beams may touch.
     BlindSector::Stride stride;
@@ -279,26 +281,27 @@ class Decoder {
   void end() noexcept;
 
   /// What lies between the packets before and this one, taken in order.
-  void judge_gap(const Placement& placed, const RotorInterval& swept,
-                 const BlindSector::Stride& stride, const BeamSpread& spread,
+  void judge_gap(const Placement& placed, const packet::RotorInterval& swept,
+                 const BlindSector::Stride& stride, const packet::BeamSpread& spread,
                  std::int64_t step_ticks) noexcept;
   /// A sector inside the packet.
-  void cross_sector(const RotorInterval& swept, const BlindSector::Stride& stride,
-                    const BeamSpread& spread, std::int64_t step_ticks) noexcept;
+  void cross_sector(const packet::RotorInterval& swept, const BlindSector::Stride& stride,
+                    const packet::BeamSpread& spread, std::int64_t step_ticks) noexcept;
   /// Missing by the stamps. Those around a packet with a sector inside hold its time, too: what was
   /// lost behind such a packet shows in the azimuths.
   [[nodiscard]] std::int64_t missing_before(const Placement& placed,
-                                            const RotorInterval& swept) const noexcept {
+                                            const packet::RotorInterval& swept) const noexcept {
     if (!has_crossed_) return placed.missing;
-    const RotorInterval gap{frontier_ticks_, swept.from_ticks};
+    const packet::RotorInterval gap{frontier_ticks_, swept.from_ticks};
     return std::min(placed.missing,
                     (gap.ticks() + azimuths_.pace_ticks / 2) / azimuths_.pace_ticks);
   }
   /// A packet with a sector inside comes when the head is back in view. Its columns from before are
   /// too late for a frame that was handed over in time, or is by the columns behind: two are open.
-  [[nodiscard]] int columns_too_late(const Placement& placed, const BeamSpread& spread,
+  [[nodiscard]] int columns_too_late(const Placement& placed, const packet::BeamSpread& spread,
                                      std::int64_t last_frame) const noexcept {
-    const std::int64_t hindmost_ticks = placed.rotor_cdeg * kTicksPerCdeg + spread.hindmost_ticks;
+    const std::int64_t hindmost_ticks =
+        placed.rotor_cdeg * packet::kTicksPerCdeg + spread.hindmost_ticks;
     const bool is_restart = placed.arrival == Arrival::kRestart;
     const std::int64_t open =
         is_restart ? last_frame - 1 : std::max(frames_.oldest(), last_frame - 1);
@@ -320,14 +323,14 @@ class Decoder {
   SensorReturns sensor_;
   StreamTracker tracker_;
   FrameBuilder frames_;
-  BlindSector blind_{kRevolution_ticks};
+  BlindSector blind_{packet::kRevolution_ticks};
   HostClock clock_;
   std::span<float> beam_turns_;
   std::optional<Deskewer> deskewer_;
   std::span<KeptPacket> kept_;
   std::span<std::uint8_t> kept_bytes_;  ///< Their payloads.
   std::size_t kept_packets_ = 0;
-  PacketAzimuths azimuths_;
+  packet::PacketAzimuths azimuths_;
   Step step_ = Step::kNothing;
   Step after_packet_ = Step::kNothing;  ///< When the job is done.
   Job job_;
@@ -335,8 +338,8 @@ class Decoder {
     std::size_t next = 0;  ///< Of those kept.
     bool has_begun = false, has_pushed = false;
     std::int64_t newest_cdeg = 0;
-    PacketAzimuths pushed_azimuths;
-    Datagram pushed;
+    packet::PacketAzimuths pushed_azimuths;
+    packet::Datagram pushed;
   } anew_;  ///< While packets that were kept become the stream.
   std::optional<frame::Reject> rejected_;
   std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.

@@ -55,18 +55,18 @@ void FrameBuilder::start(std::int64_t oldest_frame, std::int64_t rotor_ticks) no
 }
 
 void FrameBuilder::add_missing(OpenFrame& frame, std::int64_t number, const Missing& missing,
-                               int sign, const BeamSpread& spread) noexcept {
-  const RotorInterval of_head{number * revolution_ticks_, (number + 1) * revolution_ticks_};
-  const RotorInterval of_beams{of_head.from_ticks - spread.foremost_ticks,
-                               of_head.to_ticks - spread.hindmost_ticks};
+                               int sign, const packet::BeamSpread& spread) noexcept {
+  const packet::RotorInterval of_head{number * revolution_ticks_, (number + 1) * revolution_ticks_};
+  const packet::RotorInterval of_beams{of_head.from_ticks - spread.foremost_ticks,
+                                       of_head.to_ticks - spread.hindmost_ticks};
   if (missing.is_counted) {
-    frame.hole_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_head));
+    frame.hole_ticks += sign * blind_.outside_ticks(packet::intersection(missing.head, of_head));
   }
-  frame.missing_ticks += sign * blind_.outside_ticks(intersection(missing.head, of_beams));
+  frame.missing_ticks += sign * blind_.outside_ticks(packet::intersection(missing.head, of_beams));
 }
 
-void FrameBuilder::lose(RotorInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
-                        bool is_counted) noexcept {
+void FrameBuilder::lose(packet::RotorInterval gap, const packet::BeamSpread& spread,
+                        std::int64_t step_ticks, bool is_counted) noexcept {
   step_ticks_ = step_ticks;
   spread_ = spread;
   last_gap_ = {gap, is_counted};
@@ -74,13 +74,13 @@ void FrameBuilder::lose(RotorInterval gap, const BeamSpread& spread, std::int64_
   add_missing(open_[1], oldest_ + 1, last_gap_, +1, spread);
 }
 
-void FrameBuilder::regain(RotorInterval found, const BeamSpread& spread) noexcept {
+void FrameBuilder::regain(packet::RotorInterval found, const packet::BeamSpread& spread) noexcept {
   add_missing(open_[0], oldest_, {found}, -1, spread);
   add_missing(open_[1], oldest_ + 1, {found}, -1, spread);
 }
 
 void FrameBuilder::note_packet(const PacketNote& packet, std::int64_t step_ticks,
-                               const BeamSpread& spread) noexcept {
+                               const packet::BeamSpread& spread) noexcept {
   ++packets_;
   frontier_ticks_ = packet.frontier_ticks;
   step_ticks_ = step_ticks;
@@ -126,9 +126,9 @@ void FrameBuilder::count_holes(std::int64_t hole_ticks) noexcept {
 }
 
 void FrameBuilder::pass_over(std::int64_t frame) noexcept {
-  const RotorInterval passed{oldest_ * revolution_ticks_, frame * revolution_ticks_};
+  const packet::RotorInterval passed{oldest_ * revolution_ticks_, frame * revolution_ticks_};
   if (last_gap_.is_counted) {
-    count_holes(blind_.outside_ticks(intersection(last_gap_.head, passed)));
+    count_holes(blind_.outside_ticks(packet::intersection(last_gap_.head, passed)));
   }
   oldest_ = frame;
   open(0, frame, *open_[0].image);

@@ -8,19 +8,14 @@
 #include <span>
 #include <vector>
 
-#include "firmware_io/decode/rotor_sector.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/rotor_sector.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::decode {
-
-/// How far the beams point away from the head: every beam's azimuth minus the head's lies in
-/// [hindmost, foremost].
-struct BeamSpread {
-  std::int64_t hindmost_ticks = 0, foremost_ticks = 0;
-};
 
 /// Sorts returns into frames. Knows nothing of any sensor.
 ///
@@ -82,13 +77,14 @@ class FrameBuilder {
 
   /// Where the sensor is blind, nothing is missing: of the intervals given from now on, of the
   /// stream's beginning and of its end.
-  void set_blind(const RotorSector& blind) noexcept { blind_ = blind; }
+  void set_blind(const packet::RotorSector& blind) noexcept { blind_ = blind; }
 
   /// Firings were lost in this interval / arrived after all (reordered). `step_ticks`: from firing
   /// to firing. `is_counted`: as a hole, too; else whoever calls does that.
-  void lose(RotorInterval gap, const BeamSpread& spread, std::int64_t step_ticks,
+  void lose(packet::RotorInterval gap, const packet::BeamSpread& spread, std::int64_t step_ticks,
             bool is_counted = true) noexcept TERRACUT_NONBLOCKING;
-  void regain(RotorInterval found, const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
+  void regain(packet::RotorInterval found,
+              const packet::BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
   struct PacketNote {
     std::int64_t stamp_ns = 0;                     ///< Of its datagram.
@@ -98,7 +94,7 @@ class FrameBuilder {
   };
   /// A packet was decoded. `step_ticks` and `spread` as they are now.
   void note_packet(const PacketNote& packet, std::int64_t step_ticks,
-                   const BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
+                   const packet::BeamSpread& spread) noexcept TERRACUT_NONBLOCKING;
 
   /// The frames before `frame` are over. next() must be called until it returns null.
   void roll_to(std::int64_t frame) noexcept TERRACUT_NONBLOCKING;
@@ -140,11 +136,11 @@ class FrameBuilder {
       TERRACUT_NONBLOCKING;
   void open(std::size_t slot, std::int64_t frame, frame::RangeImage& image) noexcept;
   struct Missing {
-    RotorInterval head;
+    packet::RotorInterval head;
     bool is_counted = true;
   };
   void add_missing(OpenFrame& frame, std::int64_t number, const Missing& missing, int sign,
-                   const BeamSpread& spread) noexcept;
+                   const packet::BeamSpread& spread) noexcept;
   /// The open frames have nothing in them; opens `frame` and the next instead.
   void pass_over(std::int64_t frame) noexcept TERRACUT_NONBLOCKING;
   void count_holes(std::int64_t hole_ticks) noexcept;
@@ -168,9 +164,9 @@ class FrameBuilder {
   bool is_ending_ = false;
   std::array<OpenFrame, 2> open_;  ///< Of oldest_ and oldest_ + 1.
   std::int64_t start_ticks_ = 0, frontier_ticks_ = 0, step_ticks_ = 1;
-  BeamSpread spread_;
+  packet::BeamSpread spread_;
   Missing last_gap_;  ///< A frame that opens later may begin inside it.
-  RotorSector blind_;
+  packet::RotorSector blind_;
 
   std::uint32_t frames_ = 0;
   std::uint32_t packets_ = 0;

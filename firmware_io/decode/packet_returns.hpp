@@ -12,13 +12,13 @@
 #include <utility>
 
 #include "calib/beams/angle.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
 #include "firmware_io/decode/frame_builder.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/decode/rotor_directions.hpp"
 #include "firmware_io/decode/sensor_tile_reader.hpp"
 #include "firmware_io/decode/tile_columns.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/rotor_directions.hpp"
 #include "rt/memory/fixed_memory.hpp"
 
 namespace terracut::decode {
@@ -44,13 +44,13 @@ struct PacketPlace {
 ///   `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const mount::Mount&, const Config&);
 /// - `check(Datagram, PacketAzimuths&)`: the reason to reject one, or nothing and its heads;
-/// - `spread(step_ticks)`: the BeamSpread around the head;
+/// - `spread(step_ticks)`: the packet::BeamSpread around the head;
 /// - `beam_ticks(laser)`: azimuth of a laser's beam minus the head's when it fires;
 /// - `group(laser)`, `advance_ticks(step_ticks, group, dual_return)`: how far the head has rotated
 ///   since its firing's azimuth when the group fires, [0, 1e5];
 /// - `begin_packet(azimuths)`, for each packet in order of arrival, then `step_ticks(azimuths,
 ///   column)` and `read_column(payload, column, FiringReturns<kChannels>)`, which fills them in;
-/// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, PointsOut)`;
+/// - `metres_per_count()`, and `compute_points(laser, LaserHeads, measured_m, frame::PointsOut)`;
 /// - `rows()`: the range image row of each laser.
 /// All but the constructor are noexcept. See hdl64e/hdl64e_sensor.hpp, ruby128/ruby128_sensor.hpp,
 /// velodyne/velodyne_sensor.hpp.
@@ -65,9 +65,9 @@ class PacketReturns {
         directions_(memory),
         columns_of_(sensor_, columns, memory),
         reader_(sensor_, memory),
-        tile_(memory.take<FiringTile<kLasers>>("decoder tables", 1)),
-        beams_(memory.take<BeamColumns>("decoder tables", kLasers)),
-        points_(memory.take<TilePoints>("decoder tables", kLasers)) {}
+        tile_(memory.take<packet::FiringTile<kLasers>>("decoder tables", 1)),
+        beams_(memory.take<frame::BeamColumns>("decoder tables", kLasers)),
+        points_(memory.take<frame::TilePoints>("decoder tables", kLasers)) {}
 
   /// For whoever makes points of frames that are kept as they were measured; on any one thread.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const {
@@ -79,10 +79,10 @@ class PacketReturns {
 
   /// Reads a packet that the trait's check() has passed. Its returns are placed when enough are
   /// there, or by flush(); its frames must be open until then.
-  void add(std::span<const std::uint8_t> payload, const PacketAzimuths& azimuths,
+  void add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
            const PacketPlace& place, FrameBuilder& frames) noexcept {
     const auto columns = static_cast<std::size_t>(azimuths.columns);
-    if (place.owner != owner_ || firings_ + columns > kTileFirings) flush(frames);
+    if (place.owner != owner_ || firings_ + columns > frame::kTileFirings) flush(frames);
     owner_ = place.owner;
     sensor_.begin_packet(azimuths);
     for (std::size_t c = 0; c < columns; ++c) {
@@ -95,7 +95,7 @@ class PacketReturns {
     }
     if (place.late_columns > 0) leave_out(place.late_columns, azimuths, frames.losses());
     firings_ += columns;
-    if (firings_ == kTileFirings) flush(frames);
+    if (firings_ == frame::kTileFirings) flush(frames);
   }
   /// Places what was added.
   void flush(FrameBuilder& frames) noexcept {
@@ -121,9 +121,9 @@ class PacketReturns {
     bool is_in_one_frame;
     std::size_t frame;  ///< Which, if so.
   };
-  using Numbers = std::array<TileRow<std::uint32_t>, 2>;  ///< By frame and firing.
+  using Numbers = std::array<frame::TileRow<std::uint32_t>, 2>;  ///< By frame and firing.
 
-  void leave_out(int late_columns, const PacketAzimuths& azimuths,
+  void leave_out(int late_columns, const packet::PacketAzimuths& azimuths,
                  frame::LossCounters& losses) noexcept {
     for (std::size_t c = 0; c < static_cast<std::size_t>(late_columns); ++c) {
       for (std::uint16_t& raw : tile_[0].arrived_raw[firings_ + c]) {
@@ -137,8 +137,8 @@ class PacketReturns {
 
   /// The rest of a tile that is not full: without returns.
   void complete(std::size_t firings) noexcept {
-    if (firings == kTileFirings) return;
-    for (std::size_t f = firings; f < kTileFirings; ++f) {
+    if (firings == frame::kTileFirings) return;
+    for (std::size_t f = firings; f < frame::kTileFirings; ++f) {
       tile_[0].arrived_raw[f].fill(0);
       rotor_cdeg_[f] = rotor_cdeg_[firings - 1];
       heads_.step_ticks[f] = heads_.step_ticks[firings - 1];
@@ -148,10 +148,10 @@ class PacketReturns {
   [[nodiscard]] Tile find_cells(std::size_t firings, FrameBuilder& frames,
                                 bool makes_points) noexcept {
     const std::int64_t first_frame = frames.oldest();
-    for (std::size_t f = 0; f < kTileFirings; ++f) {
+    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
       heads_.head_cdeg[f] =
           static_cast<std::int32_t>(rotor_cdeg_[f] - first_frame * beams::kRevolution_cdeg);
-      const SinCos direction = directions_.at(beams::wrap_cdeg(heads_.head_cdeg[f]));
+      const packet::SinCos direction = directions_.at(beams::wrap_cdeg(heads_.head_cdeg[f]));
       heads_.sin_head[f] = direction.sin;
       heads_.cos_head[f] = direction.cos;
     }
@@ -191,9 +191,9 @@ class PacketReturns {
   [[nodiscard]] Numbers count(const Tile& tile) const noexcept {
     Numbers counts{};
     if (tile.is_in_one_frame) {
-      TileRow<std::uint16_t> all{};
-      for (const TileRow<std::uint16_t>& raw : tile_[0].raw) {
-        for (std::size_t f = 0; f < kTileFirings; ++f) {
+      frame::TileRow<std::uint16_t> all{};
+      for (const frame::TileRow<std::uint16_t>& raw : tile_[0].raw) {
+        for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
           all[f] = static_cast<std::uint16_t>(all[f] + std::uint16_t{raw[f] != 0});
         }
       }
@@ -201,7 +201,7 @@ class PacketReturns {
       return counts;
     }
     for (std::size_t i = 0; i < kLasers; ++i) {
-      for (std::size_t f = 0; f < kTileFirings; ++f) {
+      for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
         counts[frame_of(beams_[i].column[f])][f] += tile_[0].raw[i][f] != 0 ? 1U : 0U;
       }
     }
@@ -231,7 +231,8 @@ class PacketReturns {
     }
     for (std::size_t i = 0; i < kLasers; ++i) {
       const bool is_run = beams_[i].is_one_run && tile.is_in_one_frame;
-      if (is_run && tile.firings == kTileFirings && place_run(tile, i, numbers[tile.frame])) {
+      if (is_run && tile.firings == frame::kTileFirings &&
+          place_run(tile, i, numbers[tile.frame])) {
         continue;
       }
       place_one_by_one(tile, i, numbers);
@@ -241,29 +242,29 @@ class PacketReturns {
 
   /// A laser's returns in columns next to each other, if those are empty.
   [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
-                               TileRow<std::uint32_t>& numbers) noexcept {
+                               frame::TileRow<std::uint32_t>& numbers) noexcept {
     frame::RangeImage& image = *tile.images[tile.frame];
     const int row = sensor_.rows()[laser];
     const int column = column_in(tile.frame, beams_[laser].least);
     if (!image.is_empty_from(row, column)) return false;
-    image.fetch_to_write(row, column + int{kTileFirings});
-    const frame::RangeImage::Cells cells = image.take_cells(row, column, kTileFirings);
+    image.fetch_to_write(row, column + int{frame::kTileFirings});
+    const frame::RangeImage::Cells cells = image.take_cells(row, column, frame::kTileFirings);
     reader_.compute_points(laser, {cells.x_m, cells.y_m, cells.z_m, cells.ground_range_m});
-    fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, numbers);
+    packet::fill_cells(tile_[0].raw[laser], tile_[0].intensity[laser], cells, numbers);
     return true;
   }
 
   /// Firings that share a column or leave one out, late ones, and the seam.
   void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
     reader_.compute_points(laser, all_of(points_[laser]));
-    const TileRow<std::int32_t>& column = beams_[laser].column;
+    const frame::TileRow<std::int32_t>& column = beams_[laser].column;
     const int row = sensor_.rows()[laser];
     const std::size_t newest = frame_of(beams_[laser].most);
     tile.images[newest]->fetch_to_write(row, column_in(newest, beams_[laser].most));
     // Which firings found something is as good as random, so no branch is asked to guess it.
-    std::array<std::uint8_t, kTileFirings> hits;
+    std::array<std::uint8_t, frame::kTileFirings> hits;
     std::size_t hit_count = 0;
-    for (std::size_t f = 0; f < kTileFirings; ++f) {
+    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
       hits[hit_count] = static_cast<std::uint8_t>(f);
       hit_count += tile_[0].raw[laser][f] != 0 ? 1 : 0;
     }
@@ -291,20 +292,20 @@ class PacketReturns {
   }
 
   [[nodiscard]] frame::Return point(std::size_t laser, std::size_t firing) const noexcept {
-    const TilePoints& points = points_[laser];
+    const frame::TilePoints& points = points_[laser];
     return {points.x_m[firing], points.y_m[firing], points.z_m[firing],
             points.ground_range_m[firing], tile_[0].intensity[laser][firing]};
   }
 
   Sensor sensor_;
   int columns_;
-  RotorDirections directions_;
+  packet::RotorDirections directions_;
   TileColumns<Sensor> columns_of_;
   SensorTileReader<Sensor> reader_;
-  std::span<FiringTile<kLasers>> tile_;  ///< One element.
-  std::span<BeamColumns> beams_;         ///< By laser.
-  std::span<TilePoints> points_;         ///< By laser, where they have no cells.
-  TileRow<std::int64_t> rotor_cdeg_{};   ///< Of each firing.
+  std::span<packet::FiringTile<kLasers>> tile_;  ///< One element.
+  std::span<frame::BeamColumns> beams_;          ///< By laser.
+  std::span<frame::TilePoints> points_;          ///< By laser, where they have no cells.
+  frame::TileRow<std::int64_t> rotor_cdeg_{};    ///< Of each firing.
   frame::TileHeads heads_{};
   std::size_t firings_ = 0;  ///< Added and not placed yet.
   frame::CellOwner owner_{};

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/decode/firing_tile.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/decode/step_advances.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/step_advances.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -21,38 +21,41 @@ class SensorTileReader final : public frame::TileReader {
  public:
   SensorTileReader(const Sensor& sensor, memory::FixedMemory& memory)
       : sensor_(sensor),
-        heads_(memory.take<GroupHeads<Sensor::kGroups>>("decoder tables", 1)),
+        heads_(memory.take<packet::GroupHeads<Sensor::kGroups>>("decoder tables", 1)),
         advances_(memory) {}
 
   void open(const frame::TileHeads& heads,
             const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING override {
     raw_ = raw;
-    GroupHeads<Sensor::kGroups>& found = heads_[0];
+    packet::GroupHeads<Sensor::kGroups>& found = heads_[0];
     found.sin_rotor = heads.sin_head;
     found.cos_rotor = heads.cos_head;
     advances_.spread(
         heads,
         [this](Directions& of, std::int32_t step_ticks, bool is_dual) noexcept {
           for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
-            const SinCos advance = small_advance(sensor_.advance_ticks(step_ticks, group, is_dual));
+            const packet::SinCos advance =
+                packet::small_advance(sensor_.advance_ticks(step_ticks, group, is_dual));
             of.sin[group] = advance.sin;
             of.cos[group] = advance.cos;
           }
         },
         [&found](const Directions& of) noexcept {
-          fill_rows(of.sin, found.sin_advance[0].data());
-          fill_rows(of.cos, found.cos_advance[0].data());
+          packet::fill_rows(of.sin, found.sin_advance[0].data());
+          packet::fill_rows(of.cos, found.cos_advance[0].data());
         },
-        [&found](const Directions& of, const FiringMask& mask) noexcept {
-          spread_rows(of.sin, mask, found.sin_advance[0].data());
-          spread_rows(of.cos, mask, found.cos_advance[0].data());
+        [&found](const Directions& of, const packet::FiringMask& mask) noexcept {
+          packet::spread_rows(of.sin, mask, found.sin_advance[0].data());
+          packet::spread_rows(of.cos, mask, found.cos_advance[0].data());
         });
   }
   void compute_points(std::size_t laser,
                       const frame::PointsOut& out) noexcept TERRACUT_NONBLOCKING override {
-    TileRow<float> measured_m;
-    measure(raw_ + laser * kTileFirings, sensor_.metres_per_count(), measured_m.data());
-    sensor_.compute_points(laser, heads_of_group(heads_[0], sensor_.group(laser)), measured_m, out);
+    frame::TileRow<float> measured_m;
+    packet::measure(raw_ + laser * frame::kTileFirings, sensor_.metres_per_count(),
+                    measured_m.data());
+    sensor_.compute_points(laser, packet::heads_of_group(heads_[0], sensor_.group(laser)),
+                           measured_m, out);
   }
   [[nodiscard]] std::span<const std::int32_t> rows() const noexcept TERRACUT_NONBLOCKING override {
     return sensor_.rows();
@@ -65,8 +68,8 @@ class SensorTileReader final : public frame::TileReader {
   };
 
   Sensor sensor_;
-  std::span<GroupHeads<Sensor::kGroups>> heads_;  ///< One element.
-  StepAdvances<Directions> advances_;
+  std::span<packet::GroupHeads<Sensor::kGroups>> heads_;  ///< One element.
+  packet::StepAdvances<Directions> advances_;
   const std::uint16_t* raw_ = nullptr;
 };
 

@@ -16,7 +16,7 @@ constexpr std::int64_t kOutage_us = 1'000'000;
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
 /// The head's way across a gap from here on is told to the caller even where the period is not yet
 /// known.
-constexpr std::int64_t kWide_ticks = kRevolution_ticks / 90;
+constexpr std::int64_t kWide_ticks = packet::kRevolution_ticks / 90;
 /// Frames are counted up to here: years of a rotating head. Then the count begins again.
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
 /// The head may be this far from where time and speed put it, plus an eighth of what it has
@@ -51,17 +51,17 @@ bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
 StreamTracker::StreamTracker(std::int64_t clock_wrap_us, memory::FixedMemory& memory)
     : clock_wrap_us_(clock_wrap_us), seen_(memory.take<Seen>("stream tracker", kSeenSlots)) {}
 
-StreamTracker::Seen StreamTracker::seen(const PacketAzimuths& azimuths) noexcept {
+StreamTracker::Seen StreamTracker::seen(const packet::PacketAzimuths& azimuths) noexcept {
   return {static_cast<std::uint32_t>(azimuths.device_stamp_us),
           static_cast<std::uint16_t>(azimuths.first_cdeg()),
           static_cast<std::uint16_t>(azimuths.last_cdeg()), 0};
 }
 
-std::size_t StreamTracker::slot_of(const PacketAzimuths& azimuths) noexcept {
+std::size_t StreamTracker::slot_of(const packet::PacketAzimuths& azimuths) noexcept {
   return static_cast<std::size_t>(azimuths.device_stamp_us / kSeenSlot_us) % kSeenSlots;
 }
 
-bool StreamTracker::is_repeat(const PacketAzimuths& azimuths) const noexcept {
+bool StreamTracker::is_repeat(const packet::PacketAzimuths& azimuths) const noexcept {
   const Seen& before = seen_[slot_of(azimuths)];
   const Seen now = seen(azimuths);
   return before.packet != 0 && before.stamp_us == now.stamp_us &&
@@ -69,13 +69,13 @@ bool StreamTracker::is_repeat(const PacketAzimuths& azimuths) const noexcept {
          packets_ - before.packet <= kRepeatWindow_packets;
 }
 
-void StreamTracker::remember(const PacketAzimuths& azimuths) noexcept {
+void StreamTracker::remember(const packet::PacketAzimuths& azimuths) noexcept {
   Seen& slot = seen_[slot_of(azimuths)];
   slot = seen(azimuths);
   slot.packet = packets_;
 }
 
-Placement StreamTracker::place(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+Placement StreamTracker::place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::LossCounters& losses) noexcept {
   ++packets_;
   if (is_repeat(azimuths)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
@@ -86,20 +86,20 @@ Placement StreamTracker::place(const PacketAzimuths& azimuths, std::int64_t host
   return placed;
 }
 
-Placement StreamTracker::begin(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+Placement StreamTracker::begin(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::LossCounters& losses) noexcept {
   const std::int64_t step_us = device_step_us(newest_.stamp_us, azimuths.device_stamp_us);
   if (step_us < -kReorder_us || step_us > kReorder_us) ++losses.clock_jumps;
   return restart(azimuths, host_stamp_ns, losses);
 }
 
-Placement StreamTracker::go_on(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+Placement StreamTracker::go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::LossCounters& losses) noexcept {
   if (is_repeat(azimuths)) return {Arrival::kRejected, frame::Reject::kRepeated, 0, 0, 0, false};
   return follow(azimuths, host_stamp_ns, losses);
 }
 
-Placement StreamTracker::doubt(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+Placement StreamTracker::doubt(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                frame::Reject reason) noexcept {
   const std::int64_t step_us = device_step_us(doubtful_.stamp_us, azimuths.device_stamp_us);
   if (doubtful_packets_ > 0 && step_us == 0 &&
@@ -127,10 +127,10 @@ Placement StreamTracker::doubt(const PacketAzimuths& azimuths, std::int64_t host
 
 /// The unwrapped azimuth at which the packet fits, by time and speed.
 std::optional<std::int64_t> StreamTracker::head_after(
-    const Newest& newest, const PacketAzimuths& azimuths) const noexcept {
+    const Newest& newest, const packet::PacketAzimuths& azimuths) const noexcept {
   const std::int64_t step_us = device_step_us(newest.stamp_us, azimuths.device_stamp_us);
   const std::int64_t rotated_cdeg =
-      newest.pace_ticks * (step_us * 1000) / period_in_use_ns() / kTicksPerCdeg;
+      newest.pace_ticks * (step_us * 1000) / period_in_use_ns() / packet::kTicksPerCdeg;
   const std::int64_t expected_cdeg = newest.rotor_cdeg + rotated_cdeg;
   const std::int64_t off_cdeg =
       beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), azimuths.first_cdeg());
@@ -139,13 +139,14 @@ std::optional<std::int64_t> StreamTracker::head_after(
 }
 
 /// Rejects what does not go on from the newest packet.
-Placement StreamTracker::follow(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept {
   const std::int64_t step_us = device_step_us(newest_.stamp_us, azimuths.device_stamp_us);
   const std::int64_t step_cdeg =
       beams::step_cdeg(beams::wrap_cdeg(newest_.rotor_cdeg), azimuths.first_cdeg());
 
-  const bool keeps_rotating = step_cdeg >= 0 && step_cdeg * kTicksPerCdeg <= 3 * newest_.pace_ticks;
+  const bool keeps_rotating =
+      step_cdeg >= 0 && step_cdeg * packet::kTicksPerCdeg <= 3 * newest_.pace_ticks;
   if (azimuths.clock_restarts) {
     steps_ = 0;  // the times between the packets before were not what they seemed
     missing_ = 0;
@@ -189,7 +190,7 @@ Placement StreamTracker::follow(const PacketAzimuths& azimuths, std::int64_t hos
     ++losses.clock_jumps;  // the clock stands still while the head rotates
   } else {
     // A wide gap may be the sensor's blind sector: the caller knows.
-    const bool is_wide = (*rotor_cdeg - newest_.rotor_cdeg) * kTicksPerCdeg > kWide_ticks;
+    const bool is_wide = (*rotor_cdeg - newest_.rotor_cdeg) * packet::kTicksPerCdeg > kWide_ticks;
     const bool is_measured = period_ns_ != 0;
     if (is_measured || is_wide) placed.missing = missing_in({step_us, explained_});
     if (is_measured || !is_wide) measure_period(step_us, losses);
@@ -198,15 +199,16 @@ Placement StreamTracker::follow(const PacketAzimuths& azimuths, std::int64_t hos
   return placed;
 }
 
-void StreamTracker::take_as_newest(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
-                                   std::int64_t rotor_cdeg, frame::LossCounters& losses) noexcept {
+void StreamTracker::take_as_newest(const packet::PacketAzimuths& azimuths,
+                                   std::int64_t host_stamp_ns, std::int64_t rotor_cdeg,
+                                   frame::LossCounters& losses) noexcept {
   adopt_range(azimuths, losses);
   remember(azimuths);
   newest_ = {azimuths.device_stamp_us, host_stamp_ns, rotor_cdeg, azimuths.pace_ticks};
   explained_ = 0;
 }
 
-Placement StreamTracker::restart(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+Placement StreamTracker::restart(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                  frame::LossCounters& losses) noexcept {
   fix_period(losses);
   commit_missing(losses);
@@ -241,7 +243,7 @@ void StreamTracker::commit_missing(frame::LossCounters& losses) noexcept {
 
 // --- The period from packet to packet ---
 
-void StreamTracker::adopt_range(const PacketAzimuths& azimuths,
+void StreamTracker::adopt_range(const packet::PacketAzimuths& azimuths,
                                 frame::LossCounters& losses) noexcept {
   if (azimuths.nominal_period_ns == nominal_period_ns_) return;
   fix_period(losses);  // what came in the mode before

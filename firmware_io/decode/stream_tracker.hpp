@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -59,14 +59,14 @@ class StreamTracker {
   /// Where this packet belongs. Clock jumps go to `losses`; the caller counts the rejection, and
   /// says how many of the missing packets were to come. `host_stamp_ns` is the datagram's, used
   /// only to tell an outage from a jump.
-  [[nodiscard]] Placement place(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// After kNewStream, with each of the packets kept, in order, and with the last one itself: the
   /// first begins the stream. As place(), but nothing is in doubt any more.
-  [[nodiscard]] Placement begin(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement begin(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] Placement go_on(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
   /// Of the packets missing before the one just placed (kNext, kRestart) these are lost; counted
@@ -108,14 +108,14 @@ class StreamTracker {
 
   [[nodiscard]] std::int64_t device_step_us(std::int64_t from_us,
                                             std::int64_t to_us) const noexcept {
-    return clock_step_us(from_us, to_us, clock_wrap_us_);
+    return packet::clock_step_us(from_us, to_us, clock_wrap_us_);
   }
-  [[nodiscard]] static Seen seen(const PacketAzimuths& azimuths) noexcept;
-  [[nodiscard]] static std::size_t slot_of(const PacketAzimuths& azimuths) noexcept;
-  [[nodiscard]] bool is_repeat(const PacketAzimuths& azimuths) const noexcept;
+  [[nodiscard]] static Seen seen(const packet::PacketAzimuths& azimuths) noexcept;
+  [[nodiscard]] static std::size_t slot_of(const packet::PacketAzimuths& azimuths) noexcept;
+  [[nodiscard]] bool is_repeat(const packet::PacketAzimuths& azimuths) const noexcept;
   /// A packet that was taken. Those in doubt are not: who foretells a packet must not replace it.
-  void remember(const PacketAzimuths& azimuths) noexcept;
-  void adopt_range(const PacketAzimuths& azimuths, frame::LossCounters& losses) noexcept;
+  void remember(const packet::PacketAzimuths& azimuths) noexcept;
+  void adopt_range(const packet::PacketAzimuths& azimuths, frame::LossCounters& losses) noexcept;
   [[nodiscard]] std::int64_t period_in_use_ns() const noexcept {
     return period_ns_ != 0 ? period_ns_ : nominal_period_ns_;
   }
@@ -125,15 +125,15 @@ class StreamTracker {
   void accept_median() noexcept;
   [[nodiscard]] std::int64_t missing_in(const Step& step) const noexcept;
   void commit_missing(frame::LossCounters& losses) noexcept;
-  [[nodiscard]] Placement follow(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement follow(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                  frame::LossCounters& losses) noexcept;
   [[nodiscard]] std::optional<std::int64_t> head_after(
-      const Newest& newest, const PacketAzimuths& azimuths) const noexcept;
-  [[nodiscard]] Placement doubt(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+      const Newest& newest, const packet::PacketAzimuths& azimuths) const noexcept;
+  [[nodiscard]] Placement doubt(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::Reject reason) noexcept;
-  [[nodiscard]] Placement restart(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
-                                  frame::LossCounters& losses) noexcept;
-  void take_as_newest(const PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
+  [[nodiscard]] Placement restart(const packet::PacketAzimuths& azimuths,
+                                  std::int64_t host_stamp_ns, frame::LossCounters& losses) noexcept;
+  void take_as_newest(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                       std::int64_t rotor_cdeg, frame::LossCounters& losses) noexcept;
 
   std::int64_t clock_wrap_us_;

@@ -8,9 +8,9 @@
 #include <span>
 
 #include "calib/beams/angle.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/decode/step_advances.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/step_advances.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -23,23 +23,25 @@ class TileColumns {
   /// columns: of the range image, [16, 36000].
   TileColumns(const Sensor& sensor, int columns, memory::FixedMemory& memory)
       : columns_(columns),
-        advance_column_(memory.take<TileRow<std::int32_t>>("decoder tables", Sensor::kGroups)),
-        advance_rest_(memory.take<TileRow<std::int32_t>>("decoder tables", Sensor::kGroups)),
+        advance_column_(
+            memory.take<frame::TileRow<std::int32_t>>("decoder tables", Sensor::kGroups)),
+        advance_rest_(memory.take<frame::TileRow<std::int32_t>>("decoder tables", Sensor::kGroups)),
         advances_(memory) {
     for (std::size_t i = 0; i < offset_.size(); ++i) {
-      offset_[i] = column_angle(sensor.beam_ticks(static_cast<int>(i)), columns);
+      offset_[i] = packet::column_angle(sensor.beam_ticks(static_cast<int>(i)), columns);
     }
   }
 
   /// Fills `beams` in, one a laser, counted from the frame that `heads` are counted from. Real-time
   /// safe.
   void find(const Sensor& sensor, const frame::TileHeads& heads,
-            std::span<BeamColumns> beams) noexcept TERRACUT_NONBLOCKING {
-    alignas(64) TileRow<std::int32_t> head_column, head_rest;
-    for (std::size_t f = 0; f < kTileFirings; ++f) {
+            std::span<frame::BeamColumns> beams) noexcept TERRACUT_NONBLOCKING {
+    alignas(64) frame::TileRow<std::int32_t> head_column, head_rest;
+    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
       const std::int32_t azimuth_cdeg = beams::wrap_cdeg(heads.head_cdeg[f]);
       const std::int32_t revolution = (heads.head_cdeg[f] - azimuth_cdeg) / beams::kRevolution_cdeg;
-      const ColumnAngle angle = column_angle(std::int64_t{azimuth_cdeg} * kTicksPerCdeg, columns_);
+      const packet::ColumnAngle angle =
+          packet::column_angle(std::int64_t{azimuth_cdeg} * packet::kTicksPerCdeg, columns_);
       head_column[f] = angle.whole + revolution * columns_;
       head_rest[f] = angle.rest;
     }
@@ -47,24 +49,24 @@ class TileColumns {
         heads,
         [&](Columns& of, std::int32_t step_ticks, bool is_dual) noexcept {
           for (std::size_t group = 0; group < Sensor::kGroups; ++group) {
-            const ColumnAngle angle =
-                column_angle(sensor.advance_ticks(step_ticks, group, is_dual), columns_);
+            const packet::ColumnAngle angle =
+                packet::column_angle(sensor.advance_ticks(step_ticks, group, is_dual), columns_);
             of.whole[group] = angle.whole;
             of.rest[group] = angle.rest;
           }
         },
         [this](const Columns& of) noexcept {
-          fill_rows(of.whole, advance_column_[0].data());
-          fill_rows(of.rest, advance_rest_[0].data());
+          packet::fill_rows(of.whole, advance_column_[0].data());
+          packet::fill_rows(of.rest, advance_rest_[0].data());
         },
-        [this](const Columns& of, const FiringMask& mask) noexcept {
-          spread_rows(of.whole, mask, advance_column_[0].data());
-          spread_rows(of.rest, mask, advance_rest_[0].data());
+        [this](const Columns& of, const packet::FiringMask& mask) noexcept {
+          packet::spread_rows(of.whole, mask, advance_column_[0].data());
+          packet::spread_rows(of.rest, mask, advance_rest_[0].data());
         });
     for (std::size_t i = 0; i < offset_.size(); ++i) {
       const std::size_t group = sensor.group(i);
-      find_columns(head_column.data(), head_rest.data(), advance_column_[group].data(),
-                   advance_rest_[group].data(), offset_[i], beams[i]);
+      packet::find_columns(head_column.data(), head_rest.data(), advance_column_[group].data(),
+                           advance_rest_[group].data(), offset_[i], beams[i]);
     }
   }
 
@@ -75,9 +77,10 @@ class TileColumns {
   };
 
   int columns_;
-  std::array<ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)> offset_;  ///< From the head.
-  std::span<TileRow<std::int32_t>> advance_column_, advance_rest_;               ///< By group.
-  StepAdvances<Columns> advances_;
+  std::array<packet::ColumnAngle, static_cast<std::size_t>(Sensor::kChannels)>
+      offset_;                                                             ///< From the head.
+  std::span<frame::TileRow<std::int32_t>> advance_column_, advance_rest_;  ///< By group.
+  packet::StepAdvances<Columns> advances_;
 };
 
 }  // namespace terracut::decode

@@ -9,9 +9,10 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/hdl64e/hdl64e_calibration.hpp"
-#include "firmware_io/decode/beam_azimuth.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/hdl64e/firing_times.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 
 /// Where a beam points when its laser fires, in whole numbers, so that the decoder, the encoder and
 /// the truth beside a capture agree on the frame and the order of every return, bit for bit.
@@ -33,7 +34,7 @@ namespace terracut::hdl64e {
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
                                                        bool dual_return = false) noexcept {
   const int columns = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
-  return beams::step_cdeg(first_cdeg, last_cdeg) * (decode::kTicksPerCdeg / (columns - 1));
+  return beams::step_cdeg(first_cdeg, last_cdeg) * (packet::kTicksPerCdeg / (columns - 1));
 }
 
 /// The share of the column period after which laser 0..31 of a block fires, in 1 / 2^20.
@@ -64,7 +65,7 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 
 /// A laser's rotational correction in ticks, as all whole-number azimuths take it.
 [[nodiscard]] inline std::int32_t rot_correction_ticks(const Hdl64eLaser& laser) noexcept {
-  return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / decode::kRadPerTick));
+  return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / packet::kRadPerTick));
 }
 
 /// Offsets of all 64 beams for one unit.

@@ -11,7 +11,7 @@ void read_s1_column(const wire::Block& block, const Hdl64eSensor::Returns& found
   constexpr std::size_t kBank = kLasersPerBlock;
   const std::size_t fired = block.id.value() == kUpperBlockId ? 0 : kBank;
   std::ranges::fill(found.raw.subspan(kBank - fired, kBank), std::uint16_t{0});
-  decode::split_returns(&block.returns[0].distance.bytes[0], decode::ByteOrder::kLittle,
+  packet::split_returns(&block.returns[0].distance.bytes[0], packet::ByteOrder::kLittle,
                         found.raw.subspan(fired, kBank), &found.intensity[fired]);
 }
 
@@ -24,8 +24,8 @@ Hdl64eSensor::Hdl64eSensor(const Calibration& calibration, const mount::Mount& m
       metres_per_count_(static_cast<float>(calibration.distance_resolution_m)),
       rows_(mount::rows_upward(rows_by_elevation(calibration), mount)) {}
 
-std::optional<frame::Reject> Hdl64eSensor::check(const decode::Datagram& datagram,
-                                                 decode::PacketAzimuths& azimuths) noexcept {
+std::optional<frame::Reject> Hdl64eSensor::check(const packet::Datagram& datagram,
+                                                 packet::PacketAzimuths& azimuths) noexcept {
   const auto* packet = packet_in(datagram.payload);
   if (packet == nullptr || !is_hdl64e_s1(*packet)) {
     return check_hdl64e_packet(datagram.payload, azimuths);
@@ -41,7 +41,7 @@ void Hdl64eSensor::read_column(std::span<const std::uint8_t> payload, std::size_
   for (std::size_t half = 0; half < 2; ++half) {
     const auto& returns = packet->blocks[2 * column + half].returns;
     const std::size_t first = half * kLasersPerBlock;
-    decode::split_returns(&returns[0].distance.bytes[0], decode::ByteOrder::kLittle,
+    packet::split_returns(&returns[0].distance.bytes[0], packet::ByteOrder::kLittle,
                           found.raw.subspan(first, returns.size()), &found.intensity[first]);
   }
 }

@@ -10,15 +10,15 @@
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/hdl64e/hdl64e_geometry.hpp"
 #include "calib/mount/mount.hpp"
-#include "firmware_io/decode/datagram.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
-#include "firmware_io/decode/frame_builder.hpp"
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/hdl64e/point_kernel.hpp"
 #include "firmware_io/hdl64e/s1_packet.hpp"
 #include "firmware_io/hdl64e/s1_reader.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::hdl64e {
@@ -37,17 +37,17 @@ class Hdl64eSensor {
   static constexpr int kRows = kHdl64eLasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kHdl64ePacketBytes;
   static constexpr std::size_t kGroups = kLasersPerBlock;  ///< Both blocks fire together.
-  using Returns = decode::FiringReturns<static_cast<std::size_t>(kRows)>;
+  using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
   static constexpr std::int64_t kClockWrap_us = kDeviceHour_us;
   static constexpr int kDefaultColumns = 2083;  ///< 2083.3 firings a frame, 48 us each.
   static constexpr int kDefaultReturnsPerCell = 2;
 
   Hdl64eSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
-  [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
-                                                   decode::PacketAzimuths& azimuths) noexcept
+  [[nodiscard]] std::optional<frame::Reject> check(const packet::Datagram& datagram,
+                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
-  [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
+  [[nodiscard]] packet::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
@@ -58,19 +58,19 @@ class Hdl64eSensor {
                                                   bool dual_return) noexcept {
     return firing_advance_ticks(step_ticks, static_cast<int>(group), dual_return);
   }
-  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
+  void begin_packet(const packet::PacketAzimuths& azimuths) noexcept {
     is_s1_packet_ = azimuths.columns == kColumnsPerPacketS1;
   }
   /// Within a block of the S1 nothing is known of the head's rotation.
-  [[nodiscard]] std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+  [[nodiscard]] std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
                                         std::size_t) const noexcept {
     return is_s1_packet_ ? 0 : azimuths.step_ticks;
   }
   void read_column(std::span<const std::uint8_t> payload, std::size_t column,
                    const Returns& found) const noexcept TERRACUT_NONBLOCKING;
-  void compute_points(std::size_t laser, const decode::LaserHeads& heads,
-                      const decode::TileRow<float>& measured_m,
-                      const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
+  void compute_points(std::size_t laser, const packet::LaserHeads& heads,
+                      const frame::TileRow<float>& measured_m,
+                      const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
     kernel_.compute(laser, heads, measured_m, out);
   }
   [[nodiscard]] float metres_per_count() const noexcept { return metres_per_count_; }

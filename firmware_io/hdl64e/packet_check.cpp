@@ -5,14 +5,11 @@
 #include <algorithm>
 
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
-#include "firmware_io/ruby128/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 
 namespace terracut::hdl64e {
 namespace {
-
-/// Blocks of lasers 64..95 and 96..127: only the VLS-128 sends them.
-constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF;
 
 std::optional<frame::Reject> reject_ids(const wire::Packet& packet) noexcept {
   int upper = 0, lower = 0, others = 0, misplaced = 0;
@@ -40,7 +37,7 @@ bool is_ruby(std::span<const std::uint8_t> payload) noexcept {
 }  // namespace
 
 std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> payload,
-                                                 decode::PacketAzimuths& azimuths) noexcept {
+                                                 packet::PacketAzimuths& azimuths) noexcept {
   const auto* packet = packet_in(payload);
   if (packet == nullptr)
     return is_ruby(payload) ? frame::Reject::kWrongModel : frame::Reject::kWrongSize;
@@ -77,8 +74,8 @@ std::optional<frame::Reject> check_hdl64e_packet(std::span<const std::uint8_t> p
   const FiringTimes& usual = azimuths.dual_return ? kFiringTimesDual : kFiringTimesSingle48;
   const FiringTimes& slowest = azimuths.dual_return ? kFiringTimesDual : kFiringTimesSingle57;
   azimuths.nominal_period_ns = usual.packet_ns();
-  azimuths.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / decode::kPeriodTolerance;
-  azimuths.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / decode::kPeriodTolerance;
+  azimuths.shortest_period_ns = usual.packet_ns() - usual.packet_ns() / packet::kPeriodTolerance;
+  azimuths.longest_period_ns = slowest.packet_ns() + slowest.packet_ns() / packet::kPeriodTolerance;
   azimuths.sweep_ticks = azimuths.step_ticks *
                          (azimuths.dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle);
   azimuths.pace_ticks = azimuths.widest_ticks = azimuths.sweep_ticks;

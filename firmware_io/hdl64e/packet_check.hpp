@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::hdl64e {
@@ -34,6 +34,6 @@ inline constexpr int kMaxJitter_cdeg = 5;  ///< Backwards, from column to column
 /// kStationary too. Real-time safe; any thread.
 [[nodiscard]] std::optional<frame::Reject> check_hdl64e_packet(
     std::span<const std::uint8_t> payload,
-    decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+    packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::hdl64e

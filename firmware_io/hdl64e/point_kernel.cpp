@@ -56,7 +56,7 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
   const float end_m = interpolation_end_m_;
   const std::array<float, 12> T = T_vehicle_lidar_;
 
-  for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+  for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
     const float offset_sin = sin_advance[f] * k.cos_rot - cos_advance[f] * k.sin_rot;
     const float offset_cos = cos_advance[f] * k.cos_rot + sin_advance[f] * k.sin_rot;
     const float sin_a = sin_rotor[f] * offset_cos + cos_rotor[f] * offset_sin;
@@ -85,9 +85,9 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
   }
 }
 
-void PointKernel::compute(std::size_t laser, const decode::LaserHeads& heads,
-                          const decode::TileRow<float>& measured_m,
-                          const decode::PointsOut& out) const noexcept {
+void PointKernel::compute(std::size_t laser, const packet::LaserHeads& heads,
+                          const frame::TileRow<float>& measured_m,
+                          const frame::PointsOut& out) const noexcept {
   compute(laser_[laser], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
           measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
 }

@@ -9,7 +9,7 @@
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "calib/hdl64e/hdl64e_geometry.hpp"
 #include "calib/mount/mount.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::hdl64e {
@@ -31,9 +31,9 @@ class PointKernel {
               const mount::Mount& mount) noexcept;
 
   /// `heads`: of the laser's group. `measured_m`: wire distances, NaN: no return.
-  void compute(std::size_t laser, const decode::LaserHeads& heads,
-               const decode::TileRow<float>& measured_m,
-               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
+  void compute(std::size_t laser, const packet::LaserHeads& heads,
+               const frame::TileRow<float>& measured_m,
+               const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   struct Laser {

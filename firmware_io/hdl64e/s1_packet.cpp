@@ -7,7 +7,7 @@
 namespace terracut::hdl64e {
 
 std::optional<frame::Reject> check_hdl64e_s1_packet(const wire::Packet& packet,
-                                                    decode::PacketAzimuths& azimuths) noexcept {
+                                                    packet::PacketAzimuths& azimuths) noexcept {
   azimuths.columns = kColumnsPerPacketS1;
   azimuths.dual_return = false;
   bool in_range = true;
@@ -29,15 +29,15 @@ std::optional<frame::Reject> check_hdl64e_s1_packet(const wire::Packet& packet,
   if (advance_cdeg <= -kMinSweep_cdeg) return frame::Reject::kAzimuthJump;
   if (advance_cdeg < kMinSweep_cdeg) return frame::Reject::kStationary;
 
-  azimuths.step_ticks = advance_cdeg * decode::kTicksPerCdeg / (kColumnsPerPacketS1 - 1);
+  azimuths.step_ticks = advance_cdeg * packet::kTicksPerCdeg / (kColumnsPerPacketS1 - 1);
   azimuths.pace_ticks = azimuths.step_ticks * kColumnsPerPacketS1;
   // The next packet's first mark may be one further than the mean step says.
-  constexpr std::int32_t kHalfMark_ticks = kS1Mark_cdeg * decode::kTicksPerCdeg / 2;
+  constexpr std::int32_t kHalfMark_ticks = kS1Mark_cdeg * packet::kTicksPerCdeg / 2;
   azimuths.sweep_ticks = azimuths.pace_ticks + kHalfMark_ticks;
   azimuths.widest_ticks = azimuths.sweep_ticks;
   azimuths.nominal_period_ns = kS1Packet_ns;
-  azimuths.shortest_period_ns = kS1Packet_ns - kS1Packet_ns / decode::kPeriodTolerance;
-  azimuths.longest_period_ns = kS1Packet_ns + kS1Packet_ns / decode::kPeriodTolerance;
+  azimuths.shortest_period_ns = kS1Packet_ns - kS1Packet_ns / packet::kPeriodTolerance;
+  azimuths.longest_period_ns = kS1Packet_ns + kS1Packet_ns / packet::kPeriodTolerance;
   return std::nullopt;
 }
 

@@ -6,9 +6,9 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 /// The data packet of the first HDL-64E, the S1 (docs/reference/sensors.md): the blocks of its
@@ -28,21 +28,11 @@ inline constexpr std::int32_t kS1UpperFiring_ns = kS1Packet_ns / 9;
 /// Azimuths are multiples of this, the encoder's 4000 marks.
 inline constexpr int kS1Mark_cdeg = 9;
 
-/// Blocks of both banks and no others, the upper ones at least twice as many.
-[[nodiscard]] constexpr bool is_hdl64e_s1(const wire::Packet& packet) noexcept {
-  int upper = 0, lower = 0;
-  for (const wire::Block& block : packet.blocks) {
-    upper += block.id.value() == kUpperBlockId ? 1 : 0;
-    lower += block.id.value() == kLowerBlockId ? 1 : 0;
-  }
-  return upper + lower == kBlocksPerPacket && lower > 0 && upper >= 2 * lower;
-}
-
 /// Reads the azimuths of a packet that is_hdl64e_s1() into `azimuths`, all but the device stamp
 /// (S1Reader); otherwise the reason to reject it: kAzimuthOutOfRange, kAzimuthJump (steps beyond
 /// those of packet_check.hpp, from block to block), kStationary. `azimuths` holds the azimuths for
 /// these, too. Real-time safe; any thread.
 [[nodiscard]] std::optional<frame::Reject> check_hdl64e_s1_packet(
-    const wire::Packet& packet, decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+    const wire::Packet& packet, packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::hdl64e

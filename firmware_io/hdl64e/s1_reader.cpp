@@ -40,23 +40,23 @@ std::int64_t S1Reader::missing_revolutions(std::int64_t rotated_ticks, std::int6
                                                   static_cast<std::uint64_t>(host_ns_));
   if (since_ns <= 0 || since_ns > kLongestOutage_ns) return 0;
   const std::int64_t revolution_ns =
-      std::int64_t{kS1Packet_ns} * decode::kRevolution_ticks / pace_ticks;
+      std::int64_t{kS1Packet_ns} * packet::kRevolution_ticks / pace_ticks;
   const std::int64_t rotated_ns = rotated_ticks * kS1Packet_ns / pace_ticks;
   return since_ns > rotated_ns ? rounded(since_ns - rotated_ns, revolution_ns) : 0;
 }
 
-std::int64_t S1Reader::number_of(const decode::PacketAzimuths& azimuths,
+std::int64_t S1Reader::number_of(const packet::PacketAzimuths& azimuths,
                                  std::int64_t host_ns) noexcept {
   const std::int64_t pace_ticks = mean_pace(azimuths.pace_ticks);
   if (!std::exchange(has_begun_, true)) return packet_;
   const std::int64_t rotated_ticks =
-      std::int64_t{beams::step_cdeg(azimuth_cdeg_, azimuths.first_cdeg())} * decode::kTicksPerCdeg;
+      std::int64_t{beams::step_cdeg(azimuth_cdeg_, azimuths.first_cdeg())} * packet::kTicksPerCdeg;
   const std::int64_t revolutions = missing_revolutions(rotated_ticks, pace_ticks, host_ns);
-  return packet_ + rounded(rotated_ticks + revolutions * decode::kRevolution_ticks, pace_ticks);
+  return packet_ + rounded(rotated_ticks + revolutions * packet::kRevolution_ticks, pace_ticks);
 }
 
 std::optional<frame::Reject> S1Reader::read(const wire::Packet& packet, std::int64_t host_ns,
-                                            decode::PacketAzimuths& azimuths) noexcept {
+                                            packet::PacketAzimuths& azimuths) noexcept {
   const auto reason = check_hdl64e_s1_packet(packet, azimuths);
   const bool is_standing = reason == frame::Reject::kStationary;
   const std::int64_t number = reason ? packet_ + 1 : number_of(azimuths, host_ns);

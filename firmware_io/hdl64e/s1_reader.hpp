@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/hdl64e/s1_packet.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::hdl64e {
@@ -25,12 +25,12 @@ class S1Reader {
   /// As check_hdl64e_s1_packet(), of a packet that came at `host_ns`, and the stamp: that of the
   /// next packet where the azimuths say nothing.
   [[nodiscard]] std::optional<frame::Reject> read(const wire::Packet& packet, std::int64_t host_ns,
-                                                  decode::PacketAzimuths& azimuths) noexcept
+                                                  packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
 
  private:
   /// Number of the packet of a rotating head.
-  [[nodiscard]] std::int64_t number_of(const decode::PacketAzimuths& azimuths,
+  [[nodiscard]] std::int64_t number_of(const packet::PacketAzimuths& azimuths,
                                        std::int64_t host_ns) noexcept;
   void take(std::int64_t packet, std::int32_t azimuth_cdeg, std::int64_t host_ns) noexcept {
     packet_ = packet;

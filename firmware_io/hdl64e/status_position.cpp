@@ -6,7 +6,7 @@
 #include <cstdlib>
 
 #include "firmware_io/hdl64e/status_cycle.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 
 namespace terracut::hdl64e {
 namespace {

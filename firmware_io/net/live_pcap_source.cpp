@@ -11,8 +11,8 @@
 #include <cstring>
 #include <utility>
 
-#include "firmware_io/capture/udp_frame.hpp"
 #include "firmware_io/net/network_interface.hpp"
+#include "firmware_io/packet/udp_frame.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 
 namespace terracut::net {
@@ -101,7 +101,7 @@ LivePcapSource::LivePcapSource(LivePcapConfig config, threads::WakeEvent wake,
       wake_(std::move(wake)),
       probe_(std::move(probe)),
       bytes_(memory.take<std::uint8_t>("pcap source", config_.batch * config_.slot_bytes)),
-      datagrams_(memory.take<decode::Datagram>("pcap source", config_.batch)) {}
+      datagrams_(memory.take<packet::Datagram>("pcap source", config_.batch)) {}
 
 Expected<LivePcapSource::Handle> LivePcapSource::activate(const LivePcapConfig& config) {
   std::array<char, PCAP_ERRBUF_SIZE> message{};
@@ -118,7 +118,7 @@ Expected<LivePcapSource::Handle> LivePcapSource::activate(const LivePcapConfig& 
     return tl::unexpected(refused(config.interface, result, handle.get()));
   }
   const int link_type = ::pcap_datalink(handle.get());
-  if (!capture::is_supported_link_type(link_type)) {
+  if (!packet::is_supported_link_type(link_type)) {
     return fail(ErrorCode::kUnsupported,
                 fmt::format("interface '{}': link layer {} carries no UDP that terracut reads",
                             config.interface, link_type));
@@ -147,7 +147,7 @@ void LivePcapSource::adopt(Handle handle) noexcept {
   drops_.restart();
 }
 
-std::span<const decode::Datagram> LivePcapSource::receive(std::int64_t timeout_ns) noexcept {
+std::span<const packet::Datagram> LivePcapSource::receive(std::int64_t timeout_ns) noexcept {
   const std::int64_t begun_ns = measure::monotonic_ns();
   const std::int64_t deadline_ns =
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
@@ -192,7 +192,7 @@ std::size_t LivePcapSource::read_batch() noexcept {
 
 void LivePcapSource::take(std::span<const std::uint8_t> frame, std::int64_t stamp_ns) noexcept {
   ++counters_.received;
-  const auto parsed = capture::parse_udp_frame(link_type_, frame, stamp_ns);
+  const auto parsed = packet::parse_udp_frame(link_type_, frame, stamp_ns);
   if (!parsed) {
     ++counters_.no_datagram;
   } else if (config_.sender &&

@@ -9,10 +9,10 @@
 #include <span>
 #include <string>
 
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/net/drop_counter.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/receive_counters.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/error.hpp"
 #include "rt/files/owned_descriptor.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -45,7 +45,7 @@ class LivePcapSource {
   [[nodiscard]] static Expected<LivePcapSource> open(LivePcapConfig config,
                                                      memory::FixedMemory& memory);
 
-  [[nodiscard]] std::span<const decode::Datagram> receive(std::int64_t timeout_ns) noexcept
+  [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
@@ -85,7 +85,7 @@ class LivePcapSource {
   std::int64_t stamp_unit_ns_ = 1;
 
   std::span<std::uint8_t> bytes_;
-  std::span<decode::Datagram> datagrams_;
+  std::span<packet::Datagram> datagrams_;
   std::size_t kept_ = 0;
 
   ReceiveCounters counters_;

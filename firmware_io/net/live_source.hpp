@@ -35,7 +35,7 @@ class LiveSource {
   [[nodiscard]] static Expected<LiveSource> open(const ListenConfig& config,
                                                  memory::FixedMemory& memory);
 
-  [[nodiscard]] std::span<const decode::Datagram> receive(std::int64_t timeout_ns) noexcept
+  [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept
       TERRACUT_NONBLOCKING {
     if (udp_) return udp_->receive(timeout_ns);
     // libpcap is not marked nonblocking; this call may wait, because the thread waits for packets.

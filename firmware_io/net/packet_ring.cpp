@@ -55,9 +55,9 @@ PacketWindow::PacketWindow(const PacketRingSize& size, memory::FixedMemory& memo
     : headers_(memory.take<Header>("flight recorder window", size.datagrams)),
       words_(memory.take<std::uint64_t>("flight recorder window", words_of(size.payload_bytes))) {}
 
-decode::Datagram PacketWindow::datagram(std::size_t n) const noexcept {
+packet::Datagram PacketWindow::datagram(std::size_t n) const noexcept {
   const Header& header = headers_[n];
-  decode::Datagram datagram = header.datagram;
+  packet::Datagram datagram = header.datagram;
   const auto* bytes = reinterpret_cast<const std::uint8_t*>(words_.data() + header.first_word);
   datagram.payload = {bytes, header.bytes};
   return datagram;
@@ -71,7 +71,7 @@ PacketRing::PacketRing(const PacketRingSize& size, memory::FixedMemory& memory)
   }
 }
 
-void PacketRing::add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
+void PacketRing::add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
   const std::size_t bytes = datagram.payload.size();
   const std::size_t words = words_of(bytes);
   if (words > words_.size()) return;
@@ -150,7 +150,7 @@ void PacketRing::copy_to(PacketWindow& window) const noexcept {
       start_again();
       continue;
     }
-    decode::Datagram datagram;
+    packet::Datagram datagram;
     datagram.stamp_ns = static_cast<std::int64_t>(header.stamp_ns);
     datagram.source_address = high_half(header.addresses);
     datagram.destination_address = low_half(header.addresses);

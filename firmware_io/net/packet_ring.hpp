@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -34,7 +34,7 @@ class PacketWindow {
 
   [[nodiscard]] std::size_t datagrams() const noexcept { return datagrams_; }
   /// The n-th, counted from the oldest; its payload points into the window.
-  [[nodiscard]] decode::Datagram datagram(std::size_t n) const noexcept;
+  [[nodiscard]] packet::Datagram datagram(std::size_t n) const noexcept;
   [[nodiscard]] std::uint64_t payload_bytes() const noexcept { return payload_bytes_; }
   /// Datagrams the ring held when the copy began that are not here, because the ring overwrote
   /// them, or one after them, before they were copied.
@@ -43,7 +43,7 @@ class PacketWindow {
  private:
   friend class PacketRing;
   struct Header {
-    decode::Datagram datagram;  ///< Payload not set.
+    packet::Datagram datagram;  ///< Payload not set.
     std::size_t first_word = 0;
     std::size_t bytes = 0;
   };
@@ -79,7 +79,7 @@ class PacketRing {
 
   /// Writer thread only. Wait-free, bounded by the payload's length; allocates nothing. A payload
   /// longer than the whole ring is left out.
-  void add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
+  void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
 
   /// One reader thread, while the writer goes on. Allocates nothing. `window` must be of this size.
   void copy_to(PacketWindow& window) const noexcept;

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::net {
@@ -50,8 +50,8 @@ struct ReceiveCounters {
 /// How the interface that was asked for stands; kUnknown without one.
 enum class LinkState : std::uint8_t { kUnknown, kUp, kDown, kGone };
 
-/// Datagrams that a source takes in at once by default: an HDL-64E sends 70 in 20 ms. Where fewer were
-/// received, those left out included, none was left waiting.
+/// Datagrams that a source takes in at once by default: an HDL-64E sends 70 in 20 ms. Where fewer
+/// were received, those left out included, none was left waiting.
 inline constexpr std::size_t kBatchDatagrams = 64;
 
 /// What UdpSource and LivePcapSource have in common, for code that takes either:
@@ -66,7 +66,7 @@ inline constexpr std::size_t kBatchDatagrams = 64;
 /// Everything but wake() from one thread.
 template <class Source>
 concept DatagramSource = requires(Source& source, const Source& idle, std::int64_t timeout_ns) {
-  { source.receive(timeout_ns) } noexcept -> std::same_as<std::span<const decode::Datagram>>;
+  { source.receive(timeout_ns) } noexcept -> std::same_as<std::span<const packet::Datagram>>;
   { idle.wake() } noexcept;
   { idle.counters() } noexcept -> std::same_as<const ReceiveCounters&>;
   { idle.link() } noexcept -> std::same_as<LinkState>;

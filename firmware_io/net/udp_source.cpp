@@ -92,7 +92,7 @@ UdpSource::UdpSource(UdpSourceConfig config, threads::WakeEvent wake, files::Own
       vectors_(memory.take<::iovec>("udp source", config_.batch)),
       senders_(memory.take<::sockaddr_in>("udp source", config_.batch)),
       controls_(memory.take<Control>("udp source", config_.batch)),
-      datagrams_(memory.take<decode::Datagram>("udp source", config_.batch)) {
+      datagrams_(memory.take<packet::Datagram>("udp source", config_.batch)) {
   for (std::size_t slot = 0; slot < config_.batch; ++slot) {
     vectors_[slot] = {bytes_.data() + slot * config_.slot_bytes, config_.slot_bytes};
     ::msghdr& header = messages_[slot].msg_hdr;
@@ -196,7 +196,7 @@ void UdpSource::note_shortfalls() {
   }
 }
 
-std::span<const decode::Datagram> UdpSource::receive(std::int64_t timeout_ns) noexcept {
+std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) noexcept {
   const std::int64_t begun_ns = measure::monotonic_ns();
   const std::int64_t deadline_ns =
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
@@ -242,7 +242,7 @@ std::size_t UdpSource::read_batch() noexcept {
 }
 
 /// False for a datagram that is not to be delivered, which is then counted.
-bool UdpSource::take(std::size_t slot, decode::Datagram& datagram) noexcept {
+bool UdpSource::take(std::size_t slot, packet::Datagram& datagram) noexcept {
   ::msghdr& header = messages_[slot].msg_hdr;
   const Ipv4Endpoint sender = endpoint_of(senders_[slot]);
   int interface_index = 0;

@@ -15,12 +15,12 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/net/drop_counter.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/network_interface.hpp"
 #include "firmware_io/net/receive_buffer.hpp"
 #include "firmware_io/net/receive_counters.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/error.hpp"
 #include "rt/files/owned_descriptor.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -61,7 +61,7 @@ class UdpSource {
   [[nodiscard]] static Expected<UdpSource> open(UdpSourceConfig config,
                                                 memory::FixedMemory& memory);
 
-  [[nodiscard]] std::span<const decode::Datagram> receive(std::int64_t timeout_ns) noexcept
+  [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
@@ -116,7 +116,7 @@ class UdpSource {
   void note_shortfalls();
 
   [[nodiscard]] std::size_t read_batch() noexcept;
-  [[nodiscard]] bool take(std::size_t slot, decode::Datagram& datagram) noexcept;
+  [[nodiscard]] bool take(std::size_t slot, packet::Datagram& datagram) noexcept;
   void prepare(std::size_t slots) noexcept;
   void look_after(std::int64_t now_ns) noexcept;
   void look_after_interface() noexcept;
@@ -132,7 +132,7 @@ class UdpSource {
   std::span<::iovec> vectors_;
   std::span<::sockaddr_in> senders_;
   std::span<Control> controls_;
-  std::span<decode::Datagram> datagrams_;
+  std::span<packet::Datagram> datagrams_;
 
   ReceiveCounters counters_;
   DropCounter drops_;

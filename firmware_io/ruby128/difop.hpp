@@ -11,8 +11,8 @@
 #include <type_traits>
 
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "firmware_io/decode/wire_integer.hpp"
-#include "firmware_io/ruby128/wire.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
+#include "firmware_io/packet/wire_integer.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 /// The device packet (DIFOP) of the RS-Ruby128 as it lies in the UDP payload, about one a second;
@@ -31,26 +31,26 @@ namespace ruby128_wire {
 
 struct Angle {
   std::uint8_t sign;
-  decode::Be16 magnitude_cdeg;
+  packet::Be16 magnitude_cdeg;
 };
 
 /// Fields that sources describe differently are reserved here; of those that terracut does not
 /// read, units and meanings are partly open, too.
 struct Difop {
   std::array<std::uint8_t, 8> magic;
-  decode::Be16 rpm_set;
+  packet::Be16 rpm_set;
   std::array<std::uint8_t, 4> device_address, destination_address;
   std::array<std::uint8_t, 6> mac;
-  decode::Be16 data_port, reserved1;
-  decode::Be16 device_port, reserved2;
-  decode::Be16 fov_start_cdeg, fov_end_cdeg;
-  decode::Be16 reserved3;
-  decode::Be16 phase_lock;
+  packet::Be16 data_port, reserved1;
+  packet::Be16 device_port, reserved2;
+  packet::Be16 fov_start_cdeg, fov_end_cdeg;
+  packet::Be16 reserved3;
+  packet::Be16 phase_lock;
   std::array<std::uint8_t, 5> top_firmware, bottom_firmware, bottom_software, motor_firmware;
   std::array<std::uint8_t, 3> hardware;
   std::array<std::uint8_t, 229> reserved4;
   std::array<std::uint8_t, 6> serial;
-  decode::Be16 zero_angle;
+  packet::Be16 zero_angle;
   std::uint8_t return_mode;  ///< 3 is dual; sources disagree which of the others is which single.
   std::uint8_t sync_mode;    ///< See sync_mode_name().
   std::uint8_t sync_status;
@@ -58,9 +58,9 @@ struct Difop {
   std::array<std::uint8_t, 24> currents_and_voltages;
   std::array<std::uint8_t, 20> reserved5;
   std::uint8_t gps_status;
-  std::array<decode::Be16, 5> temperatures;
+  std::array<packet::Be16, 5> temperatures;
   std::array<std::uint8_t, 5> reserved6;
-  decode::Be16 rpm_actual;
+  packet::Be16 rpm_actual;
   std::array<std::uint8_t, 7> reserved7;
   std::array<std::uint8_t, 86> gprmc;
   std::array<Angle, kRuby128Lasers> elevations;  ///< By channel.

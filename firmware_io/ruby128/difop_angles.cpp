@@ -59,7 +59,7 @@ Angle angle_of(double rad) noexcept {
   constexpr std::int64_t kMost_cdeg = 0xFFFF;
   const std::int64_t cdeg = std::clamp(angle_cdeg(rad), -kMost_cdeg, kMost_cdeg);
   return {cdeg < 0 ? kDifopMinus : kDifopPlus,
-          decode::Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
+          packet::Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
 }
 
 /// kNoCalibration for angles that were never written, then kMalformed for other odd signs.

@@ -10,9 +10,9 @@
 
 #include "calib/beams/angle.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "firmware_io/decode/beam_azimuth.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/ruby128/wire.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 
 /// Where a beam of the RS-Ruby128 points when its channel fires, in whole numbers (see
 /// firmware_io/decode/beam_azimuth.hpp).
@@ -78,7 +78,7 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   const std::int32_t firings_apart = ruby_blocks(azimuth_cdeg) == RubyBlocks::kSingle ? 2 : 1;
   return beams::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[2]) *
-         (decode::kTicksPerCdeg / firings_apart);
+         (packet::kTicksPerCdeg / firings_apart);
 }
 
 /// The firing whose second return was not in its packet, until the next packet brings it: both
@@ -130,7 +130,7 @@ inline constexpr int kRubyShareBits = 20;
 
 /// A channel's azimuth offset in ticks, as all whole-number azimuths take it.
 [[nodiscard]] inline std::int32_t azimuth_offset_ticks(const Ruby128Channel& channel) noexcept {
-  return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / decode::kRadPerTick));
+  return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / packet::kRadPerTick));
 }
 
 /// Offsets of all 128 beams from their block's azimuth, for one unit.

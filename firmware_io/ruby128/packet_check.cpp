@@ -6,9 +6,9 @@
 #include <array>
 #include <limits>
 
+#include "firmware_io/packet/ruby128_wire.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
-#include "firmware_io/ruby128/wire.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
 
 namespace terracut::ruby128 {
 namespace {
@@ -29,15 +29,15 @@ std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload)
 }
 
 /// What follows from the azimuths of a rotating head and the step from firing to firing.
-void complete(decode::PacketAzimuths& azimuths) noexcept {
+void complete(packet::PacketAzimuths& azimuths) noexcept {
   const auto& cdeg = azimuths.azimuth_cdeg;
   azimuths.dual_return = cdeg[0] == cdeg[1] || cdeg[1] == cdeg[2];
   azimuths.nominal_period_ns =
       kRubyBlocksPerPacket * kRubyBlock_ns / (azimuths.dual_return ? 2 : 1);
   azimuths.shortest_period_ns =
-      azimuths.nominal_period_ns - azimuths.nominal_period_ns / decode::kPeriodTolerance;
+      azimuths.nominal_period_ns - azimuths.nominal_period_ns / packet::kPeriodTolerance;
   azimuths.longest_period_ns =
-      azimuths.nominal_period_ns + azimuths.nominal_period_ns / decode::kPeriodTolerance;
+      azimuths.nominal_period_ns + azimuths.nominal_period_ns / packet::kPeriodTolerance;
   azimuths.pace_ticks = azimuths.step_ticks * kRubyBlocksPerPacket / (azimuths.dual_return ? 2 : 1);
   azimuths.widest_ticks = azimuths.step_ticks * (azimuths.dual_return ? 2 : kRubyBlocksPerPacket);
 }
@@ -45,7 +45,7 @@ void complete(decode::PacketAzimuths& azimuths) noexcept {
 }  // namespace
 
 std::optional<frame::Reject> check_ruby128_packet(std::span<const std::uint8_t> payload,
-                                                  decode::PacketAzimuths& azimuths) noexcept {
+                                                  packet::PacketAzimuths& azimuths) noexcept {
   if (const auto reason = reject_model(payload)) return reason;
   const auto* packet = packet_in(payload);
   if (packet == nullptr) return frame::Reject::kWrongSize;
@@ -76,7 +76,7 @@ std::optional<frame::Reject> check_ruby128_packet(std::span<const std::uint8_t> 
   return std::nullopt;
 }
 
-bool read_across_sector(decode::PacketAzimuths& azimuths, std::int32_t step_ticks) noexcept {
+bool read_across_sector(packet::PacketAzimuths& azimuths, std::int32_t step_ticks) noexcept {
   if (step_ticks <= 0) return false;
   for (int block = 1; block < kRubyBlocksPerPacket; ++block) {
     const auto b = static_cast<std::size_t>(block);
@@ -88,13 +88,13 @@ bool read_across_sector(decode::PacketAzimuths& azimuths, std::int32_t step_tick
   azimuths.step_ticks = step_ticks;
   // The firing of a pair whose second return is yet to come belongs to the next packet.
   const bool ends_with_half_a_pair = azimuths.azimuth_cdeg[0] == azimuths.azimuth_cdeg[1];
-  azimuths.sweep_ticks = azimuths.advance_cdeg(kRubyBlocksPerPacket - 1) * decode::kTicksPerCdeg +
+  azimuths.sweep_ticks = azimuths.advance_cdeg(kRubyBlocksPerPacket - 1) * packet::kTicksPerCdeg +
                          (ends_with_half_a_pair ? 0 : step_ticks);
   complete(azimuths);
   return true;
 }
 
-std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const decode::PacketAzimuths& azimuths,
+std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns, const packet::PacketAzimuths& azimuths,
                                 bool rotating) noexcept {
   const bool begins_late =
       rotating && azimuths.dual_return && azimuths.azimuth_cdeg[0] != azimuths.azimuth_cdeg[1];

@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ruby128 {
@@ -36,14 +36,14 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 /// thread.
 [[nodiscard]] std::optional<frame::Reject> check_ruby128_packet(
     std::span<const std::uint8_t> payload,
-    decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+    packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 
 /// A packet that was rejected for kAzimuthJump, and has `azimuths` from there, may be one that the
 /// sensor's blind sector lies in: it jumps ahead once. Completes `azimuths` then and returns true.
 /// `step_ticks`: from firing to firing in the packet before, there may be none in this one; 0: not
 /// known, and the result is false. Whether the sector is there is for the caller to know. Real-time
 /// safe; any thread.
-[[nodiscard]] bool read_across_sector(decode::PacketAzimuths& azimuths,
+[[nodiscard]] bool read_across_sector(packet::PacketAzimuths& azimuths,
                                       std::int32_t step_ticks) noexcept TERRACUT_NONBLOCKING;
 
 /// A device stamp that advances evenly from packet to packet, microseconds >= 0, from the packet's
@@ -51,7 +51,7 @@ inline constexpr int kRubyMaxJitter_cdeg = 2;  ///< Backwards, from firing to fi
 /// second return of an old one in turn. `azimuths` as check_ruby128_packet() leaves them;
 /// `rotating` when it took them. `stamp_ns` >= 0, as far as 64 bits go.
 [[nodiscard]] std::int64_t ruby_even_stamp_us(std::int64_t stamp_ns,
-                                              const decode::PacketAzimuths& azimuths,
+                                              const packet::PacketAzimuths& azimuths,
                                               bool rotating) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::ruby128

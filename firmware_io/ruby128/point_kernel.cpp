@@ -33,7 +33,7 @@ TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
   constexpr auto kAhead_m = static_cast<float>(kRuby128LensAhead_m);
   const std::array<float, 12> T = T_vehicle_lidar_;
 
-  for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+  for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
     const float beam_sin = sin_advance[f] * k.cos_offset + cos_advance[f] * k.sin_offset;
     const float beam_cos = cos_advance[f] * k.cos_offset - sin_advance[f] * k.sin_offset;
     const float sin_lens = sin_rotor[f] * cos_advance[f] + cos_rotor[f] * sin_advance[f];
@@ -56,9 +56,9 @@ TERRACUT_VECTOR_CLONES void Ruby128PointKernel::compute(
   }
 }
 
-void Ruby128PointKernel::compute(std::size_t channel, const decode::LaserHeads& heads,
-                                 const decode::TileRow<float>& measured_m,
-                                 const decode::PointsOut& out) const noexcept {
+void Ruby128PointKernel::compute(std::size_t channel, const packet::LaserHeads& heads,
+                                 const frame::TileRow<float>& measured_m,
+                                 const frame::PointsOut& out) const noexcept {
   compute(channel_[channel], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
           measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
 }

@@ -8,7 +8,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ruby128 {
@@ -26,9 +26,9 @@ class Ruby128PointKernel {
   Ruby128PointKernel(const Ruby128Calibration& calibration, const mount::Mount& mount) noexcept;
 
   /// `heads`: of the channel's group. `measured_m`: wire distances, NaN: no return.
-  void compute(std::size_t channel, const decode::LaserHeads& heads,
-               const decode::TileRow<float>& measured_m,
-               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
+  void compute(std::size_t channel, const packet::LaserHeads& heads,
+               const frame::TileRow<float>& measured_m,
+               const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   struct Channel {

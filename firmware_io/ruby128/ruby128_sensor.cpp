@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::ruby128 {
 namespace {
 
 std::array<std::int32_t, kRubyBlocksPerPacket> block_azimuths(
-    const decode::PacketAzimuths& azimuths) noexcept {
+    const packet::PacketAzimuths& azimuths) noexcept {
   return {azimuths.azimuth_cdeg[0], azimuths.azimuth_cdeg[1], azimuths.azimuth_cdeg[2]};
 }
 
@@ -24,8 +24,8 @@ Ruby128Sensor::Ruby128Sensor(const Calibration& calibration, const mount::Mount&
       kernel_(calibration, mount),
       rows_(mount::rows_upward(rows_by_elevation(calibration), mount)) {}
 
-std::optional<frame::Reject> Ruby128Sensor::check(const decode::Datagram& datagram,
-                                                  decode::PacketAzimuths& azimuths) noexcept {
+std::optional<frame::Reject> Ruby128Sensor::check(const packet::Datagram& datagram,
+                                                  packet::PacketAzimuths& azimuths) noexcept {
   const std::span<const std::uint8_t> payload = datagram.payload;
   auto reason = check_ruby128_packet(payload, azimuths);
   if (reason == frame::Reject::kAzimuthJump && read_across_sector(azimuths, step_ticks_))
@@ -47,7 +47,7 @@ std::optional<frame::Reject> Ruby128Sensor::check(const decode::Datagram& datagr
   return reason;
 }
 
-void Ruby128Sensor::begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
+void Ruby128Sensor::begin_packet(const packet::PacketAzimuths& azimuths) noexcept {
   first_step_ticks_ = held_.join(block_azimuths(azimuths), azimuths.step_ticks,
                                  azimuths.device_stamp_us, azimuths.behind_sector > 0);
 }
@@ -56,8 +56,8 @@ void Ruby128Sensor::read_column(std::span<const std::uint8_t> payload, std::size
                                 const Returns& found) noexcept {
   const auto* packet = packet_in(payload);
   if (packet == nullptr) return;  // check() has seen to it
-  decode::split_returns(&packet->blocks[column].returns[0].distance.bytes[0],
-                        decode::ByteOrder::kBig, found.raw, &found.intensity[0]);
+  packet::split_returns(&packet->blocks[column].returns[0].distance.bytes[0],
+                        packet::ByteOrder::kBig, found.raw, &found.intensity[0]);
 }
 
 }  // namespace terracut::ruby128

@@ -10,15 +10,15 @@
 #include "calib/mount/mount.hpp"
 #include "calib/ruby128/ruby128_calibration.hpp"
 #include "calib/ruby128/ruby128_geometry.hpp"
-#include "firmware_io/decode/datagram.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
-#include "firmware_io/decode/frame_builder.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/point_kernel.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::ruby128 {
@@ -37,7 +37,7 @@ class Ruby128Sensor {
   static constexpr int kRows = kRuby128Lasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
-  using Returns = decode::FiringReturns<static_cast<std::size_t>(kRows)>;
+  using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
   /// Device stamps count up from 1970; this is farther than they can get.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
@@ -46,10 +46,10 @@ class Ruby128Sensor {
 
   Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
 
-  [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
-                                                   decode::PacketAzimuths& azimuths) noexcept
+  [[nodiscard]] std::optional<frame::Reject> check(const packet::Datagram& datagram,
+                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
-  [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
+  [[nodiscard]] packet::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
   [[nodiscard]] std::int32_t beam_ticks(int laser) const noexcept {
@@ -62,16 +62,16 @@ class Ruby128Sensor {
                                                   bool /*dual_return*/) noexcept {
     return ruby_advance_ticks(step_ticks, kRubyChannelsPerGroup * static_cast<int>(group));
   }
-  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
-  [[nodiscard]] std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+  void begin_packet(const packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
                                         std::size_t column) const noexcept {
     return column == 0 ? first_step_ticks_ : azimuths.step_ticks;
   }
   static void read_column(std::span<const std::uint8_t> payload, std::size_t column,
                           const Returns& found) noexcept TERRACUT_NONBLOCKING;
-  void compute_points(std::size_t laser, const decode::LaserHeads& heads,
-                      const decode::TileRow<float>& measured_m,
-                      const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
+  void compute_points(std::size_t laser, const packet::LaserHeads& heads,
+                      const frame::TileRow<float>& measured_m,
+                      const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
     kernel_.compute(laser, heads, measured_m, out);
   }
   [[nodiscard]] static float metres_per_count() noexcept {

@@ -9,7 +9,7 @@
 #include <tuple>
 
 #include "firmware_io/sensor/head_reader.hpp"
-#include "firmware_io/streams/unknown_packets.hpp"
+#include "firmware_io/sensor/unknown_packets.hpp"
 
 namespace terracut::sensor {
 namespace {
@@ -23,8 +23,8 @@ using StreamKey =
 /// What the data packets of a model tell that send nothing else.
 class HeadSurvey {
  public:
-  void add(SensorModel model, const decode::Datagram& datagram) {
-    decode::PacketAzimuths azimuths;
+  void add(SensorModel model, const packet::Datagram& datagram) {
+    packet::PacketAzimuths azimuths;
     auto reject = reader_.read(model, datagram, azimuths);
     if (!reject && azimuths.behind_sector > 0 && !stream_.blind().is_inside(azimuths)) {
       reject = frame::Reject::kAzimuthJump;
@@ -53,7 +53,7 @@ struct StreamUnderSurvey {
   std::unique_ptr<Ruby128DeviceReader> device;
   std::map<SensorModel, HeadSurvey> heads;
 
-  void add(const decode::Datagram& datagram) {
+  void add(const packet::Datagram& datagram) {
     const bool first = stream.packets == 0;
     stream.first_stamp_ns =
         first ? datagram.stamp_ns : std::min(stream.first_stamp_ns, datagram.stamp_ns);
@@ -67,7 +67,7 @@ struct StreamUnderSurvey {
 
     const SensorModel model = recognise_sensor(datagram.payload);
     if (++votes[model] == 1) {
-      hints[model] = model == SensorModel::kUnknown ? streams::guess_of_unknown(datagram)
+      hints[model] = model == SensorModel::kUnknown ? sensor::guess_of_unknown(datagram)
                                                     : describe_sensor_hints(datagram.payload);
     }
     if (model == SensorModel::kHdl64e) {
@@ -125,7 +125,7 @@ CaptureSurvey survey_capture(capture::PcapSource& source,
       break;
     }
     if (!*next) break;
-    const decode::Datagram& datagram = **next;
+    const packet::Datagram& datagram = **next;
     const StreamKey key{datagram.source_address, datagram.destination_address, datagram.source_port,
                         datagram.destination_port, datagram.vlan};
     if (streams.size() >= CaptureSurvey::kMostStreams && !streams.contains(key)) {

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "firmware_io/capture/pcap_source.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 #include "firmware_io/sensor/hdl64e_survey.hpp"
 #include "firmware_io/sensor/ruby128_survey.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::sensor {
@@ -34,7 +34,7 @@ struct UdpStream {
 
   SensorModel sensor = SensorModel::kUnknown;  ///< What most of its packets are.
   std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet, or
-                                        ///< streams::guess_of_unknown().
+                                        ///< sensor::guess_of_unknown().
   std::optional<Hdl64eFacts> hdl64e;    ///< Where any packet is an HDL-64E's.
   std::optional<Ruby128Facts> ruby128;  ///< Where any is an RS-Ruby128's data packet.
   std::optional<StreamFacts> head;      ///< Where most are of a decoded model that tells no more.

@@ -12,7 +12,7 @@ void Hdl64eSurvey::add(std::span<const std::uint8_t> payload) {
   const auto* packet = hdl64e::packet_in(payload);
   if (packet == nullptr) return;
   status_.add(packet->status_type, packet->status_value, packet->stamp_us.value());
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   const auto reject = hdl64e::check_hdl64e_packet(payload, azimuths);
   if (reject && azimuths.columns == 0) return;  // not its block ids after all
   if (reject == frame::Reject::kAzimuthOutOfRange) {

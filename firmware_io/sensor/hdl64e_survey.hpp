@@ -8,7 +8,7 @@
 #include <span>
 
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/sensor/stream_survey.hpp"
 
 namespace terracut::sensor {

@@ -3,13 +3,13 @@
 #include "firmware_io/sensor/head_reader.hpp"
 
 #include "firmware_io/hdl64e/packet_check.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::sensor {
 
-std::optional<frame::Reject> HeadReader::read(SensorModel model, const decode::Datagram& datagram,
-                                              decode::PacketAzimuths& azimuths) noexcept {
+std::optional<frame::Reject> HeadReader::read(SensorModel model, const packet::Datagram& datagram,
+                                              packet::PacketAzimuths& azimuths) noexcept {
   if (model == SensorModel::kRuby128) {
     const auto reason = ruby128::check_ruby128_packet(datagram.payload, azimuths);
     const auto* packet = ruby128::packet_in(datagram.payload);

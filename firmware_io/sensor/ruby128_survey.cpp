@@ -2,15 +2,15 @@
 // Copyright 2026 The terracut authors
 #include "firmware_io/sensor/ruby128_survey.hpp"
 
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::sensor {
 
 void Ruby128Survey::add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns) {
   const auto* packet = ruby128::packet_in(payload);
   if (packet == nullptr) return;
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   auto reject = ruby128::check_ruby128_packet(payload, azimuths);
   if (reject && azimuths.columns == 0) return;  // not its block ids after all
   const bool may_have_sector =

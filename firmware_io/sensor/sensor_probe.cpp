@@ -7,9 +7,9 @@
 #include <cmath>
 
 #include "firmware_io/hdl64e/hdl64e_sensor.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/packet_check.hpp"
 #include "firmware_io/ruby128/ruby128_sensor.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::sensor {
 namespace {
@@ -49,7 +49,7 @@ std::optional<double> head_spin_hz(double seen_hz) {
 
 }  // namespace
 
-void SensorProbe::Head::add(const decode::PacketAzimuths& azimuths) {
+void SensorProbe::Head::add(const packet::PacketAzimuths& azimuths) {
   ++packets;
   dual_packets += azimuths.dual_return ? 1 : 0;
   if (last) {
@@ -64,12 +64,12 @@ void SensorProbe::Head::add(const decode::PacketAzimuths& azimuths) {
   last = azimuths;
 }
 
-void SensorProbe::add(const decode::Datagram& datagram) {
+void SensorProbe::add(const packet::Datagram& datagram) {
   const SensorModel model = recognise_sensor_as(named_, datagram.payload);
   ++votes_[model];
   if (model == SensorModel::kOtherVelodyne) other_product_ = datagram.payload.back();
   if (!is_decoded(model)) return;
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   const auto reject = reader_.read(model, datagram, azimuths);
   if (!reject) azimuths_[model].add(azimuths);
   if (reject == frame::Reject::kAzimuthJump &&

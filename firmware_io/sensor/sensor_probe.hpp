@@ -7,10 +7,10 @@
 #include <optional>
 #include <string>
 
-#include "firmware_io/decode/datagram.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/sensor/head_reader.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
 
 namespace terracut::sensor {
 
@@ -21,7 +21,7 @@ class SensorProbe {
   /// `named`: the model that the sensor is said to be of (recognise_sensor_as()).
   explicit SensorProbe(std::optional<SensorModel> named = {}) : named_(named) {}
 
-  void add(const decode::Datagram& datagram);
+  void add(const packet::Datagram& datagram);
 
   /// Datagrams by what they are; device information and unknown ones included.
   [[nodiscard]] const std::map<SensorModel, std::uint64_t>& votes() const noexcept {
@@ -52,9 +52,9 @@ class SensorProbe {
     std::uint64_t packets = 0, dual_packets = 0;
     std::uint64_t slow_steps = 0;  ///< From packet to packet, as of the HDL-64E's 57.6 us cycle.
     std::int64_t rotated_cdeg = 0, time_us = 0;
-    std::optional<decode::PacketAzimuths> last;
+    std::optional<packet::PacketAzimuths> last;
 
-    void add(const decode::PacketAzimuths& azimuths);
+    void add(const packet::PacketAzimuths& azimuths);
   };
   [[nodiscard]] const Head* head_of(SensorModel model) const;
 

@@ -34,7 +34,7 @@ std::string_view to_string(ReturnMode mode) noexcept {
   return "unknown";
 }
 
-void StreamSurvey::add(const decode::PacketAzimuths& azimuths, bool rotating) {
+void StreamSurvey::add(const packet::PacketAzimuths& azimuths, bool rotating) {
   ++facts_.packets;
   if (rotating) {
     ++rotating_packets_;
@@ -44,11 +44,11 @@ void StreamSurvey::add(const decode::PacketAzimuths& azimuths, bool rotating) {
   add_step(azimuths, rotating);
 }
 
-void StreamSurvey::add_step(const decode::PacketAzimuths& azimuths, bool rotating) {
+void StreamSurvey::add_step(const packet::PacketAzimuths& azimuths, bool rotating) {
   bool goes_on = false;
   if (newest_) {
     const std::int64_t step_us =
-        decode::clock_step_us(newest_->device_stamp_us, azimuths.device_stamp_us, clock_wrap_us_);
+        packet::clock_step_us(newest_->device_stamp_us, azimuths.device_stamp_us, clock_wrap_us_);
     if (step_us == 0) {
       ++facts_.packets_repeated;
       return;
@@ -79,29 +79,29 @@ void StreamSurvey::add_step(const decode::PacketAzimuths& azimuths, bool rotatin
   newest_ = azimuths;
 }
 
-void StreamSurvey::begin_rotating(const decode::PacketAzimuths& azimuths) {
+void StreamSurvey::begin_rotating(const packet::PacketAzimuths& azimuths) {
   seen_ = {azimuths.device_stamp_us, azimuths.first_cdeg(), azimuths.behind_sector > 0};
   frontier_ticks_ =
-      std::int64_t{azimuths.first_cdeg()} * decode::kTicksPerCdeg + azimuths.sweep_ticks;
+      std::int64_t{azimuths.first_cdeg()} * packet::kTicksPerCdeg + azimuths.sweep_ticks;
   not_rotating_ = 0;
 }
 
-bool StreamSurvey::follow(const decode::PacketAzimuths& azimuths, std::int64_t step_us) {
+bool StreamSurvey::follow(const packet::PacketAzimuths& azimuths, std::int64_t step_us) {
   const double nominal_us = azimuths.nominal_period_ns * 1e-3;
   const double step_periods = static_cast<double>(step_us) / nominal_us;
   const double measured_us = step_periods > 2 ? period_us() : 0;
   const double one_us = measured_us > 0 ? measured_us : nominal_us;
   const std::int64_t since_us =
-      decode::clock_step_us(seen_->stamp_us, azimuths.device_stamp_us, clock_wrap_us_);
+      packet::clock_step_us(seen_->stamp_us, azimuths.device_stamp_us, clock_wrap_us_);
   const auto expected_cdeg =
       seen_->rotor_cdeg + std::llround(static_cast<double>(since_us) / one_us *
-                                       azimuths.pace_ticks / decode::kTicksPerCdeg);
+                                       azimuths.pace_ticks / packet::kTicksPerCdeg);
   const std::int64_t rotor_cdeg =
       expected_cdeg + beams::step_cdeg(beams::wrap_cdeg(expected_cdeg), azimuths.first_cdeg());
 
-  const std::int64_t begin_ticks = rotor_cdeg * decode::kTicksPerCdeg;
-  const decode::RotorInterval gap{frontier_ticks_, begin_ticks};
-  const decode::RotorInterval swept{begin_ticks, begin_ticks + azimuths.sweep_ticks};
+  const std::int64_t begin_ticks = rotor_cdeg * packet::kTicksPerCdeg;
+  const packet::RotorInterval gap{frontier_ticks_, begin_ticks};
+  const packet::RotorInterval swept{begin_ticks, begin_ticks + azimuths.sweep_ticks};
   const decode::BlindSector::Stride stride{azimuths.pace_ticks, azimuths.widest_ticks};
   const bool is_wide = gap.ticks() >= blind_.least_ticks();
   if (is_wide || seen_->has_sector) {

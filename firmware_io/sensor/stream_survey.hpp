@@ -8,9 +8,9 @@
 #include <string_view>
 
 #include "firmware_io/decode/blind_sector.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
-#include "firmware_io/decode/rotor_sector.hpp"
 #include "firmware_io/frame/frame_info.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/rotor_sector.hpp"
 
 namespace terracut::sensor {
 
@@ -42,7 +42,7 @@ class StreamSurvey {
 
   /// A packet; `rotating` when its head rotates and all of `azimuths` is valid, else only its stamp
   /// and azimuths are.
-  void add(const decode::PacketAzimuths& azimuths, bool rotating);
+  void add(const packet::PacketAzimuths& azimuths, bool rotating);
   /// A packet of which no azimuth can be believed.
   void add_out_of_range() {
     ++facts_.packets;
@@ -60,21 +60,21 @@ class StreamSurvey {
   };
 
   /// Device time and azimuth between two packets next to each other in the capture.
-  void add_step(const decode::PacketAzimuths& azimuths, bool rotating);
+  void add_step(const packet::PacketAzimuths& azimuths, bool rotating);
   /// A packet of a rotating head comes `step_us` after the one before. True where it tells by the
   /// azimuths what was lost between them.
-  [[nodiscard]] bool follow(const decode::PacketAzimuths& azimuths, std::int64_t step_us);
-  void begin_rotating(const decode::PacketAzimuths& azimuths);
+  [[nodiscard]] bool follow(const packet::PacketAzimuths& azimuths, std::int64_t step_us);
+  void begin_rotating(const packet::PacketAzimuths& azimuths);
   [[nodiscard]] double period_us() const;
 
   std::int64_t clock_wrap_us_;
   StreamFacts facts_;
-  std::optional<decode::PacketAzimuths> newest_;
+  std::optional<packet::PacketAzimuths> newest_;
   std::map<std::int64_t, std::uint64_t> steps_us_;  ///< How often stamps advanced by how much.
   std::int64_t short_time_us_ = 0;  ///< Over steps short enough to know the azimuth advance.
   std::int64_t short_advance_cdeg_ = 0;
   std::int64_t long_time_us_ = 0;  ///< Over the others.
-  decode::BlindSector blind_{decode::kRevolution_ticks};
+  decode::BlindSector blind_{packet::kRevolution_ticks};
   std::optional<Seen> seen_;
   std::int64_t frontier_ticks_ = 0;  ///< The head was seen up to here.
   std::int64_t not_rotating_ = 0;    ///< Packets since then.

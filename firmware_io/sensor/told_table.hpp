@@ -8,9 +8,9 @@
 #include <string>
 
 #include "calib/sensor_calibration.hpp"
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "rt/queues/spsc_queue.hpp"
 #include "rt/threads/nonblocking.hpp"
@@ -30,7 +30,7 @@ class ToldTable {
   explicit ToldTable(memory::FixedMemory& memory) : heard_("table bytes", kHeard, memory) {}
 
   /// Receiving thread. Nothing more is passed on once a table was told.
-  void add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
+  void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
     if (told_.load(std::memory_order_relaxed)) return;
     const auto* packet = hdl64e::packet_in(datagram.payload);
     if (packet == nullptr || !hdl64e::is_hdl64e(*packet)) return;

@@ -13,7 +13,7 @@
 #include "calib/ruby128/ruby128_csv.hpp"
 #include "firmware_io/hdl64e/packet_check.hpp"
 #include "firmware_io/hdl64e/status_stream_reader.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/sensor/device_reader.hpp"
 
 namespace terracut::sensor {
@@ -38,7 +38,7 @@ struct StreamSearch {
 StreamSearch search_status_stream(PcapSource& source) {
   StreamSearch search;
   hdl64e::StatusStreamReader status;
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   while (search.data_packets < kPacketsToSearch && !status.has_table()) {
     const auto next = source.next();
     if (!next) search.broke_off = next.error().message;

@@ -8,7 +8,7 @@
 
 #include "calib/sensor_calibration.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "rt/error.hpp"
 
 namespace terracut::sensor {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 
 namespace terracut::streams {
 namespace {
@@ -29,7 +29,7 @@ std::uint64_t hash_of(std::span<const std::uint8_t> payload) {
 }
 
 /// Whether no one head sent a packet so long after another one.
-bool is_contradiction(std::int64_t step_us, const decode::PacketAzimuths& azimuths) {
+bool is_contradiction(std::int64_t step_us, const packet::PacketAzimuths& azimuths) {
   const std::int64_t least_ns = std::int64_t{azimuths.nominal_period_ns} * 3 / 4;
   return step_us * 1000 < least_ns || step_us > kLongestStep_us;
 }
@@ -56,7 +56,7 @@ bool SenderStreams::Sources::tell_apart() const {
   return packets.size() < kMostSources && turns.are_of_several();
 }
 
-void SenderStreams::add(const decode::Datagram& datagram) {
+void SenderStreams::add(const packet::Datagram& datagram) {
   source_address_ = datagram.source_address;
   const Destination destination = destination_of(datagram);
   if (places_.size() >= kMostDestinations && !places_.contains(destination)) return;
@@ -64,7 +64,7 @@ void SenderStreams::add(const decode::Datagram& datagram) {
   ++place.packets;
   if (is_copy(datagram)) return;
 
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   const bool is_read = !reader_.read(model_, datagram, azimuths);
   ++packets_;
   std::optional<bool> elsewhere, here;
@@ -75,7 +75,7 @@ void SenderStreams::add(const decode::Datagram& datagram) {
       if (!before) return std::nullopt;
       has_clock_ = has_clock_ || now_us != *before;
       if (!has_clock_) return std::nullopt;
-      return is_contradiction(decode::clock_step_us(*before, now_us, hdl64e::kDeviceHour_us),
+      return is_contradiction(packet::clock_step_us(*before, now_us, hdl64e::kDeviceHour_us),
                               azimuths);
     };
     elsewhere = contradicts(newest_us_);
@@ -88,7 +88,7 @@ void SenderStreams::add(const decode::Datagram& datagram) {
   place.macs.add(datagram.source_mac, here);
 }
 
-bool SenderStreams::is_copy(const decode::Datagram& datagram) {
+bool SenderStreams::is_copy(const packet::Datagram& datagram) {
   const std::uint64_t hash = hash_of(datagram.payload);
   const Destination destination = destination_of(datagram);
   const auto [first, is_new] = first_at_.try_emplace(hash, destination);

@@ -31,7 +31,7 @@ class SenderStreams {
   explicit SenderStreams(sensor::SensorModel model) : model_(model) {}
 
   /// A data packet of the model, from the one address.
-  void add(const decode::Datagram& datagram);
+  void add(const packet::Datagram& datagram);
 
   /// Most packets first.
   [[nodiscard]] std::vector<SensorStream> sensors() const;
@@ -66,7 +66,7 @@ class SenderStreams {
   };
   using Group = std::vector<Destination>;
 
-  [[nodiscard]] bool is_copy(const decode::Datagram& datagram);
+  [[nodiscard]] bool is_copy(const packet::Datagram& datagram);
   [[nodiscard]] bool are_copies(const Destination& a, const Destination& b) const;
   [[nodiscard]] bool is_one_stream_spread() const;
   [[nodiscard]] std::vector<Group> groups() const;

@@ -8,8 +8,8 @@
 #include <optional>
 #include <vector>
 
-#include "firmware_io/decode/datagram.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 
 namespace terracut::streams {
 
@@ -22,7 +22,7 @@ struct Destination {
   friend auto operator<=>(const Destination&, const Destination&) = default;
 };
 
-[[nodiscard]] constexpr Destination destination_of(const decode::Datagram& datagram) noexcept {
+[[nodiscard]] constexpr Destination destination_of(const packet::Datagram& datagram) noexcept {
   return {datagram.destination_address, datagram.destination_port, datagram.vlan};
 }
 
@@ -42,7 +42,7 @@ struct SensorStream {
 
   /// Whether a datagram of its address may be its own: not where it is a data packet of such a
   /// sensor that went elsewhere, or came from elsewhere.
-  [[nodiscard]] bool may_hold(const decode::Datagram& datagram) const noexcept {
+  [[nodiscard]] bool may_hold(const packet::Datagram& datagram) const noexcept {
     const bool is_its_way =
         std::ranges::find(destinations, destination_of(datagram)) != destinations.end() &&
         (!source_port || *source_port == datagram.source_port) &&

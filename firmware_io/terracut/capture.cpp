@@ -4,7 +4,7 @@
 
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/sensor/first_seconds.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
 #include "firmware_io/terracut/public_sensor.hpp"
 #include "terracut/decoder.hpp"
 
@@ -26,8 +26,8 @@ namespace {
 /// Who sends shows in the first packets; a second and more of any sensor.
 constexpr int kPacketsToSearch = 20'000;
 
-Expected<sensor::HeardSenders::Sensor> sender_in(capture::PcapSource& source) {
-  sensor::HeardSenders senders(std::nullopt);
+Expected<streams::HeardSenders::Sensor> sender_in(capture::PcapSource& source) {
+  streams::HeardSenders senders(std::nullopt);
   for (int i = 0; i < kPacketsToSearch; ++i) {
     const auto next = source.next();
     if (!next || !*next) break;

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "terracut/calibration.hpp"
 
 /// A sensor as programs that embed terracut name it, and as packets tell it; not installed.

@@ -9,7 +9,7 @@
 #include <cstdint>
 
 #include "calib/velodyne/velodyne_calibration.hpp"
-#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 
 namespace terracut::velodyne {
@@ -22,7 +22,7 @@ class BeamOffsets {
   explicit BeamOffsets(const VelodyneCalibration& calibration) noexcept {
     for (std::size_t channel = 0; channel < ticks_.size(); ++channel) {
       const double offset_rad = calibration.lasers[channel % Model::kLasers].azimuth_offset_rad;
-      ticks_[channel] = static_cast<std::int32_t>(std::lround(offset_rad / decode::kRadPerTick));
+      ticks_[channel] = static_cast<std::int32_t>(std::lround(offset_rad / packet::kRadPerTick));
     }
     const auto [least, most] = std::ranges::minmax(ticks_);
     least_ticks_ = least;

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware_io/decode/beam_azimuth.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 
 /// The data packet of Velodyne's models after the HDL-64E: the same twelve blocks, the stamp at the
 /// first firing, and behind it the return mode and the product's number instead of a status stream
@@ -56,11 +56,11 @@ struct PacketLayout {
 /// firing to its last, of `firings` > 1.
 [[nodiscard]] constexpr std::int32_t mean_step_ticks(std::int32_t advance_cdeg,
                                                      int firings) noexcept {
-  return advance_cdeg * decode::kTicksPerCdeg / (firings - 1);
+  return advance_cdeg * packet::kTicksPerCdeg / (firings - 1);
 }
 /// The same where there is one firing a packet, and none before it: that of 10 turns a second.
 [[nodiscard]] constexpr std::int32_t assumed_step_ticks(const PacketLayout& layout) noexcept {
-  return static_cast<std::int32_t>(std::int64_t{decode::kRevolution_ticks} * 10 * layout.column_ns /
+  return static_cast<std::int32_t>(std::int64_t{packet::kRevolution_ticks} * 10 * layout.column_ns /
                                    1'000'000'000);
 }
 

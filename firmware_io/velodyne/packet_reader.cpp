@@ -18,7 +18,7 @@ std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload,
 }  // namespace
 
 std::optional<frame::Reject> PacketReader::read(std::span<const std::uint8_t> payload,
-                                                decode::PacketAzimuths& azimuths) noexcept {
+                                                packet::PacketAzimuths& azimuths) noexcept {
   if (const auto reason = reject_model(payload, layout_.model, is_named_)) return reason;
   const auto* packet = hdl64e::packet_in(payload);
   if (packet == nullptr) return frame::Reject::kWrongSize;
@@ -30,7 +30,7 @@ std::optional<frame::Reject> PacketReader::read(std::span<const std::uint8_t> pa
 }
 
 std::optional<frame::Reject> PacketReader::read_blocks(
-    const hdl64e::wire::Packet& packet, decode::PacketAzimuths& azimuths) const noexcept {
+    const hdl64e::wire::Packet& packet, packet::PacketAzimuths& azimuths) const noexcept {
   const std::optional<bool> mode = dual_return_of(packet);
   if (!mode) return frame::Reject::kWrongMagic;
   const bool dual_return = *mode;
@@ -73,7 +73,7 @@ std::optional<bool> PacketReader::dual_return_of(
   return are_pairs;
 }
 
-std::optional<frame::Reject> PacketReader::judge_steps(decode::PacketAzimuths& azimuths) noexcept {
+std::optional<frame::Reject> PacketReader::judge_steps(packet::PacketAzimuths& azimuths) noexcept {
   const int most_cdeg = layout_.most_step_cdeg();
   std::int32_t advance_cdeg = 0;
   for (int column = 1; column < azimuths.columns; ++column) {
@@ -91,7 +91,7 @@ std::optional<frame::Reject> PacketReader::judge_steps(decode::PacketAzimuths& a
   }
   if (advance_cdeg < -kMaxJitter_cdeg) return frame::Reject::kAzimuthJump;
   azimuths.step_ticks = step_of(azimuths, advance_cdeg);
-  if (azimuths.step_ticks < kMinStep_cdeg * decode::kTicksPerCdeg) {
+  if (azimuths.step_ticks < kMinStep_cdeg * packet::kTicksPerCdeg) {
     return frame::Reject::kStationary;
   }
   step_ticks_ = azimuths.step_ticks;
@@ -99,7 +99,7 @@ std::optional<frame::Reject> PacketReader::judge_steps(decode::PacketAzimuths& a
 }
 
 /// From firing to firing.
-std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
+std::int32_t PacketReader::step_of(const packet::PacketAzimuths& azimuths,
                                    std::int32_t advance_cdeg) noexcept {
   const int firings = layout_.firings(azimuths.dual_return);
   is_step_guessed_ = false;
@@ -107,32 +107,32 @@ std::int32_t PacketReader::step_of(const decode::PacketAzimuths& azimuths,
   // One firing a packet tells no step: it is the way from the packet before, if that is the one
   // before; at 10 turns a second until there was one.
   const std::int64_t since_us =
-      decode::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
+      packet::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
   const bool follows =
       last_.is_known && since_us > 0 && since_us * 1000 < layout_.column_ns * 3 / 2;
   if (follows) {
     const std::int32_t step_cdeg = beams::step_cdeg(last_.azimuth_cdeg, azimuths.first_cdeg());
-    if (step_cdeg <= layout_.most_step_cdeg()) return step_cdeg * decode::kTicksPerCdeg;
+    if (step_cdeg <= layout_.most_step_cdeg()) return step_cdeg * packet::kTicksPerCdeg;
   }
   if (step_ticks_ > 0) return step_ticks_;
   is_step_guessed_ = true;
   return assumed_step_ticks(layout_);
 }
 
-void PacketReader::complete(decode::PacketAzimuths& azimuths) const noexcept {
+void PacketReader::complete(packet::PacketAzimuths& azimuths) const noexcept {
   const std::int32_t firings = layout_.firings(azimuths.dual_return);
   azimuths.pace_ticks = azimuths.widest_ticks = azimuths.step_ticks * firings;
   azimuths.sweep_ticks = azimuths.behind_sector > 0
-                             ? azimuths.advance_cdeg(azimuths.columns - 1) * decode::kTicksPerCdeg +
+                             ? azimuths.advance_cdeg(azimuths.columns - 1) * packet::kTicksPerCdeg +
                                    azimuths.step_ticks
                              : azimuths.pace_ticks;
   // The next packet is no gap away from it, however fast the head rotates.
-  if (is_step_guessed_) azimuths.sweep_ticks = layout_.most_step_cdeg() * decode::kTicksPerCdeg;
+  if (is_step_guessed_) azimuths.sweep_ticks = layout_.most_step_cdeg() * packet::kTicksPerCdeg;
   azimuths.nominal_period_ns = layout_.column_ns * firings;
   azimuths.shortest_period_ns =
-      azimuths.nominal_period_ns - azimuths.nominal_period_ns / decode::kPeriodTolerance;
+      azimuths.nominal_period_ns - azimuths.nominal_period_ns / packet::kPeriodTolerance;
   azimuths.longest_period_ns =
-      azimuths.nominal_period_ns + azimuths.nominal_period_ns / decode::kPeriodTolerance;
+      azimuths.nominal_period_ns + azimuths.nominal_period_ns / packet::kPeriodTolerance;
 }
 
 }  // namespace terracut::velodyne

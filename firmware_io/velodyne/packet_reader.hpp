@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
 #include "firmware_io/frame/loss_counters.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 #include "rt/threads/nonblocking.hpp"
 
@@ -38,19 +38,19 @@ class PacketReader {
       : layout_(layout), is_named_(is_named) {}
 
   [[nodiscard]] std::optional<frame::Reject> read(std::span<const std::uint8_t> payload,
-                                                  decode::PacketAzimuths& azimuths) noexcept
+                                                  packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
 
  private:
   [[nodiscard]] std::optional<frame::Reject> read_blocks(
-      const hdl64e::wire::Packet& packet, decode::PacketAzimuths& azimuths) const noexcept;
+      const hdl64e::wire::Packet& packet, packet::PacketAzimuths& azimuths) const noexcept;
   /// None: not one that is known.
   [[nodiscard]] std::optional<bool> dual_return_of(
       const hdl64e::wire::Packet& packet) const noexcept;
-  [[nodiscard]] std::optional<frame::Reject> judge_steps(decode::PacketAzimuths& azimuths) noexcept;
-  [[nodiscard]] std::int32_t step_of(const decode::PacketAzimuths& azimuths,
+  [[nodiscard]] std::optional<frame::Reject> judge_steps(packet::PacketAzimuths& azimuths) noexcept;
+  [[nodiscard]] std::int32_t step_of(const packet::PacketAzimuths& azimuths,
                                      std::int32_t advance_cdeg) noexcept;
-  void complete(decode::PacketAzimuths& azimuths) const noexcept;
+  void complete(packet::PacketAzimuths& azimuths) const noexcept;
 
   PacketLayout layout_;
   bool is_named_;

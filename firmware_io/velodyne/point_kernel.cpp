@@ -32,7 +32,7 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
   const Laser k = laser;
   const std::array<float, 12> T = T_vehicle_lidar_;
 
-  for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+  for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
     const float beam_sin = sin_advance[f] * k.cos_offset + cos_advance[f] * k.sin_offset;
     const float beam_cos = cos_advance[f] * k.cos_offset - sin_advance[f] * k.sin_offset;
     const float sin_beam = sin_rotor[f] * beam_cos + cos_rotor[f] * beam_sin;
@@ -53,9 +53,9 @@ TERRACUT_VECTOR_CLONES void PointKernel::compute(
   }
 }
 
-void PointKernel::compute(std::size_t laser, const decode::LaserHeads& heads,
-                          const decode::TileRow<float>& measured_m,
-                          const decode::PointsOut& out) const noexcept {
+void PointKernel::compute(std::size_t laser, const packet::LaserHeads& heads,
+                          const frame::TileRow<float>& measured_m,
+                          const frame::PointsOut& out) const noexcept {
   compute(laser_[laser], heads.sin_rotor, heads.cos_rotor, heads.sin_advance, heads.cos_advance,
           measured_m.data(), out.x_m, out.y_m, out.z_m, out.ground_range_m);
 }

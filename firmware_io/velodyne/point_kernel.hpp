@@ -7,7 +7,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/velodyne/velodyne_calibration.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
 #include "rt/threads/nonblocking.hpp"
 
 namespace terracut::velodyne {
@@ -27,9 +27,9 @@ class PointKernel {
   PointKernel(const VelodyneCalibration& calibration, const mount::Mount& mount) noexcept;
 
   /// `heads`: of the laser's group. `measured_m`: wire distances, NaN: no return.
-  void compute(std::size_t laser, const decode::LaserHeads& heads,
-               const decode::TileRow<float>& measured_m,
-               const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
+  void compute(std::size_t laser, const packet::LaserHeads& heads,
+               const frame::TileRow<float>& measured_m,
+               const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
 
  private:
   struct Laser {

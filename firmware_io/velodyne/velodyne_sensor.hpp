@@ -11,10 +11,10 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/velodyne/velodyne_calibration.hpp"
-#include "firmware_io/decode/datagram.hpp"
-#include "firmware_io/decode/firing_tile.hpp"
-#include "firmware_io/decode/frame_builder.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/packet/beam_spread.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/firing_returns.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/velodyne/beam_offsets.hpp"
 #include "firmware_io/velodyne/packet_layout.hpp"
 #include "firmware_io/velodyne/packet_reader.hpp"
@@ -48,7 +48,7 @@ class VelodyneSensor {
   static constexpr int kDefaultColumns = Model::kDefaultColumns;
   /// Dual return and the columns that two firings share: more than two for some cells.
   static constexpr int kDefaultReturnsPerCell = 3;
-  using Returns = decode::FiringReturns<static_cast<std::size_t>(kChannels)>;
+  using Returns = packet::FiringReturns<static_cast<std::size_t>(kChannels)>;
 
   VelodyneSensor(const Calibration& calibration, const mount::Mount& mount, const Config& config)
       : reader_(Model::kLayout, config.is_named),
@@ -60,12 +60,12 @@ class VelodyneSensor {
     }
   }
 
-  [[nodiscard]] std::optional<frame::Reject> check(const decode::Datagram& datagram,
-                                                   decode::PacketAzimuths& azimuths) noexcept
+  [[nodiscard]] std::optional<frame::Reject> check(const packet::Datagram& datagram,
+                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING {
     return reader_.read(datagram.payload, azimuths);
   }
-  [[nodiscard]] decode::BeamSpread spread(std::int32_t step_ticks) const noexcept {
+  [[nodiscard]] packet::BeamSpread spread(std::int32_t step_ticks) const noexcept {
     return {offsets_.hindmost_ticks(), offsets_.foremost_ticks(step_ticks)};
   }
   [[nodiscard]] std::int32_t beam_ticks(int channel) const noexcept {
@@ -78,10 +78,10 @@ class VelodyneSensor {
                                                   bool /*dual_return*/) noexcept {
     return velodyne::advance_ticks<Model>(step_ticks, group);
   }
-  void begin_packet(const decode::PacketAzimuths& azimuths) noexcept {
+  void begin_packet(const packet::PacketAzimuths& azimuths) noexcept {
     is_dual_packet_ = azimuths.dual_return;
   }
-  [[nodiscard]] static std::int32_t step_ticks(const decode::PacketAzimuths& azimuths,
+  [[nodiscard]] static std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
                                                std::size_t) noexcept {
     return azimuths.step_ticks;
   }
@@ -93,14 +93,14 @@ class VelodyneSensor {
       const std::size_t block =
           Model::kLayout.block(static_cast<int>(column), part, is_dual_packet_);
       const auto first = static_cast<std::size_t>(part * kBlockReturns);
-      decode::split_returns(&packet->blocks[block].returns[0].distance.bytes[0],
-                            decode::ByteOrder::kLittle, found.raw.subspan(first, kBlockReturns),
+      packet::split_returns(&packet->blocks[block].returns[0].distance.bytes[0],
+                            packet::ByteOrder::kLittle, found.raw.subspan(first, kBlockReturns),
                             &found.intensity[first]);
     }
   }
-  void compute_points(std::size_t channel, const decode::LaserHeads& heads,
-                      const decode::TileRow<float>& measured_m,
-                      const decode::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
+  void compute_points(std::size_t channel, const packet::LaserHeads& heads,
+                      const frame::TileRow<float>& measured_m,
+                      const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING {
     kernel_.compute(laser_of(channel), heads, measured_m, out);
   }
   [[nodiscard]] static float metres_per_count() noexcept {

@@ -13,7 +13,7 @@
 #include "diagnostics_writer.hpp"
 #include "participant.hpp"
 #include "pipeline/publish/frame_sink.hpp"
-#include "pipeline/publish/stream.hpp"
+#include "pipeline/publish/run_facts.hpp"
 #include "pipeline/ros_messages/point_cloud.hpp"
 #include "ros_types.h"
 #include "topic_writer.hpp"

@@ -14,7 +14,7 @@
 #include "pipeline/mcap/mcap_file.hpp"
 #include "pipeline/publish/diagnosis.hpp"
 #include "pipeline/publish/frame_sink.hpp"
-#include "pipeline/publish/stream.hpp"
+#include "pipeline/publish/run_facts.hpp"
 #include "pipeline/ros_messages/topics.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
 

@@ -28,7 +28,7 @@ DumpReport FlightRecorder::copy() {
   if (report.datagrams == 0) return report;
   report.first_stamp_ns = report.last_stamp_ns = window_.datagram(0).stamp_ns;
   for (std::size_t n = 0; n < window_.datagrams(); ++n) {
-    const decode::Datagram datagram = window_.datagram(n);
+    const packet::Datagram datagram = window_.datagram(n);
     report.first_stamp_ns = std::min(report.first_stamp_ns, datagram.stamp_ns);
     report.last_stamp_ns = std::max(report.last_stamp_ns, datagram.stamp_ns);
     if (!capture::PcapWriter::can_write(datagram)) ++report.unwritable;
@@ -46,7 +46,7 @@ Status FlightRecorder::write(DumpReport& report, std::string_view times) const {
   auto writer = capture::PcapWriter::create(report.capture);
   if (!writer) return tl::unexpected(writer.error());
   for (std::size_t n = 0; n < window_.datagrams(); ++n) {
-    const decode::Datagram datagram = window_.datagram(n);
+    const packet::Datagram datagram = window_.datagram(n);
     if (!capture::PcapWriter::can_write(datagram)) continue;
     if (Status written = writer->write(datagram); !written) return written;
   }

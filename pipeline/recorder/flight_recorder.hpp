@@ -7,8 +7,8 @@
 #include <string_view>
 #include <tl/expected.hpp>
 
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/net/packet_ring.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "pipeline/recorder/dump_policy.hpp"
 #include "pipeline/recorder/dump_record.hpp"
 #include "pipeline/status/frame_record.hpp"
@@ -37,7 +37,7 @@ class FlightRecorder {
       : ring_(size, memory), window_(size, memory) {}
 
   /// Receive thread: wait-free, allocates nothing, touches no file.
-  void add(const decode::Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
+  void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING { ring_.add(datagram); }
 
   /// Writes both files, whole or not at all; neither is ever seen without its contents, and the
   /// capture never without its times. Never from a real-time thread: it blocks on the disk.

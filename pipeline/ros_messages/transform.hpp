@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "pipeline/publish/stream.hpp"
+#include "pipeline/publish/run_facts.hpp"
 
 namespace terracut::ros_messages {
 

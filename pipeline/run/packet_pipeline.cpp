@@ -8,7 +8,7 @@
 
 namespace terracut::run {
 
-void PacketPipeline::push(const decode::Datagram& datagram) noexcept {
+void PacketPipeline::push(const packet::Datagram& datagram) noexcept {
   if (timing_ == Timing::kPackets || std::exchange(begins_, false)) resume();
   decoder_.push(datagram);
 }

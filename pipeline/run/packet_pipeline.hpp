@@ -43,7 +43,7 @@ class PacketPipeline {
                 decoder_.return_capacity(), memory, decoder_.make_reader(memory)),
         timing_(timing) {}
 
-  void push(const decode::Datagram& datagram) noexcept;
+  void push(const packet::Datagram& datagram) noexcept;
   /// The stream ends or its source will jump (a replay loop).
   void end_stream() noexcept;
   /// After either: the frames that it completed, one after the other, then null; a frame is valid

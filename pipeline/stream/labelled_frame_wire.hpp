@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <type_traits>
 
-#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "pipeline/status/frame_record.hpp"
 
 /// A labelled frame as it goes over a socket (docs/reference/labelled_stream.md): one header, then

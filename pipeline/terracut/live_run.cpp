@@ -10,14 +10,14 @@
 #include "calib/terracut/calibration_table.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
 #include "firmware_io/net/live_source.hpp"
-#include "firmware_io/sensor/first_seconds.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
 #include "firmware_io/terracut/points.hpp"
 #include "firmware_io/terracut/public_sensor.hpp"
 #include "pipeline/ground/profile.hpp"
+#include "pipeline/live/live_pipeline.hpp"
+#include "pipeline/live/live_threads.hpp"
+#include "pipeline/live/mount_on_air.hpp"
 #include "pipeline/output/label_sink.hpp"
-#include "pipeline/run/live_pipeline.hpp"
-#include "pipeline/run/live_threads.hpp"
-#include "pipeline/run/mount_on_air.hpp"
 #include "rt/memory/locked_memory.hpp"
 
 namespace terracut {
@@ -33,15 +33,15 @@ Label label_of(std::uint8_t semantic_kitti_class) noexcept {
   return Label::kNone;
 }
 
-Expected<sensor::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Config& config,
-                                     const LiveRun::StopWanted& stop_wanted) {
-  sensor::FirstSeconds::Config of_first;
+Expected<streams::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Config& config,
+                                      const LiveRun::StopWanted& stop_wanted) {
+  streams::FirstSeconds::Config of_first;
   of_first.place = source.name();
   if (config.calibration) {
     of_first.model = model_of(config.calibration->sensor());
     of_first.calibration.unit = config.calibration->table().unit;
   }
-  sensor::FirstSeconds first(std::move(of_first));
+  streams::FirstSeconds first(std::move(of_first));
   const auto begun = SteadyClock::now();
   const auto is_over = [&] {
     return config.patience_s &&
@@ -49,7 +49,7 @@ Expected<sensor::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Con
   };
   while (!first.is_enough() && !is_over() && !stop_wanted()) {
     constexpr std::int64_t kAWhile_ns = 50'000'000;
-    for (const decode::Datagram& datagram : source.receive(kAWhile_ns)) first.add(datagram);
+    for (const packet::Datagram& datagram : source.receive(kAWhile_ns)) first.add(datagram);
   }
   return first.conclude(config.patience_s);
 }
@@ -57,8 +57,8 @@ Expected<sensor::SensorOnAir> listen(net::LiveSource& source, const LiveRun::Con
 }  // namespace
 
 struct LiveRun::Engine {
-  Engine(const Config& config, net::LiveSource&& opened, sensor::SensorOnAir&& heard,
-         std::optional<FoundMount> mount, run::LiveThreads::Events&& events)
+  Engine(const Config& config, net::LiveSource&& opened, streams::SensorOnAir&& heard,
+         std::optional<FoundMount> mount, live::LiveThreads::Events&& events)
       : source(std::move(opened)),
         sensor(std::move(heard)),
         found_mount(mount),
@@ -73,23 +73,23 @@ struct LiveRun::Engine {
         labels(points.size()),
         times_s(points.size()) {}
 
-  static decode::Decoder::Config decoder_config(const sensor::SensorOnAir& sensor) {
+  static decode::Decoder::Config decoder_config(const streams::SensorOnAir& sensor) {
     decode::Decoder::Config config;
     config.columns = sensor.columns;
     config.reorder_packets = 0;  // one cable delivers in order
     return config;
   }
-  static run::LiveThreads::Config threads_config(const Config& config,
-                                                 const sensor::SensorOnAir& sensor) {
-    run::LiveThreads::Config of_threads;
+  static live::LiveThreads::Config threads_config(const Config& config,
+                                                  const streams::SensorOnAir& sensor) {
+    live::LiveThreads::Config of_threads;
     of_threads.deadline_ns = static_cast<std::int64_t>(config.deadline_ms * 1e6);
     if (sensor.spin_hz > 0) {
       of_threads.frame_period_ns = static_cast<std::int64_t>(1e9 / sensor.spin_hz);
     }
     of_threads.longest_gathering_ns = static_cast<std::int64_t>(config.gather_ms * 1e6);
     of_threads.keeps_points = true;
-    of_threads.receive = run::thread_request("tc-receive", config.receive_priority, std::nullopt);
-    of_threads.segment = run::thread_request("tc-segment", config.segment_priority, std::nullopt);
+    of_threads.receive = live::thread_request("tc-receive", config.receive_priority, std::nullopt);
+    of_threads.segment = live::thread_request("tc-segment", config.segment_priority, std::nullopt);
     return of_threads;
   }
 
@@ -100,7 +100,7 @@ struct LiveRun::Engine {
   }
   void hand_out(const OnFrame& on_frame) {
     auto& slots = *threads.points();
-    for (run::FramePool<stream::LabelledPoint>::Frame taken; slots.take(taken);) {
+    for (live::FramePool<stream::LabelledPoint>::Frame taken; slots.take(taken);) {
       for (std::size_t i = 0; i < taken.items.size(); ++i) {
         const stream::LabelledPoint& point = taken.items[i];
         points[i] = {point.x_m, point.y_m, point.z_m, point.row, point.intensity};
@@ -133,11 +133,11 @@ struct LiveRun::Engine {
   std::unique_ptr<memory::FixedMemory> source_memory;  ///< Of the socket's buffers.
   memory::FixedMemory memory;
   net::LiveSource source;
-  sensor::SensorOnAir sensor;
+  streams::SensorOnAir sensor;
   std::optional<FoundMount> found_mount;
   std::int64_t deadline_ns;
-  run::LivePipeline pipeline;
-  run::LiveThreads threads;
+  live::LivePipeline pipeline;
+  live::LiveThreads threads;
   std::vector<Point> points;
   std::vector<Label> labels;
   std::vector<float> times_s;
@@ -166,13 +166,13 @@ Expected<LiveRun> LiveRun::open(const Config& config, const StopWanted& stop_wan
   source->accept_only(sensor->sender);
   std::optional<FoundMount> mount;
   if (config.find_mount) {
-    const auto found = run::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor),
-                                         run::kGroundPatience, stop_wanted)
+    const auto found = live::mount_on_air(*source, *sensor, Engine::decoder_config(*sensor),
+                                          live::kGroundPatience, stop_wanted)
                            .certain();
     if (found) mount = public_mount(*found);
     if (!found && !config.guess_mount) return tl::unexpected(mount_not_found(found.error()));
   }
-  auto events = run::LiveThreads::Events::make();
+  auto events = live::LiveThreads::Events::make();
   if (!events) return tl::unexpected(events.error());
   std::vector<threads::Grant> grants;
   if (config.lock_memory) grants = memory::hold_memory({});

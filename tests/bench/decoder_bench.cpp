@@ -87,10 +87,10 @@ void deskew_frame(benchmark::State& state) {
   for (std::int64_t i = -1; i < 14; ++i) motion.add({i * 10'000'000, 20, 0.5});
   std::vector<std::int32_t> beam_ticks;
   for (int row = 0; row < shape.rows; ++row) beam_ticks.push_back((row % 4 - 2) * 300'000);
-  decode::Deskewer deskewer({&motion, frame::FrameInstant::kEnd, shape, decode::kRevolution_ticks},
+  decode::Deskewer deskewer({&motion, frame::FrameInstant::kEnd, shape, packet::kRevolution_ticks},
                             beam_ticks, memory);
   for (std::int64_t i = -20; i < 380; ++i) {
-    deskewer.note(i * decode::kRevolution_ticks / 360, i * 100'000'000 / 360);
+    deskewer.note(i * packet::kRevolution_ticks / 360, i * 100'000'000 / 360);
   }
   frame::RangeImage image(shape, 100, memory);
   for (auto _ : state) {
@@ -113,7 +113,7 @@ BENCHMARK(deskew_frame)->Arg(0)->Arg(1)->Unit(benchmark::kMicrosecond);
 
 void check_packets(benchmark::State& state) {
   const auto packets = street_like();
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   for (auto _ : state) {
     for (const test::Packet& packet : packets) {
       benchmark::DoNotOptimize(hdl64e::check_hdl64e_packet(packet.bytes, azimuths));

@@ -12,7 +12,7 @@ from pathlib import Path
 
 LINK = re.compile(r"\]\(([^()\s#]*)(?:#([^()\s]*))?\)")
 ROOMS = ("rt", "calib", "firmware_io", "pipeline", "tools", "tests", "docs")
-# `pipeline/run/packet_gate.hpp`, `tools/lab`: what begins as a room does.
+# `pipeline/live/packet_gate.hpp`, `tools/lab`: what begins as a room does.
 PLACE = re.compile(rf"`((?:{'|'.join(ROOMS)})/[\w./-]+)`")
 # `packet_gate.hpp`, `packet_gate.*`, `run/packet_gate.*`: a source, wherever it lies.
 SOURCE = re.compile(r"`([\w./-]+\.(?:[ch]pp|py|\*))`")

@@ -16,7 +16,7 @@
 
 #include "firmware_io/decode/deskewer.hpp"
 #include "firmware_io/decode/host_clock.hpp"
-#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "input.hpp"
@@ -75,7 +75,7 @@ class MotionRun {
         motion_({.sensor_ahead_m = (bits_ & 16) != 0 ? 2.0 : 0.0, .waiting = 16, .kept = 32},
                 memory_),
         deskewer_({&motion_, static_cast<frame::FrameInstant>((bits_ >> 5) % 3), kShape,
-                   decode::kRevolution_ticks},
+                   packet::kRevolution_ticks},
                   kBeam_ticks, memory_),
         image_(kShape, 16, memory_) {}
 
@@ -226,10 +226,10 @@ class MotionRun {
         clock_.sent((device_us + kHour_us) % kHour_us, host_ns() + late_ns_);
     if (sent.anew) deskewer_.begin_anew(rotor_ticks_);
     deskewer_.note(rotor_ticks_, sent.instant_ns);
-    if (!noted_) frame_ = rotor_ticks_ / decode::kRevolution_ticks;
+    if (!noted_) frame_ = rotor_ticks_ / packet::kRevolution_ticks;
     noted_ = true;
     packet_before_ns_ = std::exchange(newest_packet_ns_, time_ns_);
-    while (rotor_ticks_ - (frame_ + 1) * decode::kRevolution_ticks > 1'000'000) hand_over();
+    while (rotor_ticks_ - (frame_ + 1) * packet::kRevolution_ticks > 1'000'000) hand_over();
   }
 
   void hand_over() {

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware_io/vlp16/vlp16_sensor.hpp"
+#include "firmware_io/velodyne/vlp16.hpp"
 #include "input.hpp"
 #include "rt/files/owned_descriptor.hpp"
 #include "tools/cli/console.hpp"
@@ -39,7 +39,7 @@ void put_little(Bytes& bytes, std::uint32_t value) {
 
 /// A data packet of a VLP-16 that rotates ten times a second.
 Bytes packet_of(std::int64_t number) {
-  constexpr std::int64_t kPeriod_ns = vlp16::Vlp16::kLayout.column_ns * 12;
+  constexpr std::int64_t kPeriod_ns = velodyne::Vlp16::kLayout.column_ns * 12;
   hdl64e::wire::Packet packet{};
   packet.stamp_us =
       static_cast<std::uint32_t>(number * kPeriod_ns / 1000 % velodyne::kClockWrap_us);

@@ -55,7 +55,7 @@ class DecoderRun {
     account_.feed(
         decoder_,
         [&] {
-          return test::decode(decoder_, decode::Datagram{.payload = payload, .stamp_ns = stamp_ns_},
+          return test::decode(decoder_, packet::Datagram{.payload = payload, .stamp_ns = stamp_ns_},
                               keep());
         },
         [&] { return returns_in_(payload); });

@@ -144,7 +144,7 @@ class Differential {
 
     const reference::Packet packet = reference_.decode(payload);
     const auto reason = test::decode(
-        decoder_, decode::Datagram{.payload = payload, .stamp_ns = stamp_ns_}, handed_.keep());
+        decoder_, packet::Datagram{.payload = payload, .stamp_ns = stamp_ns_}, handed_.keep());
     require(reason.has_value() == (packet.refusal != reference::Refusal::kNone) &&
                 reference::as_refusal(reason) == packet.refusal,
             std::string("reference: ") + std::string(to_string(packet.refusal)) +

@@ -12,7 +12,7 @@
 #include "calib/hdl64e/nominal_hdl64e.hpp"
 #include "decoder_run.hpp"
 #include "firmware_io/decode/decoder.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 #include "input.hpp"
 
 namespace {

@@ -11,7 +11,7 @@
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/hdl64e/firing_times.hpp"
 #include "packet_sequence.hpp"
-#include "tools/lab/encode/hdl64e_packet_encoder.hpp"
+#include "tools/lab/packets/hdl64e_packet_encoder.hpp"
 
 namespace {
 
@@ -35,7 +35,7 @@ struct Hdl64e {
     (void)first_reading, (void)encoding;  // have no place in its packets
     hdl64e::wire::Packet packet = hdl64e::blank_packet();
     const std::int64_t end_ns = columns.back().stamp_ns + firing_ns(dual);
-    encode::encode_hdl64e_packet(columns, end_ns, {}, packet);
+    packets::encode_hdl64e_packet(columns, end_ns, {}, packet);
     Bytes bytes;
     std::ranges::copy(hdl64e::payload_of(packet), bytes.begin());
     return bytes;

@@ -14,17 +14,17 @@
 
 #include "calib/mount/mount.hpp"
 #include "calib/mount/ring_profile.hpp"
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/frame_points.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "firmware_io/vehicle/ego_motion.hpp"
 #include "input.hpp"
 #include "packet_account.hpp"
 #include "pipeline/ground/coarse_stages.hpp"
 #include "pipeline/ground/fine_stages.hpp"
 #include "pipeline/ground/profile.hpp"
-#include "pipeline/run/frame_exchange.hpp"
-#include "pipeline/run/live_pipeline.hpp"
+#include "pipeline/live/frame_exchange.hpp"
+#include "pipeline/live/live_pipeline.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/hand_out.hpp"
@@ -59,8 +59,8 @@ class LiveChainRun {
       : returns_in_(returns_in),
         decoder_(calibration, {}, decoder_config(config, motion_), memory_),
         exchange_(decoder_.images()),
-        coarse_points_(run::points_made_of(decoder_, memory_)),
-        fine_points_(run::points_made_of(decoder_, memory_)),
+        coarse_points_(live::points_made_of(decoder_, memory_)),
+        fine_points_(live::points_made_of(decoder_, memory_)),
         coarse_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
                 decoder_.shape(), memory_, coarse_points_.get()),
         fine_(ground::terracut_profile(), ring_profile(calibration, mount::Mount{}),
@@ -81,7 +81,7 @@ class LiveChainRun {
     account_.feed(
         decoder_,
         [&] {
-          return test::decode(decoder_, decode::Datagram{.payload = payload, .stamp_ns = stamp_ns},
+          return test::decode(decoder_, packet::Datagram{.payload = payload, .stamp_ns = stamp_ns},
                               hand_over());
         },
         [&] { return returns_in_(payload); });
@@ -111,7 +111,7 @@ class LiveChainRun {
   }
 
  private:
-  using Exchange = run::FrameExchange;
+  using Exchange = live::FrameExchange;
 
   /// What is remembered of an image that was handed over.
   struct HandedOver {

@@ -15,9 +15,9 @@
 
 #include "input.hpp"
 #include "tools/cli/arguments/arguments.hpp"
+#include "tools/cli/arguments/command_files.hpp"
+#include "tools/cli/files/temporary_folder.hpp"
 #include "tools/cli/fleet/relabel_job.hpp"
-#include "tools/cli/input/command_files.hpp"
-#include "tools/cli/temporary_folder.hpp"
 
 namespace {
 

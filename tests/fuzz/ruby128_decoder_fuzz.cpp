@@ -11,8 +11,8 @@
 #include "calib/ruby128/nominal_ruby128.hpp"
 #include "decoder_run.hpp"
 #include "firmware_io/decode/decoder.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 #include "input.hpp"
 
 namespace {

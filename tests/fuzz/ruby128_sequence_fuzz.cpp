@@ -11,7 +11,7 @@
 #include "firmware_io/decode/decoder.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "packet_sequence.hpp"
-#include "tools/lab/encode/ruby128_packet_encoder.hpp"
+#include "tools/lab/packets/ruby128_packet_encoder.hpp"
 
 namespace {
 
@@ -32,11 +32,11 @@ struct Ruby128 {
   }
   static Bytes encode(const std::array<Column, kColumns>& columns, std::int64_t first_reading,
                       bool dual, int encoding) {
-    encode::Ruby128PacketFacts facts;
-    facts.returns = dual ? drive::ReturnMode::kDual : drive::ReturnMode::kSingle;
+    packets::Ruby128PacketFacts facts;
+    facts.returns = dual ? packets::ReturnMode::kDual : packets::ReturnMode::kSingle;
     facts.timestamp = static_cast<ruby128::RubyTimestamp>(encoding);
     ruby128::ruby128_wire::Packet packet = ruby128::blank_packet();
-    encode::encode_ruby128_packet(columns, static_cast<int>(first_reading % 2), facts, packet);
+    packets::encode_ruby128_packet(columns, static_cast<int>(first_reading % 2), facts, packet);
     Bytes bytes;
     std::ranges::copy(ruby128::payload_of(packet), bytes.begin());
     return bytes;

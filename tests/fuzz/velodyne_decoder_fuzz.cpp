@@ -11,7 +11,7 @@
 #include "calib/velodyne/velodyne_calibration.hpp"
 #include "decoder_run.hpp"
 #include "firmware_io/decode/decoder.hpp"
-#include "firmware_io/hdl64e/wire.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
 #include "input.hpp"
 #include "velodyne_returns.hpp"
 
@@ -27,10 +27,10 @@ struct Model {
   std::uint8_t product;
 };
 constexpr std::array kModels{
-    Model{velodyne::VelodyneModel::kVlp16, vlp16::Vlp16::kLayout, 0x22},
-    Model{velodyne::VelodyneModel::kHdl32e, hdl32e::Hdl32e::kLayout, 0x21},
-    Model{velodyne::VelodyneModel::kVlp32c, vlp32c::Vlp32c::kLayout, 0x28},
-    Model{velodyne::VelodyneModel::kVls128, vls128::Vls128::kLayout, 0xA1},
+    Model{velodyne::VelodyneModel::kVlp16, velodyne::Vlp16::kLayout, 0x22},
+    Model{velodyne::VelodyneModel::kHdl32e, velodyne::Hdl32e::kLayout, 0x21},
+    Model{velodyne::VelodyneModel::kVlp32c, velodyne::Vlp32c::kLayout, 0x28},
+    Model{velodyne::VelodyneModel::kVls128, velodyne::Vls128::kLayout, 0xA1},
 };
 
 /// A head whose azimuth, speed, clock and return mode the input changes at will.

@@ -71,16 +71,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::Input input({data, size});
   switch (input.below(4)) {
     case 0:
-      fuzz::PacketSequence<Velodyne<vlp16::Vlp16, 0x22>>(input).run();
+      fuzz::PacketSequence<Velodyne<velodyne::Vlp16, 0x22>>(input).run();
       break;
     case 1:
-      fuzz::PacketSequence<Velodyne<hdl32e::Hdl32e, 0x21>>(input).run();
+      fuzz::PacketSequence<Velodyne<velodyne::Hdl32e, 0x21>>(input).run();
       break;
     case 2:
-      fuzz::PacketSequence<Velodyne<vlp32c::Vlp32c, 0x28>>(input).run();
+      fuzz::PacketSequence<Velodyne<velodyne::Vlp32c, 0x28>>(input).run();
       break;
     default:
-      fuzz::PacketSequence<Velodyne<vls128::Vls128, 0xA1>>(input).run();
+      fuzz::PacketSequence<Velodyne<velodyne::Vls128, 0xA1>>(input).run();
       break;
   }
   return 0;

@@ -5,9 +5,9 @@
 #include <optional>
 #include <type_traits>
 
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/frame/frame_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/packet/datagram.hpp"
 
 namespace terracut::test {
 
@@ -27,7 +27,7 @@ void hand_out(Decoder& decoder, OnFrame&& on_frame) {
 
 /// Decodes one datagram; why it was rejected, if it was.
 template <class Decoder, class OnFrame>
-std::optional<frame::Reject> decode(Decoder& decoder, const decode::Datagram& datagram,
+std::optional<frame::Reject> decode(Decoder& decoder, const packet::Datagram& datagram,
                                     OnFrame&& on_frame) {
   decoder.push(datagram);
   hand_out(decoder, on_frame);

@@ -106,7 +106,7 @@ struct ArrivingFrame : testing::Test {
   int frames = 0, complete = 0, most_complete = 0, changed = 0;
 };
 
-using BothSensors = testing::Types<encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits>;
+using BothSensors = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits>;
 TYPED_TEST_SUITE(ArrivingFrame, BothSensors);
 
 TYPED_TEST(ArrivingFrame, IsLabelledAsAtOnce) {

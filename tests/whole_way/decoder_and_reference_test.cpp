@@ -71,7 +71,7 @@ class BothDecoders {
       if (!arrival.arrives) continue;
       const auto reason = test::decode(
           decoder,
-          decode::Datagram{.payload = arrival.payload.bytes, .stamp_ns = arrival.payload.stamp_ns},
+          packet::Datagram{.payload = arrival.payload.bytes, .stamp_ns = arrival.payload.stamp_ns},
           handed.keep());
       if (reason) return "refused: " + std::string(to_string(*reason));
     }
@@ -236,7 +236,7 @@ TYPED_TEST(DecoderAndReference, RefuseTheSamePacketsForTheSameReason) {
 
     typename TypeParam::Reference reference(no_corrections);
     const Packet expected = reference.decode(bytes);
-    decode::PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     const auto reason = TypeParam::check(bytes, azimuths);
     ASSERT_EQ(to_string(as_refusal(reason)), to_string(expected.refusal)) << n;
     if (!reason) {

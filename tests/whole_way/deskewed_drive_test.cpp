@@ -98,7 +98,7 @@ class DeskewedDrive : public testing::Test {
                                              config.sensor.returns);
     const auto group_size =
         static_cast<std::size_t>(EncoderTraits::firings_per_group(config.sensor.returns) *
-                                 drive::returns_per_firing(config.sensor.returns));
+                                 packets::returns_per_firing(config.sensor.returns));
     std::vector<typename EncoderTraits::Column> group;
     std::vector<std::uint32_t> numbers;
     std::vector<Point> in_world;
@@ -228,7 +228,7 @@ class DeskewedDrive : public testing::Test {
 TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
   for (const frame::FrameInstant at :
        {frame::FrameInstant::kStart, frame::FrameInstant::kMiddle, frame::FrameInstant::kEnd}) {
-    const auto config = fast_bend<encode::Hdl64eEncoderTraits>("flat", 2);
+    const auto config = fast_bend<packets::Hdl64eEncoderTraits>("flat", 2);
     write(config);
     Distances as_seen = distances(config, std::nullopt, at);
     Distances deskewed = distances(config, at, at);
@@ -237,8 +237,9 @@ TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
     EXPECT_LT(deskewed.p95_m(), 0.005);
     EXPECT_LT(deskewed.most_m(), 0.02);
   }
-  for (const drive::ReturnMode returns : {drive::ReturnMode::kSingle, drive::ReturnMode::kDual}) {
-    auto config = fast_bend<encode::Ruby128EncoderTraits>("flat", 2);
+  for (const packets::ReturnMode returns :
+       {packets::ReturnMode::kSingle, packets::ReturnMode::kDual}) {
+    auto config = fast_bend<packets::Ruby128EncoderTraits>("flat", 2);
     config.sensor.returns = returns;
     write(config);
     Distances as_seen = distances(config, std::nullopt, frame::FrameInstant::kEnd);
@@ -252,7 +253,7 @@ TEST_F(DeskewedDrive, ReturnsLieWithinCentimetresOfTheUnmovingTruth) {
 TEST_F(DeskewedDrive, OnUnevenRoadsWhatIsLeftIsTheRollAndPitchThatSpeedAndFrameRateDoNotTell) {
   for (const auto& [scene, allowed_m] : {std::pair{"street", 0.03}, std::pair{"highway", 0.06},
                                          std::pair{"rural", 0.1}, std::pair{"hill", 0.3}}) {
-    const auto config = fast_bend<encode::Hdl64eEncoderTraits>(scene, 2);
+    const auto config = fast_bend<packets::Hdl64eEncoderTraits>(scene, 2);
     write(config);
     Distances as_seen = distances(config, std::nullopt, frame::FrameInstant::kEnd);
     Distances deskewed = distances(config, frame::FrameInstant::kEnd, frame::FrameInstant::kEnd);
@@ -275,7 +276,7 @@ TEST_F(DeskewedDrive, LabelsAreAsGoodAsThoseOfTheSameScenesStandingStill) {
     sum += quality;
   };
   for (const char* scene : {"street", "highway", "rural", "flat", "hill"}) {
-    auto config = fast_bend<encode::Hdl64eEncoderTraits>(scene, 2);
+    auto config = fast_bend<packets::Hdl64eEncoderTraits>(scene, 2);
     config.motion_within_frame = false;
     write(config);
     add(standing, scene, "standing", label(config, std::nullopt));
@@ -292,7 +293,7 @@ TEST_F(DeskewedDrive, LabelsAreAsGoodAsThoseOfTheSameScenesStandingStill) {
 }
 
 TEST_F(DeskewedDrive, WithoutSamplesTheFramesSayNoEgoMotionAndAreAsSeen) {
-  const auto config = fast_bend<encode::Hdl64eEncoderTraits>("flat", 1);
+  const auto config = fast_bend<packets::Hdl64eEncoderTraits>("flat", 1);
   write(config);
   memory::FixedMemory memory;
   vehicle::EgoMotion motion({}, memory);

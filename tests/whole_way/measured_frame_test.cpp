@@ -30,7 +30,7 @@ struct MeasuredFrame : testing::Test {
   /// Whether the coarse stages are done ahead, while frames arrive.
   enum class Stages { kAhead, kAtOnce };
 
-  static simulator::SimulationConfig<EncoderTraits> config(drive::ReturnMode returns) {
+  static simulator::SimulationConfig<EncoderTraits> config(packets::ReturnMode returns) {
     simulator::SimulationConfig<EncoderTraits> config;
     config.scene = "street";
     config.duration_s = 0.25;
@@ -88,11 +88,11 @@ struct MeasuredFrame : testing::Test {
     }
   }
 
-  const simulator::SimulationConfig<EncoderTraits> setup = config(drive::ReturnMode::kSingle);
+  const simulator::SimulationConfig<EncoderTraits> setup = config(packets::ReturnMode::kSingle);
   ground::SegmenterConfig method = ground::terracut_profile();
 };
 
-using BothSensors = testing::Types<encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits>;
+using BothSensors = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits>;
 TYPED_TEST_SUITE(MeasuredFrame, BothSensors);
 
 TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPoints) {
@@ -100,7 +100,7 @@ TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPoints) {
 }
 
 TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsInDualReturnWhicheverReturnOwnsACell) {
-  const auto packets = simulated_packets(this->config(drive::ReturnMode::kDual));
+  const auto packets = simulated_packets(this->config(packets::ReturnMode::kDual));
   for (const auto owner : {frame::CellOwner::kFirstArrived, frame::CellOwner::kStrongest,
                            frame::CellOwner::kNearest, frame::CellOwner::kFarthest}) {
     SCOPED_TRACE(static_cast<int>(owner));
@@ -109,7 +109,7 @@ TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsInDualReturnWhicheverReturnOwns
 }
 
 TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsByTheCoarseStagesAlone) {
-  const auto packets = simulated_packets(this->config(drive::ReturnMode::kDual));
+  const auto packets = simulated_packets(this->config(packets::ReturnMode::kDual));
   for (const auto stage : {stage::Stage::kElevationMap, stage::Stage::kAdjacentPoints}) {
     this->method.last_stage = stage;
     this->expect_same_labels(packets);
@@ -136,7 +136,7 @@ TYPED_TEST(MeasuredFrame, IsLabelledAsOneOfPointsAfterTheStreamHasBegunAgain) {
 }
 
 TYPED_TEST(MeasuredFrame, CountsReturnsThatFoundNoRoom) {
-  const auto packets = simulated_packets(this->config(drive::ReturnMode::kDual));
+  const auto packets = simulated_packets(this->config(packets::ReturnMode::kDual));
   decode::Decoder::Config decoding;
   decoding.keeps_measured = true;
   const auto whole = this->labelled(packets, decoding, TestFixture::Stages::kAhead);

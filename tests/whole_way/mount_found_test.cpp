@@ -13,8 +13,8 @@
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
-#include "tools/lab/encode/hdl64e_encoder_traits.hpp"
-#include "tools/lab/encode/ruby128_encoder_traits.hpp"
+#include "tools/lab/packets/hdl64e_encoder_traits.hpp"
+#include "tools/lab/packets/ruby128_encoder_traits.hpp"
 
 namespace terracut::whole_way {
 namespace {
@@ -51,11 +51,11 @@ class MountFound : public testing::TestWithParam<TiltedDrive> {
 };
 
 TEST_P(MountFound, IsTheOneThatAnHdl64eStandsOn) {
-  find<encode::Hdl64eEncoderTraits>();
+  find<packets::Hdl64eEncoderTraits>();
 }
 
 TEST_P(MountFound, IsTheOneThatARuby128StandsOn) {
-  find<encode::Ruby128EncoderTraits>();
+  find<packets::Ruby128EncoderTraits>();
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, MountFound,

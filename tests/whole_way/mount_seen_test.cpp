@@ -15,8 +15,8 @@
 #include "firmware_io/scan/scan_to_image.hpp"
 #include "pipeline/ground/near_ground.hpp"
 #include "tests/firmware_io/scan/recorded_sequences.hpp"
-#include "tools/lab/encode/hdl64e_encoder_traits.hpp"
-#include "tools/lab/encode/ruby128_encoder_traits.hpp"
+#include "tools/lab/packets/hdl64e_encoder_traits.hpp"
+#include "tools/lab/packets/ruby128_encoder_traits.hpp"
 
 namespace terracut::whole_way {
 namespace {
@@ -67,8 +67,8 @@ class MountSeen : public testing::TestWithParam<Drive> {
 };
 
 TEST_P(MountSeen, TellsWrongMountsFromTheRightOne) {
-  tell_apart<encode::Hdl64eEncoderTraits>(GetParam().hdl64e_m);
-  tell_apart<encode::Ruby128EncoderTraits>(GetParam().ruby128_m);
+  tell_apart<packets::Hdl64eEncoderTraits>(GetParam().hdl64e_m);
+  tell_apart<packets::Ruby128EncoderTraits>(GetParam().ruby128_m);
 }
 
 INSTANTIATE_TEST_SUITE_P(LevelScenes, MountSeen,
@@ -79,8 +79,8 @@ INSTANTIATE_TEST_SUITE_P(LevelScenes, MountSeen,
 TEST(MountSeenWhereAHillBegins, IsNotContradictedWhereItIsTheRightOne) {
   const mount::Mount low{1.73, 0, 0}, high{3, 0, 0};
   for (const mount::MountCheck& check :
-       {checks_of_drive<encode::Hdl64eEncoderTraits>("hill", low, {low}).front(),
-        checks_of_drive<encode::Ruby128EncoderTraits>("hill", high, {high}).front()}) {
+       {checks_of_drive<packets::Hdl64eEncoderTraits>("hill", low, {low}).front(),
+        checks_of_drive<packets::Ruby128EncoderTraits>("hill", high, {high}).front()}) {
     EXPECT_EQ(check.frames(), 3U);
     EXPECT_FALSE(check.contradiction()) << check.mount().height_m;
   }

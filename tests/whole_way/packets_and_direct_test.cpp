@@ -16,7 +16,7 @@
 #include "firmware_io/hdl64e/firing_azimuth.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "tests/support/hand_out.hpp"
-#include "tools/lab/encode/hdl64e_packet_encoder.hpp"
+#include "tools/lab/packets/hdl64e_packet_encoder.hpp"
 #include "tools/lab/simulator/drive.hpp"
 
 namespace terracut::whole_way {
@@ -65,9 +65,9 @@ struct TwoWays {
 
   void send(const std::array<frame::FiringColumn, hdl64e::kColumnsPerPacketSingle>& columns) {
     hdl64e::wire::Packet packet = hdl64e::blank_packet();
-    encode::encode_hdl64e_packet(columns, encode::packet_end_ns(columns), {}, packet);
+    packets::encode_hdl64e_packet(columns, packets::packet_end_ns(columns), {}, packet);
     const auto rejected = test::decode(
-        decoder, decode::Datagram{hdl64e::payload_of(packet), columns.back().stamp_ns}, on_frame());
+        decoder, packet::Datagram{hdl64e::payload_of(packet), columns.back().stamp_ns}, on_frame());
     ASSERT_FALSE(rejected.has_value()) << to_string(*rejected);
   }
 
@@ -82,9 +82,9 @@ struct TwoWays {
       for (int laser = 0; laser < hdl64e::kHdl64eLasers; ++laser) {
         const frame::LabelledReturn& measured = column.by_laser[static_cast<std::size_t>(laser)];
         if (measured.raw == 0) continue;
-        const decode::BeamAzimuth beam =
-            decode::beam_azimuth(column.unwrapped_azimuth_cdeg, offsets.offset_ticks(step, laser));
-        const double rotor_rad = decode::firing_azimuth_rad(
+        const packet::BeamAzimuth beam =
+            packet::beam_azimuth(column.unwrapped_azimuth_cdeg, offsets.offset_ticks(step, laser));
+        const double rotor_rad = packet::firing_azimuth_rad(
             column.unwrapped_azimuth_cdeg, hdl64e::firing_advance_ticks(step, laser));
         const beams::Point sensor = geometry.point(laser, rotor_rad, measured.raw);
         const auto vehicle = mount::apply(T, sensor.x_m, sensor.y_m, sensor.z_m);
@@ -94,7 +94,7 @@ struct TwoWays {
               std::make_unique<frame::RangeImage>(decoder.shape(), decoder.shape().cells(), memory);
         }
         image->place(rows[static_cast<std::size_t>(laser)],
-                     decode::column_of(beam.in_revolution_ticks, decoder.shape().columns),
+                     packet::column_of(beam.in_revolution_ticks, decoder.shape().columns),
                      {static_cast<float>(vehicle[0]), static_cast<float>(vehicle[1]),
                       static_cast<float>(vehicle[2]),
                       static_cast<float>(std::hypot(vehicle[0], vehicle[1])), 0});

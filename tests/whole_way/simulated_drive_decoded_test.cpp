@@ -78,7 +78,7 @@ class SimulatedDriveDecoded : public testing::Test {
     const auto calibration = test::table_beside<EncoderTraits>(pcap());
     EXPECT_TRUE(calibration) << calibration.error().message;
     decode::Decoder::Config settings;
-    settings.columns = drive::image_columns<EncoderTraits>(config.spin_hz, config.sensor.returns);
+    settings.columns = packets::image_columns<EncoderTraits>(config.spin_hz, config.sensor.returns);
     memory::FixedMemory memory;
     decode::Decoder decoder(*calibration, config.mount, settings, memory);
     const mount::RigidTransform T = mount::T_vehicle_lidar(config.mount);
@@ -122,8 +122,8 @@ class SimulatedDriveDecoded : public testing::Test {
   }
 
   template <class EncoderTraits>
-  void expect_whole(drive::ReturnMode returns, double spin_hz, double allowed_m) {
-    SCOPED_TRACE(std::to_string(drive::returns_per_firing(returns)) + " returns at " +
+  void expect_whole(packets::ReturnMode returns, double spin_hz, double allowed_m) {
+    SCOPED_TRACE(std::to_string(packets::returns_per_firing(returns)) + " returns at " +
                  std::to_string(spin_hz) + " Hz");
     simulator::SimulationConfig<EncoderTraits> config;
     config.spin_hz = spin_hz;
@@ -149,32 +149,32 @@ class SimulatedDriveDecoded : public testing::Test {
 constexpr double kRubyRounding_m = 0.0027, kHdlRounding_m = 0.0013, kFourMmRounding_m = 0.0022;
 
 TEST_F(SimulatedDriveDecoded, EveryReturnOfAnRsRuby128ArrivesWhereItWas) {
-  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kSingle, 10, kRubyRounding_m);
-  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kSingle, 20, kRubyRounding_m);
+  expect_whole<packets::Ruby128EncoderTraits>(packets::ReturnMode::kSingle, 10, kRubyRounding_m);
+  expect_whole<packets::Ruby128EncoderTraits>(packets::ReturnMode::kSingle, 20, kRubyRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAnRsRuby128ArriveWhereTheyWere) {
-  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kDual, 10, kRubyRounding_m);
-  expect_whole<encode::Ruby128EncoderTraits>(drive::ReturnMode::kDual, 5, kRubyRounding_m);
+  expect_whole<packets::Ruby128EncoderTraits>(packets::ReturnMode::kDual, 10, kRubyRounding_m);
+  expect_whole<packets::Ruby128EncoderTraits>(packets::ReturnMode::kDual, 5, kRubyRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAnHdl64eArriveWhereTheyWere) {
-  expect_whole<encode::Hdl64eEncoderTraits>(drive::ReturnMode::kDual, 10, kHdlRounding_m);
-  expect_whole<encode::Hdl64eEncoderTraits>(drive::ReturnMode::kDual, 20, kHdlRounding_m);
+  expect_whole<packets::Hdl64eEncoderTraits>(packets::ReturnMode::kDual, 10, kHdlRounding_m);
+  expect_whole<packets::Hdl64eEncoderTraits>(packets::ReturnMode::kDual, 20, kHdlRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, EveryReturnOfAVelodyneWithABuiltInTableArrivesWhereItWas) {
-  expect_whole<velodyne::Vlp16EncoderTraits>(drive::ReturnMode::kSingle, 10, kHdlRounding_m);
-  expect_whole<velodyne::Hdl32eEncoderTraits>(drive::ReturnMode::kSingle, 20, kHdlRounding_m);
-  expect_whole<velodyne::Vlp32cEncoderTraits>(drive::ReturnMode::kSingle, 10, kFourMmRounding_m);
-  expect_whole<velodyne::Vls128EncoderTraits>(drive::ReturnMode::kSingle, 20, kFourMmRounding_m);
+  expect_whole<packets::Vlp16EncoderTraits>(packets::ReturnMode::kSingle, 10, kHdlRounding_m);
+  expect_whole<packets::Hdl32eEncoderTraits>(packets::ReturnMode::kSingle, 20, kHdlRounding_m);
+  expect_whole<packets::Vlp32cEncoderTraits>(packets::ReturnMode::kSingle, 10, kFourMmRounding_m);
+  expect_whole<packets::Vls128EncoderTraits>(packets::ReturnMode::kSingle, 20, kFourMmRounding_m);
 }
 
 TEST_F(SimulatedDriveDecoded, BothReturnsOfAVelodyneWithABuiltInTableArriveWhereTheyWere) {
-  expect_whole<velodyne::Vlp16EncoderTraits>(drive::ReturnMode::kDual, 20, kHdlRounding_m);
-  expect_whole<velodyne::Hdl32eEncoderTraits>(drive::ReturnMode::kDual, 10, kHdlRounding_m);
-  expect_whole<velodyne::Vlp32cEncoderTraits>(drive::ReturnMode::kDual, 20, kFourMmRounding_m);
-  expect_whole<velodyne::Vls128EncoderTraits>(drive::ReturnMode::kDual, 10, kFourMmRounding_m);
+  expect_whole<packets::Vlp16EncoderTraits>(packets::ReturnMode::kDual, 20, kHdlRounding_m);
+  expect_whole<packets::Hdl32eEncoderTraits>(packets::ReturnMode::kDual, 10, kHdlRounding_m);
+  expect_whole<packets::Vlp32cEncoderTraits>(packets::ReturnMode::kDual, 20, kFourMmRounding_m);
+  expect_whole<packets::Vls128EncoderTraits>(packets::ReturnMode::kDual, 10, kFourMmRounding_m);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "tests/support/scratch_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/simulator/drive.hpp"
@@ -19,7 +19,7 @@ namespace terracut::whole_way {
 struct Packet {
   std::vector<std::uint8_t> payload;
   std::int64_t stamp_ns;
-  [[nodiscard]] decode::Datagram datagram() const { return {payload, stamp_ns}; }
+  [[nodiscard]] packet::Datagram datagram() const { return {payload, stamp_ns}; }
 };
 
 /// The packets of a simulated drive; none, and a failure, where it cannot be written.

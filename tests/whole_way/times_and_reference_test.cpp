@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "firmware_io/hdl64e/firing_times.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 #include "tests/support/reference/hdl64e_reference.hpp"
 #include "tests/support/reference/rotating_head.hpp"
 #include "tests/support/reference/ruby128_reference.hpp"

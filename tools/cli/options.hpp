@@ -14,11 +14,11 @@
 #include "calib/hdl64e/hdl64e_geometry.hpp"
 #include "firmware_io/frame/deskew_info.hpp"
 #include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
 #include "firmware_io/vehicle/motion_signals.hpp"
 #include "pipeline/stage/stage.hpp"
-#include "tools/lab/drive/return_mode.hpp"
+#include "tools/lab/packets/return_mode.hpp"
 
 /// What a command was asked to do, by the command line and the configuration file. Names, ranges
 /// and meanings stand in the table of settings (settings/setting_table.cpp); the values here are
@@ -187,7 +187,7 @@ struct SimulateOptions {
   std::uint64_t seed = 1;
   double duration_s = 3;
   double spin_hz = 10;
-  drive::ReturnMode returns = drive::ReturnMode::kSingle;
+  packets::ReturnMode returns = packets::ReturnMode::kSingle;
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   double noise_m = 0.015;
   double speed_mps = -1;    ///< < 0: what is usual in the scene.

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "json_object.hpp"
-#include "tools/cli/figures/report.hpp"
+#include "tools/cli/figures/run_report.hpp"
 
 namespace terracut::python {
 namespace py = pybind11;

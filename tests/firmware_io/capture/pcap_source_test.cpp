@@ -41,7 +41,7 @@ IpFrame frame_to(std::uint16_t port, Bytes source = {192, 168, 3, 43}) {
   return frame;
 }
 
-std::uint64_t refused(const PcapSource& source, FrameReject reason) {
+std::uint64_t refused(const PcapSource& source, packet::FrameReject reason) {
   return source.counters().refused[static_cast<std::size_t>(reason)];
 }
 
@@ -65,9 +65,9 @@ TEST(PcapSource, CountsEveryFrameByWhatBecameOfIt) {
   EXPECT_EQ(counters.delivered, 2U);
   EXPECT_EQ(counters.other_port, 1U);
   EXPECT_EQ(counters.other_source, 1U);
-  EXPECT_EQ(refused(*source, FrameReject::kFragment), 1U);
-  EXPECT_EQ(refused(*source, FrameReject::kNotIpv4), 1U);
-  EXPECT_EQ(refused(*source, FrameReject::kShortCapture), 1U);
+  EXPECT_EQ(refused(*source, packet::FrameReject::kFragment), 1U);
+  EXPECT_EQ(refused(*source, packet::FrameReject::kNotIpv4), 1U);
+  EXPECT_EQ(refused(*source, packet::FrameReject::kShortCapture), 1U);
   EXPECT_EQ(counters.refused_total(), 3U);
 }
 

@@ -11,7 +11,7 @@
 
 #include "capture_bytes.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/capture/udp_checksum.hpp"
+#include "firmware_io/packet/udp_checksum.hpp"
 
 namespace terracut::capture {
 namespace {
@@ -19,7 +19,7 @@ namespace {
 using test::Bytes;
 using test::TemporaryFolder;
 
-decode::Datagram datagram_of(const Bytes& payload,
+packet::Datagram datagram_of(const Bytes& payload,
                              std::int64_t stamp_ns = 1'700'000'000'123'456'789) {
   return {.payload = payload,
           .stamp_ns = stamp_ns,
@@ -69,15 +69,16 @@ TEST(PcapWriter, PutsRightChecksumsInIpAndUdp) {
   const Bytes file = test::read_file(folder / "a.pcap");
   const std::span ip(file.data() + 24 + 16 + 14, 20);
   // RFC 1071: a header with its checksum in place sums to zero.
-  EXPECT_EQ(internet_checksum(ip), 0);
+  EXPECT_EQ(packet::internet_checksum(ip), 0);
   const std::span udp(file.data() + 24 + 16 + 14 + 20, 8 + 3);
   Bytes pseudo = test::joined({Bytes(ip.begin() + 12, ip.begin() + 20), {0, 17, 0, 11}});
   pseudo.insert(pseudo.end(), udp.begin(), udp.end());
-  EXPECT_EQ(internet_checksum(pseudo), 0);
+  EXPECT_EQ(packet::internet_checksum(pseudo), 0);
 }
 
 TEST(PcapWriter, KnowsTheChecksumOfRfc1071) {
-  EXPECT_EQ(internet_checksum(Bytes{0x00, 0x01, 0xF2, 0x03, 0xF4, 0xF5, 0xF6, 0xF7}), 0x220D);
+  EXPECT_EQ(packet::internet_checksum(Bytes{0x00, 0x01, 0xF2, 0x03, 0xF4, 0xF5, 0xF6, 0xF7}),
+            0x220D);
 }
 
 TEST(PcapWriter, LeavesNothingBehindWhenDroppedUnfinished) {

@@ -31,7 +31,7 @@ struct Sector {
 
 template <class Sensor>
 double first_deg(const Payload& payload) {
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   EXPECT_EQ(Sensor::check(payload.bytes, azimuths), std::nullopt);
   return azimuths.first_cdeg() * 0.01;
 }
@@ -79,8 +79,8 @@ class BlindSensor : public testing::Test {
   Head<Sensor> head;
 };
 
-using EverySensor = testing::Types<reference::Hdl64e, reference::Ruby128, reference::Hdl32e,
-                                   reference::Vls128>;
+using EverySensor =
+    testing::Types<reference::Hdl64e, reference::Ruby128, reference::Hdl32e, reference::Vls128>;
 TYPED_TEST_SUITE(BlindSensor, EverySensor);
 
 TYPED_TEST(BlindSensor, GivesACompleteFrameARevolutionWithoutLossWhereverItIsBlind) {
@@ -91,8 +91,8 @@ TYPED_TEST(BlindSensor, GivesACompleteFrameARevolutionWithoutLossWhereverItIsBli
         SCOPED_TRACE(std::to_string(blind.from_deg) + ".." + std::to_string(blind.to_deg) +
                      (dual ? " dual " : " single ") + std::to_string(spin_hz));
         // Less than two packets are no sector of five degrees in every frame.
-        const double packet_deg = 360e-6 * spin_hz * TypeParam::firing_us(dual) *
-                                  TypeParam::firings_per_packet(dual);
+        const double packet_deg =
+            360e-6 * spin_hz * TypeParam::firing_us(dual) * TypeParam::firings_per_packet(dual);
         const double blind_deg = std::fmod(blind.to_deg - blind.from_deg + 360, 360);
         if (blind_deg < 2.5 * packet_deg) continue;
         constexpr int kFrames = 12;
@@ -136,7 +136,8 @@ TYPED_TEST(BlindSensor, IsCloseToTheEndOfItsFrameWhereNothingMoreIsSeenOfIt) {
   for (const Payload& payload : without<TypeParam>(this->head.frames(20), {270, 90})) {
     (void)stream.hear(payload);
     const bool is_near = first_deg<TypeParam>(payload) > 265;
-    if (stream.frames.size() > 10 && is_near) ending += stream.decoder.arriving().share_to_come <= 0.02F ? 1 : 0;
+    if (stream.frames.size() > 10 && is_near)
+      ending += stream.decoder.arriving().share_to_come <= 0.02F ? 1 : 0;
   }
   EXPECT_GE(ending, 8);
 }

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "firmware_io/decode/packet_azimuths.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
 #include "tests/support/allocation_counter.hpp"
 
 namespace terracut::decode {
@@ -31,7 +31,7 @@ constexpr double kSpeed_mps = 20, kYawRate_radps = 0.5;
 class DeskewerTest : public testing::Test {
  protected:
   [[nodiscard]] Deskewer deskewer(frame::FrameInstant at) {
-    return Deskewer({&motion_, at, kShape, kRevolution_ticks}, kBeam_ticks, memory_);
+    return Deskewer({&motion_, at, kShape, packet::kRevolution_ticks}, kBeam_ticks, memory_);
   }
 
   void drive(double speed_mps, double yaw_rate_radps) {
@@ -42,7 +42,7 @@ class DeskewerTest : public testing::Test {
 
   /// Where the head is `share` of a frame after it passed straight ahead.
   static void note(Deskewer& deskewer, double share) {
-    deskewer.note(std::llround(share * kRevolution_ticks), instant_ns(share));
+    deskewer.note(std::llround(share * packet::kRevolution_ticks), instant_ns(share));
   }
   static void note(Deskewer& deskewer, double from, double to) {
     for (double share = from; share <= to; share += 1.0 / 350) note(deskewer, share);
@@ -75,7 +75,8 @@ class DeskewerTest : public testing::Test {
   /// Frames of the head until a cell's beam fires: the beam is in the middle of its column.
   static double share_of(int frame, int row, int column) {
     return frame + (column + 0.5) / kShape.columns -
-           static_cast<double>(kBeam_ticks[static_cast<std::size_t>(row)]) / kRevolution_ticks;
+           static_cast<double>(kBeam_ticks[static_cast<std::size_t>(row)]) /
+               packet::kRevolution_ticks;
   }
   static vehicle::PlanarPose pose(double share, double speed_mps, double yaw_rate_radps) {
     return vehicle::after_constant_motion(speed_mps, yaw_rate_radps,
@@ -157,7 +158,7 @@ TEST_F(DeskewerTest, AHeadThatChangesItsSpeedIsFollowed) {
     return share + 0.008 * std::sin(2 * std::numbers::pi * share);
   };
   for (double share = -0.1; share <= 1.1; share += 1.0 / 350) {
-    deskewer.note(std::llround(head(share) * kRevolution_ticks), instant_ns(share));
+    deskewer.note(std::llround(head(share) * packet::kRevolution_ticks), instant_ns(share));
   }
   image_.clear();
   for (int row = 0; row < kShape.rows; ++row) {
@@ -271,11 +272,12 @@ TEST_F(DeskewerTest, AHeadThatStandsOrIsSeenAtAnEarlierTimeIsNotNoted) {
   drive(kSpeed_mps, kYawRate_radps);
   Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 0.4);
-  const std::int64_t rotor_ticks = std::llround(0.41 * kRevolution_ticks);
+  const std::int64_t rotor_ticks = std::llround(0.41 * packet::kRevolution_ticks);
   deskewer.note(rotor_ticks, instant_ns(0.41));
-  deskewer.note(rotor_ticks, instant_ns(0.9));                                  // the same place
-  deskewer.note(rotor_ticks - 1'000'000, instant_ns(0.9));                      // one before it
-  deskewer.note(std::llround(0.45 * kRevolution_ticks), instant_ns(0.41) - 1);  // before it in time
+  deskewer.note(rotor_ticks, instant_ns(0.9));              // the same place
+  deskewer.note(rotor_ticks - 1'000'000, instant_ns(0.9));  // one before it
+  deskewer.note(std::llround(0.45 * packet::kRevolution_ticks),
+                instant_ns(0.41) - 1);  // before it in time
   note(deskewer, 0.5, 1.1);
   see(0, kSpeed_mps, kYawRate_radps);
   EXPECT_EQ(deskewer.apply(0, image_).state, frame::DeskewState::kDone);
@@ -290,8 +292,8 @@ TEST_F(DeskewerTest, AGapOfManyFramesLeavesTheFrameBeforeItAndTheOneBehindItAsTh
       motion.add({kStart_ns + i * 10'000'000, kSpeed_mps, kYawRate_radps});
       motion.take_new();
     }
-    Deskewer deskewer({&motion, frame::FrameInstant::kEnd, kShape, kRevolution_ticks}, kBeam_ticks,
-                      memory_);
+    Deskewer deskewer({&motion, frame::FrameInstant::kEnd, kShape, packet::kRevolution_ticks},
+                      kBeam_ticks, memory_);
     note(deskewer, -0.1, 0.7);
     note(deskewer, frames + 0.02);  // handed over with the first packet behind the gap
     see(0, kSpeed_mps, kYawRate_radps);
@@ -316,10 +318,10 @@ TEST_F(DeskewerTest, WhereAClockWasSetTheFramesBegunHaveNoEgoMotionAndTheNextHas
   drive(kSpeed_mps, kYawRate_radps);
   Deskewer deskewer = this->deskewer(frame::FrameInstant::kEnd);
   note(deskewer, -0.1, 1.4);
-  deskewer.begin_anew(std::llround(1.41 * kRevolution_ticks));
+  deskewer.begin_anew(std::llround(1.41 * packet::kRevolution_ticks));
   constexpr std::int64_t kSet_ns = -150'000'000;  // where samples are of the time before
   for (double share = 1.41; share <= 3.1; share += 1.0 / 350) {
-    deskewer.note(std::llround(share * kRevolution_ticks), instant_ns(share) + kSet_ns);
+    deskewer.note(std::llround(share * packet::kRevolution_ticks), instant_ns(share) + kSet_ns);
   }
   see(0, kSpeed_mps, kYawRate_radps);
   const std::vector<float> before(image_.x_m().begin(), image_.x_m().end());
@@ -352,7 +354,7 @@ TEST_F(DeskewerTest, AStreamThatBeginsAnewHasNoMotionFromBefore) {
 TEST_F(DeskewerTest, AStreamThatBeginsAnewIsNotWithoutMotionForAClockThatWasSet) {
   drive(kSpeed_mps, kYawRate_radps);
   Deskewer deskewer = this->deskewer(frame::FrameInstant::kStart);
-  deskewer.begin_anew(50LL * kRevolution_ticks);
+  deskewer.begin_anew(50LL * packet::kRevolution_ticks);
   note(deskewer, 50, 52);
   deskewer.restart();
   for (int i = -5; i < 15; ++i) {
@@ -376,10 +378,10 @@ TEST_F(DeskewerTest, AFrameOfOnePacketIsLeftWhereItIs) {
 }
 
 TEST_F(DeskewerTest, SettingsOutsideTheirRangeAreRefused) {
-  EXPECT_THROW(Deskewer({nullptr, frame::FrameInstant::kEnd, kShape, kRevolution_ticks},
+  EXPECT_THROW(Deskewer({nullptr, frame::FrameInstant::kEnd, kShape, packet::kRevolution_ticks},
                         kBeam_ticks, memory_),
                std::invalid_argument);
-  EXPECT_THROW(Deskewer({&motion_, frame::FrameInstant::kEnd, {2, 400}, kRevolution_ticks},
+  EXPECT_THROW(Deskewer({&motion_, frame::FrameInstant::kEnd, {2, 400}, packet::kRevolution_ticks},
                         kBeam_ticks, memory_),
                std::invalid_argument);
   EXPECT_THROW(

@@ -15,7 +15,7 @@ namespace terracut::decode {
 namespace {
 
 constexpr std::int64_t kRevolution = 3600;
-constexpr BeamSpread kSpread{-100, 110};
+constexpr packet::BeamSpread kSpread{-100, 110};
 constexpr std::int64_t kStep = 10;
 
 FrameBuilder::Config small(int images = 3) {

@@ -81,7 +81,7 @@ class HeardStream {
     const std::size_t frames_before = frames.size();
     const std::uint64_t decoded_before = decoder.packets_decoded();
     const auto reason = test::decode(
-        decoder, decode::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, keep());
+        decoder, packet::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns}, keep());
     expect_bounded_work(frames.size() - frames_before, decoder.packets_decoded() - decoded_before);
     if (!reason) returns_taken += returns_in<Sensor>(payload);
     return reason;

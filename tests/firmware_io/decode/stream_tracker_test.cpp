@@ -15,22 +15,22 @@ constexpr std::int64_t kPeriod_us = 288;
 constexpr std::int32_t kSweep_cdeg = 104;
 
 /// Packet `n` of a head at 10 Hz, 6 firings a packet.
-PacketAzimuths packet(std::int64_t n, std::int64_t first_us = 0) {
-  PacketAzimuths azimuths;
+packet::PacketAzimuths packet(std::int64_t n, std::int64_t first_us = 0) {
+  packet::PacketAzimuths azimuths;
   azimuths.device_stamp_us = (first_us + n * kPeriod_us) % kWrap_us;
   azimuths.nominal_period_ns = kPeriod_us * 1000;
   azimuths.shortest_period_ns = 252'000;
   azimuths.longest_period_ns = 388'800;
   azimuths.columns = 1;
   azimuths.azimuth_cdeg[0] = beams::wrap_cdeg(n * kSweep_cdeg);
-  azimuths.step_ticks = kSweep_cdeg * kTicksPerCdeg / 6;
-  azimuths.sweep_ticks = azimuths.pace_ticks = kSweep_cdeg * kTicksPerCdeg;
+  azimuths.step_ticks = kSweep_cdeg * packet::kTicksPerCdeg / 6;
+  azimuths.sweep_ticks = azimuths.pace_ticks = kSweep_cdeg * packet::kTicksPerCdeg;
   return azimuths;
 }
 
 class Tracked : public testing::Test {
  protected:
-  Placement place(const PacketAzimuths& azimuths, std::int64_t host_ns = 0) {
+  Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_ns = 0) {
     const Placement placed = tracker.place(azimuths, host_ns, losses);
     if (placed.arrival == Arrival::kNext) tracker.miss(placed.missing, losses);
     return placed;
@@ -91,7 +91,7 @@ TEST_F(Tracked, WhereEverySecondPacketIsLostFromTheStartTheyAreCounted) {
 TEST_F(Tracked, LossesAreToldWithinSomePacketsWhereThePeriodIsNoSensors) {
   std::int64_t stamp_us = 0;
   for (std::int64_t n = 0; n < 100; ++n) {
-    PacketAzimuths azimuths = packet(n);
+    packet::PacketAzimuths azimuths = packet(n);
     azimuths.device_stamp_us = stamp_us += n == 20 ? 2 * kPeriod_us : 2;
     (void)place(azimuths);
   }
@@ -102,7 +102,7 @@ TEST_F(Tracked, LossesAreToldWithinSomePacketsWhereThePeriodIsNoSensors) {
 TEST_F(Tracked, ASwitchToDualReturnAndBackLosesNothing) {
   std::int64_t stamp_us = 0, rotor_cdeg = 0;
   for (int n = 0; n < 300; ++n) {
-    PacketAzimuths azimuths = packet(0);
+    packet::PacketAzimuths azimuths = packet(0);
     const bool dual = n >= 100 && n < 200;
     if (dual) {
       azimuths.nominal_period_ns = 172'800;
@@ -126,7 +126,7 @@ TEST_F(Tracked, PacketsLostWhileTheHeadStandsAreCounted) {
   for (const std::int64_t n : {50, 51, 54, 55}) {
     tracker.note_stationary(packet(n).device_stamp_us, packet(50).azimuth_cdeg[0], losses);
   }
-  PacketAzimuths next = packet(50);
+  packet::PacketAzimuths next = packet(50);
   next.device_stamp_us = packet(56).device_stamp_us;
   (void)place(next);
   tracker.end_of_stream(losses);
@@ -136,7 +136,7 @@ TEST_F(Tracked, PacketsLostWhileTheHeadStandsAreCounted) {
 TEST_F(Tracked, AHeadThatHasStoodIsExpectedWhereItStands) {
   place_all(0, 50);
   tracker.note_stationary(packet(50).device_stamp_us, packet(50).azimuth_cdeg[0], losses);
-  PacketAzimuths next = packet(50);
+  packet::PacketAzimuths next = packet(50);
   next.device_stamp_us = packet(200).device_stamp_us;
   EXPECT_EQ(place(next).arrival, Arrival::kNext);
 }

@@ -52,7 +52,7 @@ TEST(Hdl64eDecoderMemory, TakingTheMotionOutAllocatesNothing) {
   const std::uint64_t before = allocations_of_this_thread();
   std::int64_t sampled_ns = 0;
   for (const Packet& packet : packets) {
-    const decode::Datagram datagram = packet.datagram();
+    const packet::Datagram datagram = packet.datagram();
     if (datagram.stamp_ns - sampled_ns > 10'000'000) {
       sampled_ns = datagram.stamp_ns;
       motion.add({sampled_ns, 20, 0.5});

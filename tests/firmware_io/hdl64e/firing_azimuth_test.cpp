@@ -36,15 +36,15 @@ TEST(FiringAzimuth, BothSingleReturnCyclesAgreeToAHundredthOfAStep) {
 }
 
 TEST(FiringAzimuth, BeamsPassTheSeamIntoTheRightFrame) {
-  EXPECT_EQ(decode::beam_azimuth(0, 0).frame, 0);
-  EXPECT_EQ(decode::beam_azimuth(0, -1).frame, -1);
-  EXPECT_EQ(decode::beam_azimuth(0, -1).in_revolution_ticks, decode::kRevolution_ticks - 1);
-  EXPECT_EQ(decode::beam_azimuth(35'999, 999).frame, 0);
-  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).frame, 1);
-  EXPECT_EQ(decode::beam_azimuth(35'999, 1000).in_revolution_ticks, 0);
-  EXPECT_EQ(decode::beam_azimuth(36'000, 0).frame, 1);
-  EXPECT_EQ(decode::beam_azimuth(-1, 0).frame, -1);
-  EXPECT_EQ(decode::beam_azimuth(-36'000, -1).frame, -2);
+  EXPECT_EQ(packet::beam_azimuth(0, 0).frame, 0);
+  EXPECT_EQ(packet::beam_azimuth(0, -1).frame, -1);
+  EXPECT_EQ(packet::beam_azimuth(0, -1).in_revolution_ticks, packet::kRevolution_ticks - 1);
+  EXPECT_EQ(packet::beam_azimuth(35'999, 999).frame, 0);
+  EXPECT_EQ(packet::beam_azimuth(35'999, 1000).frame, 1);
+  EXPECT_EQ(packet::beam_azimuth(35'999, 1000).in_revolution_ticks, 0);
+  EXPECT_EQ(packet::beam_azimuth(36'000, 0).frame, 1);
+  EXPECT_EQ(packet::beam_azimuth(-1, 0).frame, -1);
+  EXPECT_EQ(packet::beam_azimuth(-36'000, -1).frame, -2);
 }
 
 TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
@@ -54,20 +54,20 @@ TEST(FiringAzimuth, BeamAzimuthKeepsTheAngle) {
   for (int n = 0; n < 100'000; ++n) {
     const std::int64_t rotor_cdeg = head(random);
     const std::int32_t offset_ticks = offset(random);
-    const decode::BeamAzimuth beam = decode::beam_azimuth(rotor_cdeg, offset_ticks);
+    const packet::BeamAzimuth beam = packet::beam_azimuth(rotor_cdeg, offset_ticks);
     ASSERT_GE(beam.in_revolution_ticks, 0);
-    ASSERT_LT(beam.in_revolution_ticks, decode::kRevolution_ticks);
-    ASSERT_EQ(beam.frame * decode::kRevolution_ticks + beam.in_revolution_ticks,
-              rotor_cdeg * decode::kTicksPerCdeg + offset_ticks);
+    ASSERT_LT(beam.in_revolution_ticks, packet::kRevolution_ticks);
+    ASSERT_EQ(beam.frame * packet::kRevolution_ticks + beam.in_revolution_ticks,
+              rotor_cdeg * packet::kTicksPerCdeg + offset_ticks);
   }
 }
 
 TEST(FiringAzimuth, ColumnsCoverTheFrame) {
-  EXPECT_EQ(decode::column_of(0, 2083), 0);
-  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks - 1, 2083), 2082);
-  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks / 2, 2083), 1041);
-  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks / 2 - 1, 2000), 999);
-  EXPECT_EQ(decode::column_of(decode::kRevolution_ticks / 2, 2000), 1000);
+  EXPECT_EQ(packet::column_of(0, 2083), 0);
+  EXPECT_EQ(packet::column_of(packet::kRevolution_ticks - 1, 2083), 2082);
+  EXPECT_EQ(packet::column_of(packet::kRevolution_ticks / 2, 2083), 1041);
+  EXPECT_EQ(packet::column_of(packet::kRevolution_ticks / 2 - 1, 2000), 999);
+  EXPECT_EQ(packet::column_of(packet::kRevolution_ticks / 2, 2000), 1000);
 }
 
 TEST(FiringAzimuth, NoBeamLeavesTheSpread) {

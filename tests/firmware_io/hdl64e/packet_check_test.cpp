@@ -18,7 +18,7 @@ test::Packet good_packet() {
 }
 
 std::optional<frame::Reject> check(const test::Packet& packet) {
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   return check_hdl64e_packet(packet.bytes, azimuths);
 }
 
@@ -39,7 +39,7 @@ TEST(PacketCheck, TakesAGoodPacketAndReadsItsAzimuths) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {35'950, 35'967, 35'984, 2, 19, 36});
   packet.set_device_stamp_us(3'599'999'900U);
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   ASSERT_EQ(check_hdl64e_packet(packet.bytes, azimuths), std::nullopt);
   EXPECT_EQ(azimuths.device_stamp_us, 3'599'999'900);
   EXPECT_EQ(azimuths.columns, 6);
@@ -60,7 +60,7 @@ TEST(PacketCheck, TakesTheHighestAzimuthOfTheWire) {
 
 TEST(PacketCheck, RefusesEveryOtherSize) {
   const test::Packet packet = good_packet();
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   for (const std::size_t size : {0U, 1U, 42U, 512U, 1205U}) {
     EXPECT_EQ(check_hdl64e_packet(std::span(packet.bytes).first(size), azimuths),
               frame::Reject::kWrongSize);
@@ -71,7 +71,7 @@ TEST(PacketCheck, RefusesEveryOtherSize) {
 
 TEST(PacketCheck, KnowsARubyPacketByItsLeader) {
   std::array<std::uint8_t, 1248> ruby{0x55, 0xAA, 0x05, 0x5A};
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   EXPECT_EQ(check_hdl64e_packet(ruby, azimuths), frame::Reject::kWrongModel);
 }
 
@@ -142,7 +142,7 @@ TEST(PacketCheck, CallsAHeadThatDoesNotRotateStationary) {
 TEST(PacketCheck, SeesDualReturnAndItsLongerSteps) {
   test::Packet packet = good_packet();
   set_azimuths(packet, {100, 100, 121, 121, 142, 142});
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   ASSERT_EQ(check_hdl64e_packet(packet.bytes, azimuths), std::nullopt);
   EXPECT_TRUE(azimuths.dual_return);
   EXPECT_EQ(azimuths.step_ticks, 21'000);
@@ -155,7 +155,7 @@ TEST(PacketCheck, SeesNoDualReturnWhereOnlySomePairsStandStill) {
                                     {100, 117, 134, 134, 168, 168}}) {
     test::Packet packet = good_packet();
     set_azimuths(packet, jittering);
-    decode::PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     ASSERT_EQ(check_hdl64e_packet(packet.bytes, azimuths), std::nullopt);
     EXPECT_FALSE(azimuths.dual_return)
         << jittering[1] << ", " << jittering[3] << ", " << jittering[5];
@@ -174,7 +174,7 @@ TEST_P(RealCapture, OfAnotherModelIsRefusedAsThat) {
     const auto datagram = source->next();
     ASSERT_TRUE(datagram) << datagram.error().message;
     if (!*datagram) break;
-    decode::PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     const auto reason = check_hdl64e_packet((*datagram)->payload, azimuths);
     if ((*datagram)->payload.size() == kHdl64ePacketBytes) {
       ++data_packets;

@@ -25,42 +25,42 @@ double worst_error_m(const Hdl64eCalibration& calibration, GeometryModel model,
   const Hdl64eGeometry geometry(calibration, model);
   const auto T = mount::T_vehicle_lidar(mount);
   memory::FixedMemory memory;
-  const decode::RotorDirections directions(memory);
+  const packet::RotorDirections directions(memory);
   std::mt19937 random(3);
   std::uniform_int_distribution<int> any_raw(1, 65'535), near_raw(1, 3'000), any_cdeg(0, 35'999),
       any_step(2'000, 100'000);
   double worst_m = 0;
   for (int tile = 0; tile < 20; ++tile) {
-    decode::GroupHeads<kLasersPerBlock> heads{};
-    decode::TileRow<std::int32_t> azimuth_cdeg{}, step_ticks{};
-    for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+    packet::GroupHeads<kLasersPerBlock> heads{};
+    frame::TileRow<std::int32_t> azimuth_cdeg{}, step_ticks{};
+    for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
       azimuth_cdeg[f] = any_cdeg(random);
       step_ticks[f] = any_step(random);
-      const decode::SinCos head = directions.at(azimuth_cdeg[f]);
+      const packet::SinCos head = directions.at(azimuth_cdeg[f]);
       heads.sin_rotor[f] = head.sin;
       heads.cos_rotor[f] = head.cos;
       for (std::size_t group = 0; group < kLasersPerBlock; ++group) {
-        const decode::SinCos advance =
-            decode::small_advance(firing_advance_ticks(step_ticks[f], static_cast<int>(group)));
+        const packet::SinCos advance =
+            packet::small_advance(firing_advance_ticks(step_ticks[f], static_cast<int>(group)));
         heads.sin_advance[group][f] = advance.sin;
         heads.cos_advance[group][f] = advance.cos;
       }
     }
     for (int laser = 0; laser < kHdl64eLasers; ++laser) {
       const auto i = static_cast<std::size_t>(laser);
-      decode::TileRow<std::uint16_t> raw{};
+      frame::TileRow<std::uint16_t> raw{};
       for (auto& counts : raw) {
         counts = static_cast<std::uint16_t>(tile % 2 == 0 ? any_raw(random) : near_raw(random));
       }
-      decode::TileRow<float> measured_m{};
-      decode::measure(raw.data(), static_cast<float>(calibration.distance_resolution_m),
+      frame::TileRow<float> measured_m{};
+      packet::measure(raw.data(), static_cast<float>(calibration.distance_resolution_m),
                       measured_m.data());
-      decode::TilePoints points{};
-      kernel.compute(i, decode::heads_of_group(heads, i % kLasersPerBlock), measured_m,
+      frame::TilePoints points{};
+      kernel.compute(i, packet::heads_of_group(heads, i % kLasersPerBlock), measured_m,
                      frame::all_of(points));
-      for (std::size_t f = 0; f < decode::kTileFirings; ++f) {
+      for (std::size_t f = 0; f < frame::kTileFirings; ++f) {
         const double azimuth_rad =
-            decode::firing_azimuth_rad(azimuth_cdeg[f], firing_advance_ticks(step_ticks[f], laser));
+            packet::firing_azimuth_rad(azimuth_cdeg[f], firing_advance_ticks(step_ticks[f], laser));
         const auto p = geometry.point(laser, azimuth_rad, raw[f]);
         const auto v = mount::apply(T, p.x_m, p.y_m, p.z_m);
         const double allowed_m = 1e-6 * std::hypot(p.x_m, p.y_m, p.z_m);
@@ -109,12 +109,12 @@ INSTANTIATE_TEST_SUITE_P(Shared, RealUnit,
 TEST(PointKernel, TurnsClockwiseAndLeavesOutWhatWasNotMeasured) {
   const Hdl64eCalibration flat;
   const PointKernel kernel(flat, GeometryModel::kManual, {.height_m = 2.0});
-  decode::GroupHeads<kLasersPerBlock> heads{};
+  packet::GroupHeads<kLasersPerBlock> heads{};
   heads.sin_rotor.fill(1);  // clockwise: to the right, which is -y
   heads.cos_advance[0].fill(1);
-  decode::TileRow<float> measured_m{20.0F, std::numeric_limits<float>::quiet_NaN()};
-  decode::TilePoints points{};
-  kernel.compute(0, decode::heads_of_group(heads, 0), measured_m, frame::all_of(points));
+  frame::TileRow<float> measured_m{20.0F, std::numeric_limits<float>::quiet_NaN()};
+  frame::TilePoints points{};
+  kernel.compute(0, packet::heads_of_group(heads, 0), measured_m, frame::all_of(points));
   EXPECT_NEAR(points.x_m[0], 0.0, 1e-5);
   EXPECT_NEAR(points.y_m[0], -20.0, 1e-5);
   EXPECT_NEAR(points.z_m[0], 2.0, 1e-6);

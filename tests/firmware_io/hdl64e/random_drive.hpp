@@ -10,10 +10,10 @@
 #include <vector>
 
 #include "calib/hdl64e/nominal_hdl64e.hpp"
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/decode/decoder.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "tests/support/hand_out.hpp"
-#include "tools/lab/encode/hdl64e_packet_encoder.hpp"
+#include "tools/lab/packets/hdl64e_packet_encoder.hpp"
 
 namespace terracut::test {
 
@@ -24,7 +24,7 @@ struct Packet {
   std::array<std::uint8_t, hdl64e::kHdl64ePacketBytes> bytes{};
   std::int64_t stamp_ns = 0;
 
-  [[nodiscard]] decode::Datagram datagram() const {
+  [[nodiscard]] packet::Datagram datagram() const {
     return {.payload = bytes, .stamp_ns = stamp_ns};
   }
   void set_u16(std::size_t offset, unsigned value) {
@@ -77,8 +77,8 @@ inline std::vector<Packet> to_packets(std::span<const FiringColumn> firings) {
     const auto six = firings.subspan(n).first<6>();
     hdl64e::wire::Packet buffer = hdl64e::blank_packet();
     Packet& packet = packets.emplace_back();
-    packet.stamp_ns = encode::packet_end_ns(six);
-    encode::encode_hdl64e_packet(six, packet.stamp_ns, {'T', 35}, buffer);
+    packet.stamp_ns = packets::packet_end_ns(six);
+    packets::encode_hdl64e_packet(six, packet.stamp_ns, {'T', 35}, buffer);
     std::ranges::copy(hdl64e::payload_of(buffer), packet.bytes.begin());
   }
   return packets;

@@ -10,7 +10,7 @@
 #include "calib/hdl64e/hdl64e_file.hpp"
 #include "firmware_io/capture/pcap_source.hpp"
 #include "firmware_io/hdl64e/s1_reader.hpp"
-#include "firmware_io/sensor/first_seconds.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
 #include "random_drive.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/places.hpp"
@@ -145,10 +145,10 @@ TEST(Hdl64eS1, IsDecodedWithoutAllocating) {
 TEST(Hdl64eS1, IsFoundByItselfAndWhereAnHdl64eIsWanted) {
   for (const auto wanted :
        {std::optional<sensor::SensorModel>(), std::optional(sensor::SensorModel::kHdl64e)}) {
-    sensor::FirstSeconds::Config config;
+    streams::FirstSeconds::Config config;
     config.model = wanted;
     config.calibration.unit = nominal_hdl64e();
-    sensor::FirstSeconds first(config);
+    streams::FirstSeconds first(config);
     for (const Packet& packet : s1_packets(10)) first.add(packet.datagram());
     ASSERT_TRUE(first.is_enough());
     const auto found = first.conclude();

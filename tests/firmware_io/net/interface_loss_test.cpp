@@ -16,7 +16,7 @@ using net::UdpSource;
 using send::UdpSender;
 
 constexpr std::uint32_t kHere = 0x0A4D0001;  // 10.77.0.1
-constexpr std::uint32_t kGroup = 0xEF4D0001;
+constexpr std::uint32_t kLossGroup = 0xEF4D0001;
 constexpr std::uint16_t kPort = 2368;
 
 class InterfaceLoss : public LiveTest {
@@ -120,10 +120,10 @@ TEST_F(InterfaceLoss, IsSurvivedByASourceBoundToItsAddress) {
 TEST_F(InterfaceLoss, IsSurvivedByAMulticastGroupOnThatInterface) {
   with_cable([&](PrivateNetwork& network) {
     survive(
-        network, kGroup,
+        network, kLossGroup,
         [&] {
           return UdpSource::open(
-              {.bind = {0, kPort}, .multicast_group = kGroup, .interface = "sensor0"}, memory_);
+              {.bind = {0, kPort}, .multicast_group = kLossGroup, .interface = "sensor0"}, memory_);
         },
         true);
   });
@@ -132,8 +132,10 @@ TEST_F(InterfaceLoss, IsSurvivedByAMulticastGroupOnThatInterface) {
 TEST_F(InterfaceLoss, IsSurvivedByAMulticastGroupThatTheRoutesLeadTo) {
   with_cable([&](PrivateNetwork& network) {
     survive(
-        network, kGroup,
-        [&] { return UdpSource::open({.bind = {0, kPort}, .multicast_group = kGroup}, memory_); },
+        network, kLossGroup,
+        [&] {
+          return UdpSource::open({.bind = {0, kPort}, .multicast_group = kLossGroup}, memory_);
+        },
         false);
   });
 }

@@ -13,10 +13,10 @@
 namespace terracut::test {
 namespace {
 
-using decode::Datagram;
 using net::PacketRing;
 using net::PacketRingSize;
 using net::PacketWindow;
+using packet::Datagram;
 
 /// A datagram that tells its number everywhere: nothing of another one fits in.
 class Telltale {

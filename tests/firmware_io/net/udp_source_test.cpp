@@ -196,7 +196,7 @@ TEST_F(UdpSourceTest, CountsDatagramsLongerThanASlotAndDeliversNoneOfThem) {
 TEST_F(UdpSourceTest, DeliversADatagramWithoutPayload) {
   auto source = open();
   auto sender = sender_to(source);
-  const std::array<decode::Datagram, 1> nothing{};
+  const std::array<packet::Datagram, 1> nothing{};
   EXPECT_EQ(sender.send(nothing), 1U);
   const auto received = receive(source, 1);
   ASSERT_EQ(received.size(), 1U);

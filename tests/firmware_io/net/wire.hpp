@@ -29,14 +29,14 @@ class Numbered {
       datagrams_.push_back({.payload = payloads_[i]});
     }
   }
-  [[nodiscard]] std::vector<decode::Datagram>& datagrams() { return datagrams_; }
+  [[nodiscard]] std::vector<packet::Datagram>& datagrams() { return datagrams_; }
 
  private:
   std::vector<std::vector<std::uint8_t>> payloads_;
-  std::vector<decode::Datagram> datagrams_;
+  std::vector<packet::Datagram> datagrams_;
 };
 
-[[nodiscard]] inline std::uint64_t number_of(const decode::Datagram& datagram) {
+[[nodiscard]] inline std::uint64_t number_of(const packet::Datagram& datagram) {
   std::uint64_t number = 0;
   std::memcpy(&number, datagram.payload.data(), sizeof number);
   return number;
@@ -44,7 +44,7 @@ class Numbered {
 
 /// A datagram that was received, with its bytes.
 struct Received {
-  decode::Datagram datagram;
+  packet::Datagram datagram;
   std::vector<std::uint8_t> bytes;
 
   [[nodiscard]] std::uint64_t number() const { return number_of({.payload = bytes}); }
@@ -54,8 +54,8 @@ inline constexpr std::int64_t kMillisecond_ns = 1'000'000;
 /// So long is waited for what must come, on the slowest machine.
 inline constexpr std::int64_t kPatience_ns = 200'000 * kMillisecond_ns;
 
-inline void keep(std::span<const decode::Datagram> batch, std::vector<Received>& received) {
-  for (const decode::Datagram& each : batch) {
+inline void keep(std::span<const packet::Datagram> batch, std::vector<Received>& received) {
+  for (const packet::Datagram& each : batch) {
     received.push_back({each, {each.payload.begin(), each.payload.end()}});
   }
 }

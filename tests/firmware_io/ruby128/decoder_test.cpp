@@ -154,7 +154,7 @@ TEST(Ruby128Decoder, TakesDeviceInformationForNoLoss) {
   const std::array<std::uint8_t, 8> start{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
   std::copy(start.begin(), start.end(), difop.begin());
   const auto nothing = [](const frame::FrameInfo&, const frame::RangeImage&) noexcept {};
-  EXPECT_EQ(test::decode(decoder, decode::Datagram{.payload = difop}, nothing),
+  EXPECT_EQ(test::decode(decoder, packet::Datagram{.payload = difop}, nothing),
             frame::Reject::kDeviceInfo);
   EXPECT_EQ(decoder.losses().rejected_total(), 0U);
 }
@@ -229,8 +229,8 @@ float owner_range_m(frame::CellOwner owner) {
     for (auto& block : packet.bytes.blocks) block.returns[kChannel] = {};
   }
   auto& blocks = packets[30].bytes.blocks;
-  blocks[0].returns[kChannel] = {decode::Be16::of(6'000), 10};  // the last return: far, weak
-  blocks[1].returns[kChannel] = {decode::Be16::of(2'000), 90};  // the strongest: near
+  blocks[0].returns[kChannel] = {packet::Be16::of(6'000), 10};  // the last return: far, weak
+  blocks[1].returns[kChannel] = {packet::Be16::of(2'000), 90};  // the strongest: near
   memory::FixedMemory memory;
   decode::Decoder::Config config;
   config.dual_owner = owner;

@@ -72,7 +72,7 @@ TEST(DifopAngles, ARoundTripOfWhatPacketsCanCarryIsExact) {
 
 TEST(DifopAngles, NoNegativeZero) {
   Difop difop = nominal_difop();
-  difop.elevations[1] = {kDifopMinus, decode::Be16::of(0)};
+  difop.elevations[1] = {kDifopMinus, packet::Be16::of(0)};
   const auto read = calibration_of(difop);
   ASSERT_TRUE(read.has_value()) << read.error().message;
   EXPECT_FALSE(std::signbit(read->channels[1].elevation_rad));
@@ -90,7 +90,7 @@ TEST(DifopAngles, AUnitThatWasNeverCalibratedSaysSoAndWhatToDo) {
 
 TEST(DifopAngles, OneUnsetAngleIsEnough) {
   Difop difop = nominal_difop();
-  difop.azimuth_offsets[127] = {0xFF, decode::Be16::of(0xFFFF)};
+  difop.azimuth_offsets[127] = {0xFF, packet::Be16::of(0xFFFF)};
   expect_refused(difop, ErrorCode::kNoCalibration, HasSubstr("azimuth offset of channel 128"));
   // Also beside a sign that means nothing at all.
   difop.elevations[0].sign = 0x37;
@@ -107,7 +107,7 @@ TEST(DifopAngles, NamesASignThatMeansNothing) {
 
 TEST(DifopAngles, NamesWhatIsNotPlausible) {
   Difop difop = nominal_difop();
-  difop.elevations[35] = {kDifopMinus, decode::Be16::of(9000)};
+  difop.elevations[35] = {kDifopMinus, packet::Be16::of(9000)};
   expect_refused(difop, ErrorCode::kMalformed,
                  AllOf(HasSubstr("DIFOP packets"), HasSubstr("channel 36 of 128"),
                        HasSubstr("-90 deg"), HasSubstr("--calibration FILE")));

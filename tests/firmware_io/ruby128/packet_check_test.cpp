@@ -28,18 +28,18 @@ Bytes packet_at(std::array<int, 3> azimuth_cdeg) {
 }
 
 std::optional<frame::Reject> check(const Bytes& payload) {
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   return check_ruby128_packet(payload, azimuths);
 }
 
-decode::PacketAzimuths azimuths_of(std::array<int, 3> azimuth_cdeg) {
-  decode::PacketAzimuths azimuths;
+packet::PacketAzimuths azimuths_of(std::array<int, 3> azimuth_cdeg) {
+  packet::PacketAzimuths azimuths;
   EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), azimuths), std::nullopt);
   return azimuths;
 }
 
 TEST(Ruby128PacketCheck, ReadsTheHeadsOfASingleReturnPacketAcrossTheSeam) {
-  const decode::PacketAzimuths azimuths = azimuths_of({35'970, 35'990, 11});
+  const packet::PacketAzimuths azimuths = azimuths_of({35'970, 35'990, 11});
   EXPECT_FALSE(azimuths.dual_return);
   EXPECT_EQ(azimuths.columns, 3);
   EXPECT_EQ(azimuths.advance_cdeg(2), 41);
@@ -48,22 +48,22 @@ TEST(Ruby128PacketCheck, ReadsTheHeadsOfASingleReturnPacketAcrossTheSeam) {
 }
 
 TEST(Ruby128PacketCheck, KnowsBothPacketsOfDualReturn) {
-  const decode::PacketAzimuths pair_first = azimuths_of({100, 100, 120});
+  const packet::PacketAzimuths pair_first = azimuths_of({100, 100, 120});
   EXPECT_TRUE(pair_first.dual_return);
   EXPECT_EQ(pair_first.step_ticks, 20'000);
   EXPECT_EQ(pair_first.sweep_ticks, 20'000);  // the firing at 120 is the next packet's
-  const decode::PacketAzimuths pair_last = azimuths_of({120, 140, 140});
+  const packet::PacketAzimuths pair_last = azimuths_of({120, 140, 140});
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.step_ticks, 20'000);
   EXPECT_EQ(pair_last.sweep_ticks, 40'000);
 }
 
 TEST(Ruby128PacketCheck, KnowsWhatItsPacketsMayBeApart) {
-  const decode::PacketAzimuths single = azimuths_of({100, 120, 140}),
+  const packet::PacketAzimuths single = azimuths_of({100, 120, 140}),
                                dual = azimuths_of({100, 100, 120});
   EXPECT_EQ(single.nominal_period_ns, 166'650);
   EXPECT_EQ(dual.nominal_period_ns, 83'325);
-  for (const decode::PacketAzimuths& azimuths : {single, dual}) {
+  for (const packet::PacketAzimuths& azimuths : {single, dual}) {
     EXPECT_LT(azimuths.shortest_period_ns, azimuths.nominal_period_ns);
     EXPECT_GT(azimuths.longest_period_ns, azimuths.nominal_period_ns);
   }
@@ -71,7 +71,7 @@ TEST(Ruby128PacketCheck, KnowsWhatItsPacketsMayBeApart) {
 }
 
 TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
-  const decode::PacketAzimuths pair_first = azimuths_of({100, 100, 120}),
+  const packet::PacketAzimuths pair_first = azimuths_of({100, 100, 120}),
                                pair_last = azimuths_of({120, 140, 140});
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_first, true), 5'000);
   EXPECT_EQ(ruby_even_stamp_us(5'000'000, pair_last, true), 5'027);  // half a firing later
@@ -80,15 +80,15 @@ TEST(Ruby128PacketCheck, EvensOutStampsUpToTheLastOfAll) {
   EXPECT_GT(ruby_even_stamp_us(kMost_ns, pair_last, true), kMost_ns / 1000 - 100);
 }
 
-decode::PacketAzimuths azimuths_across(std::array<int, 3> azimuth_cdeg) {
-  decode::PacketAzimuths azimuths;
+packet::PacketAzimuths azimuths_across(std::array<int, 3> azimuth_cdeg) {
+  packet::PacketAzimuths azimuths;
   EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), azimuths), frame::Reject::kAzimuthJump);
   EXPECT_TRUE(read_across_sector(azimuths, 20'000));
   return azimuths;
 }
 
 TEST(Ruby128PacketCheck, ReadsAPacketThatABlindSectorLiesIn) {
-  const decode::PacketAzimuths late = azimuths_across({8'970, 8'990, 27'010});
+  const packet::PacketAzimuths late = azimuths_across({8'970, 8'990, 27'010});
   EXPECT_FALSE(late.dual_return);
   EXPECT_EQ(late.behind_sector, 2);
   EXPECT_EQ(late.advance_cdeg(1), 20);
@@ -99,18 +99,18 @@ TEST(Ruby128PacketCheck, ReadsAPacketThatABlindSectorLiesIn) {
   EXPECT_EQ(late.sector_inside(8'970'000).to_ticks, 27'010'000);
   EXPECT_NEAR(static_cast<double>(late.sector_ns()), 50e6, 0.1e6) << "of 10 Hz";
 
-  const decode::PacketAzimuths early = azimuths_across({35'000, 10, 30});
+  const packet::PacketAzimuths early = azimuths_across({35'000, 10, 30});
   EXPECT_EQ(early.behind_sector, 1);
   EXPECT_EQ(early.sweep_ticks, 1'050'000);
   EXPECT_EQ(early.sector_inside(0).ticks(), 990'000);
 }
 
 TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
-  const decode::PacketAzimuths pair_first = azimuths_across({8'990, 8'990, 27'010});
+  const packet::PacketAzimuths pair_first = azimuths_across({8'990, 8'990, 27'010});
   EXPECT_TRUE(pair_first.dual_return);
   EXPECT_EQ(pair_first.behind_sector, 2);
   EXPECT_EQ(pair_first.sweep_ticks, 18'020'000) << "the firing at 270.1 is the next packet's";
-  const decode::PacketAzimuths pair_last = azimuths_across({8'990, 27'010, 27'010});
+  const packet::PacketAzimuths pair_last = azimuths_across({8'990, 27'010, 27'010});
   EXPECT_TRUE(pair_last.dual_return);
   EXPECT_EQ(pair_last.behind_sector, 1);
   EXPECT_EQ(pair_last.sweep_ticks, 18'040'000);
@@ -119,11 +119,11 @@ TEST(Ruby128PacketCheck, ReadsBothPacketsOfDualReturnThatABlindSectorLiesIn) {
 
 TEST(Ruby128PacketCheck, FindsNoSectorInAzimuthsThatJumpTwiceNorWithoutAStep) {
   for (const auto& azimuth_cdeg : {std::array{100, 9'000, 18'000}, {100, 9'000, 120}}) {
-    decode::PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     EXPECT_EQ(check_ruby128_packet(packet_at(azimuth_cdeg), azimuths), frame::Reject::kAzimuthJump);
     EXPECT_FALSE(read_across_sector(azimuths, 20'000));
   }
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   EXPECT_EQ(check_ruby128_packet(packet_at({100, 9'000, 9'020}), azimuths),
             frame::Reject::kAzimuthJump);
   EXPECT_FALSE(read_across_sector(azimuths, 0));
@@ -132,7 +132,7 @@ TEST(Ruby128PacketCheck, FindsNoSectorInAzimuthsThatJumpTwiceNorWithoutAStep) {
 TEST(Ruby128PacketCheck, TakesEverySpinRate) {
   for (const int step_cdeg : {10, 20, 40}) {
     EXPECT_EQ(azimuths_of({0, step_cdeg, 2 * step_cdeg}).step_ticks,
-              step_cdeg * decode::kTicksPerCdeg);
+              step_cdeg * packet::kTicksPerCdeg);
   }
 }
 
@@ -194,7 +194,7 @@ TEST_P(RealCapture, OfAnotherSensorIsRefusedByModel) {
     const auto next = source->next();
     ASSERT_TRUE(next) << next.error().message;
     if (!*next) break;
-    decode::PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     const auto reason = check_ruby128_packet((*next)->payload, azimuths);
     ASSERT_TRUE(reason);
     if ((*next)->payload.size() == 1206) {

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "calib/beams/angle.hpp"
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
 #include "firmware_io/ruby128/firing_azimuth.hpp"
 #include "firmware_io/ruby128/timestamp.hpp"
-#include "firmware_io/ruby128/wire.hpp"
 
 namespace terracut::test {
 
@@ -33,7 +33,7 @@ struct RubyPacket {
   std::int64_t stamp_ns = 0;  ///< Of the first block.
   std::uint32_t returns = 0;
 
-  [[nodiscard]] decode::Datagram datagram() const {
+  [[nodiscard]] packet::Datagram datagram() const {
     return {.payload = ruby128::payload_of(bytes), .stamp_ns = stamp_ns};
   }
 };

@@ -9,8 +9,9 @@
 #include <utility>
 
 #include "firmware_io/capture/pcap_writer.hpp"
+#include "firmware_io/hdl64e/firing_times.hpp"
 #include "tests/firmware_io/capture/capture_bytes.hpp"
-#include "tools/lab/encode/status_stream_writer.hpp"
+#include "tools/lab/packets/status_stream_writer.hpp"
 
 namespace terracut::sensor {
 namespace {
@@ -60,10 +61,10 @@ class Unit {
   }
 
   bool dual_;
-  encode::StatusStreamWriter status_;
+  packets::StatusStreamWriter status_;
 };
 
-decode::Datagram from_unit(const Bytes& payload, std::int64_t stamp_ns, std::uint16_t port = 2368) {
+packet::Datagram from_unit(const Bytes& payload, std::int64_t stamp_ns, std::uint16_t port = 2368) {
   return {.payload = payload,
           .stamp_ns = stamp_ns,
           .source_address = 0xC0A8032B,

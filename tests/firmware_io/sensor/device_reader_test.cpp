@@ -62,10 +62,10 @@ TEST(Ruby128DeviceReader, LeavesOtherPayloadsAlone) {
 TEST(Ruby128DeviceReader, KeepsTheNewestFactsAndTheFirstCalibration) {
   Ruby128DeviceReader reader;
   Difop difop = difop_of_unit(7);
-  difop.rpm_actual = decode::Be16::of(598);
+  difop.rpm_actual = packet::Be16::of(598);
   reader.add(ruby128::payload_of(difop));
   difop = difop_of_unit(7, 0.5);
-  difop.rpm_actual = decode::Be16::of(601);
+  difop.rpm_actual = packet::Be16::of(601);
   reader.add(ruby128::payload_of(difop));
   EXPECT_EQ(reader.newest()->rpm_actual.value(), 601);
   EXPECT_NEAR(lowest_deg(reader), -25.0, 1e-9);
@@ -87,7 +87,7 @@ TEST(Ruby128DeviceReader, SeesAChangeOfAzimuthOffsetsAlone) {
   Ruby128DeviceReader reader;
   Difop difop = difop_of_unit(1);
   reader.add(ruby128::payload_of(difop));
-  difop.azimuth_offsets[127].magnitude_cdeg = decode::Be16::of(594);
+  difop.azimuth_offsets[127].magnitude_cdeg = packet::Be16::of(594);
   reader.add(ruby128::payload_of(difop));
   EXPECT_EQ(reader.counters().angle_changes, 1U);
 }

@@ -10,7 +10,7 @@
 #include <random>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/sensor/first_seconds.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
 #include "tests/support/allocation_counter.hpp"
 #include "tests/support/hand_out.hpp"
 #include "tests/support/places.hpp"
@@ -67,7 +67,7 @@ Both decode_both(const std::vector<Payload>& payloads, const velodyne::VelodyneC
   for (const Payload& payload : payloads) {
     Packet plain = reference.decode(payload.bytes);
     const auto reason = test::decode(
-        decoder, decode::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
+        decoder, packet::Datagram{.payload = payload.bytes, .stamp_ns = payload.stamp_ns},
         on_frame);
     const bool goes_on_behind_sector = !reason && plain.refusal == Refusal::kUneven;
     if (goes_on_behind_sector) plain = reference.decode(payload.bytes, true);
@@ -153,12 +153,12 @@ TYPED_TEST(VelodyneStream, OfAModelThatWasNamedIsBelievedWhateverItsFactoryBytes
     bytes[1204] = 0;
     for (const std::uint8_t product : {std::uint8_t{0x00}, std::uint8_t{0x23}}) {
       bytes[1205] = product;
-      decode::PacketAzimuths azimuths;
+      packet::PacketAzimuths azimuths;
       EXPECT_EQ(reader.read(bytes, azimuths), std::nullopt);
       EXPECT_EQ(azimuths.dual_return, dual_return);
     }
     bytes[1205] = 0x24;  // a VLP-16 Hi-Res says what it is
-    decode::PacketAzimuths azimuths;
+    packet::PacketAzimuths azimuths;
     EXPECT_EQ(reader.read(bytes, azimuths), frame::Reject::kWrongModel);
   }
 }
@@ -166,7 +166,7 @@ TYPED_TEST(VelodyneStream, OfAModelThatWasNamedIsBelievedWhateverItsFactoryBytes
 TYPED_TEST(VelodyneStream, RefusesWhatIsNoDataPacketOfTheModel) {
   velodyne::PacketReader reader(TypeParam::layout());
   const auto good = TypeParam::payloads({.packets = 1})[0].bytes;
-  decode::PacketAzimuths azimuths;
+  packet::PacketAzimuths azimuths;
   const auto read = [&](std::size_t at, int value) {
     PayloadBytes bytes = good;
     bytes[at] = static_cast<std::uint8_t>(value);
@@ -217,9 +217,9 @@ TYPED_TEST(VelodyneStream, IsDecodedWithoutAllocating) {
 
 TYPED_TEST(VelodyneStream, IsFoundByItselfWithItsTable) {
   for (const bool dual_return : {false, true}) {
-    sensor::FirstSeconds::Config config;
+    streams::FirstSeconds::Config config;
     config.place = "0.0.0.0:2368";
-    sensor::FirstSeconds first(config);
+    streams::FirstSeconds first(config);
     RotatingHead head{.dual_return = dual_return, .share_of_returns = 0.1};
     head.packets = static_cast<int>(0.5e6 / TypeParam::firing_us(dual_return) /
                                     TypeParam::firings_per_packet(dual_return));

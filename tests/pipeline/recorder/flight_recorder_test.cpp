@@ -26,8 +26,8 @@ namespace terracut::test {
 namespace {
 
 namespace fs = std::filesystem;
-using decode::Datagram;
 using net::PacketRingSize;
+using packet::Datagram;
 using recorder::DumpFrames;
 using recorder::DumpLimits;
 using recorder::DumpPolicy;

@@ -50,7 +50,7 @@ struct Hdl64e {
   }
   static void reset(Reference&) {}
   static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                            decode::PacketAzimuths& azimuths) {
+                                            packet::PacketAzimuths& azimuths) {
     return hdl64e::check_hdl64e_packet(payload, azimuths);
   }
 };
@@ -83,7 +83,7 @@ struct Ruby128 {
   }
   static void reset(Reference& reference) { reference.reset(); }
   static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                            decode::PacketAzimuths& azimuths) {
+                                            packet::PacketAzimuths& azimuths) {
     return ruby128::check_ruby128_packet(payload, azimuths);
   }
 };
@@ -123,15 +123,15 @@ struct Velodyne {
   }
   static void reset(Reference&) {}
   static std::optional<frame::Reject> check(std::span<const std::uint8_t> payload,
-                                            decode::PacketAzimuths& azimuths) {
+                                            packet::PacketAzimuths& azimuths) {
     return velodyne::PacketReader(layout()).read(payload, azimuths);
   }
   static const velodyne::PacketLayout& layout() { return Layout::kLayout; }
 };
-using Vlp16 = Velodyne<velodyne::VelodyneModel::kVlp16, 24, 16, vlp16::Vlp16>;
-using Hdl32e = Velodyne<velodyne::VelodyneModel::kHdl32e, 12, 32, hdl32e::Hdl32e>;
-using Vlp32c = Velodyne<velodyne::VelodyneModel::kVlp32c, 12, 32, vlp32c::Vlp32c>;
-using Vls128 = Velodyne<velodyne::VelodyneModel::kVls128, 3, 128, vls128::Vls128>;
+using Vlp16 = Velodyne<velodyne::VelodyneModel::kVlp16, 24, 16, velodyne::Vlp16>;
+using Hdl32e = Velodyne<velodyne::VelodyneModel::kHdl32e, 12, 32, velodyne::Hdl32e>;
+using Vlp32c = Velodyne<velodyne::VelodyneModel::kVlp32c, 12, 32, velodyne::Vlp32c>;
+using Vls128 = Velodyne<velodyne::VelodyneModel::kVls128, 3, 128, velodyne::Vls128>;
 
 /// Takes the returns off whose beam is so near a seam that it may be of either frame.
 template <class Sensor>

@@ -66,7 +66,7 @@ TEST_F(Cli, InfoAndReplayNameABlindSectorAndDoNotTakeItForLoss) {
   auto narrow = capture::PcapWriter::create(folder_ / "narrow.pcap");
   ASSERT_TRUE(whole && narrow);
   for (auto next = whole->next(); next && *next; next = whole->next()) {
-    const decode::Datagram& datagram = **next;
+    const packet::Datagram& datagram = **next;
     const int rotor_cdeg = datagram.payload[2] + 256 * datagram.payload[3];
     if (rotor_cdeg < 10'000 || rotor_cdeg >= 20'000) {
       ASSERT_TRUE(narrow->write(datagram));

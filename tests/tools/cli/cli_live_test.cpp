@@ -35,7 +35,7 @@ void tell_angles_often(const fs::path& from, const fs::path& to) {
     const auto next = capture->next();
     ASSERT_TRUE(next) << next.error().message;
     if (!*next) break;
-    decode::Datagram datagram = **next;
+    packet::Datagram datagram = **next;
     if (n == 0) {
       told.assign(datagram.payload.begin(), datagram.payload.end());
       device_port = datagram.destination_port;

@@ -10,7 +10,7 @@
 namespace terracut::cli {
 namespace {
 
-using decode::Datagram;
+using packet::Datagram;
 using testing::AllOf;
 using testing::HasSubstr;
 

@@ -24,7 +24,7 @@ class CliStamps : public Cli {
     auto capture = capture::PcapWriter::create(folder_ / name);
     std::size_t number = 0;
     while (const auto next = *drive->next()) {
-      decode::Datagram datagram = *next;
+      packet::Datagram datagram = *next;
       datagram.stamp_ns += shift_ns(number++);
       EXPECT_TRUE(capture->write(datagram));
     }

@@ -18,7 +18,7 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/figures/figures_json.hpp"
-#include "tools/cli/figures/report.hpp"
+#include "tools/cli/figures/run_report.hpp"
 #include "tools/cli/input/mount_choice.hpp"
 #include "tools/cli/input/open_capture.hpp"
 #include "tools/cli/input/recorded_frames.hpp"
@@ -53,12 +53,12 @@ std::string processor_name() {
 /// Datagrams kept in memory, so that reading a file does not disturb what is measured.
 struct Packets {
   std::vector<std::uint8_t> payloads;
-  std::vector<decode::Datagram> datagrams;
+  std::vector<packet::Datagram> datagrams;
 };
 
 Expected<Packets> load(CapturePart& part) {
   Packets packets;
-  while (const decode::Datagram* datagram = part.next()) {
+  while (const packet::Datagram* datagram = part.next()) {
     packets.datagrams.push_back(*datagram);
     packets.payloads.insert(packets.payloads.end(), datagram->payload.begin(),
                             datagram->payload.end());
@@ -66,7 +66,7 @@ Expected<Packets> load(CapturePart& part) {
   if (const Status whole = go_on(); !whole) return tl::unexpected(whole.error());
   part.warn_of_oddities();
   std::span<const std::uint8_t> rest(packets.payloads);
-  for (decode::Datagram& datagram : packets.datagrams) {
+  for (packet::Datagram& datagram : packets.datagrams) {
     datagram.payload = rest.first(datagram.payload.size());
     rest = rest.subspan(datagram.payload.size());
   }
@@ -93,7 +93,7 @@ void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResu
       result->unlabelled += record.info.returns - record.segmentation.labelled();
     }
   };
-  for (const decode::Datagram& datagram : packets.datagrams) {
+  for (const packet::Datagram& datagram : packets.datagrams) {
     pipeline.push(datagram);
     take_frames();
   }
@@ -105,7 +105,7 @@ void run_frames(run::PacketPipeline& pipeline, const Packets& packets, BenchResu
 double run_decoding(decode::Decoder& decoder, const Packets& packets) {
   const std::uint64_t columns_before = decoder.columns_decoded();
   const std::int64_t start_ns = measure::thread_cpu_ns();
-  for (const decode::Datagram& datagram : packets.datagrams) {
+  for (const packet::Datagram& datagram : packets.datagrams) {
     decoder.push(datagram);
     while (decoder.next() != nullptr) {
     }

@@ -5,9 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "tools/cli/arguments/command_files.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/input/command_files.hpp"
 #include "tools/cli/settings/made_calibration.hpp"
 #include "tools/cli/stop_signal.hpp"
 #include "tools/lab/encode/scan_drive.hpp"
@@ -119,11 +119,11 @@ ExitCode encode_by(const Options& options, DriveOptions drive, const char* task,
 }
 
 /// The recording sensor's own packets.
-ExitCode encode_as(const Options& options, encode::Hdl64eEncoderTraits) {
+ExitCode encode_as(const Options& options, packets::Hdl64eEncoderTraits) {
   encode::ScanDriveOptions drive;
   drive.can_log = options.can_log;
-  return encode_by<encode::Hdl64eEncoderTraits>(options, drive, "encoding",
-                                                encode::encode_scan_folder);
+  return encode_by<packets::Hdl64eEncoderTraits>(options, drive, "encoding",
+                                                 encode::encode_scan_folder);
 }
 /// Another's in its place.
 template <class EncoderTraits>
@@ -139,8 +139,8 @@ ExitCode encode_as(const Options& options, EncoderTraits) {
 
 ExitCode run_encode(const Options& options) {
   catch_stop_signals();
-  return drive::with_encoder_traits(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
-                                    [&](auto traits) { return encode_as(options, traits); });
+  return packets::with_encoder_traits(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
+                                      [&](auto traits) { return encode_as(options, traits); });
 }
 
 }  // namespace terracut::cli

@@ -28,7 +28,7 @@
 #include "tools/research/eval/evaluation_json.hpp"
 #include "tools/research/eval/journal.hpp"
 #include "tools/research/eval/simulated_evaluation.hpp"
-#include "tools/research/report/report.hpp"
+#include "tools/research/report/evaluation_report.hpp"
 
 namespace terracut::cli {
 namespace {
@@ -179,7 +179,7 @@ eval::SimulatedDrives drives_of(const Options& options) {
     begin = end + 1;
   }
   drives.sensor = options.capture.sensor.value_or(drives.sensor);
-  drives.dual_return = options.simulate.returns == drive::ReturnMode::kDual;
+  drives.dual_return = options.simulate.returns == packets::ReturnMode::kDual;
   drives.duration_s = options.simulate.duration_s;
   drives.seed = options.simulate.seed;
   return drives;
@@ -345,7 +345,7 @@ ExitCode run_eval(const Options& options) {
   // What stands tall and what moves is the dataset's matter: another table needs no second run.
   const auto built_in = datasets::built_in_table(options.eval.dataset);
   config->classes = built_in ? &*built_in : &*classes;
-  std::optional<report::ChangedFrames> changed;
+  std::optional<eval::ChangedFrames> changed;
   if (!options.eval.changes.empty()) {
     config->changed_frames = &changed.emplace(config->methods, *classes);
   }

@@ -158,10 +158,10 @@ std::string text_of(const Ruby128DeviceReader& device) {
 std::string text_of(const CaptureSurvey& survey) {
   std::string text = fmt::format("{}: {} frames of {}\n", survey.name, survey.counters.frames,
                                  survey.link_type_name);
-  for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
+  for (std::size_t i = 0; i < packet::kFrameRejects; ++i) {
     if (survey.counters.refused[i] == 0) continue;
     text += fmt::format("  {} {}\n", survey.counters.refused[i],
-                        capture::description_of(static_cast<capture::FrameReject>(i)));
+                        packet::description_of(static_cast<packet::FrameReject>(i)));
   }
   std::size_t width = 22;
   for (const UdpStream& stream : survey.streams) {
@@ -251,8 +251,8 @@ Json json_of(const CaptureSurvey& survey) {
             {"input", survey.name},
             {"link_type", survey.link_type_name},
             {"frames", survey.counters.frames}};
-  for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
-    json["refused"][std::string(to_string(static_cast<capture::FrameReject>(i)))] =
+  for (std::size_t i = 0; i < packet::kFrameRejects; ++i) {
+    json["refused"][std::string(to_string(static_cast<packet::FrameReject>(i)))] =
         survey.counters.refused[i];
   }
   Json& streams = json["streams"] = Json::array();

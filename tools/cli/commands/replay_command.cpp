@@ -14,9 +14,9 @@
 
 #include "firmware_io/scan/label_file.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/figures/report.hpp"
-#include "tools/cli/input/frame_outputs.hpp"
+#include "tools/cli/figures/run_report.hpp"
 #include "tools/cli/input/labelled_capture.hpp"
+#include "tools/cli/output/frame_outputs.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
 

@@ -8,7 +8,6 @@
 #include <string>
 
 #include "firmware_io/capture/pcap_source.hpp"
-#include "firmware_io/net/device_stamp_shift.hpp"
 #include "repeated_send.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -17,6 +16,7 @@
 #include "tools/cli/json_text.hpp"
 #include "tools/cli/settings/stream_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
+#include "tools/lab/send/device_stamp_shift.hpp"
 #include "tools/lab/send/fault_injector.hpp"
 #include "tools/lab/send/packet_pacer.hpp"
 #include "tools/lab/send/pass_stamps.hpp"
@@ -26,8 +26,8 @@ namespace terracut::cli {
 namespace {
 
 using capture::PcapSource;
-using decode::Datagram;
 using net::Ipv4Endpoint;
+using packet::Datagram;
 using send::FaultInjector;
 using send::FaultOutcome;
 using send::PacketPacer;
@@ -90,7 +90,7 @@ class Send {
               UdpSender* socket = sender.sender_for(datagram.destination_port);
               if (socket != nullptr) pacer_.add(datagram, *socket);
             },
-            net::DeviceStampShift()),
+            send::DeviceStampShift()),
         progress_("sending", "packets", 0) {}
 
   ExitCode run() {

@@ -13,13 +13,13 @@
 
 #include "calib/beams/angle.hpp"
 #include "repeated_send.hpp"
+#include "tools/cli/arguments/command_files.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/input/command_files.hpp"
+#include "tools/cli/files/temporary_folder.hpp"
 #include "tools/cli/settings/made_calibration.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 #include "tools/cli/stop_signal.hpp"
-#include "tools/cli/temporary_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/drive/vehicle_log.hpp"
 #include "tools/lab/simulator/drive.hpp"
@@ -27,8 +27,8 @@
 namespace terracut::cli {
 namespace {
 
-using encode::Hdl64eEncoderTraits;
-using encode::Ruby128EncoderTraits;
+using packets::Hdl64eEncoderTraits;
+using packets::Ruby128EncoderTraits;
 
 Hdl64eEncoderTraits::Config sensor_config(const Options& options, Hdl64eEncoderTraits) {
   return {.returns = options.simulate.returns};
@@ -42,8 +42,8 @@ Ruby128EncoderTraits::Config sensor_config(const Options& options, Ruby128Encode
   return config;
 }
 template <class Model>
-typename velodyne::VelodyneEncoderTraits<Model>::Config sensor_config(
-    const Options& options, velodyne::VelodyneEncoderTraits<Model>) {
+typename packets::VelodyneEncoderTraits<Model>::Config sensor_config(
+    const Options& options, packets::VelodyneEncoderTraits<Model>) {
   return {.returns = options.simulate.returns};
 }
 
@@ -97,7 +97,7 @@ Expected<drive::DriveSummary> simulate(const Options& options,
 
 Expected<drive::DriveSummary> simulate_to(const Options& options,
                                           const std::filesystem::path& output) {
-  return drive::with_encoder_traits(
+  return packets::with_encoder_traits(
       options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
       [&](auto traits) { return simulate<decltype(traits)>(options, output); });
 }

@@ -22,9 +22,9 @@
 #include "pipeline/pictures/caption.hpp"
 #include "rt/files/plain_file.hpp"
 #include "tools/cli/arguments/arguments.hpp"
+#include "tools/cli/files/frame_folder_of.hpp"
 #include "tools/cli/fleet/manifest.hpp"
 #include "tools/cli/fleet/relabel_job.hpp"
-#include "tools/cli/input/frame_folder_of.hpp"
 #include "tools/cli/input/open_capture.hpp"
 #include "tools/cli/input/recorded_motion.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
@@ -71,7 +71,7 @@ Status visit_capture(const Options& options, Wanted wanted, const Visit& visit) 
   };
   CapturePart part(capture->source, options.capture);
   Status taken;
-  while (const decode::Datagram* const datagram = wanted.empty() ? nullptr : part.next()) {
+  while (const packet::Datagram* const datagram = wanted.empty() ? nullptr : part.next()) {
     if (motion) motion->hear_until(datagram->stamp_ns);
     decoder.push(*datagram);
     if (taken = take_frames(); !taken) return taken;

@@ -9,7 +9,7 @@
 
 #include "pipeline/publish/diagnosis.hpp"
 #include "pipeline/publish/frame_sink.hpp"
-#include "pipeline/publish/stream.hpp"
+#include "pipeline/publish/run_facts.hpp"
 #include "server.hpp"
 
 namespace terracut::cli {

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "firmware_io/sensor/told_table.hpp"
-#include "pipeline/run/latest_near_ground.hpp"
+#include "pipeline/live/latest_near_ground.hpp"
 #include "recorded_frames.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
@@ -79,7 +79,7 @@ const run::Frame* LabelledCapture::next() {
     if (frame != nullptr) {
       pipeline_->label(*frame);
       report_.add(frame->record);
-      if (frame->record.info.number % run::LatestNearGround::kFramesApart == 0) {
+      if (frame->record.info.number % live::LatestNearGround::kFramesApart == 0) {
         pipeline_->take_near_ground(*frame, *near_ground_);
         mount_->add_frame(*near_ground_);
       }
@@ -116,7 +116,7 @@ bool LabelledCapture::decode_one() {
   return true;
 }
 
-void LabelledCapture::note_packet(const decode::Datagram& datagram) {
+void LabelledCapture::note_packet(const packet::Datagram& datagram) {
   clock_of_device_->note(pipeline_->decoder(), datagram.stamp_ns);
   const auto* packet = hdl64e::packet_in(datagram.payload);
   if (packet != nullptr && hdl64e::is_hdl64e(*packet)) {

@@ -16,9 +16,9 @@
 #include "pipeline/stream/labelled_points.hpp"
 #include "recorded_motion.hpp"
 #include "rt/error.hpp"
-#include "tools/cli/figures/mount_watch.hpp"
-#include "tools/cli/figures/report.hpp"
+#include "tools/cli/figures/run_report.hpp"
 #include "tools/cli/input/device_clock.hpp"
+#include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 
@@ -81,7 +81,7 @@ class LabelledCapture {
   explicit LabelledCapture(const Options& options) : options_(options) {}
   Status prepare(FramesAreFor purpose);
   [[nodiscard]] bool decode_one();
-  void note_packet(const decode::Datagram& datagram);
+  void note_packet(const packet::Datagram& datagram);
 
   Options options_;
   std::optional<OpenCapture> capture_;
@@ -97,7 +97,7 @@ class LabelledCapture {
   std::optional<MountWatch> mount_;
   Report report_;
   std::function<void(std::int64_t)> wait_;
-  const decode::Datagram* pushed_ = nullptr;  ///< Whose frames are being handed out.
+  const packet::Datagram* pushed_ = nullptr;  ///< Whose frames are being handed out.
   std::uint64_t offered_ = 0;
   capture::CaptureAccount account_;  ///< What nobody else counts, of the passes before this one.
   bool gives_frames_ = false;        ///< Something was pushed, whose frames are not all out.

@@ -44,7 +44,7 @@ std::string describe(const calib::SensorCalibration& calibration) {
 Expected<PcapSource> open_unit(const CaptureOptions& options, const streams::SensorStream& unit) {
   capture::PcapFilter its_own = filter_of(options);
   its_own.source_address = unit.source_address;
-  its_own.is_of_stream = [unit](const decode::Datagram& datagram) {
+  its_own.is_of_stream = [unit](const packet::Datagram& datagram) {
     return unit.may_hold(datagram);
   };
   return PcapSource::open(options.file, std::move(its_own));
@@ -130,7 +130,7 @@ CapturePart::CapturePart(PcapSource& source, const CaptureOptions& options)
       end_ns_(options.duration_s ? start_ns_ + nanoseconds(*options.duration_s)
                                  : std::numeric_limits<std::int64_t>::max()) {}
 
-const decode::Datagram* CapturePart::next() {
+const packet::Datagram* CapturePart::next() {
   while (past_end_ < kSurelyPast_packets && !(stopped_ = stop_wanted())) {
     auto read = source_.next();
     if (!read) {

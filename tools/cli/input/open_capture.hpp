@@ -51,7 +51,7 @@ class CapturePart {
 
   /// The next one, valid until the next call. Null at the end, where the capture breaks off, and
   /// when stop_wanted().
-  [[nodiscard]] const decode::Datagram* next();
+  [[nodiscard]] const packet::Datagram* next();
 
   [[nodiscard]] const capture::CaptureClock& clock() const noexcept { return clock_; }
   [[nodiscard]] std::uint64_t before_start() const noexcept { return before_start_; }
@@ -75,7 +75,7 @@ class CapturePart {
   bool has_begun_ = false;  ///< The part, not the capture.
   int past_end_ = 0;        ///< In a row.
   std::uint64_t before_start_ = 0, behind_end_ = 0;
-  std::optional<decode::Datagram> datagram_;
+  std::optional<packet::Datagram> datagram_;
   std::string fault_;
   bool stopped_ = false;
 };

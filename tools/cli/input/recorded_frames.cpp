@@ -53,7 +53,7 @@ Status CaptureFrames::pass(Frames& frames, std::size_t most, Take take) {
   CapturePart part(*source, options_.capture);
   std::uint64_t offered = 0;
   while (going && shown < most) {
-    const decode::Datagram* datagram = part.next();
+    const packet::Datagram* datagram = part.next();
     if (datagram == nullptr) break;
     frames.push(*datagram);
     ++offered;

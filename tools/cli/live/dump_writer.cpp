@@ -11,8 +11,8 @@
 
 #include "rt/caught.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/lab/encode/hdl64e_encoder_traits.hpp"
-#include "tools/lab/encode/ruby128_encoder_traits.hpp"
+#include "tools/lab/packets/hdl64e_encoder_traits.hpp"
+#include "tools/lab/packets/ruby128_encoder_traits.hpp"
 
 namespace terracut::cli {
 
@@ -24,7 +24,7 @@ namespace {
 template <class Calibration>
 using EncoderTraitsOf =
     std::conditional_t<std::is_same_v<Calibration, hdl64e::Hdl64eCalibration>,
-                       encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits>;
+                       packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits>;
 
 }  // namespace
 

@@ -9,7 +9,7 @@
 #include "rt/files/room_left.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/input/frame_folder_of.hpp"
+#include "tools/cli/files/frame_folder_of.hpp"
 
 namespace terracut::cli {
 

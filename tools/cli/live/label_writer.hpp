@@ -8,8 +8,8 @@
 #include <filesystem>
 
 #include "firmware_io/frame/label.hpp"
+#include "pipeline/live/frame_pool.hpp"
 #include "pipeline/output/frame_folder.hpp"
-#include "pipeline/run/frame_pool.hpp"
 #include "rt/error.hpp"
 #include "rt/threads/background_thread.hpp"
 #include "tools/cli/options.hpp"
@@ -22,7 +22,7 @@ namespace terracut::cli {
 /// written are counted by FramePool.
 class LabelWriter {
  public:
-  using Slots = run::FramePool<frame::Label>;
+  using Slots = live::FramePool<frame::Label>;
 
   /// `slots` must outlive this.
   LabelWriter(const OutputOptions& options, Slots& slots);

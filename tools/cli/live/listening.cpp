@@ -52,10 +52,10 @@ net::ListenConfig listen_config_of(const Options& options) {
   return config;
 }
 
-Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const Options& options,
-                                                const OnWaiting& on_waiting) {
+Expected<streams::SensorOnAir> listen_for_sensor(net::LiveSource& source, const Options& options,
+                                                 const OnWaiting& on_waiting) {
   const KnownSensor known(options.watch.name);
-  sensor::FirstSeconds first(
+  streams::FirstSeconds first(
       {.model = options.capture.sensor,
        .columns = options.capture.columns,
        .calibration = {{}, options.capture.calibration, options.capture.nominal_calibration},
@@ -66,7 +66,7 @@ Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source, const O
   std::optional<net::LiveSource> device;
   if (first.wants_device_port()) device = open_device_port(options, device_memory);
   const auto hear = [&](net::LiveSource& from, std::int64_t timeout_ns) {
-    for (const decode::Datagram& datagram : from.receive(timeout_ns)) first.add(datagram);
+    for (const packet::Datagram& datagram : from.receive(timeout_ns)) first.add(datagram);
   };
 
   const auto begun = SteadyClock::now();

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "firmware_io/net/live_source.hpp"
-#include "firmware_io/sensor/first_seconds.hpp"
+#include "firmware_io/streams/first_seconds.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {
@@ -20,8 +20,8 @@ namespace terracut::cli {
 /// times a second what is waited for. Of several sensors it is the one that the run before heard
 /// (KnownSensor). The errors of FirstSeconds::conclude().
 using OnWaiting = std::function<void(const std::string& what)>;
-[[nodiscard]] Expected<sensor::SensorOnAir> listen_for_sensor(net::LiveSource& source,
-                                                              const Options& options,
-                                                              const OnWaiting& on_waiting);
+[[nodiscard]] Expected<streams::SensorOnAir> listen_for_sensor(net::LiveSource& source,
+                                                               const Options& options,
+                                                               const OnWaiting& on_waiting);
 
 }  // namespace terracut::cli

@@ -19,10 +19,9 @@
 #include "listening.hpp"
 #include "live_service.hpp"
 #include "live_watch.hpp"
-#include "mount_on_air.hpp"
-#include "pipeline/run/frame_outlet.hpp"
-#include "pipeline/run/live_threads.hpp"
-#include "pipeline/run/vehicle_motion.hpp"
+#include "pipeline/live/frame_outlet.hpp"
+#include "pipeline/live/live_threads.hpp"
+#include "pipeline/live/vehicle_motion.hpp"
 #include "rt/caught.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/memory/locked_memory.hpp"
@@ -30,11 +29,12 @@
 #include "tools/cli/console.hpp"
 #include "tools/cli/export/chrome_trace.hpp"
 #include "tools/cli/export/door_news.hpp"
-#include "tools/cli/export/output_sinks.hpp"
 #include "tools/cli/figures/dashboard.hpp"
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/input/input_check.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/live/live_mount.hpp"
+#include "tools/cli/output/output_sinks.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/motion_choice.hpp"
 #include "tools/cli/settings/sensor_choice.hpp"
@@ -72,7 +72,7 @@ Expected<net::LiveSource> open_source(const Options& options, memory::FixedMemor
   return source;
 }
 
-std::string describe(const sensor::SensorOnAir& sensor) {
+std::string describe(const streams::SensorOnAir& sensor) {
   return fmt::format("{} at {}, {:.1f} Hz, {} return", to_string(sensor.model),
                      to_string(sensor.sender), sensor.spin_hz,
                      sensor.dual_return ? "dual" : "single");
@@ -168,15 +168,15 @@ bool wants_points(const Options& options) {
 
 /// Everything that takes memory, built twice: once to learn how much, once in the locked region.
 struct LiveParts {
-  std::optional<run::VehicleMotion> motion;
-  run::LivePipeline pipeline;
+  std::optional<live::VehicleMotion> motion;
+  live::LivePipeline pipeline;
   std::optional<recorder::FlightRecorder> recorder;
-  run::LiveThreads threads;
+  live::LiveThreads threads;
   LiveWatch watch;
 
-  LiveParts(const Options& options, const sensor::SensorOnAir& sensor,
+  LiveParts(const Options& options, const streams::SensorOnAir& sensor,
             const mount::RingProfile& profile, const MountChoice& mount, net::LiveSource& source,
-            VehicleBus* bus, run::LiveThreads::Events events, FiguresDisplay& display,
+            VehicleBus* bus, live::LiveThreads::Events events, FiguresDisplay& display,
             memory::FixedMemory& memory)
       : motion(motion_of(options, bus, memory)),
         pipeline(sensor.calibration, profile, decoder_config(options, sensor, motion),
@@ -200,17 +200,17 @@ struct LiveParts {
   }
 
  private:
-  static std::optional<run::VehicleMotion> motion_of(const Options& options, VehicleBus* bus,
-                                                     memory::FixedMemory& memory) {
+  static std::optional<live::VehicleMotion> motion_of(const Options& options, VehicleBus* bus,
+                                                      memory::FixedMemory& memory) {
     if (bus == nullptr) return std::nullopt;
-    return std::make_optional<run::VehicleMotion>(
+    return std::make_optional<live::VehicleMotion>(
         bus->signals, ego_motion_config_of(options.motion), bus->source, memory);
   }
   /// Packets of a sensor that is connected by one cable do not come late, so none is waited for
   /// unless that is asked for.
   static decode::Decoder::Config decoder_config(const Options& options,
-                                                const sensor::SensorOnAir& sensor,
-                                                std::optional<run::VehicleMotion>& motion) {
+                                                const streams::SensorOnAir& sensor,
+                                                std::optional<live::VehicleMotion>& motion) {
     auto config =
         decoder_config_of(options, sensor.columns,
                           wants_points(options) ? FramesAreFor::kPoints : FramesAreFor::kLabels,
@@ -218,8 +218,8 @@ struct LiveParts {
     config.reorder_packets = options.capture.reorder_packets.value_or(0);
     return config;
   }
-  static run::LiveThreads::Config threads_config(const Options& options,
-                                                 const sensor::SensorOnAir& sensor) {
+  static live::LiveThreads::Config threads_config(const Options& options,
+                                                  const streams::SensorOnAir& sensor) {
     constexpr double kSlowest_hz = 5;  // where the sensor has not said how fast it rotates
     const RealtimeOptions& realtime = options.realtime;
     return {
@@ -230,9 +230,9 @@ struct LiveParts {
         .keeps_points = wants_points(options),
         .compares_tables = !options.capture.calibration.empty(),
         .receive =
-            run::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
+            live::thread_request("tc-receive", realtime.receive_priority, realtime.receive_core),
         .segment =
-            run::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
+            live::thread_request("tc-segment", realtime.segment_priority, realtime.segment_core)};
   }
   static std::optional<recorder::FlightRecorder> recorder_of(const Options& options,
                                                              sensor::SensorModel model,
@@ -252,7 +252,7 @@ class Writers {
   explicit Writers(DumpAnswers& answers) noexcept : answers_(answers) {}
 
   /// What cannot be had is tried again as long as the run goes on.
-  void open(const Options& options, const sensor::SensorOnAir& sensor, const mount::Mount& mount,
+  void open(const Options& options, const streams::SensorOnAir& sensor, const mount::Mount& mount,
             LiveParts& parts) {
     const auto deadline_ns = static_cast<std::int64_t>(options.deadline_ms * 1e6);
     publisher_.emplace(
@@ -264,7 +264,7 @@ class Writers {
                        .has_road = method_config_of(options.method).segmenter.road.enabled}),
         publish::WhenFull::kDropOldest, warn_of_failure);
     if (parts.threads.points()) {
-      std::optional<run::FrameOutlet::Stream> stream;
+      std::optional<live::FrameOutlet::Stream> stream;
       if (!options.stream.empty()) {
         stream = {publish::Reopened<stream::FrameStreamServer>(stream_at(options, parts)),
                   stream::streamed_sensor(sensor.model), deadline_ns};
@@ -280,7 +280,7 @@ class Writers {
   }
 
   /// Null where only labels leave. After open().
-  [[nodiscard]] const run::FrameOutlet* outlet() const { return outlet_ ? &*outlet_ : nullptr; }
+  [[nodiscard]] const live::FrameOutlet* outlet() const { return outlet_ ? &*outlet_ : nullptr; }
   [[nodiscard]] publish::Publisher& publisher() { return *publisher_; }
 
   void want_dump(recorder::DumpReason reason, const Options& options, const LiveWatch& watch) {
@@ -327,12 +327,12 @@ class Writers {
   /// Of the outlet's thread; not locked: no thread with a deadline touches it.
   memory::FixedMemory stream_memory_;
   std::optional<publish::Publisher> publisher_;
-  std::optional<run::FrameOutlet> outlet_;
+  std::optional<live::FrameOutlet> outlet_;
   std::optional<LabelWriter> labels_;
   std::optional<DumpWriter> dumps_;
 };
 
-void run_until_stopped(const Options& options, const sensor::SensorOnAir& sensor, LiveParts& parts,
+void run_until_stopped(const Options& options, const streams::SensorOnAir& sensor, LiveParts& parts,
                        Writers& writers, DumpSignal& dump_wanted, LiveService& service) {
   LiveWatch& watch = parts.watch;
   const auto started = SteadyClock::now();
@@ -416,8 +416,8 @@ ExitCode run_live(const Options& options) {
   VehicleBus* const vehicle = bus ? &*bus : nullptr;
 
   memory::FixedMemory plan, memory;
-  auto idle = run::LiveThreads::Events::make();
-  auto events = run::LiveThreads::Events::make();
+  auto idle = live::LiveThreads::Events::make();
+  auto events = live::LiveThreads::Events::make();
   if (!idle || !events) return refuse(!idle ? idle.error() : events.error());
   LiveParts{options, *sensor, *profile, mount, *source, vehicle, *std::move(idle), display, plan};
   const auto region = memory.reserve(plan.total_bytes(), {.lock = options.realtime.lock_memory});

@@ -15,7 +15,7 @@ namespace terracut::cli {
 namespace {
 
 void show_thread(status::MonitorSnapshot& figures, std::string_view name,
-                 const run::LiveThreadState& state) {
+                 const live::LiveThreadState& state) {
   status::ThreadStatus& shown = figures.threads[figures.thread_count++];
   shown.name = {name};
   shown.scheduling = {state.scheduling};
@@ -34,8 +34,8 @@ std::string unpublished_name(const Options& options) {
 }  // namespace
 
 LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
-                     run::LiveThreads& threads, run::VehicleMotion* motion, FiguresDisplay& display,
-                     memory::FixedMemory& memory)
+                     live::LiveThreads& threads, live::VehicleMotion* motion,
+                     FiguresDisplay& display, memory::FixedMemory& memory)
     : options_(options),
       threads_(threads),
       motion_(motion),
@@ -49,7 +49,7 @@ LiveWatch::LiveWatch(const Options& options, const mount::Mount& mount, const Mo
 }
 
 void LiveWatch::open(const std::string& sensor, const std::string& input,
-                     const run::FrameOutlet* outlet, publish::Publisher& publisher) {
+                     const live::FrameOutlet* outlet, publish::Publisher& publisher) {
   outlet_ = outlet;
   publisher_ = &publisher;
   status::MonitorSnapshot& figures = monitor_.snapshot();

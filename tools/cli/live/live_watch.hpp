@@ -13,14 +13,14 @@
 #include "figures_display.hpp"
 #include "pipeline/ground/segmenter.hpp"
 #include "pipeline/health/health_reporter.hpp"
-#include "pipeline/run/frame_outlet.hpp"
-#include "pipeline/run/live_threads.hpp"
-#include "pipeline/run/vehicle_motion.hpp"
+#include "pipeline/live/frame_outlet.hpp"
+#include "pipeline/live/live_threads.hpp"
+#include "pipeline/live/vehicle_motion.hpp"
 #include "pipeline/status/deadline_monitor.hpp"
 #include "pipeline/status/input_status.hpp"
 #include "pipeline/status/stolen_time_share.hpp"
 #include "rt/measure/stolen_time.hpp"
-#include "tools/cli/figures/mount_watch.hpp"
+#include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {
@@ -37,13 +37,13 @@ class LiveWatch {
 
   /// All must outlive this. `motion` may be null.
   LiveWatch(const Options& options, const mount::Mount& mount, const MountChoice& choice,
-            run::LiveThreads& threads, run::VehicleMotion* motion, FiguresDisplay& display,
+            live::LiveThreads& threads, live::VehicleMotion* motion, FiguresDisplay& display,
             memory::FixedMemory& memory);
 
   /// Health on a CAN bus: where it fails that is said, and the run goes on without it. `outlet`,
   /// which may be null, and `publisher`: whose losses are shown as well, and to whose outputs the
   /// figures go every second; both must outlive this.
-  void open(const std::string& sensor, const std::string& input, const run::FrameOutlet* outlet,
+  void open(const std::string& sensor, const std::string& input, const live::FrameOutlet* outlet,
             publish::Publisher& publisher);
 
   struct Round {
@@ -74,9 +74,9 @@ class LiveWatch {
   void refresh_threads(status::MonitorSnapshot& figures);
 
   const Options& options_;
-  run::LiveThreads& threads_;
-  run::VehicleMotion* motion_;
-  const run::FrameOutlet* outlet_ = nullptr;
+  live::LiveThreads& threads_;
+  live::VehicleMotion* motion_;
+  const live::FrameOutlet* outlet_ = nullptr;
   publish::Publisher* publisher_ = nullptr;
   std::int64_t publish_figures_at_ns_ = 0;  ///< CLOCK_MONOTONIC
   FiguresDisplay& display_;

@@ -13,12 +13,12 @@
 #include "pipeline/dds/diagnostics_writer.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
-#include "tools/cli/export/dds_output.hpp"
-#include "tools/cli/export/dds_participant.hpp"
 #include "tools/cli/figures/dashboard.hpp"
 #include "tools/cli/figures/figures_json.hpp"
 #include "tools/cli/input/input_check.hpp"
 #include "tools/cli/json_text.hpp"
+#include "tools/cli/output/dds_output.hpp"
+#include "tools/cli/output/dds_participant.hpp"
 #include "tools/cli/stop_signal.hpp"
 
 namespace terracut::cli {

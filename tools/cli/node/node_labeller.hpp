@@ -10,12 +10,12 @@
 
 #include "firmware_io/cloud/cloud.hpp"
 #include "pipeline/ground/mount_search.hpp"
-#include "pipeline/run/degradation_policy.hpp"
+#include "pipeline/live/degradation_policy.hpp"
 #include "pipeline/terracut/point_buffer.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
-#include "tools/cli/clouds/cloud_labeller.hpp"
-#include "tools/cli/figures/mount_watch.hpp"
+#include "tools/cli/input/cloud_labeller.hpp"
 #include "tools/cli/input/mount_choice.hpp"
+#include "tools/cli/input/mount_watch.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {
@@ -71,7 +71,7 @@ class NodeLabeller {
   std::optional<MountWatch> watch_;
   mount::Mount mount_;
   std::string sensor_;
-  run::DegradationPolicyOf<measure::SystemClock> degradation_;
+  live::DegradationPolicyOf<measure::SystemClock> degradation_;
 };
 
 }  // namespace terracut::cli

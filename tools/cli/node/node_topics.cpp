@@ -6,8 +6,8 @@
 #include <string>
 #include <utility>
 
-#include "tools/cli/export/dds_output.hpp"
-#include "tools/cli/export/dds_participant.hpp"
+#include "tools/cli/output/dds_output.hpp"
+#include "tools/cli/output/dds_participant.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
 
 namespace terracut::cli {

@@ -10,14 +10,14 @@
 namespace terracut::cli {
 
 Expected<hdl64e::Hdl64eCalibration> made_calibration(const CaptureOptions& options,
-                                                     encode::Hdl64eEncoderTraits) {
-  if (options.calibration.empty()) return encode::Hdl64eEncoderTraits::nominal();
+                                                     packets::Hdl64eEncoderTraits) {
+  if (options.calibration.empty()) return packets::Hdl64eEncoderTraits::nominal();
   return hdl64e::load_hdl64e_calibration(options.calibration);
 }
 
 Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& options,
-                                                       encode::Ruby128EncoderTraits) {
-  if (options.calibration.empty()) return encode::Ruby128EncoderTraits::nominal();
+                                                       packets::Ruby128EncoderTraits) {
+  if (options.calibration.empty()) return packets::Ruby128EncoderTraits::nominal();
   return ruby128::read_ruby128_csv(options.calibration);
 }
 

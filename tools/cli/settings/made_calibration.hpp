@@ -3,7 +3,7 @@
 #pragma once
 
 #include "tools/cli/options.hpp"
-#include "tools/lab/drive/encoder_traits.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 
 /// The table of the unit whose packets are made: that of --calibration, else the nominal one. The
 /// errors are those of the file, and kInvalidArgument where a file is given for a sensor whose
@@ -11,14 +11,14 @@
 namespace terracut::cli {
 
 [[nodiscard]] Expected<hdl64e::Hdl64eCalibration> made_calibration(const CaptureOptions& options,
-                                                                   encode::Hdl64eEncoderTraits);
+                                                                   packets::Hdl64eEncoderTraits);
 [[nodiscard]] Expected<ruby128::Ruby128Calibration> made_calibration(const CaptureOptions& options,
-                                                                     encode::Ruby128EncoderTraits);
+                                                                     packets::Ruby128EncoderTraits);
 [[nodiscard]] Expected<velodyne::VelodyneCalibration> made_calibration(
     const CaptureOptions& options, velodyne::VelodyneModel model);
 template <class Model>
 [[nodiscard]] Expected<velodyne::VelodyneCalibration> made_calibration(
-    const CaptureOptions& options, velodyne::VelodyneEncoderTraits<Model>) {
+    const CaptureOptions& options, packets::VelodyneEncoderTraits<Model>) {
   return made_calibration(options, Model::kModel);
 }
 

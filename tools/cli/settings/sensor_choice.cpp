@@ -11,8 +11,8 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware_io/sensor/unknown_packets.hpp"
 #include "firmware_io/streams/sender_streams.hpp"
-#include "firmware_io/streams/unknown_packets.hpp"
 #include "pipeline/status/figure_lines.hpp"
 #include "pipeline/status/loss_causes.hpp"
 #include "stream_choice.hpp"
@@ -58,8 +58,8 @@ std::string where_frames_went(const capture::PcapCounters& read) {
   add(read.other_port, "went to another port than --port");
   add(read.other_source, "came from another address than --from");
   add(read.other_stream, "are of another port of --from, or not of --to, --vlan or --mac");
-  for (std::size_t i = 0; i < capture::kFrameRejects; ++i) {
-    add(read.refused[i], capture::description_of(static_cast<capture::FrameReject>(i)));
+  for (std::size_t i = 0; i < packet::kFrameRejects; ++i) {
+    add(read.refused[i], packet::description_of(static_cast<packet::FrameReject>(i)));
   }
   return text + "; `terracut info` lists the streams";
 }
@@ -88,7 +88,7 @@ struct Heard {
       sender.probe.add(**next);
       const SensorModel model = sensor::recognise_sensor_as(options.sensor, (*next)->payload);
       if (model == SensorModel::kUnknown && first_unknown.empty()) {
-        const std::string guess = streams::guess_of_unknown(**next);
+        const std::string guess = sensor::guess_of_unknown(**next);
         first_unknown = fmt::format("{} bytes to port {}{}{}", (*next)->payload.size(),
                                     (*next)->destination_port, guess.empty() ? "" : ": ", guess);
       }

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "tools/cli/command.hpp"
-#include "tools/cli/input/run_files.hpp"
+#include "tools/cli/files/run_files.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {

@@ -49,8 +49,8 @@ inline constexpr std::array kViaWords{Word{"socket", ListenVia::kSocket},
 inline constexpr std::array kInstantWords{Word{"start", frame::FrameInstant::kStart},
                                           Word{"middle", frame::FrameInstant::kMiddle},
                                           Word{"end", frame::FrameInstant::kEnd}};
-inline constexpr std::array kReturnsWords{Word{"single", drive::ReturnMode::kSingle},
-                                          Word{"dual", drive::ReturnMode::kDual}};
+inline constexpr std::array kReturnsWords{Word{"single", packets::ReturnMode::kSingle},
+                                          Word{"dual", packets::ReturnMode::kDual}};
 inline constexpr std::array kStreamModeWords{
     Word{"600", ::mode_t{0600}}, Word{"660", ::mode_t{0660}}, Word{"666", ::mode_t{0666}}};
 inline constexpr std::array kFormatWords{Word{"labels", FleetFormat::kLabels},

@@ -29,7 +29,7 @@ class PlayedCapture::Counter {
       if (const frame::Frame* frame = decoder_.next()) {
         return part_->clock().since_begin_ns(frame->info.last_packet_ns);
       }
-      const decode::Datagram* datagram = part_ && !ended_ ? part_->next() : nullptr;
+      const packet::Datagram* datagram = part_ && !ended_ ? part_->next() : nullptr;
       if (datagram != nullptr) {
         decoder_.push(*datagram);
       } else if (std::exchange(ended_, true)) {

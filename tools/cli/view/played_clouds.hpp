@@ -8,8 +8,8 @@
 #include <string>
 
 #include "played_recording.hpp"
-#include "tools/cli/clouds/cloud_labeller.hpp"
 #include "tools/cli/input/cloud_input.hpp"
+#include "tools/cli/input/cloud_labeller.hpp"
 #include "tools/cli/options.hpp"
 
 namespace terracut::cli {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "pipeline/publish/labelled_frame.hpp"
-#include "pipeline/publish/stream.hpp"
+#include "pipeline/publish/run_facts.hpp"
 #include "pipeline/status/monitor_snapshot.hpp"
 #include "pipeline/stream/labelled_frame_wire.hpp"
 #include "rt/memory/used_again.hpp"

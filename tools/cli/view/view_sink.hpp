@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipeline/publish/frame_sink.hpp"
-#include "pipeline/publish/stream.hpp"
+#include "pipeline/publish/run_facts.hpp"
 #include "rt/error.hpp"
 #include "tools/cli/http/http_server.hpp"
 #include "view_routes.hpp"

@@ -62,14 +62,14 @@ Expected<DriveWriter<EncoderTraits>> DriveWriter<EncoderTraits>::create(
 template <class EncoderTraits>
 DriveWriter<EncoderTraits>::DriveWriter(capture::PcapWriter pcap, DriveFiles files,
                                         const typename EncoderTraits::Offsets& offsets,
-                                        Sender sender, ReturnMode returns)
+                                        Sender sender, packets::ReturnMode returns)
     : pcap_(std::move(pcap)),
       files_(std::move(files)),
       truth_(offsets, returns),
       sender_(std::move(sender)),
       columns_per_packet_(static_cast<std::size_t>(EncoderTraits::columns_per_packet(returns))),
       group_(static_cast<std::size_t>(EncoderTraits::firings_per_group(returns) *
-                                      returns_per_firing(returns))) {}
+                                      packets::returns_per_firing(returns))) {}
 
 template <class EncoderTraits>
 Status DriveWriter<EncoderTraits>::add_column(

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "drive_files.hpp"
-#include "encoder_traits.hpp"
 #include "firmware_io/capture/pcap_writer.hpp"
 #include "firmware_io/frame/labelled_return.hpp"
 #include "rt/error.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 #include "truth_frames.hpp"
 
 namespace terracut::drive {
@@ -73,7 +73,8 @@ class DriveWriter {
   using Sender = typename EncoderTraits::Sender;
 
   DriveWriter(capture::PcapWriter pcap, DriveFiles files,
-              const typename EncoderTraits::Offsets& offsets, Sender sender, ReturnMode returns);
+              const typename EncoderTraits::Offsets& offsets, Sender sender,
+              packets::ReturnMode returns);
 
   [[nodiscard]] Status write_group();
   [[nodiscard]] Status write_truth(const std::vector<std::uint32_t>& labels);
@@ -88,7 +89,7 @@ class DriveWriter {
   DriveSummary summary_;
 };
 
-using Hdl64eDriveWriter = DriveWriter<encode::Hdl64eEncoderTraits>;
-using Ruby128DriveWriter = DriveWriter<encode::Ruby128EncoderTraits>;
+using Hdl64eDriveWriter = DriveWriter<packets::Hdl64eEncoderTraits>;
+using Ruby128DriveWriter = DriveWriter<packets::Ruby128EncoderTraits>;
 
 }  // namespace terracut::drive

@@ -18,7 +18,8 @@ constexpr double kSpareRunUp_cdeg = 100;
 
 template <class EncoderTraits>
 FiringPlan<EncoderTraits>::FiringPlan(const typename EncoderTraits::Calibration& calibration,
-                                      ReturnMode returns, double spin_hz, std::int64_t frames)
+                                      packets::ReturnMode returns, double spin_hz,
+                                      std::int64_t frames)
     : returns_(returns),
       frames_(frames),
       group_(EncoderTraits::firings_per_group(returns)),
@@ -41,7 +42,7 @@ template <class EncoderTraits>
 Firing FiringPlan<EncoderTraits>::firing(std::int64_t index) const noexcept {
   const std::int64_t place = index % group_;
   const std::int64_t first = index - place;
-  GroupAzimuths rotor;
+  packets::GroupAzimuths rotor;
   for (std::int64_t i = 0; i < group_; ++i) {
     rotor.cdeg[static_cast<std::size_t>(i)] = beams::wrap_cdeg(azimuth_cdeg(first + i));
   }

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include "encoder_traits.hpp"
-#include "return_mode.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
+#include "tools/lab/packets/return_mode.hpp"
 
 namespace terracut::drive {
 
@@ -22,7 +22,7 @@ struct Firing {
 template <class EncoderTraits>
 class FiringPlan {
  public:
-  FiringPlan(const typename EncoderTraits::Calibration& calibration, ReturnMode returns,
+  FiringPlan(const typename EncoderTraits::Calibration& calibration, packets::ReturnMode returns,
              double spin_hz, std::int64_t frames);
 
   [[nodiscard]] std::int64_t frames() const noexcept { return frames_; }
@@ -40,7 +40,7 @@ class FiringPlan {
  private:
   [[nodiscard]] std::int64_t azimuth_cdeg(std::int64_t index) const noexcept;
 
-  ReturnMode returns_;
+  packets::ReturnMode returns_;
   std::int64_t frames_;
   std::int64_t group_;  ///< Firings that fill whole packets.
   double start_cdeg_;   ///< < 0

@@ -6,15 +6,15 @@
 #include <utility>
 
 #include "calib/beams/angle.hpp"
-#include "encoder_traits.hpp"
-#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 
 namespace terracut::drive {
 
 template <class EncoderTraits>
 void TruthFrames<EncoderTraits>::add(std::span<const Column> columns) {
-  const auto returns = static_cast<std::size_t>(returns_per_firing(returns_));
-  GroupAzimuths rotor{.before_cdeg = last_cdeg_};
+  const auto returns = static_cast<std::size_t>(packets::returns_per_firing(returns_));
+  packets::GroupAzimuths rotor{.before_cdeg = last_cdeg_};
   for (std::size_t i = 0; i < columns.size(); i += returns) {
     rotor.cdeg[i / returns] = beams::wrap_cdeg(columns[i].unwrapped_azimuth_cdeg);
   }
@@ -26,14 +26,14 @@ void TruthFrames<EncoderTraits>::add(std::span<const Column> columns) {
       if (labelled.raw == 0) continue;
       const std::int32_t offset_ticks =
           EncoderTraits::offset_ticks(offsets_, step_ticks, laser, returns_);
-      const decode::BeamAzimuth beam =
-          decode::beam_azimuth(columns[i].unwrapped_azimuth_cdeg, offset_ticks);
+      const packet::BeamAzimuth beam =
+          packet::beam_azimuth(columns[i].unwrapped_azimuth_cdeg, offset_ticks);
       by_frame_[beam.frame].push_back(labelled.truth);
     }
   }
   last_cdeg_ = beams::wrap_cdeg(columns.back().unwrapped_azimuth_cdeg);
   oldest_reachable_ =
-      decode::beam_azimuth(columns.back().unwrapped_azimuth_cdeg, offsets_.hindmost_ticks()).frame;
+      packet::beam_azimuth(columns.back().unwrapped_azimuth_cdeg, offsets_.hindmost_ticks()).frame;
 }
 
 template <class EncoderTraits>

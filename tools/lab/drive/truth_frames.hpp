@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "return_mode.hpp"
+#include "tools/lab/packets/return_mode.hpp"
 
 namespace terracut::drive {
 
@@ -20,7 +20,7 @@ class TruthFrames {
  public:
   using Column = typename EncoderTraits::Column;
 
-  TruthFrames(const typename EncoderTraits::Offsets& offsets, ReturnMode returns)
+  TruthFrames(const typename EncoderTraits::Offsets& offsets, packets::ReturnMode returns)
       : offsets_(offsets), returns_(returns) {}
 
   /// The columns of one group of firings.
@@ -34,7 +34,7 @@ class TruthFrames {
 
  private:
   typename EncoderTraits::Offsets offsets_;
-  ReturnMode returns_;
+  packets::ReturnMode returns_;
   std::map<std::int64_t, std::vector<std::uint32_t>> by_frame_;
   std::int64_t oldest_reachable_ = 0;
   std::optional<std::int32_t> last_cdeg_;  ///< Where the head stood at the last firing.

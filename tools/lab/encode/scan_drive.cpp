@@ -126,7 +126,7 @@ Expected<ResampleReport> resample_scan_folder(
     return tl::unexpected(std::move(fitted.error()));
   }
   typename EncoderTraits::Config config;
-  if constexpr (std::is_same_v<EncoderTraits, Ruby128EncoderTraits>) {
+  if constexpr (std::is_same_v<EncoderTraits, packets::Ruby128EncoderTraits>) {
     config.unit.rpm = static_cast<std::uint16_t>(60 * Resampler::kSpin_hz);
     config.unit.serial = {'R', 'E', 'S', 'A', 'M', 'P'};
   }
@@ -151,20 +151,20 @@ Expected<ResampleReport> resample_scan_folder(
   return ResampleReport{*drive, *rays, reader->why_as_recorded()};
 }
 
-template Expected<ResampleReport> resample_scan_folder<Ruby128EncoderTraits>(
+template Expected<ResampleReport> resample_scan_folder<packets::Ruby128EncoderTraits>(
     const std::filesystem::path&, const std::filesystem::path&,
-    const ResampleOptions<Ruby128EncoderTraits>&);
-template Expected<ResampleReport> resample_scan_folder<velodyne::Vlp16EncoderTraits>(
+    const ResampleOptions<packets::Ruby128EncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<packets::Vlp16EncoderTraits>(
     const std::filesystem::path&, const std::filesystem::path&,
-    const ResampleOptions<velodyne::Vlp16EncoderTraits>&);
-template Expected<ResampleReport> resample_scan_folder<velodyne::Hdl32eEncoderTraits>(
+    const ResampleOptions<packets::Vlp16EncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<packets::Hdl32eEncoderTraits>(
     const std::filesystem::path&, const std::filesystem::path&,
-    const ResampleOptions<velodyne::Hdl32eEncoderTraits>&);
-template Expected<ResampleReport> resample_scan_folder<velodyne::Vlp32cEncoderTraits>(
+    const ResampleOptions<packets::Hdl32eEncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<packets::Vlp32cEncoderTraits>(
     const std::filesystem::path&, const std::filesystem::path&,
-    const ResampleOptions<velodyne::Vlp32cEncoderTraits>&);
-template Expected<ResampleReport> resample_scan_folder<velodyne::Vls128EncoderTraits>(
+    const ResampleOptions<packets::Vlp32cEncoderTraits>&);
+template Expected<ResampleReport> resample_scan_folder<packets::Vls128EncoderTraits>(
     const std::filesystem::path&, const std::filesystem::path&,
-    const ResampleOptions<velodyne::Vls128EncoderTraits>&);
+    const ResampleOptions<packets::Vls128EncoderTraits>&);
 
 }  // namespace terracut::encode

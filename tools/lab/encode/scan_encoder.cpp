@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "firing_assignment.hpp"
-#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 
 namespace terracut::encode {
 namespace {
 
 constexpr double kRevolution_rad = 2 * std::numbers::pi;
-constexpr drive::ReturnMode kEncoded = drive::ReturnMode::kSingle;
+constexpr packets::ReturnMode kEncoded = packets::ReturnMode::kSingle;
 
 /// `radians` brought into [-pi, pi).
 double wrapped(double radians) {
@@ -51,9 +51,9 @@ ScanEncoder::ScanEncoder(const hdl64e::Hdl64eCalibration& calibration, const Con
       offsets_(calibration),
       plan_(calibration, kEncoded, config.spin_hz, config.frames),
       first_stamp_ns_(config.first_stamp_ns),
-      farthest_ticks_(std::llround(kFarthest_steps * config.spin_hz * decode::kRevolution_ticks *
-                                   static_cast<double>(Hdl64eEncoderTraits::firing_ns(kEncoded)) *
-                                   1e-9)),
+      farthest_ticks_(std::llround(
+          kFarthest_steps * config.spin_hz * packet::kRevolution_ticks *
+          static_cast<double>(packets::Hdl64eEncoderTraits::firing_ns(kEncoded)) * 1e-9)),
       sink_(std::move(sink)) {}
 
 bool ScanEncoder::want(int laser, const scan::ScanPoint& point, Wanted& wanted) {
@@ -78,8 +78,8 @@ bool ScanEncoder::want(int laser, const scan::ScanPoint& point, Wanted& wanted) 
     const beams::Point hit = geometry_.point(laser, rotor_rad, *raw);
     beam_rad += wrapped(wanted.azimuth_rad - scan::azimuth_rad(hit.x_m, hit.y_m));
   }
-  wanted.ticks = std::llround(beam_rad / decode::kRadPerTick);
-  if (wanted.ticks < 0 || wanted.ticks >= decode::kRevolution_ticks) {
+  wanted.ticks = std::llround(beam_rad / packet::kRadPerTick);
+  if (wanted.ticks < 0 || wanted.ticks >= packet::kRevolution_ticks) {
     count(NotEncoded::kSeam);
     return false;
   }
@@ -131,8 +131,8 @@ void ScanEncoder::assign(std::int32_t frame, int laser) {
   std::vector<std::int64_t> fired_ticks;
   for (; next < plan_.firings(); ++next) {
     const drive::Firing& firing = planned(next).when;
-    const decode::BeamAzimuth beam =
-        decode::beam_azimuth(firing.azimuth_cdeg, offsets_.offset_ticks(firing.step_ticks, laser));
+    const packet::BeamAzimuth beam =
+        packet::beam_azimuth(firing.azimuth_cdeg, offsets_.offset_ticks(firing.step_ticks, laser));
     if (beam.frame > frame) break;
     if (beam.frame < frame) {
       first = next + 1;  // of the run-up
@@ -155,7 +155,7 @@ void ScanEncoder::assign(std::int32_t frame, int laser) {
 }
 
 void ScanEncoder::encode(std::int32_t frame, int laser, const Wanted& wanted, Planned& planned) {
-  const double rotor_rad = decode::firing_azimuth_rad(
+  const double rotor_rad = packet::firing_azimuth_rad(
       planned.when.azimuth_cdeg, hdl64e::firing_advance_ticks(planned.when.step_ticks, laser));
   const auto exact = geometry_.raw_for_range(laser, rotor_rad, wanted.range_m);
   const double raw = std::round(exact.value_or(0.0));

@@ -129,7 +129,7 @@ class ScanEncoder {
   hdl64e::Hdl64eGeometry geometry_;
   std::array<int, scan::kScanRings> laser_of_ring_;
   hdl64e::BeamOffsets offsets_;
-  drive::FiringPlan<Hdl64eEncoderTraits> plan_;
+  drive::FiringPlan<packets::Hdl64eEncoderTraits> plan_;
   std::int64_t first_stamp_ns_, farthest_ticks_;
   Sink sink_;
   std::deque<Planned> planned_;  ///< Firings that were looked at and are not sent yet.

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 
 namespace terracut::encode {
 namespace {
 
-constexpr drive::ReturnMode kReturns = drive::ReturnMode::kSingle;
+constexpr packets::ReturnMode kReturns = packets::ReturnMode::kSingle;
 /// A beam begins centimetres from the recording's origin, so where a ray points from there depends
 /// a little on how far it reaches: it is looked up twice, first as if it reached this far.
 constexpr double kFirstGuess_counts = 4'000;
@@ -72,12 +72,12 @@ void ScanResampler<EncoderTraits>::fire(const drive::Firing& firing,
   for (int laser = 0; laser < EncoderTraits::kLasers; ++laser) {
     const std::int32_t offset_ticks =
         EncoderTraits::offset_ticks(offsets_, firing.step_ticks, laser, kReturns);
-    const std::int64_t frame = decode::beam_azimuth(firing.azimuth_cdeg, offset_ticks).frame;
+    const std::int64_t frame = packet::beam_azimuth(firing.azimuth_cdeg, offset_ticks).frame;
     if (!plan.wants(frame)) continue;
     const std::int32_t advance_ticks =
         EncoderTraits::advance_ticks(firing.step_ticks, laser, kReturns);
     column.by_laser[static_cast<std::size_t>(laser)] =
-        measure(laser, decode::firing_azimuth_rad(firing.azimuth_cdeg, advance_ticks),
+        measure(laser, packet::firing_azimuth_rad(firing.azimuth_cdeg, advance_ticks),
                 views_[static_cast<std::size_t>(frame % 2)]);
   }
 }
@@ -93,7 +93,7 @@ Expected<ResampleSummary> ScanResampler<EncoderTraits>::run(std::int64_t frames,
   for (std::int64_t i = 0; i < plan.firings(); ++i) {
     const drive::Firing firing = plan.firing(i);
     const std::int32_t foremost_ticks = offsets_.foremost_ticks(firing.step_ticks);
-    const std::int64_t newest = decode::beam_azimuth(firing.azimuth_cdeg, foremost_ticks).frame;
+    const std::int64_t newest = packet::beam_azimuth(firing.azimuth_cdeg, foremost_ticks).frame;
     const Status ready = read(std::min(newest, frames - 1), source);
     if (!ready) return tl::unexpected(ready.error());
     Column column;
@@ -105,10 +105,10 @@ Expected<ResampleSummary> ScanResampler<EncoderTraits>::run(std::int64_t frames,
   return summary_;
 }
 
-template class ScanResampler<Ruby128EncoderTraits>;
-template class ScanResampler<velodyne::Vlp16EncoderTraits>;
-template class ScanResampler<velodyne::Hdl32eEncoderTraits>;
-template class ScanResampler<velodyne::Vlp32cEncoderTraits>;
-template class ScanResampler<velodyne::Vls128EncoderTraits>;
+template class ScanResampler<packets::Ruby128EncoderTraits>;
+template class ScanResampler<packets::Vlp16EncoderTraits>;
+template class ScanResampler<packets::Hdl32eEncoderTraits>;
+template class ScanResampler<packets::Vlp32cEncoderTraits>;
+template class ScanResampler<packets::Vls128EncoderTraits>;
 
 }  // namespace terracut::encode

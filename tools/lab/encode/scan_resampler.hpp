@@ -10,8 +10,8 @@
 #include "firmware_io/scan/ring_recovery.hpp"
 #include "rt/error.hpp"
 #include "scan_surface.hpp"
-#include "tools/lab/drive/encoder_traits.hpp"
 #include "tools/lab/drive/firing_plan.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 
 namespace terracut::encode {
 

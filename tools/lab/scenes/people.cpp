@@ -6,7 +6,7 @@
 
 namespace terracut::scenes {
 
-world::SceneObject make_pedestrian(simulator::Random& random) {
+world::SceneObject make_pedestrian(world::Random& random) {
   const double tall_m = random.chance(0.15) ? random.uniform(1.1, 1.4) : random.uniform(1.55, 1.95);
   const double stride_m = random.uniform(0.0, 0.2);
   const world::Substance cloth{world::Truth::kPerson, world::Material::kCloth};
@@ -22,7 +22,7 @@ world::SceneObject make_pedestrian(simulator::Random& random) {
   return person;
 }
 
-world::SceneObject make_cyclist(simulator::Random& random) {
+world::SceneObject make_cyclist(world::Random& random) {
   const double tall_m = random.uniform(1.6, 1.8);  // Over the ground, on the saddle.
   const world::Substance cloth{world::Truth::kBicyclist, world::Material::kCloth};
   const world::Substance metal{world::Truth::kBicyclist, world::Material::kMetal};

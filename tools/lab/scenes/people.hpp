@@ -2,15 +2,15 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 #include "tools/lab/world/scene_object.hpp"
 
 namespace terracut::scenes {
 
 /// Standing or walking, 1.1 to 1.95 m tall, about 0.5 m wide; two legs.
-[[nodiscard]] world::SceneObject make_pedestrian(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_pedestrian(world::Random& random);
 
 /// A person on a bicycle, 1.75 m long, heading along x; all of it one class.
-[[nodiscard]] world::SceneObject make_cyclist(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_cyclist(world::Random& random);
 
 }  // namespace terracut::scenes

@@ -25,7 +25,7 @@ world::SceneObject make_building(double length_m, double depth_m, double height_
   return building;
 }
 
-world::SceneObject make_tree(simulator::Random& random) {
+world::SceneObject make_tree(world::Random& random) {
   const double radius_m = random.uniform(0.1, 0.25);
   const double bare_m = random.uniform(2.2, 3.2);
   const Eigen::Vector3d size{random.uniform(2.5, 5.5), random.uniform(2.5, 5.5),
@@ -40,7 +40,7 @@ world::SceneObject make_tree(simulator::Random& random) {
   return tree;
 }
 
-world::SceneObject make_bush(simulator::Random& random) {
+world::SceneObject make_bush(world::Random& random) {
   const double width_m = random.uniform(0.5, 1.6);
   const double high_m = random.uniform(0.5, 1.3);
   world::SceneObject bush;
@@ -50,7 +50,7 @@ world::SceneObject make_bush(simulator::Random& random) {
   return bush;
 }
 
-world::SceneObject make_lamp_post(simulator::Random& random) {
+world::SceneObject make_lamp_post(world::Random& random) {
   const double high_m = random.uniform(5.0, 8.0);
   const world::Substance metal{world::Truth::kPole, world::Material::kMetal};
   world::SceneObject lamp;
@@ -59,7 +59,7 @@ world::SceneObject make_lamp_post(simulator::Random& random) {
   return lamp;
 }
 
-world::SceneObject make_sign_post(simulator::Random& random) {
+world::SceneObject make_sign_post(world::Random& random) {
   const double high_m = random.uniform(2.2, 2.8);
   world::SceneObject sign;
   sign.shapes.push_back(world::post({0, 0, -kBelowGround_m}, 0.035, kBelowGround_m + high_m,

@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 #include "tools/lab/world/scene_object.hpp"
 
 namespace terracut::scenes {
@@ -14,14 +14,14 @@ namespace terracut::scenes {
 [[nodiscard]] world::SceneObject make_building(double length_m, double depth_m, double height_m);
 
 /// Trunk of 0.1 to 0.25 m radius, crown of leaves from 2.2 m or higher up.
-[[nodiscard]] world::SceneObject make_tree(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_tree(world::Random& random);
 
 /// A bush of leaves down to the ground, 0.5 to 1.6 m across.
-[[nodiscard]] world::SceneObject make_bush(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_bush(world::Random& random);
 
 /// Lamp post, sign post with its plate, or bollard.
-[[nodiscard]] world::SceneObject make_lamp_post(simulator::Random& random);
-[[nodiscard]] world::SceneObject make_sign_post(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_lamp_post(world::Random& random);
+[[nodiscard]] world::SceneObject make_sign_post(world::Random& random);
 [[nodiscard]] world::SceneObject make_bollard();
 
 /// Leaves from the ground up, 0.8 m thick.

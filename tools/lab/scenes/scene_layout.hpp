@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "scene.hpp"
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 
 namespace terracut::scenes {
 
@@ -31,8 +31,8 @@ class SceneLayout {
     const double to_m = (gained_m > 0 ? gained_m : 0) + kSight_m;
     for (auto slot = static_cast<std::int64_t>(std::ceil(from_m / pitch_m));
          static_cast<double>(slot) * pitch_m <= to_m; ++slot) {
-      simulator::Random random(simulator::mix_keys(simulator::mix_keys(extent_.seed, row),
-                                                   static_cast<std::uint64_t>(slot)));
+      world::Random random(
+          world::mix_keys(world::mix_keys(extent_.seed, row), static_cast<std::uint64_t>(slot)));
       place(random, static_cast<double>(slot) * pitch_m);
     }
   }
@@ -42,8 +42,8 @@ class SceneLayout {
     object.place = place;
     object.heading_rad = heading_rad;
     object.along_mps = along_mps;
-    object.key = simulator::mix_keys(std::bit_cast<std::uint64_t>(place.s_m),
-                                     std::bit_cast<std::uint64_t>(place.d_m));
+    object.key = world::mix_keys(std::bit_cast<std::uint64_t>(place.s_m),
+                                 std::bit_cast<std::uint64_t>(place.d_m));
     scene_.objects.push_back(std::move(object));
   }
 

@@ -41,12 +41,12 @@ void add_carriageway(SceneLayout& layout, double sign, double ego_mps, std::uint
   const double fast_mps = sign < 0 ? ego_mps : -30.0;
   const double slow_mps = sign < 0 ? std::min(kTruck_mps, ego_mps) : -kTruck_mps;
   const double heading_rad = sign < 0 ? 0 : kAgainst_rad;
-  layout.row(row, 38, fast_mps, [&](simulator::Random& random, double s_m) {
+  layout.row(row, 38, fast_mps, [&](world::Random& random, double s_m) {
     if ((sign < 0 && std::abs(s_m) < 20) || random.chance(0.35)) return;
     const double at_m = s_m + random.uniform(-6, 6);
     layout.add(make_car(random), {at_m, sign * kFastLane_d_m}, heading_rad, fast_mps);
   });
-  layout.row(row + 1, 30, slow_mps, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 1, 30, slow_mps, [&](world::Random& random, double s_m) {
     if (random.chance(0.3)) return;
     world::SceneObject vehicle = random.chance(0.55) ? make_truck(random) : make_car(random);
     layout.add(std::move(vehicle), {s_m + random.uniform(-4, 4), sign * kSlowLane_d_m}, heading_rad,
@@ -55,16 +55,16 @@ void add_carriageway(SceneLayout& layout, double sign, double ego_mps, std::uint
 }
 
 void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
-  layout.row(row, 8, 0, [&](simulator::Random&, double s_m) {
+  layout.row(row, 8, 0, [&](world::Random&, double s_m) {
     layout.add_along(make_guard_rail(8), {s_m, sign * kRail_d_m}, 8);
   });
-  layout.row(row + 1, 9, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 1, 9, 0, [&](world::Random& random, double s_m) {
     if (random.chance(0.4)) return;
     const world::RoadPoint place{s_m + random.uniform(-4, 4),
                                  sign * (kBank_d_m + random.uniform(0, 15))};
     layout.add(random.chance(0.5) ? make_tree(random) : make_bush(random), place);
   });
-  layout.row(row + 2, 50, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 2, 50, 0, [&](world::Random& random, double s_m) {
     layout.add(make_sign_post(random), {s_m, sign * (kRail_d_m + 0.6)},
                sign < 0 ? 0 : kAgainst_rad);
   });
@@ -73,7 +73,7 @@ void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
 }  // namespace
 
 Scene make_highway_scene(const SceneExtent& extent) {
-  simulator::Random random(simulator::mix_keys(extent.seed, 1));
+  world::Random random(world::mix_keys(extent.seed, 1));
   world::Road road;
   road.bend_m = random.uniform(0, 12);
   road.bend_length_m = 900;
@@ -87,16 +87,16 @@ Scene make_highway_scene(const SceneExtent& extent) {
   road.right = road_side(down, random.uniform(4, 7));
   road.lane_mark_d_m = kFastLane_d_m + kLane_m / 2;
 
-  Scene scene{world::Terrain(road, simulator::mix_keys(extent.seed, 2)),
+  Scene scene{world::Terrain(road, world::mix_keys(extent.seed, 2)),
               {},
               -kFastLane_d_m,
               extent.speed_mps < 0 ? kSpeed_mps : extent.speed_mps};
   SceneLayout layout(scene, extent);
   const bool concrete = random.chance(0.5);
-  layout.row(10, 6, 0, [&](simulator::Random&, double s_m) {
+  layout.row(10, 6, 0, [&](world::Random&, double s_m) {
     layout.add_along(concrete ? make_concrete_barrier(6) : make_guard_rail(6), {s_m, 0}, 6);
   });
-  layout.row(11, 170, 0, [&](simulator::Random& slot, double s_m) {
+  layout.row(11, 170, 0, [&](world::Random& slot, double s_m) {
     layout.add(make_overpass(2 * kRail_d_m + 4), {s_m + 60 + slot.uniform(-20, 20), 0});
   });
   add_carriageway(layout, -1, scene.ego_speed_mps, 20);

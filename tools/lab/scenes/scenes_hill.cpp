@@ -22,7 +22,7 @@ constexpr double kSpeed_mps = 8.0;
 }  // namespace
 
 Scene make_hill_scene(const SceneExtent& extent) {
-  simulator::Random random(simulator::mix_keys(extent.seed, 1));
+  world::Random random(world::mix_keys(extent.seed, 1));
   world::Road road;
   road.bend_m = random.uniform(0, 4);
   road.bend_length_m = 400;
@@ -45,37 +45,37 @@ Scene make_hill_scene(const SceneExtent& extent) {
       {1, 0, -0.03, 0.12, world::Truth::kTerrain, world::Material::kGrass},
   };
 
-  Scene scene{world::Terrain(road, simulator::mix_keys(extent.seed, 2)),
+  Scene scene{world::Terrain(road, world::mix_keys(extent.seed, 2)),
               {},
               -kLane_d_m,
               extent.speed_mps < 0 ? kSpeed_mps : extent.speed_mps};
   SceneLayout layout(scene, extent);
-  layout.row(10, 6, 0, [&](simulator::Random& slot, double s_m) {
+  layout.row(10, 6, 0, [&](world::Random& slot, double s_m) {
     if (slot.chance(0.4)) return;
     layout.add(make_car(slot), {s_m, kHalfRoad_m + kParking_m / 2}, kAgainst_rad);
   });
-  layout.row(11, 8, 0, [&](simulator::Random&, double s_m) {
+  layout.row(11, 8, 0, [&](world::Random&, double s_m) {
     layout.add_along(make_guard_rail(8), {s_m, -(kHalfRoad_m + 0.9)}, 8);
   });
-  layout.row(12, 14, 0, [&](simulator::Random& slot, double s_m) {
+  layout.row(12, 14, 0, [&](world::Random& slot, double s_m) {
     if (slot.chance(0.5)) return;
     layout.add(make_pedestrian(slot), {s_m, kPavementEnd_m - 0.7}, kAgainst_rad, -1.2);
   });
   for (const double sign : {1.0, -1.0}) {
-    layout.row(sign > 0 ? 13 : 14, 8, 0, [&](simulator::Random& slot, double s_m) {
+    layout.row(sign > 0 ? 13 : 14, 8, 0, [&](world::Random& slot, double s_m) {
       const double d_m = sign * (kPavementEnd_m + slot.uniform(1.5, 28));
       if (slot.chance(0.3)) return;
       layout.add(slot.chance(0.5) ? make_tree(slot) : make_bush(slot), {s_m, d_m});
     });
   }
-  layout.row(15, 28, 0, [&](simulator::Random& slot, double s_m) {
+  layout.row(15, 28, 0, [&](world::Random& slot, double s_m) {
     if (slot.chance(0.5)) return;
     layout.add(make_building(10, 8, slot.uniform(4, 7)), {s_m, kPavementEnd_m + 14});
   });
-  layout.row(16, 45, -9, [&](simulator::Random& slot, double s_m) {
+  layout.row(16, 45, -9, [&](world::Random& slot, double s_m) {
     layout.add(make_car(slot), {s_m + 25, kLane_d_m}, kAgainst_rad, -9);
   });
-  layout.row(17, 40, scene.ego_speed_mps, [&](simulator::Random& slot, double s_m) {
+  layout.row(17, 40, scene.ego_speed_mps, [&](world::Random& slot, double s_m) {
     if (std::abs(s_m) < 15) return;
     layout.add(make_car(slot), {s_m, -kLane_d_m}, 0, scene.ego_speed_mps);
   });

@@ -35,7 +35,7 @@ world::RoadSide road_side(double bank_slope, double bank_m, double roughness_m) 
 
 void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
   // Hedges and fences come in runs, so they are drawn per 40 m and laid in pieces.
-  layout.row(row, 40, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row, 40, 0, [&](world::Random& random, double s_m) {
     const double kind = random.unit();
     const double d_m = sign * (kField_d_m + random.uniform(0.3, 1.5));
     const double high_m = random.uniform(0.9, 2.2);
@@ -44,7 +44,7 @@ void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
       layout.add_along(kind < 0.45 ? make_hedge(5, high_m) : make_mesh_fence(5), place, 5);
     }
   });
-  layout.row(row + 1, 7, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 1, 7, 0, [&](world::Random& random, double s_m) {
     const world::RoadPoint place{s_m + random.uniform(-3, 3),
                                  sign * (kField_d_m + random.uniform(2.5, 30))};
     if (random.chance(0.45)) {
@@ -53,7 +53,7 @@ void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
       layout.add(make_tree(random), place);
     }
   });
-  layout.row(row + 2, 35, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 2, 35, 0, [&](world::Random& random, double s_m) {
     const world::RoadPoint place{s_m, sign * (kHalfRoad_m + kVerge_m + 0.3)};
     if (random.chance(0.5)) {
       layout.add(make_sign_post(random), place, sign < 0 ? 0 : kAgainst_rad);
@@ -66,7 +66,7 @@ void add_roadside(SceneLayout& layout, double sign, std::uint64_t row) {
 }  // namespace
 
 Scene make_rural_scene(const SceneExtent& extent) {
-  simulator::Random random(simulator::mix_keys(extent.seed, 1));
+  world::Random random(world::mix_keys(extent.seed, 1));
   world::Road road;
   road.bend_m = random.uniform(3, 7);
   road.bend_length_m = random.uniform(280, 380);
@@ -79,22 +79,22 @@ Scene make_rural_scene(const SceneExtent& extent) {
   road.left = road_side(up, random.uniform(3, 6), 0.15);
   road.right = road_side(nearly_level, random.uniform(3, 6), 0.12);
 
-  Scene scene{world::Terrain(road, simulator::mix_keys(extent.seed, 2)),
+  Scene scene{world::Terrain(road, world::mix_keys(extent.seed, 2)),
               {},
               -kLane_d_m,
               extent.speed_mps < 0 ? kSpeed_mps : extent.speed_mps};
   SceneLayout layout(scene, extent);
   add_roadside(layout, 1, 10);
   add_roadside(layout, -1, 20);
-  layout.row(30, 70, -14, [&](simulator::Random& slot, double s_m) {
+  layout.row(30, 70, -14, [&](world::Random& slot, double s_m) {
     layout.add(slot.chance(0.25) ? make_truck(slot) : make_car(slot), {s_m + 40, kLane_d_m},
                kAgainst_rad, -14);
   });
-  layout.row(31, 60, -4.5, [&](simulator::Random& slot, double s_m) {
+  layout.row(31, 60, -4.5, [&](world::Random& slot, double s_m) {
     const double at_m = s_m + slot.uniform(-10, 10);
     layout.add(make_cyclist(slot), {at_m, kHalfRoad_m + 0.1}, kAgainst_rad, -4.5);
   });
-  layout.row(32, 50, 1.2, [&](simulator::Random& slot, double s_m) {
+  layout.row(32, 50, 1.2, [&](world::Random& slot, double s_m) {
     const double at_m = s_m + slot.uniform(-10, 10);
     layout.add(make_pedestrian(slot), {at_m, -(kHalfRoad_m + 0.3)}, 0, 1.2);
   });

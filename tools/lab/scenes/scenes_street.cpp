@@ -32,7 +32,7 @@ struct SidePlan {
   [[nodiscard]] double houses_m() const { return pavement_end_m() + garden_m; }
 };
 
-SidePlan plan_side(double sign, simulator::Random& random) {
+SidePlan plan_side(double sign, world::Random& random) {
   SidePlan plan;
   plan.sign = sign;
   plan.parking = random.chance(0.6);
@@ -42,7 +42,7 @@ SidePlan plan_side(double sign, simulator::Random& random) {
   return plan;
 }
 
-world::RoadSide road_side(const SidePlan& plan, simulator::Random& random) {
+world::RoadSide road_side(const SidePlan& plan, world::Random& random) {
   world::RoadSide side;
   side.strips.push_back({.width_m = kLane_m, .slope = -0.022, .bumps_m = 0.008});
   if (plan.parking) {
@@ -61,7 +61,7 @@ world::RoadSide road_side(const SidePlan& plan, simulator::Random& random) {
 }
 
 void add_houses(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) {
-  layout.row(row, 15, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row, 15, 0, [&](world::Random& random, double s_m) {
     if (random.chance(0.12)) return;
     const double depth_m = random.uniform(8, 11);
     const double wall_m = plan.houses_m() + random.uniform(0, 1.5);
@@ -70,7 +70,7 @@ void add_houses(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) {
     layout.add(make_building(length_m, depth_m, height_m),
                {s_m, plan.sign * (wall_m + depth_m / 2)});
   });
-  layout.row(row + 1, 7.5, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 1, 7.5, 0, [&](world::Random& random, double s_m) {
     const world::RoadPoint place{s_m, plan.sign * (plan.pavement_end_m() + 0.5)};
     if (plan.garden_m < 2 || random.chance(0.4)) return;
     if (random.chance(0.7)) {
@@ -83,7 +83,7 @@ void add_houses(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) {
 
 void add_pavement(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) {
   const double inner_m = plan.kerb_d_m();
-  layout.row(row, 12, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row, 12, 0, [&](world::Random& random, double s_m) {
     const world::RoadPoint place{s_m + random.uniform(-2, 2), plan.sign * (inner_m + 0.5)};
     const double kind = random.unit();
     if (kind < 0.45) {
@@ -96,7 +96,7 @@ void add_pavement(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) 
       layout.add(make_bollard(), place);
     }
   });
-  layout.row(row + 1, 9, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 1, 9, 0, [&](world::Random& random, double s_m) {
     if (random.chance(0.55)) return;
     const double walk_m = random.uniform(inner_m + 1.1, plan.pavement_end_m() - 0.4);
     const bool along = random.chance(0.5);
@@ -106,7 +106,7 @@ void add_pavement(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) 
                along ? 0 : kAgainst_rad, along ? speed_mps : -speed_mps);
   });
   if (!plan.parking) return;
-  layout.row(row + 2, 6.0, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(row + 2, 6.0, 0, [&](world::Random& random, double s_m) {
     if (random.chance(0.3)) return;
     const double d_m = plan.sign * (kLane_m + kParking_m / 2 + random.uniform(-0.12, 0.12));
     const double at_m = s_m + random.uniform(-0.4, 0.4);
@@ -116,28 +116,28 @@ void add_pavement(SceneLayout& layout, const SidePlan& plan, std::uint64_t row) 
 }
 
 void add_traffic(SceneLayout& layout, const SidePlan& right, double ego_mps) {
-  layout.row(50, 32, kOncoming_mps, [&](simulator::Random& random, double s_m) {
+  layout.row(50, 32, kOncoming_mps, [&](world::Random& random, double s_m) {
     if (random.chance(0.35)) return;
     layout.add(random.chance(0.1) ? make_truck(random) : make_car(random), {s_m, 1.8}, kAgainst_rad,
                kOncoming_mps);
   });
   // In the own lane everyone keeps the vehicle's speed, so that nobody meets it.
-  layout.row(51, 24, ego_mps, [&](simulator::Random& random, double s_m) {
+  layout.row(51, 24, ego_mps, [&](world::Random& random, double s_m) {
     if (std::abs(s_m) < 12 || random.chance(0.4)) return;
     layout.add(make_car(random), {s_m, kEgoLane_d_m}, 0, ego_mps);
   });
-  layout.row(52, 40, 4.5, [&](simulator::Random& random, double s_m) {
+  layout.row(52, 40, 4.5, [&](world::Random& random, double s_m) {
     if (random.chance(0.3)) return;
     const double at_m = s_m + random.uniform(-8, 8);
     layout.add(make_cyclist(random), {at_m, -3.1}, 0, 4.5);
   });
-  layout.row(53, 45, -4.5, [&](simulator::Random& random, double s_m) {
+  layout.row(53, 45, -4.5, [&](world::Random& random, double s_m) {
     if (random.chance(0.5)) return;
     const double at_m = s_m + random.uniform(-8, 8);
     layout.add(make_cyclist(random), {at_m, 3.1}, kAgainst_rad, -4.5);
   });
   // Somebody crosses from the right when the vehicle is some 50 m away, and is over in time.
-  layout.row(54, 60, 0, [&](simulator::Random& random, double s_m) {
+  layout.row(54, 60, 0, [&](world::Random& random, double s_m) {
     if (ego_mps < 1) return;
     world::SceneObject person = make_pedestrian(random);
     const double from_m = -(right.kerb_d_m() + 0.3);
@@ -152,7 +152,7 @@ void add_traffic(SceneLayout& layout, const SidePlan& right, double ego_mps) {
 }  // namespace
 
 Scene make_street_scene(const SceneExtent& extent) {
-  simulator::Random random(simulator::mix_keys(extent.seed, 1));
+  world::Random random(world::mix_keys(extent.seed, 1));
   SidePlan left = plan_side(1, random);
   const SidePlan right = plan_side(-1, random);
   left.parking |= !right.parking;
@@ -168,7 +168,7 @@ Scene make_street_scene(const SceneExtent& extent) {
   road.right = road_side(right, random);
   road.lane_mark_d_m = 0;
 
-  Scene scene{world::Terrain(road, simulator::mix_keys(extent.seed, 2)),
+  Scene scene{world::Terrain(road, world::mix_keys(extent.seed, 2)),
               {},
               kEgoLane_d_m,
               extent.speed_mps < 0 ? kSpeed_mps : extent.speed_mps};

@@ -16,7 +16,7 @@ void add_axle(world::SceneObject& vehicle, double x_m, double track_m, double ra
 
 }  // namespace
 
-world::SceneObject make_car(simulator::Random& random) {
+world::SceneObject make_car(world::Random& random) {
   const double length_m = random.uniform(3.8, 4.8);
   const double width_m = random.uniform(1.75, 1.9);
   const double height_m = random.uniform(1.45, 1.7);
@@ -59,7 +59,7 @@ world::SceneObject make_car(simulator::Random& random) {
   return car;
 }
 
-world::SceneObject make_truck(simulator::Random& random) {
+world::SceneObject make_truck(world::Random& random) {
   const double trailer_m = random.uniform(8.5, 13.0);
   const double height_m = random.uniform(3.6, 4.0);
   const double length_m = trailer_m + 3.2;

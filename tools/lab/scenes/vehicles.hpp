@@ -2,7 +2,7 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 #include "tools/lab/world/scene_object.hpp"
 
 namespace terracut::scenes {
@@ -11,9 +11,9 @@ namespace terracut::scenes {
 /// kind vary with `random`; place and speed are left to the caller.
 
 /// 3.8 to 4.8 m long, 1.75 to 1.9 m wide, 1.45 to 1.7 m high; 0.18 to 0.24 m of air below the body.
-[[nodiscard]] world::SceneObject make_car(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_car(world::Random& random);
 
 /// Tractor and trailer, 12 to 16.5 m long, 2.5 m wide, 3.6 to 4 m high; open below the trailer.
-[[nodiscard]] world::SceneObject make_truck(simulator::Random& random);
+[[nodiscard]] world::SceneObject make_truck(world::Random& random);
 
 }  // namespace terracut::scenes

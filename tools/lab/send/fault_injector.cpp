@@ -51,14 +51,14 @@ FaultInjector::FaultInjector(FaultScript script, Sink sink, ShiftStamp shift_sta
   }
 }
 
-void FaultInjector::feed(const decode::Datagram& fed) {
+void FaultInjector::feed(const packet::Datagram& fed) {
   if (!first_ns_) first_ns_ = fed.stamp_ns;
   index_ = fed_++;
   const std::int64_t time_ns = time_of(fed);
   release_bursts(time_ns);
   insert_foreign(fed);
   if (take_away(time_ns)) return;
-  decode::Datagram datagram = fed;
+  packet::Datagram datagram = fed;
   edit(datagram);
   if (move_back(datagram)) return;
   pass(datagram, Origin::kSensor, index_);
@@ -70,14 +70,14 @@ void FaultInjector::finish() {
   for (Held& held : moved_) let_go(held, held.datagram.stamp_ns);
   moved_.clear();
   for (const Held& held : bursts_) {
-    decode::Datagram datagram = held.datagram;
+    packet::Datagram datagram = held.datagram;
     datagram.payload = held.bytes;
     sink_(datagram, held.origin);
   }
   bursts_.clear();
 }
 
-std::int64_t FaultInjector::time_of(const decode::Datagram& datagram) const noexcept {
+std::int64_t FaultInjector::time_of(const packet::Datagram& datagram) const noexcept {
   return datagram.stamp_ns - *first_ns_;
 }
 
@@ -92,14 +92,14 @@ void FaultInjector::release_bursts(std::int64_t time_ns) {
   bursts_.erase(bursts_.begin(), kept);
 }
 
-void FaultInjector::insert_foreign(const decode::Datagram& before) {
+void FaultInjector::insert_foreign(const packet::Datagram& before) {
   for (FaultOutcome& outcome : outcomes_) {
     if (!is_due(outcome, FaultKind::kForeign, time_of(before))) continue;
     outcome.runs.push_back({index_, 1});
     std::vector<std::uint8_t> bytes(kForeignBytes);
     for (; outcome.packets < outcome.fault.packets; ++outcome.packets) {
       std::fill(bytes.begin(), bytes.end(), static_cast<std::uint8_t>(outcome.packets));
-      decode::Datagram foreign = before;
+      packet::Datagram foreign = before;
       foreign.payload = bytes;
       pass(foreign, Origin::kForeign, index_);
     }
@@ -117,7 +117,7 @@ bool FaultInjector::take_away(std::int64_t time_ns) {
 }
 
 /// Clocks first: a packet's stamp may lie in the half that a truncation takes.
-void FaultInjector::edit(decode::Datagram& datagram) {
+void FaultInjector::edit(packet::Datagram& datagram) {
   const std::int64_t time_ns = time_of(datagram);
   std::int64_t shift_ns = 0;
   FaultOutcome* cut = nullptr;  // a packet is cut once; further faults cut the next ones
@@ -144,7 +144,7 @@ void FaultInjector::shift_clock(std::int64_t time_ns, std::int64_t shift_ns) {
   }
 }
 
-bool FaultInjector::move_back(const decode::Datagram& datagram) {
+bool FaultInjector::move_back(const packet::Datagram& datagram) {
   for (std::size_t i = 0; i < outcomes_.size(); ++i) {
     FaultOutcome& outcome = outcomes_[i];
     if (!is_due(outcome, FaultKind::kReorder, time_of(datagram)) || !outcome.runs.empty()) continue;
@@ -169,7 +169,7 @@ bool FaultInjector::is_duplicated(std::int64_t time_ns) {
 
 /// On to the sink, or held back by a burst: of several at once, by the one that ends last, which
 /// keeps the order.
-void FaultInjector::pass(const decode::Datagram& datagram, Origin origin, std::uint64_t index) {
+void FaultInjector::pass(const packet::Datagram& datagram, Origin origin, std::uint64_t index) {
   const std::int64_t time_ns = time_of(datagram);
   FaultOutcome* holding = nullptr;
   std::int64_t until_ns = 0;
@@ -191,7 +191,7 @@ void FaultInjector::pass(const decode::Datagram& datagram, Origin origin, std::u
   bursts_.push_back(std::move(held));
 }
 
-void FaultInjector::release_moved(const decode::Datagram& after) {
+void FaultInjector::release_moved(const packet::Datagram& after) {
   for (Held& held : moved_) {
     FaultOutcome& outcome = outcomes_[held.fault];
     if (++outcome.packets == outcome.fault.packets) let_go(held, after.stamp_ns);

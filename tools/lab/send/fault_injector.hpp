@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "fault_script.hpp"
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
 
 namespace terracut::send {
 
@@ -41,7 +41,7 @@ class FaultInjector {
   /// Gets what is to be sent, in order; the stamp is the time to send it at, never less than that
   /// of the datagram before it unless the stream's own stamps go back. The payload is valid only
   /// during the call.
-  using Sink = std::function<void(const decode::Datagram&, Origin)>;
+  using Sink = std::function<void(const packet::Datagram&, Origin)>;
   /// Adds `shift_ns` to the device's stamp in a packet; false where it knows none. Where the script
   /// has a clock fault, it sees every packet that is not taken away, before the jump with 0.
   using ShiftStamp = std::function<bool(std::span<std::uint8_t> packet, std::int64_t shift_ns)>;
@@ -50,7 +50,7 @@ class FaultInjector {
 
   FaultInjector(FaultScript script, Sink sink, ShiftStamp shift_stamp);
 
-  void feed(const decode::Datagram& datagram);
+  void feed(const packet::Datagram& datagram);
   /// The stream is over: sends what is still held back.
   void finish();
 
@@ -63,23 +63,23 @@ class FaultInjector {
  private:
   /// A datagram that waits for its frame, with its bytes.
   struct Held {
-    decode::Datagram datagram;
+    packet::Datagram datagram;
     std::vector<std::uint8_t> bytes;
     Origin origin = Origin::kSensor;
     std::uint64_t index = 0;
     std::size_t fault = 0;  ///< Of a moved packet: which outcome moves it.
   };
 
-  [[nodiscard]] std::int64_t time_of(const decode::Datagram& datagram) const noexcept;
+  [[nodiscard]] std::int64_t time_of(const packet::Datagram& datagram) const noexcept;
   void release_bursts(std::int64_t time_ns);
-  void insert_foreign(const decode::Datagram& before);
+  void insert_foreign(const packet::Datagram& before);
   [[nodiscard]] bool take_away(std::int64_t time_ns);
-  void edit(decode::Datagram& datagram);
+  void edit(packet::Datagram& datagram);
   void shift_clock(std::int64_t time_ns, std::int64_t shift_ns);
-  [[nodiscard]] bool move_back(const decode::Datagram& datagram);
+  [[nodiscard]] bool move_back(const packet::Datagram& datagram);
   [[nodiscard]] bool is_duplicated(std::int64_t time_ns);
-  void pass(const decode::Datagram& datagram, Origin origin, std::uint64_t index);
-  void release_moved(const decode::Datagram& after);
+  void pass(const packet::Datagram& datagram, Origin origin, std::uint64_t index);
+  void release_moved(const packet::Datagram& after);
   void let_go(Held& held, std::int64_t stamp_ns);
 
   std::vector<FaultOutcome> outcomes_;

@@ -16,9 +16,9 @@ PacketPacer::PacketPacer(double rate, memory::FixedMemory& memory, std::int64_t 
     : rate_(rate),
       start_delay_ns_(start_delay_ns),
       arena_(memory.take<std::uint8_t>("packet pacer", kArenaBytes)),
-      planned_(memory.take<decode::Datagram>("packet pacer", UdpSender::kBatch)) {}
+      planned_(memory.take<packet::Datagram>("packet pacer", UdpSender::kBatch)) {}
 
-void PacketPacer::add(const decode::Datagram& datagram, UdpSender& sender) noexcept {
+void PacketPacer::add(const packet::Datagram& datagram, UdpSender& sender) noexcept {
   const std::int64_t due = due_ns(datagram.stamp_ns);
   const std::size_t bytes = datagram.payload.size();
   if (planned_count_ > 0 &&

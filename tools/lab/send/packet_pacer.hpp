@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <span>
 
-#include "firmware_io/decode/datagram.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/measure/log_linear_histogram.hpp"
 #include "rt/memory/fixed_memory.hpp"
 #include "udp_sender.hpp"
@@ -30,7 +30,7 @@ class PacketPacer {
 
   /// Copies the datagram and plans it; sends those before it when it is due later than they are,
   /// after waiting for their time. `sender` must live until flush().
-  void add(const decode::Datagram& datagram, UdpSender& sender) noexcept;
+  void add(const packet::Datagram& datagram, UdpSender& sender) noexcept;
   /// Waits for what is still planned and sends it.
   void flush() noexcept;
 
@@ -54,7 +54,7 @@ class PacketPacer {
   double rate_;
   std::int64_t start_delay_ns_;
   std::span<std::uint8_t> arena_;
-  std::span<decode::Datagram> planned_;
+  std::span<packet::Datagram> planned_;
   std::size_t planned_count_ = 0, arena_used_ = 0;
   UdpSender* sender_ = nullptr;
   std::int64_t planned_due_ns_ = 0;

@@ -79,7 +79,7 @@ UdpSender::UdpSender(files::OwnedDescriptor socket, const net::Ipv4Endpoint& to,
   }
 }
 
-std::size_t UdpSender::send(std::span<const decode::Datagram> datagrams) noexcept {
+std::size_t UdpSender::send(std::span<const packet::Datagram> datagrams) noexcept {
   std::size_t sent_now = 0;
   while (!datagrams.empty()) {
     const std::size_t count = std::min(datagrams.size(), kBatch);
@@ -99,7 +99,7 @@ std::size_t UdpSender::send(std::span<const decode::Datagram> datagrams) noexcep
       continue;
     }
     const auto done = static_cast<std::size_t>(accepted);
-    for (const decode::Datagram& each : datagrams.first(done))
+    for (const packet::Datagram& each : datagrams.first(done))
       counters_.bytes += each.payload.size();
     counters_.sent += done;
     sent_now += done;

@@ -10,8 +10,8 @@
 #include <span>
 #include <string>
 
-#include "firmware_io/decode/datagram.hpp"
 #include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/packet/datagram.hpp"
 #include "rt/error.hpp"
 #include "rt/files/owned_descriptor.hpp"
 #include "rt/memory/fixed_memory.hpp"
@@ -21,7 +21,7 @@ namespace terracut::send {
 struct UdpSenderConfig {
   net::Ipv4Endpoint to{};  ///< One address, a broadcast address or a multicast group.
   std::optional<net::Ipv4Endpoint> from{};  ///< Sent from here; else the system chooses.
-  std::string interface {};                 ///< Of multicast and broadcast; empty: by the routes.
+  std::string interface{};                  ///< Of multicast and broadcast; empty: by the routes.
 };
 
 /// failed datagrams were not sent: the system refused them (no route, interface down).
@@ -49,7 +49,7 @@ class UdpSender {
   /// Sends the payloads in this order, kBatch to a system call; stamps and addresses of the
   /// datagrams do not matter. Waits while the system's send buffer is full; returns how many were
   /// sent, the others are counted as failed.
-  std::size_t send(std::span<const decode::Datagram> datagrams) noexcept;
+  std::size_t send(std::span<const packet::Datagram> datagrams) noexcept;
 
   [[nodiscard]] const SendCounters& counters() const noexcept { return counters_; }
   [[nodiscard]] const net::Ipv4Endpoint& to() const noexcept { return to_; }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "random.hpp"
+#include "tools/lab/world/random.hpp"
 
 namespace terracut::simulator {
 namespace {
@@ -27,8 +27,8 @@ double off_plane_m(const world::Hit& hit, const Eigen::Vector3d& at, const Eigen
 
 SideLine side_line(const world::SightLine& axis, double half_width_rad,
                    std::uint64_t ray_key) noexcept {
-  const std::uint64_t key = mix_keys(ray_key, kBesideTheAxis);
-  Random random(key);
+  const std::uint64_t key = world::mix_keys(ray_key, kBesideTheAxis);
+  world::Random random(key);
   const double angle_rad = random.uniform(0, 2 * std::numbers::pi);
   const double aside = half_width_rad * std::sqrt(random.unit());  // evenly over the disc
   const double share = random.uniform(0.25, 1.0);

@@ -14,11 +14,11 @@
 #include <vector>
 
 #include "calib/beams/angle.hpp"
-#include "ego_motion.hpp"
 #include "object_index.hpp"
 #include "scan_head.hpp"
 #include "tools/lab/drive/firing_plan.hpp"
 #include "tools/lab/scenes/scene.hpp"
+#include "tools/lab/simulator/simulated_motion.hpp"
 
 namespace terracut::simulator {
 namespace {
@@ -70,7 +70,7 @@ class Drive {
         plan_(config.calibration, config.sensor.returns, config.spin_hz, frames),
         head_(config, scene.terrain, plan_),
         objects_{ObjectIndex(scene), ObjectIndex(scene)},
-        returns_(static_cast<std::size_t>(drive::returns_per_firing(config.sensor.returns))),
+        returns_(static_cast<std::size_t>(packets::returns_per_firing(config.sensor.returns))),
         columns_(static_cast<std::size_t>(kBatch) * returns_) {}
 
   Expected<SimulationSummary> run(const ColumnSink<EncoderTraits>& sink) {

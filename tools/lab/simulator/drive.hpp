@@ -16,7 +16,7 @@
 #include "firmware_io/vehicle/motion_sample.hpp"
 #include "rt/error.hpp"
 #include "sensor_effects.hpp"
-#include "tools/lab/drive/encoder_traits.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 
 namespace terracut::simulator {
 
@@ -99,9 +99,9 @@ template <class EncoderTraits>
 [[nodiscard]] Expected<std::function<mount::RigidTransform(std::int64_t)>> simulated_poses(
     const SimulationConfig<EncoderTraits>& config);
 
-using Hdl64eSimulation = SimulationConfig<encode::Hdl64eEncoderTraits>;
-using Ruby128Simulation = SimulationConfig<encode::Ruby128EncoderTraits>;
-using Hdl64eSimulatedColumn = SimulatedColumn<encode::Hdl64eEncoderTraits>;
-using Ruby128SimulatedColumn = SimulatedColumn<encode::Ruby128EncoderTraits>;
+using Hdl64eSimulation = SimulationConfig<packets::Hdl64eEncoderTraits>;
+using Ruby128Simulation = SimulationConfig<packets::Ruby128EncoderTraits>;
+using Hdl64eSimulatedColumn = SimulatedColumn<packets::Hdl64eEncoderTraits>;
+using Ruby128SimulatedColumn = SimulatedColumn<packets::Ruby128EncoderTraits>;
 
 }  // namespace terracut::simulator

@@ -11,7 +11,7 @@ namespace {
 constexpr double kHalfSeenSignal = 1.5e-6;  // Per square metre: half of such echoes are seen.
 constexpr double kSignalSpread = 0.35;      // Of the logarithm of the signal, around that.
 
-bool is_seen(double signal, Random& random) noexcept {
+bool is_seen(double signal, world::Random& random) noexcept {
   if (signal <= 0) return false;
   const double excess = std::log(signal / kHalfSeenSignal) / kSignalSpread;
   return random.chance(1.0 / (1.0 + std::exp(-excess)));
@@ -20,7 +20,7 @@ bool is_seen(double signal, Random& random) noexcept {
 }  // namespace
 
 std::optional<Echo> echo_from(const SensorEffects& effects, const world::Hit& hit,
-                              double cos_incidence, Random& random, double share) noexcept {
+                              double cos_incidence, world::Random& random, double share) noexcept {
   const world::MaterialProperties surface = world::properties(hit.material);
   const double signal = share * surface.reflectivity * cos_incidence / (hit.way_m * hit.way_m);
   if (effects.weak_drop && (random.chance(surface.drop_share) || !is_seen(signal, random))) {

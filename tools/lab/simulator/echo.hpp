@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "random.hpp"
 #include "sensor_effects.hpp"
 #include "tools/lab/world/hit.hpp"
+#include "tools/lab/world/random.hpp"
 
 namespace terracut::simulator {
 
@@ -26,7 +26,7 @@ struct Echo {
 /// not at 120 m: the ranges the maker gives for the HDL-64E (pavement 50 m, cars and foliage 120
 /// m).
 [[nodiscard]] std::optional<Echo> echo_from(const SensorEffects& effects, const world::Hit& hit,
-                                            double cos_incidence, Random& random,
+                                            double cos_incidence, world::Random& random,
                                             double share = 1) noexcept;
 
 }  // namespace terracut::simulator

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "random.hpp"
+#include "tools/lab/world/random.hpp"
 
 namespace terracut::simulator {
 namespace {
@@ -28,7 +28,7 @@ std::optional<double> way_to_leaf_m(const world::Shape& shape, const world::Chor
   if (shape.density_per_m == 0) {
     return chord.in_m >= 0 ? std::optional(chord.in_m) : std::nullopt;
   }
-  const double depth_m = -std::log(1.0 - unit_interval(leaf_key)) / shape.density_per_m;
+  const double depth_m = -std::log(1.0 - world::unit_interval(leaf_key)) / shape.density_per_m;
   return in_m + depth_m < chord.out_m ? std::optional(in_m + depth_m) : std::nullopt;
 }
 
@@ -114,7 +114,7 @@ std::optional<world::Hit> ObjectIndex::cast(const world::SightLine& line, double
       const world::Shape& shape = object.shapes[i];
       const std::optional<world::Chord> chord = world::intersect(shape, local);
       if (!chord || chord->in_m >= limit_m || chord->out_m <= 0) continue;
-      const std::uint64_t leaf_key = mix_keys(ray_key, mix_keys(object.key, i));
+      const std::uint64_t leaf_key = world::mix_keys(ray_key, world::mix_keys(object.key, i));
       const std::optional<double> way_m = way_to_leaf_m(shape, *chord, leaf_key);
       if (!way_m || *way_m >= limit_m) continue;
       limit_m = *way_m;

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "beam_spot.hpp"
-#include "firmware_io/decode/beam_azimuth.hpp"
+#include "firmware_io/packet/beam_azimuth.hpp"
 
 namespace terracut::simulator {
 namespace {
@@ -45,15 +45,15 @@ void ScanHead<EncoderTraits>::cast(const drive::Firing& firing,
     column.wire.stamp_ns = config_->start_ns + plan_->after_ns(firing.index);
     column.wire.unwrapped_azimuth_cdeg = firing.azimuth_cdeg;
   }
-  const drive::ReturnMode returns = config_->sensor.returns;
+  const packets::ReturnMode returns = config_->sensor.returns;
   for (int laser = 0; laser < EncoderTraits::kLasers; ++laser) {
     const std::int32_t offset_ticks =
         EncoderTraits::offset_ticks(offsets_, firing.step_ticks, laser, returns);
-    const std::int64_t frame = decode::beam_azimuth(firing.azimuth_cdeg, offset_ticks).frame;
+    const std::int64_t frame = packet::beam_azimuth(firing.azimuth_cdeg, offset_ticks).frame;
     if (!plan_->wants(frame)) continue;
-    const double azimuth_rad = decode::firing_azimuth_rad(
+    const double azimuth_rad = packet::firing_azimuth_rad(
         firing.azimuth_cdeg, EncoderTraits::advance_ticks(firing.step_ticks, laser, returns));
-    const std::uint64_t ray_key = mix_keys(
+    const std::uint64_t ray_key = world::mix_keys(
         config_->seed, static_cast<std::uint64_t>(firing.index * EncoderTraits::kLasers + laser));
     const beams::Ray ray = geometry_.ray(laser, azimuth_rad);
     const Beam beam{laser,
@@ -62,7 +62,7 @@ void ScanHead<EncoderTraits>::cast(const drive::Firing& firing,
                     to_eigen(ray.origin),
                     {ray.direction.x, ray.direction.y, ray.direction.z}};
     const Moment& moment = moments[static_cast<std::size_t>(frame % 2)];
-    if (returns == drive::ReturnMode::kDual) {
+    if (returns == packets::ReturnMode::kDual) {
       cast_dual(beam, moment, columns);
     } else {
       cast_single(beam, moment, columns.front());
@@ -93,7 +93,7 @@ auto ScanHead<EncoderTraits>::echo_of(const world::SightLine& line,
                                       double share) const -> std::optional<Sighting> {
   if (!hit) return std::nullopt;
   const double cos_incidence = std::min(1.0, std::abs(hit->normal.dot(line.direction)));
-  Random random(ray_key);
+  world::Random random(ray_key);
   const std::optional<Echo> echo = echo_from(config_->effects, *hit, cos_incidence, random, share);
   if (!echo) return std::nullopt;
   return Sighting{*hit, *echo, cos_incidence};

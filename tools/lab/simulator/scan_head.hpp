@@ -11,8 +11,8 @@
 #include "drive.hpp"
 #include "echo.hpp"
 #include "object_index.hpp"
-#include "tools/lab/drive/encoder_traits.hpp"
 #include "tools/lab/drive/firing_plan.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 #include "tools/lab/world/terrain.hpp"
 
 namespace terracut::simulator {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 
 namespace terracut::world {
 
@@ -19,7 +19,7 @@ namespace terracut::world {
     const auto j = static_cast<std::int64_t>(row + dy);
     const std::uint64_t cell =
         static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15U ^ static_cast<std::uint64_t>(j) << 32;
-    return 2.0 * simulator::unit_interval(simulator::scramble(seed ^ cell)) - 1.0;
+    return 2.0 * world::unit_interval(world::scramble(seed ^ cell)) - 1.0;
   };
   const double u = x - column;
   const double v = y - row;

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "cloud_file.hpp"
 #include "cloud_layout.hpp"
 #include "firmware_io/cloud/sensor_rows.hpp"
 #include "firmware_io/frame/range_image.hpp"
 #include "firmware_io/scan/ring_table.hpp"
 #include "rt/error.hpp"
 #include "tools/lab/encode/recorded_spin.hpp"
+#include "tools/research/datasets/labelled_scan.hpp"
 
 namespace terracut::datasets {
 

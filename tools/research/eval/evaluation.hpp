@@ -18,7 +18,7 @@
 #include "rt/error.hpp"
 #include "tools/research/datasets/class_table.hpp"
 #include "tools/research/datasets/dataset.hpp"
-#include "tools/research/report/changed_frames.hpp"
+#include "tools/research/eval/changed_frames.hpp"
 
 namespace terracut::eval {
 
@@ -43,7 +43,7 @@ struct EvaluationConfig {
   const datasets::ClassTable* classes = nullptr;
   std::filesystem::path predictions;  ///< Folder; empty: none are written.
   /// Is shown every frame that all methods label; may be null.
-  report::ChangedFrames* changed_frames = nullptr;
+  eval::ChangedFrames* changed_frames = nullptr;
 };
 
 /// Something that was not evaluated.

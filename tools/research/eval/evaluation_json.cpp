@@ -53,14 +53,14 @@ Json measures_json(const Quality& q) {
           {"f1", share(has_ground(q), statistics::f1_ground(q))}};
 }
 
-Json tall_json(const TallCounts& tall) {
+Json tall_json(const statistics::TallCounts& tall) {
   return {{"returns", tall.returns},
           {"as_ground", tall.as_ground},
           {"share", share(tall.returns > 0, static_cast<double>(tall.as_ground) /
                                                 static_cast<double>(tall.returns))}};
 }
 
-Json flips_json(const FlipCounts& flips) {
+Json flips_json(const statistics::FlipCounts& flips) {
   const auto of_returns = [&](std::uint64_t count) {
     return share(flips.returns > 0,
                  static_cast<double>(count) / static_cast<double>(flips.returns));
@@ -164,8 +164,8 @@ class MethodJson {
       json["pooled"][std::string(named.name)] =
           measures_json(statistics::quality_of(total_, classes_, named.scope));
     }
-    TallCounts tall;
-    FlipCounts flips;
+    statistics::TallCounts tall;
+    statistics::FlipCounts flips;
     for (const auto& [name, frames] : frames_) {
       tall += sum_of(std::span(frames), &FrameResult::tall);
       flips += sum_of(std::span(frames), &FrameResult::flips);
@@ -217,15 +217,15 @@ class MethodJson {
 
   [[nodiscard]] Json by_range(datasets::GroundDefinition ground) const {
     Json json = Json::object();
-    for (std::size_t band = 0; band < kRangeBands; ++band) {
-      json[std::string(kRangeBandNames[band])] =
+    for (std::size_t band = 0; band < statistics::kRangeBands; ++band) {
+      json[std::string(statistics::kRangeBandNames[band])] =
           measures_json(statistics::quality_of(total_, classes_, {.ground = ground, .band = band}));
     }
     return json;
   }
 
   [[nodiscard]] Json by_class() const {
-    std::map<std::uint16_t, LabelCounts> classes;
+    std::map<std::uint16_t, statistics::LabelCounts> classes;
     for (const auto& [key, labels] : total_.by_class_and_band()) classes[key.class_id] += labels;
     Json list = Json::array();
     for (const auto& [id, labels] : classes) {
@@ -287,7 +287,7 @@ class MethodJson {
             {"frames_realigned", realigned}};
   }
 
-  [[nodiscard]] Json frame_measures(const FrameCounts& counts) const {
+  [[nodiscard]] Json frame_measures(const statistics::FrameCounts& counts) const {
     const Quality all = statistics::quality_of(counts, classes_, {});
     const Quality road =
         statistics::quality_of(counts, classes_, {.ground = datasets::GroundDefinition::kRoad});
@@ -345,8 +345,8 @@ class MethodJson {
   const MethodChoice& method_;
   const datasets::ClassTable& classes_;
   BySequence frames_;
-  std::map<std::string, FrameCounts> counts_;  ///< By sequence.
-  FrameCounts total_;
+  std::map<std::string, statistics::FrameCounts> counts_;  ///< By sequence.
+  statistics::FrameCounts total_;
 };
 
 std::string_view role_name(datasets::Role role) {

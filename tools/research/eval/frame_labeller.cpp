@@ -68,7 +68,8 @@ void FrameLabeller::count(FrameResult& result) const {
     if (labels_[i] == Label::kNone) continue;
     const ScanPoint& point = scan_->points[i];
     result.counts.add(scan::semantic_class(scan_->labels[i]),
-                      range_band(std::hypot(double{point.x_m}, double{point.y_m})), labels_[i]);
+                      statistics::range_band(std::hypot(double{point.x_m}, double{point.y_m})),
+                      labels_[i]);
   }
 }
 

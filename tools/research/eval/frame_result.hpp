@@ -8,8 +8,8 @@
 #include <map>
 #include <string>
 
-#include "frame_counts.hpp"
 #include "pipeline/stage/stage.hpp"
+#include "tools/research/statistics/frame_counts.hpp"
 
 namespace terracut::eval {
 
@@ -30,9 +30,10 @@ struct FrameTimes {
 
 /// What came of one frame under one method.
 struct FrameResult {
-  FrameCounts counts;
-  TallCounts tall;
-  FlipCounts flips;          ///< Zero where the frame before, or the motion since, is not known.
+  statistics::FrameCounts counts;
+  statistics::TallCounts tall;
+  statistics::FlipCounts
+      flips;                 ///< Zero where the frame before, or the motion since, is not known.
   std::uint64_t points = 0;  ///< Of the file.
   std::uint64_t non_finite = 0;  ///< Of them, no place: not labelled, count nowhere.
   std::uint64_t no_ring = 0;     ///< Of them, of no laser that could be told: called obstacle.

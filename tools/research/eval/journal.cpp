@@ -85,7 +85,7 @@ Status check_header(const std::filesystem::path& path, const std::string& line,
                   path.string(), words_missing(found, settings), words_missing(settings, found)));
 }
 
-Json counts_json(const FrameCounts& counts) {
+Json counts_json(const statistics::FrameCounts& counts) {
   Json list = Json::array();
   for (const auto& [key, labels] : counts.by_class_and_band()) {
     list.push_back({key.class_id, key.band, labels.ground, labels.obstacle, labels.other_ground});
@@ -93,8 +93,8 @@ Json counts_json(const FrameCounts& counts) {
   return list;
 }
 
-FrameCounts counts_of(const Json& list) {
-  FrameCounts counts;
+statistics::FrameCounts counts_of(const Json& list) {
+  statistics::FrameCounts counts;
   for (const Json& entry : list) {
     counts.add({entry.at(0).get<std::uint16_t>(), entry.at(1).get<std::uint8_t>()},
                {entry.at(2).get<std::uint64_t>(), entry.at(3).get<std::uint64_t>(),

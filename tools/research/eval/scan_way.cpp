@@ -8,8 +8,8 @@
 #include <utility>
 
 #include "rt/measure/thread_cpu_clock.hpp"
-#include "tools/lab/encode/hdl64e_packet_encoder.hpp"
 #include "tools/lab/encode/scan_encoder.hpp"
+#include "tools/lab/packets/hdl64e_packet_encoder.hpp"
 
 namespace terracut::eval {
 
@@ -51,7 +51,7 @@ Status PacketWay::encode(std::span<const scan::ScanPoint> points,
   const auto send = [&] {
     hdl64e::wire::Packet packet = hdl64e::blank_packet();
     const std::span<const FiringColumn, kColumns> whole(columns.data(), kColumns);
-    encode::encode_hdl64e_packet(whole, encode::packet_end_ns(whole), {}, packet);
+    packets::encode_hdl64e_packet(whole, packets::packet_end_ns(whole), {}, packet);
     const auto bytes = hdl64e::payload_of(packet);
     packets_.emplace_back(bytes.begin(), bytes.end());
     columns.clear();

@@ -23,7 +23,7 @@
 #include "result_keeper.hpp"
 #include "rt/measure/thread_cpu_clock.hpp"
 #include "rt/threads/thread_setup.hpp"
-#include "tools/cli/temporary_folder.hpp"
+#include "tools/cli/files/temporary_folder.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 #include "tools/lab/scenes/scene_names.hpp"
 #include "tools/lab/simulator/drive.hpp"
@@ -32,8 +32,8 @@ namespace terracut::eval {
 namespace {
 
 namespace fs = std::filesystem;
-using drive::ReturnMode;
 using frame::FrameInfo;
+using packets::ReturnMode;
 
 constexpr double kSpin_hz = 10;
 
@@ -174,10 +174,10 @@ class DriveEvaluation {
   }
 
   void count(const frame::RangeImage& image, std::span<const frame::Label> labels,
-             FrameCounts& counts) const {
+             statistics::FrameCounts& counts) const {
     frame::for_each_return(image, [&](const frame::PlacedReturn& placed) {
       counts.add(scan::semantic_class(truth_[placed.return_index]),
-                 range_band(placed.point.ground_range_m), labels[placed.return_index]);
+                 statistics::range_band(placed.point.ground_range_m), labels[placed.return_index]);
     });
   }
 
@@ -255,7 +255,7 @@ class Run {
     if (!simulated) return tl::unexpected(simulated.error());
     if (!*simulated) return {};
 
-    const int columns = drive::image_columns<EncoderTraits>(kSpin_hz, returns());
+    const int columns = packets::image_columns<EncoderTraits>(kSpin_hz, returns());
     mount::Mount mount = config_.mount;
     if (config_.find_mount) {
       const auto found = mount_of(capture, calibration, columns);
@@ -328,7 +328,7 @@ Expected<EvaluationOutcome> evaluate_simulated(const SimulatedConfig& config, Jo
   if (const Status checked = check_scenes(config.drives.scenes); !checked) {
     return tl::unexpected(checked.error());
   }
-  return drive::with_encoder_traits(config.drives.sensor, [&](auto traits) {
+  return packets::with_encoder_traits(config.drives.sensor, [&](auto traits) {
     return Run<decltype(traits)>(config, journal, progress, stop_wanted).run();
   });
 }

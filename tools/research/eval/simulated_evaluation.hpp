@@ -11,7 +11,7 @@
 
 #include "calib/mount/mount.hpp"
 #include "evaluation.hpp"
-#include "firmware_io/sensor/sensor_model.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
 #include "journal.hpp"
 #include "method_choice.hpp"
 #include "rt/error.hpp"
@@ -34,7 +34,7 @@ struct SimulatedConfig {
   mount::Mount mount;       ///< That the drives have.
   bool find_mount = false;  ///< Labels by what the drive's first frames show of it, not by `mount`.
   std::filesystem::path predictions;  ///< As EvaluationConfig::predictions: a label a return.
-  report::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
+  eval::ChangedFrames* changed_frames = nullptr;  ///< As EvaluationConfig::changed_frames.
 };
 
 /// Both from the calling thread or another, one at a time.

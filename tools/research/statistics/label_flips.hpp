@@ -13,7 +13,7 @@
 #include "firmware_io/scan/kitti_scan.hpp"
 #include "firmware_io/scan/sensor_motion.hpp"
 #include "tools/research/datasets/class_table.hpp"
-#include "tools/research/eval/frame_counts.hpp"
+#include "tools/research/statistics/frame_counts.hpp"
 
 namespace terracut::statistics {
 
@@ -30,7 +30,8 @@ class LabelFlips {
   void look_at(const scan::KittiScan& scan, const std::optional<scan::RigidMotion>& before_this);
 
   /// By one method, a label a point of the frame looked at last.
-  [[nodiscard]] eval::FlipCounts count(std::size_t method, std::span<const frame::Label> labels);
+  [[nodiscard]] statistics::FlipCounts count(std::size_t method,
+                                             std::span<const frame::Label> labels);
 
  private:
   static constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();

@@ -7,14 +7,14 @@ namespace {
 
 /// `labels_of(entry, counts)`: the labels to score instead of those counted.
 template <class LabelsOf>
-quality::Quality score(const eval::FrameCounts& counts, const datasets::ClassTable& classes,
+quality::Quality score(const statistics::FrameCounts& counts, const datasets::ClassTable& classes,
                        const Scope& scope, LabelsOf&& labels_of) {
   quality::Quality quality;
   for (const auto& [key, counted] : counts.by_class_and_band()) {
     const datasets::ClassEntry* const entry = classes.find(key.class_id);
     if (entry == nullptr || (entry->vegetation && !scope.vegetation)) continue;
     if (scope.band && *scope.band != key.band) continue;
-    const eval::LabelCounts labels = labels_of(*entry, counted);
+    const statistics::LabelCounts labels = labels_of(*entry, counted);
     quality.add(entry->role(scope.ground), labels.ground, labels.obstacle);
   }
   return quality;
@@ -22,34 +22,35 @@ quality::Quality score(const eval::FrameCounts& counts, const datasets::ClassTab
 
 }  // namespace
 
-quality::Quality quality_of(const eval::FrameCounts& counts, const datasets::ClassTable& classes,
-                            const Scope& scope) {
-  return score(counts, classes, scope, [&](const datasets::ClassEntry&, eval::LabelCounts counted) {
-    if (scope.ground == datasets::GroundDefinition::kRoad) {
-      counted.ground -= counted.other_ground;
-      counted.obstacle += counted.other_ground;
-    }
-    return counted;
-  });
-}
-
-quality::Quality everything_ground(const eval::FrameCounts& counts,
-                                   const datasets::ClassTable& classes, const Scope& scope) {
+quality::Quality quality_of(const statistics::FrameCounts& counts,
+                            const datasets::ClassTable& classes, const Scope& scope) {
   return score(counts, classes, scope,
-               [](const datasets::ClassEntry&, const eval::LabelCounts& counted) {
-                 return eval::LabelCounts{counted.ground + counted.obstacle, 0};
+               [&](const datasets::ClassEntry&, statistics::LabelCounts counted) {
+                 if (scope.ground == datasets::GroundDefinition::kRoad) {
+                   counted.ground -= counted.other_ground;
+                   counted.obstacle += counted.other_ground;
+                 }
+                 return counted;
                });
 }
 
-quality::Quality perfect_ground(const eval::FrameCounts& counts,
+quality::Quality everything_ground(const statistics::FrameCounts& counts,
+                                   const datasets::ClassTable& classes, const Scope& scope) {
+  return score(counts, classes, scope,
+               [](const datasets::ClassEntry&, const statistics::LabelCounts& counted) {
+                 return statistics::LabelCounts{counted.ground + counted.obstacle, 0};
+               });
+}
+
+quality::Quality perfect_ground(const statistics::FrameCounts& counts,
                                 const datasets::ClassTable& classes, const Scope& scope) {
   return score(counts, classes, scope,
-               [&](const datasets::ClassEntry& entry, const eval::LabelCounts& counted) {
+               [&](const datasets::ClassEntry& entry, const statistics::LabelCounts& counted) {
                  datasets::Role truth = entry.role(datasets::GroundDefinition::kAll);
                  if (truth == datasets::Role::kIgnored) truth = entry.role(scope.ground);
                  const std::uint64_t points = counted.ground + counted.obstacle;
-                 return truth == datasets::Role::kGround ? eval::LabelCounts{points, 0}
-                                                         : eval::LabelCounts{0, points};
+                 return truth == datasets::Role::kGround ? statistics::LabelCounts{points, 0}
+                                                         : statistics::LabelCounts{0, points};
                });
 }
 

@@ -6,7 +6,7 @@
 
 #include "tools/lab/quality/quality.hpp"
 #include "tools/research/datasets/class_table.hpp"
-#include "tools/research/eval/frame_counts.hpp"
+#include "tools/research/statistics/frame_counts.hpp"
 
 namespace terracut::statistics {
 
@@ -19,17 +19,17 @@ struct Scope {
 
 /// The counts as the class table sees them. Classes it does not know count nowhere. Under kRoad
 /// ground that was told to be no road surface counts as called obstacle.
-[[nodiscard]] quality::Quality quality_of(const eval::FrameCounts& counts,
+[[nodiscard]] quality::Quality quality_of(const statistics::FrameCounts& counts,
                                           const datasets::ClassTable& classes, const Scope& scope);
 
 /// What the same points would score if every one were called ground.
-[[nodiscard]] quality::Quality everything_ground(const eval::FrameCounts& counts,
+[[nodiscard]] quality::Quality everything_ground(const statistics::FrameCounts& counts,
                                                  const datasets::ClassTable& classes,
                                                  const Scope& scope);
 /// What a detector would score that finds all physical ground (GroundDefinition::kAll) and nothing
 /// else: under kRoad, the ceiling of everything that does not see kerbs. Points ignored under kAll
 /// are taken as found correctly.
-[[nodiscard]] quality::Quality perfect_ground(const eval::FrameCounts& counts,
+[[nodiscard]] quality::Quality perfect_ground(const statistics::FrameCounts& counts,
                                               const datasets::ClassTable& classes,
                                               const Scope& scope);
 

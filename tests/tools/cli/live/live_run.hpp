@@ -145,7 +145,7 @@ class Sensors {
         continue;
       }
       if (packets % kLookEvery_packets == 0) held_back_ns += hold_back();
-      decode::Datagram datagram = **next;
+      packet::Datagram datagram = **next;
       datagram.stamp_ns = stamps.place(datagram.stamp_ns) + held_back_ns;
       for (Sender& sender : senders_) {
         const bool is_its = sender.recorded_port == datagram.destination_port;

@@ -19,14 +19,14 @@
 #include "tools/cli/view/played_capture.hpp"
 #include "tools/cli/view/played_clouds.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
+#include "tools/lab/packets/velodyne_encoder_traits.hpp"
 #include "tools/lab/simulator/drive.hpp"
-#include "tools/lab/velodyne/velodyne_encoder_traits.hpp"
 
 namespace terracut::cli {
 namespace {
 
 using testing::ElementsAre;
-using Traits = velodyne::Vlp16EncoderTraits;
+using Traits = packets::Vlp16EncoderTraits;
 
 constexpr double kFrame_s = 0.1;
 
@@ -66,7 +66,7 @@ class CapturePlayerTest : public testing::Test {
     ASSERT_TRUE(writer);
     std::int64_t first_ns = 0;
     while (const auto next = *source->next()) {
-      decode::Datagram datagram = *next;
+      packet::Datagram datagram = *next;
       if (first_ns == 0) first_ns = datagram.stamp_ns;
       if (datagram.stamp_ns - first_ns > 400'000'000) datagram.stamp_ns -= 60'000'000'000;
       ASSERT_TRUE(writer->write(datagram));

@@ -68,7 +68,7 @@ class DriveRoundTrip : public testing::Test {
     std::ifstream file(folder / "drive.truth" / name, std::ios::binary);
     EXPECT_TRUE(file) << name;
     std::vector<std::uint32_t> labels;
-    decode::Le32 label{};
+    packet::Le32 label{};
     while (file.read(reinterpret_cast<char*>(label.bytes.data()), 4)) {
       labels.push_back(label.value());
     }
@@ -76,11 +76,11 @@ class DriveRoundTrip : public testing::Test {
   }
 
   /// Reads the drive as anybody would and holds each frame against its truth file.
-  void expect_truth_fits(const DriveSummary& written, ReturnMode returns, double spin_hz) {
+  void expect_truth_fits(const DriveSummary& written, packets::ReturnMode returns, double spin_hz) {
     const auto calibration = test::table_beside<Written>(pcap());
     ASSERT_TRUE(calibration) << calibration.error().message;
     decode::Decoder::Config config;
-    config.columns = image_columns<Written>(spin_hz, returns);
+    config.columns = packets::image_columns<Written>(spin_hz, returns);
     memory::FixedMemory memory;
     decode::Decoder decoder(*calibration, {}, config, memory);
     std::uint64_t frames = 0, arrived = 0;
@@ -106,7 +106,7 @@ class DriveRoundTrip : public testing::Test {
       if (!*datagram) break;
       ASSERT_EQ(test::decode(decoder, **datagram, on_frame), std::nullopt);
     }
-    EXPECT_EQ(decoder.dual_return(), returns == ReturnMode::kDual);
+    EXPECT_EQ(decoder.dual_return(), returns == packets::ReturnMode::kDual);
     EXPECT_EQ(decoder.packets_decoded(), written.packets);
     test::end_stream(decoder, on_frame);
     EXPECT_EQ(decoder.losses().network_gap_packets, 0U);
@@ -121,16 +121,17 @@ class DriveRoundTrip : public testing::Test {
   fs::path folder;
 };
 
-using Sensors = testing::Types<encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits,
-                               velodyne::Vlp16EncoderTraits, velodyne::Hdl32eEncoderTraits,
-                               velodyne::Vlp32cEncoderTraits, velodyne::Vls128EncoderTraits>;
+using Sensors = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits,
+                               packets::Vlp16EncoderTraits, packets::Hdl32eEncoderTraits,
+                               packets::Vlp32cEncoderTraits, packets::Vls128EncoderTraits>;
 TYPED_TEST_SUITE(DriveRoundTrip, Sensors);
 
 TYPED_TEST(DriveRoundTrip, TheNthTruthEntryIsTheNthReturnDecodedInEveryModeAtEverySpin) {
   using EncoderTraits = TypeParam;
-  for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
+  for (const packets::ReturnMode returns :
+       {packets::ReturnMode::kSingle, packets::ReturnMode::kDual}) {
     for (const double spin_hz : {5.0, 10.0, 20.0}) {
-      SCOPED_TRACE(std::to_string(returns_per_firing(returns)) + " returns at " +
+      SCOPED_TRACE(std::to_string(packets::returns_per_firing(returns)) + " returns at " +
                    std::to_string(spin_hz) + " Hz");
       const auto columns = test::random_columns<EncoderTraits>(
           {.returns = returns, .spin_hz = spin_hz, .share_of_returns = 0.3});
@@ -149,14 +150,14 @@ TYPED_TEST(DriveRoundTrip, SeamsFallOnAnyPlaceOfAGroup) {
   using EncoderTraits = TypeParam;
   for (std::uint32_t seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
-    const auto columns = test::random_columns<EncoderTraits>({.returns = ReturnMode::kDual,
+    const auto columns = test::random_columns<EncoderTraits>({.returns = packets::ReturnMode::kDual,
                                                               .spin_hz = 9.7 + 0.13 * seed,
                                                               .first_cdeg = 34'900 + 7.0 * seed,
                                                               .last_cdeg = 37'100,
                                                               .share_of_returns = 0.9,
                                                               .seed = seed});
-    const auto written = this->write(columns, {.returns = ReturnMode::kDual});
-    this->expect_truth_fits(written, ReturnMode::kDual, 10);
+    const auto written = this->write(columns, {.returns = packets::ReturnMode::kDual});
+    this->expect_truth_fits(written, packets::ReturnMode::kDual, 10);
   }
 }
 
@@ -182,12 +183,12 @@ TYPED_TEST(DriveRoundTrip, ColumnsThatFillNoPacketAreRefusedAtTheEnd) {
   EXPECT_EQ(finished.error().code, ErrorCode::kInvalidArgument);
 }
 
-using Ruby128Drive = DriveRoundTrip<encode::Ruby128EncoderTraits>;
+using Ruby128Drive = DriveRoundTrip<packets::Ruby128EncoderTraits>;
 
 TEST_F(Ruby128Drive, SendsADevicePacketFirstAndThenOnceASecond) {
-  const auto columns = test::random_columns<encode::Ruby128EncoderTraits>(
+  const auto columns = test::random_columns<packets::Ruby128EncoderTraits>(
       {.first_cdeg = 0, .last_cdeg = 36'000.0 * 21, .share_of_returns = 0});
-  encode::Ruby128EncoderTraits::Config config;
+  packets::Ruby128EncoderTraits::Config config;
   config.unit = {.rpm = 601, .serial = {1, 2, 3, 4, 5, 6}};
   write(columns, config);
   auto source = capture::PcapSource::open(pcap());
@@ -231,9 +232,10 @@ TEST_F(Ruby128Drive, AnyEncodingOfTheStampsIsUnderstoodFromTheFirstPacketOn) {
   for (const ruby128::RubyTimestamp timestamp :
        {ruby128::RubyTimestamp::kCalendar, ruby128::RubyTimestamp::kUtcMicroseconds,
         ruby128::RubyTimestamp::kUtcNanoseconds}) {
-    for (const ReturnMode returns : {ReturnMode::kSingle, ReturnMode::kDual}) {
+    for (const packets::ReturnMode returns :
+         {packets::ReturnMode::kSingle, packets::ReturnMode::kDual}) {
       SCOPED_TRACE(to_string(timestamp));
-      const auto columns = test::random_columns<encode::Ruby128EncoderTraits>(
+      const auto columns = test::random_columns<packets::Ruby128EncoderTraits>(
           {.returns = returns, .last_cdeg = 37'100});
       const auto written = write(columns, {.returns = returns, .timestamp = timestamp});
       expect_truth_fits(written, returns, 10);

@@ -57,7 +57,7 @@ class DriveWriterTest : public testing::Test {
     std::ifstream file(folder / "drive.truth" / name, std::ios::binary);
     EXPECT_TRUE(file) << name;
     std::vector<std::uint32_t> labels;
-    decode::Le32 label{};
+    packet::Le32 label{};
     while (file.read(reinterpret_cast<char*>(label.bytes.data()), 4)) {
       labels.push_back(label.value());
     }
@@ -127,7 +127,7 @@ TEST_F(DriveWriterTest, OneRevolutionIsOneFrame) {
         hdl64e::column_step_ticks(beams::wrap_cdeg(firings[packet].unwrapped_azimuth_cdeg),
                                   beams::wrap_cdeg(firings[packet + 5].unwrapped_azimuth_cdeg));
     for (int i = 0; i < 64; ++i) {
-      if (decode::beam_azimuth(firings[n].unwrapped_azimuth_cdeg,
+      if (packet::beam_azimuth(firings[n].unwrapped_azimuth_cdeg,
                                offsets.offset_ticks(step_ticks, i))
               .frame != 1) {
         firings[n].by_laser[static_cast<std::size_t>(i)] = {};

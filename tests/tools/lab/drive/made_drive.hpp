@@ -7,7 +7,7 @@
 #include <type_traits>
 
 #include "tools/lab/drive/drive_files.hpp"
-#include "tools/lab/drive/encoder_traits.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 
 /// Drives that were made, as whoever reads them finds them.
 namespace terracut::test {
@@ -24,8 +24,8 @@ Expected<typename EncoderTraits::Calibration> table_beside(const std::filesystem
 
 template <class EncoderTraits>
 constexpr std::uint16_t data_port() {
-  return std::is_same_v<EncoderTraits, encode::Ruby128EncoderTraits> ? ruby128::kRubyDataPort
-                                                                     : hdl64e::kHdl64eDataPort;
+  return std::is_same_v<EncoderTraits, packets::Ruby128EncoderTraits> ? ruby128::kRubyDataPort
+                                                                      : hdl64e::kHdl64eDataPort;
 }
 
 }  // namespace terracut::test

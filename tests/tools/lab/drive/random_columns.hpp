@@ -7,12 +7,12 @@
 #include <random>
 #include <vector>
 
-#include "tools/lab/drive/encoder_traits.hpp"
+#include "tools/lab/packets/encoder_traits.hpp"
 
 namespace terracut::test {
 
 struct RandomColumns {
-  drive::ReturnMode returns = drive::ReturnMode::kSingle;
+  packets::ReturnMode returns = packets::ReturnMode::kSingle;
   double spin_hz = 10;
   double first_cdeg = 34'900;                ///< Head azimuth of the first firing.
   double last_cdeg = 37'100 + 2.0 * 36'000;  ///< No group of firings begins beyond.
@@ -38,7 +38,7 @@ std::vector<typename EncoderTraits::Column> random_columns(const RandomColumns& 
   for (std::int64_t firing = 0;; ++firing) {
     const double rotor_cdeg = settings.first_cdeg + static_cast<double>(firing) * step_cdeg;
     if (rotor_cdeg > settings.last_cdeg && firing % group == 0) return columns;
-    for (int i = 0; i < drive::returns_per_firing(settings.returns); ++i) {
+    for (int i = 0; i < packets::returns_per_firing(settings.returns); ++i) {
       auto& column = columns.emplace_back();
       column.stamp_ns = settings.first_stamp_ns + firing * firing_ns;
       column.unwrapped_azimuth_cdeg = std::llround(rotor_cdeg);

@@ -95,7 +95,7 @@ TEST(ScanDrive, WritesCaptureCalibrationAndTruthOfEveryScan) {
   EXPECT_GT(std::filesystem::file_size(pcap), report->drive.packets * 1206);
 
   const auto calibration =
-      hdl64e::read_hdl64e_xml(drive::calibration_path_of<Hdl64eEncoderTraits>(pcap));
+      hdl64e::read_hdl64e_xml(drive::calibration_path_of<packets::Hdl64eEncoderTraits>(pcap));
   ASSERT_TRUE(calibration) << calibration.error().message;
   EXPECT_EQ(fingerprint(*calibration), fingerprint(report->calibration));
   for (std::uint32_t frame = 0; frame < 2; ++frame) {

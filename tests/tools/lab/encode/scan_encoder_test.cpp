@@ -94,10 +94,10 @@ class RoundTrip {
     EXPECT_EQ(labelled.truth, source.point);
     EXPECT_EQ(seen_[frame][source.point]++, 0) << "a point encoded twice";
     const auto column = firing.column.unwrapped_azimuth_cdeg;
-    const auto beam = decode::beam_azimuth(column, offsets.offset_ticks(step, laser));
+    const auto beam = packet::beam_azimuth(column, offsets.offset_ticks(step, laser));
     EXPECT_EQ(beam.frame, source.frame + 1) << "a return in another frame than its scan's";
     const double head =
-        decode::firing_azimuth_rad(column, hdl64e::firing_advance_ticks(step, laser));
+        packet::firing_azimuth_rad(column, hdl64e::firing_advance_ticks(step, laser));
     const beams::Point hit = geometry_.point(laser, head, labelled.raw);
     const scan::ScanPoint& p = scans_[frame][source.point];
     const double range =

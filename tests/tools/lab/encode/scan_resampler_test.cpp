@@ -50,7 +50,7 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
   const scan::ScratchFolder folder;
   write_ground(folder, 2);
   const auto pcap = folder.path() / "drive.pcap";
-  ResampleOptions<Ruby128EncoderTraits> options;
+  ResampleOptions<packets::Ruby128EncoderTraits> options;
   std::size_t progress = 0;
   options.on_scan = [&](std::size_t done, std::size_t of) {
     progress = done;
@@ -58,7 +58,7 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
     return Status{};
   };
   const auto report =
-      resample_scan_folder<Ruby128EncoderTraits>(folder.path() / "scans", pcap, options);
+      resample_scan_folder<packets::Ruby128EncoderTraits>(folder.path() / "scans", pcap, options);
   ASSERT_TRUE(report) << report.error().message;
   EXPECT_EQ(progress, 2U);
   EXPECT_EQ(report->drive.frames, 2U);
@@ -102,8 +102,8 @@ TEST(ScanResampler, AFolderBecomesADriveOfOneFrameAScan) {
 
 template <class EncoderTraits>
 class VelodyneResampled : public testing::Test {};
-using Velodynes = testing::Types<velodyne::Vlp16EncoderTraits, velodyne::Hdl32eEncoderTraits,
-                                 velodyne::Vlp32cEncoderTraits, velodyne::Vls128EncoderTraits>;
+using Velodynes = testing::Types<packets::Vlp16EncoderTraits, packets::Hdl32eEncoderTraits,
+                                 packets::Vlp32cEncoderTraits, packets::Vls128EncoderTraits>;
 TYPED_TEST_SUITE(VelodyneResampled, Velodynes);
 
 TYPED_TEST(VelodyneResampled, SeesTheGroundOfTheScanWhereItLies) {
@@ -142,7 +142,8 @@ TEST(ScanResampler, SaysByItsSerialNumberThatTheDriveIsNotRecorded) {
   const scan::ScratchFolder folder;
   write_ground(folder, 1);
   const auto pcap = folder.path() / "drive.pcap";
-  ASSERT_TRUE(resample_scan_folder<Ruby128EncoderTraits>(folder.path() / "scans", pcap, {}));
+  ASSERT_TRUE(
+      resample_scan_folder<packets::Ruby128EncoderTraits>(folder.path() / "scans", pcap, {}));
   auto source = capture::PcapSource::open(pcap, {.port = ruby128::kRubyDevicePort});
   ASSERT_TRUE(source);
   const auto datagram = source->next();
@@ -156,8 +157,8 @@ TEST(ScanResampler, LeavesNothingWhenAScanIsRefused) {
   const scan::ScratchFolder folder;
   write_ground(folder, 1);
   folder.write("scans/velodyne/000001.bin", "seven b");
-  const auto report = resample_scan_folder<Ruby128EncoderTraits>(folder.path() / "scans",
-                                                                 folder.path() / "drive.pcap", {});
+  const auto report = resample_scan_folder<packets::Ruby128EncoderTraits>(
+      folder.path() / "scans", folder.path() / "drive.pcap", {});
   ASSERT_FALSE(report);
   EXPECT_THAT(report.error().message, testing::HasSubstr("000001.bin"));
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "drive.pcap"));
@@ -172,12 +173,12 @@ TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
     ASSERT_TRUE(reader) << reader.error().message;
     ASSERT_TRUE(reader->fit_rings());
     const ruby128::Ruby128Calibration unit = ruby128::nominal_ruby128();
-    ScanResampler<Ruby128EncoderTraits> resampler(unit);
+    ScanResampler<packets::Ruby128EncoderTraits> resampler(unit);
     scan::KittiScan scan;
     std::vector<frame::Ruby128Column> columns;
     const auto rays = resampler.run(
         1, 0,
-        [&](std::int64_t, ScanResampler<Ruby128EncoderTraits>::Frame& into) {
+        [&](std::int64_t, ScanResampler<packets::Ruby128EncoderTraits>::Frame& into) {
           const Status status = reader->read(0, into.scan, into.rings);
           scan = into.scan;
           return status;
@@ -209,15 +210,16 @@ TEST(RecordedScans, ResampledReturnsLieBesideRecordedOnes) {
     const ruby128::Ruby128Geometry geometry(unit);
     std::size_t beside = 0;
     for (std::size_t i = 0; i < columns.size(); ++i) {
-      drive::GroupAzimuths rotor;
+      packets::GroupAzimuths rotor;
       for (std::size_t k = 0; k < 3; ++k) {
         rotor.cdeg[k] = beams::wrap_cdeg(columns[i - i % 3 + k].unwrapped_azimuth_cdeg);
       }
-      const auto step = Ruby128EncoderTraits::step_ticks(rotor, 0, drive::ReturnMode::kSingle);
+      const auto step =
+          packets::Ruby128EncoderTraits::step_ticks(rotor, 0, packets::ReturnMode::kSingle);
       for (int c = 0; c < ruby128::kRuby128Lasers; ++c) {
         const auto raw = columns[i].by_laser[static_cast<std::size_t>(c)].raw;
         if (raw == 0) continue;
-        const double rotor_rad = decode::firing_azimuth_rad(columns[i].unwrapped_azimuth_cdeg,
+        const double rotor_rad = packet::firing_azimuth_rad(columns[i].unwrapped_azimuth_cdeg,
                                                             ruby128::ruby_advance_ticks(step, c));
         const beams::Point at = geometry.point(c, rotor_rad, raw);
         beside += held.contains(cell(at.x_m, at.y_m, at.z_m)) ? 1 : 0;

@@ -9,7 +9,7 @@
 #include <cmath>
 #include <set>
 
-#include "tools/lab/simulator/ego_motion.hpp"
+#include "tools/lab/simulator/simulated_motion.hpp"
 
 namespace terracut::scenes {
 namespace {

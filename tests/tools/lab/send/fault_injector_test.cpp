@@ -11,7 +11,7 @@
 namespace terracut::test {
 namespace {
 
-using decode::Datagram;
+using packet::Datagram;
 using send::FaultInjector;
 using send::FaultOutcome;
 using testing::ElementsAre;

@@ -4,10 +4,10 @@
 // decoder. What the receiver counts must be what the script says it did, to the packet.
 #include <gmock/gmock.h>
 
-#include "firmware_io/net/device_stamp_shift.hpp"
 #include "tests/firmware_io/hdl64e/random_drive.hpp"
 #include "tests/firmware_io/net/wire.hpp"
 #include "tests/support/hand_out.hpp"
+#include "tools/lab/send/device_stamp_shift.hpp"
 #include "tools/lab/send/fault_injector.hpp"
 #include "tools/lab/send/packet_pacer.hpp"
 
@@ -35,10 +35,10 @@ class FaultsToDecoder : public LiveTest {
     send::PacketPacer pacer(1, memory_);
     FaultInjector injector(
         *send::parse_fault_script(script),
-        [&](const decode::Datagram& datagram, FaultInjector::Origin origin) {
+        [&](const packet::Datagram& datagram, FaultInjector::Origin origin) {
           pacer.add(datagram, origin == FaultInjector::Origin::kForeign ? stranger : sensor);
         },
-        net::DeviceStampShift());
+        send::DeviceStampShift());
 
     Result result;
     std::vector<Received> received;

@@ -65,7 +65,7 @@ TEST_F(UdpSenderTest, CountsWhatTheSystemRefusesAndSendsTheRest) {
   auto source = open();
   auto sender = sender_to(source);
   Numbered small(4), too_large(1, 70'000);
-  std::vector<decode::Datagram> mixed = small.datagrams();
+  std::vector<packet::Datagram> mixed = small.datagrams();
   mixed.insert(mixed.begin() + 2, too_large.datagrams().front());
   EXPECT_EQ(sender.send(mixed), 4U);
   EXPECT_EQ(sender.counters().sent, 4U);

@@ -149,7 +149,7 @@ TEST(Drive, WireValuesDecodeToTheExactPointsWithinTheirRounding) {
         const frame::LabelledReturn& wire = columns[first + i].wire.by_laser[l];
         if (wire.raw == 0) continue;
         const double azimuth_rad =
-            decode::firing_azimuth_rad(wrapped(i), hdl64e::firing_advance_ticks(step_ticks, laser));
+            packet::firing_azimuth_rad(wrapped(i), hdl64e::firing_advance_ticks(step_ticks, laser));
         const beams::Point decoded = geometry.point(laser, azimuth_rad, wire.raw);
         const beams::Point& exact = columns[first + i].exact[l];
         worst_m = std::max(worst_m, std::hypot(decoded.x_m - exact.x_m, decoded.y_m - exact.y_m,
@@ -208,7 +208,7 @@ TEST(Drive, EveryLaserSeesWholeFramesAndNothingOutsideOfThem) {
     const std::int32_t step_ticks =
         hdl64e::column_step_ticks(beams::wrap_cdeg(columns[first].wire.unwrapped_azimuth_cdeg),
                                   beams::wrap_cdeg(columns[first + 5].wire.unwrapped_azimuth_cdeg));
-    const auto beam = decode::beam_azimuth(column.wire.unwrapped_azimuth_cdeg,
+    const auto beam = packet::beam_azimuth(column.wire.unwrapped_azimuth_cdeg,
                                            offsets.offset_ticks(step_ticks, laser));
     ASSERT_GE(beam.frame, 0);
     ASSERT_LT(beam.frame, 2);

@@ -32,7 +32,7 @@ std::vector<SimulatedColumn<EncoderTraits>> drive(const SimulationConfig<Encoder
 }
 
 template <class EncoderTraits>
-SimulationConfig<EncoderTraits> one_frame(const std::string& scene, drive::ReturnMode returns) {
+SimulationConfig<EncoderTraits> one_frame(const std::string& scene, packets::ReturnMode returns) {
   SimulationConfig<EncoderTraits> config;
   config.scene = scene;
   config.duration_s = 0.1;
@@ -43,7 +43,7 @@ SimulationConfig<EncoderTraits> one_frame(const std::string& scene, drive::Retur
 
 template <class EncoderTraits>
 class DualReturn : public testing::Test {};
-using Sensors = testing::Types<encode::Hdl64eEncoderTraits, encode::Ruby128EncoderTraits>;
+using Sensors = testing::Types<packets::Hdl64eEncoderTraits, packets::Ruby128EncoderTraits>;
 TYPED_TEST_SUITE(DualReturn, Sensors);
 
 /// Calls visit(strongest, last) for each laser of each firing, with raw == 0 for none.
@@ -59,21 +59,21 @@ void for_each_pair(const std::vector<SimulatedColumn<EncoderTraits>>& columns, V
 }
 
 TYPED_TEST(DualReturn, PairsShareStampAndAzimuthAndFillWholePackets) {
-  const auto columns = drive(one_frame<TypeParam>("flat", drive::ReturnMode::kDual));
+  const auto columns = drive(one_frame<TypeParam>("flat", packets::ReturnMode::kDual));
   ASSERT_EQ(columns.size() % 6, 0U);
   for (std::size_t i = 0; i < columns.size(); i += 2) {
     ASSERT_EQ(columns[i].wire.stamp_ns, columns[i + 1].wire.stamp_ns);
     ASSERT_EQ(columns[i].wire.unwrapped_azimuth_cdeg, columns[i + 1].wire.unwrapped_azimuth_cdeg);
     if (i == 0) continue;
     ASSERT_EQ(columns[i].wire.stamp_ns - columns[i - 1].wire.stamp_ns,
-              TypeParam::firing_ns(drive::ReturnMode::kDual));
+              TypeParam::firing_ns(packets::ReturnMode::kDual));
     ASSERT_GT(columns[i].wire.unwrapped_azimuth_cdeg, columns[i - 1].wire.unwrapped_azimuth_cdeg);
   }
 }
 
 TYPED_TEST(DualReturn, BothReturnsAreThereOrNoneAndTheLastIsNeverNearer) {
   std::size_t pairs = 0, nearer = 0, halves = 0, same = 0, told_apart = 0;
-  for_each_pair(drive(one_frame<TypeParam>("street", drive::ReturnMode::kDual)),
+  for_each_pair(drive(one_frame<TypeParam>("street", packets::ReturnMode::kDual)),
                 [&](const frame::LabelledReturn& strongest, const frame::LabelledReturn& last) {
                   halves += (strongest.raw == 0) != (last.raw == 0) ? 1 : 0;
                   if (strongest.raw == 0) return;
@@ -92,7 +92,7 @@ TYPED_TEST(DualReturn, BothReturnsAreThereOrNoneAndTheLastIsNeverNearer) {
 }
 
 TYPED_TEST(DualReturn, EchoesOfABeamAreFarEnoughApartToBeTold) {
-  auto config = one_frame<TypeParam>("street", drive::ReturnMode::kDual);
+  auto config = one_frame<TypeParam>("street", packets::ReturnMode::kDual);
   config.effects = SensorEffects::none();
   const double metres = TypeParam::metres_per_count(config.calibration);
   double nearest_m = 1e9;
@@ -106,7 +106,7 @@ TYPED_TEST(DualReturn, EchoesOfABeamAreFarEnoughApartToBeTold) {
 }
 
 TYPED_TEST(DualReturn, TwoEchoesComeFromEdgesAndLeavesNotFromTheOpenGround) {
-  auto config = one_frame<TypeParam>("street", drive::ReturnMode::kDual);
+  auto config = one_frame<TypeParam>("street", packets::ReturnMode::kDual);
   config.effects = SensorEffects::none();
   std::map<std::uint32_t, std::size_t> split, all;
   for_each_pair(drive(config),
@@ -129,7 +129,7 @@ TYPED_TEST(DualReturn, TwoEchoesComeFromEdgesAndLeavesNotFromTheOpenGround) {
 }
 
 TYPED_TEST(DualReturn, IsTheSameOnAnyNumberOfThreads) {
-  auto config = one_frame<TypeParam>("street", drive::ReturnMode::kDual);
+  auto config = one_frame<TypeParam>("street", packets::ReturnMode::kDual);
   const auto digest = [](const auto& columns) {
     std::uint64_t sum = 0;
     for (const auto& column : columns) {
@@ -147,9 +147,9 @@ TYPED_TEST(DualReturn, IsTheSameOnAnyNumberOfThreads) {
 
 TEST(Ruby128Drive, TheAxisOfABeamMeasuresInDualReturnWhatItDoesInSingle) {
   const auto single =
-      drive(one_frame<encode::Ruby128EncoderTraits>("street", drive::ReturnMode::kSingle));
+      drive(one_frame<packets::Ruby128EncoderTraits>("street", packets::ReturnMode::kSingle));
   const auto dual =
-      drive(one_frame<encode::Ruby128EncoderTraits>("street", drive::ReturnMode::kDual));
+      drive(one_frame<packets::Ruby128EncoderTraits>("street", packets::ReturnMode::kDual));
   std::size_t returns = 0, among_the_two = 0, strongest = 0;
   for (std::size_t i = 0; i < std::min(single.size(), dual.size() / 2); ++i) {
     ASSERT_EQ(single[i].wire.unwrapped_azimuth_cdeg, dual[2 * i].wire.unwrapped_azimuth_cdeg);
@@ -171,7 +171,7 @@ TEST(Ruby128Drive, TheAxisOfABeamMeasuresInDualReturnWhatItDoesInSingle) {
 }
 
 TEST(Ruby128Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
-  auto config = one_frame<encode::Ruby128EncoderTraits>("flat", drive::ReturnMode::kSingle);
+  auto config = one_frame<packets::Ruby128EncoderTraits>("flat", packets::ReturnMode::kSingle);
   config.effects = SensorEffects::none();
   config.mount.height_m = 2.1;
   std::size_t ground = 0;
@@ -188,7 +188,7 @@ TEST(Ruby128Drive, GroundOfTheFlatSceneIsExactlyTheMountingHeightBelow) {
 
 TEST(Ruby128Drive, FiresEvery55MicrosecondsAtAnySpinAndSeesWholeFrames) {
   for (const double spin_hz : {5.0, 10.0, 20.0}) {
-    auto config = one_frame<encode::Ruby128EncoderTraits>("flat", drive::ReturnMode::kSingle);
+    auto config = one_frame<packets::Ruby128EncoderTraits>("flat", packets::ReturnMode::kSingle);
     config.spin_hz = spin_hz;
     config.duration_s = 1 / spin_hz;
     config.effects = SensorEffects::none();

@@ -12,7 +12,7 @@ namespace {
 constexpr int kTrials = 20000;
 
 double seen_share(const SensorEffects& effects, const world::Hit& hit, double cos_incidence) {
-  Random random(5);
+  world::Random random(5);
   int seen = 0;
   for (int i = 0; i < kTrials; ++i)
     seen += echo_from(effects, hit, cos_incidence, random).has_value();
@@ -33,7 +33,7 @@ TEST(Echo, RandomDropShareIsWhatWasAskedFor) {
 }
 
 TEST(Echo, NoEffectsMeansNoLossAndNoError) {
-  Random random(5);
+  world::Random random(5);
   for (int i = 0; i < 1000; ++i) {
     const auto echo =
         echo_from(SensorEffects::none(), hit_at(119, world::Material::kGlass), 0.01, random);
@@ -63,7 +63,7 @@ TEST(Echo, GlassLosesMoreThanPaint) {
 TEST(Echo, RangeNoiseHasTheAskedDeviation) {
   SensorEffects effects = SensorEffects::none();
   effects.range_noise_m = 0.03;
-  Random random(9);
+  world::Random random(9);
   double sum = 0;
   double squares = 0;
   for (int i = 0; i < kTrials; ++i) {
@@ -77,7 +77,7 @@ TEST(Echo, RangeNoiseHasTheAskedDeviation) {
 }
 
 TEST(Echo, BrightSurfacesLookBright) {
-  Random random(9);
+  world::Random random(9);
   const auto intensity = [&](world::Material material) {
     return echo_from(SensorEffects::none(), hit_at(10, material), 1, random)->intensity;
   };

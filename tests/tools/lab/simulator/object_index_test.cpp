@@ -7,7 +7,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 #include "tools/lab/world/shape_makers.hpp"
 
 namespace terracut::simulator {
@@ -91,7 +91,7 @@ TEST(ObjectIndex, LeavesLetTheirShareOfBeamsThrough) {
 }
 
 TEST(ObjectIndex, FindsWhatASearchThroughAllObjectsFinds) {
-  Random random(11);
+  world::Random random(11);
   std::vector<world::SceneObject> objects;
   for (int i = 0; i < 150; ++i) {
     world::SceneObject object =

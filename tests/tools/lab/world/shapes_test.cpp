@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 #include "tools/lab/world/shape_makers.hpp"
 
 namespace terracut::world {
@@ -96,7 +96,7 @@ double outside(const Shape& shape, const Vector3d& place) {
 }
 
 TEST(Shapes, ChordsEndOnTheSurfaceAndRunInsideForRandomLines) {
-  simulator::Random random(7);
+  world::Random random(7);
   int met = 0;
   for (int i = 0; i < 20000; ++i) {
     Shape shape =

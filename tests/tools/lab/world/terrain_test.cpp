@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/lab/simulator/random.hpp"
+#include "tools/lab/world/random.hpp"
 
 namespace terracut::world {
 namespace {
@@ -113,7 +113,7 @@ Road rough_road() {
 
 TEST(Terrain, FindsTheSameGroundAsTinyStepsDo) {
   const Terrain terrain(rough_road(), 5);
-  simulator::Random random(3);
+  world::Random random(3);
   int grazed = 0;
   for (int i = 0; i < 2000; ++i) {
     const double x_m = random.uniform(-40, 40);

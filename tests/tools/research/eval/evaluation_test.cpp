@@ -45,8 +45,8 @@ class EvaluationTest : public testing::Test {
     return {std::istreambuf_iterator<char>(file), {}};
   }
   /// What results are, apart from times.
-  static std::map<FrameKey, FrameCounts> counts_of(const FrameResults& results) {
-    std::map<FrameKey, FrameCounts> counts;
+  static std::map<FrameKey, statistics::FrameCounts> counts_of(const FrameResults& results) {
+    std::map<FrameKey, statistics::FrameCounts> counts;
     for (const auto& [key, result] : results) counts[key] = result.counts;
     return counts;
   }

@@ -40,8 +40,8 @@ class SimulatedEvaluationTest : public testing::Test {
     EXPECT_TRUE(outcome) << outcome.error().message;
     return outcome ? *std::move(outcome) : EvaluationOutcome{};
   }
-  static std::map<FrameKey, FrameCounts> counts_of(const FrameResults& results) {
-    std::map<FrameKey, FrameCounts> counts;
+  static std::map<FrameKey, statistics::FrameCounts> counts_of(const FrameResults& results) {
+    std::map<FrameKey, statistics::FrameCounts> counts;
     for (const auto& [key, result] : results) counts[key] = result.counts;
     return counts;
   }

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+namespace terracut::packet {
+
+/// How far the beams point away from the head: every beam's azimuth minus the head's lies in
+/// [hindmost, foremost].
+struct BeamSpread {
+  std::int64_t hindmost_ticks = 0, foremost_ticks = 0;
+};
+
+}  // namespace terracut::packet

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/firing_tile.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "firmware_io/frame/transpose.hpp"
+#include "firmware_io/packet/packet_azimuths.hpp"
+#include "firmware_io/packet/rotor_directions.hpp"
+#include "firmware_io/packet/wire_returns.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::packet {
+
+using frame::BeamColumns;
+using frame::kTileFirings;
+using frame::PointsOut;
+using frame::TilePoints;
+using frame::TileRow;
+
+/// What one firing found, by laser.
+template <std::size_t kLasers>
+struct FiringReturns {
+  std::span<std::uint16_t, kLasers> raw;  ///< Wire distance; 0: no return.
+  std::span<std::uint8_t, kLasers> intensity;
+};
+
+/// What some firings found, in the order of arrival: as it arrives, and by laser.
+template <std::size_t kLasers>
+struct FiringTile {
+  alignas(64) std::array<std::array<std::uint16_t, kLasers>, kTileFirings> arrived_raw;
+  alignas(64) std::array<std::array<std::uint8_t, kLasers>, kTileFirings> arrived_intensity;
+  alignas(64) std::array<TileRow<std::uint16_t>, kLasers> raw;
+  alignas(64) std::array<TileRow<std::uint8_t>, kLasers> intensity;
+
+  [[nodiscard]] FiringReturns<kLasers> firing(std::size_t number) noexcept {
+    return {arrived_raw[number], arrived_intensity[number]};
+  }
+  /// Fills in what is by laser.
+  void turn() noexcept {
+    frame::transpose(arrived_raw[0].data(), kTileFirings, kLasers, raw[0].data());
+    frame::transpose(arrived_intensity[0].data(), kTileFirings, kLasers, intensity[0].data());
+  }
+};
+
+/// Wire distances of one laser in metres; NaN for none, and so all that follows from it.
+inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
+                    float* __restrict measured_m) noexcept {
+  constexpr std::int32_t kNan = 0x7FC0'0000;
+  for (std::size_t f = 0; f < kTileFirings; ++f) {
+    const std::int32_t counts = raw[f];
+    const auto bits = std::bit_cast<std::int32_t>(static_cast<float>(counts) * metres_per_count);
+    measured_m[f] = std::bit_cast<float>(bits | (-std::int32_t{counts == 0} & kNan));
+  }
+}
+
+/// An angle as columns of the range image: a whole number of them, and what is left, in parts of a
+/// column of which kRevolution_ticks make one; [0, kRevolution_ticks).
+struct ColumnAngle {
+  std::int32_t whole = 0, rest = 0;
+};
+[[nodiscard]] constexpr ColumnAngle column_angle(std::int64_t ticks, int columns) noexcept {
+  const std::int64_t parts = ticks * columns;
+  const std::int64_t rest = (parts % kRevolution_ticks + kRevolution_ticks) % kRevolution_ticks;
+  return {static_cast<std::int32_t>((parts - rest) / kRevolution_ticks),
+          static_cast<std::int32_t>(rest)};
+}
+
+/// Of an angle in [0, 1e5] ticks: below a degree two terms of each series are exact to a float.
+[[nodiscard]] constexpr SinCos small_advance(std::int32_t ticks) noexcept {
+  const float a = static_cast<float>(ticks) * static_cast<float>(kRadPerTick);
+  const float aa = a * a;
+  return {a * (1.0F - aa * (1.0F / 6.0F)), 1.0F - aa * 0.5F};
+}
+
+/// Where the head is at each firing of a tile, and how far it advances until each group of lasers
+/// fires.
+template <std::size_t kGroups>
+struct GroupHeads {
+  alignas(64) TileRow<float> sin_rotor, cos_rotor;
+  alignas(64) std::array<TileRow<float>, kGroups> sin_advance, cos_advance;
+};
+
+/// Writes each of `values` to a row of its own; `rows`: one after the other.
+void fill_rows(std::span<const float> values, float* rows) noexcept TERRACUT_NONBLOCKING;
+void fill_rows(std::span<const std::int32_t> values,
+               std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
+/// Writes each of `values` to the firings meant in a row of its own; `rows`: one after the other.
+void spread_rows(std::span<const float> values, const frame::TileRow<std::int32_t>& mask,
+                 float* rows) noexcept TERRACUT_NONBLOCKING;
+void spread_rows(std::span<const std::int32_t> values, const frame::TileRow<std::int32_t>& mask,
+                 std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
+
+/// The head and its advance at one laser's firings, for the loops over them.
+struct LaserHeads {
+  const float *sin_rotor, *cos_rotor, *sin_advance, *cos_advance;
+};
+template <std::size_t kGroups>
+[[nodiscard]] LaserHeads heads_of_group(const GroupHeads<kGroups>& heads,
+                                        std::size_t group) noexcept {
+  return {heads.sin_rotor.data(), heads.cos_rotor.data(), heads.sin_advance[group].data(),
+          heads.cos_advance[group].data()};
+}
+
+/// beam_azimuth() and column_of() (beam_azimuth.hpp) in whole numbers that vectors hold: the floors
+/// of the angles of the head, its advance and the beam's offset are added, then what is left of
+/// them. `advance_column`, `advance_rest`: of the laser's group.
+void find_columns(const std::int32_t* __restrict rotor_column,
+                  const std::int32_t* __restrict rotor_rest,
+                  const std::int32_t* __restrict advance_column,
+                  const std::int32_t* __restrict advance_rest, ColumnAngle offset,
+                  BeamColumns& __restrict found) noexcept TERRACUT_NONBLOCKING;
+
+/// Fills in what a laser's points leave out of a run of cells that were empty: intensities and
+/// numbers. `numbers`: of each firing's next return.
+void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
+                const frame::RangeImage::Cells& cells,
+                TileRow<std::uint32_t>& numbers) noexcept TERRACUT_NONBLOCKING;
+
+}  // namespace terracut::packet

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+namespace terracut::packet {
+
+/// Head azimuth, unwrapped (it grows by one revolution a frame), in the ticks of the sensor's
+/// decoder. An interval of it: [from, to).
+struct RotorInterval {
+  std::int64_t from_ticks = 0, to_ticks = 0;
+
+  [[nodiscard]] constexpr std::int64_t ticks() const noexcept {
+    return std::max<std::int64_t>(0, to_ticks - from_ticks);
+  }
+};
+
+[[nodiscard]] constexpr RotorInterval intersection(const RotorInterval& a,
+                                                   const RotorInterval& b) noexcept {
+  return {std::max(a.from_ticks, b.from_ticks), std::min(a.to_ticks, b.to_ticks)};
+}
+[[nodiscard]] constexpr RotorInterval shifted(const RotorInterval& interval,
+                                              std::int64_t ticks) noexcept {
+  return {interval.from_ticks + ticks, interval.to_ticks + ticks};
+}
+
+/// An interval that comes again every frame, or none.
+struct RotorSector {
+  RotorInterval once;                 ///< In any frame; shorter than one.
+  std::int64_t revolution_ticks = 1;  ///< > 0
+
+  [[nodiscard]] constexpr bool is_none() const noexcept { return once.ticks() == 0; }
+  /// The one that ends next behind `rotor_ticks`.
+  [[nodiscard]] constexpr RotorInterval next(std::int64_t rotor_ticks) const noexcept {
+    return shifted(once, (frames_before(rotor_ticks - once.to_ticks) + 1) * revolution_ticks);
+  }
+  /// How much of `interval` lies outside.
+  [[nodiscard]] constexpr std::int64_t outside_ticks(const RotorInterval& interval) const noexcept {
+    return interval.ticks() == 0 ? 0
+                                 : interval.ticks() - (inside_until(interval.to_ticks) -
+                                                       inside_until(interval.from_ticks));
+  }
+
+ private:
+  [[nodiscard]] constexpr std::int64_t frames_before(std::int64_t ticks) const noexcept {
+    return ticks / revolution_ticks - (ticks % revolution_ticks < 0 ? 1 : 0);
+  }
+  /// All that lies inside from `once` on; before it, negative.
+  [[nodiscard]] constexpr std::int64_t inside_until(std::int64_t rotor_ticks) const noexcept {
+    const std::int64_t frames = frames_before(rotor_ticks - once.from_ticks);
+    const std::int64_t in_frame = rotor_ticks - once.from_ticks - frames * revolution_ticks;
+    return frames * once.ticks() + std::min(in_frame, once.ticks());
+  }
+};
+
+}  // namespace terracut::packet

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+#include "firmware_io/packet/wire_integer.hpp"
+
+/// The data packet (MSOP) of the RS-Ruby128 as it lies in the UDP payload; big endian (RS-Ruby user
+/// manual v1.0; docs/reference/sensors.md). Nothing here allocates or throws; everything is
+/// callable from the packet path.
+namespace terracut::ruby128 {
+
+// --- Numbers of the format ---
+
+inline constexpr std::uint16_t kRubyDataPort = 6699;    ///< UDP destination; factory setting.
+inline constexpr std::uint16_t kRubyDevicePort = 7788;  ///< Of DIFOP; factory setting.
+
+inline constexpr std::size_t kRubyPacketBytes = 1248;  ///< Of MSOP and of DIFOP.
+inline constexpr std::array<std::uint8_t, 4> kRubyMagic{0x55, 0xAA, 0x05, 0x5A};
+inline constexpr std::uint8_t kRubyBlockId = 0xFE;
+inline constexpr int kRubyBlocksPerPacket = 3;
+inline constexpr int kRubyChannelsPerBlock = 128;
+
+/// Bits of the wave mode: which returns the packet carries.
+inline constexpr std::uint8_t kRubyFirstReturnBit = 1, kRubySecondReturnBit = 2;
+
+// --- The bytes ---
+
+namespace ruby128_wire {
+
+struct Return {
+  packet::Be16 distance;   ///< Counts of 5 mm; 0 = no return.
+  std::uint8_t intensity;  ///< 0..255
+};
+
+struct Block {
+  std::uint8_t id;            ///< kRubyBlockId
+  std::uint8_t return_id;     ///< 1 or 2 in dual return, by the manual; not relied on.
+  packet::Be16 azimuth_cdeg;  ///< 0..35999, clockwise seen from above, of the block's first firing.
+  std::array<Return, kRubyChannelsPerBlock> returns;
+};
+
+struct Packet {
+  std::array<std::uint8_t, 4> magic;
+  packet::Be16 protocol_version;
+  std::uint8_t reserved1;
+  std::uint8_t wave_mode;
+  packet::Be16 temperature;            ///< See ruby_temperature_deg_c().
+  std::array<std::uint8_t, 10> stamp;  ///< One of three encodings (timestamp.hpp).
+  std::array<std::uint8_t, 10> reserved2;
+  std::uint8_t lidar_type, lidar_model;
+  std::array<std::uint8_t, 48> reserved3;
+  std::array<Block, kRubyBlocksPerPacket> blocks;
+  std::array<std::uint8_t, 4> tail;
+};
+
+static_assert(sizeof(Return) == 3 && alignof(Return) == 1);
+static_assert(sizeof(Block) == 388 && alignof(Block) == 1);
+static_assert(sizeof(Packet) == kRubyPacketBytes && alignof(Packet) == 1);
+static_assert(offsetof(Packet, wave_mode) == 7 && offsetof(Packet, temperature) == 8);
+static_assert(offsetof(Packet, stamp) == 10 && offsetof(Packet, lidar_type) == 30);
+static_assert(offsetof(Packet, blocks) == 80 && offsetof(Packet, tail) == 1244);
+static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<Packet>);
+
+}  // namespace ruby128_wire
+
+/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree
+/// (RS-Ruby user manual).
+[[nodiscard]] constexpr double ruby_temperature_deg_c(std::uint16_t field) noexcept {
+  const int sixteenths = (field & 0x7FFF) >> 4;
+  return ((field & 0x8000) != 0 ? -sixteenths : sixteenths) / 16.0;
+}
+static_assert(ruby_temperature_deg_c(0x12C0) == 18.75);
+static_assert(ruby_temperature_deg_c(0x92C0) == -18.75);
+
+/// The inverse, rounded towards zero; |temperature_deg_c| < 128.
+[[nodiscard]] constexpr std::uint16_t ruby_temperature_field(double temperature_deg_c) noexcept {
+  const int sixteenths = static_cast<int>(temperature_deg_c * 16.0);
+  const int magnitude = sixteenths < 0 ? -sixteenths : sixteenths;
+  return static_cast<std::uint16_t>(magnitude << 4 | (sixteenths < 0 ? 0x8000 : 0));
+}
+static_assert(ruby_temperature_field(18.75) == 0x12C0);
+static_assert(ruby_temperature_field(-18.75) == 0x92C0);
+
+// --- Reading ---
+
+/// The packet that a payload is, read where it lies; null where it is not exactly 1248 bytes long.
+/// Magic, block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
+[[nodiscard]] inline const ruby128_wire::Packet* packet_in(
+    std::span<const std::uint8_t> payload) noexcept {
+  // Bytes are all it has, so any address will do.
+  return payload.size() == sizeof(ruby128_wire::Packet)
+             ? reinterpret_cast<const ruby128_wire::Packet*>(payload.data())
+             : nullptr;
+}
+
+// --- Writing ---
+
+/// A packet to fill in: three blocks without any return, at azimuth 0, with magic and block ids in
+/// place.
+[[nodiscard]] constexpr ruby128_wire::Packet blank_packet() noexcept {
+  ruby128_wire::Packet packet{};
+  packet.magic = kRubyMagic;
+  packet.wave_mode = kRubyFirstReturnBit;
+  for (ruby128_wire::Block& block : packet.blocks) block.id = kRubyBlockId;
+  return packet;
+}
+
+/// The payload to send; valid, and following later changes, as long as `packet` lives.
+[[nodiscard]] inline std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
+    const ruby128_wire::Packet& packet) noexcept {
+  return std::span<const std::uint8_t, kRubyPacketBytes>(
+      reinterpret_cast<const std::uint8_t*>(&packet), kRubyPacketBytes);
+}
+std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Packet&&) = delete;
+
+}  // namespace terracut::ruby128

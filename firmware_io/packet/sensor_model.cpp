@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/packet/sensor_model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <iterator>
+
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr std::size_t kPositionBytes = 512;
+// The Ruby Lite has the Ruby128's header and blocks of 4 + 3 bytes a channel, but four of 80.
+constexpr std::size_t kFirstRubyBlockAt = offsetof(ruby128::ruby128_wire::Packet, blocks);
+constexpr std::size_t kRuby128BlockBytes = sizeof(ruby128::ruby128_wire::Block);
+constexpr std::size_t kRubyLiteBlockBytes = 4 + 3 * 80;
+constexpr std::array<std::uint8_t, 4> kOlderMsopStart{0x55, 0xAA, 0x05, 0x0A};
+constexpr std::array<std::uint8_t, 8> kDifopStart{0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55};
+
+template <std::size_t kSize>
+bool starts_with(Bytes payload, const std::array<std::uint8_t, kSize>& start) noexcept {
+  return payload.size() >= kSize && std::equal(start.begin(), start.end(), payload.begin());
+}
+
+struct Product {
+  std::uint8_t number;
+  SensorModel model;
+};
+constexpr Product kProducts[] = {{0x21, SensorModel::kHdl32e},
+                                 {0x22, SensorModel::kVlp16},
+                                 {0x24, SensorModel::kVlp16HiRes},
+                                 {0x28, SensorModel::kVlp32c},
+                                 {0xA1, SensorModel::kVls128}};
+
+SensorModel product(std::uint8_t number) noexcept {
+  const auto* const found = std::ranges::find(kProducts, number, &Product::number);
+  return found == std::end(kProducts) ? SensorModel::kOtherVelodyne : found->model;
+}
+
+SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
+  if (hdl64e::is_hdl64e_s1(packet)) return SensorModel::kHdl64eS1;
+  if (hdl64e::is_hdl64e(packet)) return SensorModel::kHdl64e;
+  const bool are_upper = std::ranges::all_of(packet.blocks, [](const hdl64e::wire::Block& block) {
+    return block.id.value() == hdl64e::kUpperBlockId;
+  });
+  if (are_upper) return product(packet.status_value);
+  // In dual return both returns of a block are side by side.
+  const bool is_single = packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
+                         packet.blocks[2].id.value() == hdl64e::kVls128ThirdId;
+  const bool is_dual = packet.blocks[2].id.value() == hdl64e::kLowerBlockId &&
+                       packet.blocks[4].id.value() == hdl64e::kVls128ThirdId;
+  if (is_single || is_dual) return SensorModel::kVls128;
+  return SensorModel::kUnknown;
+}
+
+/// By the Ruby Plus manual byte 31 is 5 for the Ruby family, byte 32 the model.
+bool is_ruby_plus(Bytes payload) noexcept {
+  return payload[31] == 5 && payload[32] == 1;
+}
+
+SensorModel robosense_model(Bytes payload) noexcept {
+  if (starts_with(payload, kDifopStart)) return SensorModel::kRoboSenseDeviceInfo;
+  if (starts_with(payload, kOlderMsopStart)) return SensorModel::kOtherRoboSense;
+  if (!starts_with(payload, ruby128::kRubyMagic)) return SensorModel::kUnknown;
+  // Only the first byte of a block is its id; the second is the number of the return.
+  const auto block_at = [&](std::size_t at) { return payload[at] == ruby128::kRubyBlockId; };
+  if (!block_at(kFirstRubyBlockAt)) return SensorModel::kOtherRoboSense;
+  const bool by_128 = block_at(kFirstRubyBlockAt + kRuby128BlockBytes) &&
+                      block_at(kFirstRubyBlockAt + 2 * kRuby128BlockBytes);
+  const bool by_80 = block_at(kFirstRubyBlockAt + kRubyLiteBlockBytes) &&
+                     block_at(kFirstRubyBlockAt + 2 * kRubyLiteBlockBytes) &&
+                     block_at(kFirstRubyBlockAt + 3 * kRubyLiteBlockBytes);
+  if (by_128) return is_ruby_plus(payload) ? SensorModel::kRubyPlus : SensorModel::kRuby128;
+  return by_80 ? SensorModel::kRubyLite : SensorModel::kOtherRoboSense;
+}
+
+std::string_view velodyne_return_mode(std::uint8_t mode) noexcept {
+  switch (mode) {
+    case 0x37:
+      return "strongest return";
+    case 0x38:
+      return "last return";
+    case 0x39:
+      return "dual return";
+    case 0x3A:
+      return "dual return with confidence";
+    default:
+      return "return mode not known";
+  }
+}
+
+/// Ruby Plus manual: byte 31 is 5 for the Ruby family, byte 32 the model. Another decoder reads
+/// bytes 30 and 31, so all three are shown.
+std::string_view ruby_model(Bytes payload) noexcept {
+  if (payload[31] != 5) return "";
+  switch (payload[32]) {
+    case 1:
+      return "; by the Ruby Plus manual: Ruby Plus";
+    case 2:
+      return "; by the Ruby Plus manual: Ruby 80";
+    case 3:
+      return "; by the Ruby Plus manual: Ruby 80V";
+    case 4:
+      return "; by the Ruby Plus manual: Ruby 48V";
+    default:
+      return "";
+  }
+}
+
+}  // namespace
+
+std::uint8_t product_number(SensorModel model) noexcept {
+  const auto* const found = std::ranges::find(kProducts, model, &Product::model);
+  return found == std::end(kProducts) ? 0 : found->number;
+}
+
+std::string_view to_string(SensorModel model) noexcept {
+  switch (model) {
+    case SensorModel::kUnknown:
+      return "unknown";
+    case SensorModel::kHdl64e:
+      return "Velodyne HDL-64E (S2/S3)";
+    case SensorModel::kHdl64eS1:
+      return "Velodyne HDL-64E S1";
+    case SensorModel::kHdl32e:
+      return "Velodyne HDL-32E";
+    case SensorModel::kVlp16:
+      return "Velodyne VLP-16";
+    case SensorModel::kVlp16HiRes:
+      return "Velodyne VLP-16 Hi-Res";
+    case SensorModel::kVlp32c:
+      return "Velodyne VLP-32C";
+    case SensorModel::kVls128:
+      return "Velodyne VLS-128";
+    case SensorModel::kOtherVelodyne:
+      return "other Velodyne";
+    case SensorModel::kVelodynePosition:
+      return "Velodyne position packets";
+    case SensorModel::kRuby128:
+      return "RoboSense RS-Ruby128";
+    case SensorModel::kRubyPlus:
+      return "RoboSense Ruby Plus";
+    case SensorModel::kRubyLite:
+      return "RoboSense Ruby Lite (80)";
+    case SensorModel::kOtherRoboSense:
+      return "other RoboSense";
+    case SensorModel::kRoboSenseDeviceInfo:
+      return "RoboSense device info (DIFOP)";
+  }
+  return "unknown";
+}
+
+SensorModel recognise_sensor(Bytes payload) noexcept {
+  if (const auto* packet = hdl64e::packet_in(payload)) return velodyne_model(*packet);
+  if (payload.size() == ruby128::kRubyPacketBytes) return robosense_model(payload);
+  if (payload.size() == kPositionBytes) {
+    // NMEA text at offset 206 where a GPS is connected, else zeros.
+    constexpr std::size_t kSentenceAt = 206;
+    const std::uint8_t first = payload[kSentenceAt];
+    if (first == '$' || first == 0) return SensorModel::kVelodynePosition;
+  }
+  return SensorModel::kUnknown;
+}
+
+SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload) noexcept {
+  const SensorModel model = recognise_sensor(payload);
+  // The VLS-128's blocks have ids of their own and tell it without.
+  const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
+                            velodyne_model_of(*named) && *named != SensorModel::kVls128;
+  return may_be_named ? *named : model;
+}
+
+std::string describe_sensor_hints(Bytes payload) {
+  switch (recognise_sensor(payload)) {
+    case SensorModel::kHdl32e:
+    case SensorModel::kVlp16:
+    case SensorModel::kVlp16HiRes:
+    case SensorModel::kVlp32c:
+    case SensorModel::kVls128:
+    case SensorModel::kOtherVelodyne:
+      return fmt::format("product number 0x{:02X}, {}", payload[1205],
+                         velodyne_return_mode(payload[1204]));
+    case SensorModel::kRuby128:
+    case SensorModel::kRubyPlus:
+    case SensorModel::kRubyLite:
+      return fmt::format("type bytes {:02X} {:02X} {:02X}{}{}", payload[30], payload[31],
+                         payload[32], ruby_model(payload),
+                         (payload[7] & 3) == 3 ? "; dual return" : "");
+    default:
+      return {};
+  }
+}
+
+}  // namespace terracut::sensor

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/packet/datagram.hpp"
+
+namespace terracut::packet {
+
+/// The internet checksum (RFC 1071) of bytes that hold 0 in the place of the checksum itself.
+[[nodiscard]] std::uint16_t internet_checksum(std::span<const std::uint8_t> bytes) noexcept;
+
+/// The UDP checksum over IPv4 (RFC 768): pseudo header, UDP header and payload; never 0, which
+/// would mean "none". The payload must fit a UDP datagram.
+[[nodiscard]] std::uint16_t udp_checksum(const packet::Datagram& datagram) noexcept;
+
+}  // namespace terracut::packet

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::packet {
+
+/// Returns as sensors send them: two bytes of distance, one of intensity, and the next.
+inline constexpr std::size_t kWireReturnBytes = 3;
+enum class ByteOrder : std::uint8_t { kLittle, kBig };
+
+/// Takes returns apart, eight at once. `bytes`: kWireReturnBytes for each of `raw`, whose number is
+/// a multiple of 8; as many intensities are written.
+void split_returns(const std::uint8_t* bytes, ByteOrder order, std::span<std::uint16_t> raw,
+                   std::uint8_t* intensity) noexcept TERRACUT_NONBLOCKING;
+
+}  // namespace terracut::packet

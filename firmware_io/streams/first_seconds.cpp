@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/streams/first_seconds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "calib/hdl64e/hdl64e_stream_table.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
+
+namespace terracut::streams {
+namespace {
+
+/// Another sensor at the same port shows within this time, after the first.
+constexpr std::int64_t kAnotherShows_ns = 300'000'000;
+/// A sensor that rotates sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
+constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
+
+std::string name_of(const HeardSenders::Sensor& sensor) {
+  std::string name =
+      fmt::format("{} at {}", to_string(sensor.model), net::ipv4_text(sensor.address));
+  if (sensor.port) return name + fmt::format(":{}", *sensor.port);
+  return sensor.to == 0 ? name : name + " to " + net::ipv4_text(sensor.to);
+}
+
+std::string names_of(const std::vector<HeardSenders::Sensor>& sensors) {
+  std::string all;
+  for (const auto& sensor : sensors) all += (all.empty() ? "" : ", ") + name_of(sensor);
+  return all;
+}
+
+/// What chooses one of several.
+std::string_view choice_among(const std::vector<HeardSenders::Sensor>& sensors) {
+  const auto is_elsewhere = [&](const auto& one) {
+    return std::ranges::count(sensors, one.address, &HeardSenders::Sensor::address) == 1;
+  };
+  if (std::ranges::all_of(sensors, is_elsewhere)) return "--from";
+  const bool have_ports =
+      std::ranges::all_of(sensors, [](const auto& one) { return one.port.has_value(); });
+  return have_ports ? "--from ADDRESS:PORT" : "--from, or the address they send to with --listen";
+}
+
+}  // namespace
+
+bool FirstSeconds::wants_device_port() const {
+  return senders_.wants(sensor::SensorModel::kRuby128) && !config_.calibration.is_given() &&
+         config_.device_port != 0;
+}
+
+bool FirstSeconds::is_enough() const {
+  const Sensors sensors = chosen_of(senders_.rotating());
+  if (sensors.empty() || senders_.known_for_ns() < kAnotherShows_ns) return false;
+  if (config_.known && senders_.is_steady_but_stands(config_.known->address)) return false;
+  return sensors.size() > 1 || config_.calibration.is_given() ||
+         senders_.has_told(sensors.front()) || senders_.known_for_ns() >= kCalibrationComes_ns;
+}
+
+std::string FirstSeconds::waits_for() const {
+  const bool known_stands = config_.known && senders_.is_steady_but_stands(config_.known->address);
+  if (const Sensors sensors = chosen_of(senders_.rotating()); !sensors.empty() && !known_stands) {
+    return fmt::format("{} at {} is heard; waiting for its calibration",
+                       to_string(sensors.front().model), net::ipv4_text(sensors.front().address));
+  }
+  const std::string heard = heard_instead();
+  return fmt::format("waiting for {} at {}{}", wanted_name(), config_.place,
+                     heard.empty() ? "" : ": " + heard);
+}
+
+Expected<SensorOnAir> FirstSeconds::conclude(std::optional<double> patience_s) const {
+  Sensors found = chosen_of(senders_.rotating());
+  if (found.empty()) found = chosen_of(senders_.steady());
+  if (found.empty()) return tl::unexpected(nobody(patience_s));
+  if (found.size() > 1) {
+    return fail(ErrorCode::kInvalidArgument,
+                fmt::format("several sensors send here: {}; choose one with {}", names_of(found),
+                            choice_among(found)));
+  }
+  const HeardSenders::Sensor& sensor = found.front();
+  const sensor::SensorProbe& probe = senders_.probe(sensor.address);
+  auto calibration = sensor::unit_calibration(config_.calibration, sensor.model, [&] {
+    return from_packets(sensor.model, sensor.address);
+  });
+  if (!calibration) return tl::unexpected(calibration.error());
+  return SensorOnAir{.sender = {sensor.address, sensor.port},
+                     .model = sensor.model,
+                     .columns = config_.columns.value_or(probe.columns(sensor.model)),
+                     .spin_hz = probe.spin_hz(sensor.model),
+                     .dual_return = probe.dual_return(sensor.model),
+                     .calibration = *std::move(calibration)};
+}
+
+FirstSeconds::Sensors FirstSeconds::chosen_of(Sensors heard) const {
+  if (heard.size() < 2 || !config_.known) return heard;
+  Sensors known;
+  std::ranges::copy_if(heard, std::back_inserter(known), [&](const HeardSenders::Sensor& sensor) {
+    return sensor.is_sent_by(*config_.known);
+  });
+  return known.size() == 1 ? known : heard;
+}
+
+std::string FirstSeconds::other_sensors() const {
+  Sensors others = senders_.rotating();
+  const Sensors chosen = chosen_of(others);
+  if (chosen.size() == 1) {
+    std::erase_if(others, [&](const auto& each) {
+      return each.address == chosen.front().address && each.port == chosen.front().port;
+    });
+  }
+  return names_of(others);
+}
+
+std::string FirstSeconds::wanted_name() const {
+  return config_.model ? std::string(to_string(*config_.model)) : "a Velodyne or RS-Ruby128";
+}
+
+std::string FirstSeconds::heard_instead() const {
+  std::string heard = senders_.others();
+  if (heard.empty() && foreign_ > 0) {
+    heard = fmt::format("{} datagrams from other addresses than --from", foreign_);
+  }
+  return heard;
+}
+
+Error FirstSeconds::nobody(std::optional<double> patience_s) const {
+  const std::string heard = heard_instead();
+  const std::string patience = patience_s ? fmt::format(" within {:g} s", *patience_s) : "";
+  return {
+      ErrorCode::kUnsupported,
+      fmt::format("no data packets of {} came to {}{}: {}", wanted_name(), config_.place, patience,
+                  heard.empty() ? "nothing came at all; `terracut doctor` and tcpdump tell "
+                                  "whether anything reaches this machine"
+                                : heard)};
+}
+
+Expected<calib::SensorCalibration> FirstSeconds::from_packets(sensor::SensorModel model,
+                                                              std::uint32_t address) const {
+  if (model == sensor::SensorModel::kRuby128) {
+    auto told = senders_.ruby128_device(address).calibration();
+    if (told) return *std::move(told);
+    return fail(ErrorCode::kNoCalibration,
+                fmt::format("no angles of this RS-Ruby128: none were given, and what it says of "
+                            "itself to port {} does not hold them: {}. Give the unit's angle.csv "
+                            "with --calibration FILE, or consent to the model's table with "
+                            "--nominal-calibration",
+                            config_.device_port, told.error().message));
+  }
+  if (model == sensor::SensorModel::kHdl64eS1) return sensor::fail_for_s1(config_.place);
+  const hdl64e::StatusStreamReader& status = senders_.hdl64e_status(address);
+  if (!status.has_table()) {
+    return fail(ErrorCode::kNoCalibration,
+                fmt::format("none was given, and {} bytes of the table in the packets are "
+                            "missing; give the unit's db.xml or yaml with --calibration FILE",
+                            status.holes()));
+  }
+  auto table = hdl64e::parse_stream_table(status.table());
+  if (!table) return tl::unexpected(table.error());
+  return *std::move(table);
+}
+
+}  // namespace terracut::streams

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware_io/hdl64e/status_stream_reader.hpp"
+#include "firmware_io/net/ipv4_endpoint.hpp"
+#include "firmware_io/packet/datagram.hpp"
+#include "firmware_io/sensor/device_reader.hpp"
+#include "firmware_io/sensor/sensor_probe.hpp"
+#include "firmware_io/streams/sender_streams.hpp"
+
+namespace terracut::streams {
+
+/// Who sends to the ports that are listened at, and on what evidence: a sensor is who sends a
+/// steady stream of data packets of a rotating head, not who sent one packet. Whatever else is sent
+/// and by how many, a sensor is heard: of those that are remembered, who sent the fewest data
+/// packets makes room for a newcomer, the one that was silent longest among equals, and who sends
+/// no data packets makes room for nobody. Time is that of the datagrams' stamps. Allocates; one
+/// thread.
+class HeardSenders {
+ public:
+  struct Sensor {
+    std::uint32_t address = 0;  ///< IPv4, as in Datagram.
+    sensor::SensorModel model{};
+    /// Where others of its address send as well (streams::SenderStreams): the port it sends from,
+    /// if it is told from them by that, and where it sends to.
+    std::optional<std::uint16_t> port{};
+    std::uint32_t to{};
+
+    [[nodiscard]] bool is_sent_by(const net::Sender& sender) const {
+      return address == sender.address && (!sender.port || port == sender.port);
+    }
+  };
+
+  /// `wanted`: the only model that counts; none: every one that can be decoded.
+  explicit HeardSenders(std::optional<sensor::SensorModel> wanted) : wanted_(wanted) {}
+
+  void add(const packet::Datagram& datagram);
+
+  [[nodiscard]] bool wants(sensor::SensorModel model) const {
+    return sensor::is_wanted(wanted_, model);
+  }
+  /// Those whose head is known to rotate.
+  [[nodiscard]] std::vector<Sensor> rotating() const;
+  /// Those that send data packets steadily, whether their head rotates or not.
+  [[nodiscard]] std::vector<Sensor> steady() const;
+  /// It is one of steady(), and not of rotating().
+  [[nodiscard]] bool is_steady_but_stands(std::uint32_t address) const;
+  /// Since the first of rotating() was known, by the newest datagram; 0 without one.
+  [[nodiscard]] std::int64_t known_for_ns() const {
+    return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
+  }
+  /// The sensor has told its own calibration, or needs none.
+  [[nodiscard]] bool has_told(const Sensor& sensor) const;
+
+  [[nodiscard]] const sensor::SensorProbe& probe(std::uint32_t address) const {
+    return senders_.at(address).probe;
+  }
+  [[nodiscard]] const hdl64e::StatusStreamReader& hdl64e_status(std::uint32_t address) const {
+    return senders_.at(address).hdl64e_status;
+  }
+  [[nodiscard]] const sensor::Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
+    return senders_.at(address).ruby128_device;
+  }
+  /// For people, what came instead of a rotating sensor: "12 datagrams of no sensor known here from
+  /// 192.168.1.7; HDL-64E, whose head does not rotate, from 192.168.1.201". Empty: nothing did.
+  [[nodiscard]] std::string others() const;
+
+ private:
+  /// More senders than these are somebody's port scan.
+  static constexpr std::size_t kMostSenders = 64;
+  static constexpr std::uint64_t kSteady_packets = 50;
+  static constexpr std::size_t kMostNamed = 4;  ///< By others(); the rest is counted.
+
+  /// What came from one address.
+  struct Sender {
+    explicit Sender(std::optional<sensor::SensorModel> wanted) : probe(wanted) {}
+
+    sensor::SensorProbe probe;
+    std::map<sensor::SensorModel, streams::SenderStreams> streams;
+    hdl64e::StatusStreamReader hdl64e_status;
+    sensor::Ruby128DeviceReader ruby128_device;
+    std::int64_t newest_ns = 0;
+
+    void add(const packet::Datagram& datagram, std::optional<sensor::SensorModel> wanted);
+    [[nodiscard]] std::uint64_t data_packets() const;
+    [[nodiscard]] std::vector<Sensor> sensors_of(sensor::SensorModel model) const;
+  };
+  /// Its sender's entry, which may be a new one; null where there is no room for it.
+  [[nodiscard]] Sender* sender_of(const packet::Datagram& datagram);
+
+  template <class Predicate>
+  [[nodiscard]] std::vector<Sensor> sensors_that(const Predicate& are) const;
+  [[nodiscard]] std::string describe(const Sender& sender) const;
+
+  std::optional<sensor::SensorModel> wanted_;
+  std::map<std::uint32_t, Sender> senders_;
+  std::uint64_t forgotten_datagrams_ = 0;  ///< Of senders that made room, or found none.
+  std::int64_t newest_ns_ = 0, first_known_ns_ = 0;
+};
+
+}  // namespace terracut::streams

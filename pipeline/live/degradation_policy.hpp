@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "pipeline/ground/segmenter.hpp"
+#include "pipeline/min_cut/cut_budget.hpp"
+#include "pipeline/run/stage_clock.hpp"
+#include "pipeline/status/frame_record.hpp"
+#include "rt/measure/thread_cpu_clock.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::live {
+
+/// Decides how far a frame is refined before its deadline: by the whole method, by a min-cut that
+/// is stopped when time runs out, by the coarse stages alone, or not at all. It expects of a stage
+/// what the stage cost in the last three frames that had it. A stage that is left out is not
+/// measured, so it is left out of at most two frames in a row and then tried, whatever those three
+/// said:
+///
+///   skipped       where even the cheapest of the three does not fit. A frame that is skipped has
+///                 missed its deadline as surely as one that comes late, so a trial costs no miss;
+///                 if it does come late, it counts as skipped (end()).
+///   cut left out  where the dearest of the three does not fit, because a cut that is begun in vain
+///                 is only wasted, but labels that take longer than was set aside are late. A trial
+///                 that made a frame late doubles the rest before the next one, to 32 frames at
+///                 most: under an overload that lasts one frame in 33 pays for knowing its end.
+///
+/// Hence labels are back within three frames of a slow frame or of the end of an overload, and so
+/// is the whole method, unless trials of the cut made frames late before.
+///
+/// Real-time safe; one thread. `Clock` as measure::SystemClock.
+template <class Clock>
+class DegradationPolicyOf {
+ public:
+  /// `deadline_ns`: from a frame's last packet to its labels.
+  explicit DegradationPolicyOf(std::int64_t deadline_ns, Clock clock = {}) noexcept
+      : clock_(clock),
+        deadline_ns_(deadline_ns),
+        unseen_stop_ns_(kMargin_ns + std::min(deadline_ns / 8, kUnseenStop_ns)),
+        stopping_(unseen_stop_ns_) {}
+
+  /// A frame begins. False: it is to be skipped, because not even the coarse stages would be done
+  /// in time.
+  [[nodiscard]] bool begin(std::int64_t last_packet_ns) noexcept TERRACUT_NONBLOCKING {
+    due_ns_ = last_packet_ns + deadline_ns_;
+    before_cut_ = true;
+    tries_cut_ = false;
+    stopped_cpu_ns_ = 0;
+    const std::int64_t left_ns = due_ns_ - clock_.realtime_ns();
+    const bool fits = left_ns >= coarse_.least_ns();
+    if (left_ns <= 0 || (!fits && skipped_ < kMostInARow)) {
+      ++skipped_;
+      return false;
+    }
+    is_trial_ = !fits;
+    skipped_ = 0;
+    return true;
+  }
+  /// The cut's budget for the frame that was begun. It expires early enough for the stages behind
+  /// the cut; asked before the cut, it has expired where a cut could not be finished in time. Valid
+  /// as long as this object is.
+  [[nodiscard]] min_cut::CutBudget budget() noexcept TERRACUT_NONBLOCKING {
+    return {min_cut::CutBudget::kDefaultOps,
+            [](void* degradation) noexcept TERRACUT_NONBLOCKING {
+              return static_cast<DegradationPolicyOf*>(degradation)->expired();
+            },
+            this};
+  }
+  /// Whether the frame's labels may be handed on. False for a trial that came late: it counts as
+  /// skipped.
+  [[nodiscard]] bool may_hand_on() const noexcept TERRACUT_NONBLOCKING {
+    return !is_trial_ || clock_.realtime_ns() <= due_ns_;
+  }
+  /// The frame is done: learns from it. `handing_on_ns`: of processor time, for its labels.
+  void end(const stage::StageTimes& times, const stage::SegmentationReport& report,
+           std::int64_t handing_on_ns) noexcept TERRACUT_NONBLOCKING {
+    using stage::Stage;
+    const auto cost_ns = [&](Stage stage) {
+      return times.stage_ns[static_cast<std::size_t>(stage)];
+    };
+    const std::int64_t labels_ns = cost_ns(Stage::kLabels) + handing_on_ns + kMargin_ns;
+    labels_.add(labels_ns);
+    coarse_.add(cost_ns(Stage::kElevationMap) + cost_ns(Stage::kAdjacentPoints) + labels_ns);
+    if (before_cut_) return;
+    // Only a stopped cut shows what it costs to make labels of an unfinished one.
+    if (stopped_cpu_ns_ != 0) {
+      stopping_.add(clock_.thread_cpu_ns() - stopped_cpu_ns_ + kMargin_ns);
+    }
+    const std::int64_t spent_ns = cost_ns(Stage::kSeeds) + cost_ns(Stage::kMinCut);
+    if (report.cut.discarded) {
+      cut_.add(spent_ns + spent_ns / 8);
+    } else if (tries_cut_) {
+      cut_ = LastThree(cost_ns(Stage::kSeeds));
+    } else {
+      cut_.add(cost_ns(Stage::kSeeds));
+    }
+    if (!tries_cut_ || is_trial_) return;
+    const bool late = clock_.realtime_ns() > due_ns_;
+    cut_rest_ = late ? std::min(2 * cut_rest_, kMostRest) : kMostInARow;
+  }
+
+  [[nodiscard]] static status::Level level_of(const stage::SegmentationReport& report) noexcept {
+    if (report.last_stage < stage::Stage::kMinCut) return status::Level::kCoarse;
+    return report.cut.coarse_by_budget > 0 ? status::Level::kCutStopped : status::Level::kFull;
+  }
+
+ private:
+  /// What something took in the last three frames that had it; at first, what is expected of it.
+  class LastThree {
+   public:
+    explicit LastThree(std::int64_t expected_ns) noexcept {
+      took_ns_ = {expected_ns, expected_ns, expected_ns};
+    }
+    void add(std::int64_t took_ns) noexcept {
+      took_ns_[next_] = took_ns;
+      next_ = next_ == 2 ? 0 : next_ + 1;
+    }
+    [[nodiscard]] std::int64_t least_ns() const noexcept {
+      return std::min({took_ns_[0], took_ns_[1], took_ns_[2]});
+    }
+    [[nodiscard]] std::int64_t most_ns() const noexcept {
+      return std::max({took_ns_[0], took_ns_[1], took_ns_[2]});
+    }
+
+   private:
+    std::array<std::int64_t, 3> took_ns_;
+    std::size_t next_ = 0;
+  };
+
+  /// To be set aside for what follows a cut.
+  [[nodiscard]] std::int64_t after_cut_ns() const noexcept {
+    return std::max(labels_.most_ns(), stopping_.most_ns());
+  }
+  /// The first look of a frame comes before the seeds and the cut, all others where it can be
+  /// stopped.
+  [[nodiscard]] bool expired() noexcept TERRACUT_NONBLOCKING {
+    const std::int64_t left_ns = due_ns_ - clock_.realtime_ns();
+    if (before_cut_) {
+      if (!may_begin_cut(left_ns)) return true;
+      before_cut_ = false;
+    }
+    if (left_ns >= after_cut_ns()) return false;
+    if (stopped_cpu_ns_ == 0) stopped_cpu_ns_ = clock_.thread_cpu_ns();
+    return true;
+  }
+  [[nodiscard]] bool may_begin_cut(std::int64_t left_ns) noexcept {
+    if (left_ns >= after_cut_ns() + cut_.most_ns()) {
+      cut_left_out_ = 0;
+      return true;
+    }
+    if (cut_left_out_ < cut_rest_) {
+      ++cut_left_out_;
+      return false;
+    }
+    cut_left_out_ = 0;
+    tries_cut_ = true;
+    if (left_ns < after_cut_ns()) {  // else this alone would stop it at once
+      stopping_ = LastThree(unseen_stop_ns_);
+      labels_ = LastThree(labels_.least_ns());
+    }
+    return true;
+  }
+
+  /// A stage that was left out of this many frames in a row is tried again.
+  static constexpr int kMostInARow = 2;
+  static constexpr int kMostRest = 32;
+  /// For waking up late and for handing over.
+  static constexpr std::int64_t kMargin_ns = 500'000;
+  /// What is set aside for making labels of a stopped cut as long as none has been seen, or an
+  /// eighth of the deadline where that is less.
+  static constexpr std::int64_t kUnseenStop_ns = 3'000'000;
+
+  Clock clock_;
+  std::int64_t deadline_ns_;
+  std::int64_t unseen_stop_ns_;
+
+  LastThree coarse_{kMargin_ns};  ///< All but seeds and cut.
+  LastThree labels_{kMargin_ns};  ///< Of them, what follows the cut.
+  LastThree stopping_;            ///< From where a cut was stopped to the end.
+  LastThree cut_{0};  ///< What a cut takes that comes to something, at least: its seeds, and more
+                      ///< than was in vain.
+  int skipped_ = 0;   ///< Frames in a row.
+  int cut_left_out_ = 0;  ///< Frames in a row.
+  int cut_rest_ = kMostInARow;
+
+  // The frame that was begun.
+  std::int64_t due_ns_ = 0;
+  bool is_trial_ = false, tries_cut_ = false;
+  bool before_cut_ = true;
+  std::int64_t stopped_cpu_ns_ = 0;
+};
+
+using DegradationPolicy = DegradationPolicyOf<measure::SystemClock>;
+
+}  // namespace terracut::live

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "frame_outlet.hpp"
+
+#include <string_view>
+#include <utility>
+
+#include "rt/caught.hpp"
+
+namespace terracut::live {
+
+FrameOutlet::FrameOutlet(std::optional<Stream> stream, publish::Publisher& publisher, Slots& slots,
+                         const threads::WakeEvent& ready)
+    : stream_(std::move(stream)),
+      publisher_(publisher),
+      slots_(slots),
+      ready_(ready),
+      // Frames that nobody takes any more are counted by the slots.
+      thread_([this] { work(); }, [](std::string_view) {}) {}
+
+bool FrameOutlet::finish(std::chrono::milliseconds patience) {
+  begin_to_finish();
+  return thread_.ends_within(patience);
+}
+
+void FrameOutlet::begin_to_finish() {
+  finish_ = true;
+  ready_.wake();
+}
+
+void FrameOutlet::work() {
+  constexpr std::int64_t kSecond_ns = 1'000'000'000;
+  while (true) {
+    const bool last_round = finish_;
+    for (Slots::Frame frame; slots_.take(frame);) slots_.give_back(hand_out(frame));
+    stream::FrameStreamServer* const open = server();
+    if (open != nullptr) {
+      open->work_round();
+      figures_.publish(open->figures());
+    }
+    if (last_round) return;
+    (void)ready_.wait(open != nullptr ? open->descriptor() : -1, kSecond_ns);
+  }
+}
+
+bool FrameOutlet::stream(const Slots::Frame& frame) {
+  stream::FrameStreamServer* const open = server();
+  if (open == nullptr) {
+    ++while_closed_;
+    return true;
+  }
+  const std::int64_t latency_ns = frame.record.labels_ns - frame.record.info.last_packet_ns;
+  return open->serve({.record = frame.record,
+                      .sensor = stream_->sensor,
+                      .late = latency_ns > stream_->deadline_ns,
+                      .points = frame.items});
+}
+
+bool FrameOutlet::hand_out(const Slots::Frame& frame) {
+  const bool served = !stream_ || stream(frame);
+  if (!publisher_.has_sinks()) return served;
+  const Status published = rt::caught([&]() -> Status {
+    const auto shared = publisher_.buffer();
+    shared->record = frame.record;
+    shared->points.assign(frame.items.begin(), frame.items.end());
+    publisher_.put(shared);
+    return {};
+  });
+  return served && published;
+}
+
+}  // namespace terracut::live

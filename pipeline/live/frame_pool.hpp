@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "pipeline/status/frame_record.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/queues/spsc_queue.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::live {
+
+/// Carries what the segmenting thread made of every frame, one T a return, to one thread without a
+/// deadline that puts it somewhere. When that one is too slow, frames are left out and counted.
+///
+///   segmenting thread  pass_on() --full--> take()       the other thread
+///                          ^                  |
+///                          '------ free ---- give_back()
+template <class T>
+class FramePool {
+ public:
+  struct Frame {
+    status::FrameRecord record;  ///< As far as it was known: up to the labels.
+    std::span<const T> items;
+  };
+
+  /// Room for `slots` frames of at most `capacity` returns.
+  FramePool(std::string_view name, std::size_t slots, std::size_t capacity,
+            memory::FixedMemory& memory)
+      : full_(name, slots, memory), free_(name, slots, memory) {
+    slots_ = memory.take<Slot>(name, slots);
+    for (std::uint32_t i = 0; i < slots; ++i) {
+      slots_[i].room = memory.take<T>(name, capacity);
+      (void)free_.try_push(i);
+    }
+  }
+
+  /// Segmenting thread: `fill(std::span<T>)` puts the frame's items, record.info.returns of them,
+  /// to the beginning of its argument. Real-time safe if `fill` is.
+  template <class Fill>
+  void pass_on(const status::FrameRecord& record, Fill&& fill) noexcept {
+    std::uint32_t i = 0;
+    if (!free_.try_pop(i)) {
+      unused_.fetch_add(1, std::memory_order_relaxed);
+      return;
+    }
+    waiting_.fetch_add(1, std::memory_order_relaxed);
+    Slot& slot = slots_[i];
+    slot.record = record;
+    fill(slot.room);
+    (void)full_.try_push(i);  // as many places as slots
+  }
+
+  /// Other thread: the next frame, its own until give_back(). False when there is none.
+  [[nodiscard]] bool take(Frame& frame) noexcept {
+    if (!full_.try_pop(taken_)) return false;
+    const Slot& slot = slots_[taken_];
+    frame = {slot.record, slot.room.first(slot.record.info.returns)};
+    return true;
+  }
+  /// `used`: the frame got where it was to go.
+  void give_back(bool used) noexcept {
+    waiting_.fetch_sub(1, std::memory_order_relaxed);
+    if (!used) unused_.fetch_add(1, std::memory_order_relaxed);
+    (void)free_.try_push(taken_);
+  }
+
+  /// Frames that found no room, or were given back unused. From any thread, as the next.
+  [[nodiscard]] std::uint64_t unused() const noexcept { return unused_.load(); }
+  /// Frames passed on and not given back yet: lost, too, if the other thread hangs for good.
+  [[nodiscard]] std::uint64_t waiting() const noexcept { return waiting_.load(); }
+
+ private:
+  struct Slot {
+    status::FrameRecord record;
+    std::span<T> room;
+  };
+
+  queues::SpscQueue<std::uint32_t> full_, free_;
+  std::span<Slot> slots_;
+  std::uint32_t taken_ = 0;
+  std::atomic<std::uint64_t> unused_{0}, waiting_{0};
+};
+
+}  // namespace terracut::live

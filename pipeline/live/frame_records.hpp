@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+
+#include "pipeline/status/frame_record.hpp"
+#include "rt/memory/fixed_memory.hpp"
+#include "rt/queues/spsc_queue.hpp"
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::live {
+
+/// Carries frames' records from one thread with a deadline to the one that judges them. Where that
+/// one is too slow, records are dropped and counted.
+class FrameRecords {
+ public:
+  static constexpr std::size_t kRoom = 64;
+
+  explicit FrameRecords(memory::FixedMemory& memory) : queue_("frame records", kRoom, memory) {}
+
+  /// Thread with a deadline.
+  void pass_on(const status::FrameRecord& record) noexcept TERRACUT_NONBLOCKING {
+    if (!queue_.try_push(record)) dropped_.fetch_add(1, std::memory_order_relaxed);
+  }
+  /// The thread that judges: the oldest ones not taken yet.
+  [[nodiscard]] bool take(status::FrameRecord& record) noexcept { return queue_.try_pop(record); }
+  /// Frames that nobody can judge. From any thread.
+  [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(); }
+
+ private:
+  queues::SpscQueue<status::FrameRecord> queue_;
+  std::atomic<std::uint64_t> dropped_{0};
+};
+
+}  // namespace terracut::live

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "rt/threads/nonblocking.hpp"
+
+namespace terracut::live {
+
+/// Which packets are decoded where more come than this machine is up to. The kernel's buffer is a
+/// queue of more than a second; without this every label would be that much late, for as long as
+/// the overload lasts. Two rules:
+///
+///   a packet is let go   when it is older than a frame and the deadline together: the frame it
+///                        belongs to is due, whatever is done now. After a standstill this drops
+///                        what is of no use and nothing else.
+///   the backlog is       when three frames in a row were handed over after their deadline. This
+///   let go               thread catches up on a standstill within two frames; when it does not,
+///                        it is too slow for what comes. It goes on with the newest packets, and
+///                        the frames after that are in time, until the lag has grown again.
+///
+/// Ages are by CLOCK_REALTIME, as the kernel's stamps are: a step of the clock costs what waits in
+/// the buffer at that moment, at most. One thread; looks at no clock.
+class PacketGate {
+ public:
+  /// `frame_period_ns`: of one frame of the head.
+  PacketGate(std::int64_t deadline_ns, std::int64_t frame_period_ns) noexcept
+      : deadline_ns_(deadline_ns), oldest_useful_ns_(deadline_ns + frame_period_ns) {}
+
+  /// Packets were fetched. `more_may_wait`: in such numbers that more of them may lie ready.
+  void begin_batch(bool more_may_wait) noexcept TERRACUT_NONBLOCKING {
+    if (!more_may_wait) lets_backlog_go_ = false;
+  }
+  /// Whether a packet of this batch is to be decoded.
+  [[nodiscard]] bool lets_in(std::int64_t stamp_ns,
+                             std::int64_t now_ns) const noexcept TERRACUT_NONBLOCKING {
+    return !lets_backlog_go_ && now_ns - stamp_ns <= oldest_useful_ns_;
+  }
+  /// A frame whose last packet has this stamp was handed over.
+  void note_frame(std::int64_t last_packet_ns, std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING {
+    late_frames_ = now_ns - last_packet_ns > deadline_ns_ ? late_frames_ + 1 : 0;
+    if (late_frames_ < kCatchesUpWithin) return;
+    lets_backlog_go_ = true;
+    late_frames_ = 0;
+  }
+
+ private:
+  static constexpr int kCatchesUpWithin = 3;
+
+  std::int64_t deadline_ns_, oldest_useful_ns_;
+  int late_frames_ = 0;  ///< In a row.
+  bool lets_backlog_go_ = false;
+};
+
+}  // namespace terracut::live

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "firmware_io/packet/sensor_model.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <random>
+#include <set>
+
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "tests/firmware_io/capture/capture_bytes.hpp"
+
+namespace terracut::sensor {
+namespace {
+
+using test::Bytes;
+using testing::HasSubstr;
+
+/// A Velodyne data packet with the given block ids, repeated, and last two bytes.
+Bytes velodyne(std::initializer_list<std::uint16_t> ids, std::uint8_t mode, std::uint8_t product) {
+  hdl64e::wire::Packet packet{};
+  for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
+    packet.blocks[block].id = ids.begin()[block % ids.size()];
+  }
+  packet.status_type = mode;
+  packet.status_value = product;
+  const auto payload = hdl64e::payload_of(packet);
+  return {payload.begin(), payload.end()};
+}
+
+Bytes robosense(std::initializer_list<int> start, std::size_t block_bytes) {
+  Bytes payload(1248, 0);
+  std::transform(start.begin(), start.end(), payload.begin(),
+                 [](int byte) { return static_cast<std::uint8_t>(byte); });
+  if (block_bytes != 0) {
+    for (std::size_t at = 80; at + block_bytes <= 1248; at += block_bytes) payload[at] = 0xFE;
+  }
+  return payload;
+}
+
+TEST(SensorModel, KnowsAnHdl64eWhateverItsStatusBytesAre) {
+  for (int product = 0; product < 256; ++product) {
+    const Bytes payload = velodyne({0xEEFF, 0xDDFF}, 0x37, static_cast<std::uint8_t>(product));
+    ASSERT_EQ(recognise_sensor(payload), SensorModel::kHdl64e) << product;
+  }
+}
+
+TEST(SensorModel, TellsTheOtherVelodynesApart) {
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF}, 0x37, 0x21)), SensorModel::kHdl32e);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF}, 0x37, 0x22)), SensorModel::kVlp16);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF}, 0x37, 0x24)), SensorModel::kVlp16HiRes);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF}, 0x37, 0x28)), SensorModel::kVlp32c);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF}, 0x37, 0x77)), SensorModel::kOtherVelodyne);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xDDFF, 0xCCFF, 0xBBFF}, 0x37, 0xA1)),
+            SensorModel::kVls128);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xEEFF, 0xDDFF, 0xDDFF, 0xCCFF, 0xCCFF, 0xBBFF,
+                                       0xBBFF, 0x0000, 0x0000, 0x0000, 0x0000},
+                                      0x39, 0xA1)),
+            SensorModel::kVls128);
+  EXPECT_EQ(recognise_sensor(velodyne({0xEEFF, 0xEEFF, 0xEEFF, 0xDDFF}, 0x37, 0x00)),
+            SensorModel::kHdl64eS1);
+  EXPECT_EQ(recognise_sensor(Bytes(1206, 0)), SensorModel::kUnknown);
+  EXPECT_THAT(describe_sensor_hints(velodyne({0xEEFF}, 0x39, 0x22)), HasSubstr("dual"));
+}
+
+TEST(SensorModel, KnowsPositionPackets) {
+  Bytes payload(512, 0);
+  EXPECT_EQ(recognise_sensor(payload), SensorModel::kVelodynePosition);
+  payload[206] = '$';
+  EXPECT_EQ(recognise_sensor(payload), SensorModel::kVelodynePosition);
+  payload[206] = 0x80;
+  EXPECT_EQ(recognise_sensor(payload), SensorModel::kUnknown);
+}
+
+TEST(SensorModel, NamesTheRubyFamilyByItsBlocks) {
+  EXPECT_EQ(recognise_sensor(robosense({0x55, 0xAA, 0x05, 0x5A}, 388)), SensorModel::kRuby128);
+  EXPECT_EQ(recognise_sensor(robosense({0x55, 0xAA, 0x05, 0x5A}, 244)), SensorModel::kRubyLite);
+  EXPECT_EQ(recognise_sensor(robosense({0x55, 0xAA, 0x05, 0x5A}, 0)), SensorModel::kOtherRoboSense);
+  EXPECT_EQ(recognise_sensor(robosense({0x55, 0xAA, 0x05, 0x0A, 0x5A, 0xA5}, 0)),
+            SensorModel::kOtherRoboSense);
+  EXPECT_EQ(recognise_sensor(robosense({0xA5, 0xFF, 0x00, 0x5A, 0x11, 0x11, 0x55, 0x55}, 0)),
+            SensorModel::kRoboSenseDeviceInfo);
+  EXPECT_EQ(recognise_sensor(robosense({0x55, 0xAA, 0x05}, 388)), SensorModel::kUnknown);
+
+  Bytes plus = robosense({0x55, 0xAA, 0x05, 0x5A}, 388);
+  plus[31] = 5;
+  plus[32] = 1;
+  EXPECT_EQ(recognise_sensor(plus), SensorModel::kRubyPlus);
+  EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("Ruby Plus"));
+  plus[7] = 3;
+  EXPECT_THAT(describe_sensor_hints(plus), HasSubstr("dual return"));
+}
+
+TEST(SensorModel, ReadsNothingOutsideAnyPayload) {
+  std::mt19937 random(1);
+  for (std::size_t size = 0; size < 1600; ++size) {
+    Bytes payload(size);  // its own allocation, so that a sanitizer sees any byte too many
+    for (auto& byte : payload) byte = static_cast<std::uint8_t>(random());
+    if (size != 1206 && size != 1248 && size != 512) {
+      EXPECT_EQ(recognise_sensor(payload), SensorModel::kUnknown);
+    }
+    EXPECT_TRUE(describe_sensor_hints(payload).empty() || size == 1206 || size == 1248);
+  }
+}
+
+TEST(SensorModel, EveryModelHasItsOwnName) {
+  std::set<std::string_view> names;
+  constexpr int kModels = static_cast<int>(SensorModel::kRoboSenseDeviceInfo) + 1;
+  for (int i = 0; i < kModels; ++i) names.insert(to_string(static_cast<SensorModel>(i)));
+  EXPECT_EQ(names.size(), static_cast<std::size_t>(kModels));
+}
+
+TEST(SensorModel, ThatIsNamedIsBelievedWhereTheProductIsNotKnown) {
+  const auto other = velodyne({0xEEFF}, 0x00, 0x00);
+  EXPECT_EQ(recognise_sensor_as({}, other), SensorModel::kOtherVelodyne);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kVlp16, other), SensorModel::kVlp16);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kVls128, other), SensorModel::kOtherVelodyne);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kHdl64e, other), SensorModel::kOtherVelodyne);
+  const auto hdl32e = velodyne({0xEEFF}, 0x37, 0x21);
+  EXPECT_EQ(recognise_sensor_as(SensorModel::kVlp16, hdl32e), SensorModel::kHdl32e);
+}
+
+}  // namespace
+}  // namespace terracut::sensor

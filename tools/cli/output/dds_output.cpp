@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "tools/cli/output/dds_output.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "pipeline/dds/dds_sink.hpp"
+#include "pipeline/dds/ros_topic.hpp"
+#include "tools/cli/console.hpp"
+#include "tools/cli/output/dds_participant.hpp"
+
+namespace terracut::cli {
+
+DdsTopics dds_topics_of(const DdsOptions& options) {
+  DdsTopics topics{
+      .points = "~/points", .ground = "~/ground", .obstacles = "~/obstacles", .road = "~/road"};
+  switch (options.preset) {
+    case DdsPreset::kRos:
+      break;
+    case DdsPreset::kAutoware:  // what its planner stops for
+      topics = {.obstacles = "/perception/obstacle_segmentation/pointcloud"};
+      break;
+    case DdsPreset::kNav2:  // the defaults of its GroundConsistencyLayer
+      topics = {.ground = "/ground_points", .obstacles = "/nonground_points"};
+      break;
+  }
+  if (!options.raw.empty() && options.raw != "off") topics = {.raw = options.raw};
+  const auto state = [](const std::string& stated, std::string& topic) {
+    if (!stated.empty()) topic = stated == "off" ? "" : stated;
+  };
+  state(options.points, topics.points);
+  state(options.ground, topics.ground);
+  state(options.obstacles, topics.obstacles);
+  state(options.road, topics.road);
+  state(options.diagnostics, topics.diagnostics);
+  return topics;
+}
+
+dds::Participant::Config participant_config_of(const DdsOptions& options) {
+  return {.domain = options.domain,
+          .interface = options.interface,
+          .fragment_bytes = options.fragment_bytes,
+          .receive_buffer_bytes = options.receive_buffer_kib << 10};
+}
+
+std::string dds_topic_of(const std::string& name, const DdsOptions& options) {
+  return name.empty() ? "" : dds::dds_topic(name, options.node).value_or("");
+}
+
+std::string topic_list(const DdsOptions& options) {
+  const DdsTopics topics = dds_topics_of(options);
+  std::string list;
+  for (const std::string& topic : {topics.points, topics.ground, topics.obstacles, topics.raw}) {
+    const std::string name = dds_topic_of(topic, options);
+    if (!name.empty()) list += (list.empty() ? "" : ", ") + name.substr(2);  // without "rt"
+  }
+  return list;
+}
+
+Status check_dds() {
+  return {};
+}
+
+Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(const DdsOptions& options,
+                                                            const publish::Stream& stream) {
+  constexpr std::int64_t kPatience_ns = 10'000'000'000;
+  const DdsTopics topics = dds_topics_of(options);
+  const auto topic = [&](const std::string& name) { return dds_topic_of(name, options); };
+  auto sink =
+      dds::DdsSink::open({.participant = participant_config_of(options),
+                          .quality = {.reliable = options.reliable, .depth = options.depth},
+                          .points = topic(topics.points),
+                          .ground = topic(topics.ground),
+                          .obstacles = topic(topics.obstacles),
+                          .road = stream.has_road ? topic(topics.road) : "",
+                          .raw = topic(topics.raw),
+                          .diagnostics = topic(topics.diagnostics),
+                          .tf_static = topic("/tf_static"),
+                          // Nothing of a recording is to be lost; a live run waits for nobody.
+                          .patience_ns = stream.deadline_ns == 0 ? kPatience_ns : 0},
+                         stream);
+  if (!sink) return tl::unexpected(sink.error());
+  say(fmt::format("ROS 2 messages on DDS domain {}: {}", (*sink)->domain(), topic_list(options)));
+  return std::unique_ptr<publish::FrameSink>(*std::move(sink));
+}
+
+}  // namespace terracut::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "pipeline/publish/frame_sink.hpp"
+#include "pipeline/publish/run_facts.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/options.hpp"
+
+namespace terracut::cli {
+
+/// Names of topics, as stated or else by the preset; empty: not published.
+struct DdsTopics {
+  std::string points{}, ground{}, obstacles{}, road{}, diagnostics{}, raw{};
+};
+[[nodiscard]] DdsTopics dds_topics_of(const DdsOptions& options);
+
+/// kUnsupported in a program that was built without DDS, with what to install.
+[[nodiscard]] Status check_dds();
+/// The output that --dds asks for; its topics are said. The errors of check_dds() and of
+/// dds::DdsSink::open().
+[[nodiscard]] Expected<std::unique_ptr<publish::FrameSink>> open_dds_sink(
+    const DdsOptions& options, const publish::Stream& stream);
+
+}  // namespace terracut::cli

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware_io/frame/label.hpp"
+#include "firmware_io/frame/range_image.hpp"
+#include "pipeline/output/frame_folder.hpp"
+#include "pipeline/pictures/frame_colours.hpp"
+#include "pipeline/pictures/png_picture.hpp"
+#include "pipeline/publish/publisher.hpp"
+#include "pipeline/publish/run_facts.hpp"
+#include "pipeline/stream/labelled_points.hpp"
+#include "rt/error.hpp"
+#include "tools/cli/files/frame_folder_of.hpp"
+#include "tools/cli/options.hpp"
+#include "tools/cli/output/output_sinks.hpp"
+#include "tools/cli/parquet/returns_file.hpp"
+
+namespace terracut::cli {
+
+/// Writes what OutputOptions asks for, frame by frame. `name` is a file name without extension.
+class FrameOutputs {
+ public:
+  explicit FrameOutputs(const OutputOptions& options)
+      : options_(options),
+        labels_(frame_folder_of(options, options.labels, ".label")),
+        pcd_(frame_folder_of(options, options.pcd, ".pcd")),
+        png_(frame_folder_of(options, options.png, ".png")) {}
+
+  /// Whether any of them is made of points, not of labels alone.
+  [[nodiscard]] static bool need_points(const OutputOptions& options) {
+    return !options.pcd.empty() || !options.png.empty() || !options.parquet.empty() ||
+           wants_sinks(options);
+  }
+
+  /// Before the first frame: the outputs that get frames as they come (export/output_sinks.hpp).
+  [[nodiscard]] Status open(const publish::Stream& stream);
+
+  /// NAME.label, in the order of `labels`.
+  [[nodiscard]] Status write_labels(const std::string& name, std::span<const frame::Label> labels);
+
+  /// NAME.pcd, and NAME.birdseye.png and NAME.range.png; with truth also NAME.mistakes.png.
+  /// `image` has points where need_points(); `labels` and `truth` (SemanticKITTI ids, or empty) go
+  /// by return index.
+  [[nodiscard]] Status write_frame(const std::string& name, const frame::RangeImage& image,
+                                   std::span<const frame::Label> labels,
+                                   std::span<const std::uint32_t> truth);
+
+  /// Hands the frame to the outputs that open() opened, and waits where one is slow. Their first
+  /// error. `timing`: when its returns were measured.
+  [[nodiscard]] Status publish(const status::FrameRecord& record, const frame::RangeImage& image,
+                               std::span<const frame::Label> labels,
+                               const stream::FrameTiming& timing = {});
+
+  /// Its rows of the table.
+  [[nodiscard]] Status write_returns(const LabelledReturns& frame);
+  /// After the last frame, completes the table and the other outputs.
+  [[nodiscard]] Status finish();
+
+ private:
+  [[nodiscard]] Status draw(const std::string& name, const pictures::Picture& picture);
+
+  OutputOptions options_;
+  output::FrameFolder labels_, pcd_, png_;
+  std::optional<ReturnsFile> returns_;
+  std::vector<pictures::Mistake> mistakes_;
+  std::optional<publish::Publisher> publisher_;  ///< Where any of its outputs is asked for.
+};
+
+}  // namespace terracut::cli

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cmath>
+
+#include "firmware_io/packet/sensor_model.hpp"
+#include "tools/lab/packets/hdl64e_encoder_traits.hpp"
+#include "tools/lab/packets/return_mode.hpp"
+#include "tools/lab/packets/ruby128_encoder_traits.hpp"
+#include "tools/lab/packets/velodyne_encoder_traits.hpp"
+
+/// An `EncoderTraits` is a trait: all that makers of packets (DriveWriter, the simulator,
+/// ScanResampler) need to know of a sensor, the counterpart of a decoder's `Sensor`. Those
+/// templates are instantiated for all that TERRACUT_FOR_ENCODER_TRAITS lists. It has
+/// - `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and `Column`, a
+///   LabelledColumn of its `kLasers`;
+/// - `columns_per_packet(returns)`; `firings_per_group(returns)`, the fewest that fill whole
+///   packets, which share a firing where they are several; `firing_ns(returns)`, from firing to
+///   firing; `laser_period_ns(returns)`, from a laser's firing to its next;
+/// - `step_ticks(rotor, place, returns)`: the step by which the decoder computes the beams of
+///   the firing at `place` of a group, given the group's azimuths;
+/// - `advance_ticks(step_ticks, laser, returns)`, `offset_ticks(offsets, step_ticks, laser,
+///   returns)`: the head's and the beam's azimuth at the laser's firing over its column's;
+/// - `offsets(calibration)`, `geometry(calibration, config)`, `nominal()`,
+///   `metres_per_count(calibration)`, `widest_offset_rad(calibration)`;
+/// - `kStrongestFirst`: the order of two returns; `kBeamHalfWidth_rad`: of the light;
+/// - `kCalibrationSuffix`, `read_calibration(path)`, `write_calibration(path, calibration)`: the
+///   unit's table as a file; no suffix, and neither of these: the decoder has nominal() built in;
+/// - `sender(calibration, config)`: a `Sender`, which makes the packets and puts them into a
+/// capture
+///   (hdl64e/packet_sender.hpp).
+
+/// INSTANTIATE(EncoderTraits) for each sensor whose packets are made.
+#define TERRACUT_FOR_ENCODER_TRAITS(INSTANTIATE)       \
+  INSTANTIATE(terracut::packets::Hdl64eEncoderTraits)  \
+  INSTANTIATE(terracut::packets::Ruby128EncoderTraits) \
+  INSTANTIATE(terracut::packets::Vlp16EncoderTraits)   \
+  INSTANTIATE(terracut::packets::Hdl32eEncoderTraits)  \
+  INSTANTIATE(terracut::packets::Vlp32cEncoderTraits)  \
+  INSTANTIATE(terracut::packets::Vls128EncoderTraits)
+
+namespace terracut::packets {
+
+/// Columns of a frame's image, by how often a laser fires.
+template <class EncoderTraits>
+[[nodiscard]] int image_columns(double spin_hz, ReturnMode returns) {
+  const auto period_ns = static_cast<double>(EncoderTraits::laser_period_ns(returns));
+  return static_cast<int>(std::lround(1e9 / (spin_hz * period_ns)));
+}
+
+/// Calls `work` with the (empty) trait of a sensor whose packets are made; of an HDL-64E for every
+/// other model.
+template <class Work>
+decltype(auto) with_encoder_traits(sensor::SensorModel model, const Work& work) {
+  switch (model) {
+    case sensor::SensorModel::kRuby128:
+      return work(packets::Ruby128EncoderTraits{});
+    case sensor::SensorModel::kVlp16:
+      return work(packets::Vlp16EncoderTraits{});
+    case sensor::SensorModel::kHdl32e:
+      return work(packets::Hdl32eEncoderTraits{});
+    case sensor::SensorModel::kVlp32c:
+      return work(packets::Vlp32cEncoderTraits{});
+    case sensor::SensorModel::kVls128:
+      return work(packets::Vls128EncoderTraits{});
+    default:
+      return work(packets::Hdl64eEncoderTraits{});
+  }
+}
+
+}  // namespace terracut::packets

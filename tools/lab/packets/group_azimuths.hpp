@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+namespace terracut::packets {
+
+/// Head azimuths of the firings that fill whole packets, each in [0, 36000).
+struct GroupAzimuths {
+  std::array<std::int32_t, 12> cdeg{};      ///< The last are not used where fewer firings do.
+  std::optional<std::int32_t> before_cdeg;  ///< Of the firing before; nothing at the drive's start.
+};
+
+}  // namespace terracut::packets

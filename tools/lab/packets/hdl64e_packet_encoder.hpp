@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "firmware_io/frame/labelled_return.hpp"
+#include "firmware_io/hdl64e/firing_times.hpp"
+#include "firmware_io/hdl64e/status_cycle.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+
+namespace terracut::packets {
+
+/// Writes six columns as one data packet: six firings, or in dual return three firings with their
+/// strongest and their last return, each pair of one azimuth. The device stamp marks the packet's
+/// end (docs/reference/sensors.md): `end_stamp_ns` (since 1970), as microseconds of its hour.
+void encode_hdl64e_packet(
+    std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns,
+    std::int64_t end_stamp_ns, hdl64e::StatusPair status, hdl64e::wire::Packet& packet) noexcept;
+
+/// When the packet of these columns ends: one firing period, taken from the columns themselves,
+/// after the last one. Two columns of one azimuth at the start mean dual return.
+[[nodiscard]] std::int64_t packet_end_ns(
+    std::span<const frame::FiringColumn, hdl64e::kColumnsPerPacketSingle> columns) noexcept;
+
+}  // namespace terracut::packets

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <span>
+
+#include "calib/hdl64e/hdl64e_calibration.hpp"
+#include "firmware_io/capture/pcap_writer.hpp"
+#include "firmware_io/frame/labelled_return.hpp"
+#include "firmware_io/hdl64e/firing_times.hpp"
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "rt/error.hpp"
+#include "tools/lab/packets/return_mode.hpp"
+#include "tools/lab/packets/status_stream_writer.hpp"
+
+namespace terracut::packets {
+
+/// Sends an HDL-64E's data packets into a capture: UDP port 2368, factory addresses, the unit's
+/// calibration in the status bytes. Not real-time safe (the file). One thread.
+class Hdl64ePacketSender {
+ public:
+  /// The error is that of a calibration which does not fit into the status stream.
+  [[nodiscard]] static Expected<Hdl64ePacketSender> create(
+      const hdl64e::Hdl64eCalibration& calibration, packets::ReturnMode returns);
+
+  /// The next packet, of a packet's columns. `first_column`: which of its group's columns it begins
+  /// with.
+  [[nodiscard]] Status send(std::span<const frame::FiringColumn> columns, int first_column,
+                            capture::PcapWriter& capture);
+
+ private:
+  explicit Hdl64ePacketSender(const StatusStreamWriter& status) noexcept : status_(status) {}
+
+  StatusStreamWriter status_;
+  hdl64e::wire::Packet packet_ = hdl64e::blank_packet();
+};
+
+}  // namespace terracut::packets

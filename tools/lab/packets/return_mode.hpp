@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+
+namespace terracut::packets {
+
+/// How many returns of a pulse a sensor sends.
+enum class ReturnMode : std::uint8_t {
+  kSingle,  ///< The strongest.
+  kDual,    ///< The strongest and the last; twice the same where there is but one.
+};
+
+[[nodiscard]] constexpr int returns_per_firing(ReturnMode mode) noexcept {
+  return mode == ReturnMode::kDual ? 2 : 1;
+}
+
+}  // namespace terracut::packets

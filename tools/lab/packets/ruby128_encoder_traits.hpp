@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "calib/ruby128/nominal_ruby128.hpp"
+#include "calib/ruby128/ruby128_csv.hpp"
+#include "calib/ruby128/ruby128_geometry.hpp"
+#include "firmware_io/frame/labelled_return.hpp"
+#include "firmware_io/ruby128/firing_azimuth.hpp"
+#include "tools/lab/packets/group_azimuths.hpp"
+#include "tools/lab/packets/return_mode.hpp"
+#include "tools/lab/packets/ruby128_packet_sender.hpp"
+
+namespace terracut::packets {
+
+/// The RS-Ruby128 as makers of packets see it (packets/encoder_traits.hpp): three firings a packet,
+/// or in dual return three firings in two packets, A A B and B C C.
+struct Ruby128EncoderTraits {
+  using Calibration = ruby128::Ruby128Calibration;
+  using Geometry = ruby128::Ruby128Geometry;
+  using Offsets = ruby128::Ruby128BeamOffsets;
+  using Column = frame::Ruby128Column;
+  using Sender = Ruby128PacketSender;
+
+  struct Config {
+    packets::ReturnMode returns = packets::ReturnMode::kSingle;
+    ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
+    /// 0 lets decoders find out by the stamps themselves which encoding they are in.
+    std::uint16_t protocol_version = 0;
+    Ruby128Unit unit{};
+  };
+
+  static constexpr int kLasers = ruby128::kRuby128Lasers;
+  static constexpr bool kStrongestFirst = false;
+  static constexpr double kBeamHalfWidth_rad = 1.25e-3;
+  static constexpr std::string_view kCalibrationSuffix = ".calibration.csv";
+
+  [[nodiscard]] static constexpr std::int64_t firing_ns(packets::ReturnMode) noexcept {
+    return ruby128::kRubyBlock_ns;
+  }
+  [[nodiscard]] static constexpr std::int64_t laser_period_ns(
+      packets::ReturnMode returns) noexcept {
+    return firing_ns(returns);
+  }
+  [[nodiscard]] static constexpr int firings_per_group(packets::ReturnMode) noexcept { return 3; }
+  [[nodiscard]] static constexpr int columns_per_packet(packets::ReturnMode) noexcept {
+    return ruby128::kRubyBlocksPerPacket;
+  }
+
+  /// In dual return A and B stand in one packet and C beside B in the next, where B keeps its step.
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor,
+                                                         int place,
+                                                         packets::ReturnMode returns) noexcept {
+    const std::int32_t a = rotor.cdeg[0], b = rotor.cdeg[1], c = rotor.cdeg[2];
+    if (returns == packets::ReturnMode::kSingle) return ruby128::ruby_step_ticks({a, b, c});
+    return place < 2 ? ruby128::ruby_step_ticks({a, a, b}) : ruby128::ruby_step_ticks({b, c, c});
+  }
+  [[nodiscard]] static constexpr std::int32_t advance_ticks(std::int32_t step_ticks, int channel,
+                                                            packets::ReturnMode) noexcept {
+    return ruby128::ruby_advance_ticks(step_ticks, channel);
+  }
+  [[nodiscard]] static std::int32_t offset_ticks(const Offsets& offsets, std::int32_t step_ticks,
+                                                 int channel, packets::ReturnMode) noexcept {
+    return offsets.offset_ticks(step_ticks, channel);
+  }
+
+  [[nodiscard]] static Offsets offsets(const Calibration& calibration) {
+    return Offsets(calibration);
+  }
+  [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config&) {
+    return Geometry(calibration);
+  }
+  [[nodiscard]] static Expected<Sender> sender(const Calibration& calibration,
+                                               const Config& config) {
+    return Sender(calibration, config.unit,
+                  {.returns = config.returns,
+                   .timestamp = config.timestamp,
+                   .protocol_version = config.protocol_version});
+  }
+  [[nodiscard]] static Calibration nominal() { return ruby128::nominal_ruby128(); }
+  [[nodiscard]] static constexpr double metres_per_count(const Calibration&) noexcept {
+    return ruby128::kRuby128MetresPerCount;
+  }
+  [[nodiscard]] static double widest_offset_rad(const Calibration& calibration) noexcept {
+    double widest_rad = 0;
+    for (const ruby128::Ruby128Channel& channel : calibration.channels) {
+      widest_rad = std::max(widest_rad, std::abs(channel.azimuth_offset_rad));
+    }
+    return widest_rad;
+  }
+
+  [[nodiscard]] static Status write_calibration(const std::filesystem::path& path,
+                                                const Calibration& calibration) {
+    return ruby128::write_ruby128_csv(path, calibration);
+  }
+  [[nodiscard]] static Expected<Calibration> read_calibration(const std::filesystem::path& path) {
+    return ruby128::read_ruby128_csv(path);
+  }
+};
+
+}  // namespace terracut::packets

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "calib/ruby128/ruby128_calibration.hpp"
+#include "firmware_io/capture/pcap_writer.hpp"
+#include "firmware_io/frame/labelled_return.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
+#include "firmware_io/ruby128/difop.hpp"
+#include "rt/error.hpp"
+#include "tools/lab/packets/ruby128_packet_encoder.hpp"
+
+namespace terracut::packets {
+
+/// What a unit says of itself beside its measurements.
+struct Ruby128Unit {
+  std::uint16_t rpm = 600;
+  std::array<std::uint8_t, 6> serial{};
+  double temperature_deg_c = 41.5;
+};
+
+/// Sends an RS-Ruby128's packets into a capture, with the factory's addresses and ports: the data
+/// packets (MSOP) as they are given, and the device packet (DIFOP) with the unit's angles before
+/// the first of them and then once a second. Not real-time safe (the file). One thread.
+class Ruby128PacketSender {
+ public:
+  Ruby128PacketSender(const ruby128::Ruby128Calibration& calibration, const Ruby128Unit& unit,
+                      Ruby128PacketFacts facts);
+
+  /// The next packet, of a packet's columns. `first_column`: which of its group's columns it begins
+  /// with.
+  [[nodiscard]] Status send(std::span<const frame::Ruby128Column> columns, int first_column,
+                            capture::PcapWriter& capture);
+
+ private:
+  [[nodiscard]] Status send_difop(std::int64_t stamp_ns, std::int64_t captured_ns,
+                                  capture::PcapWriter& capture);
+
+  Ruby128PacketFacts facts_;
+  ruby128::ruby128_wire::Difop difop_;
+  ruby128::ruby128_wire::Packet packet_ = ruby128::blank_packet();
+  std::optional<std::int64_t> next_difop_ns_;
+};
+
+}  // namespace terracut::packets

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "calib/velodyne/velodyne_geometry.hpp"
+#include "firmware_io/frame/labelled_return.hpp"
+#include "firmware_io/velodyne/beam_offsets.hpp"
+#include "firmware_io/velodyne/hdl32e.hpp"
+#include "firmware_io/velodyne/vlp16.hpp"
+#include "firmware_io/velodyne/vlp32c.hpp"
+#include "firmware_io/velodyne/vls128.hpp"
+#include "tools/lab/packets/group_azimuths.hpp"
+#include "tools/lab/packets/return_mode.hpp"
+#include "tools/lab/packets/velodyne_packet_sender.hpp"
+
+namespace terracut::packets {
+
+/// A Velodyne with a built-in table as makers of packets see it (packets/encoder_traits.hpp). What
+/// is a firing there is a column here, which of a VLP-16 is two firings of its lasers.
+template <class Model>
+struct VelodyneEncoderTraits {
+  using Calibration = velodyne::VelodyneCalibration;
+  using Geometry = velodyne::VelodyneGeometry;
+  using Offsets = velodyne::BeamOffsets<Model>;
+  using Column = frame::LabelledColumn<Model::kChannels>;
+  using Sender = VelodynePacketSender<Model>;
+
+  struct Config {
+    ReturnMode returns = ReturnMode::kSingle;
+  };
+
+  static constexpr int kLasers = Model::kChannels;
+  static constexpr bool kStrongestFirst = false;
+  static constexpr double kBeamHalfWidth_rad = 1.5e-3;  ///< The manuals give 3 mrad in all.
+  static constexpr std::string_view kCalibrationSuffix = "";
+
+  [[nodiscard]] static constexpr bool is_dual(ReturnMode returns) noexcept {
+    return returns == ReturnMode::kDual;
+  }
+  [[nodiscard]] static constexpr std::int64_t firing_ns(ReturnMode) noexcept {
+    return Model::kLayout.column_ns;
+  }
+  [[nodiscard]] static constexpr std::int64_t laser_period_ns(ReturnMode) noexcept {
+    return Model::kLayout.firing_ns;
+  }
+  [[nodiscard]] static constexpr int firings_per_group(ReturnMode returns) noexcept {
+    return Model::kLayout.firings(is_dual(returns));
+  }
+  [[nodiscard]] static constexpr int columns_per_packet(ReturnMode returns) noexcept {
+    return Model::kLayout.columns(is_dual(returns));
+  }
+
+  /// One firing a packet tells no step: it is the way from the packet before.
+  [[nodiscard]] static constexpr std::int32_t step_ticks(const packets::GroupAzimuths& rotor, int,
+                                                         ReturnMode returns) noexcept {
+    const int firings = firings_per_group(returns);
+    if (firings > 1) {
+      const auto last = static_cast<std::size_t>(firings - 1);
+      return velodyne::mean_step_ticks(beams::step_cdeg(rotor.cdeg[0], rotor.cdeg[last]), firings);
+    }
+    if (!rotor.before_cdeg) return velodyne::assumed_step_ticks(Model::kLayout);
+    return beams::step_cdeg(*rotor.before_cdeg, rotor.cdeg[0]) * packet::kTicksPerCdeg;
+  }
+  [[nodiscard]] static constexpr std::int32_t advance_ticks(std::int32_t step_ticks, int channel,
+                                                            ReturnMode) noexcept {
+    return velodyne::advance_ticks<Model>(step_ticks,
+                                          Model::group(static_cast<std::size_t>(channel)));
+  }
+  [[nodiscard]] static std::int32_t offset_ticks(const Offsets& offsets, std::int32_t step_ticks,
+                                                 int channel, ReturnMode) noexcept {
+    return offsets.offset_ticks(step_ticks, channel);
+  }
+
+  [[nodiscard]] static Offsets offsets(const Calibration& calibration) {
+    return Offsets(calibration);
+  }
+  [[nodiscard]] static Geometry geometry(const Calibration& calibration, const Config&) {
+    return Geometry(calibration, Model::kMetresPerCount);
+  }
+  [[nodiscard]] static Expected<Sender> sender(const Calibration&, const Config& config) {
+    return Sender(config.returns);
+  }
+  [[nodiscard]] static Calibration nominal() { return velodyne::factory_table(Model::kModel); }
+  [[nodiscard]] static constexpr double metres_per_count(const Calibration&) noexcept {
+    return Model::kMetresPerCount;
+  }
+  [[nodiscard]] static double widest_offset_rad(const Calibration& calibration) noexcept {
+    double widest_rad = 0;
+    for (const velodyne::VelodyneLaser& laser : calibration.lasers) {
+      widest_rad = std::max(widest_rad, std::abs(laser.azimuth_offset_rad));
+    }
+    return widest_rad;
+  }
+};
+
+using Vlp16EncoderTraits = VelodyneEncoderTraits<velodyne::Vlp16>;
+using Hdl32eEncoderTraits = VelodyneEncoderTraits<velodyne::Hdl32e>;
+using Vlp32cEncoderTraits = VelodyneEncoderTraits<velodyne::Vlp32c>;
+using Vls128EncoderTraits = VelodyneEncoderTraits<velodyne::Vls128>;
+
+}  // namespace terracut::packets

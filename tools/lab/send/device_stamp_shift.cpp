@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#include "tools/lab/send/device_stamp_shift.hpp"
+
+#include <algorithm>
+#include <cstddef>
+
+#include "firmware_io/packet/hdl64e_wire.hpp"
+#include "firmware_io/packet/ruby128_wire.hpp"
+#include "firmware_io/packet/sensor_model.hpp"
+
+namespace terracut::send {
+namespace {
+
+constexpr std::int64_t rounded_us(std::int64_t time_ns) noexcept {
+  return time_ns >= 0 ? (time_ns + 500) / 1000 : -((-time_ns + 500) / 1000);
+}
+
+template <class Bytes>
+void write_at(std::span<std::uint8_t> payload, std::size_t offset, const Bytes& bytes) noexcept {
+  const auto field = payload.subspan(offset, bytes.size());
+  std::copy(bytes.begin(), bytes.end(), field.begin());
+}
+
+void shift_velodyne(std::span<std::uint8_t> payload, const hdl64e::wire::Packet& packet,
+                    std::int64_t shift_ns) noexcept {
+  constexpr std::int64_t kHour_us = hdl64e::kDeviceHour_us;
+  const std::int64_t shifted_us =
+      (std::int64_t{packet.stamp_us.value()} + rounded_us(shift_ns)) % kHour_us;
+  const auto stamp_us =
+      static_cast<std::uint32_t>(shifted_us < 0 ? shifted_us + kHour_us : shifted_us);
+  write_at(payload, offsetof(hdl64e::wire::Packet, stamp_us), packet::Le32::of(stamp_us).bytes);
+}
+
+void shift_ruby128(std::span<std::uint8_t> payload, const ruby128::ruby128_wire::Packet& packet,
+                   ruby128::RubyTimestamp encoding, std::int64_t shift_ns) noexcept {
+  const std::int64_t unit_ns = encoding == ruby128::RubyTimestamp::kUtcNanoseconds ? 1 : 1000;
+  const std::int64_t step_ns = unit_ns == 1 ? shift_ns : rounded_us(shift_ns) * unit_ns;
+  const std::int64_t stamp_ns = ruby128::read_ruby_timestamp(packet.stamp, encoding) + step_ns;
+  write_at(payload, offsetof(ruby128::ruby128_wire::Packet, stamp),
+           ruby128::write_ruby_timestamp(std::max<std::int64_t>(stamp_ns, 0), encoding));
+}
+
+}  // namespace
+
+bool DeviceStampShift::operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept {
+  const sensor::SensorModel model = sensor::recognise_sensor(payload);
+  if (model == sensor::SensorModel::kHdl64e || sensor::velodyne_model_of(model)) {
+    const auto* packet = hdl64e::packet_in(payload);
+    if (packet == nullptr) return false;
+    shift_velodyne(payload, *packet, shift_ns);
+    return true;
+  }
+  if (model == sensor::SensorModel::kRuby128 || model == sensor::SensorModel::kRubyPlus) {
+    const auto* packet = ruby128::packet_in(payload);
+    if (packet == nullptr) return false;
+    const ruby128::RubyTimestamp encoding = ruby_encoding_.add(packet->stamp);
+    if (shift_ns != 0) shift_ruby128(payload, *packet, encoding, shift_ns);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace terracut::send

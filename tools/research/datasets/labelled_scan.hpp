@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Copyright 2026 The terracut authors
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "firmware_io/scan/kitti_scan.hpp"
+#include "firmware_io/scan/ring_recovery.hpp"
+#include "rt/error.hpp"
+#include "tools/research/datasets/cloud_layout.hpp"
+
+namespace terracut::datasets {
+
+/// One labelled frame. Buffers are kept from frame to frame.
+struct LabelledScan {
+  scan::KittiScan scan;                       ///< Sensor frame; as many labels as points.
+  std::vector<std::uint16_t> laser_of_point;  ///< Empty unless the layout's rings are a field.
+  scan::RingRecovery rings;                   ///< The ring of every point.
+};
+
+/// Reads the points of a file, their lasers, and the labels that are a field of it. Errors name the
+/// file: those of its format, and kMalformed for a missing field, numbers of lasers or labels that
+/// there cannot be, or no point that is a place.
+[[nodiscard]] Status read_points(const CloudLayout& layout, const std::filesystem::path& file,
+                                 LabelledScan& to);
+
+/// Reads the labels of the points from a file of their own. The errors of scan::read_label_file().
+[[nodiscard]] Status read_labels(LabelFormat format, const std::filesystem::path& file,
+                                 scan::KittiScan& to);
+
+}  // namespace terracut::datasets

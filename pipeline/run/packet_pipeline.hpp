@@ -64,11 +64,6 @@ class PacketPipeline {
   void take_near_ground(const Frame& frame, ground::NearGround& ground) noexcept {
     method_.take_near_ground(*frame.image, ground);
   }
-  /// By cell of the labelled frame's image, above the ground that the method has found; until the
-  /// next push().
-  [[nodiscard]] std::span<const float> height_m() const noexcept {
-    return method_.planes().height_m;
-  }
 
   [[nodiscard]] const decode::Decoder& decoder() const noexcept { return decoder_; }
 

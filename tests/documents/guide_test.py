@@ -210,6 +210,9 @@ class Page:
         if not list(folder.glob("terracut/_terracut*.so")):
             self.left_out.append(f"{text.splitlines()[0]} ...: needs the Python module")
             return
+        if "import pyarrow" in text and subprocess.run(["/usr/bin/python3", "-c", "import pyarrow"], stderr=subprocess.DEVNULL, check=False).returncode:
+            self.left_out.append(f"{text.splitlines()[0]} ...: needs pyarrow")
+            return
         sensor = Sensor(self.program, self.folder, "2368") if "terracut.live" in text else None
         try:
             done = subprocess.run(["/usr/bin/python3", "-c", self.notebook], cwd=self.folder, capture_output=True, text=True,

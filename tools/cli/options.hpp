@@ -98,8 +98,8 @@ struct OutputOptions {
   std::filesystem::path labels, pcd, png;  ///< Folders.
   bool overwrite = false;                  ///< In them also what was made of another input.
   std::string made_of;                     ///< RunFiles::made_of
-  std::filesystem::path json, parquet;     ///< Files.
-  std::vector<std::string> metadata;       ///< KEY=VALUE, for the Parquet and the MCAP file.
+  std::filesystem::path json;              ///< File.
+  std::vector<std::string> metadata;       ///< KEY=VALUE, for the MCAP file.
   McapOptions mcap;
   std::string foxglove;                       ///< ADDRESS:PORT or PORT; empty: not served.
   std::vector<std::string> foxglove_origins;  ///< Of pages elsewhere that may connect to it.
@@ -215,7 +215,7 @@ struct EvalOptions {
   std::filesystem::path changes;  ///< With it no journal.
 };
 
-enum class FleetFormat : std::uint8_t { kLabels, kParquet, kMcap };
+enum class FleetFormat : std::uint8_t { kLabels, kMcap };
 
 /// Recordings of a fleet, labelled by many processes.
 struct FleetOptions {

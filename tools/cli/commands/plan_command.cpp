@@ -14,7 +14,6 @@
 #include "tools/cli/commands.hpp"
 #include "tools/cli/console.hpp"
 #include "tools/cli/json_text.hpp"
-#include "tools/cli/parquet/returns_file.hpp"
 #include "tools/cli/settings/decoder_choice.hpp"
 #include "tools/cli/settings/motion_choice.hpp"
 #include "tools/cli/settings/setup_choice.hpp"
@@ -44,8 +43,6 @@ std::size_t output_bytes(FleetFormat format, std::size_t returns) {
   switch (format) {
     case FleetFormat::kLabels:
       return returns * sizeof(std::uint32_t);
-    case FleetFormat::kParquet:
-      return ReturnsFile::memory_bytes(returns);
     case FleetFormat::kMcap:
       return mcap::McapSink::memory_bytes(returns);
   }

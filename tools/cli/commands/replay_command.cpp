@@ -134,10 +134,6 @@ class Replay {
     sinks_ = outputs_.write_labels(name, labels);
     if (sinks_) sinks_ = outputs_.write_frame(name, image, labels, truth);
     if (sinks_) sinks_ = outputs_.publish(frame.record, image, labels, capture_.timing(frame));
-    if (sinks_) {
-      sinks_ = outputs_.write_returns(
-          {info.number, info.first_packet_ns, image, capture_.height_m(), labels});
-    }
     progress_.update(static_cast<double>(capture_.report().totals.frames));
   }
 

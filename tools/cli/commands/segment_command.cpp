@@ -127,11 +127,6 @@ ExitCode run_segment(const Options& options) {
       record.info.last_packet_ns = record.info.first_packet_ns;
       written = outputs.publish(record, labeller.image, labeller.method.labels());
     }
-    if (written) {
-      written = outputs.write_returns({record.info.number, 0, labeller.image,
-                                       labeller.method.planes().height_m, labeller.method.labels(),
-                                       labeller.scan_to_image.point_of_return()});
-    }
     if (!written) return refuse(written.error());
     progress.update(static_cast<double>(i + 1));
   }

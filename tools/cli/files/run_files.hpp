@@ -54,7 +54,7 @@ struct RunFiles {
 [[nodiscard]] Expected<std::vector<files::OutputClaim>> claim_outputs(
     const RunFiles& files, std::vector<Error>* unwritable = nullptr);
 
-/// "will be replaced: r.json, t.parquet": files and folders that stand where the run will put its
+/// "will be replaced: r.json, d.mcap": files and folders that stand where the run will put its
 /// own as a whole. Empty: there are none.
 [[nodiscard]] std::string replaced_by(const RunFiles& files);
 

@@ -78,15 +78,12 @@ std::vector<std::string> output_words(const RelabelJob& job, const Json& recipe,
     case FleetFormat::kLabels:
       words.insert(words.end(), {"--labels", folder.labels().string()});
       return words;
-    case FleetFormat::kParquet:
-      words.insert(words.end(), {"--parquet", (folder.labels() / "returns.parquet").string()});
-      break;
     case FleetFormat::kMcap:
-      words.insert(words.end(), {"--mcap", (folder.labels() / "returns.mcap").string(),
-                                 "--mcap-clouds", "points"});
-      break;
+      words.insert(words.end(),
+                   {"--mcap", (folder.labels() / "returns.mcap").string(), "--mcap-clouds",
+                    "points", "--metadata", "terracut.recipe=" + recipe.dump()});
+      return words;
   }
-  words.insert(words.end(), {"--metadata", "terracut.recipe=" + recipe.dump()});
   return words;
 }
 

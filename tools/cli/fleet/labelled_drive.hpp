@@ -15,7 +15,7 @@ namespace terracut::cli {
 
 /// The folder of a drive's labels, which is whole or not there. In it are
 ///
-///   NNNNNN.label    or returns.parquet, returns.mcap
+///   NNNNNN.label    or returns.mcap
 ///   terracut.json   what its name is a hash of, what came out, and of how many files and bytes
 ///   terracut.yaml   the settings
 ///   SHA256SUMS      of all these, for `sha256sum -c`

@@ -47,8 +47,6 @@ class LabelledCapture {
   [[nodiscard]] stream::FrameTiming timing(const run::Frame& frame) const noexcept {
     return stream::FrameTiming::of(frame.record.info, decoder().beam_turns());
   }
-  /// By cell of its image, above the ground that the method has found.
-  [[nodiscard]] std::span<const float> height_m() const noexcept { return pipeline_->height_m(); }
 
   /// From the beginning again, or from so many seconds behind it, where the first frame lacks what
   /// was before. The errors of the sources.

@@ -83,16 +83,6 @@ Status FrameOutputs::write_frame(const std::string& name, const frame::RangeImag
                    legend_of(judged)));
 }
 
-Status FrameOutputs::write_returns(const LabelledReturns& frame) {
-  if (options_.parquet.empty()) return {};
-  if (!returns_) {
-    auto file = ReturnsFile::create(options_.parquet, key_values_of(options_.metadata));
-    if (!file) return tl::unexpected(file.error());
-    returns_.emplace(*std::move(file));
-  }
-  return returns_->add_frame(frame);
-}
-
 Status FrameOutputs::open(const publish::Stream& stream) {
   if (!wants_sinks(options_)) return {};
   auto sinks = open_sinks(options_, stream);
@@ -113,11 +103,9 @@ Status FrameOutputs::publish(const status::FrameRecord& record, const frame::Ran
 }
 
 Status FrameOutputs::finish() {
-  if (publisher_) {
-    (void)publisher_->finish(std::nullopt);
-    if (const Status outcome = publisher_->outcome(); !outcome) return outcome;
-  }
-  return returns_ ? returns_->close() : Status{};
+  if (!publisher_) return {};
+  (void)publisher_->finish(std::nullopt);
+  return publisher_->outcome();
 }
 
 Status FrameOutputs::draw(const std::string& name, const pictures::Picture& picture) {

@@ -20,7 +20,6 @@
 #include "tools/cli/files/frame_folder_of.hpp"
 #include "tools/cli/options.hpp"
 #include "tools/cli/output/output_sinks.hpp"
-#include "tools/cli/parquet/returns_file.hpp"
 
 namespace terracut::cli {
 
@@ -35,8 +34,7 @@ class FrameOutputs {
 
   /// Whether any of them is made of points, not of labels alone.
   [[nodiscard]] static bool need_points(const OutputOptions& options) {
-    return !options.pcd.empty() || !options.png.empty() || !options.parquet.empty() ||
-           wants_sinks(options);
+    return !options.pcd.empty() || !options.png.empty() || wants_sinks(options);
   }
 
   /// Before the first frame: the outputs that get frames as they come (export/output_sinks.hpp).
@@ -58,9 +56,7 @@ class FrameOutputs {
                                std::span<const frame::Label> labels,
                                const stream::FrameTiming& timing = {});
 
-  /// Its rows of the table.
-  [[nodiscard]] Status write_returns(const LabelledReturns& frame);
-  /// After the last frame, completes the table and the other outputs.
+  /// After the last frame, completes the outputs that open() opened.
   [[nodiscard]] Status finish();
 
  private:
@@ -68,7 +64,6 @@ class FrameOutputs {
 
   OutputOptions options_;
   output::FrameFolder labels_, pcd_, png_;
-  std::optional<ReturnsFile> returns_;
   std::vector<pictures::Mistake> mistakes_;
   std::optional<publish::Publisher> publisher_;  ///< Where any of its outputs is asked for.
 };

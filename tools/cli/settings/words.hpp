@@ -54,7 +54,6 @@ inline constexpr std::array kReturnsWords{Word{"single", packets::ReturnMode::kS
 inline constexpr std::array kStreamModeWords{
     Word{"600", ::mode_t{0600}}, Word{"660", ::mode_t{0660}}, Word{"666", ::mode_t{0666}}};
 inline constexpr std::array kFormatWords{Word{"labels", FleetFormat::kLabels},
-                                         Word{"parquet", FleetFormat::kParquet},
                                          Word{"mcap", FleetFormat::kMcap}};
 inline constexpr std::array kMcapCloudsWords{Word{"all", McapClouds::kAll},
                                              Word{"points", McapClouds::kPoints}};

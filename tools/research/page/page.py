@@ -9,7 +9,6 @@ import jinja2
 from markupsafe import Markup
 
 from page import paper, plots
-from page.spread import Spread
 from page.table_cells import EMPTY, TableCells, printed
 
 HERE = Path(__file__).parent
@@ -52,10 +51,6 @@ class Facts:
         measured = [values[place] for _, name, place in self.columns if name is not None and place is not None]
         return sum(measured) / len(measured) if measured else None
 
-    def spreads(self, sums):
-        """[(distance, Spread)] and of all distances together."""
-        return [*zip(self.evaluation["cells"]["distances"], map(Spread, sums)), (Markup("<b>all</b>"), Spread(*sums))]
-
 
 def share(value):
     return "–" if value is None else f"{100 * value:.2f} %"
@@ -90,7 +85,6 @@ def render(evaluation, folder):
         printed=printed,
         role_of=facts.role_of,
         share=share,
-        spreads=facts.spreads,
         stages=facts.stages(),
         style=Markup((HERE / "style.css").read_text()),
         tells_road=facts.tells_road,

@@ -14,7 +14,6 @@ from matplotlib.figure import Figure
 
 # Told apart by people who confuse red and green, too (Okabe, Ito).
 METHOD_COLOURS = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b8860b", "#56b4e9", "#444444", "#882255"]
-GRID_COLOURS = ["#c9d3df", "#8ea3bd", "#4a6a94", "#d55e00"]
 STYLE = {
     "svg.fonttype": "none",  # letters stay letters
     "font.size": 9,
@@ -149,24 +148,3 @@ def name_sequences(axes, sequences):
     axes.set_xticks(middles, names)
     axes.set_xlim(-0.5, len(sequences) - 0.5)
     axes.set_xlabel("frame, sequence after sequence")
-
-
-def returns_over_cells(cells):
-    """The share of every grid's cells that has none, one, a few, many returns."""
-    names = cells["returns_in_a_cell"]
-    width = 0.8 / len(cells["grids"])
-    plot = Plot("cells", 3.4, "Share of cells by the number of returns")
-    with rc_context(STYLE):
-        axes = plot.figure.add_subplot()
-        for place, (grid, colour) in enumerate(zip(cells["grids"], GRID_COLOURS)):
-            shares = 100 * numpy.array(grid["histogram"]) / max(sum(grid["histogram"]), 1)
-            left = numpy.arange(len(names)) - 0.4 + width * place
-            bars = axes.bar(left, shares, 0.92 * width, align="edge", color=colour, label=grid["name"])
-            for bar, name, share in zip(bars, names, shares):
-                plot.tip(bar, f"{grid['name']}: {share:.2f} % of the cells have {name} returns")
-        axes.set_xticks(range(len(names)), names)
-        axes.set_xlabel("returns in a cell")
-        axes.set_ylabel("share of the grid's cells [%]")
-        axes.set_title("Share of cells by the number of returns")
-        axes.legend(loc="upper right")
-    return plot.svg()

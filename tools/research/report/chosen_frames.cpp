@@ -66,14 +66,4 @@ std::vector<ChosenFrame> worst_frames(const Json& method) {
   return list;
 }
 
-std::vector<ChosenFrame> spread_frames(const Json& method, std::size_t most) {
-  const Json& frames = method.at("frames");
-  const std::size_t count = std::min(most, frames.size());
-  std::vector<ChosenFrame> list;
-  for (std::size_t i = 0; i < count; ++i) {
-    list.push_back(chosen(frames, i * frames.size() / count, "spread"));
-  }
-  return list;
-}
-
 }  // namespace terracut::report

@@ -2,7 +2,6 @@
 // Copyright 2026 The terracut authors
 #pragma once
 
-#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -11,7 +10,7 @@ namespace terracut::report {
 
 using Json = nlohmann::ordered_json;
 
-/// A frame that is shown or counted.
+/// A frame that is shown.
 struct ChosenFrame {
   std::string sequence, frame;
   std::string why;  ///< "middle", "lowest Recall_o"; for people.
@@ -27,7 +26,5 @@ struct ChosenFrame {
 /// Of every sequence the frames with the lowest Recall_o and the lowest IoU_g (all ground): two, or
 /// one that is both; the first of equals. Frames where a measure is not defined are not its worst.
 [[nodiscard]] std::vector<ChosenFrame> worst_frames(const Json& method);
-/// At most `most` frames, evenly spread over all.
-[[nodiscard]] std::vector<ChosenFrame> spread_frames(const Json& method, std::size_t most);
 
 }  // namespace terracut::report

@@ -14,31 +14,24 @@
 namespace terracut::report {
 namespace {
 
-/// More say nothing new of cells, and each takes a moment.
-constexpr std::size_t kFramesToCount = 200;
-
 /// Adds what needs the frames themselves.
 Status add_frames(const std::filesystem::path& folder, const ReportInput& input, Json& report,
                   const std::function<void(std::size_t, std::size_t)>& on_progress) {
   const Json& methods = input.evaluation.at("methods");
   const std::string worst_of = method_in_question(input.evaluation);
-  const auto counted = spread_frames(methods.front(), kFramesToCount);
   const auto middle = middle_frames(methods.front());
   const auto worst = worst_frames(methods.at(worst_of));
   std::size_t done = 0;
-  const auto on_frame = [&] { on_progress(++done, counted.size() + middle.size() + worst.size()); };
+  const auto on_frame = [&] { on_progress(++done, middle.size() + worst.size()); };
 
   const auto dataset = datasets::Dataset::at(input.config.layout, input.config.root);
   FrameReader reader(dataset.value(), input.config.mount, input.classes);
   FramePictures pictures(input.config, reader);
-  auto grids = grids_to_count();
-  const auto counted_frames = count_cells(counted, reader, grids, on_frame);
   DrawnFrames drawn(input.evaluation, pictures, folder, on_frame);
   const auto side_by_side = drawn.side_by_side(middle);
   if (!side_by_side) return tl::unexpected(side_by_side.error());
   const auto failures = drawn.worst(worst);
   if (!failures) return tl::unexpected(failures.error());
-  report["cells"] = cells_json(grids, counted_frames);
   report["side_by_side"] = *side_by_side;
   report["worst_of"] = worst_of;
   report["worst"] = *failures;

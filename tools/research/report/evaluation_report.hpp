@@ -19,14 +19,13 @@ struct ReportInput {
   const eval::EvaluationConfig& config;      ///< Frames are read and labelled again for pictures.
   const datasets::ClassTable& classes;
   /// False: no files exist from which frames could be read again (simulated drives). The report
-  /// then has no pictures and no cells.
+  /// then has no pictures.
   bool on_disk = true;
 };
 
 /// Writes what ./tools/report draws its page from: `folder`/evaluation.json, whole or not at all,
 /// and the pictures it names. It is the evaluation with, of frames on disk, these besides:
 ///
-///   cells            how returns are spread over the cells of grids (cells_json())
 ///   side_by_side[]   the middle frame of every sequence (DrawnFrames)
 ///   worst_of, worst[]  a method, and the frames where it is worst
 ///   colours          of the pictures (colours_json())

@@ -20,9 +20,8 @@
 
 namespace terracut::report {
 
-/// Reads single frames of a dataset that was evaluated once more: for pictures, and to count over
-/// cells what the evaluation does not keep. Straight into the range image, with the rings that the
-/// evaluation used.
+/// Reads single frames of a dataset that was evaluated once more, for pictures. Straight into the
+/// range image, with the rings that the evaluation used.
 class FrameReader {
  public:
   /// `dataset` and `classes` must outlive this.

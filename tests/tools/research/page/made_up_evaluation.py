@@ -77,15 +77,12 @@ def evaluation(dataset="semantickitti", sequences=("00", "03"), frames=3):
 
 
 def with_frames(made_up, folder):
-    """The same with cells and pictures, whose files are written to that folder."""
-    sums = {"cells": 2, "empty": 1, "returns": 4, "returns_squared": 16, "obstacles": 4, "obstacles_on_no_ground": 1}
-    grids = [{"name": name, "recorded": [sums], "flat": [sums], "histogram": [1, 1]} for name in ("squares of 1 m", "rings")]
+    """The same with pictures, whose files are written to that folder."""
     (folder / "pictures").mkdir(parents=True)
     (folder / "pictures/a.png").write_bytes(PNG)
     frame = {"sequence": "00", "frame": "000001", "why": "lowest Recall_o", "side_m": 60, "truth": "pictures/a.png"}
     return {
         **made_up,
-        "cells": {"counted": 6, "faults": [], "distances": ["5–10 m"], "returns_in_a_cell": ["0", "4–7"], "grids": grids},
         "side_by_side": [{**frame, "methods": {name: "pictures/a.png" for name in made_up["methods"]}}],
         "worst_of": "terracut_road",
         "worst": [{**frame, "result": "pictures/a.png", "panorama": "pictures/a.png"}],

@@ -27,9 +27,8 @@ from made_up_evaluation import evaluation, with_frames  # noqa: E402
 from page.page import render  # noqa: E402
 from page.paper import TABLES  # noqa: E402
 from page.plots import MOST_STROKES, times  # noqa: E402
-from page.spread import Spread  # noqa: E402
 
-SECTIONS = ("average", "sequences", "measures", "range", "classes", "recall", "time", "cells", "comparison", "worst", "settings")
+SECTIONS = ("average", "sequences", "measures", "range", "classes", "recall", "time", "comparison", "worst", "settings")
 
 
 @functools.cache
@@ -54,7 +53,7 @@ class Page(PageTest):
         page = checked(untouched_page(), self.evaluation)
         self.assertEqual(page.faults, [])
         self.assertGreater(len(page.cells), 100)
-        self.assertEqual((page.pictures, page.drawings), (6, 4))
+        self.assertEqual((page.pictures, page.drawings), (6, 3))
 
     def test_has_every_section(self):
         ids = checked(untouched_page(), self.evaluation).ids
@@ -107,12 +106,11 @@ class Page(PageTest):
         self.assertNotIn("<img", page)
         self.assertEqual(checked(page, self.evaluation).faults, [])
 
-    def test_names_frames_that_cannot_be_shown_or_counted(self):
-        self.evaluation["cells"]["faults"] = ["03/000001: torn"]
+    def test_names_frames_that_cannot_be_shown(self):
         for key in ("side_by_side", "worst"):
             self.evaluation[key] = [{"sequence": "03", "frame": "000001", "why": "middle", "fault": f"{key}: torn"}]
         page = self.page()
-        for sentence in ("Not counted: 03/000001: torn", "Not shown: side_by_side: torn", "Not shown: worst: torn"):
+        for sentence in ("Not shown: side_by_side: torn", "Not shown: worst: torn"):
             self.assertIn(sentence, page)
         self.assertEqual(checked(page, self.evaluation).faults, [])
 
@@ -145,13 +143,12 @@ class Page(PageTest):
 class Plots(PageTest):
     def test_have_a_title_a_legend_and_units(self):
         drawings = [drawing.split("</svg>")[0] for drawing in untouched_page().split("<svg ")[1:]]
-        self.assertEqual(len(drawings), 4)
+        self.assertEqual(len(drawings), 3)
         methods = list(self.evaluation["methods"])
         for drawing, texts in zip(drawings, (
             ["of the worst, the mean and the best frame", "of frames [%]", ">sequence<", *methods],
             ["pfaff: time of every frame", "pfaff: how the times are distributed", "time [ms]", ">frames<", "median", "99 %"],
             ["terracut_road: time of every frame", "time [ms]", "frame, sequence after sequence", ">00<", ">03<"],
-            ["Share of cells by the number of returns", "[%]", "returns in a cell", "squares of 1 m", "rings"],
         )):  # fmt: skip
             for text in texts:
                 self.assertIn(text, drawing)
@@ -159,7 +156,6 @@ class Plots(PageTest):
     def test_tell_the_numbers_where_the_pointer_rests(self):
         page = untouched_page()
         self.assertIn("<title>pfaff, 00: 70.00 / 80.00 / 81.00 %</title>", page)
-        self.assertIn("<title>rings: 50.00 % of the cells have 4–7 returns</title>", page)
 
     def test_show_the_extremes_of_many_frames_in_few_strokes(self):
         few = self.evaluation["methods"]["pfaff"]
@@ -169,18 +165,6 @@ class Plots(PageTest):
 
     def test_are_the_same_twice(self):
         self.assertEqual(self.page(), untouched_page())
-
-
-class SpreadOverCells(unittest.TestCase):
-    def test_varies_as_its_counts_do(self):
-        # Two cells, with 0 and 4 returns.
-        sums = {"cells": 2, "empty": 1, "returns": 4, "returns_squared": 16, "obstacles": 4, "obstacles_on_no_ground": 1}
-        for spread in (Spread(sums), Spread(sums, sums)):
-            self.assertEqual((spread.empty_percent, spread.mean, spread.variation, spread.no_ground_percent), (50, 2, 1, 25))
-
-    def test_is_none_without_cells(self):
-        spread = Spread(dict.fromkeys(("cells", "empty", "returns", "returns_squared", "obstacles", "obstacles_on_no_ground"), 0))
-        self.assertEqual((spread.empty_percent, spread.mean, spread.variation, spread.no_ground_percent), (0, 0, 0, 0))
 
 
 class PaperTables(unittest.TestCase):

@@ -44,16 +44,6 @@ TEST(ChosenFrames, AreTheMiddleOfEverySequence) {
   EXPECT_THAT(named(middle_frames(method)), ElementsAre("00/b middle", "03/d middle"));
 }
 
-TEST(ChosenFrames, AreSpreadOverAll) {
-  std::vector<Json> frames;
-  for (const char* const name : {"0", "1", "2", "3", "4", "5"}) {
-    frames.push_back(frame("00", name, 1, 1));
-  }
-  EXPECT_THAT(named(spread_frames(method_of(frames), 3)),
-              ElementsAre("00/0 spread", "00/2 spread", "00/4 spread"));
-  EXPECT_EQ(spread_frames(method_of(frames), 100).size(), 6U);
-}
-
 TEST(ChosenFrames, AreThoseOfTheDefaultProfileWhereItWasMeasured) {
   EXPECT_EQ(method_in_question({{"methods", {{"pfaff", 1}, {"terracut", 1}}}}), "terracut");
   EXPECT_EQ(method_in_question({{"methods", {{"zhang", 1}, {"pfaff", 1}}}}), "zhang");

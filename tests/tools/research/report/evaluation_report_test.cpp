@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// What `terracut eval --report` leaves for a page: counts, and pictures that it names.
+// What `terracut eval --report` leaves for a page: the evaluation, and pictures that it names.
 #include "tools/research/report/evaluation_report.hpp"
 
 #include <gmock/gmock.h>
@@ -8,7 +8,6 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <numeric>
 #include <set>
 
 #include "tests/tools/research/eval/made_up_dataset.hpp"
@@ -62,7 +61,7 @@ class ReportTest : public testing::Test {
   std::size_t done_ = 0, of_ = 0;
 };
 
-TEST_F(ReportTest, IsTheEvaluationAndWhatWasDrawnAndCountedBesides) {
+TEST_F(ReportTest, IsTheEvaluationAndWhatWasDrawnBesides) {
   evaluate_all();
   ASSERT_TRUE(write());
   const Json written = report();
@@ -94,26 +93,6 @@ TEST_F(ReportTest, NamesEveryPictureThatItDrew) {
   EXPECT_EQ(named, drawn);
 }
 
-TEST_F(ReportTest, CountsEveryCellOfEveryGridOnce) {
-  evaluate_all();
-  ASSERT_TRUE(write());
-  const Json cells = report().at("cells");
-  EXPECT_EQ(cells.at("counted"), 6);
-  EXPECT_THAT(cells.at("grids"), SizeIs(4));
-  for (const Json& grid : cells.at("grids")) {
-    const auto histogram = grid.at("histogram").get<std::vector<int>>();
-    EXPECT_THAT(histogram, SizeIs(cells.at("returns_in_a_cell").size()));
-    int by_distance = 0, empty = 0;
-    for (const Json& sums : grid.at("recorded")) {
-      by_distance += sums.at("cells").get<int>();
-      empty += sums.at("empty").get<int>();
-    }
-    EXPECT_EQ(std::accumulate(histogram.begin(), histogram.end(), 0), by_distance);
-    EXPECT_EQ(histogram.front(), empty);
-    EXPECT_THAT(grid.at("flat"), SizeIs(cells.at("distances").size()));
-  }
-}
-
 TEST_F(ReportTest, ReadsTheFramesOfKoblenzAgain) {
   const eval::MadeUpKoblenz koblenz;
   config_.root = koblenz.root();
@@ -125,7 +104,7 @@ TEST_F(ReportTest, ReadsTheFramesOfKoblenzAgain) {
   for (const Json& shown : written.at("side_by_side")) EXPECT_FALSE(shown.contains("fault"));
 }
 
-TEST_F(ReportTest, HasNeitherPicturesNorCellsWhereFramesWereNotKept) {
+TEST_F(ReportTest, HasNoPicturesWhereFramesWereNotKept) {
   evaluate_all("simulated");
   ASSERT_TRUE(write(false));
   EXPECT_EQ(report(), json_);
@@ -137,8 +116,6 @@ TEST_F(ReportTest, NamesFramesThatCannotBeShownAnyMore) {
   fs::remove(dataset_.labels("03", 1));
   ASSERT_TRUE(write());
   const Json written = report();
-  EXPECT_EQ(written.at("cells").at("counted"), 5);
-  EXPECT_THAT(written.at("cells").at("faults").dump(), HasSubstr("000001"));
   EXPECT_THAT(written.at("side_by_side").at(1).at("fault").get<std::string>(), HasSubstr("000001"));
   EXPECT_EQ(done_, of_);
 }

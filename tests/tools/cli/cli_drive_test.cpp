@@ -35,6 +35,13 @@ TEST_F(Cli, SimulateIsTheSameForTheSameSeedOnly) {
   EXPECT_NE(content_of(folder_ / "a.pcap"), content_of(folder_ / "c.pcap"));
 }
 
+TEST_F(Cli, SimulateTakesNoTableWhereTheSensorsIsBuiltIn) {
+  const Outcome refused = run("simulate --sensor hdl32e --duration 0.1 -o d.pcap --calibration " +
+                              quoted(kDriveCalibration));
+  EXPECT_NE(refused.exit_code, 0);
+  EXPECT_THAT(refused.err, HasSubstr("the table of a HDL-32E is built in"));
+}
+
 TEST_F(Cli, SimulateWritesTheVehiclesMotionBesideTheDriveWhenAsked) {
   expect_done(
       "simulate --scene flat --duration 0.1 --speed 20 --yaw-rate 28.65 --can-log -o a.pcap");

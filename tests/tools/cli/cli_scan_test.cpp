@@ -64,7 +64,7 @@ class CliScans : public Cli {
  protected:
   /// Both ways of a sequence folder; checks what holds for either.
   BothWays both_ways(const fs::path& sequence) {
-    expect_done("encode " + quoted(sequence) + " -o drive.pcap --sensor hdl64e");
+    expect_done("encode " + quoted(sequence) + " -o drive.pcap");
     expect_done(
         "replay drive.pcap --calibration drive.calibration.xml --truth drive.truth "
         "--labels packets --json packets.json");
@@ -147,37 +147,6 @@ TEST_F(CliScans, AreLabelledByTheBaselineThatIsNamedDirectlyAndThroughPackets) {
       EXPECT_GT(report["summary"]["iou_g"], 0.6) << method;
     }
   }
-}
-
-TEST_F(CliScans, BecomeASyntheticRuby128DriveThatSaysSo) {
-  expect_done("replay " + quoted(kDrive) + " --duration 0.3 --pcd clouds" + kMount);
-  write_scan(folder_ / "clouds" / "000000.pcd", kDriveTruth / "000000.label", folder_ / "scans");
-  const Outcome outcome = run("encode scans --sensor ruby128 -o drive.pcap");
-  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("synthetic RoboSense RS-Ruby128"));
-  EXPECT_THAT(outcome.out, HasSubstr("left out: above or below what was recorded"));
-  expect_done(
-      "replay drive.pcap --calibration drive.calibration.csv --truth drive.truth "
-      "--json report.json");
-  const auto summary = json("report.json")["summary"];
-  EXPECT_EQ(summary["frames"], 1);
-  EXPECT_EQ(summary["complete_frames"], 1);
-  EXPECT_EQ(summary["returns_in"], summary["returns_labelled"]);
-  EXPECT_GT(summary["returns_in"], 100'000);
-  EXPECT_EQ(summary["unscored_frames"], 0);
-  EXPECT_GT(summary["iou_g"], 0.8);
-
-  // Of a sensor whose table is built in there is none beside the drive, and none is taken.
-  const Outcome sparse = run("encode scans --sensor hdl32e -o sparse.pcap");
-  ASSERT_EQ(sparse.exit_code, 0) << sparse.err;
-  EXPECT_THAT(sparse.out, HasSubstr("synthetic Velodyne HDL-32E"));
-  expect_done("replay sparse.pcap --truth sparse.truth --json report.json" + kMount);
-  EXPECT_EQ(json("report.json")["summary"]["complete_frames"], 1);
-  EXPECT_EQ(json("report.json")["summary"]["unscored_frames"], 0);
-  const Outcome refused =
-      run("encode scans --sensor hdl32e -o sparse.pcap --calibration drive.calibration.csv");
-  EXPECT_NE(refused.exit_code, 0);
-  EXPECT_THAT(refused.err, HasSubstr("the table of a HDL-32E is built in"));
 }
 
 TEST_F(CliScans, WithNullPointsGetALabelForEveryPoint) {

@@ -172,8 +172,7 @@ class Fleet:
         few.mkdir(parents=True)
         for scan in sorted((sequence / "velodyne").glob("*.bin"))[:4]:
             (few / scan.name).symlink_to(scan)
-        for sensor in ("hdl64e", "ruby128"):
-            self.make("encode", "--sensor", sensor, few, "-o", self.root / "recorded" / f"{sensor}.pcap")
+        self.make("encode", few, "-o", self.root / "recorded/hdl64e.pcap")
 
     def spoil(self):
         """One drive cut short, one that will be missing, and more of the good ones until there are enough."""

@@ -49,8 +49,7 @@ std::string cure_of_heights(const Options& options, const encode::ScanDriveRepor
          "compensated for the sensor's motion, give --keep-compensation";
 }
 
-void print(const Options& options, const encode::ScanDriveReport& report,
-           const encode::ScanDriveOptions&) {
+void print(const Options& options, const encode::ScanDriveReport& report) {
   const encode::EncodeSummary& encoded = report.encoded;
   print_out("{}table     {}, fingerprint {:016x}\n", wrote_drive(options),
             report.fitted ? "fitted to the scans" : report.calibration.origin,
@@ -77,70 +76,27 @@ void print(const Options& options, const encode::ScanDriveReport& report,
   }
 }
 
-template <class EncoderTraits>
-void print(const Options& options, const encode::ResampleReport& report,
-           const encode::ResampleOptions<EncoderTraits>& drive) {
-  const encode::ResampleSummary& rays = report.rays;
-  const auto share = [&](std::uint64_t count) {
-    return rays.rays == 0 ? 0.0
-                          : 100.0 * static_cast<double>(count) / static_cast<double>(rays.rays);
-  };
-  print_out("synthetic {}, resampled from an HDL-64E's recording, not recorded\n",
-            to_string(*options.capture.sensor));
-  print_out("{}table     {}\n{}\nframes    {}\nrays      {}\n", wrote_drive(options),
-            drive.calibration.origin, motion_line(report.why_as_recorded), report.drive.frames,
-            rays.rays);
-  print_out("returns   {} ({:.2f} %)\n", rays.returns, share(rays.returns));
-  print_out("          {} ({:.2f} %) left out: above or below what was recorded\n", rays.outside,
-            share(rays.outside));
-  print_out("          {} ({:.2f} %) left out: nothing recorded near by\n", rays.nothing_near,
-            share(rays.nothing_near));
-  print_out("          {} left out: beyond the wire's span\n", rays.out_of_span);
-}
-
-/// What the drives of all sensors have in common: how a table is loaded, and the work itself.
-template <class EncoderTraits, class DriveOptions, class Make>
-ExitCode encode_by(const Options& options, DriveOptions drive, const char* task, const Make& make) {
-  drive.motion = motion_of(options);
-  if (!options.capture.calibration.empty()) {
-    auto calibration = made_calibration(options.capture, EncoderTraits{});
-    if (!calibration) return refuse(calibration.error());
-    drive.calibration = *std::move(calibration);
-  }
-  Progress progress(task, "scans", 0);
-  drive.on_scan = [&](std::size_t done, std::size_t) {
-    progress.update(static_cast<double>(done));
-    return go_on();
-  };
-  const auto report = make(options.scans, options.written, drive);
-  if (!report) return refuse_work(report.error());
-  print(options, *report, drive);
-  return kOk;
-}
-
-/// The recording sensor's own packets.
-ExitCode encode_as(const Options& options, packets::Hdl64eEncoderTraits) {
-  encode::ScanDriveOptions drive;
-  drive.can_log = options.can_log;
-  return encode_by<packets::Hdl64eEncoderTraits>(options, drive, "encoding",
-                                                 encode::encode_scan_folder);
-}
-/// Another's in its place.
-template <class EncoderTraits>
-ExitCode encode_as(const Options& options, EncoderTraits) {
-  if (options.can_log) {
-    return refuse(kUsage, "--can-log goes with --sensor hdl64e: resampled frames begin ahead");
-  }
-  return encode_by<EncoderTraits>(options, encode::ResampleOptions<EncoderTraits>(), "resampling",
-                                  encode::resample_scan_folder<EncoderTraits>);
-}
-
 }  // namespace
 
 ExitCode run_encode(const Options& options) {
   catch_stop_signals();
-  return packets::with_encoder_traits(options.capture.sensor.value_or(sensor::SensorModel::kHdl64e),
-                                      [&](auto traits) { return encode_as(options, traits); });
+  encode::ScanDriveOptions drive;
+  drive.can_log = options.can_log;
+  drive.motion = motion_of(options);
+  if (!options.capture.calibration.empty()) {
+    auto calibration = made_calibration(options.capture, encode::Hdl64eEncoderTraits{});
+    if (!calibration) return refuse(calibration.error());
+    drive.calibration = *std::move(calibration);
+  }
+  Progress progress("encoding", "scans", 0);
+  drive.on_scan = [&](std::size_t done, std::size_t) {
+    progress.update(static_cast<double>(done));
+    return go_on();
+  };
+  const auto report = encode::encode_scan_folder(options.scans, options.written, drive);
+  if (!report) return refuse_work(report.error());
+  print(options, *report);
+  return kOk;
 }
 
 }  // namespace terracut::cli

@@ -94,7 +94,7 @@ constexpr std::array kSettings{
     Setting{.option = "-o,--output", .commands = C::kRelabel, .help = "Folder for NAME-HASH/, one a drive, named by content, program and settings",
             .writes = Kind::kSharedFolder, .field = [](O& o) -> F { return &o.written; }},
 
-    Setting{.key = "sensor.model", .option = "--sensor", .commands = kPackets | C::kSimulate | C::kEncode | C::kPlan | C::kEval | C::kRelabel, .help = "Sensor model; auto: the one found, or hdl64e where there is none to find",
+    Setting{.key = "sensor.model", .option = "--sensor", .commands = kPackets | C::kSimulate | C::kPlan | C::kEval | C::kRelabel, .help = "Sensor model; auto: the one found, or hdl64e where there is none to find",
             .field = [](O& o) -> F { return choice(o.capture.sensor, kSensorWords); }},
     Setting{.key = "sensor.calibration", .option = "--calibration", .commands = kPackets | C::kSegment | C::kSimulate | C::kEncode, .help = "The unit's table: db.xml or yaml of an HDL-64E, angle.csv of a Ruby128 (default: the one in the packets; of scans: fitted to them; simulate: a nominal one)",
             .reads = "the calibration", .field = [](O& o) -> F { return &o.capture.calibration; }},
@@ -348,7 +348,7 @@ constexpr std::array kSettings{
             .bare = "yes", .field = [](O& o) -> F { return &o.encode.keep_compensation; }},
     Setting{.option = "--can-log", .commands = C::kSimulate, .help = "Write the vehicle's speed and yaw rate beside the capture: NAME.can.log, NAME.can.dbc",
             .bare = "yes", .needs = "--output", .field = [](O& o) -> F { return &o.can_log; }},
-    Setting{.option = "--can-log", .commands = C::kEncode, .help = "HDL-64E: write that motion beside the capture, NAME.can.log and NAME.can.dbc; the sensor then looks backwards, for recorded frames begin behind",
+    Setting{.option = "--can-log", .commands = C::kEncode, .help = "Write that motion beside the capture, NAME.can.log and NAME.can.dbc; the sensor then looks backwards, for recorded frames begin behind",
             .bare = "yes", .excludes = "--keep-compensation", .field = [](O& o) -> F { return &o.can_log; }},
 
     // Where a drive is sent to

@@ -7,14 +7,12 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <type_traits>
 
 #include "calib/hdl64e/hdl64e_calibration.hpp"
 #include "firmware_io/scan/ring_table_fit.hpp"
 #include "firmware_io/scan/scan_reader.hpp"
 #include "rt/error.hpp"
 #include "scan_encoder.hpp"
-#include "scan_resampler.hpp"
 #include "tools/lab/drive/drive_writer.hpp"
 
 namespace terracut::encode {
@@ -50,29 +48,5 @@ struct ScanDriveReport {
 [[nodiscard]] Expected<ScanDriveReport> encode_scan_folder(const std::filesystem::path& folder,
                                                            const std::filesystem::path& pcap_path,
                                                            const ScanDriveOptions& options);
-
-/// How scans become the drive of another sensor.
-template <class EncoderTraits>
-struct ResampleOptions {
-  typename EncoderTraits::Calibration calibration = EncoderTraits::nominal();
-  scan::PutMotionBack motion = scan::PutMotionBack::kWhereKnown;
-  std::int64_t first_stamp_ns = 1'600'000'000'000'000'000;
-  std::function<Status(std::size_t done, std::size_t of)> on_scan;  ///< As in ScanDriveOptions.
-};
-
-struct ResampleReport {
-  drive::DriveSummary drive;
-  ResampleSummary rays;
-  std::string why_as_recorded;  ///< Empty where the motion was put back.
-};
-
-/// Writes what another sensor in the place of the recording HDL-64E might have sent of the scans of
-/// a folder, one frame each: synthetic (scan_resampler.hpp). The device packets of an RS-Ruby128
-/// say so by the serial number "RESAMP"; a Velodyne's packets have no place for it. Files and
-/// errors as encode_scan_folder(); the sensors are ScanResampler's.
-template <class EncoderTraits>
-[[nodiscard]] Expected<ResampleReport> resample_scan_folder(
-    const std::filesystem::path& folder, const std::filesystem::path& pcap_path,
-    const std::type_identity_t<ResampleOptions<EncoderTraits>>& options);
 
 }  // namespace terracut::encode

@@ -10,9 +10,9 @@
 #include "tools/lab/packets/ruby128_encoder_traits.hpp"
 #include "tools/lab/packets/velodyne_encoder_traits.hpp"
 
-/// An `EncoderTraits` is a trait: all that makers of packets (DriveWriter, the simulator,
-/// ScanResampler) need to know of a sensor, the counterpart of a decoder's `Sensor`. Those
-/// templates are instantiated for all that TERRACUT_FOR_ENCODER_TRAITS lists. It has
+/// An `EncoderTraits` is a trait: all that makers of packets (DriveWriter, the simulator) need
+/// to know of a sensor, the counterpart of a decoder's `Sensor`. Those templates are instantiated
+/// for all that TERRACUT_FOR_ENCODER_TRAITS lists. It has
 /// - `Calibration`, `Geometry`, `Offsets` (of the beams), `Config` with `returns`, and `Column`, a
 ///   LabelledColumn of its `kLasers`;
 /// - `columns_per_packet(returns)`; `firings_per_group(returns)`, the fewest that fill whole

@@ -251,7 +251,7 @@ TEST_F(ArgumentsAndFile, ACommandTakesWhatItLooksAtAlone) {
   EXPECT_EQ(options_of(file + "segment scans").output.json, folder_ / "r.json");
   EXPECT_EQ(options_of(file + "info d.pcap").output.json, "");
   EXPECT_EQ(options_of(file + "live").output.pcd, "");
-  EXPECT_EQ(options_of(file + "encode s -o d").capture.sensor, sensor::SensorModel::kRuby128);
+  EXPECT_EQ(options_of(file + "simulate -o d").capture.sensor, sensor::SensorModel::kRuby128);
   EXPECT_EQ(options_of(file + "send d.pcap --to 127.0.0.1").send.play.rate, 1);
 }
 

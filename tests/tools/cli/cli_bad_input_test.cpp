@@ -57,19 +57,6 @@ TEST_F(CliRefusal, WithoutACalibrationSaysHowMuchIsMissingAndWhatToDo) {
       AllOf(HasSubstr("no calibration"), HasSubstr("missing"), HasSubstr("--calibration")));
 }
 
-TEST_F(CliRefusal, OfAShortCaptureEndsWhereItsCalibrationLiesBesideIt) {
-  const std::string whole = content_of(kDrive);
-  write("short.pcap", whole.substr(0, whole.size() / 2));
-  expect_refusal("replay short.pcap", kInputRefused,
-                 HasSubstr("put it beside the capture as short.calibration.xml"));
-  fs::copy(kDriveCalibration, folder_ / "short.calibration.xml");
-  const Outcome found = run("replay short.pcap --mount-guess");
-  EXPECT_EQ(found.exit_code, 0) << found.err;
-  EXPECT_THAT(found.err, HasSubstr("short.calibration.xml beside the capture is taken"));
-  fs::copy(kDriveCalibration, folder_ / "short.calibration.yaml");
-  expect_refusal("replay short.pcap", kInputRefused, HasSubstr("either might be meant"));
-}
-
 TEST_F(CliRefusal, OfAnotherSensorsCalibrationNamesTheFile) {
   expect_refusal(
       "simulate --sensor ruby128 --calibration " + quoted(kDriveCalibration) + " -o x.pcap",

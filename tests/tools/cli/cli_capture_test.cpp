@@ -64,7 +64,8 @@ TEST_F(CliCapture, ThatIsAPipeIsRefusedByEveryCommand) {
 
 TEST_F(CliCapture, ThatIsTooShortForATableTakesTheOneBesideIt) {
   write_capture("short.pcap", 1500, [](const auto&) {});
-  expect_refusal("replay short.pcap", kInputRefused, HasSubstr("short.calibration.xml"));
+  expect_refusal("replay short.pcap", kInputRefused,
+                 HasSubstr("put it beside the capture as short.calibration.xml"));
   fs::copy_file(kDriveCalibration, folder_ / "short.calibration.xml");
   for (const std::string command :
        {"replay short.pcap --labels labels", "bench short.pcap --repeat 1"}) {
@@ -76,6 +77,8 @@ TEST_F(CliCapture, ThatIsTooShortForATableTakesTheOneBesideIt) {
   expect_done("replay short.pcap --labels given --calibration short.calibration.xml");
   EXPECT_EQ(content_of(folder_ / "labels/000000.label"),
             content_of(folder_ / "given/000000.label"));
+  fs::copy_file(kDriveCalibration, folder_ / "short.calibration.yaml");
+  expect_refusal("replay short.pcap", kInputRefused, HasSubstr("either might be meant"));
 }
 
 TEST_F(CliCapture, ThatHoldsItsTableIsReadByThatAndNotByOneBesideIt) {

@@ -9,8 +9,8 @@
 
 namespace terracut::rt {
 
-/// What `work()` returns, a Status; an exception that ends it as the error kCapacityExceeded, for a
-/// thread that has to go on when the system refuses it memory for one piece of work.
+/// Returns the Status of `work()`. An exception becomes the error kCapacityExceeded, for a thread
+/// that has to go on when the system refuses memory for one piece of work.
 template <class Work>
 [[nodiscard]] Status caught(const Work& work) {
   try {

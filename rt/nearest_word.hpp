@@ -7,10 +7,10 @@
 
 namespace terracut::rt {
 
-/// Which of `words` was meant by one that is none of them: the nearest by edits (a letter added,
-/// left out, replaced, or two swapped), of equally near ones the first; a word that begins with it
-/// is one edit away. Empty where none is near: more than one edit, and one more for every four
-/// letters.
+/// Returns the word of `words` that was probably meant by one that is none of them: the nearest by
+/// edits (a letter added, left out, replaced, or two swapped); of equally near ones the first. A
+/// word that begins with `word` is one edit away. Empty if all are farther than one edit plus one
+/// for every four letters.
 [[nodiscard]] std::string_view nearest_word(std::string_view word,
                                             std::span<const std::string_view> words);
 

@@ -5,17 +5,17 @@
 /// Marks a function whose loops are worth compiling twice on x86-64: for the baseline and for AVX2,
 /// chosen once at program start by the processor. The results are the same bit for bit: the same
 /// IEEE operations, only more of them at once (no fused multiply-add, -ffp-contract=off).
-/// Sanitizers cannot stand the selection mechanism (ifunc), and other processors need no such
-/// thing. clang 19 does not emit an inline function that only clones call, such as the iterators
-/// of a range-for over a span: there, indices.
+/// Sanitizers do not support the selection mechanism (ifunc); other processors do not need it.
+/// clang 19 does not emit an inline function that only clones call, such as the iterators of a
+/// range-for over a span: use indices there.
 #if defined(__x86_64__) && defined(__gnu_linux__) && !defined(TERRACUT_SANITIZED_BUILD)
 #define TERRACUT_VECTOR_CLONES __attribute__((target_clones("avx2", "default")))
 #else
 #define TERRACUT_VECTOR_CLONES
 #endif
 
-/// The same for a function that many inline functions are compiled into. With clang it is compiled
-/// once, see above.
+/// Marks a function into which many inline functions are compiled. clang compiles it only once, for
+/// the reason above.
 #if defined(__clang__)
 #define TERRACUT_VECTOR_CLONES_OF_INLINED
 #else

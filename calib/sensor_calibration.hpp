@@ -18,7 +18,7 @@ namespace terracut::calib {
 using SensorCalibration = std::variant<hdl64e::Hdl64eCalibration, ruby128::Ruby128Calibration,
                                        velodyne::VelodyneCalibration>;
 
-/// fingerprint(), `origin` and ring_profile() of whichever it is.
+/// The next three return fingerprint(), `origin` and ring_profile() of the calibration held.
 [[nodiscard]] inline std::uint64_t fingerprint(const SensorCalibration& calibration) {
   return std::visit([](const auto& unit) { return fingerprint(unit); }, calibration);
 }

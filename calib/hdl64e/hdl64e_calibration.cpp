@@ -13,8 +13,8 @@
 namespace terracut::hdl64e {
 namespace {
 
-/// The values of a field that are believed. Real units' spans (docs/reference/sensors.md) with a
-/// margin for units not seen yet and for tables fitted to recordings.
+/// The range of values accepted for a field: the spans of real units (docs/reference/sensors.md)
+/// with a margin for units not seen yet and for tables fitted to recordings.
 struct Span {
   double low, high;
   bool contains(double v) const { return v >= low && v <= high; }  // false for NaN
@@ -37,7 +37,7 @@ std::string prefix(const Hdl64eCalibration& calibration) {
                                     : "HDL-64E calibration from " + calibration.origin;
 }
 
-/// Why a number may be outside its span, in words that lead to the mistake.
+/// Returns a hint at the mistake that may have put a number outside its span.
 std::string_view angle_hint(double value_deg) {
   // A table in degrees taken for radians shows 1 deg as 57 deg.
   if (std::abs(value_deg) > 40.0) return "; this looks like degrees where radians were expected";
@@ -51,7 +51,7 @@ std::string_view length_hint(double value_m) {
   return "";
 }
 
-/// Collects the first violation.
+/// Keeps the first violation.
 class Checker {
  public:
   explicit Checker(const Hdl64eCalibration& calibration) : calibration_(calibration) {}
@@ -132,10 +132,10 @@ void check_elevations(Checker& checker, const Hdl64eCalibration& calibration) {
   }
 }
 
-/// `value * scale` as a whole number; a fixed stand-in for what no whole number can hold.
+/// Returns `value * scale` as a whole number; INT64_MIN if it is NaN or too large.
 std::int64_t rounded(double value, double scale) {
   const double scaled = value * scale;
-  return std::abs(scaled) < 1e15 ? std::llround(scaled) : INT64_MIN;  // NaN ends here as well
+  return std::abs(scaled) < 1e15 ? std::llround(scaled) : INT64_MIN;  // NaN gives INT64_MIN as well
 }
 
 }  // namespace
@@ -158,7 +158,8 @@ std::uint64_t fingerprint(const Hdl64eCalibration& calibration) {
     hash.add(rounded(beams::rad_to_deg(laser.vert_correction_rad), 100));
     hash.add(rounded(beams::rad_to_deg(laser.rot_correction_rad), 100));
     hash.add(rounded(far_m, 1000));
-    // Unused near corrections are written as 0, as a copy of far or not at all.
+    // Files write unused near corrections as 0, as a copy of far, or not at all; all three hash as
+    // far.
     hash.add(rounded(laser.two_point ? laser.dist_correction_x_m : far_m, 1000));
     hash.add(rounded(laser.two_point ? laser.dist_correction_y_m : far_m, 1000));
     hash.add(rounded(laser.vert_offset_m, 1000));

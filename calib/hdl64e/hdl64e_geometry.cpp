@@ -10,10 +10,11 @@ namespace terracut::hdl64e {
 namespace {
 
 constexpr double kTolerance_m = 1e-9;
-/// The functions solved here are piecewise nearly linear; three steps are the rule.
+/// The functions solved here are piecewise nearly linear; three steps are typical.
 constexpr int kMaxSecantSteps = 30;
 
-/// Root of `distance_m(raw)`, whose slope is about one resolution a count, from `raw` on.
+/// Returns the root of `distance_m(raw)`, whose slope is about one resolution a count; starts at
+/// `raw`.
 template <class Function>
 std::optional<double> solve(const Function& distance_m, double raw) noexcept {
   double previous = raw - 1.0;

@@ -16,8 +16,8 @@ namespace {
 // Offsets in the table (HDL-64E S3 manual Rev K, pp. 33-38).
 constexpr std::string_view kMagic = "UNIT#";
 constexpr std::size_t kFirstLaser = 7;
-constexpr std::size_t kLaserStride = 28;       ///< 21 bytes of laser, 7 others.
-constexpr std::size_t kCrcBytesPerLaser = 20;  ///< All but the laser's number.
+constexpr std::size_t kLaserStride = 28;       ///< 21 bytes of the laser, 7 others
+constexpr std::size_t kCrcBytesPerLaser = 20;  ///< all but the laser's number
 constexpr std::size_t kDate = 256 * 7, kDateBytes = 6;
 constexpr std::size_t kReturnSetting = 259 * 7 + 2;
 constexpr std::size_t kCheck = kStreamTableBytes - 2;
@@ -88,7 +88,7 @@ class TableWriter {
   std::string problem_;
 };
 
-/// All but the numbers of a byte, which validate() has seen to.
+/// Writes one laser, but not its values of one byte, whose range validate() has checked.
 void put_laser(TableWriter& table, std::size_t at, const Hdl64eLaser& laser) {
   const double far_m = laser.dist_correction_m;
   table.put_rounded(at + 1, beams::rad_to_deg(laser.vert_correction_rad), kPerDegree,
@@ -161,7 +161,7 @@ Expected<std::array<std::uint8_t, kStreamTableBytes>> make_stream_table(
     bytes[at + 19] = static_cast<std::uint8_t>(calibration.lasers[i].min_intensity);
     bytes[at + 20] = static_cast<std::uint8_t>(calibration.lasers[i].max_intensity);
   }
-  std::fill_n(bytes.begin() + kDate, kDateBytes, std::uint8_t{0xFF});  // there is no date
+  std::fill_n(bytes.begin() + kDate, kDateBytes, std::uint8_t{0xFF});  // no calibration date
   bytes[kReturnSetting] = static_cast<std::uint8_t>(setting);
   table.put_u16(kCheck, check == StreamTableCheck::kCrc ? stream_table_crc(bytes)
                                                         : unsigned{kStreamTableBytes});

@@ -17,14 +17,14 @@
 namespace terracut::hdl64e {
 namespace {
 
-constexpr int kCentimetre = -2;  ///< Decimal exponent from the file's lengths to metres.
+constexpr int kCentimetre = -2;  ///< Decimal exponent that takes the file's lengths to metres.
 
 tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
 }
 
-/// The finite number in the one child `element` of `parent`, times 10^exponent; `fallback` where
-/// there is none.
+/// Returns the finite number in the only child `element` of `parent`, times 10^exponent; `fallback`
+/// if there is none.
 Expected<double> number_in(const pugi::xml_node& parent, const char* element, int exponent,
                            const std::string& where, const double* fallback) {
   const pugi::xml_node node = parent.child(element);
@@ -43,7 +43,8 @@ Expected<double> number_in(const pugi::xml_node& parent, const char* element, in
   return *value;
 }
 
-/// The 64 <item> numbers of list `element`; 64 times `fallback` where the file has no such list.
+/// Returns the 64 <item> numbers of list `element`; 64 times `fallback` if the file has no such
+/// list.
 Expected<std::array<double, kHdl64eLasers>> list_in(const pugi::xml_node& db, const char* element,
                                                     const std::string& name, double fallback) {
   std::array<double, kHdl64eLasers> values{};
@@ -66,7 +67,7 @@ Expected<std::array<double, kHdl64eLasers>> list_in(const pugi::xml_node& db, co
   return values;
 }
 
-/// Reads one <px>, all but the intensity limits.
+/// Reads one <px> except for its intensity limits.
 Expected<Hdl64eLaser> laser_from(const pugi::xml_node& px, const std::string& where) {
   Hdl64eLaser laser;
   const double zero = 0;

@@ -18,8 +18,8 @@ tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
 }
 
-/// The scalar at `key` of `map`, null where absent. Some real files repeat a key; that is let pass
-/// where both say the same.
+/// Returns the scalar at `key` of `map`, null if absent. Some real files repeat a key; that is
+/// accepted if both have the same value.
 Expected<YAML::Node> value_at(const YAML::Node& map, std::string_view key,
                               const std::string& where) {
   YAML::Node found(YAML::NodeType::Undefined);
@@ -40,7 +40,7 @@ Expected<YAML::Node> value_at(const YAML::Node& map, std::string_view key,
   return found;
 }
 
-/// The finite number at `key`; `fallback` where it is absent and there is one.
+/// Returns the finite number at `key`; `fallback` if the key is absent and there is a fallback.
 Expected<double> number_at(const YAML::Node& map, std::string_view key, const std::string& where,
                            const double* fallback) {
   const auto node = value_at(map, key, where);
@@ -57,7 +57,7 @@ Expected<double> number_at(const YAML::Node& map, std::string_view key, const st
   return *value;
 }
 
-/// Intensity limits are whole numbers that some converters write as floats.
+/// Reads an intensity limit: a whole number, which some converters write as a float.
 Status read_intensity(const YAML::Node& map, std::string_view key, const std::string& where,
                       int& target) {
   const double fallback = target;
@@ -70,7 +70,7 @@ Status read_intensity(const YAML::Node& map, std::string_view key, const std::st
   return {};
 }
 
-/// Whether the file explicitly says that there is no two-point correction.
+/// True if the file states explicitly that there is no two-point correction.
 Expected<bool> two_point_denied(const YAML::Node& map, const std::string& where) {
   const auto node = value_at(map, "two_pt_correction_available", where);
   if (!node) return tl::unexpected(node.error());
@@ -122,7 +122,7 @@ Expected<Hdl64eLaser> laser_from(const YAML::Node& map, const std::string& where
   return laser;
 }
 
-/// The list of 64 lasers, its length checked against the file's own num_lasers.
+/// Returns the list of 64 lasers; its length must equal the file's own num_lasers.
 Expected<YAML::Node> laser_list(const YAML::Node& root, const std::string& name) {
   const YAML::Node lasers = root["lasers"];
   if (!lasers.IsDefined() || !lasers.IsSequence()) {

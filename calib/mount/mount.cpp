@@ -18,7 +18,7 @@ RigidTransform T_vehicle_lidar(const Mount& mount) noexcept {
 
 Mount on_top_of(const Mount& turn, const Mount& seen) noexcept {
   const RigidTransform T = T_vehicle_lidar(turn), T_seen = T_vehicle_lidar(seen);
-  std::array<double, 3> up{};  // the ground's normal seen from the sensor
+  std::array<double, 3> up{};  // the ground's normal in the sensor frame
   for (std::size_t axis = 0; axis < 3; ++axis) {
     for (std::size_t i = 0; i < 3; ++i) up[axis] += T_seen[8 + i] * T[4 * i + axis];
   }

@@ -19,49 +19,51 @@ namespace terracut::mount {
 namespace {
 
 constexpr double kNearest_m = 3.0;    ///< Nearer points may be the vehicle itself.
-constexpr double kFarthest_m = 15.0;  ///< Farther ones are of another slope, where there is one.
+constexpr double kFarthest_m = 15.0;  ///< Farther points may be on another slope.
 constexpr double kLowest_m = 0.2,
-                 kHighest_m = 6.0;         ///< Of what is searched: any that can be given.
+                 kHighest_m = 6.0;         ///< The range searched: all heights that may be stated.
 constexpr double kSteepest_rad = 0.26;     ///< 15 degrees
-constexpr double kReach_m = 0.10;          ///< Half thickness of the ground while it is searched.
-constexpr double kLeastShare = 0.2;        ///< Of the points, in that thickness.
-constexpr std::size_t kLeastPoints = 150;  ///< An RS-Ruby128 3 m up has some 250 of the strip.
-/// They find a plane of 20 % of the points with 98 %, and there are more frames.
+constexpr double kReach_m = 0.10;          ///< Half thickness of the ground in the search.
+constexpr double kLeastShare = 0.2;        ///< Of the points, within that thickness.
+constexpr std::size_t kLeastPoints = 150;  ///< An RS-Ruby128 3 m up sees some 250 of the strip.
+/// With so many, a plane of 20 % of the points is found in 98 % of frames, and there are more
+/// frames.
 constexpr int kCandidates = 500;
 constexpr int kMaxRefinements = 50;
 constexpr std::size_t kLeastInliers = 50;
 constexpr double kReachPerRms = 2.0;
 constexpr double kLeastReach_m = 0.03;  ///< The sensor's own noise.
 
-/// Ground counts by its area, not by how densely a sensor sees it: so many points a cell at most.
+/// Points are thinned to so many a cell: ground counts by area, not by how densely it is seen.
 constexpr double kCell_m = 0.5;
 constexpr int kMostInCell = 8;
 
-/// How far along the road its unevenness hangs together: points of a patch err as one.
+/// The length along the road over which unevenness correlates: points of one patch err alike.
 constexpr double kPatch_m = 3.0;
 
-/// A road where a slope begins bends: z = bend x^2. What is usual, before anything is seen: a
-/// radius of 170 m. It keeps what cannot be told apart, bend and height where one ring alone meets
-/// the ground, from running away, and makes the uncertainty say so.
+/// The road bends where a slope begins: z = bend x^2. The prior, a radius of 170 m, keeps bend and
+/// height from running away where one ring alone meets the ground and they cannot be told apart,
+/// and makes the uncertainty show it.
 constexpr double kUsualBend_per_m = 0.003;
 constexpr double kUsualUnevenness_m = 0.02;
 
-/// z = slope_x x + slope_y y + offset_m + bend_per_m x^2, the ground seen from the sensor.
+/// z = slope_x x + slope_y y + offset_m + bend_per_m x^2, the ground in the sensor frame.
 struct Ground {
   Eigen::Vector4d terms = Eigen::Vector4d::Zero();  ///< slope_x, slope_y, offset, bend
 
   static Eigen::Vector4d row(const Eigen::Vector3d& p) { return {p.x(), p.y(), 1, p.x() * p.x()}; }
-  /// Without the bend, which it touches at x.
+  /// Returns the plane that touches the ground at x.
   Ground tangent_at(double x_m) const {
     return {{terms[0] + 2 * terms[3] * x_m, terms[1], terms[2] - terms[3] * x_m * x_m, 0}};
   }
-  // Of what does not bend: its normal, of unit length, and how far below the sensor it lies.
+  // The next two are for ground without a bend: its unit normal, and how far below the sensor it
+  // is.
   Eigen::Vector3d up() const { return Eigen::Vector3d(-terms[0], -terms[1], 1).normalized(); }
   double height_m() const { return -terms[2] * up().z(); }
   double above_m(const Eigen::Vector3d& p) const { return (p.z() - row(p).dot(terms)) * up().z(); }
 };
 
-/// xorshift64*: the same picks on every machine, which standard distributions do not promise.
+/// xorshift64*: picks the same on every machine, which standard distributions do not promise.
 class Picker {
  public:
   std::size_t below(std::size_t count) {
@@ -88,7 +90,7 @@ std::vector<Eigen::Vector3d> points_in_reach(std::span<const std::array<float, 3
   return kept;
 }
 
-/// Numbers of the square cells, `cell_m` wide, that points in reach lie in.
+/// Numbers the square cells, `cell_m` wide, by a point in them.
 class CellOf {
  public:
   explicit CellOf(double cell_m)
@@ -107,7 +109,7 @@ class CellOf {
   std::size_t across_;
 };
 
-/// Every point of a cell with few, and evenly taken ones of the others.
+/// Thins the points: keeps all of a cell with few points, and evenly spaced ones of the others.
 std::vector<Eigen::Vector3d> evened_out(const std::vector<Eigen::Vector3d>& points) {
   const CellOf cell_of(kCell_m);
   std::vector<int> count(cell_of.cells()), seen(cell_of.cells());
@@ -134,8 +136,8 @@ std::optional<Ground> plane_through(const Eigen::Vector3d& a, const Eigen::Vecto
   return Ground{Eigen::Vector4d(-normal.x(), -normal.y(), -height_m, 0) / normal.z()};
 }
 
-/// Points by coordinate, so that several at once are held against a plane: most of an estimate's
-/// time goes there.
+/// The points by coordinate, so that SIMD tests several against a plane at once: most of an
+/// estimate's time is spent there.
 struct Coordinates {
   std::vector<double> x_m, y_m, z_m;
 
@@ -148,12 +150,12 @@ struct Coordinates {
   }
 };
 
-/// A plane, which does not bend.
+/// A plane without a bend.
 struct Plane {
   double slope_x, slope_y, offset_m, up_z;
 };
 
-/// How many of the points lie on it.
+/// Returns how many of the points lie on the plane.
 TERRACUT_VECTOR_CLONES std::size_t count_on(const Plane& plane, const double* __restrict x_m,
                                             const double* __restrict y_m,
                                             const double* __restrict z_m, std::size_t count) {
@@ -167,8 +169,7 @@ TERRACUT_VECTOR_CLONES std::size_t count_on(const Plane& plane, const double* __
   return on_it;
 }
 
-/// How many of the points lie on a plane. Counting ends as soon as they cannot be more than
-/// `others`.
+/// Returns how many of the points lie on a plane. Stops counting once they cannot exceed `others`.
 std::size_t inliers_of(const Ground& plane, const Coordinates& points, std::size_t others) {
   constexpr std::size_t kAtOnce = 256;
   const Plane flat{.slope_x = plane.terms[0],
@@ -185,7 +186,7 @@ std::size_t inliers_of(const Ground& plane, const Coordinates& points, std::size
   return inliers;
 }
 
-/// The candidate plane that holds most of the points.
+/// Returns the candidate plane that holds most of the points.
 std::optional<Ground> search(const std::vector<Eigen::Vector3d>& points) {
   const Coordinates coordinates(points);
   Picker pick;
@@ -209,10 +210,11 @@ std::optional<Ground> search(const std::vector<Eigen::Vector3d>& points) {
 struct Fit {
   Ground ground;
   double rms_m = 0;
-  Eigen::Vector4d deviations;  ///< Of ground.terms, standard ones.
+  Eigen::Vector4d deviations;  ///< Standard deviations of ground.terms.
 };
 
-/// Least squares over the points within `reach_m` of `ground`. A patch counts as one measurement.
+/// Fits the ground to the points within `reach_m` of `ground` by least squares. A patch counts as
+/// one measurement.
 std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground& ground,
                        double reach_m, const CellOf& patch_of) {
   Eigen::Matrix4d normal_matrix = Eigen::Matrix4d::Zero();
@@ -246,8 +248,8 @@ std::optional<Fit> fit(const std::vector<Eigen::Vector3d>& points, const Ground&
                  (points_a_patch * inverse.diagonal()).cwiseMax(0).cwiseSqrt()};
 }
 
-/// Repeats the fit on its own inliers until the ground stands still, and from then on reaching less
-/// far each time, so that sidewalks and tyres drop out once the road itself is found.
+/// Repeats the fit on its own inliers until the ground stands still, then with a smaller reach each
+/// time: sidewalks and tyres drop out once the road itself is found.
 std::optional<Fit> refine(const std::vector<Eigen::Vector3d>& points, Ground ground) {
   const CellOf patch_of(kPatch_m);
   double reach_m = kReach_m;
@@ -271,8 +273,9 @@ double share_within_reach(const std::vector<Eigen::Vector3d>& points, const Grou
   return static_cast<double>(inliers) / static_cast<double>(points.size());
 }
 
-/// Third row of rotate_y(pitch) rotate_x(roll) is the ground's normal seen from the sensor.
-/// Straight below a tilted one is not where its own z axis points.
+/// The third row of rotate_y(pitch) rotate_x(roll) is the ground's normal in the sensor frame. A
+/// tilted sensor's z axis does not point straight down: the height is taken at the foot of the
+/// normal.
 Mount mount_over(const Ground& ground) {
   const Ground near = ground.tangent_at(0);
   const Ground below = ground.tangent_at(-near.height_m() * near.up().x());
@@ -293,7 +296,7 @@ Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> poi
   const auto even = evened_out(near);
   const auto seed = search(even);
   const auto found = seed ? refine(even, *seed) : std::optional<Fit>();
-  // Least squares may lead from a plane below the sensor to one above it.
+  // Least squares may end at a plane above the sensor.
   const bool is_below = found && mount_over(found->ground).height_m > 0;
   const double share = is_below ? share_within_reach(even, found->ground) : 0.0;
   if (share < kLeastShare) {

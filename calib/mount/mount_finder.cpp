@@ -20,7 +20,8 @@ double median_of(std::vector<double> values) {
   return (values[values.size() / 2] + values[(values.size() - 1) / 2]) / 2;
 }
 
-/// The standard deviation by the median distance from the median, which strays leave alone.
+/// Returns the standard deviation estimated from the median absolute deviation, which outliers
+/// leave alone.
 double spread_of(std::span<const Mount> mounts, double Mount::* figure, double middle) {
   constexpr double kOfNormal = 1.4826;
   std::vector<double> distances;
@@ -81,7 +82,7 @@ bool MountFinder::add_estimate(const Expected<MountEstimate>& estimated) {
     return false;
   }
   seen_.push_back(estimated->mount);
-  // Of a sensor upside down, 179 and -179 degrees are about the same.
+  // Upside down, 179 and -179 degrees of roll are nearly the same.
   seen_.back().roll_rad = nearest_turn(estimated->mount.roll_rad, seen_.front().roll_rad);
   deviations_.push_back(estimated->deviation);
   return true;

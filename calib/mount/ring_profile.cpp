@@ -12,17 +12,17 @@
 namespace terracut::mount {
 namespace {
 
-/// Of a sensor upside down whose rings meet the ground nowhere near where those of a level one do:
-/// where all look up of themselves, a level one's meet none. Of one that stands, the rings of a
-/// level one make the better grid.
+/// True for a sensor that is upside down and tilted from that by more than 0.05 rad: its rings then
+/// meet the ground far from where a level sensor's would. An upright sensor gets a level sensor's
+/// rings, which make the better grid, however it is tilted.
 bool leans(const Mount& mount) noexcept {
   constexpr double kLevel_rad = 0.05;
   return is_upside_down(mount) && std::max(std::numbers::pi - std::abs(mount.roll_rad),
                                            std::abs(mount.pitch_rad)) > kLevel_rad;
 }
 
-/// How far from its start a beam that turns with the head meets the ground where that is nearest;
-/// infinity where it never does.
+/// Returns the smallest distance from the beam's start, over all azimuths, at which it meets the
+/// ground; infinity if it never does.
 double nearest_ground_m(double elevation_rad, double origin_height_m, const Mount& mount) {
   constexpr int kDirections = 120;
   const RigidTransform T = T_vehicle_lidar({0, mount.roll_rad, mount.pitch_rad});
@@ -38,8 +38,8 @@ double nearest_ground_m(double elevation_rad, double origin_height_m, const Moun
   return nearest_m;
 }
 
-/// A ring whose beam starts `origin_height_m` above the sensor's origin. `past_axis(d)` is how far
-/// from the axis of rotation the beam is after the horizontal distance d from its start.
+/// Makes the ring of a beam that starts `origin_height_m` above the sensor's origin. `past_axis(d)`
+/// is the beam's distance from the axis of rotation after the horizontal distance d from its start.
 template <class PastAxis>
 Ring ring_past_axis(double elevation_rad, double origin_height_m, const Mount& mount,
                     double range_limit_m, const PastAxis& past_axis) {

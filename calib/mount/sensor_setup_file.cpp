@@ -19,19 +19,19 @@ namespace terracut::mount {
 namespace {
 
 constexpr std::size_t kMaxRings = 1024;
-constexpr double kRounding_deg = 1e-6;  ///< The ends of a range are in it.
+constexpr double kRounding_deg = 1e-6;  ///< Tolerance that keeps the ends of a range in it.
 
 tl::unexpected<Error> malformed(std::string message) {
   return fail(ErrorCode::kMalformed, std::move(message));
 }
 
-/// A key of a map and what to do with its value; the value's place is in the message already.
+/// A key of a map and the action for its value. The message already says where the value stands.
 struct Key {
   std::string_view name;
   std::function<Status(const YAML::Node&, const std::string& where)> read;
 };
 
-/// Reads `map`, every key of which must be one of `keys`, once.
+/// Reads `map`; each of its keys must be one of `keys` and occur once.
 Status read_map(const YAML::Node& map, const std::string& file, std::span<const Key> keys) {
   if (!map.IsMap())
     return malformed(text::where_is(map, file) + ": expected a map of keys and values");
@@ -60,7 +60,7 @@ Status read_map(const YAML::Node& map, const std::string& file, std::span<const 
   return {};
 }
 
-/// The number `node`, which must lie inside (low, high); infinity is inside (0, inf].
+/// Returns the number `node`, which must lie inside (low, high); infinity is inside (0, inf].
 Expected<double> number_within(const YAML::Node& node, const std::string& where, double low,
                                double high) {
   const auto value = node.IsScalar() ? text::number_from(node.Scalar()) : std::nullopt;

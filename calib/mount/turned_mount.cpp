@@ -18,21 +18,21 @@ namespace {
 
 using Points = std::vector<std::array<float, 3>>;
 
-/// Each turn is looked about by the 15 degrees of estimate_mount().
+/// Step between the rotations tried; estimate_mount() searches 15 degrees around each.
 constexpr double kTurn_rad = beams::deg_to_rad(20);
-constexpr int kTurns = 3;  ///< To either side.
+constexpr int kTurns = 3;  ///< To either side of level.
 
-/// Of a sensor. Lower, the ground looks like what the beams about level hit of anything.
+/// Accepted heights. Below 0.5 m, returns of nearly level beams look like ground whatever they hit.
 constexpr double kLowestSensor_m = 0.5, kHighestSensor_m = 6.0;
-constexpr float kNear_m = 15.0F;          ///< The ground is one plane up to here.
-constexpr float kOnGround_m = 0.15F;      ///< Above or below it.
-constexpr double kLeastOnGround = 0.5;    ///< Of the strip.
-constexpr float kBelowGround_m = 0.3F;    ///< Or more: below it.
-constexpr double kMostBelow = 0.05;       ///< Of what is near.
-constexpr float kAboveSensor_m = 0.3F;    ///< Or more: on the sensor's other side.
-constexpr double kFewAbove = 0.02;        ///< Of all returns: they make no floor.
-constexpr double kLevelAbove_m = 0.3;     ///< Half the thickness of what is a floor there.
-constexpr double kMostLevelAbove = 0.25;  ///< Of the returns above the sensor.
+constexpr float kNear_m = 15.0F;          ///< The ground is taken for a plane up to here.
+constexpr float kOnGround_m = 0.15F;      ///< Farthest from the ground, up or down, to be on it.
+constexpr double kLeastOnGround = 0.5;    ///< Least share of the strip on the ground.
+constexpr float kBelowGround_m = 0.3F;    ///< A point lower than this is below the ground.
+constexpr double kMostBelow = 0.05;       ///< Most points near the sensor that may be below.
+constexpr float kAboveSensor_m = 0.3F;    ///< A point this far above the sensor is above it.
+constexpr double kFewAbove = 0.02;        ///< Fewer returns above the sensor make no floor.
+constexpr double kLevelAbove_m = 0.3;     ///< Half the thickness of a floor above it.
+constexpr double kMostLevelAbove = 0.25;  ///< Most returns above it that may lie in one level.
 
 Points turned(std::span<const std::array<float, 3>> points, const Mount& mount) {
   const RigidTransform T = T_vehicle_lidar(mount);
@@ -50,7 +50,8 @@ Mount without_height(Mount mount) {
   return mount;
 }
 
-/// The ground that is seen about a turn, by the turn that makes it level.
+/// Estimates the ground in the frame that `turn` rotates to, then again in the frame that levels
+/// it.
 Expected<MountEstimate> estimate_about(const Mount& turn,
                                        std::span<const std::array<float, 3>> points) {
   const auto rough = estimate_mount(turned(points, without_height(turn)));
@@ -67,8 +68,8 @@ double share_of(const Points& points, IsIt is_it) {
          static_cast<double>(std::max<std::size_t>(points.size(), 1));
 }
 
-/// Whether what is seen above the sensor ends in a level, as a floor does or a ceiling, and a
-/// street's houses and trees do not.
+/// True if the returns above the sensor end in a level, as a floor or a ceiling does and a street's
+/// houses and trees do not.
 bool has_level_above(const Points& around, double height_m) {
   std::vector<float> above_m;
   for (const auto& p : around) {
@@ -85,7 +86,7 @@ bool has_level_above(const Points& around, double height_m) {
   return static_cast<double>(level) > kMostLevelAbove * static_cast<double>(above_m.size());
 }
 
-/// What speaks against a mount; empty where nothing does.
+/// Returns the reason against a mount; empty if there is none.
 std::string doubt_of(const MountEstimate& seen, std::span<const std::array<float, 3>> strip,
                      std::span<const std::array<float, 3>> around) {
   const Mount& mount = seen.mount;
@@ -114,7 +115,7 @@ std::string doubt_of(const MountEstimate& seen, std::span<const std::array<float
   return {};
 }
 
-/// What a mount that is not believed would be.
+/// Returns what a rejected mount would mean.
 std::string hint_of(const Mount& mount) {
   const std::string what = is_upside_down(mount)
                                ? "above it may be a ceiling, or the ground: is it upside down"
@@ -126,7 +127,7 @@ std::string hint_of(const Mount& mount) {
       beams::rad_to_deg(mount.pitch_rad));
 }
 
-/// For a message: what lies beside the sensor may be a wall.
+/// True if a plane lies beside the sensor, which may be a wall; for a message.
 bool lies_on_its_side(std::span<const std::array<float, 3>> around) {
   constexpr double kQuarter_rad = std::numbers::pi / 2;
   const auto has_plane = [&](double roll_rad, double pitch_rad) {
@@ -144,7 +145,7 @@ Expected<MountEstimate> estimate_turned_mount(std::span<const std::array<float, 
   std::string doubts;
   for (const double base_rad : {std::numbers::pi, 0.0}) {
     for (int nth = 0; nth < (2 * kTurns + 1) * (2 * kTurns + 1); ++nth) {
-      // From the middle to either side: 0, 1, -1, 2, ...
+      // Counts from the middle to either side: 0, 1, -1, 2, ...
       const auto steps = [](int i) { return (i % 2 == 0 ? -1 : 1) * ((i + 1) / 2); };
       const Mount turn{.height_m = 0,
                        .roll_rad = base_rad + kTurn_rad * steps(nth % (2 * kTurns + 1)),

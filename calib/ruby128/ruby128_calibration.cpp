@@ -22,17 +22,17 @@ using Channels = std::array<Ruby128Channel, kRuby128Lasers>;
 
 constexpr std::int64_t kNoAngle = std::numeric_limits<std::int64_t>::min();
 
-/// Allowed values, thousandths of a degree, both ends included: whole hundredths, so that rounding
-/// to DIFOP's unit never leaves them.
+/// Allowed values in thousandths of a degree, both ends included. The ends are whole hundredths, so
+/// that rounding to DIFOP's unit never leaves the span.
 struct Span {
   std::int64_t low_mdeg, high_mdeg;
   bool contains(std::int64_t mdeg) const noexcept { return mdeg >= low_mdeg && mdeg <= high_mdeg; }
 };
-constexpr Span kLowestSpan{-26'000, -24'000};  // -25 by the maker's table
-constexpr Span kHighestSpan{14'000, 16'000};   // 15
+constexpr Span kLowestSpan{-26'000, -24'000};  // maker's table: -25
+constexpr Span kHighestSpan{14'000, 16'000};   // maker's table: 15
 constexpr Span kElevationSpan{kLowestSpan.low_mdeg, kHighestSpan.high_mdeg};
-constexpr Span kOffsetSpan{-10'000, 10'000};     // -5.95 .. 5.95
-constexpr std::int64_t kMinSpread_mdeg = 5'000;  // 11.9
+constexpr Span kOffsetSpan{-10'000, 10'000};     // maker's table: -5.95 .. 5.95
+constexpr std::int64_t kMinSpread_mdeg = 5'000;  // maker's table: 11.9
 
 const Ruby128Channel& at(const Channels& channels, int channel) noexcept {
   return channels[static_cast<std::size_t>(channel)];
@@ -51,8 +51,8 @@ std::array<int, kRuby128Lasers> rows_of(const Channels& channels) noexcept {
   return beams::rows_of_elevations(elevation_rad);
 }
 
-/// The first channels of an RS-Ruby Plus, which has the same packets and much the same spans, but
-/// other angles, firing times and lens offset.
+/// True for the first channels of an RS-Ruby Plus, which has the same packets and nearly the same
+/// spans but other angles, firing times and lens offset.
 bool is_ruby_plus(const Channels& channels) noexcept {
   struct Angles {
     std::int64_t elevation_mdeg, offset_mdeg;
@@ -85,7 +85,7 @@ std::string outside(int channel, std::string_view what, double rad, Span span,
                      static_cast<double>(span.high_mdeg) / 1000.0, hint);
 }
 
-/// Why an angle may be outside its span, in words that lead to the mistake.
+/// Returns a hint at the mistake that may have put an angle outside its span.
 std::string_view hint_for_elevation(double rad) {
   if (std::abs(beams::rad_to_deg(rad)) > 40.0) {
     return "; this looks like degrees where radians were expected";
@@ -104,7 +104,7 @@ std::string_view hint_for_view(const Channels& channels, int one_end, int other_
   return "";
 }
 
-/// In these functions the result is what speaks against the table; empty where nothing does.
+/// The functions check_...() return the fault of the table; empty if there is none.
 std::string check_channels(const Channels& channels) {
   for (int number = 0; number < kRuby128Lasers; ++number) {
     const Ruby128Channel& channel = at(channels, number);
@@ -170,7 +170,7 @@ std::string check_offsets(const Channels& channels) {
 
 std::int64_t angle_mdeg(double rad) noexcept {
   const double mdeg = beams::rad_to_deg(rad) * 1000.0;
-  return std::abs(mdeg) < 1e15 ? std::llround(mdeg) : kNoAngle;  // NaN ends here as well
+  return std::abs(mdeg) < 1e15 ? std::llround(mdeg) : kNoAngle;  // NaN gives kNoAngle as well
 }
 
 std::int64_t angle_cdeg(double rad) noexcept {

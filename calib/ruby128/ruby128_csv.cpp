@@ -29,7 +29,7 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(first, text.find_last_not_of(kSpace) - first + 1);
 }
 
-/// A line's beginning, safe to print.
+/// Returns a line's beginning, safe to print.
 std::string quoted(std::string_view text) {
   constexpr std::size_t kMost = 40;
   std::string shown(text.substr(0, kMost));
@@ -37,7 +37,7 @@ std::string quoted(std::string_view text) {
   return fmt::format("\"{}\"{}", shown, text.size() > kMost ? " ..." : "");
 }
 
-/// Cuts text into lines, without the blank ones at its end.
+/// Splits text into lines, without the blank ones at its end.
 class Lines {
  public:
   explicit Lines(std::string_view text) {
@@ -49,7 +49,7 @@ class Lines {
   }
   [[nodiscard]] int count() const { return count_; }
 
-  /// The next line, trimmed; empty behind the last one.
+  /// Returns the next line, trimmed; empty after the last one.
   std::string_view next() {
     const std::size_t end = std::min(rest_.find('\n'), rest_.size());
     const std::string_view line = rest_.substr(0, end);
@@ -80,7 +80,7 @@ Expected<double> angle_from(std::string_view field, std::string_view what) {
   return *value;
 }
 
-/// What stands between angles in place of the comma; empty: nothing does.
+/// Names the separator that a line has in place of the comma; empty if there is none.
 std::string_view other_separator(std::string_view line) {
   if (line.find(';') != std::string_view::npos) return "semicolon";
   if (line.find(',') != std::string_view::npos) return {};
@@ -88,7 +88,7 @@ std::string_view other_separator(std::string_view line) {
   return line.find('\t') != std::string_view::npos ? "tab" : "";
 }
 
-/// Of angles that are plainly not in degrees; empty: they may be.
+/// Names the unit of angles that are plainly not in degrees; empty if they may be degrees.
 std::string_view unit_of(const Ruby128Calibration& calibration) {
   double lowest_deg = 0;
   for (const Ruby128Channel& channel : calibration.channels) {
@@ -98,7 +98,7 @@ std::string_view unit_of(const Ruby128Calibration& calibration) {
   return lowest_deg <= -1'000 ? "hundredths of a degree" : "";
 }
 
-/// The error has no file and line yet.
+/// Parses one line. Its error has no file and line yet.
 Expected<Angles> angles_from(std::string_view line) {
   if (line.empty()) {
     return fail(ErrorCode::kMalformed, "blank line before the last channel");
@@ -132,7 +132,7 @@ bool starts_like_a_header(std::string_view line) {
   return !line.empty() && !text::number_from(line.substr(0, line.find_first_of(",;|\t")));
 }
 
-/// Whose table a number of lines may be.
+/// Names the sensor whose table has so many lines.
 std::string_view owner_of(int lines) {
   switch (lines) {
     case 16:
@@ -146,7 +146,7 @@ std::string_view owner_of(int lines) {
   }
 }
 
-/// Thousandths of a degree as degrees: "-0.290".
+/// Appends an angle in degrees with three decimals: "-0.290".
 void put_angle(fmt::memory_buffer& text, double rad) {
   const std::int64_t mdeg = angle_mdeg(rad);
   fmt::format_to(std::back_inserter(text), "{}{}.{:03}", mdeg < 0 ? "-" : "", std::abs(mdeg) / 1000,

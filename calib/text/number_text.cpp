@@ -17,7 +17,7 @@ std::optional<double> number_from(std::string_view text) noexcept {
   const std::size_t first = text.find_first_not_of(kSpace);
   if (first == std::string_view::npos) return std::nullopt;
   text = text.substr(first, text.find_last_not_of(kSpace) - first + 1);
-  // YAML's spellings; std::from_chars knows the bare words.
+  // These are YAML's spellings; std::from_chars knows the bare words.
   if (text == ".inf" || text == "+.inf") return std::numeric_limits<double>::infinity();
   if (text == "-.inf") return -std::numeric_limits<double>::infinity();
   if (text == ".nan" || text == ".NaN") return std::numeric_limits<double>::quiet_NaN();

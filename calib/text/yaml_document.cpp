@@ -14,20 +14,20 @@
 namespace terracut::text {
 namespace {
 
-/// Why the document is not read at all.
+/// The reason for refusing the document.
 struct Refusal {
   int line;
   std::string what;
 };
 
-/// Walks the text without building it and throws a Refusal at the first thing too large, or in a
-/// second document, which nobody would read.
+/// Walks the text without building it. Throws a Refusal at the first thing too large or at a second
+/// document.
 class Guard final : public YAML::EventHandler {
  public:
   void OnDocumentStart(const YAML::Mark&) override { ++documents_; }
   void OnDocumentEnd() override {}
   void OnNull(const YAML::Mark& mark, YAML::anchor_t) override {
-    if (documents_ == 1) count(mark);  // a line "---" with nothing behind it says nothing
+    if (documents_ == 1) count(mark);  // an empty second document is harmless
   }
   void OnAlias(const YAML::Mark& mark, YAML::anchor_t) override {
     throw Refusal{mark.line + 1, "aliases (*name) are not supported here"};
@@ -77,8 +77,8 @@ Expected<YAML::Node> load_yaml_document(std::string_view text, const std::string
   if (text.size() > kMaxFileBytes) {
     return fail(ErrorCode::kUnsupported, name + ": is larger than 4 MiB");
   }
-  // The scanner reads ahead without a limit and takes 1 GB for 4 MiB of brackets, before the guard
-  // sees the first of them.
+  // Counts brackets first: the scanner reads ahead without a limit and takes 1 GB for 4 MiB of
+  // brackets, before the guard sees the first of them.
   const auto is_opening = [](char c) { return c == '[' || c == '{'; };
   if (std::count_if(text.begin(), text.end(), is_opening) > kMaxYamlNodes) {
     return fail(ErrorCode::kUnsupported,

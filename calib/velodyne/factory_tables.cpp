@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Copyright 2026 The terracut authors
-// Numbers of the maker's manuals (docs/reference/sensors.md says which), by laser.
+// Tables of the maker's manuals, by laser (docs/reference/sensors.md names the manuals).
 #include <array>
 #include <cstddef>
 #include <span>

@@ -14,16 +14,16 @@ namespace terracut::beams {
   return rad * (180.0 / std::numbers::pi);
 }
 
-/// One frame in the unit of both sensors' wire azimuth, hundredths of a degree.
+/// One revolution in the unit of the wire's azimuth, hundredths of a degree.
 inline constexpr int kRevolution_cdeg = 36000;
 
-/// `cdeg` reduced to [0, 36000).
+/// Returns `cdeg` reduced to [0, 36000).
 [[nodiscard]] constexpr int wrap_cdeg(std::int64_t cdeg) noexcept {
   const auto rest = static_cast<int>(cdeg % kRevolution_cdeg);
   return rest < 0 ? rest + kRevolution_cdeg : rest;
 }
 
-/// The signed step from `from` to `to`, both in [0, 36000), the short way round: [-18000, 18000).
+/// Returns the signed step from `from` to `to`, both in [0, 36000), the short way: [-18000, 18000).
 [[nodiscard]] constexpr int step_cdeg(int from, int to) noexcept {
   return wrap_cdeg(std::int64_t{to} - from + kRevolution_cdeg / 2) - kRevolution_cdeg / 2;
 }

@@ -20,7 +20,7 @@ struct Ray {
   Direction direction;
 };
 
-/// The largest raw distance of the wire, of either sensor; 0 means "no return".
+/// The largest raw distance on the wire; 0 means "no return".
 inline constexpr double kMaxRawCounts = 65535.0;
 
 }  // namespace terracut::beams

@@ -7,7 +7,7 @@
 
 namespace terracut::beams {
 
-/// Ranks of elevations: 0 the lowest, N - 1 the highest; the lower index first where equal.
+/// Returns the rank of each elevation: 0 the lowest, N - 1 the highest; equal ones by index.
 template <std::size_t N>
 [[nodiscard]] constexpr std::array<int, N> rows_of_elevations(
     const std::array<double, N>& elevation_rad) noexcept {
@@ -21,7 +21,7 @@ template <std::size_t N>
   return rows;
 }
 
-/// The inverse: which index has rank 0, 1, ...
+/// Returns the inverse: at rank r the index that has it.
 template <std::size_t N>
 [[nodiscard]] constexpr std::array<int, N> order_of_rows(const std::array<int, N>& rows) noexcept {
   std::array<int, N> order{};

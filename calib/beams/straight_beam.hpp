@@ -8,7 +8,7 @@
 
 #include "calib/beams/beam.hpp"
 
-/// What is the same for all sensors whose returns lie on straight beams. Any thread.
+/// The arithmetic shared by all sensors whose returns lie on straight beams. Any thread.
 namespace terracut::beams {
 
 [[nodiscard]] constexpr double dot(const Direction& a, const Direction& b) noexcept {
@@ -20,18 +20,18 @@ namespace terracut::beams {
           ray.origin.z_m + along_m * ray.direction.z};
 }
 
-/// How far along the beam it is `range_m` from the sensor's origin; NaN where it never is.
+/// Returns how far along the beam it is `range_m` from the sensor's origin; NaN if it never is.
 [[nodiscard]] inline double along_at_range(const Ray& ray, double range_m) noexcept {
   const Direction start{ray.origin.x_m, ray.origin.y_m, ray.origin.z_m};
   const double nearest_m = -dot(start, ray.direction);
   return nearest_m + std::sqrt(nearest_m * nearest_m + range_m * range_m - dot(start, start));
 }
 
-/// How far along the beam it meets the plane through `hit` with `normal` (any length); NaN where it
-/// runs along the plane.
+/// Returns how far along the beam it meets the plane through `hit` with `normal` (any length); NaN
+/// if it runs parallel to the plane.
 [[nodiscard]] inline double along_at_plane(const Ray& ray, const Point& hit,
                                            const Direction& normal) noexcept {
-  // Below this sine of the angle between them, what is left is rounding.
+  // The sine of the angle between beam and plane is rounding error below this.
   constexpr double kParallel = 1e-12;
   const double approach = dot(normal, ray.direction);
   if (std::abs(approach) <= kParallel * std::sqrt(dot(normal, normal))) {
@@ -42,7 +42,7 @@ namespace terracut::beams {
          approach;
 }
 
-/// The wire's distance, not rounded; nothing outside [1, 65535] and for NaN.
+/// Returns the wire's distance, not rounded; nothing if it is NaN or outside [1, 65535].
 [[nodiscard]] inline std::optional<double> counts_of(double along_m,
                                                      double metres_per_count) noexcept {
   const double raw = along_m / metres_per_count;

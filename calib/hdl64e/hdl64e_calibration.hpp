@@ -14,18 +14,18 @@ inline constexpr int kHdl64eLasers = 64;
 
 /// The factory correction of one laser (HDL-64E S3 manual Rev K, p. 10; docs/reference/sensors.md).
 struct Hdl64eLaser {
-  double rot_correction_rad = 0;   ///< rho: taken off the azimuth; positive frames left.
+  double rot_correction_rad = 0;   ///< rho: subtracted from the azimuth; positive turns left.
   double vert_correction_rad = 0;  ///< omega: elevation of the beam; positive is up.
   double dist_correction_m = 0;    ///< Added to the raw distance, calibrated at 25.04 m ("far").
-  double dist_correction_x_m = 0;  ///< The same at 2.40 m, along x; used only when two_point.
-  double dist_correction_y_m = 0;  ///< The same at 1.93 m, along y; used only when two_point.
+  double dist_correction_x_m = 0;  ///< Added at 2.40 m, along x; used only when two_point.
+  double dist_correction_y_m = 0;  ///< Added at 1.93 m, along y; used only when two_point.
   double vert_offset_m = 0;        ///< Height of the beam's start above the sensor's origin.
   double horiz_offset_m = 0;       ///< Sideways offset of the beam's start.
-  double focal_distance_m = 0;     ///< Distance of strongest return, for the intensity formula.
+  double focal_distance_m = 0;     ///< Distance of the strongest return, for the intensity formula.
   double focal_slope = 0;
   int min_intensity = 0;    ///< 0..255
   int max_intensity = 255;  ///< 0..255, >= min_intensity
-  bool two_point = false;   ///< The X and Y corrections are present and meant to be used.
+  bool two_point = false;   ///< True if the X and Y corrections are present and to be used.
 
   bool operator==(const Hdl64eLaser&) const = default;
 };
@@ -38,8 +38,8 @@ struct Hdl64eCalibration {
   std::string origin;                    ///< For logs: "drive.calibration.xml", "packet stream".
 };
 
-/// Whether a file or stream that has these distance corrections means two-point correction: X or Y
-/// was measured (is not zero) and differs from far. Files say it in no reliable way of their own.
+/// True if these distance corrections mean two-point correction: X or Y was measured (is not zero)
+/// and differs from far. No field of the files says so reliably.
 [[nodiscard]] constexpr bool two_point_present(double far_m, double x_m, double y_m) noexcept {
   return (x_m != 0 && x_m != far_m) || (y_m != 0 && y_m != far_m);
 }
@@ -53,8 +53,8 @@ struct Hdl64eCalibration {
 /// that the same unit's table gives the same hash from a file and from the stream.
 [[nodiscard]] std::uint64_t fingerprint(const Hdl64eCalibration& calibration);
 
-/// Row of every laser in the range image: row 0 is the lowest elevation (nearest to the vehicle),
-/// row 63 the highest. Stable for equal elevations.
+/// Returns the row of every laser in the range image: row 0 is the lowest elevation (nearest to the
+/// vehicle), row 63 the highest. Lasers of equal elevation keep their order.
 [[nodiscard]] std::array<int, kHdl64eLasers> rows_by_elevation(
     const Hdl64eCalibration& calibration);
 

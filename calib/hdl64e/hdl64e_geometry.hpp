@@ -18,7 +18,7 @@ enum class GeometryModel : std::uint8_t {
   kRosLike,  ///< As ROS drivers do: vertical offset across the beam, two-point extrapolated.
 };
 
-/// The two-point calibration's distances (HDL-64E S3 manual Rev K, appendix F).
+/// The distances that two-point calibration measures (HDL-64E S3 manual Rev K, appendix F).
 inline constexpr double kFarPoint_m = 25.04;
 inline constexpr double kNearPointX_m = 2.40;
 inline constexpr double kNearPointY_m = 1.93;
@@ -75,11 +75,11 @@ class Hdl64eGeometry {
                                                    const beams::Direction& normal) const noexcept;
 
  private:
-  /// What is left of one laser once its constant angles are resolved.
+  /// One laser's constants, with the sines and cosines of its angles worked out.
   struct Beam {
     double rot_rad, cos_vert, sin_vert;
     double far_m, near_x_m, near_y_m;
-    double slope_x, slope_y;                ///< (D - DX) / (25.04 - 2.40) and its like in y.
+    double slope_x, slope_y;                ///< (D - DX) / (25.04 - 2.40), and the same along y.
     double horiz_m, xy_start_m, z_start_m;  ///< Where the beam starts: sideways, along it, up.
     bool two_point;
   };
@@ -92,7 +92,7 @@ class Hdl64eGeometry {
 
   GeometryModel model_;
   double resolution_m_;
-  double interpolation_end_m_;  ///< rr and ff are taken no further than this.
+  double interpolation_end_m_;  ///< The upper limit of rr and ff.
   std::array<Beam, kHdl64eLasers> beams_{};
 };
 

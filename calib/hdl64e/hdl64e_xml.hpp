@@ -20,7 +20,7 @@ namespace terracut::hdl64e {
 /// and the field; files above 4 MiB are refused.
 [[nodiscard]] Expected<Hdl64eCalibration> read_hdl64e_xml(const std::filesystem::path& path);
 
-/// The same from memory; `name` stands for the file in errors and becomes the origin.
+/// Reads it from memory; `name` stands for the file in errors and becomes the origin.
 [[nodiscard]] Expected<Hdl64eCalibration> parse_hdl64e_xml(std::span<const char> text,
                                                            const std::string& name);
 

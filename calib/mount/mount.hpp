@@ -8,7 +8,7 @@
 
 namespace terracut::mount {
 
-/// How the sensor stands on the vehicle.
+/// The sensor's pose on the vehicle.
 ///
 /// Vehicle frame (REP-103): x forward, y left, z up, metres; its origin lies on the ground plane
 /// straight below the sensor, so z is the height above that plane. Sensor frame: x forward, y left,
@@ -17,24 +17,24 @@ namespace terracut::mount {
 /// left side.
 struct Mount {
   double height_m = 1.73;  ///< Sensor origin above the ground plane; (0.2, 6).
-  double roll_rad = 0;     ///< [-pi, pi]; either end: upside down.
+  double roll_rad = 0;     ///< [-pi, pi]; either end is upside down.
   double pitch_rad = 0;    ///< [-pi/2, pi/2]
 };
 
-/// Whether a mount's angles are in their ranges, pi of a float being one.
+/// True if the mount's angles are in their ranges, with room for pi rounded to float.
 [[nodiscard]] inline bool has_possible_angles(const Mount& mount) noexcept {
   constexpr double kRounding_rad = 1e-6;
   return std::abs(mount.roll_rad) <= std::numbers::pi + kRounding_rad &&
          std::abs(mount.pitch_rad) <= std::numbers::pi / 2 + kRounding_rad;
 }
 
-/// Whether the sensor's z axis points down: its highest beams are the lowest seen from the vehicle.
+/// True if the sensor's z axis points down: its highest beams are then the lowest from the vehicle.
 [[nodiscard]] inline bool is_upside_down(const Mount& mount) noexcept {
   return std::cos(mount.roll_rad) * std::cos(mount.pitch_rad) < 0;
 }
 
-/// Rows of the range image, of which 0 is the lowest in the sensor frame, counted from the lowest
-/// in the vehicle's.
+/// Renumbers rows of the range image, counted from the lowest in the sensor frame, so that 0 is the
+/// lowest in the vehicle frame.
 template <class Rows>
 [[nodiscard]] Rows rows_upward(Rows rows, const Mount& mount) noexcept {
   if (is_upside_down(mount)) {
@@ -43,20 +43,21 @@ template <class Rows>
   return rows;
 }
 
-/// Row-major 3x4 [R | t] that takes a point of the sensor frame to the vehicle frame.
+/// Row-major 3x4 [R
+/// t] that takes a point from the sensor to the vehicle frame.
 using RigidTransform = std::array<double, 12>;
 
 [[nodiscard]] RigidTransform T_vehicle_lidar(const Mount& mount) noexcept;
 
-/// The angle, or the same a revolution on or back: what is nearest to `to_rad`, for less than two.
+/// Returns the nearest to `to_rad` of the angle and the angle one revolution on or back.
 [[nodiscard]] constexpr double nearest_turn(double angle_rad, double to_rad) noexcept {
   const double by_rad = angle_rad - to_rad;
   if (by_rad > std::numbers::pi) return angle_rad - 2 * std::numbers::pi;
   return by_rad < -std::numbers::pi ? angle_rad + 2 * std::numbers::pi : angle_rad;
 }
 
-/// The mount of a sensor whose ground is seen as by `seen` from a frame that `turn` has already
-/// turned; `turn`'s height plays no part, and the roll is the nearest to its own.
+/// Combines two mounts: `seen` is the mount estimated in the frame that `turn` rotates the sensor
+/// frame to. The height of `turn` is ignored; the roll is the equivalent nearest to its roll.
 [[nodiscard]] Mount on_top_of(const Mount& turn, const Mount& seen) noexcept;
 
 [[nodiscard]] constexpr std::array<double, 3> apply(const RigidTransform& T, double x, double y,

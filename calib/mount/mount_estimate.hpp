@@ -12,22 +12,20 @@ namespace terracut::mount {
 
 struct MountEstimate {
   Mount mount;
-  Mount deviation;  ///< Standard deviations of its figures, by how much of the ground is seen.
-  /// How the ground bends along the strip: x ahead or behind it is bend * x^2 above its tangent.
+  Mount deviation;  ///< Standard deviations, by how much ground is seen.
+  /// The ground's bend along the strip: at x it lies bend * x^2 above its tangent.
   double bend_per_m = 0;
 };
 
-/// The mount that makes the ground below the sensor level and at height zero. `points` are of the
-/// sensor frame (calib/mount/mount.hpp), of one frame, and of the strip that the vehicle stands on:
-/// beside it roads fall away and pavements rise. Looked at are those 3 to 15 m from the sensor,
-/// which have to be 150; points that are not finite are left out. Heights of 0.2 to 6 m are found,
-/// and tilts up to 15 degrees. Deterministic: the same points give the same mount. Start-up only:
-/// allocates, takes milliseconds.
+/// Returns the mount that makes the ground below the sensor level and at height zero. `points`: one
+/// frame, sensor frame (calib/mount/mount.hpp), of the strip that the vehicle stands on, because
+/// beside it roads fall away and pavements rise. Only finite points 3 to 15 m from the sensor are
+/// used; at least 150 are needed. Finds heights of 0.2 to 6 m and tilts up to 15 degrees.
+/// Deterministic. Start-up only: allocates, takes milliseconds.
 ///
-/// Along the strip the ground may bend, as it does where a slope begins; the mount is that over
-/// its tangent below the sensor. All of the ground counts alike, however densely it is seen.
-/// kMalformed when there are too few points or no plane holds a fifth of them; the message says
-/// which and what was found.
+/// The ground may bend along the strip, as it does where a slope begins; the mount is measured from
+/// its tangent below the sensor. Ground counts by area, however densely it is seen. kMalformed when
+/// there are too few points or no plane holds a fifth of them; the message says what was found.
 [[nodiscard]] Expected<MountEstimate> estimate_mount(std::span<const std::array<float, 3>> points);
 
 }  // namespace terracut::mount

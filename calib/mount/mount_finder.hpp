@@ -14,53 +14,54 @@
 
 namespace terracut::mount {
 
-/// A sensor whose vehicle frame is its own: of frames that a MountFinder is shown.
+/// The mount that makes vehicle and sensor frame the same; MountFinder takes frames under it.
 inline constexpr Mount kAtTheSensor{.height_m = 0, .roll_rad = 0, .pitch_rad = 0};
-/// Frames that a mount is read off at the start of a run: a second of most sensors.
+/// The number of frames for finding a mount at the start of a run: a second of most sensors.
 inline constexpr std::size_t kFramesToFind = 10;
 
-/// Height, roll and pitch, each the median of its own.
+/// Returns the medians of height, roll and pitch, each taken by itself.
 [[nodiscard]] Mount median_of(std::span<const Mount> mounts);
 
 /// The mount that a run's ground shows.
 struct FoundMount {
-  /// In whole millimetres and hundredths of a degree: stated as it is printed it is the same mount,
-  /// and it does not hang on the last bit of a mathematical library.
+  /// Rounded to whole millimetres and hundredths of a degree: the printed figures state the same
+  /// mount, and the last bit of a mathematical library does not matter.
   Mount mount;
-  /// Half the width of the interval that holds the true figure in 95 of 100 cases, as the ground's
-  /// unevenness, what of it was seen, and the difference from frame to frame let expect.
+  /// Half the width of the 95 % interval, from the ground's unevenness, its coverage, and the
+  /// spread between frames.
   Mount uncertainty;
-  std::size_t frames = 0;  ///< It was read off.
+  std::size_t frames = 0;  ///< The number used.
 
-  /// Whether it is good for labels: to 0.15 m, and 2.5 degrees. Labels by a mount that is less
-  /// certain are worse than those of a level one (docs/reference/method.md, "The mount, found").
+  /// True if it is good enough for labels: within 0.15 m and 2.5 degrees. A less certain mount
+  /// labels worse than a level one (docs/reference/method.md, "The mount, found").
   [[nodiscard]] bool is_certain() const noexcept;
 };
 
-/// "height 1.731 m (+-0.018), roll 0.00 deg (stated), pitch 0.31 deg (+-0.2), found in 10 frames":
-/// what has no uncertainty was stated.
+/// Returns "height 1.731 m (+-0.018), roll 0.00 deg (stated), pitch 0.31 deg (+-0.2), found in 10
+/// frames". A figure without uncertainty was stated.
 [[nodiscard]] std::string to_string(const FoundMount& found);
-/// kMountNotFound: one that is not certain.
+/// Returns the error kMountNotFound for a mount that is not certain.
 [[nodiscard]] Error uncertain(const FoundMount& found);
 
-/// Finds the mount from the first frames of a run, a second of them being enough. The median of
-/// frames, so that one whose road is hidden spoils nothing. Start-up: allocates, takes milliseconds
-/// a frame. Deterministic.
+/// Finds the mount from the first frames of a run; a second of them is enough. Takes the median of
+/// frames: one whose road is hidden does no harm. Start-up: allocates, takes milliseconds a frame.
+/// Deterministic.
 class MountFinder {
  public:
-  /// Near points of one frame, in the sensor's frame, of the strip that the vehicle stands on
-  /// (pipeline/ground/near_ground.hpp). Whether they show a ground.
+  /// Adds near points of one frame, in the sensor frame, of the strip that the vehicle stands on
+  /// (pipeline/ground/near_ground.hpp). True if they show a ground.
   bool add_frame(std::span<const std::array<float, 3>> points);
-  /// What one frame shows, estimated already.
+  /// Adds a frame's estimate made elsewhere. True if it is one.
   bool add_estimate(const Expected<MountEstimate>& estimated);
 
   [[nodiscard]] std::size_t frames() const noexcept { return seen_.size(); }  ///< With a ground.
   [[nodiscard]] std::size_t frames_looked_at() const noexcept { return looked_at_; }
 
-  /// kMountNotFound where fewer than half of the frames show a ground, saying why the last of them
-  /// did not.
+  /// Returns the mount; kMountNotFound, with the last frame's reason, if fewer than half of the
+  /// frames show a ground.
   [[nodiscard]] Expected<FoundMount> found() const;
-  /// What labels can be made by. kMountNotFound also where it is not certain, saying what it is.
+  /// Returns the mount if it is certain enough for labels, else kMountNotFound with the mount and
+  /// its uncertainty.
   [[nodiscard]] Expected<FoundMount> certain() const;
 
  private:

@@ -10,23 +10,23 @@
 
 namespace terracut::mount {
 
-/// A frame's place in another, as trees of transforms have it.
+/// The pose of one frame in another, as transform trees (ROS tf) store it.
 struct Pose {
   std::array<double, 3> translation_m{};
   std::array<double, 4> rotation_xyzw{0, 0, 0, 1};  ///< A unit quaternion.
 };
 
-/// The vehicle frame as it lies in the sensor frame.
+/// Returns the pose of the vehicle frame in the sensor frame.
 [[nodiscard]] inline Pose vehicle_in_lidar(const Mount& mount) noexcept {
   const RigidTransform T = T_vehicle_lidar(mount);
   const double cp = std::cos(mount.pitch_rad / 2), sp = std::sin(mount.pitch_rad / 2);
   const double cr = std::cos(mount.roll_rad / 2), sr = std::sin(mount.roll_rad / 2);
-  // The inverse of a rotation is its transpose; of its quaternion, the conjugate.
+  // A rotation is inverted by its transpose, a unit quaternion by its conjugate.
   return {{-mount.height_m * T[8], -mount.height_m * T[9], -mount.height_m * T[10]},
           {-cp * sr, -sp * cr, sp * sr, cp * cr}};
 }
 
-/// The transform back.
+/// Returns the inverse transform.
 [[nodiscard]] constexpr RigidTransform inverse(const RigidTransform& T) noexcept {
   const auto turned_back = [&](std::size_t axis) {
     return -(T[axis] * T[3] + T[4 + axis] * T[7] + T[8 + axis] * T[11]);

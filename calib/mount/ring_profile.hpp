@@ -11,32 +11,33 @@
 
 namespace terracut::mount {
 
-/// One row of the range image as the pipeline needs to know it: one laser, rows sorted upwards.
+/// One row of the range image as the pipeline needs it: one laser, rows sorted upwards.
 struct Ring {
-  /// Of the beam, in the sensor frame, and of one upside down turned over; rows ascend in it.
+  /// Of the beam, in the sensor frame; negated for a sensor upside down. Rows ascend in it.
   double elevation_rad = 0;
-  double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin (vertical offset).
-  /// Mean horizontal distance at which this beam meets the mount's ground plane, of one upside
-  /// down that leans the least; infinity where it never does (elevation at or
-  /// above the horizon) or only beyond the range limit.
+  double origin_height_m = 0;  ///< Of the beam's start above the sensor's origin.
+  /// Mean horizontal distance at which this beam meets the mount's ground plane; the least distance
+  /// for a tilted sensor upside down. Infinity if it never meets the ground (elevation at or above
+  /// the horizon) or only beyond the range limit.
   double ground_distance_m = 0;
 };
 
-/// The paper's calibrated "average distance between the points of a laser and the origin": the ring
-/// grid's boundaries and the thresholds of Eq. 5 come from it. rings[0] is the lowest elevation.
+/// The paper's calibrated "average distance between the points of a laser and the origin", from
+/// which the ring grid's boundaries and the thresholds of Eq. 5 follow. rings[0] is the lowest
+/// elevation.
 struct RingProfile {
   std::vector<Ring> rings;
   Mount mount;
 };
 
-/// A ring whose beam starts on the axis of rotation, over level ground, the beam being that of the
-/// sensor, which `mount` may turn over; beams that reach the ground
-/// beyond `range_limit_m` count as never reaching it.
+/// Returns the ring of a beam of the sensor that starts on the axis of rotation, over level ground.
+/// `mount` may turn the sensor upside down. A beam that reaches the ground beyond `range_limit_m`
+/// counts as never reaching it.
 [[nodiscard]] Ring ring(double elevation_rad, double origin_height_m, const Mount& mount,
                         double range_limit_m = 120.0);
 
-/// The profile that follows from the geometry alone, for a level mount; beams that reach the ground
-/// beyond `range_limit_m` count as never reaching it.
+/// Returns the profile by geometry alone, for a level mount. Beams that reach the ground beyond
+/// `range_limit_m` count as never reaching it.
 [[nodiscard]] RingProfile ring_profile(const hdl64e::Hdl64eCalibration& calibration,
                                        const Mount& mount, double range_limit_m = 120.0);
 [[nodiscard]] RingProfile ring_profile(const ruby128::Ruby128Calibration& calibration,

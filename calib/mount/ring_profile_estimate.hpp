@@ -11,35 +11,34 @@
 
 namespace terracut::mount {
 
-/// One recorded return, as far as a ring's ground distance needs it.
+/// The part of one recorded return that a ring's ground distance needs.
 struct RingObservation {
-  int row = 0;               ///< Of the range image, [0, rings).
+  int row = 0;               ///< Row of the range image, [0, rings).
   float ground_range_m = 0;  ///< Horizontal distance from the sensor.
   bool is_ground = false;
 };
 
-/// Measures the profile's ground distances from recordings, as the paper obtains them: the mean
-/// horizontal distance of each ring's ground returns. Feed frames, then read the profile. Memory is
-/// fixed by the constructor. Not real-time (it is cheap, but its place is `terracut calibrate`).
+/// Measures the profile's ground distances from recordings, as the paper does: the mean horizontal
+/// distance of each ring's ground returns. Feed frames, then read the profile. Memory is fixed by
+/// the constructor. Cheap, but not real-time: `terracut calibrate` uses it.
 class RingProfileEstimate {
  public:
-  /// Returns that differ from the geometry's distance by more than this factor are not this plane
-  /// (kerbs, banks, mislabelled walls) and are left out.
+  /// Returns that differ from the geometry's distance by more than this factor are left out: they
+  /// are not on this plane (kerbs, banks, mislabelled walls).
   static constexpr double kMaxFactor = 1.5;
 
-  /// `geometry`: ring_profile(), the start and the fall-back. `min_returns`: a ring with fewer
-  /// ground returns keeps the geometry's distance.
+  /// `geometry` is ring_profile()'s, the start and the fall-back. A ring with fewer than
+  /// `min_returns` ground returns keeps the geometry's distance.
   explicit RingProfileEstimate(const RingProfile& geometry, std::uint64_t min_returns = 200);
 
-  /// Observations of rows outside the profile or with a range that is not finite are ignored.
+  /// Ignores observations of rows outside the profile or with a range that is not finite.
   void add(std::span<const RingObservation> observations) noexcept;
 
-  /// Geometry with the measured distances put in. Where two neighbouring rings come out in the
-  /// wrong order (the higher one nearer) though geometry has them right, both keep the geometry's
-  /// distance.
+  /// Returns the geometry with the measured distances. Where measuring reverses the order of two
+  /// neighbouring rings (the higher one nearer), both keep the geometry's distance.
   [[nodiscard]] RingProfile profile() const;
 
-  /// Rings whose distance in profile() is measured.
+  /// Returns the number of rings whose distance in profile() is measured.
   [[nodiscard]] int measured_rings() const;
 
  private:

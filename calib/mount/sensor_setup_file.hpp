@@ -13,7 +13,7 @@
 
 namespace terracut::mount {
 
-/// What `terracut calibrate` found out about one vehicle: written by it, read by `--setup FILE`.
+/// The result of `terracut calibrate` for one vehicle, as a file; `--setup FILE` reads it.
 ///
 ///     # terracut sensor setup
 ///     mount: {height_m: 1.73, roll_deg: 0.2, pitch_deg: -0.4}
@@ -22,16 +22,16 @@ namespace terracut::mount {
 struct SensorSetup {
   Mount mount;
   /// Mean horizontal ground distance of each row, row 0 the lowest; infinite where a ring does not
-  /// reach the ground. Empty: take them from the geometry.
+  /// reach the ground. If empty, the geometry's distances are used.
   std::vector<double> ring_ground_distance_m;
 };
 
-/// Reads a setup. roll_deg and pitch_deg may be left out (0), height_m may not. Unknown or repeated
-/// keys, numbers outside the ranges of Mount and ring distances that are not positive are errors
-/// that name the file and the line.
+/// Reads a setup. height_m is required; roll_deg and pitch_deg default to 0. Unknown or repeated
+/// keys, numbers outside Mount's ranges and ring distances that are not positive are errors that
+/// name the file and the line.
 [[nodiscard]] Expected<SensorSetup> read_sensor_setup(const std::filesystem::path& path);
 
-/// The same from memory; `name` stands for the file in errors.
+/// Reads it from memory; `name` stands for the file in errors.
 [[nodiscard]] Expected<SensorSetup> parse_sensor_setup(std::span<const char> text,
                                                        const std::string& name);
 
@@ -39,7 +39,7 @@ struct SensorSetup {
 [[nodiscard]] Status write_sensor_setup(const std::filesystem::path& path,
                                         const SensorSetup& setup);
 
-/// Puts the setup into a profile from ring_profile(): its mount and, where given, its distances.
+/// Puts the setup into a profile from ring_profile(): its mount and, if given, its distances.
 /// kInvalidArgument when the number of distances is not the profile's number of rings.
 [[nodiscard]] Status apply_setup(const SensorSetup& setup, RingProfile& profile);
 

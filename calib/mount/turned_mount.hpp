@@ -10,15 +10,14 @@
 
 namespace terracut::mount {
 
-/// The mount of a sensor that does not stand as estimate_mount() looks for it: of one that hangs
-/// upside down, or is tilted by up to 70 degrees from either. `strip`: as there. `around`: returns
-/// of the same frame all around, near and far, in the sensor frame.
+/// Returns the mount of a sensor that hangs upside down, or is tilted by up to 70 degrees from
+/// upright or upside down, where estimate_mount() does not look. `strip`: estimate_mount()'s
+/// points. `around`: returns of the same frame all around, near and far, in the sensor frame.
 ///
-/// A ceiling above a sensor that stands is as level as the ground. So the ground has to hold half
-/// of what is seen before and behind the sensor, to have nothing below it, and the sensor must not
-/// see a floor or a ceiling on its other side. A wall beside it is none: of a sensor on its side
-/// nothing is believed. kMalformed, with what was seen instead and which option states it.
-/// Start-up only: allocates, takes tens of milliseconds. Deterministic.
+/// A ceiling above a sensor is as level as the ground. So the ground has to hold half of the strip
+/// and have nothing below it, and there must be no floor or ceiling on the sensor's other side. A
+/// sensor on its side is never accepted: its plane may be a wall. kMalformed, with what was seen
+/// and which option states it. Start-up only: allocates, takes tens of milliseconds. Deterministic.
 [[nodiscard]] Expected<MountEstimate> estimate_turned_mount(
     std::span<const std::array<float, 3>> strip, std::span<const std::array<float, 3>> around);
 

@@ -6,9 +6,9 @@
 
 namespace terracut::ruby128 {
 
-/// The maker's published table of the model RS-Ruby128 (docs/reference/sensors.md). Real units
-/// differ from it by some hundredths of a degree, and a Ruby Plus altogether: for simulation, for
-/// tests, and as the last resort where a user explicitly consents to it. `nominal` is set.
+/// Returns the maker's table for the model RS-Ruby128 (docs/reference/sensors.md). Real units
+/// differ from it by hundredths of a degree, a Ruby Plus altogether. For simulation, for tests, and
+/// as the last resort if the user explicitly consents. `nominal` is set.
 [[nodiscard]] Ruby128Calibration nominal_ruby128();
 
 }  // namespace terracut::ruby128

@@ -21,36 +21,35 @@ struct Ruby128Channel {
 };
 
 /// The calibration of one RS-Ruby128 unit: 128 channels by their number on the wire. Channel
-/// numbers are NOT in order of elevation, and rows are very uneven: 0.1 to 5.4 degrees apart.
+/// numbers are NOT in order of elevation; rows are unevenly spaced, 0.1 to 5.4 degrees apart.
 struct Ruby128Calibration {
   std::array<Ruby128Channel, kRuby128Lasers> channels{};
   std::string origin;    ///< For logs: "angle.csv", "DIFOP packets", "nominal table".
-  bool nominal = false;  ///< Not of a unit but of the model; every summary must warn of it.
+  bool nominal = false;  ///< Of the model, not of the unit; every summary must warn of it.
 };
 
-/// An angle rounded to what angle.csv carries, thousandths of a degree; the smallest number there
-/// is for what is not finite or beyond any angle.
+/// Returns the angle rounded to the unit of angle.csv, thousandths of a degree; the smallest int64
+/// if it is not finite or beyond any angle.
 [[nodiscard]] std::int64_t angle_mdeg(double rad) noexcept;
 
-/// An angle rounded to what DIFOP carries, hundredths of a degree. By way of angle_mdeg(), halves
-/// away from zero, so that a table gives the same hundredths before and after it went through a
-/// file: -13.565 degrees are -1357, whatever their last bit in radians.
+/// Returns the angle rounded to DIFOP's unit, hundredths of a degree. Rounds angle_mdeg()'s result,
+/// halves away from zero, so that a table gives the same hundredths before and after a file:
+/// -13.565 degrees are -1357, whatever their last bit in radians.
 [[nodiscard]] std::int64_t angle_cdeg(double rad) noexcept;
 
-/// Checks that this is a plausible RS-Ruby128 table: every value finite, elevations distinct in
-/// hundredths of a degree to form 128 rows and in no monotonous order of channels, the lowest
-/// within 1 degree of -25 and the highest within 1 degree of +15, azimuth offsets of at most 10
-/// degrees and not all within 5. The error names the channel by the maker's number (1 to 128), the
-/// value and the allowed span: kMalformed, or kUnsupported for the table of a Ruby Plus, which fits
-/// all that.
+/// Checks that this is a plausible RS-Ruby128 table: every value finite; 128 elevations distinct in
+/// hundredths of a degree, not in monotonous order of channels, the lowest within 1 degree of -25,
+/// the highest within 1 degree of +15; azimuth offsets of at most 10 degrees and not all within 5.
+/// The error names the channel by the maker's number (1 to 128), the value and the allowed span:
+/// kMalformed, or kUnsupported for the table of a Ruby Plus, which passes these checks.
 [[nodiscard]] Status validate(const Ruby128Calibration& calibration);
 
 /// A 64-bit fingerprint of all angles (not of the origin), rounded by angle_cdeg(), so that the
 /// same table gives the same hash from a file and from DIFOP.
 [[nodiscard]] std::uint64_t fingerprint(const Ruby128Calibration& calibration);
 
-/// Row of every channel in the range image: row 0 is the lowest elevation, row 127 the highest.
-/// Stable for equal elevations.
+/// Returns the row of every channel in the range image: row 0 is the lowest elevation, row 127 the
+/// highest. Channels of equal elevation keep their order.
 [[nodiscard]] std::array<int, kRuby128Lasers> rows_by_elevation(
     const Ruby128Calibration& calibration);
 

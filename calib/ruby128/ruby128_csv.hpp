@@ -13,20 +13,19 @@ namespace terracut::ruby128 {
 /// Reads the maker's angle file, `angle.csv`: 128 lines in the order of channels, each
 /// `elevation,azimuth offset` in degrees with a decimal point, no header. Start-up only: allocates.
 ///
-/// A byte order mark, CR LF, blank lines at the end, spaces around numbers and `+` are let pass.
+/// A byte order mark, CR LF, blank lines at the end, spaces around numbers and `+` are accepted.
 /// Refused: any other number of lines; text, NaN and infinity; semicolons and decimal commas; lines
-/// without azimuth offset, though some programs take them as zero: beams point up to 6 degrees
-/// beside the head. The result is validated. Errors (kNotFound, kUnreadable, kMalformed,
-/// kUnsupported) name the file, and the line where it is one line's fault; files above 4 MiB are
-/// refused.
+/// without azimuth offset (some programs read them as zero, but beams point up to 6 degrees beside
+/// the head). The result is validated. Errors (kNotFound, kUnreadable, kMalformed, kUnsupported)
+/// name the file, and the line where it is one line's fault; files above 4 MiB are refused.
 [[nodiscard]] Expected<Ruby128Calibration> read_ruby128_csv(const std::filesystem::path& path);
 
-/// The same from memory; `name` stands for the file in errors and becomes the origin.
+/// Reads it from memory; `name` stands for the file in errors and becomes the origin.
 [[nodiscard]] Expected<Ruby128Calibration> parse_ruby128_csv(std::span<const char> text,
                                                              const std::string& name);
 
-/// The content of an `angle.csv`, thousandths of a degree. `calibration` passes validate(); parsing
-/// the text gives angles within half a thousandth, and the same fingerprint().
+/// Returns the content of an `angle.csv`, in thousandths of a degree. `calibration` passes
+/// validate(); parsing the text gives angles within half a thousandth, and the same fingerprint().
 [[nodiscard]] std::string ruby128_csv_text(const Ruby128Calibration& calibration);
 
 /// Writes ruby128_csv_text(), whole or not at all. kMalformed or kUnsupported when the calibration

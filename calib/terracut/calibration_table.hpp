@@ -10,7 +10,7 @@
 #include "calib/sensor_calibration.hpp"
 #include "terracut/calibration.hpp"
 
-/// What stands behind the public Calibration and Mount; for the rooms above, not installed.
+/// The data behind the public Calibration and Mount; for the rooms above, not installed.
 namespace terracut {
 
 struct Calibration::Table {
@@ -31,7 +31,7 @@ struct Calibration::Table {
   };
   return {as_public(found.mount), as_public(found.uncertainty), found.frames};
 }
-/// With what a program can do.
+/// Returns the error with advice for a program.
 [[nodiscard]] inline Error mount_not_found(const Error& fault) {
   return {ErrorCode::kMountNotFound,
           "the mount is not found: " + fault.message +

@@ -11,11 +11,11 @@
 
 namespace terracut::text {
 
-/// No calibration or setup file is near this size; larger ones are something else.
+/// Calibration and setup files are far smaller; a larger file is something else.
 inline constexpr std::size_t kMaxFileBytes = std::size_t{4} << 20;
 
-/// The file's bytes. kNotFound, kUnreadable, or kUnsupported above kMaxFileBytes; the message names
-/// the file and `what` it should have been ("an HDL-64E calibration").
+/// Returns the file's bytes. kNotFound, kUnreadable, or kUnsupported above kMaxFileBytes; the
+/// message names the file and `what` it should have been ("an HDL-64E calibration").
 [[nodiscard]] Expected<std::string> read_bounded_file(const std::filesystem::path& path,
                                                       std::string_view what);
 

@@ -6,7 +6,7 @@
 
 namespace terracut::text {
 
-/// FNV-1a over whole numbers, byte by byte: the same on every machine. For fingerprints of tables.
+/// FNV-1a over whole numbers, byte by byte: gives tables the same fingerprint on every machine.
 class Fnv1a {
  public:
   constexpr void add(std::int64_t value) noexcept {

@@ -9,18 +9,18 @@
 
 namespace terracut::text {
 
-/// The whole of `text`, spaces around it aside, as a number; nothing if it is anything else ("12
-/// cm", "0,5", ""). Independent of the locale. May return NaN or infinity where the text says so.
+/// Returns all of `text`, except for spaces around it, as a number; nothing if it is anything else
+/// ("12 cm", "0,5", ""). Independent of the locale. May return NaN or infinity if the text says so.
 [[nodiscard]] std::optional<double> number_from(std::string_view text) noexcept;
 
-/// The number in `text` times 10^exponent, rounded once: "123.7" and -2 give exactly 1.237, which
-/// 123.7 * 0.01 need not. Changes of unit then cost no bit between writing and reading.
+/// Returns the number in `text` times 10^exponent, rounded once: "123.7" and -2 give exactly 1.237,
+/// which 123.7 * 0.01 need not. A change of unit then loses no bit between writing and reading.
 [[nodiscard]] std::optional<double> number_from(std::string_view text, int exponent);
 
-/// The shortest text from which number_from(text, exponent) gives exactly `value` (finite) again.
+/// Returns the shortest text for which number_from(text, exponent) is exactly `value` (finite).
 [[nodiscard]] std::string text_of(double value, int exponent);
 
-/// 1-based number of the line that holds byte `offset` of `text`.
+/// Returns the 1-based number of the line that holds byte `offset` of `text`.
 [[nodiscard]] int line_of(std::string_view text, std::size_t offset) noexcept;
 
 }  // namespace terracut::text

@@ -11,14 +11,14 @@
 
 namespace terracut::velodyne {
 
-/// Velodyne's models whose directions are those of the model, to a few hundredths of a degree. The
-/// HDL-64E, of which each unit has a table of its own, is none of them.
+/// Velodyne's models whose units all share the model's directions, to a few hundredths of a degree.
+/// The HDL-64E is not among them: each of its units has its own table.
 enum class VelodyneModel : std::uint8_t { kVlp16, kHdl32e, kVlp32c, kVls128 };
 inline constexpr int kVelodyneModels = 4;
-/// "VLP-16"
+/// Returns "VLP-16" and the like.
 [[nodiscard]] std::string_view to_string(VelodyneModel model) noexcept;
 
-/// Where one laser points and begins (docs/reference/sensors.md).
+/// One laser's direction and starting point (docs/reference/sensors.md).
 struct VelodyneLaser {
   double elevation_rad = 0;       ///< Positive is up.
   double azimuth_offset_rad = 0;  ///< Added to the head's azimuth; clockwise.
@@ -31,21 +31,21 @@ struct VelodyneLaser {
 /// elevation.
 struct VelodyneCalibration {
   VelodyneModel model{};
-  std::vector<VelodyneLaser> lasers;  ///< As many as the model has.
+  std::vector<VelodyneLaser> lasers;  ///< As many as the model has lasers.
   std::string origin;                 ///< For logs: "factory table of the VLP-16".
 };
 
-/// The table in the maker's manual of the model.
+/// Returns the table in the maker's manual of the model.
 [[nodiscard]] VelodyneCalibration factory_table(VelodyneModel model);
 
-/// kInvalidArgument where it has not as many lasers as its model, or angles that are not finite.
+/// kInvalidArgument if the number of lasers is not the model's or an angle is not finite.
 [[nodiscard]] Status validate(const VelodyneCalibration& calibration);
 
-/// A 64-bit fingerprint of the model and all values (not of the origin), rounded to thousandths of
+/// Returns a 64-bit hash of the model and all values (not of the origin), rounded to thousandths of
 /// a degree and tenths of a millimetre.
 [[nodiscard]] std::uint64_t fingerprint(const VelodyneCalibration& calibration);
 
-/// Row of every laser in the range image: row 0 is the lowest elevation.
+/// Returns the row of every laser in the range image: row 0 is the lowest elevation.
 [[nodiscard]] std::vector<int> rows_by_elevation(const VelodyneCalibration& calibration);
 
 }  // namespace terracut::velodyne

@@ -13,8 +13,8 @@ namespace terracut::velodyne {
 /// Raw counts to metres and back for a model with a built-in table, in double: what the simulator
 /// and the encoder invert (the formula: firmware_io/velodyne/point_kernel.hpp).
 ///
-/// All functions: `channel` >= 0 counts on where lasers fire more than once a column: it is laser
-/// number `channel` % lasers; `azimuth_rad` is the head's azimuth when it fires, clockwise from
+/// All functions: `channel` >= 0; lasers that fire more than once a column have several channels,
+/// laser = `channel` % lasers. `azimuth_rad` is the head's azimuth when it fires, clockwise from
 /// straight ahead seen from above, any revolution. Immutable, so any thread may call them; no
 /// allocation, no locks.
 class VelodyneGeometry {
@@ -47,7 +47,7 @@ class VelodyneGeometry {
   };
 
   double metres_per_count_;
-  std::vector<Beam> beams_;  ///< By laser.
+  std::vector<Beam> beams_;  ///< One beam a laser.
 };
 
 }  // namespace terracut::velodyne

@@ -8,7 +8,7 @@
 
 namespace terracut::files {
 
-/// ".pcd" of a.pcd and of A.PCD, as Windows programs name files; empty where the name has none.
+/// Returns the ending in lower case: ".pcd" for a.pcd and for A.PCD; empty if the name has none.
 [[nodiscard]] inline std::string ending_of(const std::filesystem::path& path) {
   std::string ending = path.extension().string();
   std::ranges::transform(ending, ending.begin(),

@@ -79,7 +79,7 @@ Expected<OutputClaim> OutputClaim::of_file(const fs::path& path) {
     if (!claim.lock_) return not_writable(path, errno);
     if (Status locked = lock(claim.lock_, LOCK_EX, path); !locked)
       return tl::unexpected(locked.error());
-  } while (!is_at(claim.lock_, lock_file));  // its last holder has taken it away meanwhile
+  } while (!is_at(claim.lock_, lock_file));  // the last holder may have removed it meanwhile
   claim.lock_file_ = lock_file;
   return claim;
 }

@@ -11,16 +11,17 @@
 
 namespace terracut::files {
 
-/// An output of one run alone. While this lives, or until its process dies, however that happens,
-/// nobody else can claim it. Makes missing folders, so that what stands in the way of writing is
-/// known before the work; those still empty in the end go again. Where a file system has no locks
-/// nothing is held. Movable; start-up only.
+/// Claims an output for one run. Nobody else can claim it while this lives or until its process
+/// dies, however it dies. Makes missing folders at once, so that obstacles show before the work;
+/// those still empty at the end are removed. Does nothing on file systems without locks. Movable;
+/// start-up only.
 class OutputClaim {
  public:
   /// Errors: kInvalidArgument, another run is writing it; kWriteFailed with the system's reason.
   [[nodiscard]] static Expected<OutputClaim> of_file(const std::filesystem::path& path);
   enum class Use : std::uint8_t { kAlone, kShared };
-  /// The files in it; made if missing. kShared: others may share it in turn. Errors as of_file().
+  /// Claims the files in a folder, made if missing. kShared: others with kShared may hold it too.
+  /// Errors as of_file().
   [[nodiscard]] static Expected<OutputClaim> of_folder(const std::filesystem::path& path,
                                                        Use use = Use::kAlone);
 
@@ -33,7 +34,7 @@ class OutputClaim {
   [[nodiscard]] Status make_folders(const std::filesystem::path& folder);
 
   std::vector<std::filesystem::path> made_;  ///< Folders, outermost first.
-  std::filesystem::path lock_file_;          ///< Of a file's claim, beside it.
+  std::filesystem::path lock_file_;          ///< Lies beside the file that is claimed.
   OwnedDescriptor lock_;
 };
 

@@ -25,7 +25,7 @@ bool is_number(std::string_view text) {
          std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// The file name of the place that a file of this name is a part of; empty: it is no part.
+/// Returns the file name of the place that the part of this name is for; empty if it is no part.
 std::string_view place_of(std::string_view name) {
   const std::size_t mark = name.rfind(kMark);
   if (mark == std::string_view::npos) return {};
@@ -41,18 +41,18 @@ std::string_view place_of(std::string_view name) {
 /// `make(path)` returns a descriptor, or -1 with errno.
 template <class Make>
 Part make_part(const fs::path& place, Make&& make) {
-  static std::atomic<unsigned> serial{0};  // two threads may write to the same folder
+  static std::atomic<unsigned> serial{0};  // unique, as two threads may write to the same folder
   constexpr int kTries = 1000;
   Part part;
   for (int i = 0; i < kTries; ++i) {
     part.path = place;
     part.path += std::string(kMark) + std::to_string(::getpid()) + "-" + std::to_string(serial++);
     part.lock = OwnedDescriptor(make(part.path.c_str()));
-    if (!part.lock && errno == EEXIST) continue;  // left by a process of the same number
+    if (!part.lock && errno == EEXIST) continue;  // left by an earlier process of the same number
     if (!part.lock) return part;
     while (::flock(part.lock.get(), LOCK_EX) != 0 && errno == EINTR) {
     }
-    // Somebody who tidied up may have taken it for abandoned before it was locked.
+    // A clean-up may have removed it as abandoned before it was locked.
     struct stat status{};
     if (::fstat(part.lock.get(), &status) == 0 && status.st_nlink > 0) return part;
   }
@@ -69,7 +69,7 @@ bool is_abandoned(const fs::path& path) {
   return ::flock(part.get(), LOCK_EX | LOCK_NB) == 0;
 }
 
-/// Those of wanted places in a folder.
+/// Lists the parts in a folder whose places are wanted.
 std::vector<fs::path> parts_in(const fs::path& folder,
                                const std::function<bool(std::string_view)>& is_wanted) {
   std::error_code error;
@@ -95,7 +95,7 @@ Part make_part_folder(const fs::path& place) {
   return make_part(place, [](const char* path) {
     if (::mkdir(path, 0700) != 0) return -1;
     const int folder = ::open(path, O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-    // Somebody who tidied up has taken it for abandoned: another number, then.
+    // A clean-up has removed it as abandoned: try another number.
     if (folder < 0 && errno == ENOENT) errno = EEXIST;
     return folder;
   });

@@ -11,16 +11,15 @@
 
 namespace terracut::files {
 
-/// Opens a file for reading that others may have put there: a named pipe, which would make the
-/// reader wait, or a device, which has no end, is refused. Links are followed. kNotFound,
-/// kUnreadable.
+/// Opens a plain file for reading. Refuses a named pipe, which would make the reader wait, and a
+/// device, which has no end. Links are followed. kNotFound, kUnreadable.
 [[nodiscard]] Expected<OwnedDescriptor> open_plain_file(const std::filesystem::path& path);
 
-/// kUnreadable for a pipe, a socket or a device, which cannot be read a second time; nothing else
-/// is looked at, and nothing opened. Links are followed.
+/// Refuses what cannot be read a second time, a pipe, a socket or a device, with kUnreadable. Opens
+/// nothing and checks nothing else. Links are followed.
 [[nodiscard]] Status check_readable_twice(const std::filesystem::path& path);
 
-/// All that is in such a file. kUnreadable, too, where it holds more than `most_bytes`.
+/// Returns the whole content of a plain file. kUnreadable also if it holds more than `most_bytes`.
 [[nodiscard]] Expected<std::string> read_plain_file(const std::filesystem::path& path,
                                                     std::size_t most_bytes);
 

@@ -12,7 +12,7 @@
 
 namespace terracut::files {
 
-/// What a file of equal records without a header is made of, for the checks and their messages.
+/// Describes a file of equal records without a header, for the checks and their messages.
 struct RecordLayout {
   const char* record;        ///< What one record is: "point of 4 float32 (x y z remission)".
   std::size_t record_bytes;  ///< Size of one record.
@@ -20,9 +20,9 @@ struct RecordLayout {
   bool may_be_empty = false;
 };
 
-/// Number of records in `path`. Errors: kNotFound, kUnreadable, kMalformed (empty, not a whole
-/// number of records, or more than the layout allows), each naming the file, what was found and
-/// expected.
+/// Returns the number of records in `path`. Errors: kNotFound, kUnreadable, kMalformed (empty, not
+/// a whole number of records, or more than the layout allows); each names the file, what was found
+/// and what was expected.
 [[nodiscard]] Expected<std::size_t> count_records(const std::filesystem::path& path,
                                                   const RecordLayout& layout);
 

@@ -9,15 +9,16 @@
 
 namespace terracut::files {
 
-/// What recordings leave of a file system of so many bytes to others, its logs say: a tenth of it,
-/// 1 GiB at most.
+/// Returns how many bytes recordings leave free for others, such as logs, on a file system of so
+/// many bytes: a tenth, at most 1 GiB.
 [[nodiscard]] constexpr std::uint64_t room_for_others(std::uint64_t total_bytes) noexcept {
   constexpr std::uint64_t kMost = std::uint64_t{1} << 30;
   return total_bytes / 10 < kMost ? total_bytes / 10 : kMost;
 }
 
-/// That a recording may grow at `path`, which need not be there: what is free on its file system is
-/// more than room_for_others(). kWriteFailed, with both. One system call, or one a missing folder.
+/// Checks that a recording may grow at `path`, which need not exist: its file system has more free
+/// than room_for_others(). kWriteFailed states both. One system call, and one for each missing
+/// folder.
 [[nodiscard]] Status check_room_left(const std::filesystem::path& path);
 
 }  // namespace terracut::files

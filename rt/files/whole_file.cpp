@@ -22,7 +22,7 @@ Status failed(const std::filesystem::path& path, const std::string& step, int er
           "; nothing was left in its place. Check the folder, its rights and the free space");
 }
 
-/// 0, or the errno of the call that failed.
+/// Returns 0, or the errno of the call that failed.
 int write_all(int file, std::string_view rest) {
   while (!rest.empty()) {
     const ::ssize_t written = ::write(file, rest.data(), rest.size());
@@ -55,7 +55,8 @@ Status write_whole_file(const std::filesystem::path& path,
     return tl::unexpected(piece.error());
   }
   std::string step = "writing";
-  // Some file systems tell only at a close that the disk is full. The lock is held until the end.
+  // Some file systems report a full disk only at a close, so a copy is closed; the lock is held
+  // until the end.
   if (error_number == 0 && ::close(::dup(part.lock.get())) != 0) {
     error_number = errno;
     step = "closing";

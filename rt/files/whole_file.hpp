@@ -12,15 +12,15 @@
 
 namespace terracut::files {
 
-/// Writes `content` to `path` whole or not at all: into a temporary name in the same folder first,
+/// Writes `content` to `path` whole or not at all: under a temporary name in the same folder first,
 /// then renamed over `path`. Missing parent folders are made. On an error (kWriteFailed, with the
 /// path and the system's reason) nothing is left behind and a file that stood at `path` is
 /// untouched. Blocks on the disk: never call it from a real-time thread.
 [[nodiscard]] Status write_whole_file(const std::filesystem::path& path,
                                       std::span<const std::byte> content);
 [[nodiscard]] Status write_whole_file(const std::filesystem::path& path, std::string_view text);
-/// What does not fit the memory, a piece after the other as `next` gives them, up to an empty one;
-/// its error is handed on.
+/// Writes content too large for memory, piece by piece: `next` returns the pieces and an empty one
+/// at the end. Its error is passed on.
 [[nodiscard]] Status write_whole_file(const std::filesystem::path& path,
                                       const std::function<Expected<std::string_view>()>& next);
 

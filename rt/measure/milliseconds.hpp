@@ -6,7 +6,7 @@
 
 namespace terracut::measure {
 
-/// To the microsecond, towards zero: more digits of a measured time would only be noise.
+/// Rounds to the microsecond, towards zero: further digits of a measured time are only noise.
 [[nodiscard]] constexpr double milliseconds(std::int64_t ns) noexcept {
   return static_cast<double>(ns / 1000) / 1000.0;
 }

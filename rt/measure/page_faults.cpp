@@ -8,7 +8,7 @@ namespace terracut::measure {
 
 PageFaults PageFaults::of_this_thread() noexcept TERRACUT_NONBLOCKING {
   rusage usage{};
-  // Of the own thread it only copies counters, and cannot fail.
+  // For the calling thread getrusage() only copies counters and cannot fail.
   threads::trusted_call([&]() noexcept { ::getrusage(RUSAGE_THREAD, &usage); });
   return {usage.ru_minflt, usage.ru_majflt};
 }

@@ -8,13 +8,13 @@
 
 namespace terracut::measure {
 
-/// How often the calling thread met memory that was not there. After a start that went well both
-/// differences stay 0, frame after frame.
+/// The number of page faults of the calling thread. After a good start-up neither counter grows any
+/// more.
 struct PageFaults {
-  std::int64_t minor = 0;  ///< The page came from memory: a microsecond or so.
-  std::int64_t major = 0;  ///< The page came from a disk: milliseconds.
+  std::int64_t minor = 0;  ///< Mapped from memory: about a microsecond each.
+  std::int64_t major = 0;  ///< Read from a disk: milliseconds each.
 
-  /// Since the thread began. One short system call, real-time safe.
+  /// Counts since the thread began. One short system call, real-time safe.
   [[nodiscard]] static PageFaults of_this_thread() noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] PageFaults since(const PageFaults& earlier) const noexcept TERRACUT_NONBLOCKING {

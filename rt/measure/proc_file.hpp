@@ -13,15 +13,15 @@
 
 namespace terracut::measure {
 
-/// A file of /proc that is kept open and read again and again, from its beginning, without opening
-/// or allocating anything. Movable.
+/// A file of /proc that is kept open and read repeatedly from its beginning, without opening or
+/// allocating anything. Movable.
 class ProcFile {
  public:
   /// kNotFound or kUnreadable, with the system's reason.
   [[nodiscard]] static Expected<ProcFile> open(const char* path);
 
-  /// As much of the file as `buffer` holds; empty when it cannot be read any more. One system call
-  /// that waits for no disk: the kernel writes the text while it is asked.
+  /// Returns as much of the file as `buffer` holds; empty when it can no longer be read. One system
+  /// call that waits for no disk: the kernel writes the text during the call.
   [[nodiscard]] std::string_view read(std::span<char> buffer) const noexcept TERRACUT_NONBLOCKING;
 
  private:
@@ -29,8 +29,8 @@ class ProcFile {
   files::OwnedDescriptor file_;
 };
 
-/// The n-th number, from 0, of a line of numbers between blanks; -1 when there is no such number or
-/// it does not fit.
+/// Returns the n-th number, from 0, of a line of numbers between blanks; -1 if there is no such
+/// number or it does not fit.
 [[nodiscard]] std::int64_t nth_number(std::string_view line, int n) noexcept TERRACUT_NONBLOCKING;
 
 }  // namespace terracut::measure

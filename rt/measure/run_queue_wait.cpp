@@ -9,18 +9,18 @@
 namespace terracut::measure {
 namespace {
 
-using Text = std::array<char, 96>;  // three numbers of at most 20 digits: "ran waited frames"
+using Text = std::array<char, 96>;  // three numbers of at most 20 digits: "ran waited timeslices"
 
 }  // namespace
 
 RunQueueWait RunQueueWait::of_this_thread() {
   RunQueueWait wait;
-  // "thread-self" is resolved now: the file stays that of this thread.
+  // "thread-self" is resolved here: the file stays this thread's.
   auto file = ProcFile::open("/proc/thread-self/schedstat");
   if (!file) return wait;
   Text text{};
-  // A kernel without these counts shows the file with nothing but zeros; a thread that runs has
-  // been given a core at least once (the third number).
+  // A kernel without these counts shows only zeros. A running thread has had at least one timeslice
+  // (the third number).
   if (nth_number(file->read(text), 2) > 0) wait.file_ = std::move(*file);
   return wait;
 }

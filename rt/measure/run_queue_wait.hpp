@@ -10,19 +10,19 @@
 
 namespace terracut::measure {
 
-/// How long a thread was ready to run while others had the core, summed since it began. What is
-/// left of wall time beside this and its processor time, it slept; or the host had taken the core
-/// away, which only StolenTime knows. To be made and read by that thread. Movable.
+/// The time a thread was ready to run while others had the core, summed since it began. Wall time
+/// that is neither this nor processor time was spent asleep, or taken by the host (see StolenTime).
+/// To be made and read by that thread. Movable.
 class RunQueueWait {
  public:
-  /// Opens what read_ns() needs.
+  /// Opens the file that read_ns() needs.
   [[nodiscard]] static RunQueueWait of_this_thread();
 
-  /// Whether this kernel tells.
+  /// True if this kernel counts the waits.
   [[nodiscard]] bool is_known() const noexcept TERRACUT_NONBLOCKING { return file_.has_value(); }
 
-  /// Nanoseconds; 0 where it is not known. One system call, less than a microsecond: cheap enough
-  /// for every time packets are fetched. No allocation, real-time safe.
+  /// Returns nanoseconds; 0 if unknown. One system call, less than a microsecond: cheap enough for
+  /// every fetch of packets. No allocation, real-time safe.
   [[nodiscard]] std::int64_t read_ns() const noexcept TERRACUT_NONBLOCKING;
 
  private:

@@ -12,20 +12,20 @@
 
 namespace terracut::measure {
 
-/// Time that the host of a virtual machine gave to others while this machine had work: summed over
-/// all cores since boot, in steps of a hundredth of a second. Always 0 on a machine of its own.
-/// The kernel writes the whole of /proc/stat for each reading, which takes it up to a millisecond
-/// on large machines: read it once a second or after a missed deadline, not with every frame.
-/// Movable; one thread at a time.
+/// The time that a virtual machine's host gave to others while this machine had work: summed over
+/// all cores since boot, in steps of a hundredth of a second. Always 0 on bare metal. For each
+/// reading the kernel writes all of /proc/stat, which takes up to a millisecond on large machines:
+/// read it once a second or after a missed deadline, not every frame. Movable; one thread at a
+/// time.
 class StolenTime {
  public:
-  /// kNotFound or kUnreadable where there is no /proc/stat.
+  /// kNotFound or kUnreadable if there is no /proc/stat.
   [[nodiscard]] static Expected<StolenTime> open();
 
-  /// Nanoseconds; none when the system stops telling. No allocation, waits for no disk.
+  /// Returns nanoseconds; nothing if the system no longer tells. No allocation, waits for no disk.
   [[nodiscard]] std::optional<std::int64_t> read_ns() const noexcept TERRACUT_NONBLOCKING;
 
-  /// The same from the text of /proc/stat. `ticks_per_s` is sysconf(_SC_CLK_TCK).
+  /// Reads the same from the text of /proc/stat. `ticks_per_s` is sysconf(_SC_CLK_TCK).
   [[nodiscard]] static std::optional<std::int64_t> parse_ns(
       std::string_view text, std::int64_t ticks_per_s) noexcept TERRACUT_NONBLOCKING;
 

@@ -10,18 +10,19 @@
 
 namespace terracut::measure {
 
-/// Both clocks never step. Real-time safe, no system call that can block, thread-safe.
+/// The first two clocks never step. All are real-time safe and thread-safe; no system call can
+/// block.
 
-/// Processor time the calling thread has used, nanoseconds (CLOCK_THREAD_CPUTIME_ID): what a
-/// computation costs, whatever else the machine does meanwhile. Only differences within one thread
-/// mean something.
+/// Returns the processor time the calling thread has used, nanoseconds (CLOCK_THREAD_CPUTIME_ID):
+/// the cost of a computation, whatever else the machine does. Only differences within one thread
+/// have a meaning.
 [[nodiscard]] inline std::int64_t thread_cpu_ns() noexcept TERRACUT_NONBLOCKING;
 
-/// Nanoseconds since an arbitrary start (CLOCK_MONOTONIC): what a deadline is measured with.
+/// Returns nanoseconds since an arbitrary start (CLOCK_MONOTONIC), for measuring deadlines.
 [[nodiscard]] inline std::int64_t monotonic_ns() noexcept TERRACUT_NONBLOCKING;
 
-/// Nanoseconds since 1970 (CLOCK_REALTIME): comparable with the kernel's stamps of packets, but set
-/// by whoever keeps the time.
+/// Returns nanoseconds since 1970 (CLOCK_REALTIME): comparable with the kernel's packet stamps, but
+/// it steps when somebody sets the clock.
 [[nodiscard]] inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING;
 
 namespace detail {
@@ -43,7 +44,7 @@ inline std::int64_t realtime_ns() noexcept TERRACUT_NONBLOCKING {
   return detail::read_clock_ns(CLOCK_REALTIME);
 }
 
-/// The clocks, for what takes them as a parameter so that its tests can hold them.
+/// The clocks as a type parameter, so that tests can put their own in place.
 struct SystemClock {
   [[nodiscard]] std::int64_t realtime_ns() const noexcept TERRACUT_NONBLOCKING {
     return measure::realtime_ns();

@@ -17,13 +17,13 @@
 
 namespace terracut::memory {
 
-/// All memory of the per-frame path, taken once at start-up and never given back before the end.
+/// All memory of the per-frame path, taken once at start-up and held until the end.
 ///
 /// Components take their arrays in their constructors, each under the name of a part, so that
-/// `terracut plan` can print what every part costs; after start nothing is taken any more.
+/// `terracut plan` can print the cost of every part; nothing is taken after start-up.
 ///
 /// By default every array is a block of its own on the heap, which suits tools and tests. A program
-/// that lives under a deadline plans first and then takes everything from one region:
+/// with a deadline plans first and then takes everything from one region:
 ///
 ///     FixedMemory plan;                       // a dry run on the heap
 ///     { Segmenter trial(..., plan); }
@@ -35,7 +35,7 @@ namespace terracut::memory {
 /// Not real-time safe, not thread-safe: start-up only. Throws std::bad_alloc when memory is short.
 class FixedMemory {
  public:
-  static constexpr std::size_t kAlignment = 64;  ///< Bytes; a cache line, and any SIMD register.
+  static constexpr std::size_t kAlignment = 64;  ///< Bytes: a cache line, or any SIMD register.
 
   struct Part {
     std::string name;
@@ -46,17 +46,17 @@ class FixedMemory {
   FixedMemory(const FixedMemory&) = delete;
   FixedMemory& operator=(const FixedMemory&) = delete;
 
-  /// From here on arrays come from one region of `bytes`, in the order they are taken, without
-  /// gaps. `bytes` is the total_bytes() of a dry run. Every page of the region is there when this
-  /// returns. Locking and large pages are asked for as `request` says; the grants are returned, and
-  /// a refusal of either is no error. Errors: kInvalidArgument when arrays were taken already or a
-  /// region is there; kCapacityExceeded when the system has not that much memory.
+  /// Takes arrays from one region of `bytes` from now on, in the order they are taken, without
+  /// gaps. `bytes` is the total_bytes() of a dry run. Every page of the region is present on
+  /// return. Locking and large pages are asked for as `request` says; the grants are returned, and
+  /// a refusal is no error. Errors: kInvalidArgument if arrays were taken already or a region
+  /// exists; kCapacityExceeded if the system has not that much memory.
   [[nodiscard]] Expected<std::vector<threads::Grant>> reserve(std::size_t bytes,
                                                               const RegionRequest& request);
 
-  /// `count` zeroed elements, aligned to kAlignment. Sizes are rounded up to whole cache lines.
-  /// The span stays valid, at the same address, as long as this object lives. What the region has
-  /// no room for comes from the heap instead, and within_plan() tells.
+  /// Returns `count` zeroed elements, aligned to kAlignment. Sizes are rounded up to whole cache
+  /// lines. The span stays valid, at the same address, as long as this object lives. An array that
+  /// does not fit the region comes from the heap, and within_plan() reports it.
   template <class T>
   [[nodiscard]] std::span<T> take(std::string_view part, std::size_t count) {
     static_assert(std::is_trivially_destructible_v<T> && std::is_trivially_copyable_v<T>);
@@ -66,12 +66,12 @@ class FixedMemory {
   [[nodiscard]] std::span<const Part> parts() const noexcept { return parts_; }
   [[nodiscard]] std::size_t total_bytes() const noexcept;
 
-  /// To be asked once everything is built: kCapacityExceeded, naming the first part that did not
-  /// fit and the size that would have held all, when more was taken than reserved. Without a
-  /// region there is nothing to exceed.
+  /// Checks, once everything is built, that no more was taken than reserved: kCapacityExceeded
+  /// names the first part that did not fit and the size that would have held all. Always success
+  /// without a region.
   [[nodiscard]] Status within_plan() const;
 
-  /// The reserved region; empty before reserve(). For tests and reports.
+  /// Returns the reserved region; empty before reserve(). For tests and reports.
   [[nodiscard]] std::span<const std::byte> region() const noexcept { return region_.bytes(); }
 
  private:
@@ -87,8 +87,8 @@ class FixedMemory {
   std::vector<Part> parts_;
   std::vector<std::unique_ptr<std::byte, Release>> blocks_;  // on the heap
   MemoryRegion region_;
-  std::size_t used_ = 0;         // bytes of the region
-  std::string first_too_large_;  // the part that did not fit into it
+  std::size_t used_ = 0;         // bytes of the region in use
+  std::string first_too_large_;  // the first part that did not fit the region
 };
 
 }  // namespace terracut::memory

@@ -10,14 +10,14 @@
 
 namespace terracut::memory {
 
-/// A short text without a pointer, so that it can lie in memory shared between processes. What is
-/// longer than Size bytes is cut off. Real-time safe. view() is safe on any bytes, also on those of
-/// a page that somebody else wrote.
+/// A short text without a pointer, so that it can lie in memory shared between processes. Text
+/// longer than Size bytes is cut off. Real-time safe. view() is safe on any bytes, even on a page
+/// that somebody else wrote.
 template <std::size_t Size>
 class FixedText {
  public:
   FixedText() = default;
-  /// Anything that is a text.
+  /// Takes anything that converts to a string_view.
   template <class Text>
     requires std::convertible_to<const Text&, std::string_view>
   FixedText(const Text& any_text) noexcept {  // NOLINT(google-explicit-constructor): it is a text
@@ -25,7 +25,7 @@ class FixedText {
     std::copy_n(text.begin(), std::min(text.size(), Size), bytes_.begin());
   }
 
-  /// Up to the first zero byte; valid as long as this object.
+  /// Returns the text up to the first zero byte; valid as long as this object.
   [[nodiscard]] std::string_view view() const noexcept {
     const auto end = std::find(bytes_.begin(), bytes_.end(), '\0');
     return {bytes_.data(), static_cast<std::size_t>(end - bytes_.begin())};

@@ -26,8 +26,8 @@ std::size_t page_size() {
   return static_cast<std::size_t>(::sysconf(_SC_PAGESIZE));
 }
 
-/// The heap keeps what was freed, and serves large blocks itself, instead of giving them back to
-/// the system and faulting them in again.
+/// Makes the heap keep freed memory and serve large blocks itself, instead of returning them to the
+/// system and faulting them in again.
 threads::Grant keep_heap(std::size_t bytes) {
   threads::Grant grant{.asked = "a heap that never shrinks, " + in_kib(bytes) + " of it present"};
 #ifdef __GLIBC__
@@ -67,8 +67,8 @@ threads::Grant set_thread_stack(std::size_t bytes) {
   return grant;
 }
 
-/// Whether `bytes` more could be taken now that all future memory is to be locked. A mapping
-/// without access counts against the limit but costs no memory.
+/// Returns 0 if `bytes` more could be taken now that all future memory is to be locked, else errno.
+/// A mapping without access counts against the limit but costs no memory.
 int try_later(std::size_t bytes) {
   if (bytes == 0) return 0;
   void* trial = ::mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
@@ -79,8 +79,8 @@ int try_later(std::size_t bytes) {
 
 threads::Grant lock_all(std::size_t later) {
   threads::Grant grant{.asked = "locking of all memory, now and later"};
-  // The soft limit is a habit of the shell; up to the hard one everybody may go. A refusal shows
-  // in what follows.
+  // The soft limit is only a default of the shell: a process may raise it to the hard one. If this
+  // is refused, mlockall() below fails.
   if (rlimit limit{}; ::getrlimit(RLIMIT_MEMLOCK, &limit) == 0) {
     limit.rlim_cur = limit.rlim_max;
     (void)::setrlimit(RLIMIT_MEMLOCK, &limit);
@@ -93,7 +93,7 @@ threads::Grant lock_all(std::size_t later) {
   }
   grant.error_number = try_later(later);
   if (grant.error_number != 0) {
-    // Locks again what is there, and no longer what comes.
+    // Locks the present memory again, and no longer the future's.
     (void)::mlockall(MCL_CURRENT);
     grant.in_force = "only the memory there is now is locked, for the limit has no room for " +
                      in_kib(later) + " more";
@@ -117,7 +117,7 @@ threads::Grant make_stack_present(std::size_t bytes) {
   return grant;
 }
 
-/// Bytes of the calling thread's stack below `here`; 0 if unknown.
+/// Returns the bytes of the calling thread's stack below `here`; 0 if unknown.
 std::size_t stack_left_below(const volatile char* here) {
   ::pthread_attr_t attributes;
   if (::pthread_getattr_np(::pthread_self(), &attributes) != 0) return 0;
@@ -130,12 +130,12 @@ std::size_t stack_left_below(const volatile char* here) {
   return top > bottom ? top - bottom : 0;
 }
 
-/// In a function of its own, whose frame ends with the call. The size is not known while compiling,
-/// or the compiler would leave out what is not touched.
+/// A function of its own, whose stack frame ends with the call. Its size is unknown at compile
+/// time, or the compiler would leave out pages that nobody uses.
 [[gnu::noinline]] void touch_stack(std::size_t bytes) {
   auto* lowest = static_cast<volatile char*>(__builtin_alloca(bytes));
   const std::size_t page = page_size();
-  // Downwards, as the kernel expects a stack to grow.
+  // Touches downwards, as the kernel expects a stack to grow.
   for (std::size_t left = bytes; left > 0; left -= std::min(left, page)) lowest[left - 1] = 1;
   lowest[0] = 1;
 }
@@ -143,7 +143,7 @@ std::size_t stack_left_below(const volatile char* here) {
 }  // namespace
 
 std::size_t prefault_stack(std::size_t bytes) {
-  constexpr std::size_t kSpare = std::size_t{64} << 10;  // guard pages, and a signal handler
+  constexpr std::size_t kSpare = std::size_t{64} << 10;  // for guard pages and a signal handler
   const volatile char here = 0;
   const std::size_t left = stack_left_below(&here);
   const std::size_t touched = std::min(bytes, left > kSpare ? left - kSpare : 0);

@@ -10,13 +10,12 @@
 
 namespace terracut::memory {
 
-/// Things whose memory is used again once their last holder has dropped them; whatever that one
-/// read lies before whatever is written next. There are as many as are held at the same time, and
-/// a few spare ones. Any thread without a deadline.
+/// Recycles objects: one whose last holder has dropped it is handed out again, memory and all.
+/// Never more objects than are held at a time plus a few spare ones. Any thread without a deadline.
 template <class T>
 class UsedAgain {
  public:
-  /// With the content of a former use perhaps. May outlive this.
+  /// Returns an object, which may still have the content of a former use. It may outlive this pool.
   [[nodiscard]] std::shared_ptr<T> take() {
     std::unique_ptr<T> thing;
     {
@@ -35,7 +34,7 @@ class UsedAgain {
   }
 
  private:
-  static constexpr std::size_t kMostSpare = 2;  ///< The one just dropped, and the one in work.
+  static constexpr std::size_t kMostSpare = 2;  ///< The one just dropped and the one in work.
   struct Spare {
     Spare() { things.reserve(kMostSpare); }
     std::mutex mutex;

@@ -12,13 +12,13 @@
 
 namespace terracut::queues {
 
-/// Hands values on between threads without a deadline: it locks and allocates. From any thread.
+/// A queue between threads without a deadline: it locks and allocates. Any thread.
 template <class T>
 class BoundedQueue {
  public:
   explicit BoundedQueue(std::size_t most) : most_(most) {}
 
-  /// False where it is full or closed.
+  /// False if the queue is full or closed.
   bool push(T value) {
     const std::scoped_lock lock(mutex_);
     if (closed_ || values_.size() >= most_) return false;
@@ -26,7 +26,7 @@ class BoundedQueue {
     news_.notify_one();
     return true;
   }
-  /// Makes room by the oldest, which is returned.
+  /// Pushes a value. If the queue is full, removes the oldest and returns it.
   std::optional<T> push_out(T value) {
     const std::scoped_lock lock(mutex_);
     if (closed_) return value;
@@ -40,7 +40,8 @@ class BoundedQueue {
     return oldest;
   }
 
-  /// The oldest; nothing when the time is up, or at once where it is empty and closed.
+  /// Returns the oldest value; nothing when the time is up, or at once if the queue is empty and
+  /// closed.
   std::optional<T> pop(std::chrono::nanoseconds patience) {
     std::unique_lock lock(mutex_);
     news_.wait_for(lock, patience, [&] { return closed_ || !values_.empty(); });
@@ -50,13 +51,13 @@ class BoundedQueue {
     return oldest;
   }
 
-  /// What is in it can still be had; nothing more comes in.
+  /// Refuses further values; those already in the queue can still be popped.
   void close() {
     const std::scoped_lock lock(mutex_);
     closed_ = true;
     news_.notify_all();
   }
-  /// Closed and empty: pop() will not give anything any more.
+  /// True if closed and empty: pop() will return nothing any more.
   [[nodiscard]] bool is_over() const {
     const std::scoped_lock lock(mutex_);
     return closed_ && values_.empty();

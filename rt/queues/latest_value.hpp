@@ -44,11 +44,11 @@ class LatestSlot {
   LatestSlot(const LatestSlot&) = delete;
   LatestSlot& operator=(const LatestSlot&) = delete;
 
-  /// Writer: the slot to fill, in [0, kSlots). It holds some older value: fill it whole.
+  /// Writer: the slot to fill, in [0, kSlots). It holds an older value: overwrite all of it.
   [[nodiscard]] std::size_t writer_slot() const noexcept TERRACUT_NONBLOCKING { return writers_; }
 
-  /// Writer: makes writer_slot() the newest, and gets another to fill. True when the one before it
-  /// was never taken: the reader missed it.
+  /// Writer: makes writer_slot() the newest and gets another to fill. True if the previous one was
+  /// never taken: the reader missed it.
   bool publish() noexcept TERRACUT_NONBLOCKING {
     const std::uint8_t before =
         between_.exchange(static_cast<std::uint8_t>(writers_ | kNew), std::memory_order_acq_rel);
@@ -56,8 +56,8 @@ class LatestSlot {
     return (before & kNew) != 0;
   }
 
-  /// Reader: takes the newest slot if something was published since the last call; then
-  /// reader_slot() is that one, and stays it until the next call that returns true.
+  /// Reader: takes the newest slot if one was published since the last call. reader_slot() is then
+  /// that slot until the next call that returns true.
   [[nodiscard]] bool take_if_new() noexcept TERRACUT_NONBLOCKING {
     if ((between_.load(std::memory_order_relaxed) & kNew) == 0) return false;
     const std::uint8_t before = between_.exchange(readers_, std::memory_order_acq_rel);
@@ -65,7 +65,7 @@ class LatestSlot {
     return true;
   }
 
-  /// Reader: the slot taken last, in [0, kSlots); before the first, one with its initial value.
+  /// Reader: the slot taken last, in [0, kSlots); before that, one with its initial value.
   [[nodiscard]] std::size_t reader_slot() const noexcept TERRACUT_NONBLOCKING { return readers_; }
 
  private:
@@ -77,17 +77,17 @@ class LatestSlot {
   alignas(memory::FixedMemory::kAlignment) std::uint8_t readers_ = 2;
 };
 
-/// LatestSlot with its three values inside. T is default-constructible; if it is copied with
-/// publish(value), copying must not allocate. Thread contract as there.
+/// A LatestSlot together with its three values. T is default-constructible; with publish(value),
+/// copying it must not allocate. Thread contract of LatestSlot.
 template <class T>
 class LatestValue {
  public:
-  /// Writer: the value to fill in place, for publish(). Holds some older value: fill it whole.
+  /// Writer: the value to fill in place before publish(). Overwrite all of its old content.
   [[nodiscard]] T& draft() noexcept TERRACUT_NONBLOCKING {
     return values_[slots_.writer_slot()].value;
   }
 
-  /// Writer: publishes the draft. True when the value before it was never taken.
+  /// Writer: publishes the draft. True if the previous value was never taken.
   bool publish() noexcept TERRACUT_NONBLOCKING { return slots_.publish(); }
 
   /// Writer: publishes a copy.
@@ -96,20 +96,19 @@ class LatestValue {
     return publish();
   }
 
-  /// Reader: the newest value if there is one it has not had yet, else nullptr. It stays as it is,
-  /// at its place, until the next call that returns a value.
+  /// Reader: returns the newest value if it has not been taken yet, else nullptr. The value stays
+  /// unchanged until the next call that returns one.
   [[nodiscard]] const T* take_if_new() noexcept TERRACUT_NONBLOCKING {
     return slots_.take_if_new() ? &newest_taken() : nullptr;
   }
 
-  /// Reader: what take_if_new() gave last; before that a default-constructed T.
+  /// Reader: the value that take_if_new() returned last; before that a default-constructed T.
   [[nodiscard]] const T& newest_taken() const noexcept TERRACUT_NONBLOCKING {
     return values_[slots_.reader_slot()].value;
   }
 
  private:
-  struct alignas(
-      memory::FixedMemory::kAlignment) Slot {  // values next to each other share no cache line
+  struct alignas(memory::FixedMemory::kAlignment) Slot {  // neighbouring values share no cache line
     T value{};
   };
   std::array<Slot, LatestSlot::kSlots> values_{};

@@ -12,7 +12,7 @@
 
 namespace terracut::queues {
 
-/// How one writer publishes a value that any reader may look at, without ever noticing them:
+/// One writer publishes a value that any number of readers may read; they never delay the writer:
 ///
 ///     at rest:   sequence: 4        w0 w1 w2 ...        even
 ///     write:     sequence: 5        w0'w1'w2 ...        odd: being written
@@ -22,10 +22,10 @@ namespace terracut::queues {
 /// nothing was written in between. Otherwise it tries again.
 ///
 /// Why it is right. The words are atomic, so that reading while they are written is defined. Each
-/// is stored with release and loaded with acquire: a reader that gets any word of publication n has
-/// acquired the odd sequence stored before it, so its second look at the sequence shows n's odd
-/// number or a later one, which differs from what it had seen first, unless that was n's even one.
-/// And a reader that saw n's even sequence (acquire) sees no words older than n's.
+/// is stored with release and loaded with acquire. A reader that gets a word of publication n has
+/// acquired the odd sequence stored before it. So its second look at the sequence shows n's odd
+/// number or a later one, which differs from its first look, unless that was n's even one. A reader
+/// that saw n's even sequence (acquire) sees no words older than n's.
 ///
 /// `Atomic` is std::atomic<std::uint64_t>; tests put a model of it in its place, which tries
 /// everything that the memory model allows, whatever processor they run on.
@@ -34,7 +34,7 @@ struct SequenceLock {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
   static constexpr std::size_t kWords = (sizeof(T) + 7) / 8;
 
-  /// One thread. Wait-free, no system call: memory accesses only.
+  /// To be called from one thread. Wait-free: memory accesses only, no system call.
   static void write(const T& value, Atomic& sequence, Atomic* words) noexcept {
     const std::uint64_t before = sequence.load(std::memory_order_relaxed);
     sequence.store(before + 1, std::memory_order_relaxed);
@@ -48,8 +48,8 @@ struct SequenceLock {
     sequence.store(before + 2, std::memory_order_release);
   }
 
-  /// The newest whole value. None when nothing was written yet, or when no quiet moment was met in
-  /// so many tries. Any thread; never waits.
+  /// Returns the newest whole value; nothing if none was written yet, or if every one of so many
+  /// tries met the writer at work. Any thread; never waits.
   [[nodiscard]] static std::optional<T> read(const Atomic& sequence, const Atomic* words,
                                              int tries) noexcept {
     for (int n = 0; n < tries; ++n) {

@@ -15,8 +15,8 @@
 
 namespace terracut::queues {
 
-/// A queue from one thread to one other, first in first out, that neither of them ever waits for.
-/// Made for small values, such as the numbers of slots in a pool of frames.
+/// A queue from one thread to one other, first in first out; neither ever waits. For small values,
+/// such as the numbers of slots in a pool of frames.
 ///
 ///            popped_                pushed_           Both only ever count upwards; value n lies
 ///            in
@@ -49,14 +49,14 @@ class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>, "values are copied between threads bit by bit");
 
  public:
-  /// Takes room for `capacity` values under the name `part`. A capacity of 0 is a queue that is
-  /// always full and always empty.
+  /// Takes room for `capacity` values under the name `part`. A queue of capacity 0 is always full
+  /// and always empty.
   SpscQueue(std::string_view part, std::size_t capacity, memory::FixedMemory& memory)
       : slots_(memory.take<T>(part, std::bit_ceil(capacity))), capacity_(capacity) {}
   SpscQueue(const SpscQueue&) = delete;
   SpscQueue& operator=(const SpscQueue&) = delete;
 
-  /// Producer only. False, and nothing changed, when the queue is full.
+  /// Producer only. False if the queue is full; it is then unchanged.
   [[nodiscard]] bool try_push(const T& value) noexcept TERRACUT_NONBLOCKING {
     const std::size_t number = pushed_.load(std::memory_order_relaxed);
     if (number - popped_seen_ >= capacity_) {
@@ -68,7 +68,7 @@ class SpscQueue {
     return true;
   }
 
-  /// Consumer only. False, with `value` untouched, when the queue is empty.
+  /// Consumer only. False if the queue is empty; `value` is then untouched.
   [[nodiscard]] bool try_pop(T& value) noexcept TERRACUT_NONBLOCKING {
     const std::size_t number = popped_.load(std::memory_order_relaxed);
     if (number == pushed_seen_) {
@@ -80,11 +80,11 @@ class SpscQueue {
     return true;
   }
 
-  /// How many values wait, [0, capacity]. Exact while neither side is at work; else it was
-  /// right at some moment, or lies between what was right at two moments, of the call.
+  /// Returns how many values wait, [0, capacity]. Exact while neither side is at work; else the
+  /// count of some moment of the call, or between those of two moments.
   [[nodiscard]] std::size_t size_approx() const noexcept TERRACUT_NONBLOCKING {
-    // popped_ first: whoever sees it sees at least as high a pushed_ afterwards, so the difference
-    // cannot come out negative; values popped in between can make it too large, hence the limit.
+    // popped_ is read first: a pushed_ read afterwards is at least as high, so the difference
+    // cannot be negative. Values popped in between can make it too large, hence the limit.
     const std::size_t popped = popped_.load(std::memory_order_acquire);
     const std::size_t pushed = pushed_.load(std::memory_order_acquire);
     return std::min(pushed - popped, capacity_);
@@ -101,7 +101,7 @@ class SpscQueue {
   alignas(kCacheLine) std::atomic<std::size_t> pushed_{0};
   std::size_t popped_seen_ = 0;
 
-  // Written by the consumer. The class ends with a whole line, so that a neighbour is kept off.
+  // Written by the consumer. The class ends with a whole line, to keep neighbours off it.
   alignas(kCacheLine) std::atomic<std::size_t> popped_{0};
   std::size_t pushed_seen_ = 0;
 };

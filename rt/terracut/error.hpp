@@ -8,20 +8,19 @@
 
 namespace terracut {
 
-/// What went wrong, as far as a program needs to tell cases apart. The message tells a person the
-/// rest.
+/// The kinds of error that a program may need to tell apart. The message tells a person the rest.
 enum class ErrorCode {
-  kNotFound,          ///< A file, folder or stream that was named does not exist.
+  kNotFound,          ///< A named file, folder or stream does not exist.
   kUnreadable,        ///< It exists, but the system refused to read it.
-  kMalformed,         ///< It was read, but it is not what it claims to be.
+  kMalformed,         ///< It was read, but is not what it claims to be.
   kUnsupported,       ///< It is well formed, but of a kind terracut does not handle (another model,
                       ///< say).
   kInvalidArgument,   ///< A setting or option outside its documented range.
   kCapacityExceeded,  ///< It needs more than the memory planned at start, or than the system has.
   kWriteFailed,       ///< The output could not be written whole; nothing was left in its place.
   kNoCalibration,     ///< Neither a calibration file nor a calibration in the packets was found.
-  kMountNotFound,   ///< How the sensor stands was neither stated nor seen well enough to label by.
-  kNothingCameOut,  ///< The input was read to its end, but none of it passed the checks.
+  kMountNotFound,     ///< The sensor's mount was neither stated nor seen well enough to label by.
+  kNothingCameOut,    ///< The input was read to its end, but none of it passed the checks.
 };
 
 [[nodiscard]] std::string_view to_string(ErrorCode code) noexcept;

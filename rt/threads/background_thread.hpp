@@ -12,13 +12,13 @@
 
 namespace terracut::threads {
 
-/// A thread without a deadline, for work that may wait for a disk, and whose end must not be waited
-/// for longer than one cares to: a disk that does not answer holds its thread for ever. Its owner
-/// must have told the work to end before this is destroyed, which waits for it.
+/// A thread without a deadline, for work that may wait for a disk. A disk that does not answer
+/// holds its thread for ever, so the wait for the work's end can be limited. The owner must tell
+/// the work to end before destroying this, which waits for it.
 class BackgroundThread {
  public:
-  /// Told why, on the thread, where the work ends by an exception; throws none itself. The program
-  /// goes on.
+  /// Called with the reason, on the thread, if the work ends by an exception; must not throw. The
+  /// program goes on.
   using OnFailure = std::function<void(std::string_view why)>;
 
   BackgroundThread(std::function<void()> work, OnFailure on_failure) {
@@ -35,7 +35,7 @@ class BackgroundThread {
     });
   }
 
-  /// Whether the work came to its end meanwhile.
+  /// True if the work ends within `patience`.
   [[nodiscard]] bool ends_within(std::chrono::milliseconds patience) {
     return ended_.wait_for(patience) == std::future_status::ready;
   }

@@ -7,27 +7,27 @@
 
 namespace terracut::threads {
 
-/// One thing asked of the system at start-up that it may refuse without the program having to
-/// stop: locked memory, a real-time priority, a core. The program goes on with what it got and
-/// shows these lines to whoever wonders why deadlines are missed.
+/// One request to the system at start-up that may be refused without stopping the program: locked
+/// memory, a real-time priority, a core. The program shows these lines to those who wonder why
+/// deadlines are missed.
 struct Grant {
   std::string asked{};     ///< What was asked: "SCHED_FIFO priority 80".
-  bool granted = false;    ///< Read back from the system where it can be, not believed.
+  bool granted = false;    ///< Read back from the system where possible.
   int error_number = 0;    ///< errno of the refusal; 0 when granted.
   std::string in_force{};  ///< What holds now: "SCHED_OTHER".
   std::string mend{};      ///< When refused: the command or setting that mends it, and why.
 };
 
-/// One line for people: "SCHED_FIFO priority 80: refused (Operation not permitted), runs as
+/// Returns one line for people: "SCHED_FIFO priority 80: refused (Operation not permitted), runs as
 /// SCHED_OTHER; sudo setcap ...".
 [[nodiscard]] std::string to_line(const Grant& grant);
 
 [[nodiscard]] bool all_granted(const std::vector<Grant>& grants) noexcept;
 
-/// What mends a refusal to lock memory.
+/// Tells how to mend a refusal to lock memory.
 [[nodiscard]] std::string mend_memory_lock();
 
-/// What mends a refusal of a real-time priority.
+/// Tells how to mend a refusal of a real-time priority.
 [[nodiscard]] std::string mend_real_time_priority();
 
 }  // namespace terracut::threads

@@ -24,8 +24,8 @@ Expected<WakeEvent> WakeEvent::make() {
 }
 
 void WakeEvent::wake() const noexcept {
-  // An eventfd that is EFD_NONBLOCK takes the number or refuses it, at once. It refuses only when
-  // the count is full, and then the reader is awake anyway.
+  // A non-blocking eventfd takes the number or refuses it, at once. It refuses only when the count
+  // is full; the reader is awake then anyway.
   trusted_call([this]() noexcept {
     const int kept = errno;
     const std::uint64_t one = 1;
@@ -37,11 +37,11 @@ void WakeEvent::wake() const noexcept {
 bool WakeEvent::wait(int descriptor, std::int64_t timeout_ns) const noexcept {
   const timespec timeout = timespec_of(timeout_ns);
   std::array<pollfd, 2> polled{{{event_.get(), POLLIN, 0}, {descriptor, POLLIN, 0}}};
-  // Here threads with a deadline wait for their work.
+  // Threads with a deadline wait here for their work.
   const int ready = trusted_call(
       [&]() noexcept { return ::ppoll(polled.data(), polled.size(), &timeout, nullptr); });
   if (ready <= 0 || polled[0].revents == 0) return false;
-  // As in wake(): it answers at once.
+  // A non-blocking eventfd answers at once.
   return trusted_call([this]() noexcept {
     std::uint64_t count = 0;
     return ::read(event_.get(), &count, sizeof count) == sizeof count;

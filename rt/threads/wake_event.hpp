@@ -12,17 +12,17 @@
 
 namespace terracut::threads {
 
-/// Waits for a descriptor and can be woken from elsewhere (eventfd).
+/// Waits for a descriptor or for wake() from elsewhere (an eventfd).
 class WakeEvent {
  public:
   /// kCapacityExceeded when the process has no descriptor left.
   [[nodiscard]] static Expected<WakeEvent> make();
 
-  /// From any thread, or a signal handler. Keeps errno.
+  /// May be called from any thread or a signal handler. Keeps errno.
   void wake() const noexcept TERRACUT_NONBLOCKING;
 
-  /// Until `descriptor` (-1: none) can be read or has an error, wake() was called, a signal came,
-  /// or the time is up. True when woken; that wake() is then used up.
+  /// Waits until `descriptor` (-1: none) can be read or has an error, wake() is called, a signal
+  /// comes, or the time is up. True when woken by wake(), which is then used up.
   [[nodiscard]] bool wait(int descriptor,
                           std::int64_t timeout_ns) const noexcept TERRACUT_NONBLOCKING;
 
@@ -32,7 +32,7 @@ class WakeEvent {
   files::OwnedDescriptor event_;
 };
 
-/// For the system's calls; negative times become 0.
+/// Converts a time for the system's calls; negative times become 0.
 [[nodiscard]] constexpr timespec timespec_of(std::int64_t time_ns) noexcept {
   constexpr std::int64_t kSecond_ns = 1'000'000'000;
   if (time_ns < 0) time_ns = 0;

@@ -6,14 +6,14 @@
 
 namespace terracut::can {
 
-/// What became of the lines or records of a recording of a CAN bus.
-/// records == delivered + no_frame + other_interface + malformed.
+/// Counts the lines or records of a recording of a CAN bus. records == delivered + no_frame +
+/// other_interface + malformed.
 struct CanLogCounters {
   std::uint64_t records = 0;
   std::uint64_t delivered = 0;
-  std::uint64_t no_frame = 0;         ///< Well formed, but another thing: comments, CAN XL, UDP.
+  std::uint64_t no_frame = 0;         ///< Well formed, but not a CAN frame: comments, CAN XL, UDP.
   std::uint64_t other_interface = 0;  ///< Frames of another interface than the one asked for.
-  std::uint64_t malformed = 0;        ///< The first one is described by the source's first_fault().
+  std::uint64_t malformed = 0;        ///< The source's first_fault() describes the first.
 };
 
 }  // namespace terracut::can

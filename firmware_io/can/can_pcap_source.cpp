@@ -16,7 +16,7 @@
 namespace terracut::can {
 namespace {
 
-// The header of a cooked capture, and where in it the protocol stands, big endian.
+// Sizes of the header of a cooked capture, and where in it the big-endian protocol stands.
 constexpr std::size_t kCookedBytes = 16, kCookedProtocolAt = 14;
 constexpr std::size_t kCooked2Bytes = 20, kCooked2ProtocolAt = 0;
 constexpr unsigned kCanProtocol = 0x000C, kCanFdProtocol = 0x000D;
@@ -26,7 +26,7 @@ bool has_can(int link_type) {
          link_type == DLT_LINUX_SLL2;
 }
 
-/// The frame's bytes behind a cooked header; nothing for another protocol.
+/// Returns the frame's bytes after a cooked header; nothing for another protocol.
 std::optional<std::span<const std::uint8_t>> behind_header(std::span<const std::uint8_t> bytes,
                                                            std::size_t header_bytes,
                                                            std::size_t protocol_at) {
@@ -78,9 +78,9 @@ Expected<std::optional<CanFrame>> CanPcapSource::next() {
     if (!record) return tl::unexpected(record.error());
     if (!*record) return std::nullopt;
     ++counters_.records;
-    // The kernel's frames have the id in the order of the machine. libpcap writes it big endian for
-    // a CAN interface; in cooked captures it leaves it, and swaps it where the file is of a machine
-    // of the other order.
+    // The id's byte order: the kernel uses the machine's. libpcap writes it big endian for a CAN
+    // interface. In cooked captures libpcap keeps it, and swaps it if the file is of a machine of
+    // the other order.
     auto bytes = std::optional((*record)->bytes);
     CanIdOrder order = CanIdOrder::kNative;
     if (file_.link_type() == DLT_CAN_SOCKETCAN) {

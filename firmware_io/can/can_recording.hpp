@@ -16,16 +16,16 @@
 
 namespace terracut::can {
 
-/// A recorded CAN bus, whichever way it was recorded: a candump log or a capture file. Which of the
-/// two, its first bytes tell. Not thread-safe; blocks on the disk.
+/// A recorded CAN bus: a candump log or a capture file, told apart by the first bytes. Not
+/// thread-safe; blocks on the disk.
 class CanRecording {
  public:
-  /// Frames of `interface` only, where the recording tells (a log does); empty: of any. Errors as
-  /// CandumpSource::open or CanPcapSource::open.
+  /// Opens a recording. A log delivers only frames of `interface` (empty: of any); a capture does
+  /// not tell interfaces. Errors of CandumpSource::open() or CanPcapSource::open().
   [[nodiscard]] static Expected<CanRecording> open(const std::filesystem::path& path,
                                                    std::string interface = {});
 
-  /// The next frame; nothing at the end. Errors as the two sources' next().
+  /// Returns the next frame; nothing at the end. Errors of the two sources' next().
   [[nodiscard]] Expected<std::optional<CanFrame>> next() {
     return std::visit([](auto& source) { return source.next(); }, source_);
   }

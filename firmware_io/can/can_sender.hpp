@@ -12,32 +12,32 @@
 
 namespace terracut::can {
 
-/// Frames given to a CanSender are sent + queue_full + link_down + failed.
+/// Counts the frames given to a CanSender: their number is sent + queue_full + link_down + failed.
 struct CanSendCounters {
   std::uint64_t sent = 0;
-  std::uint64_t queue_full = 0;  ///< Left out: the bus was too busy for what was to be sent before.
-  std::uint64_t link_down = 0;   ///< Left out: the interface was down or not there.
-  std::uint64_t failed = 0;      ///< Refused for another reason.
-  int last_error = 0;            ///< errno of the newest of these.
+  std::uint64_t queue_full = 0;  ///< Not sent: the bus was still busy with earlier frames.
+  std::uint64_t link_down = 0;   ///< Not sent: the interface was down or missing.
+  std::uint64_t failed = 0;      ///< Not sent for another reason.
+  int last_error = 0;            ///< errno of the last one in `failed` or above.
 };
 
-/// Sends frames on a CAN interface and never waits: what does not go out at once is left out and
-/// counted. An interface that went away and came back is taken up again. Hears nothing. One thread,
-/// which needs no priority.
+/// Sends frames on a CAN interface and never waits: a frame that cannot go out at once is dropped
+/// and counted. An interface that went away is used again when it comes back. Receives nothing. One
+/// thread, which needs no priority.
 class CanSender {
  public:
-  /// Errors as SocketCanSource::open. `wait_for_interface`: one that is not there is taken up when
-  /// it comes.
+  /// Errors of SocketCanSource::open(). With `wait_for_interface` a missing interface is no error:
+  /// it is used when it comes.
   [[nodiscard]] static Expected<CanSender> open(std::string interface,
                                                 bool wait_for_interface = false);
 
-  /// Over any datagram socket, as SocketCanSource::adopt.
+  /// Sends over any datagram socket, as SocketCanSource::adopt() receives.
   [[nodiscard]] static CanSender adopt(files::OwnedDescriptor descriptor);
 
-  /// Returns how many were sent; the others are counted by why they were not.
+  /// Returns how many were sent; the others are counted by reason.
   std::size_t send(std::span<const CanFrame> frames) noexcept;
 
-  /// Whether there is one to send on, or was when it was last looked for.
+  /// True if an interface was there when last looked for.
   [[nodiscard]] bool has_interface() const noexcept { return static_cast<bool>(socket_); }
   [[nodiscard]] const CanSendCounters& counters() const noexcept { return counters_; }
 
@@ -47,7 +47,7 @@ class CanSender {
   void look_after_interface() noexcept;
 
   std::string interface_;         ///< Empty when adopted.
-  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
+  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces.
   files::OwnedDescriptor socket_;
   int interface_index_ = 0;
   std::int64_t next_look_ns_ = 0;

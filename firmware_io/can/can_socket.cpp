@@ -25,7 +25,7 @@ bool set_option(int socket, int level, int option, const Value& value) noexcept 
   return ::setsockopt(socket, level, option, &value, sizeof value) == 0;
 }
 
-/// Exactly this message: the number, its format, and no request for it.
+/// Matches exactly this message: its number and format, but not a request for it.
 ::can_filter filter_of(const CanId& id) noexcept {
   constexpr ::canid_t kKind = CAN_EFF_FLAG | CAN_RTR_FLAG;
   if (id.extended) return {id.number | CAN_EFF_FLAG, CAN_EFF_MASK | kKind};
@@ -42,7 +42,7 @@ tl::expected<files::OwnedDescriptor, CanSocketFailure> open_can_socket(int inter
   if (!socket) return failed(Step::kSocket);
   const int descriptor = socket.get();
 
-  // Everything that decides what the socket hears comes before bind(), which opens it.
+  // All filters are set before bind(), which starts reception.
   std::array<::can_filter, kMostCanFilters> filters{};
   const std::size_t count = std::min(ids.size(), filters.size());
   std::transform(ids.begin(), ids.begin() + static_cast<std::ptrdiff_t>(count), filters.begin(),

@@ -35,7 +35,7 @@ std::optional<Whole> whole_number(std::string_view digits, int base) noexcept {
   return value;
 }
 
-/// Cuts the first word off.
+/// Removes the first word and returns it.
 std::string_view next_word(std::string_view& text) noexcept {
   const std::size_t begin = std::min(text.find_first_not_of(kSpace), text.size());
   const std::size_t end = std::min(text.find_first_of(kSpace, begin), text.size());
@@ -44,7 +44,7 @@ std::string_view next_word(std::string_view& text) noexcept {
   return word;
 }
 
-/// "1700000000.123456"
+/// Parses "1700000000.123456".
 std::optional<std::int64_t> stamp_from(std::string_view text) noexcept {
   const std::size_t dot = text.find('.');
   if (dot == std::string_view::npos) return std::nullopt;
@@ -58,7 +58,8 @@ std::optional<std::int64_t> stamp_from(std::string_view text) noexcept {
   return *seconds * kSecond_ns + *fraction;
 }
 
-/// Hex digits, two a byte, dots between bytes or none. False when they are not that, or too many.
+/// Reads hex digits, two a byte, with or without dots between bytes. False for anything else or too
+/// many bytes.
 bool read_data(std::string_view text, std::size_t most_bytes, CanFrame& frame) noexcept {
   std::size_t count = 0;
   while (!text.empty()) {
@@ -73,9 +74,9 @@ bool read_data(std::string_view text, std::size_t most_bytes, CanFrame& frame) n
   return true;
 }
 
-/// "#..." behind the id: classic data or a remote frame.
+/// Reads the part after the id, "#...": classic data or a remote frame. Returns the rest of it.
 std::optional<std::string_view> read_classic(std::string_view body, CanFrame& frame) noexcept {
-  // "_9" to "_F": how a length of 8 was written on the wire. It stays 8 bytes.
+  // A suffix "_9" to "_F" states how a length of 8 was written on the wire; it stays 8 bytes.
   if (const std::size_t mark = body.find('_'); mark != std::string_view::npos) {
     const auto code = whole_number<unsigned>(body.substr(mark + 1), 16);
     if (!code || *code < 9 || *code > 15) return "the length behind '_' is not 9 to F";
@@ -147,7 +148,7 @@ tl::expected<CandumpLine, CandumpFault> parse_candump_line(std::string_view line
   if (mark == std::string_view::npos) {
     return malformed("there is no '#' behind its id; expected the format of `candump -l`");
   }
-  // Two digits of network and three of priority, where others have 3 or 8 digits.
+  // CAN XL has two digits of network and three of priority here, other frames 3 or 8 digits.
   if (mark == 5) return no_frame("it is a CAN XL frame");
   CanFrame& frame = parsed.frame;
   if (!read_id(text.substr(0, mark), frame)) {

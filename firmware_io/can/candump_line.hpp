@@ -23,22 +23,22 @@ namespace terracut::can {
 /// received from sent.
 struct CandumpLine {
   CanFrame frame;
-  std::string_view interface;  ///< Part of the line that was parsed.
+  std::string_view interface;  ///< Points into the line that was parsed.
 };
 
-/// What is the matter with a line. `what` is a text of static duration, for a message; a line that
-/// is merely no frame (`DROPCOUNT`, a comment, CAN XL) is not `malformed`.
+/// What is wrong with a line. `what` is a text of static duration, for a message. A well-formed
+/// line without a frame (`DROPCOUNT`, a comment, CAN XL) is not `malformed`.
 struct CandumpFault {
   std::string_view what;
   bool malformed = true;
 };
 
-/// `line`: without its end. Any bytes. Allocates nothing.
+/// Parses `line`, given without its end. Takes any bytes. Allocates nothing.
 [[nodiscard]] tl::expected<CandumpLine, CandumpFault> parse_candump_line(
     std::string_view line) noexcept;
 
-/// The line of a frame whose stamp is not negative, with 6 decimals or, where it has nanoseconds,
-/// 9, and the end of line.
+/// Returns the frame's line with its end. The stamp must not be negative; it gets 6 decimals, or 9
+/// if it has nanoseconds.
 [[nodiscard]] std::string candump_line(const CanFrame& frame, std::string_view interface);
 
 }  // namespace terracut::can

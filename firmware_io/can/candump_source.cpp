@@ -40,7 +40,7 @@ CandumpSource::CandumpSource(std::unique_ptr<std::istream> stream, std::string n
     : stream_(std::move(stream)), name_(std::move(name)), interface_(std::move(interface)) {}
 
 std::optional<std::string_view> CandumpSource::read_line() {
-  // getline() says by failbit alone that the line goes on, and clears nothing of it.
+  // failbit alone means that the line goes on; getline() has removed nothing of its rest.
   stream_->getline(line_.data(), static_cast<std::streamsize>(line_.size()));
   const auto count = static_cast<std::size_t>(stream_->gcount());
   too_long_ = stream_->fail() && count == kMostLine;
@@ -50,7 +50,7 @@ std::optional<std::string_view> CandumpSource::read_line() {
     return std::string_view(line_.data(), count);
   }
   if (stream_->fail()) return std::nullopt;
-  // What was read includes the end of line, unless the file ends without one.
+  // The count includes the end of line, unless the file ends without one.
   return std::string_view(line_.data(), stream_->eof() ? count : count - 1);
 }
 

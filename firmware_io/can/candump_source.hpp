@@ -17,28 +17,29 @@
 
 namespace terracut::can {
 
-/// Frames of a candump log (candump_line.hpp), in file order. Not thread-safe; blocks on the disk.
+/// Reads frames of a candump log (candump_line.hpp) in file order. Not thread-safe; blocks on the
+/// disk.
 class CandumpSource {
  public:
-  /// Characters a line may have; frames need at most 260.
+  /// The most characters of a line; frames need at most 260.
   static constexpr std::size_t kMostLine = 511;
 
-  /// Frames of `interface` only; empty: of any. kNotFound or kUnreadable.
+  /// Delivers only frames of `interface`; empty: of any. kNotFound or kUnreadable.
   [[nodiscard]] static Expected<CandumpSource> open(const std::filesystem::path& path,
                                                     std::string interface = {});
 
-  /// From any stream; `name` stands for the path in messages.
+  /// Reads any stream; `name` stands for the path in messages.
   CandumpSource(std::unique_ptr<std::istream> stream, std::string name, std::string interface = {});
 
-  /// The next frame; nothing at the end. Lines that are no frame are counted and stepped over,
-  /// however long they are; nothing is allocated for them after the first malformed one.
+  /// Returns the next frame; nothing at the end. Lines without a frame are counted and skipped,
+  /// however long they are; after the first malformed one nothing is allocated for them.
   ///
-  /// Errors, at the end: kMalformed when not one line was a frame; kNothingCameOut when all frames
-  /// were of other interfaces; kUnreadable when the system refused to read on.
+  /// Errors at the end: kMalformed if no line was a frame; kNothingCameOut if all frames were of
+  /// other interfaces; kUnreadable if the system refused to read on.
   [[nodiscard]] Expected<std::optional<CanFrame>> next();
 
   [[nodiscard]] const CanLogCounters& counters() const noexcept { return counters_; }
-  /// "drive.log:12: its stamp ..." of the first malformed line; empty: none was.
+  /// Describes the first malformed line, "drive.log:12: its stamp ..."; empty if there was none.
   [[nodiscard]] const std::string& first_fault() const noexcept { return first_fault_; }
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
 
@@ -50,7 +51,7 @@ class CandumpSource {
   std::unique_ptr<std::istream> stream_;
   std::string name_, interface_;
   std::array<char, kMostLine + 1> line_{};
-  bool too_long_ = false;  ///< The line in line_ is only the beginning of it.
+  bool too_long_ = false;  ///< line_ holds only the beginning of a longer line.
   CanLogCounters counters_;
   std::string first_fault_, first_no_frame_, first_other_interface_;
 };

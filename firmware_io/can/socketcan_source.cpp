@@ -96,7 +96,7 @@ std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noex
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      // It was empty when the link was found down, so this came since.
+      // The socket was empty when the link was found down, so this frame came since.
       if (link_ != net::LinkState::kUnknown) link_ = net::LinkState::kUp;
       return frames_.first(count);
     }
@@ -108,18 +108,18 @@ std::span<const CanFrame> SocketCanSource::receive(std::int64_t timeout_ns) noex
   }
 }
 
-/// Takes what lies ready, up to a batch; the frames wanted end up at the front of frames_.
+/// Reads the frames that are ready, up to a batch; wanted ones end up at the front of frames_.
 std::size_t SocketCanSource::read_batch() noexcept {
   if (!socket_) return 0;
   int error_number = 0;
-  const int taken = threads::trusted_call([&]() noexcept {  // told not to wait
+  const int taken = threads::trusted_call([&]() noexcept {  // MSG_DONTWAIT
     const int result = ::recvmmsg(socket_.get(), messages_.data(),
                                   static_cast<unsigned>(messages_.size()), MSG_DONTWAIT, nullptr);
     error_number = errno;
     return result;
   });
   if (taken < 0) {
-    // Said once when the interface goes down or away, which look_after_interface() counts.
+    // The socket reports a lost interface once; look_after_interface() counts it.
     const bool link_is_the_reason = error_number == ENETDOWN || error_number == ENODEV;
     if (link_is_the_reason) next_look_ns_ = 0;
     if (!link_is_the_reason && error_number != EAGAIN && error_number != EINTR) {
@@ -138,7 +138,7 @@ std::size_t SocketCanSource::read_batch() noexcept {
   return kept;
 }
 
-/// False for a frame that is not to be delivered, which is then counted.
+/// Returns false for a frame that is not delivered; it is then counted.
 bool SocketCanSource::take(std::size_t slot, CanFrame& frame) noexcept {
   ::msghdr& header = messages_[slot].msg_hdr;
   std::int64_t stamp_ns = 0;
@@ -170,7 +170,7 @@ bool SocketCanSource::take(std::size_t slot, CanFrame& frame) noexcept {
     ++counters_.unstamped;
     stamp_ns = measure::realtime_ns();
   }
-  bus_off_ = false;  // it takes part in the bus again
+  bus_off_ = false;  // the controller is on the bus again
   frame = *parsed;
   frame.stamp_ns = stamp_ns;
   return true;
@@ -188,7 +188,7 @@ void SocketCanSource::note_error_frame(const CanFrame& frame) noexcept {
   }
 }
 
-/// The kernel writes the lengths it used over those it was offered.
+/// Restores the lengths offered to the kernel, which it overwrites with those used.
 void SocketCanSource::prepare(std::size_t slots) noexcept {
   for (::mmsghdr& message : messages_.first(slots)) {
     message.msg_hdr.msg_controllen = Control::kBytes;
@@ -196,8 +196,8 @@ void SocketCanSource::prepare(std::size_t slots) noexcept {
   }
 }
 
-/// A socket stays tied to an interface that went away, so a new one by the same name needs a new
-/// socket. Looks only when nothing came, and then not often.
+/// Opens a new socket for an interface that came back: the old socket stays tied to the old
+/// interface, whatever its name. Looks only when nothing came, and at most every kLookEvery_ns.
 void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
   if (now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + kLookEvery_ns;
@@ -208,7 +208,7 @@ void SocketCanSource::look_after_interface(std::int64_t now_ns) noexcept {
   if (now.state == net::LinkState::kGone) return;
   if (socket_ && now.index == interface_index_) return;
   const bool opened =
-      threads::trusted_call([&]() noexcept {  // nothing came: nothing to be late for
+      threads::trusted_call([&]() noexcept {  // may take its time: no frame is waiting
         auto socket = open_can_socket(now.index, config_.ids, true);
         if (!socket) return false;
         (void)net::request_receive_buffer(socket->get(), config_.receive_buffer_bytes);

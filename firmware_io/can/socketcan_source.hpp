@@ -29,51 +29,51 @@ namespace terracut::can {
 
 struct SocketCanConfig {
   std::string interface{};   ///< "can0"
-  std::vector<CanId> ids{};  ///< The messages wanted, [1, 512] of them; the kernel sorts out.
-  std::size_t batch = 64;    ///< Frames a receive() returns at most, > 0.
+  std::vector<CanId> ids{};  ///< The messages wanted, [1, 512] ids; the kernel filters.
+  std::size_t batch = 64;    ///< The most frames a receive() returns, > 0.
   std::size_t receive_buffer_bytes = 1U << 20;  ///< About 1300 frames.
-  bool wait_for_interface = false;  ///< One that is not there at open() is taken up when it comes.
+  bool wait_for_interface = false;  ///< A missing interface is no error; it is used when it comes.
 };
 
-/// Frames of a CAN interface as they arrive, many for one system call, with the kernel's time
-/// stamps and its count of those it had to drop.
+/// Receives frames of a CAN interface, many for one system call, with the kernel's time stamps and
+/// its count of drops.
 ///
-/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. When
-/// the interface goes down, or goes away and comes back under its name, receive() goes on returning
-/// empty, looks twice a second, takes the socket up again when it can, and counts. Everything but
-/// wake() from one thread.
+/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. If
+/// the interface goes down, or goes away and comes back under its name, receive() returns empty,
+/// looks for it twice a second, opens it again when it can, and counts. One thread, except for
+/// wake().
 class SocketCanSource {
  public:
-  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, unless it is to be
-  /// waited for, or it is no CAN interface. kUnsupported: the kernel has no CAN. kUnreadable:
-  /// another refusal of the system. An interface that is down is no error.
+  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface (unless waited
+  /// for), or no CAN interface. kUnsupported: the kernel has no CAN. kUnreadable: another refusal
+  /// of the system. An interface that is down is no error.
   [[nodiscard]] static Expected<SocketCanSource> open(SocketCanConfig config,
                                                       memory::FixedMemory& memory);
 
-  /// The same over any datagram socket that carries the kernel's frames (can_wire.hpp), one a
-  /// datagram: one end of a socket pair, say. `config.interface` is not looked at: the descriptor
-  /// stays what it is, and so does link(), kUnknown.
+  /// Receives over any datagram socket that carries the kernel's frames (can_wire.hpp), one a
+  /// datagram, such as one end of a socket pair. `config.interface` is ignored: the descriptor is
+  /// never replaced, and link() stays kUnknown.
   [[nodiscard]] static Expected<SocketCanSource> adopt(files::OwnedDescriptor descriptor,
                                                        SocketCanConfig config,
                                                        memory::FixedMemory& memory);
 
-  /// Waits at most so long and returns what came, [1, batch] data frames in order of arrival, or
-  /// none: time is up, or somebody called wake(). Valid until the next call. Error frames are
-  /// counted, not returned.
+  /// Waits at most `timeout_ns` and returns [1, batch] data frames in order of arrival, or none if
+  /// the time is up or wake() was called. Valid until the next call. Error frames are counted, not
+  /// returned.
   [[nodiscard]] std::span<const CanFrame> receive(std::int64_t timeout_ns) noexcept
       TERRACUT_NONBLOCKING;
 
-  /// Ends the receive() under way, or the next one that would have to wait, with an empty result.
-  /// From any thread or a signal handler.
+  /// Ends the current receive(), or the next one that would wait, with an empty result. From any
+  /// thread or a signal handler.
   void wake() const noexcept { wake_.wake(); }
 
   [[nodiscard]] const CanReceiveCounters& counters() const noexcept { return counters_; }
   [[nodiscard]] net::LinkState link() const noexcept { return link_; }
-  /// The controller has taken itself off the bus, as far as its error frames tell.
+  /// True if the controller has taken itself off the bus, as far as its error frames tell.
   [[nodiscard]] bool bus_off() const noexcept { return bus_off_; }
 
  private:
-  /// Room for what the kernel says beside a frame: its stamp and the count of drops.
+  /// Room for the control messages of a frame: its stamp and the kernel's count of drops.
   struct Control {
     static constexpr std::size_t kBytes =
         CMSG_SPACE(sizeof(timespec)) + CMSG_SPACE(sizeof(std::uint32_t));
@@ -91,7 +91,7 @@ class SocketCanSource {
 
   SocketCanConfig config_;
   threads::WakeEvent wake_;
-  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with; none when adopted.
+  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces; empty if adopted.
   files::OwnedDescriptor socket_;
   int interface_index_ = 0;
 

@@ -9,12 +9,12 @@
 
 namespace terracut::capture {
 
-/// What became of the records of a capture that was decoded to the end of what was asked for. Each
-/// of them is in exactly one place, as the datagrams of a live run are in net::DatagramAccount.
+/// Accounts for the records of a capture that was decoded to the end of the part asked for. Each
+/// record is in exactly one place, as the datagrams of a live run are in net::DatagramAccount.
 struct CaptureAccount {
   PcapCounters read;
-  std::uint64_t before_start = 0, behind_end = 0;  ///< Outside of the part that was asked for.
-  std::uint64_t device_info = 0;                   ///< Hold no returns.
+  std::uint64_t before_start = 0, behind_end = 0;  ///< outside the part asked for
+  std::uint64_t device_info = 0;                   ///< packets without returns
   std::uint64_t decoded = 0;
   frame::LossCounters losses;
 

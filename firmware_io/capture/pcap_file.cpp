@@ -52,7 +52,7 @@ Expected<File> open_file(const std::filesystem::path& path) {
   return file;
 }
 
-/// libpcap refused the file: says why in terms of what the file is.
+/// Returns the error for a file that libpcap refused, saying what the file is.
 Error no_capture(const std::string& name, std::FILE* file, std::string_view libpcap_says) {
   std::array<std::uint8_t, 16> first{};
   std::rewind(file);
@@ -73,9 +73,9 @@ Error no_capture(const std::string& name, std::FILE* file, std::string_view libp
                                                : "")};
 }
 
-/// With nanosecond precision asked for, tv_usec holds nanoseconds. libpcap takes the unsigned
-/// seconds of a pcap for signed ones (from 2038 on), which is undone. pcapng stamps may be absurd;
-/// they are held inside the range instead of overflowing.
+/// Converts a stamp. With nanosecond precision tv_usec holds nanoseconds. libpcap reads the
+/// unsigned seconds of a pcap as signed (from 2038 on); that is undone. Absurd pcapng stamps are
+/// clamped instead of overflowing.
 std::int64_t stamp_of(const timeval& stamp) noexcept {
   constexpr std::int64_t kNanosecondsPerSecond = 1'000'000'000;
   constexpr std::int64_t kLastSecond = 9'000'000'000;  // year 2255
@@ -131,7 +131,7 @@ Status PcapFile::reopen() {
     if (memory_.empty()) {
       return fail(ErrorCode::kMalformed, fmt::format("{}: is empty; expected a capture", name_));
     }
-    // Opened for reading only, so the bytes stay as they are.
+    // The file is opened for reading only, so the bytes stay unchanged.
     file.reset(::fmemopen(const_cast<std::uint8_t*>(memory_.data()), memory_.size(), "r"));
     if (!file) {
       return fail(ErrorCode::kUnreadable, fmt::format("{}: {}", name_, reason_of(errno)));

@@ -21,26 +21,26 @@ struct PcapRecord {
   std::int64_t stamp_ns = 0;            ///< Since 1970 (UTC), [0, year 2255].
 };
 
-/// The records of a capture file (pcap with micro- or nanosecond stamps in either byte order, or
-/// pcapng) in file order, whatever is in them. Not thread-safe; blocks on the disk.
+/// Reads the records of a capture file (pcap with micro- or nanosecond stamps in either byte order,
+/// or pcapng) in file order, whatever they hold. Not thread-safe; blocks on the disk.
 class PcapFile {
  public:
-  /// kNotFound, kUnreadable or kMalformed (empty, or no capture: the message names what it looks
+  /// kNotFound, kUnreadable or kMalformed (empty or no capture; the message says what it looks
   /// like).
   [[nodiscard]] static Expected<PcapFile> open(std::filesystem::path path);
 
-  /// The same from memory, which must outlive this object; `name` stands for the path in messages.
+  /// Reads from memory, which must outlive this object; `name` stands for the path in messages.
   [[nodiscard]] static Expected<PcapFile> open_memory(std::span<const std::uint8_t> capture,
                                                       std::string name);
 
-  /// The next record; nothing at the end.
+  /// Returns the next record; nothing at the end.
   ///
-  /// An error (kMalformed or kUnsupported: interfaces of different link types in one pcapng) means
-  /// that the file breaks off: the message says after which packet and at which byte, and every
-  /// further call returns the same error. Allocates nothing a record.
+  /// An error (kMalformed, or kUnsupported for interfaces of different link types in one pcapng)
+  /// means that the file breaks off: the message says after which packet and at which byte, and
+  /// every further call returns the same error. Allocates nothing a record.
   [[nodiscard]] Expected<std::optional<PcapRecord>> next();
 
-  /// Back to the first record (a file is opened anew).
+  /// Goes back to the first record (a file is opened again).
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] int link_type() const noexcept { return link_type_; }  ///< libpcap's DLT_ number.
@@ -57,7 +57,7 @@ class PcapFile {
   [[nodiscard]] Error broken_off(const char* reason);
 
   std::string name_;
-  std::filesystem::path path_;  ///< Empty when reading from memory.
+  std::filesystem::path path_;  ///< Empty if reading from memory.
   std::span<const std::uint8_t> memory_;
   std::unique_ptr<::pcap, Close> handle_;
   int link_type_ = 0;

@@ -19,25 +19,27 @@
 
 namespace terracut::capture {
 
-/// Which datagrams of a capture are wanted; an empty filter lets all pass. As in Datagram.
+/// The datagrams of a capture that are wanted; an empty filter passes all. Fields are those of
+/// Datagram.
 struct PcapFilter {
   std::optional<std::uint16_t> port{};            ///< UDP destination port.
   std::optional<std::uint32_t> source_address{};  ///< IPv4 of the sender, host byte order.
   std::optional<std::uint16_t> source_port{};
   std::optional<std::uint64_t> source_mac{};
   std::optional<std::uint32_t> destination_address{};
-  std::optional<std::uint32_t> vlan{};                          ///< 0: those in none.
-  std::function<bool(const packet::Datagram&)> is_of_stream{};  ///< Of those that pass all this.
+  std::optional<std::uint32_t> vlan{};                          ///< 0: datagrams in no VLAN.
+  std::function<bool(const packet::Datagram&)> is_of_stream{};  ///< Asked last.
 };
 
-/// frames == delivered + left_out().
+/// Counts frames: frames == delivered + left_out().
 struct PcapCounters {
-  std::uint64_t frames = 0;                                    ///< Records read from the file.
-  std::uint64_t delivered = 0;                                 ///< Datagrams returned by next().
-  std::array<std::uint64_t, packet::kFrameRejects> refused{};  ///< Frames, by FrameReject.
-  std::uint64_t other_port = 0;    ///< Datagrams the filter's port kept out.
-  std::uint64_t other_source = 0;  ///< Datagrams of the right port from another sender.
-  /// Datagrams of the right port and sender that the rest of the filter kept out.
+  std::uint64_t frames = 0;     ///< Records read from the file.
+  std::uint64_t delivered = 0;  ///< Datagrams returned by next().
+  std::array<std::uint64_t, packet::kFrameRejects>
+      refused{};                   ///< Frames without datagram, by reason.
+  std::uint64_t other_port = 0;    ///< Datagrams to another port.
+  std::uint64_t other_source = 0;  ///< Datagrams to the right port from another sender.
+  /// Datagrams of the right port and sender that the filter's other conditions reject.
   std::uint64_t other_stream = 0;
 
   [[nodiscard]] std::uint64_t refused_total() const noexcept;
@@ -46,29 +48,29 @@ struct PcapCounters {
   }
 };
 
-/// UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte order, or
-/// pcapng), in file order. Stamps always come as nanoseconds. Not thread-safe.
+/// Reads UDP datagrams of a capture file (pcap with micro- or nanosecond stamps in either byte
+/// order, or pcapng), in file order. Stamps are always nanoseconds. Not thread-safe.
 class PcapSource {
  public:
-  /// kNotFound, kUnreadable, kMalformed (empty, or no capture: the message names what it looks
-  /// like) or kUnsupported (a link layer without IP).
+  /// kNotFound, kUnreadable, kMalformed (empty or no capture; the message says what it looks like)
+  /// or kUnsupported (a link layer without IP).
   [[nodiscard]] static Expected<PcapSource> open(std::filesystem::path path,
                                                  PcapFilter filter = {});
 
-  /// The same from memory, which must outlive the source; `name` stands for the path in messages.
+  /// Reads from memory, which must outlive the source; `name` stands for the path in messages.
   [[nodiscard]] static Expected<PcapSource> open_memory(std::span<const std::uint8_t> capture,
                                                         std::string name, PcapFilter filter = {});
 
-  /// The next datagram that the filter lets pass; nothing at the end. Frames without a UDP datagram
-  /// are counted and stepped over. The payload is valid until the next call.
+  /// Returns the next datagram that passes the filter; nothing at the end. Frames without a UDP
+  /// datagram are counted and skipped. The payload is valid until the next call.
   ///
-  /// An error (kMalformed or kUnsupported: interfaces of different link types in one pcapng) means
-  /// that the file breaks off: the message says after which packet and at which byte, and every
-  /// further call returns the same error. Everything returned before stays valid, so a replay may
-  /// finish with a warning. Reading whole files allocates nothing a packet.
+  /// An error (kMalformed, or kUnsupported for interfaces of different link types in one pcapng)
+  /// means that the file breaks off: the message says after which packet and at which byte, and
+  /// every further call returns the same error. Everything returned before stays valid, so a replay
+  /// may finish with a warning. Allocates nothing a packet.
   [[nodiscard]] Expected<std::optional<packet::Datagram>> next();
 
-  /// Back to the first packet (a file is opened anew). Counters go on.
+  /// Goes back to the first packet (a file is opened again). Counters go on.
   [[nodiscard]] Status rewind();
 
   [[nodiscard]] const PcapCounters& counters() const noexcept { return counters_; }
@@ -78,7 +80,7 @@ class PcapSource {
  private:
   PcapSource(PcapFile file, PcapFilter filter)
       : file_(std::move(file)), filter_(std::move(filter)) {}
-  /// Beyond its port and its sender.
+  /// Checks the filter's conditions other than port and sender.
   [[nodiscard]] bool is_in_stream(const packet::Datagram& datagram) const;
   [[nodiscard]] static Expected<PcapSource> over(Expected<PcapFile> file, PcapFilter filter);
 

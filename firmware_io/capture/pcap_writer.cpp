@@ -40,7 +40,7 @@ void append_big_u32(std::vector<std::uint8_t>& bytes, std::uint32_t value) {
   append_big_u16(bytes, value & 0xFFFF);
 }
 
-/// 02:00 (locally administered) and the IPv4 address, or the broadcast address for x.x.x.255.
+/// Appends 02:00 (locally administered) and the IPv4 address, or broadcast for x.x.x.255.
 void append_hardware_address(std::vector<std::uint8_t>& bytes, std::uint32_t address) {
   if ((address & 0xFF) == 0xFF) {
     append(bytes, {0xFF, 0xFF, 0xFF, 0xFF, 0xFF, 0xFF});
@@ -196,7 +196,8 @@ Status PcapWriter::write(const packet::Datagram& datagram) {
 Status PcapWriter::finish() {
   if (!part_.lock) return tl::unexpected(closed());
   if (Status flushed = flush(); !flushed) return flushed;
-  // Some file systems tell only at a close that the disk is full. The lock is held until the end.
+  // Some file systems report a full disk only at a close, so a copy is closed; the lock is held
+  // until the end.
   if (::close(::dup(part_.lock.get())) != 0) return failed("closing", errno);
   if (::rename(part_.path.c_str(), path_.c_str()) != 0) {
     return failed("renaming the temporary file to it", errno);

@@ -17,14 +17,14 @@ namespace terracut::capture {
 /// tcpdump, Wireshark and every driver read: IP and UDP checksums are right, hardware addresses are
 /// locally administered ones made from the IPv4 addresses.
 ///
-/// Whole or not at all: the bytes go to a temporary name in the same folder; finish() renames it.
-/// Without a successful finish() nothing is left behind, and a file that stood at the path stays.
-/// Not thread-safe; blocks on the disk, so never for a real-time thread.
+/// Writes whole or not at all: the bytes go to a temporary name in the same folder; finish()
+/// renames it. Without a successful finish() nothing is left behind, and a file that stood at the
+/// path stays. Not thread-safe; blocks on the disk: not for real-time threads.
 class PcapWriter {
  public:
   static constexpr std::size_t kMaxPayloadBytes = 65507;  ///< The largest UDP payload over IPv4.
   static constexpr std::size_t kFileHeaderBytes = 24;
-  static constexpr std::size_t kRecordHeaderBytes = 16 + 14 + 20 + 8;  ///< Beside the payload.
+  static constexpr std::size_t kRecordHeaderBytes = 16 + 14 + 20 + 8;  ///< Before the payload.
 
   /// Makes missing parent folders. kInvalidArgument when `path` is something other than a file;
   /// kWriteFailed when the temporary file cannot be made.
@@ -34,16 +34,16 @@ class PcapWriter {
   PcapWriter& operator=(PcapWriter&& other) noexcept;
   ~PcapWriter();
 
-  /// A pcap can hold it: payload and stamp are in the ranges of write().
+  /// True if payload and stamp are in the ranges of write().
   [[nodiscard]] static bool can_write(const packet::Datagram& datagram) noexcept;
 
   /// Appends one frame. Stamps may be in any order, in [0, 2^32) seconds since 1970.
   /// kInvalidArgument for a stamp or payload out of range (the datagram is left out, the capture
-  /// stays good); kWriteFailed when the disk refuses, after which every call fails and nothing is
+  /// stays good); kWriteFailed if the disk refuses: then every further call fails and no file is
   /// left.
   [[nodiscard]] Status write(const packet::Datagram& datagram);
 
-  /// Writes what is still buffered and gives the file its name. Call once; later calls fail.
+  /// Writes what is still buffered and renames the file to its path. Call once; later calls fail.
   [[nodiscard]] Status finish();
 
   [[nodiscard]] std::uint64_t packets() const noexcept { return packets_; }

@@ -9,11 +9,11 @@
 
 namespace terracut::packet {
 
-/// The internet checksum (RFC 1071) of bytes that hold 0 in the place of the checksum itself.
+/// Returns the internet checksum (RFC 1071) of bytes that hold 0 in place of the checksum.
 [[nodiscard]] std::uint16_t internet_checksum(std::span<const std::uint8_t> bytes) noexcept;
 
-/// The UDP checksum over IPv4 (RFC 768): pseudo header, UDP header and payload; never 0, which
-/// would mean "none". The payload must fit a UDP datagram.
+/// Returns the UDP checksum over IPv4 (RFC 768) of pseudo header, UDP header and payload; never 0,
+/// which would mean "none". The payload must fit a UDP datagram.
 [[nodiscard]] std::uint16_t udp_checksum(const packet::Datagram& datagram) noexcept;
 
 }  // namespace terracut::packet

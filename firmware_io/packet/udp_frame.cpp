@@ -36,14 +36,14 @@ constexpr bool is_vlan_tag(std::uint16_t ether_type) noexcept {
   return ether_type == 0x8100 || ether_type == 0x88A8 || ether_type == 0x9100;
 }
 
-/// What the link layer carries, and what it says of its way.
+/// The IP packet in a link-layer frame, and its VLAN and sender.
 struct LinkPayload {
   Bytes ip;
-  std::uint32_t vlan = 0;        ///< As in Datagram.
-  std::uint64_t source_mac = 0;  ///< As in Datagram.
+  std::uint32_t vlan = 0;        ///< See Datagram.
+  std::uint64_t source_mac = 0;  ///< See Datagram.
 };
 
-/// Where a link-layer header says what.
+/// The size of a link-layer header and the offsets of its fields.
 struct LinkHeader {
   std::size_t bytes, type_at, mac_at;
 };
@@ -60,7 +60,7 @@ tl::expected<LinkPayload, FrameReject> after_ether_type(Bytes frame,
     Bytes& rest = payload.ip;
     if (rest.size() < 4) return Rejected(FrameReject::kShortCapture);
     constexpr std::uint32_t kVlanBits = 0xFFF;
-    if (const std::uint32_t id = big_u16(rest, 0) & kVlanBits; id != 0) {  // 0: priority alone
+    if (const std::uint32_t id = big_u16(rest, 0) & kVlanBits; id != 0) {  // 0: only a priority
       payload.vlan = (payload.vlan & kVlanBits) << 12 | id;
     }
     type = big_u16(rest, 2);
@@ -73,7 +73,8 @@ tl::expected<LinkPayload, FrameReject> after_ether_type(Bytes frame,
   return payload;
 }
 
-/// NULL writes the address family in the capturing machine's byte order, LOOP in the network's.
+/// Skips the address family: NULL has it in the capturing machine's byte order, LOOP in the
+/// network's.
 tl::expected<LinkPayload, FrameReject> after_family(Bytes frame) noexcept {
   if (frame.size() < 4) return Rejected(FrameReject::kShortCapture);
   const std::uint32_t big = big_u32(frame, 0);

@@ -17,30 +17,30 @@ namespace terracut::packet {
 enum class FrameReject : std::uint8_t {
   kShortCapture,         ///< Fewer bytes were captured than the frame's headers promise.
   kNotIpv4,              ///< ARP, LLDP, 802.3 and other protocols.
-  kIpv6,                 ///< Neither sensor speaks it.
+  kIpv6,                 ///< No sensor read here speaks it.
   kBadIpHeader,          ///< Version, header length or total length are impossible.
   kNotUdp,               ///< TCP, ICMP, IGMP ...
-  kFragment,             ///< A part of a fragmented datagram. Sensor packets fit one frame.
+  kFragment,             ///< Part of a fragmented datagram. Sensor packets fit one frame.
   kTruncatedUdp,         ///< The UDP length is below 8 or beyond the IP packet.
   kUnsupportedLinkType,  ///< See is_supported_link_type().
   kCount,
 };
 inline constexpr std::size_t kFrameRejects = static_cast<std::size_t>(FrameReject::kCount);
 
-/// Stable lower_snake_case name, as in the JSON report.
+/// Returns a stable lower_snake_case name, as in the JSON report.
 [[nodiscard]] std::string_view to_string(FrameReject reason) noexcept;
-/// For people, of several such frames, "are IPv6, ...", with what helps where something does.
+/// Describes several such frames for people, "are IPv6, ...", with advice if there is any.
 [[nodiscard]] std::string_view description_of(FrameReject reason) noexcept;
 
-/// libpcap's DLT_ numbers of the link layers understood: NULL (0), Ethernet (1), RAW (12, 14, 101),
-/// LOOP (108), Linux cooked v1 (113) and v2 (276), IPv4 (228).
+/// True for libpcap's DLT_ numbers of the link layers understood: NULL (0), Ethernet (1), RAW (12,
+/// 14, 101), LOOP (108), Linux cooked v1 (113) and v2 (276), IPv4 (228).
 [[nodiscard]] bool is_supported_link_type(int link_type) noexcept;
 
-/// Finds the UDP payload of one captured link-layer frame: VLAN tags (0x8100, 0x88A8, 0x9100;
-/// stacked), IP options and Ethernet padding are stepped over. No byte outside `captured` is read.
-/// Checksums are not verified: captures made on the sending machine often hold unfinished ones. An
-/// IP total length of 0 (segmentation offload) is accepted when the UDP length fits. The payload
-/// points into `captured`. Allocates nothing; callable from the packet path.
+/// Finds the UDP payload of one captured link-layer frame. Skips VLAN tags (0x8100, 0x88A8, 0x9100;
+/// stacked), IP options and Ethernet padding. Reads no byte outside `captured`. Checksums are not
+/// verified: captures made on the sending machine often hold unfinished ones. An IP total length of
+/// 0 (segmentation offload) is accepted if the UDP length fits. The payload points into `captured`.
+/// Allocates nothing; callable from the packet path.
 [[nodiscard]] tl::expected<packet::Datagram, FrameReject> parse_udp_frame(
     int link_type, std::span<const std::uint8_t> captured,
     std::int64_t stamp_ns) noexcept TERRACUT_NONBLOCKING;

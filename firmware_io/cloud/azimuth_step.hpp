@@ -10,15 +10,15 @@
 
 namespace terracut::cloud {
 
-/// How often a laser fires in one revolution, by how far apart its points are: the median over the
-/// neighbours of all rings, so that missing returns do not matter.
+/// Estimates how often a laser fires in one revolution from the median distance of neighbours on
+/// all rings, which missing returns do not disturb.
 class AzimuthStep {
  public:
-  /// The first few clouds are enough; later ones are not looked at.
+  /// Adds a cloud. Only the first few are used.
   void add(std::span<const scan::ScanPoint> points, std::span<const std::int16_t> ring_of_point);
 
-  /// Of a range image for these clouds, [360, 4500]. 2083, an HDL-64E's at 10 Hz and the image that
-  /// all figures were measured with, where it is within 5 % of that: recorded scans of one have
+  /// Returns the columns of a range image for these clouds, [360, 4500]. Within 5 % of 2083 it is
+  /// 2083, an HDL-64E's at 10 Hz, with which all figures were measured: recorded scans of one have
   /// 1990 to 2013.
   [[nodiscard]] int columns() const;
 

@@ -14,12 +14,12 @@
 
 namespace terracut::cloud {
 
-/// How many lasers a sensor may have.
+/// The fewest and most lasers that a sensor may have.
 inline constexpr int kFewestLasers = 8;
 inline constexpr int kMostLasers = 256;
 
-/// The names of the field that has the laser's number, the usual ones first, and of the
-/// intensity's, as FieldTable::field_like() has them.
+/// The names of the laser number's field, the usual ones first, and of the intensity's, as
+/// FieldTable::field_like() compares them.
 inline constexpr std::string_view kLaserFields[] = {
     "ring",        "channel",      "laser",         "row",          "laserid",
     "lasernumber", "ringid",       "line",          "beam",         "beamid",
@@ -27,15 +27,15 @@ inline constexpr std::string_view kLaserFields[] = {
     "ringindex",   "ringnumber",   "beamindex",     "beamnumber"};
 inline constexpr std::string_view kIntensityFields[] = {"intensity", "remission", "reflectivity"};
 
-/// One frame of any spinning LiDAR, in the sensor frame (x ahead, y left, z up, metres), its points
-/// in any order. Belongs to somebody else.
+/// A view of one frame of any spinning LiDAR, in the sensor frame (x ahead, y left, z up, metres);
+/// its points may be in any order. Does not own its data.
 struct CloudView {
   std::span<const scan::ScanPoint> points;
-  /// The number of each point's laser, whatever the numbering; empty where it is not known.
+  /// The laser number of each point, in any numbering; empty if unknown.
   std::span<const std::uint16_t> laser = {};
-  /// Of an organised cloud, whose points stand row after row, as many in each; 1: not organised.
+  /// The number of rows of an organised cloud, all of equal length; 1 if not organised.
   std::size_t rows = 1;
-  /// For messages, where it is known: as Cloud::laser_note.
+  /// For messages: see Cloud::laser_note. May be empty.
   std::string_view laser_note = {};
 
   [[nodiscard]] bool is_organised() const noexcept {
@@ -47,8 +47,8 @@ struct CloudView {
   return std::ranges::any_of(points, scan::is_place);
 }
 
-/// The laser of a point of a cloud that is organised. A sensor has fewer lasers than directions:
-/// most drivers write a row for each laser, some a column.
+/// Returns the laser of a point of an organised cloud. A sensor has fewer lasers than directions;
+/// most drivers write one row a laser, some one column.
 class OrganisedLasers {
  public:
   explicit OrganisedLasers(const CloudView& cloud) noexcept
@@ -65,15 +65,15 @@ class OrganisedLasers {
   bool by_row_;
 };
 
-/// A frame that was read. Buffers are kept from one to the next.
+/// A frame read from a file. Its buffers are reused for the next one.
 struct Cloud {
   std::vector<scan::ScanPoint> points;
   std::vector<std::uint16_t> laser;
   std::size_t rows = 1;
-  /// Of a file with named fields, for messages: what tells the lasers, "field ring", or, where
-  /// `laser` is empty, why none does: "its fields are x y z".
+  /// For messages, of a file with named fields: where the laser numbers come from, "field ring", or
+  /// why there are none, "its fields are x y z".
   std::string laser_note;
-  bool has_viewpoint = false;  ///< The file says where among the points the sensor stood.
+  bool has_viewpoint = false;  ///< The file states the sensor's place among the points.
 
   [[nodiscard]] CloudView view() const noexcept { return {points, laser, rows, laser_note}; }
 };

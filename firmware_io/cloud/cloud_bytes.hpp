@@ -14,36 +14,36 @@
 
 #include "rt/error.hpp"
 
-/// What the readers of cloud files share.
+/// Functions shared by the readers of cloud files.
 namespace terracut::cloud {
 
-/// 256 bytes a point of any frame.
+/// Enough for 256 bytes a point of any frame.
 inline constexpr std::uintmax_t kMostCloudBytes = std::uintmax_t{1} << 28;
 
-/// The whole file. kNotFound, kUnreadable, kMalformed (larger than any frame), naming it.
+/// Returns the whole file. kNotFound, kUnreadable, kMalformed (larger than any frame), naming it.
 [[nodiscard]] Expected<std::string> read_cloud_bytes(const std::filesystem::path& path);
 
 [[nodiscard]] constexpr bool is_printable(char c) noexcept {
   return c >= ' ' && c <= '~';
 }
-/// A message that may quote a file, which may hold anything: printable and not too long.
+/// Makes a message that quotes a file printable and not too long.
 [[nodiscard]] std::string quotable(std::string message);
 
-/// Without the mark that some editors put before the first character.
+/// Removes the byte order mark that some editors write first.
 [[nodiscard]] std::string_view without_byte_order_mark(std::string_view content) noexcept;
 
-/// What blanks separate, `most` words at most: a line may be a whole file.
+/// Splits a line at blanks into at most `most` words: a line may be a whole file.
 void split_words(std::string_view line, std::size_t most, std::vector<std::string_view>& words);
 [[nodiscard]] std::vector<std::string_view> words_of(std::string_view line, std::size_t most);
-/// "3", or "more than 3" of a line that was split up to a word more than `expected`.
+/// Returns "3", or "more than 3" for a line that was split into one word more than `expected`.
 [[nodiscard]] std::string count_of(std::span<const std::string_view> words, std::size_t expected);
-/// The word must be nothing but the number. NaN and infinity may be written as Microsoft's
+/// Return the number if the word is nothing else. NaN and infinity may be written as Microsoft's
 /// compilers did (1.#QNAN, -1.#IND, 1.#INF).
 [[nodiscard]] std::optional<std::size_t> whole_number(std::string_view word) noexcept;
 [[nodiscard]] std::optional<double> number(std::string_view word) noexcept;
 
-/// A number of `bytes` bytes (1, 2, 4, 8; floats 4, 8) at any address. `type`: 'I' signed, 'U'
-/// unsigned, 'F' float, as in PCD files.
+/// Returns a number of `bytes` bytes (1, 2, 4, 8; floats 4, 8) at any address. `type`: 'I' signed,
+/// 'U' unsigned, 'F' float, as in PCD files.
 [[nodiscard]] double binary_value(const char* at, char type, std::size_t bytes,
                                   std::endian order = std::endian::little) noexcept;
 

@@ -28,14 +28,14 @@ namespace fs = std::filesystem;
 
 using Values = std::optional<std::span<const double>>;
 
-/// Whether a point may name its laser so.
+/// True for a number that a laser may have.
 bool is_laser_number(double number) noexcept {
   return number >= 0 && number < kMostLasers && number == std::floor(number);
 }
 
 constexpr const char* kExpectedLaser = "expected a whole number from 0 to {}";
 
-/// What a field says of the lasers. Points that are no place tell nothing: drivers write any number
+/// Examines a field of laser numbers. Ignores points without a place: drivers write any number
 /// where a beam had no return.
 struct LaserField {
   explicit LaserField(std::span<const scan::ScanPoint> points, std::span<const double> numbers) {
@@ -48,13 +48,13 @@ struct LaserField {
       is_filled |= numbers[i] != 0;
     }
   }
-  std::optional<std::size_t> wrong;  ///< A point with another number than a laser has.
-  bool is_filled = false;            ///< Not all are 0.
+  std::optional<std::size_t> wrong;  ///< The first point whose number no laser has.
+  bool is_filled = false;            ///< Some are not 0.
 };
 
-/// Takes the lasers' numbers of the first field that has them; of one that is all 0, as drivers
-/// leave it that know no number, only where no other has. A field with other numbers is no laser's:
-/// cloud.laser_note says so.
+/// Takes the laser numbers from the first field that has them. A field of zeros, which drivers
+/// write that know no numbers, is taken only if no other field has numbers. A field with other
+/// values is not a laser's: cloud.laser_note says so.
 void take_lasers(const FieldTable& table, Cloud& cloud) {
   Values chosen;
   std::string_view chosen_name;
@@ -89,7 +89,7 @@ void take_lasers(const FieldTable& table, Cloud& cloud) {
   }
 }
 
-/// From the coordinates of a file to the sensor's, by where the file says that it stood.
+/// Moves points from the file's coordinates to the sensor's, given the sensor's place in the file.
 class ToSensor {
  public:
   explicit ToSensor(const std::array<double, 7>& viewpoint) : at_(viewpoint) {
@@ -100,7 +100,7 @@ class ToSensor {
   void move(double& x, double& y, double& z) const noexcept {
     const bool is_measured = (x != 0 || y != 0 || z != 0) && std::isfinite(x + y + z);
     if (!is_measured) return;
-    const double w = at_[3], qx = -at_[4], qy = -at_[5], qz = -at_[6];  // turned back
+    const double w = at_[3], qx = -at_[4], qy = -at_[5], qz = -at_[6];  // the inverse rotation
     const double px = x - at_[0], py = y - at_[1], pz = z - at_[2];
     const double tx = 2 * (qy * pz - qz * py), ty = 2 * (qz * px - qx * pz),
                  tz = 2 * (qx * py - qy * px);

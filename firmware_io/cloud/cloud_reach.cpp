@@ -17,7 +17,7 @@ namespace {
 
 using scan::ScanPoint;
 
-/// False for what says that a beam had no return.
+/// False for a point that stands for a beam without a return.
 bool is_measured(const ScanPoint& p) noexcept {
   const bool is_null = p.x_m == 0 && p.y_m == 0 && p.z_m == 0;
   return !is_null && std::isfinite(p.x_m) && std::isfinite(p.y_m) && std::isfinite(p.z_m);
@@ -27,7 +27,7 @@ double distance_m(const ScanPoint& p) noexcept {
   return std::hypot(double{p.x_m}, double{p.y_m}, double{p.z_m});
 }
 
-/// Of a figure of each point; `share` 0.5: the median.
+/// Returns a quantile of a figure over the points; `share` 0.5 is the median.
 template <class Figure>
 double quantile(std::span<const ScanPoint> points, double share, Figure&& figure) {
   std::vector<double> values;
@@ -38,21 +38,21 @@ double quantile(std::span<const ScanPoint> points, double share, Figure&& figure
   return *at;
 }
 
-/// Of measured points that lie too far away.
+/// Guesses why measured points lie too far away.
 std::string_view likely_cause(std::span<const ScanPoint> points) {
-  // Bytes that are no coordinates are numbers of any size.
+  // Bytes of another layout read as numbers of any size.
   constexpr double kNoCoordinates = 1e6;
   if (quantile(points, 0.9, distance_m) > kNoCoordinates * quantile(points, 0.1, distance_m)) {
     return "are these bytes of another layout, or big-endian?";
   }
-  // A sensor has its points around it.
+  // A sensor's own points lie around it.
   const double middle_x = quantile(points, 0.5, [](const ScanPoint& p) { return double{p.x_m}; });
   const double middle_y = quantile(points, 0.5, [](const ScanPoint& p) { return double{p.y_m}; });
   const double spread = quantile(points, 0.5, [&](const ScanPoint& p) {
     return std::hypot(double{p.x_m} - middle_x, double{p.y_m} - middle_y);
   });
   if (std::hypot(middle_x, middle_y) > 3 * spread) return "are these coordinates of a map?";
-  constexpr double kHalfWayInLogarithms = 3000;  // A street's median is some 10 metres.
+  constexpr double kHalfWayInLogarithms = 3000;  // a street's median is some 10 metres
   return quantile(points, 0.5, distance_m) > kHalfWayInLogarithms ? "are these millimetres?"
                                                                   : "are these centimetres?";
 }
@@ -61,7 +61,7 @@ std::string_view likely_cause(std::span<const ScanPoint> points) {
 
 Status check_reach(std::span<const ScanPoint> points) {
   constexpr double kReach_m = scan::RingTableFit::kReach_m;
-  constexpr std::size_t kFewestToTell = 20;  // Of fewer, stray ones may be most.
+  constexpr std::size_t kFewestToTell = 20;  // stray points may be most of fewer
   std::size_t beyond = 0, all = 0;
   for (const ScanPoint& p : points) {
     if (!is_measured(p)) continue;

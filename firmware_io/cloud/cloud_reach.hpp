@@ -9,9 +9,9 @@
 
 namespace terracut::cloud {
 
-/// That the points are metres from the sensor: kMalformed where most of those that are finite and
-/// not null lie farther than a sensor sees. The message says how far, and the likely cause:
-/// millimetres, centimetres, coordinates of a map, another layout of the file.
+/// Checks that the points are metres from the sensor. kMalformed if most of them (finite, not null)
+/// lie farther than a sensor sees. The message says how far, and the likely cause: millimetres,
+/// centimetres, coordinates of a map, another layout of the file.
 [[nodiscard]] Status check_reach(std::span<const scan::ScanPoint> points);
 
 }  // namespace terracut::cloud

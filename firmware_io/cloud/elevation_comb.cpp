@@ -13,15 +13,15 @@
 namespace terracut::cloud {
 namespace {
 
-/// Nearer, a beam's start beside the origin matters; no vehicle's lowest beam ends nearer on a
-/// road.
+/// Nearer points are left out: there a beam's start beside the origin matters, and no vehicle's
+/// lowest beam meets the road nearer.
 constexpr float kNearest_m = 1.0F;
-/// A bin with less than this share of the points of the fullest one around it lies in a gap.
+/// A bin lies in a gap if the fullest bin around it has more than so many times its points.
 constexpr std::uint32_t kGapShare = 50;
-/// Of the points, at least so many are in teeth that are narrower than the gap beside them.
+/// Least share of the points in teeth that are narrower than the gaps beside them.
 constexpr double kLeastInTeeth = 0.95;
 
-/// In the mean: what has fewer is a curve or a drawing, not a revolution.
+/// With fewer on average, it is a curve or a drawing, not a revolution.
 constexpr std::size_t kFewestPointsARow = 10;
 
 }  // namespace
@@ -76,8 +76,8 @@ ElevationComb::Comb ElevationComb::comb_of(const Histogram& histogram) {
   return comb;
 }
 
-/// Those of `all` where `far` has none. Near points of a laser that does not start at the origin
-/// lie all around its elevation: only what is as narrow as far away is a row.
+/// Returns the teeth of `all` where `far` has none. Near points of a laser that does not start at
+/// the origin spread around its elevation: only a tooth as narrow as the far ones is a row.
 std::vector<ElevationComb::Tooth> ElevationComb::rows_seen_nearby(const Comb& all,
                                                                   const std::vector<Tooth>& far) {
   std::vector<Tooth> nearby;

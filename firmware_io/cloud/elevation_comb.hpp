@@ -12,25 +12,25 @@
 
 namespace terracut::cloud {
 
-/// Finds the lasers of a sensor in nothing but its points: where all beams start near the origin,
-/// the elevations of their points stand like the teeth of a comb. They do not where a frame was
-/// compensated for motion or put together from several, and with a sensor without rows; that is
-/// refused. Lasers that see nothing beyond a metre, as those that look down at the floor around a
-/// robot, are found where near points stand like teeth, too.
+/// Finds the lasers of a sensor from its points alone: if all beams start near the origin, the
+/// points' elevations form a comb. They do not in a frame that was compensated for motion or merged
+/// from several, nor for a sensor without rows; these are refused. Lasers that see nothing beyond a
+/// metre, such as those that look at the floor around a robot, are found if their near points form
+/// teeth.
 class ElevationComb {
  public:
   void add(std::span<const scan::ScanPoint> points);
 
-  /// Elevation of each laser from the highest down, radians. kUnsupported where the elevations do
-  /// not form kFewestLasers to kMostLasers teeth with gaps between them; the message says what was
-  /// found.
+  /// Returns the elevation of each laser from the highest down, radians. kUnsupported if the
+  /// elevations do not form kFewestLasers to kMostLasers teeth with gaps between them; the message
+  /// says what was found.
   [[nodiscard]] Expected<std::vector<double>> elevations_rad() const;
 
  private:
   static constexpr int kBinsPerDegree = 100;  ///< The densest sensors' rows are 0.1 degrees apart.
   static constexpr std::size_t kBins = 180 * kBinsPerDegree;
 
-  /// Points by elevation, from straight down.
+  /// Counts points by elevation, from straight down.
   struct Histogram {
     std::array<std::uint32_t, kBins> points_at{};
     std::size_t points = 0;
@@ -40,7 +40,7 @@ class ElevationComb {
       ++points;
     }
   };
-  /// Bins next to each other, [begin, end).
+  /// A run of filled bins, [begin, end).
   struct Tooth {
     std::size_t begin, end;
     std::uint64_t points = 0;
@@ -51,7 +51,7 @@ class ElevationComb {
   };
   struct Comb {
     std::vector<Tooth> teeth;
-    double share_in_teeth = 0;  ///< Of the points: in narrow teeth.
+    double share_in_teeth = 0;  ///< Share of the points in narrow teeth.
     bool is_comb = false;
   };
 

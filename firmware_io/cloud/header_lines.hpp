@@ -12,15 +12,15 @@
 
 namespace terracut::cloud {
 
-/// A file that begins with lines of text, read from its beginning.
+/// Reads a file that begins with lines of text.
 struct HeaderLines {
-  std::string_view rest;   ///< Not read yet.
-  std::size_t number = 0;  ///< Of the line read last, from 1.
+  std::string_view rest;   ///< The part not read yet.
+  std::size_t number = 0;  ///< Number of the line read last, from 1.
 
-  /// What stands in it, without the byte order mark.
+  /// Skips the byte order mark of `content`.
   explicit HeaderLines(std::string_view content) : rest(without_byte_order_mark(content)) {}
 
-  /// Without its end; empty behind the last.
+  /// Returns the next line without its end; empty after the last.
   [[nodiscard]] std::string_view next() noexcept {
     const std::size_t end = std::min(rest.find('\n'), rest.size());
     const std::string_view line = rest.substr(0, end);
@@ -29,7 +29,8 @@ struct HeaderLines {
     return line;
   }
 
-  /// Whether there is another line with words in it that is no comment. `words`: its first ones.
+  /// Reads the next line that has words and is no comment; false if there is none. `words` gets its
+  /// first `most` words.
   [[nodiscard]] bool next_words(std::size_t most, std::vector<std::string_view>& words) {
     words.clear();
     while (words.empty() && !rest.empty()) {
@@ -40,7 +41,7 @@ struct HeaderLines {
   }
 };
 
-/// More words has no line of a header.
+/// No line of a header has more words.
 inline constexpr std::size_t kMostHeaderWords = kMostFields + 2;
 
 }  // namespace terracut::cloud

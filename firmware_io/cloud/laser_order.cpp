@@ -16,7 +16,7 @@ using scan::ScanPoint;
 
 void LaserElevations::add(std::span<const ScanPoint> points,
                           std::span<const std::uint16_t> laser_of_point) {
-  constexpr std::size_t kEvery = 7;  // Of the points of each laser: enough for a median.
+  constexpr std::size_t kEvery = 7;  // every 7th point of a laser is enough for a median
   for (std::size_t i = 0; i < points.size(); ++i) {
     const ScanPoint& point = points[i];
     const std::size_t laser = laser_of_point[i];
@@ -37,8 +37,8 @@ RingOfLaser LaserElevations::order() {
   std::ranges::sort(lasers, [&](std::size_t a, std::size_t b) {
     return elevation_rad[a] != elevation_rad[b] ? elevation_rad[a] > elevation_rad[b] : a < b;
   });
-  // Where the numbers go up or down with the elevation, lasers without a point have their place,
-  // too.
+  // If the numbers ascend or descend with the elevation, lasers without a point get their place as
+  // well.
   const bool goes_down = std::ranges::is_sorted(lasers),
              goes_up = std::ranges::is_sorted(lasers, std::greater{});
   if (goes_down || goes_up) {
@@ -53,8 +53,7 @@ RingOfLaser LaserElevations::order() {
   return ring_of_laser;
 }
 
-// The median over the farther half: lasers do not start at the origin, which matters least far
-// away.
+// Returns the median over the farther half: a laser's start beside the origin matters least there.
 double LaserElevations::typical_elevation_rad(std::vector<Sample>& samples) {
   const auto middle = samples.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
   std::ranges::nth_element(samples, middle, {}, &Sample::distance_m);

@@ -11,21 +11,22 @@
 
 namespace terracut::cloud {
 
-/// The ring that each laser's number stands for, 0 the highest; scan::kNoRing for lasers of which
-/// nothing is known.
+/// The ring of each laser by its number, 0 the highest; scan::kNoRing for lasers of which nothing
+/// is known.
 using RingOfLaser = std::vector<std::int16_t>;
 
-/// Elevations of what each laser measured, from which the order of the lasers follows, whatever
+/// Collects the elevations that each laser measured and derives the order of the lasers, whatever
 /// their numbers.
 class LaserElevations {
  public:
   explicit LaserElevations(std::size_t lasers) : seen_(lasers), samples_(lasers) {}
 
-  /// `laser`: below the number given at construction, one a point.
+  /// `laser` has one number a point, below the count given to the constructor.
   void add(std::span<const scan::ScanPoint> points, std::span<const std::uint16_t> laser);
 
-  /// Lasers without any point have the ring between their neighbours' where the numbers go up or
-  /// down with the elevation; else none, and the others have all rings from 0 on.
+  /// Returns the order. If the numbers ascend or descend with the elevation, lasers without points
+  /// get the ring between their neighbours'; else they get none, and the others have all rings from
+  /// 0 on.
   [[nodiscard]] RingOfLaser order();
 
  private:
@@ -35,7 +36,7 @@ class LaserElevations {
 
   [[nodiscard]] static double typical_elevation_rad(std::vector<Sample>& samples);
 
-  std::vector<std::size_t> seen_;  ///< Points, by the laser's number, as samples_.
+  std::vector<std::size_t> seen_;  ///< The number of points, by laser.
   std::vector<std::vector<Sample>> samples_;
 };
 

@@ -35,7 +35,7 @@ std::int16_t NearestRing::operator()(const scan::ScanPoint& point) const noexcep
   const float squared_m2 = point.x_m * point.x_m + point.y_m * point.y_m;
   const float distance_m = std::sqrt(squared_m2);
   const float range_m = std::sqrt(squared_m2 + point.z_m * point.z_m);
-  if (range_m == 0) return scan::kNoRing;  // so near the origin that its square is none
+  if (range_m == 0) return scan::kNoRing;  // so near the origin that its square underflows
   const float position = (point.z_m / range_m + 1) * (0.5F * kBins);
   const auto bin = static_cast<std::size_t>(std::clamp(position, 0.0F, float{kBins}));
   const auto off_m = [&](std::size_t ring) {
@@ -43,7 +43,7 @@ std::int16_t NearestRing::operator()(const scan::ScanPoint& point) const noexcep
   };
   auto ring = static_cast<std::size_t>(ring_at_[bin]);
   float off = off_m(ring);
-  // From there to the nearest one: lines fan out, so that nothing nearer hides behind one farther.
+  // Steps to the nearest ring: lines fan out, so distance falls until it is reached.
   for (const int step : {-1, 1}) {
     const std::size_t end = step < 0 ? 0 : lines_.size() - 1;
     while (ring != end) {

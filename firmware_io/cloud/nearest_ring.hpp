@@ -10,24 +10,24 @@
 
 namespace terracut::cloud {
 
-/// The ring of a point by nothing but its place: the nearest one's. Plain IEEE arithmetic, so the
-/// same on every machine.
+/// Finds the ring nearest to a point by its place alone. Uses plain IEEE arithmetic: the same
+/// result on every machine.
 class NearestRing {
  public:
-  /// `table`: at least two rings.
+  /// `table` has at least two rings.
   explicit NearestRing(const scan::RingTable& table);
 
-  /// scan::kNoRing for what is no place and for points more than a degree, or a ring's distance to
-  /// its neighbour, beyond the outermost rings. Allocates nothing.
+  /// Returns scan::kNoRing for a point without a place, and for points beyond the outermost rings
+  /// by more than a degree or by those rings' distance to their neighbour. Allocates nothing.
   [[nodiscard]] std::int16_t operator()(const scan::ScanPoint& point) const noexcept;
 
  private:
   struct Line {
     float slope, offset_m,
-        most_off;  ///< Height over distance; beyond it lies no point of the ring.
+        most_off;  ///< Most height off the line over distance, for points of the ring.
   };
 
-  /// Rings by the sine of the elevation, a bin each.
+  /// Bins over the sine of the elevation, each with its ring.
   static constexpr int kBins = 8192;
 
   std::vector<Line> lines_;

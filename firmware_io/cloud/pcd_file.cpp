@@ -23,9 +23,9 @@
 namespace terracut::cloud {
 namespace {
 
-/// LZF: runs of bytes as they are (their count less one in a byte below 32), and runs that stood
-/// before (length less two in the upper three bits, 7 adds the next byte; how far back less one in
-/// the lower five and a byte). Nothing unless it makes exactly `bytes` bytes.
+/// Unpacks LZF: literal runs (length - 1 in a byte below 32), and copies of earlier bytes (length -
+/// 2 in the upper three bits, where 7 adds the next byte; distance - 1 in the lower five bits and a
+/// byte). Returns nothing unless the result has exactly `bytes` bytes.
 std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t bytes) {
   std::string data;
   data.reserve(bytes);
@@ -46,7 +46,7 @@ std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t byt
       if (packed.empty()) return std::nullopt;
       const std::size_t back = ((control & 31) << 8) + next() + 1;
       if (back > data.size()) return std::nullopt;
-      // Byte by byte: a run may overlap what it makes.
+      // Copies byte by byte: a run may overlap its own result.
       for (std::size_t i = 0; i < length; ++i) data.push_back(data[data.size() - back]);
     }
     if (data.size() > bytes) return std::nullopt;
@@ -55,7 +55,7 @@ std::optional<std::string> lzf_unpacked(std::string_view packed, std::size_t byt
   return data;
 }
 
-/// Reads one file; what is wrong with it ends the reading.
+/// Reads one file; the first error ends the reading.
 class PcdReader {
  public:
   PcdReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
@@ -87,7 +87,7 @@ class PcdReader {
     char type = '\0';       ///< 'I', 'U' or 'F'.
     std::size_t count = 1;
 
-    /// Padding is named _; what has no value, as PCL wrote it for years, or several is passed over.
+    /// Padding is named _. Skips fields of several values, and of none (PCL wrote those for years).
     [[nodiscard]] bool is_kept() const { return count == 1 && name != "_"; }
   };
 
@@ -107,7 +107,7 @@ class PcdReader {
   }
 
   Status take_header_line(std::string_view key, std::span<const std::string_view> values) {
-    if (key == "FIELDS" || key == "COLUMNS") {  // the latter in version 0.5
+    if (key == "FIELDS" || key == "COLUMNS") {  // version 0.5 says COLUMNS
       if (fields_.size() + values.size() > kMostFields) {
         return refuse(fmt::format("line {}: more than {} FIELDS", lines_.number, kMostFields));
       }
@@ -193,7 +193,7 @@ class PcdReader {
   Status check_header() {
     if (fields_.empty()) return refuse("its header names no FIELDS");
     if (!has_points_ && width_ && height_) {
-      const std::size_t most = scan::kMaxScanPoints + 1;  // their product may be any number
+      const std::size_t most = scan::kMaxScanPoints + 1;  // limits the product
       points_ = std::min(*width_, most) * std::min(*height_, most);
       has_points_ = true;
     }
@@ -231,7 +231,7 @@ class PcdReader {
     return cloud::binary_value(at, field.type, field.bytes);
   }
 
-  /// Values that stand point by point, or all of a field before those of the next.
+  /// Whether values are stored point by point or field by field.
   enum class Order { kByPoint, kByField };
 
   void take_values(std::string_view data, Order order, FieldTable& cloud) const {
@@ -260,7 +260,7 @@ class PcdReader {
     return {};
   }
 
-  /// The sizes of the data as they stand and as they were, as uint32, then the data.
+  /// Reads the packed and unpacked sizes as uint32, then the data.
   Status read_compressed(FieldTable& cloud) const {
     std::array<std::uint32_t, 2> sizes{};
     if (lines_.rest.size() < sizeof(sizes)) return refuse("truncated: its data have no sizes");
@@ -283,7 +283,7 @@ class PcdReader {
   Status read_ascii(FieldTable& cloud) {
     std::size_t values = 0;
     for (const Field& field : fields_) values += field.count;
-    // A digit and what separates it from the next, but for the last.
+    // Each value takes at least a digit and a separator, but for the last.
     if (lines_.rest.size() + 1 < points_ * values * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, values));
@@ -313,7 +313,7 @@ class PcdReader {
     return {};
   }
 
-  static constexpr std::size_t kMostValues = 4096;  ///< Of one field; a histogram has hundreds.
+  static constexpr std::size_t kMostValues = 4096;  ///< In one field; histograms have hundreds.
 
   HeaderLines lines_;
   const std::string& name_;

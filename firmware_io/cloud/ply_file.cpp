@@ -15,7 +15,7 @@
 namespace terracut::cloud {
 namespace {
 
-/// Type and size of a property, by both of the names that are in use.
+/// The type and size of a property, by either of its names.
 struct TypeName {
   std::string_view name, other_name;
   char type;
@@ -27,7 +27,7 @@ constexpr TypeName kTypes[] = {
     {"float", "float32", 'F', 4}, {"double", "float64", 'F', 8},
 };
 
-/// Reads one file; what is wrong with it ends the reading.
+/// Reads one file; the first error ends the reading.
 class PlyReader {
  public:
   PlyReader(std::string_view content, const std::string& name) : lines_(content), name_(name) {}
@@ -55,7 +55,7 @@ class PlyReader {
     std::string name;
     char type;
     std::size_t bytes;
-    /// Of a list, which is passed over: how the number of its values is written.
+    /// For a list, which is skipped: the type of its length.
     char count_type = '\0';
     std::size_t count_bytes = 0;
 
@@ -114,7 +114,7 @@ class PlyReader {
     return refuse(fmt::format("no PLY file: line {} of its header is none", lines_.number));
   }
 
-  /// `count_type`: of a list; else empty.
+  /// `count_type` is the type of a list's length; empty for a single value.
   Status take_property(std::string_view count_type, std::string_view type,
                        std::string_view property) {
     const auto known_as = [](std::string_view name) {
@@ -184,7 +184,7 @@ class PlyReader {
           const double values =
               binary_value(data.data(), property.count_type, property.count_bytes, order_);
           data.remove_prefix(property.count_bytes);
-          // Whatever is negative or beyond the data is as broken as a file that ends there.
+          // A length that is negative or beyond the data counts as truncated.
           const bool fits = values >= 0 && values <= static_cast<double>(data.size());
           bytes = fits ? static_cast<std::size_t>(values) * property.bytes : data.size() + 1;
         }
@@ -202,7 +202,7 @@ class PlyReader {
   }
 
   Status read_text(FieldTable& table, bool has_lists) {
-    // A digit and what separates it from the next, but for the last.
+    // Each value takes at least a digit and a separator, but for the last.
     if (lines_.rest.size() + 1 < points_ * properties_.size() * 2) {
       return refuse(fmt::format("truncated: {} bytes of data cannot hold {} points of {} values",
                                 lines_.rest.size(), points_, properties_.size()));

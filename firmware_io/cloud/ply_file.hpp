@@ -12,11 +12,10 @@
 namespace terracut::cloud {
 
 /// Reads the vertices of a PLY file (Stanford's polygon format, 1.0: `ascii`,
-/// `binary_little_endian` or `binary_big_endian`). They have to be its first element; lists they
-/// have are passed over, and whatever follows them (faces, say) is not looked at. Errors as those
-/// of read_pcd().
+/// `binary_little_endian` or `binary_big_endian`). The vertices must be the first element; their
+/// lists are skipped, and later elements (faces, say) are ignored. Errors as those of read_pcd().
 [[nodiscard]] Expected<FieldTable> read_ply(const std::filesystem::path& path);
-/// The same from memory; `name` stands for the path in messages.
+/// Reads from memory; `name` stands for the path in messages.
 [[nodiscard]] Expected<FieldTable> parse_ply(std::string_view content, const std::string& name);
 
 }  // namespace terracut::cloud

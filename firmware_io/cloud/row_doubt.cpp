@@ -11,12 +11,13 @@
 namespace terracut::cloud {
 namespace {
 
-/// Single sensors' points lie within 0.1 to 20 cm, those of KITTI's scans, compensated for motion
-/// at speed, within 27. No two sensors' are in KITTI's order.
+/// A single sensor's points lie within 0.1 to 20 cm of their line; those of KITTI's scans,
+/// compensated for motion at speed, within 27. Two sensors' points never come in KITTI's order.
 constexpr double kWidestRow_m = 0.3, kWidestOfKitti_m = 0.4;
-/// Where half of the points lie nearer to their line than noise, the others are no second sensor's.
+/// If half of the points lie nearer to their line than noise, the others are not from a second
+/// sensor.
 constexpr double kNoise_m = 0.01;
-/// Beams start up to 0.2 m above the origin, an HDL-64E's.
+/// Beams start up to 0.2 m above the origin (an HDL-64E's).
 constexpr double kHighestStart_m = 0.5;
 
 double median_start_m(const scan::RingTable& table) {

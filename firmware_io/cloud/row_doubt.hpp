@@ -8,9 +8,9 @@
 
 namespace terracut::cloud {
 
-/// Why the clouds that rows were learnt from are hardly those of one sensor in its own frame, with
-/// the likely cause, for people; empty where nothing speaks against it. Labels suffer where it is
-/// so, but need not be useless.
+/// Returns why the clouds that rows were learnt from hardly come from one sensor in its own frame,
+/// with the likely cause, for people; empty if nothing speaks against it. Labels are worse in such
+/// a case, but need not be useless.
 [[nodiscard]] std::string doubt_of(const SensorRows& rows);
 
 }  // namespace terracut::cloud

@@ -24,8 +24,8 @@ using scan::RingRecovery;
 using scan::RingTable;
 using scan::RingTableFit;
 
-/// Where two tables explain the points alike, the one whose beams start at the origin is taken:
-/// most sensors' do, and their lowest beams see little but near ground, which would not tell a
+/// If two tables explain the points to within this, the one whose beams start at the origin is
+/// taken. Most sensors' beams do; and the lowest beams see only near ground, which cannot tell a
 /// start above the origin from an elevation.
 constexpr double kAlike_m = 0.01;
 
@@ -38,9 +38,9 @@ Expected<scan::FittedRings> simplest_fit(const RingTableFit& fit, std::size_t la
   return plain;
 }
 
-/// That most rings look lower than the one above them. A driver that was not told its lasers'
-/// angles puts all points on one plane, and what is no laser's number gives each "laser" points of
-/// all.
+/// Checks that most rings look lower than the one above them. They do not if the driver was not
+/// told its lasers' angles (all points lie on one plane), or if the numbers are not lasers' (each
+/// "laser" has points of all).
 Status check_apart(const scan::FittedRings& rings) {
   if (rings.with_line < 2 || 4 * rings.coinciding < 3 * (rings.with_line - 1)) return {};
   return fail(ErrorCode::kMalformed,
@@ -96,7 +96,7 @@ Expected<SensorRows> learn_by_number(RowSource source, std::size_t lasers, std::
   return SensorRows{source, std::move(fitted->rings), std::move(fitted->ring_of_laser), 0};
 }
 
-/// Drivers write -1 where a beam had no return, which is 255 in a byte.
+/// Collects the laser numbers in use. Drivers write -1, 255 in a byte, where a beam had no return.
 void add_numbers(const CloudView& cloud, std::vector<bool>& numbers) {
   constexpr std::size_t kNone = 255;
   for (std::size_t i = 0; i < cloud.laser.size(); ++i) {
@@ -136,8 +136,8 @@ Expected<SensorRows> learn_by_comb(std::size_t clouds, const ReadCloud& read) {
   return rows;
 }
 
-/// An HDL-64E's beams start in two places above each other, so that its points form no comb; but
-/// its lines are known well enough to be found.
+/// Learns an HDL-64E's rows from its known lines. Its beams start in two places, one above the
+/// other, so that its points form no comb.
 Expected<SensorRows> learn_by_hdl64e_lines(std::size_t clouds, const ReadCloud& read) {
   const RingTable nominal = scan::ring_table(hdl64e::nominal_hdl64e());
   SensorRows rows{RowSource::kElevations, {nominal, {}, {}, true}, {}, 0};
@@ -160,8 +160,8 @@ Expected<SensorRows> learn_by_hdl64e_lines(std::size_t clouds, const ReadCloud& 
   return rows;
 }
 
-/// Points whose angle to the nearest line is less than a quarter of the lines' distance: half of
-/// them where there are no lines at all.
+/// Returns the share of points whose angle to the nearest line is less than a quarter of the lines'
+/// distance; half if the points form no lines.
 double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint> points) {
   const NearestRing nearest(table);
   std::size_t near = 0, all = 0;
@@ -179,8 +179,9 @@ double share_near_lines(const RingTable& table, std::span<const scan::ScanPoint>
   return static_cast<double>(near) / static_cast<double>(std::max<std::size_t>(all, 1));
 }
 
-/// Rings whose points tell no line, as where each sees but the floor, stand in the comb all the
-/// same. `first`: a cloud that can be read; `no_number`: why there is no number of a point's laser.
+/// Learns rows from places alone. Rings whose points show no line, because they see only the floor,
+/// still stand in the comb. `first` is a cloud that can be read; `no_number` says why points have
+/// no laser number.
 Expected<SensorRows> learn_from_places(std::size_t first, std::size_t clouds, const ReadCloud& read,
                                        const std::string& no_number) {
   RingRecovery rings;
@@ -229,7 +230,7 @@ std::string_view description_of(RowSource source) noexcept {
 
 Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clouds,
                                              const ReadCloud& name_lasers) {
-  // Far beyond noise and motion, far below what a map's frame or wrong numbers do.
+  // Far more than noise and motion, far less than a map's frame or wrong numbers cause.
   constexpr double kWidestCone_m = 1.0;
   LaserElevations elevations(lasers);
   const Status looked = for_some(clouds, name_lasers, [&](const CloudView& cloud) -> Status {
@@ -276,7 +277,7 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
     return fail(ErrorCode::kMalformed, fmt::format("{} points, but {} numbers of lasers",
                                                    cloud->points.size(), cloud->laser.size()));
   };
-  // The first that can be read says how the others tell their lasers.
+  // The first cloud that can be read decides how all of them tell their lasers.
   std::size_t first = 0;
   Expected<CloudView> cloud = read(first);
   while (!cloud && first + 1 < clouds) cloud = read(++first);
@@ -291,7 +292,7 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
   };
   Expected<SensorRows> rows = SensorRows{};
   if (has_numbers) {
-    std::vector<bool> numbers;  // which of them there are
+    std::vector<bool> numbers;  // the numbers in use
     const Status looked = for_some(clouds, read, [&](const CloudView& some) -> Status {
       add_numbers(some, numbers);
       return {};
@@ -299,7 +300,7 @@ Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read_any) {
     if (!looked) return tl::unexpected(looked.error());
     rows = learn_by_number(RowSource::kLaserNumbers, numbers.size(), clouds, read);
     const auto different = std::ranges::count(numbers, true);
-    if (!rows && different < kFewestLasers) {  // a field that the driver left empty?
+    if (!rows && different < kFewestLasers) {  // maybe a field that the driver left empty
       rows = learn_without_numbers(fmt::format("{} has only {} different number{}",
                                                note.empty() ? "the laser of a point" : note,
                                                different, different == 1 ? "" : "s"));

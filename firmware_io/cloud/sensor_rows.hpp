@@ -19,22 +19,22 @@
 
 namespace terracut::cloud {
 
-/// What tells which laser measured a point, in the order in which it is looked for.
+/// How the laser of a point is known, in the order tried.
 enum class RowSource : std::uint8_t {
-  kLaserNumbers,  ///< A number each point has.
-  kOrganisation,  ///< The rows of an organised cloud.
-  kKittiOrder,    ///< Ring after ring from the top, as in KITTI's files; 64 rings.
-  kElevations,    ///< The elevations of the points.
+  kLaserNumbers,  ///< Each point has a number.
+  kOrganisation,  ///< The cloud is organised in rows.
+  kKittiOrder,    ///< Points come ring after ring from the top, as in KITTI's files; 64 rings.
+  kElevations,    ///< Points form rows by elevation.
 };
 
-/// "the field of the laser's number"
+/// Returns "the field of the laser's number" and the like.
 [[nodiscard]] std::string_view description_of(RowSource source) noexcept;
 
-/// What the first clouds tell of a sensor.
+/// What was learnt about a sensor from its first clouds.
 struct SensorRows {
   RowSource source = RowSource::kKittiOrder;
-  scan::FittedRings rings;    ///< One for each laser.
-  RingOfLaser ring_of_laser;  ///< kLaserNumbers and kOrganisation.
+  scan::FittedRings rings;    ///< One a laser.
+  RingOfLaser ring_of_laser;  ///< Empty unless kLaserNumbers or kOrganisation.
   int columns = 0;            ///< Firings in one revolution.
 
   [[nodiscard]] frame::ImageShape shape() const noexcept {
@@ -42,12 +42,12 @@ struct SensorRows {
   }
 };
 
-/// A cloud of a sequence, valid until the next one is asked for.
+/// Returns a cloud of a sequence, valid until the next call.
 using ReadCloud = std::function<Expected<CloudView>(std::size_t index)>;
 
-/// The order and elevations of lasers that each point names, whatever their numbers. `name_lasers`
-/// answers the clouds with `laser`, one below `lasers` a point. kMalformed where the points of a
-/// laser lie on no cone around the origin, as in a map's frame.
+/// The order and elevations of lasers, found from clouds whose points name their laser in any
+/// numbering. `name_lasers` returns the clouds with `laser` filled, each number below `lasers`.
+/// kMalformed if the points of a laser lie on no cone around the origin, as in a map's frame.
 struct NumberedLasers {
   RingOfLaser ring_of_laser;
   scan::FittedRings rings;
@@ -55,21 +55,21 @@ struct NumberedLasers {
 [[nodiscard]] Expected<NumberedLasers> fit_numbered_lasers(std::size_t lasers, std::size_t clouds,
                                                            const ReadCloud& name_lasers);
 
-/// Learns from at most 40 of some clouds of one sensor. Start-up: allocates, takes up to a second.
-/// Clouds without a place are left out. kUnsupported or kMalformed, with what was found, where
-/// nothing tells the lasers apart, where most of them look the same way, or where the points are no
-/// metres from the sensor (check_reach()); where no cloud can be read the error of one.
+/// Learns a sensor's rows from at most 40 of its clouds. Start-up: allocates, takes up to a second.
+/// Clouds without a place are left out. kUnsupported or kMalformed, with what was found, if nothing
+/// tells the lasers apart, if most of them look the same way, or if check_reach() fails; if no
+/// cloud can be read, the error of one.
 [[nodiscard]] Expected<SensorRows> learn_rows(std::size_t clouds, const ReadCloud& read);
 
-/// Finds the ring of each point of clouds of the sensor that was learnt.
+/// Finds the ring of each point of further clouds of that sensor.
 class RowFinder {
  public:
   explicit RowFinder(SensorRows rows);
 
-  /// Fills `found`; of a cloud without a place whatever else it lacks. Points that are no place,
-  /// and those of lasers that nothing is known of, get kNoRing. kMalformed where a cloud lacks what
-  /// tells its lasers. Allocates nothing beyond the largest cloud so far, except where the rings of
-  /// a cloud in KITTI's order are not whole.
+  /// Fills `found`. Points without a place, and those of unknown lasers, get kNoRing; a cloud
+  /// without any place is never an error. kMalformed if a cloud lacks what tells its lasers.
+  /// Allocates only for the largest cloud so far, and when the rings of a cloud in KITTI's order
+  /// are not whole.
   [[nodiscard]] Status find(const CloudView& cloud, scan::RingRecovery& found) const;
 
   [[nodiscard]] const SensorRows& rows() const noexcept { return rows_; }

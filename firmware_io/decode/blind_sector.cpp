@@ -11,9 +11,9 @@
 namespace terracut::decode {
 namespace {
 
-/// Azimuths on the wire are rounded, and heads rotate unevenly.
+/// Slack for azimuths rounded on the wire and heads that rotate unevenly.
 constexpr std::int64_t kJitter_ticks = 5 * packet::kTicksPerCdeg;
-/// Of a sensor whose packets begin with its view, gaps are alike but for the wire's rounding.
+/// Most by which gaps differ if the sensor's packets begin with its view: the wire's rounding.
 constexpr std::int64_t kRounding_ticks = 3 * packet::kTicksPerCdeg;
 
 }  // namespace
@@ -46,7 +46,7 @@ BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
   if (common.ticks() < least_ticks()) return {gap.head, false, gap.packets};
 
   move_to(common);
-  if (gap.head.ticks() >= sector_.revolution_ticks) {  // an outage of frames
+  if (gap.head.ticks() >= sector_.revolution_ticks) {  // an outage of several frames
     const std::int64_t lost =
         sector_.outside_ticks(gap.head) / gap.stride.mean_ticks - gap.rejected;
     return {gap.head, false, std::clamp<std::int64_t>(lost, 0, gap.packets)};
@@ -64,7 +64,7 @@ BlindSector::Verdict BlindSector::beside_sector(const Gap& gap) noexcept {
           std::clamp<std::int64_t>(before + after - gap.rejected, 0, gap.packets)};
 }
 
-/// The sector is known better now.
+/// Narrows the sector to `common`, and widens the tolerances by what it lost at either end.
 void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
   const packet::RotorInterval blind = sector_.next(common.from_ticks);
   const std::int64_t later_ticks = std::max<std::int64_t>(0, common.from_ticks - blind.from_ticks);
@@ -74,13 +74,13 @@ void BlindSector::move_to(const packet::RotorInterval& common) noexcept {
   sector_.once = common;
 }
 
-/// A gap ends so far off the sector: by less than a packet, if nothing is lost.
+/// Notes by how much a gap ends off the sector; if nothing is lost, that is less than a packet.
 void BlindSector::note_end(std::int64_t ticks, const Stride& stride,
                            std::int64_t& widest_ticks) noexcept {
   if (is_within_packet(ticks, stride)) widest_ticks = std::max(widest_ticks, ticks);
 }
 
-/// Packets that fit between the sector and a gap's end.
+/// Returns how many packets fit between the sector and a gap's end.
 std::int64_t BlindSector::packets_in(std::int64_t ticks, const Stride& stride) const noexcept {
   if (is_within_packet(ticks, stride)) return 0;
   const bool keeps_its_rhythm = std::max(earliest_ticks_, latest_ticks_) > kRounding_ticks;
@@ -91,13 +91,13 @@ std::int64_t BlindSector::packets_in(std::int64_t ticks, const Stride& stride) c
 
 // --- Learning ---
 
-/// Where the newest gap was a frame ago.
+/// True if the newest gap was at the same azimuths a frame ago.
 bool BlindSector::follows(const packet::RotorInterval& gap) const noexcept {
   const packet::RotorInterval again = packet::shifted(gaps_.back().head, sector_.revolution_ticks);
   return packet::intersection(again, gap).ticks() >= least_ticks();
 }
 
-/// The head has not come again to where the newest gap was.
+/// True if the head has not come round to the newest gap again.
 bool BlindSector::is_between(const packet::RotorInterval& gap) const noexcept {
   return gaps_known_ > 0 &&
          gap.to_ticks <= gaps_.back().head.from_ticks + sector_.revolution_ticks + least_ticks();
@@ -120,7 +120,7 @@ void BlindSector::learn() noexcept {
   if (common.ticks() < sector_.once.ticks() + least_ticks()) return;  // known, or not alike
   sector_.once = common;
   earliest_ticks_ = latest_ticks_ = 0;
-  // The newest one is judged by who asks.
+  // The caller judges the newest gap.
   for (std::size_t i = 0; i + 1 < gaps_.size(); ++i) {
     if (!std::exchange(gaps_[i].is_pending, false)) continue;
     const Verdict verdict = beside_sector(gaps_[i]);
@@ -153,13 +153,13 @@ void BlindSector::pass(const packet::RotorInterval& swept) noexcept {
     return;
   }
   const packet::RotorInterval blind = sector_.next(swept.from_ticks);
-  // None was expected to begin so late.
+  // No packet was expected to begin so late before the sector.
   const std::int64_t before_ticks = blind.from_ticks - swept.from_ticks;
   if (before_ticks <= earliest_ticks_ + kRounding_ticks) {
     earliest_ticks_ = before_ticks - kRounding_ticks - 1;
   }
   if (swept.to_ticks <= blind.from_ticks + kJitter_ticks) return;
-  move_to({swept.to_ticks, blind.to_ticks});  // it begins later than was known
+  move_to({swept.to_ticks, blind.to_ticks});  // the sector begins later than known
   if (sector_.once.ticks() >= least_ticks()) return;
   sector_.once = {};
   gaps_known_ = 0;
@@ -179,9 +179,9 @@ BlindSector::Verdict BlindSector::cross(std::int64_t begin_ticks,
                                         const packet::RotorInterval& inside,
                                         const Stride& stride) noexcept {
   const Verdict verdict = judge(inside, 0, 0, stride);
-  // It came when the head did: nothing was to be heard any more from where it begins. That is less
-  // than a packet before the sector, those that begin a packet before it come at once: the two are
-  // close together, so no more is taken for the wire's rounding than it rounds.
+  // The packet was completed when the head came back: no other packet begins between its begin and
+  // the sector. That is less than a packet before the sector, close to where complete packets still
+  // begin, so only the wire's own rounding is allowed for.
   const packet::RotorInterval blind = sector_.next(inside.from_ticks);
   const std::int64_t before_ticks = blind.from_ticks - begin_ticks + packet::kTicksPerCdeg / 2;
   earliest_ticks_ = std::max(earliest_ticks_, before_ticks - kRounding_ticks);
@@ -207,7 +207,7 @@ BlindSector::Loss BlindSector::take_due() noexcept {
 std::int64_t BlindSector::next_packet(std::int64_t rotor_ticks) const noexcept {
   if (sector_.is_none()) return rotor_ticks;
   const packet::RotorInterval blind = sector_.next(rotor_ticks);
-  // No packet has begun so late in any frame before.
+  // In earlier frames no packet has begun so late before the sector.
   const bool is_last = rotor_ticks >= blind.from_ticks - earliest_ticks_ - kRounding_ticks;
   return is_last ? blind.to_ticks : rotor_ticks;
 }

@@ -19,14 +19,13 @@ namespace terracut::decode {
           beams::wrap_cdeg(sector.once.to_ticks / packet::kTicksPerCdeg)};
 }
 
-/// Finds out where a sensor with a limited field of view is blind: it sends nothing while its head
-/// passes there. What is missing at the same azimuths in three frames running is blind, once; what
-/// is missing beside it, or not every frame, is lost.
+/// Finds the blind sector of a sensor with a limited field of view, which sends nothing while its
+/// head passes there. Azimuths missing in three successive frames are blind; anything else missing
+/// is lost.
 ///
-/// A wide gap might be either until the head has been there again, so its loss is not counted at
-/// once: either the third gap shows that it was none, or a packet from where the gap was, at the
-/// latest a frame later, that it was. Where a known sector ends is known to the packet: those who
-/// keep their rhythm while they are blind end it anywhere within a packet, others always alike.
+/// A wide gap is pending until the head has passed again: a packet from there means loss, a third
+/// gap a blind sector. The ends of a known sector are exact to a packet: sensors that keep sending
+/// at their rhythm end the gap anywhere within a packet, others always alike.
 ///
 /// Angles in ticks of head azimuth, unwrapped (rotor_sector.hpp). Fixed memory, O(1) a call,
 /// noexcept. One thread.
@@ -36,48 +35,46 @@ class BlindSector {
 
   explicit BlindSector(std::int64_t revolution_ticks) noexcept : sector_{{}, revolution_ticks} {}
 
-  /// How far the head rotates from packet to packet: on the average, and at most.
+  /// How far the head rotates from packet to packet: on average, and at most.
   struct Stride {
     std::int64_t mean_ticks = 1, widest_ticks = 1;
   };
-  /// Lost for certain.
+  /// What is certainly lost.
   struct Loss {
     std::int64_t packets = 0, ticks = 0;
   };
   struct Verdict {
-    /// What was lost of a gap, and the blind sector where that lies in it; empty where all of it
-    /// is blind.
+    /// The lost part of a gap, including the blind sector if that lies in it; empty if all of the
+    /// gap is blind.
     packet::RotorInterval lost;
-    bool is_pending = false;   ///< It may be blind; if not, take_due() will have the loss.
-    std::int64_t packets = 0;  ///< Lost in it, unless it is pending.
+    bool is_pending = false;   ///< The gap may be blind; if not, take_due() returns the loss later.
+    std::int64_t packets = 0;  ///< Packets lost in it, unless pending.
   };
-  /// Narrower gaps are never blind.
+  /// Returns the least width of a blind sector; narrower gaps are losses.
   [[nodiscard]] std::int64_t least_ticks() const noexcept { return sector_.revolution_ticks / 72; }
 
-  /// The head was not seen in `gap`, for so many packets by their stamps; in it came `rejected`
-  /// ones.
-  [[nodiscard]] Verdict judge(const packet::RotorInterval& gap, std::int64_t packets,
-                              std::int64_t rejected,
+  /// Judges a gap in which the head was not seen. By their stamps `packets` are missing in it;
+  /// `rejected` of them came but were rejected.
+  [[nodiscard]] Verdict judge(const RotorInterval& gap, std::int64_t packets, std::int64_t rejected,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
-  /// A packet sweeps over `swept`; after judge() of the gap before it.
-  void pass(const packet::RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
-  /// The sector lies in a packet as that says (PacketAzimuths::behind_sector), to the packet.
-  [[nodiscard]] bool is_inside(const packet::PacketAzimuths& azimuths) const noexcept
-      TERRACUT_NONBLOCKING;
-  /// Instead of pass(): a packet that begins where `begin_ticks` says, with the sector, or what was
-  /// seen of it, inside.
-  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const packet::RotorInterval& inside,
+  /// Notes that a packet sweeps over `swept`; called after judge() of the gap before it.
+  void pass(const RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
+  /// True if the blind sector lies where PacketAzimuths::behind_sector says, to within a packet.
+  [[nodiscard]] bool is_inside(const PacketAzimuths& azimuths) const noexcept TERRACUT_NONBLOCKING;
+  /// Replaces pass() for a packet with the sector `inside`, or the part of it that was seen; the
+  /// packet begins at `begin_ticks`.
+  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
-  /// A packet came late and fills a part of a gap, the first or the last of what is left of it but
-  /// where several came late in no order.
+  /// Notes that a late packet fills part of a gap: its first or last remaining part, unless several
+  /// packets came late out of order.
   void fill(const packet::RotorInterval& found) noexcept TERRACUT_NONBLOCKING;
-  /// What pass() and judge() have found to be lost since it was last taken.
+  /// Returns and clears the losses that pass() and judge() have found since the last call.
   [[nodiscard]] Loss take_due() noexcept TERRACUT_NONBLOCKING;
-  /// The stream ends: what was pending is lost. The sector stays known.
+  /// Ends the stream: pending gaps count as lost. The sector stays known.
   void end() noexcept TERRACUT_NONBLOCKING { refute(); }
 
-  /// Where the next packet is expected to begin when the head was seen until `rotor_ticks`: there,
-  /// or behind the blind sector where none has begun there in the frames before.
+  /// Returns where the next packet is expected to begin if the head was seen until `rotor_ticks`:
+  /// there, or after the blind sector if no packet began there in earlier frames.
   [[nodiscard]] std::int64_t next_packet(std::int64_t rotor_ticks) const noexcept
       TERRACUT_NONBLOCKING;
   [[nodiscard]] const packet::RotorSector& sector() const noexcept { return sector_; }
@@ -106,10 +103,10 @@ class BlindSector {
   void count(const Gap& gap) noexcept;
 
   packet::RotorSector sector_;
-  /// Gaps without loss have begun so much earlier than the sector, and ended so much later.
+  /// Widest that a gap without loss began before the sector, and ended after it.
   std::int64_t earliest_ticks_ = 0, latest_ticks_ = 0;
-  std::array<Gap, kFramesToLearn> gaps_;  ///< Of successive frames, the newest last; the others ...
-  int gaps_known_ = 0;                    ///< ... before this many are not used.
+  std::array<Gap, kFramesToLearn> gaps_;  ///< Gaps of successive frames, newest last.
+  int gaps_known_ = 0;                    ///< The last so many are valid.
   Loss due_;
 };
 

@@ -77,7 +77,7 @@ FrameBuilder::Config Decoder::frame_config(const Model& model, const Config& con
   const frame::ImageShape shape{model.rows, model.columns};
   const auto spare = static_cast<std::size_t>(std::max(0, model.returns_per_cell - 1));
   // Beams point up to 10 degrees before and behind the head, so tiles around the seam are kept in
-  // both frames. Tiles are cut where frames end and where the return mode changes.
+  // both frames. Tiles are also cut where a frame ends or the return mode changes.
   constexpr std::size_t kAroundSeam = 16, kCutTiles = 8;
   const auto firings = static_cast<std::size_t>(model.returns_per_cell * model.columns);
   const bool keeps_measured = config.keeps_measured && config.motion == nullptr;
@@ -144,7 +144,7 @@ void Decoder::push(const packet::Datagram& datagram) noexcept {
                *reason == frame::Reject::kAzimuthJump) {
       tracker_.note_rejected(azimuths_.device_stamp_us);
     } else if (*reason == frame::Reject::kDeviceInfo) {
-      rejected_ = reason;  // nothing is lost with it
+      rejected_ = reason;  // it carries no returns that could be lost
       return;
     }
     return reject(*reason);
@@ -336,8 +336,8 @@ void Decoder::judge() noexcept {
 }
 
 void Decoder::place() noexcept {
-  // The packets still expected begin here, if not a step earlier: azimuths are rounded, and heads
-  // frame unevenly.
+  // The next packets begin here or up to a step earlier: azimuths are rounded, and heads turn
+  // unevenly.
   const std::int64_t next_ticks = blind_.next_packet(frontier_ticks_);
   frames_.note_packet({.stamp_ns = job_.stamp_ns,
                        .rotor_ticks = job_.swept.from_ticks,

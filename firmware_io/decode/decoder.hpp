@@ -33,42 +33,41 @@
 
 namespace terracut::decode {
 
-/// Data packets of one spinning sensor in, frames of returns out. Returns go into their cells some
-/// packets at a time, and all of a frame's before it is handed out. All that differs from model to
-/// model is in a trait (packet_returns.hpp).
+/// Turns data packets of one spinning sensor into frames of returns. Returns are placed in their
+/// cells a few packets at a time, all of a frame's before it is handed out. Whatever differs
+/// between models is in a trait (packet_returns.hpp).
 ///
 /// Returns of a frame are numbered in order of arrival: packet, block, laser. Every return of a
 /// decoded packet is placed or counted (overflow_full_returns, late_returns); a packet is decoded
-/// whole or rejected whole, for a named reason. Whatever arrives, memory stays fixed and a call
-/// takes a bounded time: frames are handed over by azimuth progress only.
+/// whole or rejected whole, for a named reason. Memory is fixed and a call takes bounded time,
+/// whatever arrives: only progress in azimuth hands over frames.
 ///
 ///   decoder.push(datagram);
 ///   while (frame::Frame* frame = decoder.next()) { ... }
 ///
 /// One thread. The constructor takes all memory (throws std::invalid_argument on a bad setting);
-/// all else allocates nothing, locks nothing and throws nothing (rt/threads/nonblocking.hpp).
+/// nothing else allocates, locks or throws (rt/threads/nonblocking.hpp).
 class Decoder {
  public:
   struct Config {
     int columns = 0;  ///< Firings per frame at the sensor's spin rate; 0: as at 10 Hz.
-    /// Room for so many returns a cell on average; beyond, they are counted and lost. 0: as many as
-    /// single return at 10 Hz has, and some.
+    /// Room for so many returns a cell on average; returns beyond it are counted and lost. 0:
+    /// enough for single return at 10 Hz, with a margin.
     int returns_per_cell = 0;
-    /// In dual return: which return owns a cell. All of them are placed and labelled.
+    /// Which return owns a cell in dual return. All of them are placed and labelled.
     frame::CellOwner dual_owner = frame::CellOwner::kStrongest;
     int images = 3;  ///< FrameBuilder::Config::images
-    /// Frames keep their returns as they were measured, for whoever makes points of them where they
-    /// are needed (make_reader()): less than a third of the memory. Not where `motion` is taken out
-    /// of them.
+    /// Frames keep their returns as measured, in less than a third of the memory; make_reader()
+    /// turns them into points where needed. Ignored if `motion` is set.
     bool keeps_measured = false;
-    /// Packets that come late by so many still find their frame: it is handed over when the
-    /// hindmost beam of the packet so many before the newest begins past the seam. Costs their time
-    /// as latency, and that of the packet that shows it. 0: with the frame's last packet. Of those
-    /// that come late all the same, only what belongs to a frame handed over is lost, and counted.
+    /// Packets that come up to so many packets late still find their frame: a frame is handed over
+    /// when the hindmost beam of the packet so many before the newest begins past the seam. Costs
+    /// that many packets' time, plus one, as latency. 0: handed over with the frame's last packet.
+    /// Of packets still later only returns of frames handed over are lost, and counted.
     int reorder_packets = 2;
-    /// Deskews every frame before it is handed over (FrameInfo::deskew).
-    /// This decoder's thread is its reader, and the motion must outlive the decoder. Null: returns
-    /// are handed over as seen.
+    /// Deskews every frame before it is handed over (FrameInfo::deskew). The decoder's thread
+    /// becomes the reader of the motion, which must outlive the decoder. Null: returns are handed
+    /// over as seen.
     vehicle::EgoMotion* motion = nullptr;
     frame::FrameInstant deskew_at = frame::FrameInstant::kEnd;
     hdl64e::Hdl64eSensor::Config hdl64e;
@@ -76,32 +75,31 @@ class Decoder {
     velodyne::VelodyneConfig velodyne;
   };
 
-  /// Of the sensor that the calibration belongs to.
+  /// Decodes the sensor that the calibration belongs to.
   Decoder(const calib::SensorCalibration& calibration, const mount::Mount& mount,
           const Config& config, memory::FixedMemory& memory);
 
   /// Takes one datagram, whose payload must stay as it is until next() has returned null.
   ///
-  /// A packet that contradicts the stream before it is kept (packets_kept()) until so many agree
-  /// with it that it is the beginning of another stream, or until the stream goes on. It is decoded
-  /// then, or rejected and counted.
+  /// A packet that contradicts the stream is kept (packets_kept()) until enough packets agree with
+  /// it to begin another stream, or until the old stream goes on. Then it is decoded, or rejected
+  /// and counted.
   void push(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
-  /// The stream ends, or the source will jump (a replay loop): what is open is handed out, marked
-  /// incomplete unless it was seen whole, and the stream's state is reset, but not its
-  /// counters.
+  /// Ends the stream, at its end or before the source jumps (a replay loop). Open frames are handed
+  /// out, marked incomplete unless seen whole. The stream's state is reset, but not its counters.
   void end_stream() noexcept TERRACUT_NONBLOCKING;
 
-  /// The next frame that was completed by what was pushed, or that the stream's end left; null:
-  /// there is none, and all that was pushed is decoded. Must be called until then. Valid until the
-  /// next call; how long the image is, and `in_exchange`: FrameBuilder::next().
+  /// Returns the next frame that is complete after push() or end_stream(); null if there is none
+  /// and all that was pushed is decoded. Must be called until it returns null. The frame is valid
+  /// until the next call. `in_exchange` and the image's lifetime: FrameBuilder::next().
   [[nodiscard]] frame::Frame* next(frame::RangeImage* in_exchange = nullptr) noexcept
       TERRACUT_NONBLOCKING;
-  /// Why the datagram pushed last was rejected (and counted, other than kDeviceInfo), if it was;
-  /// known when next() has returned null.
+  /// Returns why the last datagram was rejected (and counted, unless kDeviceInfo), if it was; valid
+  /// once next() has returned null.
   [[nodiscard]] std::optional<frame::Reject> rejected() const noexcept { return rejected_; }
 
-  /// The oldest frame that was not handed over yet, for whoever wants to begin with its columns
-  /// before it is whole. None of them is complete where the frame will be deskewed.
+  /// Returns the oldest frame not handed over yet, for starting on its columns before it is whole.
+  /// If frames are deskewed, none of its columns count as complete.
   [[nodiscard]] frame::ArrivingFrame arriving() noexcept {
     if (!frames_.started()) return {};
     const packet::RotorInterval to_come{
@@ -112,37 +110,38 @@ class Decoder {
                 static_cast<float>(packet::kRevolution_ticks)};
   }
 
-  /// Since construction. Packets still expected out of order become losses a few packets later.
+  /// Counts since construction. Packets that may still come late become losses a few packets later.
   [[nodiscard]] frame::LossCounters losses() const noexcept { return frames_.total_losses(); }
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept { return packets_; }
-  /// Neither decoded nor rejected yet.
+  /// Returns the number of packets neither decoded nor rejected yet.
   [[nodiscard]] std::size_t packets_kept() const noexcept { return kept_packets_; }
   [[nodiscard]] std::uint64_t columns_decoded() const noexcept { return columns_; }
   [[nodiscard]] std::uint32_t frames() const noexcept { return frames_.frames(); }
   [[nodiscard]] const frame::ImageShape& shape() const noexcept { return frames_.shape(); }
-  /// The most returns a frame may have, as RangeImage::return_capacity().
+  /// Returns the most returns a frame may have, as RangeImage::return_capacity() does.
   [[nodiscard]] std::size_t return_capacity() const noexcept { return frames_.return_capacity(); }
-  /// By row: how far its beam is ahead of the head when it fires, in revolutions.
+  /// Returns by row how far its beam is ahead of the head when it fires, in revolutions.
   [[nodiscard]] std::span<const float> beam_turns() const noexcept { return beam_turns_; }
-  /// Device time between packets, measured; 0 until about 15 packets have been decoded.
+  /// Returns the measured device time between packets; 0 until about 15 packets have been decoded.
   [[nodiscard]] std::int64_t packet_period_ns() const noexcept { return tracker_.period_ns(); }
-  /// Device clock of the last packet that passed the sensor's checks (PacketAzimuths).
+  /// Returns the device clock of the last packet that passed the sensor's checks (PacketAzimuths).
   [[nodiscard]] std::int64_t device_stamp_us() const noexcept { return azimuths_.device_stamp_us; }
-  /// The last packet decoded carried two returns per firing.
+  /// True if the last decoded packet carried two returns per firing.
   [[nodiscard]] bool dual_return() const noexcept { return azimuths_.dual_return; }
-  /// How an RS-Ruby128's stamps are read; null for another sensor.
+  /// Returns how an RS-Ruby128's stamps are read; null for another sensor.
   [[nodiscard]] const ruby128::RubyTimestampDetector* ruby_timestamp() const noexcept {
     const auto* ruby128 = std::get_if<PacketReturns<ruby128::Ruby128Sensor>>(&sensor_);
     return ruby128 == nullptr ? nullptr : &ruby128->trait().timestamp();
   }
-  /// Where the sensor is blind, as far as that has been learnt (blind_sector.hpp).
+  /// Returns where the sensor is blind, as far as learnt (blind_sector.hpp).
   [[nodiscard]] frame::BlindAzimuths blind() const noexcept {
     return blind_azimuths(blind_.sector());
   }
-  /// Reads frames that keep their returns as they were measured; null where they have points. Takes
-  /// memory; must not outlive this.
+  /// Makes a reader for frames that keep their returns as measured; null if frames have points.
+  /// Takes memory; must not outlive this.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const;
-  /// All images, for a hand-over by exchange (FrameBuilder); the first two are open at the start.
+  /// Returns all images, for a hand-over by exchange (FrameBuilder); the first two are open at the
+  /// start.
   [[nodiscard]] std::span<frame::RangeImage> images() noexcept { return frames_.images(); }
 
  private:
@@ -151,7 +150,7 @@ class Decoder {
                    PacketReturns<velodyne::Vlp16Sensor>, PacketReturns<velodyne::Hdl32eSensor>,
                    PacketReturns<velodyne::Vlp32cSensor>, PacketReturns<velodyne::Vls128Sensor>>;
 
-  /// What the sensors differ in beside their traits' work.
+  /// Sizes that differ between sensors.
   struct Model {
     int rows;
     std::size_t lasers;
@@ -168,7 +167,7 @@ class Decoder {
   Decoder(const Model& model, const calib::SensorCalibration& calibration,
           const mount::Mount& mount, const Config& config, memory::FixedMemory& memory);
 
-  /// One switch a call, and no virtual one.
+  /// Calls `function` with the sensor: a switch a call instead of virtual functions.
   template <std::size_t kIndex = 0, class Function>
   decltype(auto) with_sensor(Function&& function) noexcept {
     auto* sensor = std::get_if<kIndex>(&sensor_);
@@ -183,8 +182,8 @@ class Decoder {
     return ticks % packet::kRevolution_ticks < 0 ? frame - 1 : frame;
   }
 
-  /// From firing to firing, over some hundred packets: one packet's own step is rounded to the
-  /// wire's hundredths, too coarse to count the firings of a wide gap.
+  /// Returns the mean step from firing to firing over some hundred packets. One packet's step is
+  /// rounded to the wire's hundredths, too coarse to count the firings of a wide gap.
   [[nodiscard]] std::int64_t mean_step(std::int32_t step_ticks) noexcept {
     constexpr std::int64_t kMost_packets = 512;
     steps_ticks_ += step_ticks;
@@ -198,7 +197,7 @@ class Decoder {
     return steps_ == 0 ? 0 : steps_ticks_ / steps_;
   }
 
-  /// Of the oldest frame. Beams' columns are rounded, each by less than one.
+  /// Returns the complete columns of the oldest frame, less one: beams' columns are rounded.
   [[nodiscard]] int complete_columns() const noexcept {
     const std::int64_t complete_ticks =
         placed_ticks_ - frames_.oldest() * packet::kRevolution_ticks;
@@ -207,7 +206,8 @@ class Decoder {
     return static_cast<int>(std::clamp<std::int64_t>(columns, 0, frames_.shape().columns));
   }
 
-  /// Of packets missing over many frames, those that a sensor sends while it is not blind.
+  /// Returns the share of packets missing over many frames that a sensor sends while it is not
+  /// blind.
   [[nodiscard]] std::int64_t seen_share(std::int64_t packets) const noexcept {
     return packets - packets * (blind_.sector().once.ticks() / packet::kTicksPerCdeg) /
                          beams::kRevolution_cdeg;
@@ -219,12 +219,12 @@ class Decoder {
     count_rejected(reason);
     rejected_ = reason;
   }
-  /// A packet that contradicts the stream.
+  /// A packet that contradicts the stream, kept until that is decided.
   struct KeptPacket {
     packet::PacketAzimuths azimuths;
     std::int64_t stamp_ns;
     std::int64_t rotor_cdeg;  ///< Placement::rotor_cdeg
-    frame::Reject reason;     ///< Unless others agree with it.
+    frame::Reject reason;     ///< Used if the packet is rejected in the end.
   };
   void keep(const packet::Datagram& datagram, const Placement& placed) noexcept;
   [[nodiscard]] std::span<std::uint8_t> kept_bytes(std::size_t number) noexcept {
@@ -234,61 +234,62 @@ class Decoder {
     for (std::size_t i = 0; i < kept_packets_; ++i) count_rejected(kept_[i].reason);
     kept_packets_ = 0;
   }
-  /// The device stamps a packet's first firing, the host its arrival: a sector inside lies between.
-  /// A capture's stamps may be anything, so this may wrap.
+  /// Converts a host stamp for a packet with a sector inside: the device stamps the first firing,
+  /// the host the arrival, and the sector lies between. A capture's stamps may be anything, so this
+  /// may wrap.
   [[nodiscard]] std::int64_t host_began_ns(std::int64_t stamp_ns) const noexcept {
     return static_cast<std::int64_t>(static_cast<std::uint64_t>(stamp_ns) -
                                      static_cast<std::uint64_t>(azimuths_.sector_ns()));
   }
-  /// The packet that is being decoded; azimuths_ are its own.
+  /// The packet being decoded; azimuths_ belongs to it.
   struct Job {
     std::span<const std::uint8_t> payload;
     std::int64_t stamp_ns = 0;
     Placement placed;
     packet::BeamSpread spread;
-    packet::RotorInterval swept;  ///< Where the head is while it fires, its late columns left out.
+    packet::RotorInterval swept;  ///< Where the head is during it, without late columns.
     int late_columns = 0;
-    std::int64_t first_frame = 0, last_frame = 0;  ///< Which its beams may touch.
+    std::int64_t first_frame = 0, last_frame = 0;  ///< Frames its beams may touch.
     BlindSector::Stride stride;
     std::int64_t step_ticks = 0;
   };
-  /// What is left to do when the frames that were over are handed out.
+  /// What remains to be done when the finished frames are handed out.
   enum class Step : std::uint8_t {
     kNothing,
-    kTakeKept,    ///< The packets that were kept are the stream from here on.
-    kTakePushed,  ///< The packet that showed that they are.
-    kRestart,     ///< The frames of the stream before are handed out.
-    kPlace,       ///< There is room for the packet's returns.
-    kEnd,         ///< The stream ends.
+    kTakeKept,    ///< Decode the kept packets as a new stream.
+    kTakePushed,  ///< Decode the packet that confirmed it.
+    kRestart,     ///< Start the stream; the old one's frames are handed out.
+    kPlace,       ///< Place the packet's returns; there is room for them.
+    kEnd,         ///< End the stream.
   };
-  /// Does a step; false where there was none.
+  /// Does one step; false if none is left.
   bool go_on() noexcept;
-  /// The packets that were kept are the stream from here on, those of the last frame up to the head
-  /// at `newest_cdeg`: for more revolutions more frames would be handed out at once.
+  /// Starts a new stream with the kept packets, but only those within a revolution of the head at
+  /// `newest_cdeg`: more would hand out several frames at once.
   void begin_anew(std::int64_t newest_cdeg, bool has_pushed) noexcept;
   void take_kept() noexcept;
   void take_pushed() noexcept;
-  /// Decodes what the tracker has placed, in two or three steps.
+  /// Decodes a packet that the tracker has placed, in two or three steps.
   void take(std::span<const std::uint8_t> payload, std::int64_t stamp_ns,
             const Placement& placed) noexcept;
   void restart() noexcept;
-  /// What it tells of the stream, and which frames are over before it can be placed.
+  /// Updates the stream's state, and ends the frames that must be over before the packet is placed.
   void judge() noexcept;
   void place() noexcept;
   void end_frames_before(std::int64_t frame) noexcept;
-  /// The returns of packets that wait for others.
+  /// Places the returns of packets collected so far.
   void place_rest() noexcept;
   void end() noexcept;
 
-  /// What lies between the packets before and this one, taken in order.
+  /// Judges the gap between the last packet and this one, which came in order.
   void judge_gap(const Placement& placed, const packet::RotorInterval& swept,
                  const BlindSector::Stride& stride, const packet::BeamSpread& spread,
                  std::int64_t step_ticks) noexcept;
-  /// A sector inside the packet.
+  /// Judges a sector inside the packet.
   void cross_sector(const packet::RotorInterval& swept, const BlindSector::Stride& stride,
                     const packet::BeamSpread& spread, std::int64_t step_ticks) noexcept;
-  /// Missing by the stamps. Those around a packet with a sector inside hold its time, too: what was
-  /// lost behind such a packet shows in the azimuths.
+  /// Returns the packets missing by their stamps. Stamps around a packet with a sector inside
+  /// include its time: then the loss after it is counted by azimuth.
   [[nodiscard]] std::int64_t missing_before(const Placement& placed,
                                             const packet::RotorInterval& swept) const noexcept {
     if (!has_crossed_) return placed.missing;
@@ -296,8 +297,9 @@ class Decoder {
     return std::min(placed.missing,
                     (gap.ticks() + azimuths_.pace_ticks / 2) / azimuths_.pace_ticks);
   }
-  /// A packet with a sector inside comes when the head is back in view. Its columns from before are
-  /// too late for a frame that was handed over in time, or is by the columns behind: two are open.
+  /// Returns how many columns of a packet are too late. A packet with a sector inside arrives when
+  /// the head is back in view: its columns from before the sector may belong to a frame that was
+  /// handed over, or must be because of the columns after it; only two are open.
   [[nodiscard]] int columns_too_late(const Placement& placed, const packet::BeamSpread& spread,
                                      std::int64_t last_frame) const noexcept {
     const std::int64_t hindmost_ticks =
@@ -307,7 +309,7 @@ class Decoder {
         is_restart ? last_frame - 1 : std::max(frames_.oldest(), last_frame - 1);
     return frame_of(hindmost_ticks) < open ? azimuths_.behind_sector : 0;
   }
-  /// What was found to be lost after all.
+  /// Counts gaps that turned out to be lost.
   void count_due() noexcept {
     const BlindSector::Loss due = blind_.take_due();
     const std::int64_t step_ticks = std::max<std::int64_t>(1, mean_step_ticks());
@@ -328,26 +330,26 @@ class Decoder {
   std::span<float> beam_turns_;
   std::optional<Deskewer> deskewer_;
   std::span<KeptPacket> kept_;
-  std::span<std::uint8_t> kept_bytes_;  ///< Their payloads.
+  std::span<std::uint8_t> kept_bytes_;  ///< Payloads of the kept packets.
   std::size_t kept_packets_ = 0;
   packet::PacketAzimuths azimuths_;
   Step step_ = Step::kNothing;
-  Step after_packet_ = Step::kNothing;  ///< When the job is done.
+  Step after_packet_ = Step::kNothing;  ///< What follows when the job is done.
   Job job_;
   struct {
-    std::size_t next = 0;  ///< Of those kept.
+    std::size_t next = 0;  ///< Index of the next kept packet.
     bool has_begun = false, has_pushed = false;
     std::int64_t newest_cdeg = 0;
     packet::PacketAzimuths pushed_azimuths;
     packet::Datagram pushed;
-  } anew_;  ///< While packets that were kept become the stream.
+  } anew_;  ///< State while kept packets become the stream.
   std::optional<frame::Reject> rejected_;
   std::int64_t frontier_ticks_ = 0;          ///< The head has been seen up to here.
   std::int64_t complete_ticks_ = 0;          ///< Up to here no more returns are expected.
-  std::int64_t placed_ticks_ = 0;            ///< The same when all returns were placed.
+  std::int64_t placed_ticks_ = 0;            ///< The same, for returns already placed.
   std::int64_t completes_behind_ticks_ = 0;  ///< Usual distance of complete_ticks_ behind the head.
   std::int64_t steps_ticks_ = 0, steps_ = 0;
-  bool has_crossed_ = false;  ///< A sector lies in the packet before.
+  bool has_crossed_ = false;  ///< The last packet has a sector inside.
   std::uint64_t packets_ = 0, columns_ = 0;
 };
 

@@ -25,7 +25,7 @@ Deskewer::Config checked(const Deskewer::Config& config, std::span<const std::in
   return config;
 }
 
-/// Whole columns from a beam to its head, to the nearest: at most half a column's time off.
+/// Returns the whole columns from a beam to its head, rounded: at most half a column's time off.
 std::int64_t shift_of(std::int32_t beam_ticks, const Deskewer::Config& config) {
   return std::llround(-static_cast<double>(beam_ticks) * config.shape.columns /
                       static_cast<double>(config.revolution_ticks));
@@ -42,7 +42,7 @@ Deskewer::Deskewer(const Config& config, std::span<const std::int32_t> beam_tick
   const auto head_columns = static_cast<std::size_t>(columns_ + last_shift_ - first_shift_);
   const std::size_t nodes = head_columns / kNodeColumns + 3;
 
-  // Two frames are open, and beams reach into the next.
+  // Enough for two open frames, and for beams that reach into the next.
   instants_ns_ = memory.take<std::int64_t>("deskew", std::bit_ceil(3 * nodes));
   node_ns_ = memory.take<std::int64_t>("deskew", nodes);
   node_poses_ = memory.take<vehicle::PlanarPose>("deskew", nodes);
@@ -83,7 +83,7 @@ void Deskewer::note(std::int64_t rotor_ticks, std::int64_t instant_ns) noexcept 
     return;
   }
   if (note.position <= newest_.position || note.instant_ns < newest_.instant_ns) return;
-  // Nodes that leave the ring before the way to the newest note is at its end need not be filled.
+  // Nodes that will have left the ring by the newest note need not be filled.
   const auto last_node = static_cast<std::int64_t>(std::floor(newest_.position));
   next_node_ = std::max(next_node_, last_node + 1 - static_cast<std::int64_t>(instants_ns_.size()));
   fill(last_node);
@@ -133,7 +133,7 @@ std::int64_t Deskewer::reference_ns(std::int64_t frame) const noexcept {
 
 void Deskewer::spread_poses(std::int64_t first_column, std::int64_t first_node) noexcept {
   for (std::size_t i = 0; i < cosine_.size(); ++i) {
-    // A column's beams leave, on the average, in its middle.
+    // On average a column's beams leave in its middle.
     const std::int64_t column = first_column + static_cast<std::int64_t>(i);
     const std::int64_t from = first_node * kNodeColumns;
     const auto node = static_cast<std::size_t>((column - from) / kNodeColumns);
@@ -178,14 +178,14 @@ frame::DeskewInfo Deskewer::apply(std::int64_t frame, frame::RangeImage& image) 
 }
 
 frame::Place Deskewer::go_to(std::int64_t reference_ns) noexcept {
-  vehicle::PlanarPose before;  // as the sensor sees where it stood then
+  vehicle::PlanarPose before;  // the sensor's earlier pose, seen from the pose now
   if (place_.journey == 0 || reference_ns <= place_ns_ ||
       !config_.motion->poses({&place_ns_, 1}, reference_ns, {&before, 1})) {
     place_ = {.journey = place_.journey + 1};
   } else {
     const vehicle::PlanarPose at =
         vehicle::PlanarPose{place_.x_m, place_.y_m, place_.cosine, place_.sine} * inverse(before);
-    // Kept of length 1 however long the journey.
+    // Renormalises to length 1, however long the journey.
     const double shrink = (3 - at.cosine * at.cosine - at.sine * at.sine) / 2;
     place_ = {place_.journey, at.x_m, at.y_m, at.cosine * shrink, at.sine * shrink};
   }

@@ -7,29 +7,28 @@
 
 namespace terracut::decode {
 
-/// When packets left a sensor, on the host's clock, from the stamps of their arrival and the even
-/// stamps of the device. A packet may arrive late, by as much as the network and the machine were
-/// busy, but never early: the least delay seen is taken for that of all, and let go again slowly,
-/// faster than clocks drift apart or NTP slews them. One thread.
+/// Estimates when packets left a sensor, on the host's clock, from their arrival and the device's
+/// even stamps. A packet may arrive late, when the network or the machine is busy, but never early.
+/// So the least delay seen is taken for every packet's, and forgotten slowly, though faster than
+/// clocks drift apart or NTP slews them. One thread.
 ///
-/// It begins anew where one of the clocks was set: at a packet more than 20 ms late, and where
-/// packets come earlier, by more than 2 ms in a short time, than any before. What it said before is
-/// then of another time, or was off by more than that: packets that were held up for longer than
-/// 20 ms look the same.
+/// It starts again if one of the clocks was set: at a packet more than 20 ms late, or when packets
+/// come more than 2 ms earlier, within a short time, than any before. Earlier results are then not
+/// comparable, or were off by more than that: packets held up for longer than 20 ms look the same.
 class HostClock {
  public:
   struct Sent {
     std::int64_t instant_ns = 0;
-    bool anew = false;  ///< Not to be compared with the instants before it.
+    bool anew = false;  ///< Not comparable with earlier instants.
   };
 
   /// `wrap_us`: the device clock counts [0, wrap_us).
   explicit HostClock(std::int64_t wrap_us) noexcept : wrap_us_(wrap_us) {}
 
-  /// The next packet is the first one of a stream.
+  /// Tells that the next packet is the first one of a stream.
   void reset() noexcept { known_ = false; }
 
-  /// For each packet in the order of the stream; not for one that was overtaken.
+  /// Takes each packet in the order of the stream, but not one that was overtaken.
   [[nodiscard]] Sent sent(std::int64_t device_us, std::int64_t arrived_ns) noexcept {
     std::int64_t step_us = device_us - device_us_;
     if (step_us < 0) step_us += wrap_us_;
@@ -56,12 +55,12 @@ class HostClock {
   static constexpr std::int64_t kEarliest_ns = 2'000'000;
   static constexpr std::int64_t kLongestStep_us = 100'000'000;  // more: outages, backward steps
   static constexpr std::int64_t kDrift = 1'000;  // 1000 ppm: NTP slews by 500, quartz drifts by 100
-  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than any of that adds up
+  static constexpr std::int64_t kDecay = 250;    // 4000 ppm, faster than all of these
 
   std::int64_t wrap_us_;
   bool known_ = false;
   std::int64_t device_us_ = 0, sent_ns_ = 0;
-  std::int64_t earlier_ns_ = 0;  ///< By how much packets came earlier than those before, of late.
+  std::int64_t earlier_ns_ = 0;  ///< How much earlier than expected recent packets came.
 };
 
 }  // namespace terracut::decode

@@ -23,25 +23,25 @@
 
 namespace terracut::decode {
 
-/// Where the returns of a packet go.
+/// How the returns of a packet are placed.
 struct PacketPlace {
   std::int64_t rotor_cdeg = 0;  ///< Placement::rotor_cdeg
-  int late_columns = 0;         ///< The first so many are left out and counted.
+  int late_columns = 0;         ///< So many first columns are left out and counted.
   frame::CellOwner owner{};
 };
 
-/// The returns of packets, from their bytes to their cells. Several packets are collected, then
-/// placed laser by laser:
+/// Takes the returns of packets from their bytes to their cells. Collects several packets, then
+/// places them laser by laser:
 ///
 ///   packet  --transposed-->  tile: what each laser found in 24 firings, next to the core
 ///   tile    --a laser's constants, 24 firings in vectors-->  points, next to each other in a row
 ///
 /// `Sensor` is a trait: all that differs from model to model, resolved at compile time. It has
-/// - `Calibration`, `Config`; `kRows` of the image; `kChannels` readings of lasers in a column: as
-///   many, or more where a laser fires more than once for one azimuth, a multiple of 8. They are
-///   the lasers below. Those of a group fire together, `kGroups`; `kPacketBytes`, the size of a
-///   data packet; `kClockWrap_us`, where the device clock wraps; `kDefaultColumns`,
-///   `kDefaultReturnsPerCell`: Decoder::Config for single return at 10 Hz;
+/// - `Calibration`, `Config`; `kRows` of the image; `kChannels`, the readings in a column, called
+///   lasers below: one a laser, or more if a laser fires more than once for one azimuth; a multiple
+///   of 8. Those of a group fire together, `kGroups`; `kPacketBytes`, the size of a data packet;
+///   `kClockWrap_us`, where the device clock wraps; `kDefaultColumns`, `kDefaultReturnsPerCell`:
+///   Decoder::Config for single return at 10 Hz;
 /// - a constructor (const Calibration&, const mount::Mount&, const Config&);
 /// - `check(Datagram, PacketAzimuths&)`: the reason to reject one, or nothing and its heads;
 /// - `spread(step_ticks)`: the packet::BeamSpread around the head;
@@ -57,7 +57,7 @@ struct PacketPlace {
 template <class Sensor>
 class PacketReturns {
  public:
-  /// columns: of the range image, [16, 36000].
+  /// `columns` of the range image, [16, 36000].
   PacketReturns(const typename Sensor::Calibration& calibration, const mount::Mount& mount,
                 const typename Sensor::Config& config, int columns, memory::FixedMemory& memory)
       : sensor_(calibration, mount, config),
@@ -69,7 +69,7 @@ class PacketReturns {
         beams_(memory.take<frame::BeamColumns>("decoder tables", kLasers)),
         points_(memory.take<frame::TilePoints>("decoder tables", kLasers)) {}
 
-  /// For whoever makes points of frames that are kept as they were measured; on any one thread.
+  /// Makes a reader that turns frames kept as measured into points, on any one thread.
   [[nodiscard]] std::unique_ptr<frame::TileReader> make_reader(memory::FixedMemory& memory) const {
     return std::make_unique<SensorTileReader<Sensor>>(sensor_, memory);
   }
@@ -77,8 +77,8 @@ class PacketReturns {
   [[nodiscard]] Sensor& trait() noexcept { return sensor_; }
   [[nodiscard]] const Sensor& trait() const noexcept { return sensor_; }
 
-  /// Reads a packet that the trait's check() has passed. Its returns are placed when enough are
-  /// there, or by flush(); its frames must be open until then.
+  /// Reads a packet that the trait's check() has passed. Its returns are placed by flush(), or when
+  /// enough have been collected; its frames must be open until then.
   void add(std::span<const std::uint8_t> payload, const packet::PacketAzimuths& azimuths,
            const PacketPlace& place, FrameBuilder& frames) noexcept {
     const auto columns = static_cast<std::size_t>(azimuths.columns);
@@ -97,7 +97,7 @@ class PacketReturns {
     firings_ += columns;
     if (firings_ == frame::kTileFirings) flush(frames);
   }
-  /// Places what was added.
+  /// Places all returns added.
   void flush(FrameBuilder& frames) noexcept {
     if (firings_ == 0) return;
     const std::size_t firings = std::exchange(firings_, 0);
@@ -107,19 +107,19 @@ class PacketReturns {
     const Tile tile = find_cells(firings, frames, true);
     if (!place_by_laser(tile)) place_by_firing(tile, frames);
   }
-  /// All that was added is placed.
+  /// True if all returns added are placed.
   [[nodiscard]] bool is_flushed() const noexcept { return firings_ == 0; }
 
  private:
   static constexpr auto kLasers = static_cast<std::size_t>(Sensor::kChannels);
 
-  /// What is being placed, where.
+  /// The returns to place, and their frames.
   struct Tile {
     std::size_t firings;
-    std::int64_t first_frame;                  ///< The older of two.
-    std::array<frame::RangeImage*, 2> images;  ///< Of the two.
+    std::int64_t first_frame;                  ///< The older of two frames.
+    std::array<frame::RangeImage*, 2> images;  ///< Images of the two frames.
     bool is_in_one_frame;
-    std::size_t frame;  ///< Which, if so.
+    std::size_t frame;  ///< The frame, if only one.
   };
   using Numbers = std::array<frame::TileRow<std::uint32_t>, 2>;  ///< By frame and firing.
 
@@ -130,12 +130,12 @@ class PacketReturns {
         losses.late_returns += std::exchange(raw, std::uint16_t{0}) != 0 ? 1U : 0U;
       }
     }
-    // Both returns of a pair are one firing.
+    // Both returns of a pair count as one firing.
     losses.azimuth_hole_columns +=
         azimuths.dual_return ? 1U : static_cast<std::uint64_t>(late_columns);
   }
 
-  /// The rest of a tile that is not full: without returns.
+  /// Fills the rest of a tile that is not full with firings without returns.
   void complete(std::size_t firings) noexcept {
     if (firings == frame::kTileFirings) return;
     for (std::size_t f = firings; f < frame::kTileFirings; ++f) {
@@ -169,7 +169,7 @@ class PacketReturns {
             .frame = most < columns_ ? 0U : 1U};
   }
 
-  /// As measured, in each of the two frames that it has returns of.
+  /// Keeps the tile as measured, in each of the two frames that it has returns of.
   void keep(const Tile& tile, FrameBuilder& frames) noexcept {
     for (std::size_t n = 0; n < 2; ++n) {
       if (tile.is_in_one_frame && tile.frame != n) continue;
@@ -187,7 +187,7 @@ class PacketReturns {
     }
   }
 
-  /// How many returns of each firing belong to each of the frames.
+  /// Counts the returns of each firing by frame.
   [[nodiscard]] Numbers count(const Tile& tile) const noexcept {
     Numbers counts{};
     if (tile.is_in_one_frame) {
@@ -215,7 +215,7 @@ class PacketReturns {
     return frame == 0 ? column : column - columns_;
   }
 
-  /// Returns false and places nothing where an overflow list might run full.
+  /// False, and nothing is placed, if an overflow list might run full.
   [[nodiscard]] bool place_by_laser(const Tile& tile) noexcept {
     Numbers numbers = count(tile);
     std::array<std::uint32_t, 2> returns{};
@@ -240,7 +240,7 @@ class PacketReturns {
     return true;
   }
 
-  /// A laser's returns in columns next to each other, if those are empty.
+  /// Places a laser's returns in adjacent columns; false if a cell of them is taken.
   [[nodiscard]] bool place_run(const Tile& tile, std::size_t laser,
                                frame::TileRow<std::uint32_t>& numbers) noexcept {
     frame::RangeImage& image = *tile.images[tile.frame];
@@ -254,14 +254,14 @@ class PacketReturns {
     return true;
   }
 
-  /// Firings that share a column or leave one out, late ones, and the seam.
+  /// Places returns one by one: for firings that share or skip a column, late ones, and the seam.
   void place_one_by_one(const Tile& tile, std::size_t laser, Numbers& numbers) noexcept {
     reader_.compute_points(laser, all_of(points_[laser]));
     const frame::TileRow<std::int32_t>& column = beams_[laser].column;
     const int row = sensor_.rows()[laser];
     const std::size_t newest = frame_of(beams_[laser].most);
     tile.images[newest]->fetch_to_write(row, column_in(newest, beams_[laser].most));
-    // Which firings found something is as good as random, so no branch is asked to guess it.
+    // Which firings have a return is close to random, so the loop has no branch.
     std::array<std::uint8_t, frame::kTileFirings> hits;
     std::size_t hit_count = 0;
     for (std::size_t f = 0; f < frame::kTileFirings; ++f) {

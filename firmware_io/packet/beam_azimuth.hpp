@@ -7,29 +7,28 @@
 #include "calib/beams/angle.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 
-/// Where a beam points, in whole numbers, so that the decoder, the encoders and the truth beside a
-/// capture agree on the frame and the column of every return, bit for bit. How far a beam is from
-/// the azimuth its column carries is each sensor's own matter: hdl64e/firing_azimuth.hpp,
+/// Beam azimuths in whole numbers, so that the decoder, the encoders and the truth beside a capture
+/// agree bit for bit on the frame and column of every return. The angle between a beam and the
+/// azimuth of its column depends on the sensor: hdl64e/firing_azimuth.hpp,
 /// ruby128/firing_azimuth.hpp. Angles are in ticks (packet_azimuths.hpp). Allocation-free,
 /// noexcept; any thread.
 namespace terracut::packet {
 
-/// Head azimuth at a firing for the geometries of calib: radians, clockwise from straight ahead,
-/// [0, 2 pi + a step). `column_cdeg` may be unwrapped (any revolution).
+/// Returns the head azimuth at a firing, for the geometries of calib: radians, clockwise from
+/// straight ahead, [0, 2 pi + a step). `column_cdeg` may be unwrapped (any revolution).
 [[nodiscard]] constexpr double firing_azimuth_rad(std::int64_t column_cdeg,
                                                   std::int32_t advance_ticks) noexcept {
   return (beams::wrap_cdeg(column_cdeg) * kTicksPerCdeg + advance_ticks) * kRadPerTick;
 }
 
-/// A beam's azimuth: which frame, and where in it.
+/// A beam's azimuth: its frame, and the angle within it.
 struct BeamAzimuth {
   std::int64_t frame = 0;
   std::int32_t in_revolution_ticks = 0;  ///< [0, kRevolution_ticks)
 };
 
-/// The beam `offset_ticks` away from a column's azimuth.
-/// `column_cdeg` is unwrapped: it grows by 36000 each revolution of the head. |offset| < one
-/// revolution.
+/// Returns the azimuth of the beam `offset_ticks` away from a column's azimuth. `column_cdeg` is
+/// unwrapped: it grows by 36000 each revolution of the head. |offset| < one revolution.
 [[nodiscard]] constexpr BeamAzimuth beam_azimuth(std::int64_t column_cdeg,
                                                  std::int32_t offset_ticks) noexcept {
   const std::int32_t rotor_cdeg = beams::wrap_cdeg(column_cdeg);
@@ -45,7 +44,8 @@ struct BeamAzimuth {
   return beam;
 }
 
-/// Range image column of a beam: floor(in_frame / pitch), [0, columns). columns in [1, 36000].
+/// Returns a beam's column in the range image: floor(in_revolution / pitch), [0, columns). columns
+/// in [1, 36000].
 [[nodiscard]] constexpr int column_of(std::int32_t in_revolution_ticks, int columns) noexcept {
   return static_cast<int>(std::int64_t{in_revolution_ticks} * columns / kRevolution_ticks);
 }

@@ -6,8 +6,8 @@
 
 namespace terracut::packet {
 
-/// How far the beams point away from the head: every beam's azimuth minus the head's lies in
-/// [hindmost, foremost].
+/// The spread of beams around the head: every beam's azimuth minus the head's is in [hindmost,
+/// foremost].
 struct BeamSpread {
   std::int64_t hindmost_ticks = 0, foremost_ticks = 0;
 };

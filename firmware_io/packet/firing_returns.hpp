@@ -24,14 +24,14 @@ using frame::PointsOut;
 using frame::TilePoints;
 using frame::TileRow;
 
-/// What one firing found, by laser.
+/// The returns of one firing, by laser.
 template <std::size_t kLasers>
 struct FiringReturns {
-  std::span<std::uint16_t, kLasers> raw;  ///< Wire distance; 0: no return.
+  std::span<std::uint16_t, kLasers> raw;  ///< Distance on the wire; 0: no return.
   std::span<std::uint8_t, kLasers> intensity;
 };
 
-/// What some firings found, in the order of arrival: as it arrives, and by laser.
+/// The returns of some firings, stored as they arrive and, after turn(), by laser.
 template <std::size_t kLasers>
 struct FiringTile {
   alignas(64) std::array<std::array<std::uint16_t, kLasers>, kTileFirings> arrived_raw;
@@ -42,14 +42,15 @@ struct FiringTile {
   [[nodiscard]] FiringReturns<kLasers> firing(std::size_t number) noexcept {
     return {arrived_raw[number], arrived_intensity[number]};
   }
-  /// Fills in what is by laser.
+  /// Transposes the arrived returns into those by laser.
   void turn() noexcept {
     frame::transpose(arrived_raw[0].data(), kTileFirings, kLasers, raw[0].data());
     frame::transpose(arrived_intensity[0].data(), kTileFirings, kLasers, intensity[0].data());
   }
 };
 
-/// Wire distances of one laser in metres; NaN for none, and so all that follows from it.
+/// Converts wire distances of one laser to metres. No return gives NaN, and so does all computed
+/// from it.
 inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
                     float* __restrict measured_m) noexcept {
   constexpr std::int32_t kNan = 0x7FC0'0000;
@@ -60,8 +61,8 @@ inline void measure(const std::uint16_t* __restrict raw, float metres_per_count,
   }
 }
 
-/// An angle as columns of the range image: a whole number of them, and what is left, in parts of a
-/// column of which kRevolution_ticks make one; [0, kRevolution_ticks).
+/// An angle in columns of the range image: the whole columns, and the rest in parts of a column,
+/// [0, kRevolution_ticks), of which kRevolution_ticks make one.
 struct ColumnAngle {
   std::int32_t whole = 0, rest = 0;
 };
@@ -72,32 +73,33 @@ struct ColumnAngle {
           static_cast<std::int32_t>(rest)};
 }
 
-/// Of an angle in [0, 1e5] ticks: below a degree two terms of each series are exact to a float.
+/// Returns sine and cosine of an angle in [0, 1e5] ticks: below a degree two terms of each series
+/// are exact to a float.
 [[nodiscard]] constexpr SinCos small_advance(std::int32_t ticks) noexcept {
   const float a = static_cast<float>(ticks) * static_cast<float>(kRadPerTick);
   const float aa = a * a;
   return {a * (1.0F - aa * (1.0F / 6.0F)), 1.0F - aa * 0.5F};
 }
 
-/// Where the head is at each firing of a tile, and how far it advances until each group of lasers
-/// fires.
+/// The head's direction at each firing of a tile, and its advance until each group of lasers fires.
 template <std::size_t kGroups>
 struct GroupHeads {
   alignas(64) TileRow<float> sin_rotor, cos_rotor;
   alignas(64) std::array<TileRow<float>, kGroups> sin_advance, cos_advance;
 };
 
-/// Writes each of `values` to a row of its own; `rows`: one after the other.
+/// Fills one row with each of `values`; `rows` holds the rows one after the other.
 void fill_rows(std::span<const float> values, float* rows) noexcept TERRACUT_NONBLOCKING;
 void fill_rows(std::span<const std::int32_t> values,
                std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
-/// Writes each of `values` to the firings meant in a row of its own; `rows`: one after the other.
+/// Fills the masked firings of one row with each of `values`; `rows` holds the rows one after the
+/// other.
 void spread_rows(std::span<const float> values, const frame::TileRow<std::int32_t>& mask,
                  float* rows) noexcept TERRACUT_NONBLOCKING;
 void spread_rows(std::span<const std::int32_t> values, const frame::TileRow<std::int32_t>& mask,
                  std::int32_t* rows) noexcept TERRACUT_NONBLOCKING;
 
-/// The head and its advance at one laser's firings, for the loops over them.
+/// The head's direction and advance at one laser's firings.
 struct LaserHeads {
   const float *sin_rotor, *cos_rotor, *sin_advance, *cos_advance;
 };
@@ -108,17 +110,17 @@ template <std::size_t kGroups>
           heads.cos_advance[group].data()};
 }
 
-/// beam_azimuth() and column_of() (beam_azimuth.hpp) in whole numbers that vectors hold: the floors
-/// of the angles of the head, its advance and the beam's offset are added, then what is left of
-/// them. `advance_column`, `advance_rest`: of the laser's group.
+/// Does beam_azimuth() and column_of() (beam_azimuth.hpp) in integers that fit vectors: adds the
+/// whole columns of head, advance and beam offset, then their rests. `advance_column` and
+/// `advance_rest` belong to the laser's group.
 void find_columns(const std::int32_t* __restrict rotor_column,
                   const std::int32_t* __restrict rotor_rest,
                   const std::int32_t* __restrict advance_column,
                   const std::int32_t* __restrict advance_rest, ColumnAngle offset,
                   BeamColumns& __restrict found) noexcept TERRACUT_NONBLOCKING;
 
-/// Fills in what a laser's points leave out of a run of cells that were empty: intensities and
-/// numbers. `numbers`: of each firing's next return.
+/// Fills in the intensities and numbers of a run of cells that were empty; their points are filled
+/// elsewhere. `numbers` has each firing's next return number.
 void fill_cells(const TileRow<std::uint16_t>& raw, const TileRow<std::uint8_t>& intensity,
                 const frame::RangeImage::Cells& cells,
                 TileRow<std::uint32_t>& numbers) noexcept TERRACUT_NONBLOCKING;

@@ -11,17 +11,17 @@
 namespace terracut::packet {
 
 /// The unit of head and beam azimuths in all decoders: a thousandth of the wire's hundredth of a
-/// degree, 1e-5 degrees (0.02 mm at 120 m). Whole numbers, so that every program agrees on them.
+/// degree, 1e-5 degrees (0.02 mm at 120 m). Whole numbers make every program agree on them.
 inline constexpr std::int32_t kTicksPerCdeg = 1000;
 inline constexpr std::int32_t kRevolution_ticks = beams::kRevolution_cdeg * kTicksPerCdeg;
 inline constexpr double kRadPerTick = beams::deg_to_rad(1e-5);
 
-/// The clocks that time a sensor's firings are good to parts in a million; no period that is off a
-/// model's by more than this part of it is one of its.
+/// A measured period may differ from the model's by one part in so many. The clocks that time
+/// firings are far better, good to parts in a million.
 inline constexpr std::int32_t kPeriodTolerance = 8;
 
-/// Time from one stamp of a device clock that counts [0, wrap_us) to another, the short way round:
-/// [-wrap_us / 2, wrap_us / 2).
+/// Returns the time from one stamp of a device clock that counts [0, wrap_us) to another, the short
+/// way round: [-wrap_us / 2, wrap_us / 2).
 [[nodiscard]] constexpr std::int64_t clock_step_us(std::int64_t from_us, std::int64_t to_us,
                                                    std::int64_t wrap_us) noexcept {
   const std::int64_t step_us = (to_us - from_us) % wrap_us;
@@ -30,26 +30,26 @@ inline constexpr std::int32_t kPeriodTolerance = 8;
 }
 
 /// Where the head stood, and when, in one data packet of a spinning sensor: all that ordering
-/// packets and cutting frames needs to know of it. Made by a sensor trait, which vouches for it:
-/// azimuths in range, advancing, and not those of a head that stands still.
+/// packets and cutting frames needs. The sensor's trait makes it and guarantees that azimuths are
+/// in range and advance.
 struct PacketAzimuths {
   static constexpr int kMaxColumns = 12;
 
-  /// Device clock, [0, Sensor::kClockWrap_us), at the same place of every packet: it advances
-  /// evenly from packet to packet.
+  /// Device clock, [0, Sensor::kClockWrap_us), taken at the same place of every packet, so that it
+  /// advances evenly.
   std::int64_t device_stamp_us = 0;
-  bool clock_restarts = false;  ///< Stamps before this packet's are not to be compared with it.
-  /// Device time from packet to packet in the packet's return mode: by the model's own figures, and
-  /// what any unit of it may measure. All > 0.
+  bool clock_restarts = false;  ///< Stamps before this packet's cannot be compared with it.
+  /// Device time from packet to packet in the packet's return mode: the model's nominal figure, and
+  /// the range that units may show. All > 0.
   std::int32_t nominal_period_ns = 0, shortest_period_ns = 0, longest_period_ns = 0;
-  std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Of each column, [0, 36000).
+  std::array<std::int32_t, kMaxColumns> azimuth_cdeg{};  ///< Azimuth of each column, [0, 36000).
   int columns = 0;
-  /// Columns from this one on were fired behind a blind sector, those before it before it: such a
-  /// packet was begun before the head went out of view and completed when it was back. 0: none.
+  /// The first column fired after a blind sector, where the packet was begun before the head went
+  /// out of view and completed when it was back. 0: no sector inside.
   int behind_sector = 0;
   std::int32_t step_ticks = 0;  ///< From firing to firing, > 0.
-  /// From the first firing to that of the next packet, > 0, a sector in it included. A firing whose
-  /// second return is in the next packet belongs to that one.
+  /// From the first firing to that of the next packet, > 0, with a sector between them. A firing
+  /// whose second return is in the next packet belongs to that one.
   std::int32_t sweep_ticks = 0;
   std::int32_t pace_ticks = 0;    ///< How far the head rotates in a nominal period, > 0.
   std::int32_t widest_ticks = 0;  ///< The largest sweep of a packet in this return mode, > 0.
@@ -59,21 +59,22 @@ struct PacketAzimuths {
   [[nodiscard]] std::int32_t last_cdeg() const noexcept {
     return azimuth_cdeg[static_cast<std::size_t>(columns - 1)];
   }
-  /// From the first column to `column`, hundredths of a degree; a jitter may make it negative.
+  /// Returns the angle from the first column to `column`, hundredths of a degree; jitter may make
+  /// it negative.
   [[nodiscard]] std::int32_t advance_cdeg(int column) const noexcept {
     const std::int32_t cdeg =
         beams::step_cdeg(azimuth_cdeg[0], azimuth_cdeg[static_cast<std::size_t>(column)]);
     const bool is_behind = behind_sector > 0 && column >= behind_sector;
     return is_behind && cdeg < 0 ? cdeg + beams::kRevolution_cdeg : cdeg;
   }
-  /// Where nothing was fired inside the packet, given where the head was at its first column;
+  /// Returns where the head fired nothing inside the packet, given its azimuth at the first column;
   /// behind_sector > 0.
   [[nodiscard]] RotorInterval sector_inside(std::int64_t first_ticks) const noexcept {
     return {
         first_ticks + std::int64_t{advance_cdeg(behind_sector - 1)} * kTicksPerCdeg + step_ticks,
         first_ticks + std::int64_t{advance_cdeg(behind_sector)} * kTicksPerCdeg};
   }
-  /// How long that took, about; 0 where there is none.
+  /// Returns about how long that took; 0 if there is no sector inside.
   [[nodiscard]] std::int64_t sector_ns() const noexcept {
     return behind_sector > 0 ? sector_inside(0).ticks() * nominal_period_ns / pace_ticks : 0;
   }

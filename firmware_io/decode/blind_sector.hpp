@@ -55,15 +55,17 @@ class BlindSector {
 
   /// Judges a gap in which the head was not seen. By their stamps `packets` are missing in it;
   /// `rejected` of them came but were rejected.
-  [[nodiscard]] Verdict judge(const RotorInterval& gap, std::int64_t packets, std::int64_t rejected,
+  [[nodiscard]] Verdict judge(const packet::RotorInterval& gap, std::int64_t packets,
+                              std::int64_t rejected,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// Notes that a packet sweeps over `swept`; called after judge() of the gap before it.
-  void pass(const RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
+  void pass(const packet::RotorInterval& swept) noexcept TERRACUT_NONBLOCKING;
   /// True if the blind sector lies where PacketAzimuths::behind_sector says, to within a packet.
-  [[nodiscard]] bool is_inside(const PacketAzimuths& azimuths) const noexcept TERRACUT_NONBLOCKING;
+  [[nodiscard]] bool is_inside(const packet::PacketAzimuths& azimuths) const noexcept
+      TERRACUT_NONBLOCKING;
   /// Replaces pass() for a packet with the sector `inside`, or the part of it that was seen; the
   /// packet begins at `begin_ticks`.
-  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const RotorInterval& inside,
+  [[nodiscard]] Verdict cross(std::int64_t begin_ticks, const packet::RotorInterval& inside,
                               const Stride& stride) noexcept TERRACUT_NONBLOCKING;
   /// Notes that a late packet fills part of a gap: its first or last remaining part, unless several
   /// packets came late out of order.

@@ -18,8 +18,7 @@ namespace terracut::queues {
 /// A queue from one thread to one other, first in first out; neither ever waits. For small values,
 /// such as the numbers of slots in a pool of frames.
 ///
-///            popped_                pushed_           Both only ever count upwards; value n lies
-///            in
+///            popped_                pushed_           Both only count upwards; value n lies in
 ///               |                      |              slot n modulo the number of slots (a power
 ///               v                      v              of two, so that the counts may wrap).
 ///     +---+---+---+---+---+---+---+---+---+---+

@@ -8,40 +8,39 @@
 namespace terracut::decode {
 namespace {
 
-/// A packet this much older than the newest is out of order; still older, the clock has jumped.
+/// A packet up to this much older than the newest is out of order; if older, the clock has jumped.
 constexpr std::int64_t kReorder_us = 20'000;
-/// Up to here a step of the device clock is a gap; beyond, only if the host's clock agrees.
+/// A longer step of the device clock is a gap only if the host's clock agrees.
 constexpr std::int64_t kOutage_us = 1'000'000;
-/// Nobody counts what a sensor would have sent in more than a day.
+/// Longer outages, more than a day, are not counted.
 constexpr std::int64_t kLongestOutage_us = 86'400'000'000;
-/// The head's way across a gap from here on is told to the caller even where the period is not yet
-/// known.
+/// The caller is told of missing packets in a gap wider than this even if the period is not known.
 constexpr std::int64_t kWide_ticks = packet::kRevolution_ticks / 90;
-/// Frames are counted up to here: years of a rotating head. Then the count begins again.
+/// Azimuth is counted up to here, years of a rotating head; then the count begins again.
 constexpr std::int64_t kFarthest_cdeg = 100'000'000'000'000;
-/// The head may be this far from where time and speed put it, plus an eighth of what it has
-/// rotated.
+/// The head may be this far from where time and speed predict it, plus an eighth of its rotation
+/// since.
 constexpr std::int64_t kRotorSlack_cdeg = 2'000;
-/// A missing packet may arrive out of order for so many packets more.
+/// A missing packet may still arrive out of order during so many packets.
 constexpr int kMissingGrace_packets = 16;
-/// Steps that do not fit the measured period, in a row, until it is measured anew (a mode switch).
+/// After so many successive steps that do not fit the period (a mode switch) it is measured again.
 constexpr int kOffPeriodBeforeRemeasure = 64;
 /// The period is the mean over some thousand packets.
 constexpr std::int64_t kPeriodMean_packets = 8'192;
-/// A packet can be told to be a repeat of one within this many packets. Slots are direct-mapped by
-/// time; the width is below the shortest packet period, so neighbours never share one.
+/// A repeat is recognised within this many packets. Slots are direct-mapped by time; a slot is
+/// shorter than the shortest packet period, so neighbours never share one.
 constexpr std::uint32_t kRepeatWindow_packets = 1'024;
 constexpr std::size_t kSeenSlots = 8'192;
 constexpr std::int64_t kSeenSlot_us = 64;
 
-/// A capture's stamps may be anything, so their difference may be, too.
+/// Wraps, because the stamps of a capture may be anything.
 std::int64_t host_step_us(std::int64_t from_ns, std::int64_t to_ns) noexcept {
   return static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) -
                                    static_cast<std::uint64_t>(from_ns)) /
          1000;
 }
 
-/// A gap takes its time, by the host's clock too where that tells any.
+/// True if a gap lasted as long by the host's clock, if that tells, as by the device's.
 bool takes_its_time(std::int64_t step_us, std::int64_t host_us) noexcept {
   return step_us <= kReorder_us || host_us <= 0 || 4 * host_us >= step_us;
 }
@@ -110,7 +109,7 @@ Placement StreamTracker::doubt(const packet::PacketAzimuths& azimuths, std::int6
                           step_us <= kOutage_us &&
                           takes_its_time(step_us, host_step_us(doubtful_.host_ns, host_stamp_ns));
   const auto rotor_cdeg = may_follow ? head_after(doubtful_, azimuths) : std::nullopt;
-  // A blind sector may lie between the two, but in more than a frame any angle would fit.
+  // A blind sector may lie between the two; but after more than a revolution any angle would fit.
   const bool agrees = rotor_cdeg && *rotor_cdeg - doubtful_.rotor_cdeg <= beams::kRevolution_cdeg;
   const std::int64_t in_doubt_cdeg = agrees ? *rotor_cdeg : azimuths.first_cdeg();
   if (!agrees || step_us >= 0) {
@@ -125,7 +124,8 @@ Placement StreamTracker::doubt(const packet::PacketAzimuths& azimuths, std::int6
   return {Arrival::kNewStream, reason, in_doubt_cdeg, 0, 0, false};
 }
 
-/// The unwrapped azimuth at which the packet fits, by time and speed.
+/// Returns the unwrapped azimuth at which the packet fits by time and speed; nothing if it does
+/// not.
 std::optional<std::int64_t> StreamTracker::head_after(
     const Newest& newest, const packet::PacketAzimuths& azimuths) const noexcept {
   const std::int64_t step_us = device_step_us(newest.stamp_us, azimuths.device_stamp_us);
@@ -138,7 +138,7 @@ std::optional<std::int64_t> StreamTracker::head_after(
   return expected_cdeg + off_cdeg;
 }
 
-/// Rejects what does not go on from the newest packet.
+/// Places a packet that continues from the newest one, and rejects one that does not.
 Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept {
   const std::int64_t step_us = device_step_us(newest_.stamp_us, azimuths.device_stamp_us);
@@ -148,7 +148,7 @@ Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int
   const bool keeps_rotating =
       step_cdeg >= 0 && step_cdeg * packet::kTicksPerCdeg <= 3 * newest_.pace_ticks;
   if (azimuths.clock_restarts) {
-    steps_ = 0;  // the times between the packets before were not what they seemed
+    steps_ = 0;  // the earlier times between packets were read wrongly
     missing_ = 0;
     if (!keeps_rotating) return restart(azimuths, host_stamp_ns, losses);
     take_as_newest(azimuths, host_stamp_ns, newest_.rotor_cdeg + step_cdeg, losses);
@@ -165,7 +165,7 @@ Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int
       placed.missing = missing;
       return placed;
     }
-    // Another stream that passes where this one stood is no clock that was set.
+    // With packets in doubt it may be another stream that passes where this one stood.
     const bool only_the_clock_was_set = keeps_rotating && doubtful_packets_ == 0;
     if (!only_the_clock_was_set)
       return {Arrival::kRejected, frame::Reject::kClockJump, 0, 0, 0, false};
@@ -189,7 +189,7 @@ Placement StreamTracker::follow(const packet::PacketAzimuths& azimuths, std::int
   if (step_us == 0) {
     ++losses.clock_jumps;  // the clock stands still while the head rotates
   } else {
-    // A wide gap may be the sensor's blind sector: the caller knows.
+    // A wide gap may be the sensor's blind sector: the caller decides.
     const bool is_wide = (*rotor_cdeg - newest_.rotor_cdeg) * packet::kTicksPerCdeg > kWide_ticks;
     const bool is_measured = period_ns_ != 0;
     if (is_measured || is_wide) placed.missing = missing_in({step_us, explained_});
@@ -246,7 +246,7 @@ void StreamTracker::commit_missing(frame::LossCounters& losses) noexcept {
 void StreamTracker::adopt_range(const packet::PacketAzimuths& azimuths,
                                 frame::LossCounters& losses) noexcept {
   if (azimuths.nominal_period_ns == nominal_period_ns_) return;
-  fix_period(losses);  // what came in the mode before
+  fix_period(losses);  // ends the measurement in the old mode
   nominal_period_ns_ = azimuths.nominal_period_ns;
   shortest_period_ns_ = azimuths.shortest_period_ns;
   longest_period_ns_ = azimuths.longest_period_ns;
@@ -269,8 +269,8 @@ void StreamTracker::measure_period(std::int64_t step_us, frame::LossCounters& lo
 }
 
 void StreamTracker::average_in(std::int64_t step_us) noexcept {
-  // Stamps are whole microseconds, gaps up to thousands of periods: only a long mean is exact
-  // enough. Halving it now and then lets it follow the unit's drift.
+  // Stamps are whole microseconds and gaps up to thousands of periods, so only a long mean is exact
+  // enough. Halving it at times lets it follow the unit's drift.
   averaged_us_ += step_us;
   if (++averaged_steps_ == kPeriodMean_packets) {
     averaged_us_ /= 2;
@@ -282,7 +282,7 @@ void StreamTracker::average_in(std::int64_t step_us) noexcept {
 
 void StreamTracker::accept_median() noexcept {
   std::array<std::int64_t, kPeriodSamples> sorted{};
-  // A rejected packet in between is an arrival like any other.
+  // Rejected packets in between count as arrivals.
   for (std::size_t i = 0; i < steps_; ++i) {
     sorted[i] = to_measure_[i].us / (to_measure_[i].explained + 1);
   }
@@ -299,7 +299,7 @@ void StreamTracker::accept_median() noexcept {
 }
 
 void StreamTracker::fix_period(frame::LossCounters& losses) noexcept {
-  if (missing_ > 0) commit_missing(losses);  // since before these steps
+  if (missing_ > 0) commit_missing(losses);  // older than these steps
   constexpr std::size_t kFewest = 3;
   if (steps_ >= kFewest) accept_median();
   for (std::size_t i = 0; i < steps_; ++i) missing_ += missing_in(to_measure_[i]);

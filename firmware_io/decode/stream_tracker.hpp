@@ -14,41 +14,40 @@
 
 namespace terracut::decode {
 
-/// What a packet is to the stream it arrived in.
+/// How a packet relates to the stream it arrived in.
 enum class Arrival : std::uint8_t {
-  kNext,       ///< It goes on where the stream stands, perhaps behind a gap.
+  kNext,       ///< It continues the stream, perhaps after a gap.
   kReordered,  ///< An older packet than the newest seen.
-  kRestart,    ///< Nothing before it belongs with it: the first one, a long outage.
-  kDoubtful,   ///< It contradicts the stream; the caller keeps it until it is known who is right.
-  kNewStream,  ///< It and the doubtful ones before it agree: begin() with one of them.
+  kRestart,    ///< Nothing before it belongs to it: the first packet, or one after a long outage.
+  kDoubtful,   ///< It contradicts the stream; the caller keeps it until that is decided.
+  kNewStream,  ///< It agrees with the doubtful ones before it: call begin() with the first of them.
   kRejected,   ///< Not to be decoded.
 };
 
 struct Placement {
   Arrival arrival = Arrival::kRejected;
   frame::Reject reject =
-      frame::Reject::kCount;  ///< The reason when kRejected; of a doubtful one, if need be.
-  /// Unwrapped azimuth of the first column; while in doubt, from that of the first in doubt on.
+      frame::Reject::kCount;  ///< The reason when kRejected, or if rejected after doubt.
+  /// Unwrapped azimuth of the first column; while in doubt, counted from the first doubtful packet.
   std::int64_t rotor_cdeg = 0;
-  /// Between this packet and the newest before it: packets that did not come, by the stamps, and
-  /// packets that did and were rejected.
+  /// Between this packet and the newest before it: packets missing by the stamps, and packets that
+  /// came but were rejected.
   std::int64_t missing = 0, explained = 0;
-  bool is_first_in_doubt = false;  ///< kDoubtful, and those kept before do not agree with it.
+  bool is_first_in_doubt = false;  ///< kDoubtful, and it does not agree with those kept before.
 };
 
 /// Puts the packets of one spinning sensor into order by their device stamps and azimuths, and
-/// counts those that are missing. Sensor independent.
+/// counts those that are missing. Independent of the sensor.
 ///
 /// The device's clock and the head's angle check each other: from the newest packet's angle, its
 /// speed and the time since, the tracker knows within some degrees where the head must be, and
 /// unwraps the azimuth to the frame nearest to that. So neither a lost half revolution nor a step
 /// back starts a false frame. A packet that contradicts the stream by its stamp or its angle is in
-/// doubt: when as many as kNewStream_packets have come in a row that agree with each other, and
-/// none that agrees with the stream, it was the beginning of another one (a reboot, a loop of a
-/// replay); otherwise those in doubt were strays, and have cost nothing. Missing packets follow
-/// from the device stamps, which advance by a constant period: measured from the stream itself, and
-/// the model's own until that is done or where what is measured is no unit's. Fixed memory; every
-/// call O(1), noexcept. One thread.
+/// doubt. If kNewStream_packets come in a row that agree with each other but not with the stream,
+/// they begin another one (a reboot, a loop of a replay); otherwise they were strays and do no
+/// harm. Missing packets follow from the device stamps, which advance by a constant period. It is
+/// measured from the stream; until then, and if the measurement fits no unit, it is the model's
+/// own. Fixed memory; every call O(1), noexcept. One thread.
 class StreamTracker {
  public:
   static constexpr int kNewStream_packets = 32;
@@ -56,34 +55,35 @@ class StreamTracker {
   /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
   StreamTracker(std::int64_t clock_wrap_us, memory::FixedMemory& memory);
 
-  /// Where this packet belongs. Clock jumps go to `losses`; the caller counts the rejection, and
-  /// says how many of the missing packets were to come. `host_stamp_ns` is the datagram's, used
+  /// Places a packet. Counts clock jumps in `losses`; the caller counts a rejection and says, by
+  /// miss(), how many of the missing packets were expected. `host_stamp_ns` is the datagram's, used
   /// only to tell an outage from a jump.
   [[nodiscard]] Placement place(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// After kNewStream, with each of the packets kept, in order, and with the last one itself: the
-  /// first begins the stream. As place(), but nothing is in doubt any more.
+  /// After kNewStream: begin() takes the first of the kept packets, go_on() the others in order and
+  /// then the last one itself. They place packets as place() does, without doubt.
   [[nodiscard]] Placement begin(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] Placement go_on(const packet::PacketAzimuths& azimuths, std::int64_t host_stamp_ns,
                                 frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Of the packets missing before the one just placed (kNext, kRestart) these are lost; counted
+  /// Counts so many of the packets missing before the one just placed (kNext, kRestart) as lost,
   /// some packets later unless they come out of order. To be called for each such packet.
   void miss(std::int64_t packets, frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// A packet with this stamp arrived but was rejected before place(): it is not missing.
+  /// Notes that a packet with this stamp arrived but was rejected before place(): it is not
+  /// missing.
   void note_rejected(std::int64_t device_stamp_us) noexcept TERRACUT_NONBLOCKING;
-  /// The head stands still at this azimuth.
+  /// Notes that the head stands still at this azimuth.
   void note_stationary(std::int64_t device_stamp_us, std::int32_t azimuth_cdeg,
                        frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Counts what is still thought to be on its way, and resets the stream (but not its period).
+  /// Counts packets still expected as lost and resets the stream (but not its period).
   void end_of_stream(frame::LossCounters& losses) noexcept TERRACUT_NONBLOCKING;
 
-  /// Device time from packet to packet, nanoseconds, within the model's range (PacketAzimuths); 0
-  /// until enough packets have been seen.
+  /// Returns the device time from packet to packet, nanoseconds, within the model's range
+  /// (PacketAzimuths); 0 until enough packets have been seen.
   [[nodiscard]] std::int64_t period_ns() const noexcept { return period_ns_; }
 
  private:
@@ -93,12 +93,12 @@ class StreamTracker {
     std::uint32_t packet = 0;  ///< Number of the packet, from 1; 0 = never used.
   };
 
-  /// From one packet that was taken to the next.
+  /// The step from one accepted packet to the next.
   struct Step {
     std::int64_t us = 0, explained = 0;
   };
 
-  /// Where a stream stands.
+  /// The newest packet of a stream.
   struct Newest {
     std::int64_t stamp_us = 0, host_ns = 0, rotor_cdeg = 0;
     std::int32_t pace_ticks = 0;
@@ -113,7 +113,8 @@ class StreamTracker {
   [[nodiscard]] static Seen seen(const packet::PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] static std::size_t slot_of(const packet::PacketAzimuths& azimuths) noexcept;
   [[nodiscard]] bool is_repeat(const packet::PacketAzimuths& azimuths) const noexcept;
-  /// A packet that was taken. Those in doubt are not: who foretells a packet must not replace it.
+  /// Remembers an accepted packet. Doubtful ones are not remembered: a forged copy sent ahead must
+  /// not make the real packet a repeat.
   void remember(const packet::PacketAzimuths& azimuths) noexcept;
   void adopt_range(const packet::PacketAzimuths& azimuths, frame::LossCounters& losses) noexcept;
   [[nodiscard]] std::int64_t period_in_use_ns() const noexcept {
@@ -142,8 +143,8 @@ class StreamTracker {
 
   bool started_ = false;
   Newest newest_;
-  Newest doubtful_;           ///< Of the packets that contradict the stream and agree ...
-  int doubtful_packets_ = 0;  ///< ... so many in a row.
+  Newest doubtful_;           ///< The newest of the packets in doubt that agree with each other.
+  int doubtful_packets_ = 0;  ///< How many of them came in a row.
 
   std::int64_t nominal_period_ns_ = 1, shortest_period_ns_ = 1, longest_period_ns_ = 1;
   std::int64_t period_ns_ = 0;  ///< Measured, in the range above; 0 while it is not.
@@ -151,8 +152,8 @@ class StreamTracker {
   std::array<Step, kPeriodSamples> to_measure_{};
   std::size_t steps_ = 0;
   std::int64_t explained_ = 0;  ///< Packets since the newest that arrived but were rejected.
-  /// Not here, but may still come out of order. While the period is being measured, below 0: those
-  /// that have come out of order are known before those that are missing.
+  /// Packets missing that may still come out of order. It may be below 0 while the period is
+  /// measured: reordered packets are counted before the missing ones are known.
   std::int64_t missing_ = 0;
   int packets_since_missing_ = 0;
   int off_period_ = 0;  ///< Steps in a row that are no multiple of the period.

@@ -20,7 +20,7 @@ namespace terracut::decode {
 template <class Sensor>
 class TileColumns {
  public:
-  /// columns: of the range image, [16, 36000].
+  /// `columns` of the range image, [16, 36000].
   TileColumns(const Sensor& sensor, int columns, memory::FixedMemory& memory)
       : columns_(columns),
         advance_column_(
@@ -32,8 +32,8 @@ class TileColumns {
     }
   }
 
-  /// Fills `beams` in, one a laser, counted from the frame that `heads` are counted from. Real-time
-  /// safe.
+  /// Fills `beams`, one a laser, with columns counted from the frame from which `heads` count.
+  /// Real-time safe.
   void find(const Sensor& sensor, const frame::TileHeads& heads,
             std::span<frame::BeamColumns> beams) noexcept TERRACUT_NONBLOCKING {
     alignas(64) frame::TileRow<std::int32_t> head_column, head_rest;
@@ -71,7 +71,7 @@ class TileColumns {
   }
 
  private:
-  /// How far the head has rotated since a firing's azimuth when each group of lasers fires.
+  /// The head's advance from a firing's azimuth to the firing of each group of lasers.
   struct Columns {
     std::array<std::int32_t, Sensor::kGroups> whole{}, rest{};
   };

@@ -16,9 +16,9 @@ struct SinCos {
   float sin = 0, cos = 1;
 };
 
-/// Sine and cosine of every azimuth the wire can name, 36000 steps of 0.01 degrees. Made in double
-/// at start, so that the packet path needs no library function and every machine gets the same
-/// bits.
+/// A table of sine and cosine of every azimuth on the wire, 36000 steps of 0.01 degrees. Made in
+/// double at start, so that the packet path needs no library function and every machine gets the
+/// same bits.
 class RotorDirections {
  public:
   explicit RotorDirections(memory::FixedMemory& memory)
@@ -30,7 +30,7 @@ class RotorDirections {
     }
   }
 
-  /// `azimuth_cdeg` in [0, 36000). Real-time safe.
+  /// Looks up `azimuth_cdeg` in [0, 36000). Real-time safe.
   [[nodiscard]] SinCos at(std::int32_t azimuth_cdeg) const noexcept {
     return table_[static_cast<std::size_t>(azimuth_cdeg)];
   }

@@ -7,8 +7,8 @@
 
 namespace terracut::packet {
 
-/// Head azimuth, unwrapped (it grows by one revolution a frame), in the ticks of the sensor's
-/// decoder. An interval of it: [from, to).
+/// An interval [from, to) of head azimuth, unwrapped (it grows by one revolution a frame), in the
+/// ticks of the sensor's decoder.
 struct RotorInterval {
   std::int64_t from_ticks = 0, to_ticks = 0;
 
@@ -26,17 +26,17 @@ struct RotorInterval {
   return {interval.from_ticks + ticks, interval.to_ticks + ticks};
 }
 
-/// An interval that comes again every frame, or none.
+/// An interval that recurs every revolution, or none.
 struct RotorSector {
-  RotorInterval once;                 ///< In any frame; shorter than one.
+  RotorInterval once;                 ///< In any one revolution; shorter than it.
   std::int64_t revolution_ticks = 1;  ///< > 0
 
   [[nodiscard]] constexpr bool is_none() const noexcept { return once.ticks() == 0; }
-  /// The one that ends next behind `rotor_ticks`.
+  /// Returns the first occurrence that ends after `rotor_ticks`.
   [[nodiscard]] constexpr RotorInterval next(std::int64_t rotor_ticks) const noexcept {
     return shifted(once, (frames_before(rotor_ticks - once.to_ticks) + 1) * revolution_ticks);
   }
-  /// How much of `interval` lies outside.
+  /// Returns how much of `interval` lies outside the sector.
   [[nodiscard]] constexpr std::int64_t outside_ticks(const RotorInterval& interval) const noexcept {
     return interval.ticks() == 0 ? 0
                                  : interval.ticks() - (inside_until(interval.to_ticks) -
@@ -47,7 +47,7 @@ struct RotorSector {
   [[nodiscard]] constexpr std::int64_t frames_before(std::int64_t ticks) const noexcept {
     return ticks / revolution_ticks - (ticks % revolution_ticks < 0 ? 1 : 0);
   }
-  /// All that lies inside from `once` on; before it, negative.
+  /// Returns the sector's total width from `once` to `rotor_ticks`; negative before `once`.
   [[nodiscard]] constexpr std::int64_t inside_until(std::int64_t rotor_ticks) const noexcept {
     const std::int64_t frames = frames_before(rotor_ticks - once.from_ticks);
     const std::int64_t in_frame = rotor_ticks - once.from_ticks - frames * revolution_ticks;

@@ -15,12 +15,11 @@
 
 namespace terracut::packet {
 
-/// Firings of a tile: all bits where one is meant, none elsewhere.
+/// Masks firings of a tile: all bits set for a chosen firing, none for the others.
 using FiringMask = frame::TileRow<std::int32_t>;
 
-/// What follows from the head's step between two firings, for each firing of a tile. Wire azimuths
-/// are rounded, so that a few steps come again and again: `Entry`, which holds what follows from
-/// one of them, is made once for each.
+/// Caches values that depend on the head's step between firings, for each firing of a tile. Wire
+/// azimuths are rounded, so that a few steps recur: one `Entry` is made for each of them.
 template <class Entry>
 class StepAdvances {
  public:
@@ -30,10 +29,10 @@ class StepAdvances {
     in_tile_.fill(kNone);
   }
 
-  /// Calls `make(Entry&, step_ticks, is_dual)` for steps that are not known yet, `fill(const
-  /// Entry&)` for the step of the first firing, as if it were that of all, and then `spread(const
-  /// Entry&, const FiringMask&)` for each other step; none of them where all firings have the steps
-  /// that they had in the tile before.
+  /// Updates the tile's values. Calls `make(Entry&, step_ticks, is_dual)` for each step not cached,
+  /// `fill(const Entry&)` with the first firing's step for all firings, then `spread(const Entry&,
+  /// const FiringMask&)` for each other step. Calls nothing if all firings have the steps of the
+  /// last tile.
   template <class Make, class Fill, class Spread>
   void spread(const frame::TileHeads& heads, Make make, Fill fill, Spread spread) noexcept {
     Keys keys;
@@ -51,12 +50,12 @@ class StepAdvances {
   }
 
  private:
-  /// Twice the step, and one more for a firing that is one of two returns.
+  /// Twice the step, plus one for a firing that is one of two returns.
   using Keys = frame::TileRow<std::int32_t>;
   static constexpr std::int32_t kNone = -1;
   static constexpr std::size_t kKnown = 8;
 
-  /// Firings with a key, and a bit for each of those with another one.
+  /// The firings with a key, and one bit for each firing with another key.
   struct Others {
     FiringMask same;
     std::uint32_t bits = 0;
@@ -85,8 +84,8 @@ class StepAdvances {
 
   std::span<Entry> entries_;
   std::array<std::int32_t, kKnown> keys_;
-  std::size_t next_ = 0;  ///< To be replaced.
-  Keys in_tile_;          ///< Of each firing.
+  std::size_t next_ = 0;  ///< The entry to replace next.
+  Keys in_tile_;          ///< Keys of the last tile.
 };
 
 }  // namespace terracut::packet

@@ -9,7 +9,7 @@
 
 namespace terracut::packet {
 
-/// An integer as it lies in a packet, made of bytes: alignment 1, so structs of them have no
+/// An integer as it lies in a packet, stored as bytes. Its alignment is 1, so structs of it have no
 /// padding and may be copied to and from any address.
 template <class Unsigned, std::endian kOrder>
 struct WireInteger {

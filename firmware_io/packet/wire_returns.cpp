@@ -23,7 +23,7 @@ TERRACUT_VECTOR_CLONES void split_returns(const std::uint8_t* bytes, ByteOrder o
   std::uint16_t* to = raw.data();
   for (const std::uint16_t* const end = to + raw.size(); to < end;
        to += kAtOnce, intensity += kAtOnce, bytes += kBytes) {
-    SixteenBytes first, last;  // of the 24 bytes; the middle ones are in both
+    SixteenBytes first, last;  // parts of the 24 bytes; the middle ones are in both
     std::memcpy(&first, bytes, sizeof(first));
     std::memcpy(&last, bytes + kBytes - sizeof(last), sizeof(last));
     const SixteenBytes distances = order == ByteOrder::kLittle

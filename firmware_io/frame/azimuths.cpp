@@ -11,9 +11,9 @@ namespace terracut::frame {
 namespace {
 
 constexpr float kPi = std::numbers::pi_v<float>;
-constexpr float kTanOfSixteenth = 0.41421356F;  // of a revolution: tan(pi / 8)
+constexpr float kTanOfSixteenth = 0.41421356F;  // tan(pi / 8), a sixteenth of a revolution
 
-/// atan's series, for |t| <= kTanOfSixteenth, where the first term left out is 1.2e-7.
+/// Sums atan's series for |t| <= kTanOfSixteenth, where the first term left out is 1.2e-7.
 [[gnu::always_inline]] inline float short_atan(float t) noexcept {
   const float u = t * t;
   float sum = 1.0F / 13;
@@ -25,9 +25,9 @@ constexpr float kTanOfSixteenth = 0.41421356F;  // of a revolution: tan(pi / 8)
   return t - t * u * sum;
 }
 
-/// No branches, so that the compiler turns the loop into vector code: chosen is among values, not
-/// among operations, which it may not do twice where they could trap. The eighth of a revolution
-/// that the direction lies in is folded onto the first, that onto its lower half.
+/// Has no branches, so that the compiler vectorises the loop: it selects between values, not
+/// between operations, which it may not execute twice where they could trap. Folds the direction's
+/// eighth of a revolution onto the first eighth, and that onto its lower half.
 TERRACUT_VECTOR_CLONES void find_all(const CloudPoint* __restrict points, std::size_t count,
                                      float* __restrict azimuths_rad) noexcept {
   for (std::size_t i = 0; i < count; ++i) {

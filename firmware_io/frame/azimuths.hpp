@@ -9,10 +9,11 @@
 
 namespace terracut::frame {
 
-/// Azimuths of points in [0, 2 pi) radians, clockwise from straight ahead seen from above, as the
-/// image counts its columns; by plain IEEE arithmetic: the same on every machine, which
-/// atan2 of standard libraries is not, and several at a time. Error below 1e-6 rad. `azimuths_rad`:
-/// one a point; anything for points that are not finite. Real-time safe.
+/// Finds the azimuths of points in [0, 2 pi) radians, clockwise from straight ahead seen from
+/// above, as the image counts its columns. Uses plain IEEE arithmetic, several points at a time:
+/// the same on every machine, unlike atan2 of standard libraries. Error below 1e-6 rad.
+/// `azimuths_rad` has one element a point; points that are not finite give any value. Real-time
+/// safe.
 void find_azimuths(std::span<const CloudPoint> points, std::span<float> azimuths_rad) noexcept;
 
 }  // namespace terracut::frame

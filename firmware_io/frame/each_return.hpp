@@ -9,16 +9,16 @@
 
 namespace terracut::frame {
 
-/// One return of a frame and where it is in the image.
+/// One return of a frame and its place in the image.
 struct PlacedReturn {
-  std::uint32_t return_index = 0;  ///< 0.. in order of arrival.
+  std::uint32_t return_index = 0;  ///< From 0, in order of arrival.
   int row = 0;
   int column = 0;
   Return point;
 };
 
-/// Calls `visit(const PlacedReturn&)` once for every return of the frame, those on the overflow
-/// list included: cells row by row first, then the overflow list (so not in order of arrival).
+/// Calls `visit(const PlacedReturn&)` once for every return of the frame: first the cells row by
+/// row, then the overflow list (so not in order of arrival).
 template <class Visitor>
 void for_each_return(const RangeImage& image, Visitor&& visit) {
   const int stride = image.shape().stride();

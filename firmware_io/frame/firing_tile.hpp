@@ -12,10 +12,10 @@
 
 namespace terracut::frame {
 
-/// Firings that are worked on together: enough to fill vectors with what one laser found, and few
-/// enough that all of them stay in the cache next to the core.
+/// The number of firings processed together: enough to fill vectors with one laser's returns, few
+/// enough that all lasers' stay in the cache next to the core.
 inline constexpr std::size_t kTileFirings = 24;
-/// One value of each firing of a tile.
+/// One value for each firing of a tile.
 template <class Value>
 using TileRow = std::array<Value, kTileFirings>;
 
@@ -34,7 +34,7 @@ struct TilePoints {
   alignas(64) TileRow<float> z_m;
   alignas(64) TileRow<float> ground_range_m;
 };
-/// Where they are to be written, kTileFirings of each.
+/// Where to write points, kTileFirings of each.
 struct PointsOut {
   float *x_m, *y_m, *z_m, *ground_range_m;
 };
@@ -42,35 +42,35 @@ struct PointsOut {
   return {points.x_m.data(), points.y_m.data(), points.z_m.data(), points.ground_range_m.data()};
 }
 
-/// Columns of one laser's beams, counted from the first column of some frame: those of the n-th
-/// frame behind it begin at n times the columns of a frame.
+/// Columns of one laser's beams, counted from the first column of some frame; those of the n-th
+/// frame after it begin at n times the columns of a frame.
 struct BeamColumns {
   alignas(64) TileRow<std::int32_t> column;
   std::int32_t least = 0, most = 0;
-  bool is_one_run = false;  ///< Each firing's column is next to that of the firing before.
+  bool is_one_run = false;  ///< Each firing is in the column after that of the firing before.
 };
 
 /// Where the head was at each firing of a tile.
 struct TileHeads {
-  TileRow<std::int32_t> head_cdeg;    ///< Azimuth, unwrapped, from the beginning of some frame.
+  TileRow<std::int32_t> head_cdeg;    ///< Azimuth, unwrapped, from the start of some frame.
   TileRow<std::int32_t> step_ticks;   ///< From this firing to the next, 1e-5 degrees.
-  TileRow<float> sin_head, cos_head;  ///< Of head_cdeg: looked up once, used by every thread.
+  TileRow<float> sin_head, cos_head;  ///< Sine and cosine of head_cdeg, looked up once.
   std::uint32_t is_dual = 0;          ///< A bit for each firing that is one of two returns.
 };
 
-/// Makes points of the distances that one sensor model measured: the calibration, the mount and the
-/// times at which lasers fire are in it. Has the memory of one tile at work; one thread.
+/// Makes points of the distances that one sensor model measured; holds its calibration, mount and
+/// firing times. Has memory for one tile at a time; one thread.
 class TileReader {
  public:
   virtual ~TileReader() = default;
 
-  /// The tile whose points will be asked for. `raw`: its wire distances, laser by laser,
-  /// kTileFirings each, 0 for no return; must stay until another one is open.
+  /// Opens a tile for compute_points(). `raw` is its wire distances, laser by laser, kTileFirings
+  /// each, 0 for no return; must stay valid until another tile is opened.
   virtual void open(const TileHeads& heads,
                     const std::uint16_t* raw) noexcept TERRACUT_NONBLOCKING = 0;
   virtual void compute_points(std::size_t laser,
                               const PointsOut& out) noexcept TERRACUT_NONBLOCKING = 0;
-  /// The range image row of each laser.
+  /// Returns the range image row of each laser.
   [[nodiscard]] virtual std::span<const std::int32_t> rows() const noexcept
       TERRACUT_NONBLOCKING = 0;
 

@@ -17,53 +17,53 @@
 
 namespace terracut::frame {
 
-/// Points of frames that keep their returns as they were measured: made when they are asked for, in
-/// planes of a whole image, one frame after the other.
+/// Makes points of frames that keep their returns as measured, on demand, in planes of a whole
+/// image, one frame after the other.
 ///
 /// Takes its memory in the constructor. One thread; real-time safe.
 class FramePoints {
  public:
-  /// `reader`: of the sensor.
+  /// `reader` is the sensor's.
   FramePoints(ImageShape shape, std::unique_ptr<TileReader> reader, memory::FixedMemory& memory);
 
-  /// A frame, maybe one that was begun already. No point of it is made.
+  /// Starts a frame, or starts it again, with no points made.
   void begin(const RangeImage& image) noexcept TERRACUT_NONBLOCKING;
-  /// Makes the points of the columns before `end`, as far as their returns have come: to be asked
-  /// for from left to right, after begin(). The height of a cell without a return is NaN. Calls
+  /// Makes the points of the columns before `end` whose returns have arrived; to be called from
+  /// left to right after begin(). A cell without a return has a NaN height. Calls
   /// `take_extra(column, z_m, ground_range_m)` once for each return made that does not own its
   /// cell.
   template <class TakeExtra>
   void make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept;
-  /// Whether all points of a frame are made.
+  /// True if all points of the frame are made.
   [[nodiscard]] bool has_all_of(const RangeImage& image) const noexcept {
     return has_begun(image) && next_ == image.measured()->tiles();
   }
-  /// Makes points wherever `is_wanted(row, ColumnRange)`, unless all of the frame's are made; other
-  /// cells, and cells without a return, hold anything. Ends what begin() began.
+  /// Makes points where `is_wanted(row, ColumnRange)`, unless all of the frame's are made. Other
+  /// cells, and cells without a return, hold any values. Ends what begin() started.
   template <class IsWanted>
   void make_where(const RangeImage& image, IsWanted is_wanted) noexcept;
   [[nodiscard]] PointPlanes planes() const noexcept {
     return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
   }
 
-  /// For whoever reads tiles on the same thread.
+  /// Lends the reader for reading tiles on the same thread.
   [[nodiscard]] TileReader& reader() noexcept { return *reader_; }
 
  private:
   [[nodiscard]] bool has_begun(const RangeImage& image) const noexcept {
     return image_ == &image && generation_ == image.generation();
   }
-  /// The points of a laser in the tile that is open, `take_extra` as in make_until().
+  /// Makes the points of a laser in the open tile; `take_extra` as in make_until().
   template <class TakeExtra>
   void make_row(const MeasuredReturns& returns, std::size_t tile, std::size_t laser,
                 TakeExtra take_extra) noexcept;
-  /// About a cache line and a half of each plane.
+  /// Prefetches about a cache line and a half of each plane.
   void fetch_to_write(std::size_t cell) const noexcept TERRACUT_NONBLOCKING;
 
   ImageShape shape_;
   std::unique_ptr<TileReader> reader_;
   std::span<float> x_m_, y_m_, z_m_, ground_range_m_;
-  const RangeImage* image_ = nullptr;  ///< Of the frame that has begun.
+  const RangeImage* image_ = nullptr;  ///< The frame started by begin().
   std::uint32_t generation_ = 0;
   std::size_t next_ = 0;  ///< The first tile whose points are not made.
   TilePoints points_;
@@ -72,7 +72,7 @@ class FramePoints {
 template <class TakeExtra>
 void FramePoints::make_until(int end, const RangeImage& image, TakeExtra take_extra) noexcept {
   const MeasuredReturns& returns = *image.measured();
-  // Tiles come from left to right, but for late ones, which are made a little too soon.
+  // Tiles come from left to right, except late ones, which are made a little too soon.
   for (; next_ < returns.tiles() && returns.tile(next_).least < end; ++next_) {
     reader_->open(returns.tile(next_).heads, returns.raw(next_));
     for (std::size_t i = 0; i < returns.lasers(); ++i) {
@@ -103,7 +103,7 @@ void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile, std
                            TakeExtra take_extra) noexcept {
   const MeasuredReturns::LaserRow& row = returns.row(tile, laser);
   const std::size_t first = shape_.cell(reader_->rows()[laser], 0);
-  fetch_to_write(first + static_cast<std::size_t>(row.most) + 1);  // the next tile's
+  fetch_to_write(first + static_cast<std::size_t>(row.most) + 1);  // for the next tile
   if (row.is_run && row.owned == row.returns) {
     const std::size_t cell = first + static_cast<std::size_t>(row.least);
     reader_->compute_points(laser, {&x_m_[cell], &y_m_[cell], &z_m_[cell], &ground_range_m_[cell]});
@@ -117,7 +117,7 @@ void FramePoints::make_row(const MeasuredReturns& returns, std::size_t tile, std
   for_each_firing(row.owned, [&](std::size_t f) noexcept {
     const int column = columns[f];
     const std::size_t cell = first + static_cast<std::size_t>(column);
-    // A return that owned the cell until this one came, and was made a point before.
+    // An earlier return owned the cell and was made a point: it is an extra now.
     if (z_m_[cell] == z_m_[cell]) take_extra(column, z_m_[cell], ground_range_m_[cell]);
     x_m_[cell] = points_.x_m[f];
     y_m_[cell] = points_.y_m[f];

@@ -8,11 +8,11 @@ namespace terracut::frame {
 
 /// Size of a range image.
 struct ImageShape {
-  int rows = 64;  ///< Lasers; row 0 is the lowest elevation.
-  int columns =
-      2083;  ///< Per revolution of 360 degrees; column 0 starts straight ahead, then clockwise.
+  int rows = 64;       ///< Lasers; row 0 is the lowest elevation.
+  int columns = 2083;  ///< Columns in 360 degrees; column 0 starts straight ahead, then clockwise.
 
-  /// Cells from one row to the next: columns rounded up to a multiple of 16, for SIMD loads.
+  /// Returns the cells from one row to the next: columns rounded up to a multiple of 16, for SIMD
+  /// loads.
   [[nodiscard]] constexpr int stride() const noexcept { return (columns + 15) / 16 * 16; }
   [[nodiscard]] constexpr std::size_t cells() const noexcept {
     return static_cast<std::size_t>(rows) * static_cast<std::size_t>(stride());
@@ -21,11 +21,11 @@ struct ImageShape {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(stride()) +
            static_cast<std::size_t>(column);
   }
-  /// Degrees of azimuth a column covers.
+  /// Returns the azimuth that a column covers, degrees.
   [[nodiscard]] constexpr double pitch_deg() const noexcept { return 360.0 / columns; }
 };
 
-/// Columns next to each other, [begin, end); not across the seam.
+/// Adjacent columns, [begin, end), not across the seam.
 struct ColumnRange {
   int begin, end;
   [[nodiscard]] constexpr std::size_t size() const noexcept {

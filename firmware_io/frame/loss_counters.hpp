@@ -14,34 +14,34 @@ namespace terracut::frame {
 enum class Reject : std::uint8_t {
   kWrongSize,          ///< Payload length is not that of the sensor's data packet.
   kWrongMagic,         ///< Block identifiers are not those of this sensor.
-  kDeviceInfo,         ///< The sensor's own packet about itself, not a data packet.
+  kDeviceInfo,         ///< The sensor's packet about itself, not a data packet.
   kWrongModel,         ///< A data packet of a model that is recognised but not decoded.
   kAzimuthOutOfRange,  ///< A block azimuth >= 360 degrees.
   kAzimuthMismatch,    ///< Blocks that fire together carry different azimuths.
   kAzimuthJump,        ///< Azimuths inside a packet do not advance like a rotating head.
   kRepeated,           ///< The same packet (device stamp and azimuths) as one already decoded.
-  kLate,               ///< An older packet than its frame still accepts (reordered too far).
+  kLate,               ///< It is older than its frame still accepts (reordered too far).
   kStationary,         ///< The head is not rotating, so there is no frame to build.
-  kClockJump,          ///< A device stamp that contradicts the stream's, borne out by no others.
+  kClockJump,  ///< Its device stamp contradicts the stream's, and no other packet confirms it.
   kCount,
 };
 inline constexpr std::size_t kRejectReasons = static_cast<std::size_t>(Reject::kCount);
 
-/// Stable lower_snake_case name, as in the JSON report.
+/// Returns a stable lower_snake_case name, as in the JSON report.
 [[nodiscard]] std::string_view to_string(Reject reason) noexcept;
 
-/// Everything that can be lost between the sensor and a label, by cause (docs/design.md, promise
-/// 4).
+/// Counts everything that can be lost between the sensor and a label, by cause (docs/design.md,
+/// promise 4).
 struct LossCounters {
   std::uint64_t kernel_drops = 0;          ///< Datagrams the socket buffer could not hold.
   std::uint64_t network_gap_packets = 0;   ///< Packets missing by the device's own stamps.
   std::uint64_t azimuth_hole_columns = 0;  ///< Firings missing inside a frame, whatever the cause.
   std::array<std::uint64_t, kRejectReasons> rejected{};  ///< Packets, by reason.
   std::uint64_t overflow_full_returns = 0;  ///< Returns beyond the frame's fixed overflow list.
-  /// Returns that came with the packet a blind sector lies in, too late for their frame; their
-  /// firings are holes, too.
+  /// Returns before a blind sector inside their packet, which came too late for their frame; their
+  /// firings count as holes as well.
   std::uint64_t late_returns = 0;
-  std::uint64_t skipped_frames = 0;  ///< Frames not segmented for want of time.
+  std::uint64_t skipped_frames = 0;  ///< Frames not segmented for lack of time.
   std::uint64_t clock_jumps =
       0;  ///< Device stamp jumps that no loss explains (replay loop, reset).
 

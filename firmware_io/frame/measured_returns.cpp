@@ -15,10 +15,10 @@ namespace {
 constexpr std::size_t kWordBits = 64;
 constexpr std::uint32_t kAllFirings = (1U << kTileFirings) - 1;
 
-/// Of each firing, 0 or 1.
+/// 0 or 1 for each firing.
 using Flags = std::uint8_t[kTileFirings];
 
-/// A bit for each firing.
+/// Packs the flags into one bit for each firing.
 [[gnu::always_inline]] inline std::uint32_t bits_of_firings(const Flags& flags) noexcept {
   static_assert(kTileFirings == 24 && std::endian::native == std::endian::little);
   std::uint32_t bits = 0;
@@ -32,14 +32,14 @@ using Flags = std::uint8_t[kTileFirings];
   return bits;
 }
 
-/// The firings that found something.
+/// Returns the firings with a return.
 [[gnu::always_inline]] inline std::uint32_t hits_of(const std::uint16_t* raw) noexcept {
   Flags is_hit;
   for (std::size_t f = 0; f < kTileFirings; ++f) is_hit[f] = raw[f] != 0;
   return bits_of_firings(is_hit);
 }
 
-/// The firings of which `holds(its value, the value of the firing before)`.
+/// Returns the firings for which `holds(its value, the value of the firing before)`.
 template <class Value, class Holds>
 [[gnu::always_inline]] inline std::uint32_t where_after(const Value* values, Holds holds) noexcept {
   Flags flags{};
@@ -47,7 +47,7 @@ template <class Value, class Holds>
   return bits_of_firings(flags);
 }
 
-/// The firings whose columns are in [begin, end).
+/// Returns the firings whose columns are in [begin, end).
 std::uint32_t inside(const BeamColumns& beam, std::int32_t begin, std::int32_t end) noexcept {
   std::uint32_t bits = 0;
   for (std::size_t f = 0; f < kTileFirings; ++f) {
@@ -57,7 +57,7 @@ std::uint32_t inside(const BeamColumns& beam, std::int32_t begin, std::int32_t e
   return bits;
 }
 
-/// The bits of the 64 columns from this one on.
+/// Returns the bits of 64 columns, starting with `column`.
 std::uint64_t bits_from(std::span<const std::uint64_t> bits, std::size_t column) noexcept {
   const std::size_t word = column / kWordBits, shift = column % kWordBits;
   return shift == 0 ? bits[word] : bits[word] >> shift | bits[word + 1] << (kWordBits - shift);
@@ -68,8 +68,8 @@ void add_bits(std::span<std::uint64_t> bits, std::size_t column, std::uint64_t a
   if (shift != 0) bits[word + 1] |= added >> (kWordBits - shift);
 }
 
-/// Takes the cells of a laser whose firings are in columns next to each other, from `least` on;
-/// false where one of them is taken.
+/// Takes the cells of a laser whose firings are in adjacent columns from `least` on; false if one
+/// of them is taken.
 [[gnu::always_inline]] inline bool take_run(std::span<std::uint64_t> cells, std::int32_t least,
                                             std::uint32_t hits,
                                             MeasuredReturns::LaserRow& row) noexcept {
@@ -85,7 +85,7 @@ TERRACUT_VECTOR_CLONES void find_hits(const std::uint16_t* raw, std::size_t lase
   for (std::size_t i = 0; i < lasers; ++i) hits[i] = hits_of(raw + i * kTileFirings);
 }
 
-/// Where all lasers' returns are of one frame.
+/// Counts returns by firing, if all lasers' returns are of one frame.
 TERRACUT_VECTOR_CLONES void count_all(const std::uint16_t* __restrict raw, std::size_t lasers,
                                       std::uint16_t* __restrict counts) noexcept {
   for (std::size_t i = 0; i < lasers; ++i) {
@@ -157,7 +157,7 @@ std::uint32_t MeasuredReturns::add(const NewTile& tile, CellOwner owner,
   const std::uint32_t before = returns_;
   fetch_next();
   number_returns(tile, added, of_tile);
-  if (returns_ == before) --used_;  // the tile is all of another frame
+  if (returns_ == before) --used_;  // nothing of the tile belongs to this frame
   return 0;
 }
 
@@ -219,7 +219,7 @@ void MeasuredReturns::take_cells(const NewTile& tile, std::size_t laser, std::ui
     columns[f] = static_cast<std::uint16_t>(beam.column[f] - first);
   }
   std::uint32_t left = taken.returns;
-  // Mostly all are within 64 columns, and their bits at hand.
+  // Usually all are within 64 columns, whose bits are loaded at once.
   if (taken.most - least < static_cast<std::int32_t>(kWordBits)) [[likely]] {
     const auto column = static_cast<std::size_t>(least);
     const std::uint64_t before = bits_from(cells, column);
@@ -295,7 +295,7 @@ bool MeasuredReturns::has_shared(int row, ColumnRange columns) const noexcept {
 
 MeasuredReturns::Place MeasuredReturns::owner_before(const Place& newest, int row, int column,
                                                      TileReader& reader) const noexcept {
-  // Mostly it is another return of the same firing, or of the one before.
+  // Usually the owner is of the same firing or the one before.
   const std::uint32_t owned = this->row(newest.tile, newest.laser).owned;
   for (std::size_t f = newest.firing; f-- > 0;) {
     const bool is_owner = (owned >> f & 1U) != 0;

@@ -15,50 +15,51 @@
 
 namespace terracut::frame {
 
-/// The returns of a frame as its sensor measured them, in tiles of firings: distances, intensities
-/// and where the head was, and of each return whether it owns its cell of the range image. Takes a
-/// third of the memory of points, is written in one stream, and points are made of it where and
-/// when they are needed (PointWindow, ScatteredPoints).
+/// The returns of a frame as its sensor measured them, in tiles of firings: distances, intensities,
+/// head positions, and for each return whether it owns its cell of the range image. Takes a third
+/// of the memory of points and is written in one stream; FramePoints makes points of it where and
+/// when they are needed.
 ///
-/// Returns are numbered in order of arrival: firing, laser. Fixed memory; nothing here but the
-/// constructor allocates. One writer until the frame is handed over, then readers only.
+/// Returns are numbered in order of arrival: firing, laser. Fixed memory; only the constructor
+/// allocates. One writer until the frame is handed over, then readers only.
 class MeasuredReturns {
  public:
-  /// What one laser found in a tile; bits by firing.
+  /// One laser's returns in a tile; one bit a firing.
   struct LaserRow {
     std::int32_t least = 0, most = -1;  ///< No return is in a column outside [least, most].
-    std::uint32_t returns = 0;          ///< Those of this frame.
-    std::uint32_t owned = 0;            ///< Of these, the ones that own their cells.
+    std::uint32_t returns = 0;          ///< Returns that belong to this frame.
+    std::uint32_t owned = 0;            ///< Those of them that own their cells.
     /// Firing f is in column least + f, and no earlier return is in any of these columns.
     bool is_run = false;
   };
   struct Tile {
-    TileHeads heads;                      ///< From the beginning of this frame.
+    TileHeads heads;                      ///< Counted from the start of this frame.
     TileRow<std::uint32_t> first_return;  ///< The number of each firing's first return.
-    std::int32_t least = 0, most = -1;    ///< Of all lasers.
+    std::int32_t least = 0, most = -1;    ///< Over all lasers.
   };
-  /// A tile that is to be added.
+  /// A tile to be added.
   struct NewTile {
-    TileHeads heads;           ///< From the beginning of this frame.
+    TileHeads heads;           ///< Counted from the start of this frame.
     const std::uint16_t* raw;  ///< Laser by laser, kTileFirings each; 0: no return.
     const std::uint8_t* intensity;
-    /// By laser; those of this frame begin at `first_column`.
+    /// By laser; columns of this frame begin at `first_column`.
     std::span<const BeamColumns> beams;
     std::int32_t first_column;
   };
 
   static constexpr std::size_t kMostLasers = 256;
 
-  /// Room for `tiles` of `lasers`, kMostLasers at most, a multiple of 8. Several may be of one row.
+  /// Takes room for `tiles` of `lasers` each, a multiple of 8, kMostLasers at most. Several lasers
+  /// may share a row.
   MeasuredReturns(ImageShape shape, std::size_t lasers, std::size_t tiles,
                   memory::FixedMemory& memory);
 
   void clear() noexcept TERRACUT_NONBLOCKING;
 
-  /// Takes what is this frame's of a tile. Where several returns are in one cell, `owner` says
-  /// which has it (the earlier one when they are equal). `reader`: of the sensor; the tile that was
-  /// open in it is not any more. Returns how many returns found no room and are not kept. Real-time
-  /// safe; a return that finds its cell taken costs more than others, up to a look at all tiles.
+  /// Adds the part of a tile that belongs to this frame. If several returns fall into a cell,
+  /// `owner` says which has it (the earlier if equal). `reader` is the sensor's; its open tile is
+  /// closed. Returns how many returns found no room and are not kept. Real-time safe; a return that
+  /// finds its cell taken costs more than others, up to a look at all tiles.
   [[nodiscard]] std::uint32_t add(const NewTile& tile, CellOwner owner,
                                   TileReader& reader) noexcept TERRACUT_NONBLOCKING;
 
@@ -70,15 +71,15 @@ class MeasuredReturns {
   [[nodiscard]] const std::uint16_t* raw(std::size_t tile) const noexcept {
     return &raw_[tile * lasers_ * kTileFirings];
   }
-  /// Whether several returns are in one of these cells.
+  /// True if one of these cells has several returns.
   [[nodiscard]] bool has_shared(int row, ColumnRange columns) const noexcept TERRACUT_NONBLOCKING;
-  /// Of a return.
+  /// Returns the column of a return.
   [[nodiscard]] int column(std::size_t tile, std::size_t laser, std::size_t firing) const noexcept {
     const std::size_t row = tile * lasers_ + laser;
     return rows_[row].is_run ? rows_[row].least + static_cast<int>(firing)
                              : int{columns_[row * kTileFirings + firing]};
   }
-  /// Of all firings of a row, where they are returns.
+  /// Returns the columns of all firings of a row; meaningful only where there are returns.
   [[nodiscard]] TileRow<std::uint16_t> columns(std::size_t tile, std::size_t laser) const noexcept {
     const std::size_t row = tile * lasers_ + laser;
     TileRow<std::uint16_t> columns;
@@ -107,17 +108,17 @@ class MeasuredReturns {
   void number_returns(const NewTile& tile, Tile& added, std::span<const LaserRow> rows) noexcept;
   void take_cells(const NewTile& tile, std::size_t laser, std::uint32_t hits, int row,
                   CellOwner owner, TileReader& reader) noexcept;
-  /// Of those `left` of a laser's returns whose cells are taken: those whose cells belong to the
-  /// firing just before, the other return of a beam. Says which of the two has each cell where that
-  /// is known without their points; returns those that it settled.
+  /// Settles pairs: those of a laser's returns `left` whose cell belongs to the firing just before,
+  /// the other return of the beam. Decides the owner of such cells if that needs no points, and
+  /// returns the firings it decided.
   [[nodiscard]] std::uint32_t take_pairs(std::size_t laser, int row, std::uint32_t left,
                                          CellOwner owner) noexcept;
-  /// Of a return whose cell may be taken.
+  /// Places a return whose cell may be taken.
   void take_cell(const Place& at, int row, int column, CellOwner owner,
                  TileReader& reader) noexcept;
-  /// Asks for the memory of the next tile: three frames do not fit the caches next to a core.
+  /// Prefetches the next tile's memory: three frames do not fit the caches next to a core.
   void fetch_next() const noexcept;
-  /// The return that owns a cell, of those taken up to `newest`; there is one.
+  /// Returns the owner of a cell among the returns up to `newest`; there is one.
   [[nodiscard]] Place owner_before(const Place& newest, int row, int column,
                                    TileReader& reader) const noexcept;
   [[nodiscard]] bool goes_before(const Place& newer, const Place& older, CellOwner owner,
@@ -138,9 +139,9 @@ class MeasuredReturns {
   std::span<Tile> tiles_;
   std::span<LaserRow> rows_;          ///< [tile][laser]
   std::span<std::uint16_t> raw_;      ///< [tile][laser][firing]
-  std::span<std::uint16_t> columns_;  ///< Likewise; of rows that are no run.
+  std::span<std::uint16_t> columns_;  ///< [tile][laser][firing]; only of rows that are no run.
   std::span<std::uint8_t> intensity_;
-  // By row, a bit for each column.
+  // By row, one bit a column.
   std::span<std::uint64_t> taken_, shared_;
 };
 

@@ -28,14 +28,14 @@ struct Return {
   std::uint8_t intensity = 0;
 };
 
-/// A return that shares its cell with the one that owns it (dual return, two firings in a column).
+/// A return whose cell is owned by another (dual return, two firings in a column).
 struct OverflowReturn {
   Return point;
-  std::uint32_t cell = 0;          ///< The taken cell, row * stride + column.
-  std::uint32_t return_index = 0;  ///< As in RangeImage::return_index().
+  std::uint32_t cell = 0;          ///< The shared cell, row * stride + column.
+  std::uint32_t return_index = 0;  ///< See RangeImage::return_index().
 };
 
-/// Rigid motions in the ground plane, one for each column: x' = c x - s y + t_x and so on.
+/// Rigid motions in the ground plane, one a column: x' = c x - s y + t_x and so on.
 struct PlanarMotions {
   std::span<const float> cosine, sine, x_m, y_m;
 };
@@ -44,24 +44,23 @@ struct PlanarMotions {
 /// `shape().stride()`, cyclic in columns. Fixed memory; no operation here allocates.
 ///
 /// A cell without a return has a NaN height, so that every comparison with it is false; its other
-/// planes hold left-overs of earlier frames. The padding cells (column >= columns) never hold a
-/// return.
+/// planes hold old values. The padding cells (column >= columns) never hold a return.
 ///
 /// Thread contract: one writer until the frame is handed over, then readers only.
 class RangeImage {
  public:
-  /// `overflow_capacity`: how many returns beyond one a cell a frame may have.
+  /// `overflow_capacity` is the number of returns beyond one a cell that a frame may have.
   RangeImage(ImageShape shape, std::size_t overflow_capacity, memory::FixedMemory& memory);
-  /// One whose returns are kept as they were measured, not as points: planes and overflow list are
-  /// empty, and nothing is place()d.
+  /// Makes an image that keeps returns as measured, not as points: its planes and overflow list are
+  /// empty, and place() is not used.
   RangeImage(ImageShape shape, MeasuredReturns measured) noexcept;
 
-  /// The returns as they were measured; null where they are points.
+  /// Returns the measured returns; null if they are kept as points.
   [[nodiscard]] MeasuredReturns* measured() noexcept { return measured_ ? &*measured_ : nullptr; }
   [[nodiscard]] const MeasuredReturns* measured() const noexcept {
     return measured_ ? &*measured_ : nullptr;
   }
-  /// All points; measured() is null.
+  /// Returns all points, if measured() is null.
   [[nodiscard]] PointPlanes points() const noexcept {
     return {x_m_.data(), y_m_.data(), z_m_.data(), ground_range_m_.data()};
   }
@@ -69,11 +68,10 @@ class RangeImage {
   /// Removes all returns. Real-time safe.
   void clear() noexcept TERRACUT_NONBLOCKING;
 
-  /// Puts a return into its cell. Where that is taken, `owner` says which of the two keeps it (the
-  /// earlier one when they are equal); the other goes to the overflow list. Returns are numbered in
-  /// the order of these calls. False when the overflow list is full: the return is not kept and the
-  /// caller must count it. row in [0, rows), column in [0, columns); coordinates are no NaN.
-  /// Real-time safe.
+  /// Puts a return into its cell. If that is taken, `owner` says which of the two keeps it (the
+  /// earlier if equal); the other goes to the overflow list. Returns are numbered in the order of
+  /// these calls. False when the overflow list is full: the return is not kept and the caller must
+  /// count it. row in [0, rows), column in [0, columns); coordinates are not NaN. Real-time safe.
   bool place(int row, int column, const Return& point,
              CellOwner owner = CellOwner::kFirstArrived) noexcept {
     if (!place_numbered(row, column, point, owner, returns_)) return false;
@@ -81,18 +79,18 @@ class RangeImage {
     return true;
   }
 
-  // For returns that are placed in another order than they arrived in: their numbers are taken,
-  // then they are placed wherever they fall.
+  // The next functions are for returns placed in another order than they arrived: first take their
+  // numbers, then place them in any order.
 
-  /// The overflow list holds so many more returns.
+  /// True if the overflow list has room for `count` more returns.
   [[nodiscard]] bool has_room_for(std::size_t count) const noexcept {
     return overflow_.size() - overflow_used_ >= count;
   }
-  /// The first of the next `count` numbers.
+  /// Takes the next `count` numbers and returns the first.
   [[nodiscard]] std::uint32_t take_numbers(std::uint32_t count) noexcept {
     return std::exchange(returns_, returns_ + count);
   }
-  /// place() of a return whose number was taken before.
+  /// Does place() for a return whose number was taken before.
   bool place_numbered(int row, int column, const Return& point, CellOwner owner,
                       std::uint32_t number) noexcept {
     const std::size_t cell = static_cast<std::size_t>(row) * static_cast<std::size_t>(stride_) +
@@ -105,27 +103,26 @@ class RangeImage {
     return true;
   }
 
-  /// No return of the row is in this column or behind it.
+  /// True if the row has no return in this column or after it.
   [[nodiscard]] bool is_empty_from(int row, int column) const noexcept {
     return empty_from_[static_cast<std::size_t>(row)] <= column;
   }
-  /// The planes from some cell on.
+  /// The planes, starting at some cell.
   struct Cells {
     float *x_m, *y_m, *z_m, *ground_range_m;
     std::uint8_t* intensity;
     std::uint32_t* return_index;
   };
-  /// For returns whose numbers were taken and that lie in `count` columns next to each other: the
-  /// cells to write them to, where the row is_empty_from() the first. A height that is NaN: none.
+  /// Returns the cells to write `count` adjacent returns to, whose numbers were taken, if the row
+  /// is_empty_from() the first column. A NaN height means no return.
   [[nodiscard]] Cells take_cells(int row, int column, int count) noexcept {
     empty_from_[static_cast<std::size_t>(row)] = column + count;
     const std::size_t cell = shape_.cell(row, column);
     return {&x_m_[cell],       &y_m_[cell],         &z_m_[cell], &ground_range_m_[cell],
             &intensity_[cell], &return_index_[cell]};
   }
-  /// Asks for the cells of a row that will be written to when those of all other rows have been:
-  /// about a cache line and a half from `column` on. Three frames do not fit the caches next to a
-  /// core.
+  /// Prefetches the cells of a row that will be written after those of all other rows: about a
+  /// cache line and a half from `column` on. Three frames do not fit the caches next to a core.
   void fetch_to_write(int row, int column) const noexcept {
     constexpr std::size_t kLineBytes = 64;
     const std::size_t cell = shape_.cell(row, column);
@@ -136,19 +133,19 @@ class RangeImage {
     }
   }
 
-  /// Moves all returns, each as its cell's row and column say; cells and heights stay. One of
-  /// `by_row` for each row. Real-time safe.
+  /// Moves all returns by the motion of their cell's row and column; cells and heights stay.
+  /// `by_row` has one element a row. Real-time safe.
   void move(std::span<const PlanarMotions> by_row) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const ImageShape& shape() const noexcept { return shape_; }
-  /// Another one after every clear().
+  /// Changes with every clear().
   [[nodiscard]] std::uint32_t generation() const noexcept { return generation_; }
   [[nodiscard]] bool has_return(std::size_t cell) const noexcept { return !std::isnan(z_m_[cell]); }
-  /// Returns placed since clear(), those on the overflow list included.
+  /// Returns the number of returns placed since clear(), overflow list included.
   [[nodiscard]] std::uint32_t returns() const noexcept {
     return measured_ ? measured_->returns() : returns_;
   }
-  /// The most returns a frame may have: cells + overflow capacity.
+  /// Returns the most returns a frame may have: cells + overflow capacity.
   [[nodiscard]] std::size_t return_capacity() const noexcept {
     return measured_ ? measured_->return_capacity() : shape_.cells() + overflow_.size();
   }
@@ -158,7 +155,7 @@ class RangeImage {
   [[nodiscard]] std::span<const float> z_m() const noexcept { return z_m_; }
   [[nodiscard]] std::span<const float> ground_range_m() const noexcept { return ground_range_m_; }
   [[nodiscard]] std::span<const std::uint8_t> intensity() const noexcept { return intensity_; }
-  /// Number of the cell's return in the frame, 0.. in order of arrival.
+  /// Returns by cell the number of its return in the frame, from 0 in order of arrival.
   [[nodiscard]] std::span<const std::uint32_t> return_index() const noexcept {
     return return_index_;
   }
@@ -194,7 +191,7 @@ class RangeImage {
   std::span<std::uint8_t> intensity_;
   std::span<std::uint32_t> return_index_;
   std::span<OverflowReturn> overflow_;
-  std::span<std::int32_t> empty_from_;  ///< Of each row.
+  std::span<std::int32_t> empty_from_;  ///< By row.
   std::array<Plane, 6> planes_{};
   std::optional<MeasuredReturns> measured_;
 };

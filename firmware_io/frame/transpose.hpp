@@ -9,7 +9,7 @@
 
 namespace terracut::frame {
 
-/// Rows to columns, eight by eight: `to` has `columns` rows of `rows` values. Both are multiples of
+/// Transposes by blocks of eight: `to` has `columns` rows of `rows` values. Both are multiples of
 /// 8.
 void transpose(const std::uint16_t* from, std::size_t rows, std::size_t columns,
                std::uint16_t* to) noexcept TERRACUT_NONBLOCKING;

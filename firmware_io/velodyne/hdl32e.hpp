@@ -15,7 +15,7 @@ struct Hdl32e {
   static constexpr auto kModel = VelodyneModel::kHdl32e;
   static constexpr double kMetresPerCount = 0.002;
 
-  /// From a laser to the next; they fire one by one.
+  /// From one laser to the next; they fire one by one.
   static constexpr std::int32_t kLaser_ns = 1'152;
   static constexpr int kLasers = 32, kChannels = kLasers;
   static constexpr PacketLayout kLayout{.model = sensor::SensorModel::kHdl32e,

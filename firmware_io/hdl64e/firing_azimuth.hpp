@@ -14,8 +14,8 @@
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/packet_azimuths.hpp"
 
-/// Where a beam points when its laser fires, in whole numbers, so that the decoder, the encoder and
-/// the truth beside a capture agree on the frame and the order of every return, bit for bit.
+/// Beam azimuths at the firing of each laser, in whole numbers, so that the decoder, the encoder
+/// and the truth beside a capture agree bit for bit on the frame and order of every return.
 ///
 /// A packet's column carries one azimuth for 64 lasers, that of the head at the column's first
 /// firing. While the lasers fire one group after another the head rotates on by almost a column:
@@ -29,8 +29,8 @@
 /// and noexcept; any thread.
 namespace terracut::hdl64e {
 
-/// How far the head rotates from column to column, ticks, given the packet's first and last azimuth
-/// (wire values, [0, 36000)). Exact: both divisors divide kTicksPerCdeg.
+/// Returns how far the head rotates from column to column, ticks, from the packet's first and last
+/// azimuth (wire values, [0, 36000)). Exact: both divisors divide kTicksPerCdeg.
 [[nodiscard]] constexpr std::int32_t column_step_ticks(int first_cdeg, int last_cdeg,
                                                        bool dual_return = false) noexcept {
   const int columns = dual_return ? kColumnsPerPacketDual : kColumnsPerPacketSingle;
@@ -48,14 +48,14 @@ inline constexpr int kFiringShareBits = 20;
   }
   return shares;
 }
-/// Single return always uses the 48 us table: the shares of the 57.6 us cycle differ by at most
-/// 0.013 of a step (0.002 degrees at 10 Hz), and which cycle a unit runs is known only after some
-/// packets, while the first packet needs an answer.
+/// Single return always uses the table of the 48 us cycle: the shares of the 57.6 us cycle differ
+/// by at most 0.013 of a step (0.002 degrees at 10 Hz), and which cycle a unit runs is known only
+/// after some packets, while the first packet needs an answer.
 inline constexpr auto kFiringSharesSingle = firing_shares(kFiringTimesSingle48);
 inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
 
-/// How far the head has rotated since its column's azimuth when `laser` (0..63) fires, ticks.
-/// `step_ticks` as of column_step_ticks(), >= 0.
+/// Returns how far the head has rotated from its column's azimuth when `laser` (0..63) fires,
+/// ticks. `step_ticks` is column_step_ticks(), >= 0.
 [[nodiscard]] constexpr std::int32_t firing_advance_ticks(std::int32_t step_ticks, int laser,
                                                           bool dual_return = false) noexcept {
   const auto& shares = dual_return ? kFiringSharesDual : kFiringSharesSingle;
@@ -63,12 +63,12 @@ inline constexpr auto kFiringSharesDual = firing_shares(kFiringTimesDual);
   return static_cast<std::int32_t>((step_ticks * share) >> kFiringShareBits);
 }
 
-/// A laser's rotational correction in ticks, as all whole-number azimuths take it.
+/// Returns a laser's rotational correction in ticks, as all whole-number azimuths use it.
 [[nodiscard]] inline std::int32_t rot_correction_ticks(const Hdl64eLaser& laser) noexcept {
   return static_cast<std::int32_t>(std::lround(laser.rot_correction_rad / packet::kRadPerTick));
 }
 
-/// Offsets of all 64 beams for one unit.
+/// The offsets of all 64 beams of one unit.
 class BeamOffsets {
  public:
   explicit BeamOffsets(const Hdl64eCalibration& calibration) noexcept {
@@ -85,7 +85,7 @@ class BeamOffsets {
     return firing_advance_ticks(step_ticks, laser, dual_return) -
            rot_ticks_[static_cast<std::size_t>(laser)];
   }
-  /// No beam's offset is below hindmost_ticks(), nor above foremost_ticks() for that step.
+  /// The offsets of all beams lie in [hindmost_ticks(), foremost_ticks()] for that step.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return -most_rot_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks - least_rot_ticks_;

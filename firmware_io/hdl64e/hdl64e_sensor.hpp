@@ -23,11 +23,11 @@
 
 namespace terracut::hdl64e {
 
-/// What Decoder needs to know of the HDL-64E (see there).
+/// The Decoder's trait of the HDL-64E.
 ///
 /// Single and dual return packets are told apart by their azimuths: in dual return each comes
-/// twice, for the strongest and the last return. Both returns of a firing are placed. The packets
-/// of an S1 are told by their blocks (s1_packet.hpp).
+/// twice, for the strongest and the last return. Both returns of a firing are placed. Packets of an
+/// S1 are told by their blocks (s1_packet.hpp).
 class Hdl64eSensor {
  public:
   using Calibration = Hdl64eCalibration;
@@ -61,7 +61,7 @@ class Hdl64eSensor {
   void begin_packet(const packet::PacketAzimuths& azimuths) noexcept {
     is_s1_packet_ = azimuths.columns == kColumnsPerPacketS1;
   }
-  /// Within a block of the S1 nothing is known of the head's rotation.
+  /// Within a block of the S1 the head's rotation is unknown.
   [[nodiscard]] std::int32_t step_ticks(const packet::PacketAzimuths& azimuths,
                                         std::size_t) const noexcept {
     return is_s1_packet_ ? 0 : azimuths.step_ticks;

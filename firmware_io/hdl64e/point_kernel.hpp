@@ -14,9 +14,9 @@
 
 namespace terracut::hdl64e {
 
-/// Measured distances of one laser to points of the vehicle frame: the formulas of Hdl64eGeometry
-/// and mount::Mount in float, for the firings of a tile in one loop that compilers vectorise.
-/// Agrees with those double functions to within 1 mm + 1e-6 of the range.
+/// Converts measured distances of one laser to points of the vehicle frame: the formulas of
+/// Hdl64eGeometry and mount::Mount in float, for the firings of a tile in one loop that compilers
+/// vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range.
 ///
 /// Only +, -, *, sqrt, min and abs are used per point, so that every machine gets the same bits;
 /// the constants behind them are made in double at start. Sines and cosines of the head's azimuth,
@@ -30,7 +30,7 @@ class PointKernel {
   PointKernel(const Hdl64eCalibration& calibration, GeometryModel model,
               const mount::Mount& mount) noexcept;
 
-  /// `heads`: of the laser's group. `measured_m`: wire distances, NaN: no return.
+  /// `heads` are of the laser's group. `measured_m` are wire distances, NaN for no return.
   void compute(std::size_t laser, const packet::LaserHeads& heads,
                const frame::TileRow<float>& measured_m,
                const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
@@ -42,8 +42,8 @@ class PointKernel {
     float horiz_m, xy_start_m, z_start_m;
   };
 
-  /// What it reads and writes is passed for __restrict: without it the loop is not vectorised in
-  /// clones.
+  /// All it reads and writes is passed as a parameter, for __restrict: without it the loop is not
+  /// vectorised in clones.
   void compute(const Laser& __restrict laser, const float* __restrict sin_rotor,
                const float* __restrict cos_rotor, const float* __restrict sin_advance,
                const float* __restrict cos_advance, const float* __restrict measured_m,

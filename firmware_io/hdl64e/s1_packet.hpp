@@ -12,26 +12,25 @@
 #include "rt/threads/nonblocking.hpp"
 
 /// The data packet of the first HDL-64E, the S1 (docs/reference/sensors.md): the blocks of its
-/// successors in another order. The upper lasers fire three times while the lower ones do once, and
-/// each block has an azimuth of its own. When within its block a laser fires is not known, so all
-/// of them are taken to point where the block's azimuth says. There is no device clock: the last
-/// six bytes are text.
+/// successors in another order. Upper lasers fire three times as often as lower ones, and each
+/// block has its own azimuth. When a laser fires within its block is unknown, so all are taken to
+/// point along the block's azimuth. There is no device clock: the last six bytes are text.
 namespace terracut::hdl64e {
 
-/// Each block is a column, of which the other bank's lasers have no return.
+/// Each block is a column in which the other bank's lasers have no return.
 inline constexpr int kColumnsPerPacketS1 = kBlocksPerPacket;
-/// From packet to packet: measured on a capture by the host's stamps; ROS drivers count 2600 a
-/// second, 384.6 us.
+/// Packet period, measured on a capture by the host's stamps; ROS drivers assume 2600 a second,
+/// 384.6 us.
 inline constexpr std::int32_t kS1Packet_ns = 384'300;
-/// From a firing of an upper laser to the next, on the average: nine blocks in a packet.
+/// Mean time between firings of an upper laser: nine of the packet's blocks are upper ones.
 inline constexpr std::int32_t kS1UpperFiring_ns = kS1Packet_ns / 9;
 /// Azimuths are multiples of this, the encoder's 4000 marks.
 inline constexpr int kS1Mark_cdeg = 9;
 
 /// Reads the azimuths of a packet that is_hdl64e_s1() into `azimuths`, all but the device stamp
-/// (S1Reader); otherwise the reason to reject it: kAzimuthOutOfRange, kAzimuthJump (steps beyond
-/// those of packet_check.hpp, from block to block), kStationary. `azimuths` holds the azimuths for
-/// these, too. Real-time safe; any thread.
+/// (S1Reader); otherwise returns the reason to reject it: kAzimuthOutOfRange, kAzimuthJump (steps
+/// from block to block beyond those of packet_check.hpp), kStationary. `azimuths` holds the
+/// azimuths in these cases as well. Real-time safe; any thread.
 [[nodiscard]] std::optional<frame::Reject> check_hdl64e_s1_packet(
     const wire::Packet& packet, packet::PacketAzimuths& azimuths) noexcept TERRACUT_NONBLOCKING;
 

@@ -8,14 +8,14 @@ namespace terracut::hdl64e {
 namespace {
 
 constexpr std::int64_t kMostPaces = 256;
-/// Nobody counts what a sensor would have sent in more than a day.
+/// Longer outages, more than a day, are not counted.
 constexpr std::int64_t kLongestOutage_ns = 86'400'000'000'000;
 
 constexpr std::int64_t rounded(std::int64_t value, std::int64_t unit) noexcept {
   return (value >= 0 ? value + unit / 2 : value - unit / 2) / unit;
 }
 
-/// Device time of a packet.
+/// Returns the device time of a packet.
 constexpr std::int64_t stamp_us(std::int64_t packet) noexcept {
   constexpr std::int64_t kHour_us = kDeviceHour_us;
   const std::int64_t in_hour_us = packet * kS1Packet_ns / 1000 % kHour_us;
@@ -35,7 +35,7 @@ std::int64_t S1Reader::mean_pace(std::int32_t pace_ticks) noexcept {
 
 std::int64_t S1Reader::missing_revolutions(std::int64_t rotated_ticks, std::int64_t pace_ticks,
                                            std::int64_t host_ns) const noexcept {
-  // A capture's stamps may be anything, so their difference may be, too.
+  // Wraps, because the stamps of a capture may be anything.
   const auto since_ns = static_cast<std::int64_t>(static_cast<std::uint64_t>(host_ns) -
                                                   static_cast<std::uint64_t>(host_ns_));
   if (since_ns <= 0 || since_ns > kLongestOutage_ns) return 0;

@@ -11,25 +11,24 @@
 
 namespace terracut::hdl64e {
 
-/// Reads the packets of one HDL-64E S1, and stands in for the clock that it lacks, so that they are
-/// ordered and counted like another sensor's. Packets are numbered by how far the head has rotated
-/// since the one before, over how far it rotates in one: exact up to a revolution; how many whole
-/// revolutions are missing beyond that is told by the host's stamps. The stamp is the number times
-/// the packets' period.
+/// Reads the packets of one HDL-64E S1 and replaces the clock that it lacks, so that they are
+/// ordered and counted like another sensor's. A packet's number grows by the head's rotation since
+/// the last one over the rotation in one packet: exact up to a revolution. Whole missing
+/// revolutions are told by the host's stamps. The stamp is the number times the packets' period.
 ///
-/// What it cannot see: packets lost while the head stands still.
+/// Packets lost while the head stands still are not noticed.
 ///
 /// One stream, one thread. noexcept, O(1).
 class S1Reader {
  public:
-  /// As check_hdl64e_s1_packet(), of a packet that came at `host_ns`, and the stamp: that of the
-  /// next packet where the azimuths say nothing.
+  /// Does check_hdl64e_s1_packet() for a packet that came at `host_ns`, and sets its stamp: that of
+  /// the next packet if the azimuths tell nothing.
   [[nodiscard]] std::optional<frame::Reject> read(const wire::Packet& packet, std::int64_t host_ns,
                                                   packet::PacketAzimuths& azimuths) noexcept
       TERRACUT_NONBLOCKING;
 
  private:
-  /// Number of the packet of a rotating head.
+  /// Returns the number of a packet of a rotating head.
   [[nodiscard]] std::int64_t number_of(const packet::PacketAzimuths& azimuths,
                                        std::int64_t host_ns) noexcept;
   void take(std::int64_t packet, std::int32_t azimuth_cdeg, std::int64_t host_ns) noexcept {
@@ -46,7 +45,7 @@ class S1Reader {
   std::int64_t packet_ = 0;
   std::int32_t azimuth_cdeg_ = 0;
   std::int64_t host_ns_ = 0;
-  std::int64_t paces_ticks_ = 0, paces_ = 0;  ///< Of some hundred packets: marks are coarse.
+  std::int64_t paces_ticks_ = 0, paces_ = 0;  ///< Over some hundred packets: marks are coarse.
 };
 
 }  // namespace terracut::hdl64e

@@ -24,7 +24,7 @@ struct StatusPair {
 inline constexpr int kStatusCyclePackets = 16;
 inline constexpr int kTableBytesPerCycle = 7;
 inline constexpr int kFirstTablePlace =
-    9;  ///< Places 0..8 of a cycle are letters, 9..15 table bytes.
+    9;  ///< Places 0..8 of a cycle have letters, 9..15 table bytes.
 inline constexpr int kCyclesPerRound = 260;
 inline constexpr int kStatusRoundPackets = kStatusCyclePackets * kCyclesPerRound;  ///< 4160
 static_assert(kTableBytesPerCycle * kCyclesPerRound == kStreamTableBytes);
@@ -34,11 +34,11 @@ static_assert(kTableBytesPerCycle * kCyclesPerRound == kStreamTableBytes);
 inline constexpr std::string_view kStatusLetters = "HMSDNYGTV";
 static_assert(kStatusLetters.size() == kFirstTablePlace);
 
-/// Type of the warning byte between two lasers' entries, on the S3; the S2 sends '1' there.
+/// Type of the warning byte between two lasers' entries on the S3; the S2 sends '1' there.
 inline constexpr std::uint8_t kWarningType = 'W';
 
-/// The place 0..15 in the cycle that a type letter belongs to; nothing for types that do not tell
-/// (the S3 sends 0xF8..0xFF for some bytes of the table's last groups).
+/// Returns the place 0..15 in the cycle of a type letter; nothing for types that do not tell (the
+/// S3 sends 0xF8..0xFF for some bytes of the table's last groups).
 [[nodiscard]] constexpr std::optional<int> status_place(std::uint8_t type) noexcept {
   if (type >= '1' && type <= '7') {
     return kFirstTablePlace + (type - '1');
@@ -54,7 +54,7 @@ inline constexpr std::uint8_t kWarningType = 'W';
   return std::nullopt;
 }
 
-/// Which generation a status stream is of; the S3 is known by its 'W'.
+/// The generation of a status stream; the S3 is known by its 'W'.
 enum class StatusFlavour : std::uint8_t { kS2, kS3 };
 
 }  // namespace terracut::hdl64e

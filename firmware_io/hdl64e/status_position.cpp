@@ -11,13 +11,13 @@
 namespace terracut::hdl64e {
 namespace {
 
-// Any return mode's period lies between these with room to spare; 17 packets never fit below the
-// second, so neighbours in place within it are neighbours in fact.
+// Limits around the period of any return mode. 17 packets never fit below the longest, so packets
+// adjacent by place and less than that apart are neighbours.
 constexpr std::int64_t kShortestPeriod_us = 100;
 constexpr std::int64_t kLongestPeriod_us = 1000;
 
-// The period may be off by 1 in 288 (one pair of stamps in whole microseconds) and letters tell a
-// number only modulo 16, so beyond this gap the cycle would be a guess.
+// The longest gap across which the cycle is certain: the period may be off by 1 in 288 (one pair of
+// stamps in whole microseconds), and letters tell a number only modulo 16.
 constexpr std::int64_t kLongestGap_packets = 896;
 constexpr std::int64_t kDriftPerPackets = 128;
 constexpr std::int64_t kLongestReorder_packets = 64;
@@ -25,7 +25,7 @@ constexpr std::int64_t kLongestReorder_packets = 64;
 constexpr int kStraysThatChangeMode = 8;
 constexpr std::int64_t kPeriodMemory = 4096;
 
-/// `place` minus the place of `packet`, the short way round the cycle: [-8, 8).
+/// Returns `place` minus the place of `packet`, the short way round the cycle: [-8, 8).
 std::int64_t place_difference(int place, std::int64_t packet) noexcept {
   const auto difference = static_cast<int>((place - packet + 8) % kStatusCyclePackets);
   return (difference < 0 ? difference + kStatusCyclePackets : difference) - 8;
@@ -90,7 +90,7 @@ std::optional<StatusPosition::Located> StatusPosition::locate(std::optional<int>
   } else if (packet % kStatusCyclePackets < kFirstTablePlace) {
     return std::nullopt;
   }
-  if (packet < 0) return std::nullopt;  // reordered, from before the count began
+  if (packet < 0) return std::nullopt;  // a reordered packet from before the count began
 
   const bool next_one = packet == newest_packet_ + 1 && place.has_value();
   if (step_us > 0 && packet > newest_packet_) {

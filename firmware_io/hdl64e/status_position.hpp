@@ -10,18 +10,18 @@ namespace terracut::hdl64e {
 /// Counts the packets of a status stream through losses, repeats and reordering.
 ///
 /// The device stamp tells how many packet periods have passed since the newest packet, the type
-/// letter which of the 16 places of the cycle it is; together they number every packet exactly
-/// across gaps of several hundred packets. The period is measured from neighbouring packets, so
-/// every return mode works. Nothing allocates or throws.
+/// letter tells the packet's place among the 16 of the cycle; together they number every packet
+/// exactly across gaps of several hundred packets. The period is measured from neighbouring
+/// packets, so every return mode works. Nothing allocates or throws.
 class StatusPosition {
  public:
   struct Located {
-    std::int64_t packet = 0;  ///< Modulo 16: the place in the cycle; divided by 16: the cycle.
-    bool restarted = false;   ///< Counting began anew: numbers given before mean nothing any more.
+    std::int64_t packet = 0;  ///< Modulo 16 the place in the cycle; divided by 16 the cycle.
+    bool restarted = false;   ///< The count began again: earlier numbers are no longer valid.
   };
 
-  /// `place` as status_place(), nothing where the type does not tell. Nothing is returned for a
-  /// repeated packet and for one that cannot be placed yet.
+  /// Returns the packet's number; nothing for a repeated packet or one that cannot be placed yet.
+  /// `place` is status_place()'s, nothing if the type does not tell.
   [[nodiscard]] std::optional<Located> locate(std::optional<int> place,
                                               std::uint32_t stamp_us) noexcept;
 
@@ -31,7 +31,7 @@ class StatusPosition {
   [[nodiscard]] std::optional<Located> restart(std::optional<int> place,
                                                std::uint32_t stamp_us) noexcept;
   [[nodiscard]] std::int64_t periods_in(std::int64_t step_us) const noexcept;
-  /// False when the period has changed for good (another return mode).
+  /// False if the period has changed for good (another return mode).
   [[nodiscard]] bool learn_period(std::int64_t step_us) noexcept;
 
   bool locked_ = false;

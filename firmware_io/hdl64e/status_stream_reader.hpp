@@ -13,34 +13,34 @@
 
 namespace terracut::hdl64e {
 
-/// What the unit last said of itself; nothing where it has not yet.
+/// What the unit last reported about itself; nothing where it has not reported yet.
 struct StatusSnapshot {
   std::optional<std::int8_t> temperature_deg_c;
-  std::optional<std::uint8_t> firmware;  ///< As sent.
-  /// Bit 0 lens dirty, 1 above 58 deg C, 2 below 5 deg C, 5 PPS present, 6 GPS time present; S2: 3
-  /// voltage low, 4 voltage high, and known only once its table is accepted.
+  std::optional<std::uint8_t> firmware;  ///< The byte as sent.
+  /// Bit 0 lens dirty, 1 above 58 deg C, 2 below 5 deg C, 5 PPS present, 6 GPS time present. S2
+  /// also 3 voltage low, 4 voltage high; there they are known only once its table is accepted.
   std::optional<std::uint8_t> warning_bits;
 };
 
 /// Reads the status stream of an HDL-64E (S2, S2.1, S3) from the last bytes of its packets: state,
 /// and the 1820-byte table with the calibration, which takes 4160 packets (1.2 s single, 0.7 s dual
 /// return) to go round. Lost packets leave holes that the next round fills; repeated and reordered
-/// packets are put right.
+/// packets are handled.
 ///
 /// For one unit; one thread at a time. add() is real-time safe: no allocation, lock or exception; a
-/// few nanoseconds, and about ten microseconds in the packet that ends a round with news.
+/// few nanoseconds, and about ten microseconds for the packet that ends a round with changes.
 class StatusStreamReader {
  public:
   void add(std::uint8_t type, std::uint8_t value, std::uint32_t device_stamp_us) noexcept;
 
   [[nodiscard]] const StatusSnapshot& latest() const noexcept { return latest_; }
 
-  /// Bytes of the table not yet seen; all 1820 while its beginning has not come by.
+  /// Returns the number of bytes of the table not yet seen; all 1820 until its beginning was seen.
   [[nodiscard]] std::size_t holes() const noexcept { return collector_.holes(); }
 
-  /// A whole table was accepted: by its CRC (S3), or since two rounds agreed (S2).
+  /// True once a table was accepted: by its CRC (S3), or because two rounds agreed (S2).
   [[nodiscard]] bool has_table() const noexcept { return collector_.accepted(); }
-  /// The newest accepted table, for parse_stream_table() (not on the receive thread); zeros
+  /// Returns the newest accepted table, for parse_stream_table() (not on the receive thread); zeros
   /// before has_table().
   [[nodiscard]] std::span<const std::uint8_t, kStreamTableBytes> table() const noexcept {
     return collector_.table();
@@ -54,7 +54,7 @@ class StatusStreamReader {
   StatusPosition position_;
   StatusTableCollector collector_;
   StatusSnapshot latest_;
-  std::optional<StatusFlavour> flavour_;  ///< kS3 once a 'W' was seen, else kS2 with a table.
+  std::optional<StatusFlavour> flavour_;  ///< kS3 once a 'W' was seen, else kS2 once a table was.
   bool warning_type_seen_ = false;
   std::int64_t newest_cycle_ = 0;
 };

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kBeginning = "UNIT#";
 
-// Laser i's entry: its number and 20 bytes, 28 bytes apart, after the first group.
+// A laser's entry has its number and 20 bytes, 28 bytes apart, after the first group.
 constexpr std::size_t kLasers = 64;
 constexpr std::size_t kFirstLaserAt = 7;
 constexpr std::size_t kLaserStride = 28;
@@ -33,7 +33,7 @@ std::uint16_t last_word(const StatusTableCollector::Table& table) noexcept {
                                                                        << 8);
 }
 
-/// Equal where a change would mean other lasers; warnings, hours run and the like may move on.
+/// Compares only the lasers' entries; warnings, operating hours and the like may change.
 bool same_lasers(const StatusTableCollector::Table& a,
                  const StatusTableCollector::Table& b) noexcept {
   for (std::size_t laser = 0; laser < kLasers; ++laser) {
@@ -97,7 +97,7 @@ void StatusTableCollector::add(std::int64_t cycle, int place, std::uint8_t value
   const bool moved = begins && anchor_ != kNoAnchor && row != anchor_;
   const bool lost = row == anchor_ && !begins;
   if (moved || lost) {
-    // Cycles were miscounted (a gap longer than the stamps tell), so older bytes are misplaced.
+    // Cycles were miscounted (the gap was longer than the stamps told): older bytes are misplaced.
     clear();
     return;
   }

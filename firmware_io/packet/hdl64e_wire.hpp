@@ -23,7 +23,7 @@ inline constexpr std::uint16_t kHdl64eSourcePort = 443;  ///< UDP source of fact
 
 inline constexpr std::uint16_t kUpperBlockId = 0xEEFF;  ///< Lasers 0..31 (bytes FF EE).
 inline constexpr std::uint16_t kLowerBlockId = 0xDDFF;  ///< Lasers 32..63 (bytes FF DD).
-/// Lasers 64..95 and 96..127, which only the VLS-128 has.
+/// The ids of blocks of lasers 64..95 and 96..127, which only the VLS-128 sends.
 inline constexpr std::uint16_t kVls128ThirdId = 0xCCFF, kVls128FourthId = 0xBBFF;
 
 inline constexpr std::size_t kHdl64ePacketBytes = 1206;
@@ -66,24 +66,24 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 // --- Reading ---
 
-/// The packet that a payload is, read where it lies; null where it is not exactly 1206 bytes long.
-/// Block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
+/// Returns the packet in a payload, read in place; null unless it is exactly 1206 bytes long. Block
+/// ids and azimuths are not checked. Valid as long as the payload is.
 [[nodiscard]] inline const wire::Packet* packet_in(std::span<const std::uint8_t> payload) noexcept {
-  // Bytes are all it has, so any address will do.
+  // The packet consists of bytes, so any address will do.
   return payload.size() == sizeof(wire::Packet)
              ? reinterpret_cast<const wire::Packet*>(payload.data())
              : nullptr;
 }
 
-/// Block 1 is a lower block and block 2 an upper one: true for the HDL-64E S2/S3 in either return
-/// mode and for no other Velodyne model. The smaller models send upper blocks only, the VLS-128
-/// goes on with other ids in block 2, and the S1 sends about three upper blocks for each lower one.
+/// True for the HDL-64E S2/S3 in either return mode and for no other Velodyne model: block 1 is a
+/// lower and block 2 an upper one. The smaller models send upper blocks only, the VLS-128 has other
+/// ids in block 2, and the S1 sends about three upper blocks for each lower one.
 [[nodiscard]] constexpr bool is_hdl64e(const wire::Packet& packet) noexcept {
   return packet.blocks[1].id.value() == kLowerBlockId &&
          packet.blocks[2].id.value() == kUpperBlockId;
 }
 
-/// Blocks of both banks and no others, the upper ones at least twice as many.
+/// True if blocks are of both banks and no others, the upper ones at least twice as many.
 [[nodiscard]] constexpr bool is_hdl64e_s1(const wire::Packet& packet) noexcept {
   int upper = 0, lower = 0;
   for (const wire::Block& block : packet.blocks) {
@@ -95,8 +95,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 // --- Writing ---
 
-/// A packet to fill in: 12 blocks without any return, at azimuth 0, with the block ids of the
-/// HDL-64E in place.
+/// Returns a packet to fill in: 12 blocks with the HDL-64E's block ids, at azimuth 0, without
+/// returns.
 [[nodiscard]] constexpr wire::Packet blank_packet() noexcept {
   wire::Packet packet{};
   for (std::size_t block = 0; block < packet.blocks.size(); ++block) {
@@ -105,7 +105,7 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
   return packet;
 }
 
-/// The payload to send; valid, and following later changes, as long as `packet` lives.
+/// Returns the payload to send. It shows later changes and is valid as long as `packet` lives.
 [[nodiscard]] inline std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(
     const wire::Packet& packet) noexcept {
   return std::span<const std::uint8_t, kHdl64ePacketBytes>(
@@ -115,7 +115,8 @@ std::span<const std::uint8_t, kHdl64ePacketBytes> payload_of(wire::Packet&&) = d
 
 // --- The device clock ---
 
-/// Device time from `earlier_us` to `later_us` the short way round the hour: [-30 min, 30 min).
+/// Returns the device time from `earlier_us` to `later_us` the short way round the hour: [-30 min,
+/// 30 min).
 [[nodiscard]] constexpr std::int64_t device_step_us(std::uint32_t earlier_us,
                                                     std::uint32_t later_us) noexcept {
   return packet::clock_step_us(earlier_us, later_us, kDeviceHour_us);

@@ -9,7 +9,7 @@
 
 namespace terracut::net {
 
-/// What became of the datagrams of a live run. At any time each of them is in exactly one place:
+/// Accounts for the datagrams of a live run. At any time each is in exactly one place:
 ///
 ///   source.received = source.foreign + source.other_interface + source.truncated
 ///                     + source.no_datagram    the source left them out
@@ -21,8 +21,8 @@ namespace terracut::net {
 ///                   + decoded                 their returns are in frames, or in
 ///                                             losses.overflow_full_returns
 ///
-/// Here the identity is stated; status::outcomes_of() lists its terms, except in_doubt, which is no
-/// count. What never reached this process is in none of them: source.kernel_drops and
+/// status::outcomes_of() lists these terms, except in_doubt, which is no counter. Datagrams that
+/// never reached this process are in none of them: source.kernel_drops and
 /// losses.network_gap_packets.
 struct DatagramAccount {
   ReceiveCounters source;

@@ -6,13 +6,13 @@
 
 namespace terracut::net {
 
-/// Frames a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats) into
-/// what was added since the last look. The same count may be read by two ways of which one lags:
-/// a reading that is behind the newest one adds nothing, instead of four thousand million.
+/// Turns a 32-bit count that the kernel keeps and wraps (SO_RXQ_OVFL, SO_MEMINFO, pcap_stats) into
+/// the increase since the last look. The count may be read in two ways of which one lags: a reading
+/// behind the newest adds nothing, instead of four thousand million.
 class DropCounter {
  public:
-  /// What came on top since the newest reading so far; 0 for an older one. Exact while fewer than
-  /// 2^31 drops lie between two readings.
+  /// Returns the increase since the newest reading; 0 for an older one. Exact while fewer than 2^31
+  /// drops lie between two readings.
   [[nodiscard]] std::uint32_t advance_to(std::uint32_t reading) noexcept {
     const std::uint32_t step = reading - newest_;
     if (step >= std::uint32_t{1} << 31) return 0;
@@ -20,7 +20,7 @@ class DropCounter {
     return step;
   }
 
-  /// The kernel's count starts again from 0: a new socket.
+  /// Tells that the kernel's count starts again from 0: a new socket.
   void restart() noexcept { newest_ = 0; }
 
  private:

@@ -17,15 +17,15 @@ namespace terracut::net {
 /// Address and port of one end of a UDP stream, host byte order.
 struct Ipv4Endpoint {
   std::uint32_t address = 0;  ///< 0: any.
-  std::uint16_t port = 0;     ///< 0: one the system chooses.
+  std::uint16_t port = 0;     ///< 0: chosen by the system.
 
   friend bool operator==(const Ipv4Endpoint&, const Ipv4Endpoint&) = default;
 };
 
-/// Who sends a UDP stream.
+/// The sender of a UDP stream.
 struct Sender {
   std::uint32_t address = 0;            ///< IPv4, host byte order.
-  std::optional<std::uint16_t> port{};  ///< None: whichever.
+  std::optional<std::uint16_t> port{};  ///< None: any port.
 
   [[nodiscard]] constexpr bool has_sent(std::uint32_t from_address,
                                         std::uint16_t from_port) const noexcept {
@@ -34,27 +34,27 @@ struct Sender {
   friend bool operator==(const Sender&, const Sender&) = default;
 };
 
-/// "192.168.3.43" -> number. kInvalidArgument for anything else, names of hosts included.
+/// Parses "192.168.3.43". kInvalidArgument for anything else, including host names.
 [[nodiscard]] Expected<std::uint32_t> parse_ipv4_address(std::string_view text);
 
-/// "192.168.3.43:2368", or ":2368" and "2368" for any address. kInvalidArgument, with what was
-/// expected, for anything else.
+/// Parses "192.168.3.43:2368", or ":2368" and "2368" for any address. kInvalidArgument, with what
+/// was expected, for anything else.
 [[nodiscard]] Expected<Ipv4Endpoint> parse_ipv4_endpoint(std::string_view text);
 
-/// "192.168.3.43:2368", or "192.168.3.43" for any port. kInvalidArgument for anything else.
+/// Parses "192.168.3.43:2368", or "192.168.3.43" for any port. kInvalidArgument for anything else.
 [[nodiscard]] Expected<Sender> parse_ipv4_sender(std::string_view text);
 
 [[nodiscard]] std::string ipv4_text(std::uint32_t address);
 [[nodiscard]] std::string to_string(const Ipv4Endpoint& endpoint);
-/// As parse_ipv4_sender() reads it.
+/// Returns the text that parse_ipv4_sender() reads.
 [[nodiscard]] std::string to_string(const Sender& sender);
 
-/// 224.0.0.0 .. 239.255.255.255.
+/// True for 224.0.0.0 .. 239.255.255.255.
 [[nodiscard]] constexpr bool is_multicast(std::uint32_t address) noexcept {
   return address >> 28 == 0xE;
 }
 
-/// As the system's calls want it.
+/// Converts an endpoint for the system's calls.
 [[nodiscard]] sockaddr_in socket_address(const Ipv4Endpoint& endpoint) noexcept
     TERRACUT_NONBLOCKING;
 [[nodiscard]] Ipv4Endpoint endpoint_of(const sockaddr_in& address) noexcept TERRACUT_NONBLOCKING;

@@ -21,8 +21,8 @@ namespace {
 static_assert(DatagramSource<LivePcapSource>);
 
 constexpr std::int64_t kLookEvery_ns = 500'000'000;
-constexpr int kBufferBytes = 8 << 20;  ///< Of the kernel's ring.
-/// Link layer, VLAN tags, the longest IP header and UDP's.
+constexpr int kBufferBytes = 8 << 20;  ///< Size of the kernel's ring.
+/// Room for link layer, VLAN tags, the longest IP header and UDP's.
 constexpr std::size_t kMostHeaderBytes = 128;
 
 Error refused(const std::string& interface, int result, ::pcap* handle) {
@@ -47,8 +47,8 @@ Error refused(const std::string& interface, int result, ::pcap* handle) {
   }
 }
 
-/// A tag before the IP header shifts what follows, so tagged datagrams need a term of their own,
-/// and it must be the last one.
+/// Returns the filter program. A VLAN tag shifts the IP header, so tagged datagrams need a term of
+/// their own, which must be the last one.
 std::string filter_of(const LivePcapConfig& config) {
   const std::string udp = config.port ? fmt::format("udp dst port {}", *config.port) : "udp";
   return fmt::format("({0}) or (vlan and {0})", udp);
@@ -57,7 +57,7 @@ std::string filter_of(const LivePcapConfig& config) {
 Status set_filter(::pcap* handle, const LivePcapConfig& config) {
   bpf_program program{};
   std::string text = filter_of(config);
-  // Raw IP links know no VLAN.
+  // Fails for raw IP links, which have no VLAN.
   if (::pcap_compile(handle, &program, text.c_str(), 1, PCAP_NETMASK_UNKNOWN) != 0) {
     text = text.substr(0, text.find(" or "));
     if (::pcap_compile(handle, &program, text.c_str(), 1, PCAP_NETMASK_UNKNOWN) != 0) {
@@ -111,7 +111,7 @@ Expected<LivePcapSource::Handle> LivePcapSource::activate(const LivePcapConfig& 
                 fmt::format("interface '{}': {}", config.interface, message.data()));
   }
   ::pcap_set_snaplen(handle.get(), static_cast<int>(config.slot_bytes + kMostHeaderBytes));
-  ::pcap_set_immediate_mode(handle.get(), 1);  // else packets wait for others to share a wake-up
+  ::pcap_set_immediate_mode(handle.get(), 1);  // else packets are delayed to share a wake-up
   ::pcap_set_buffer_size(handle.get(), kBufferBytes);
   ::pcap_set_tstamp_precision(handle.get(), PCAP_TSTAMP_PRECISION_NANO);
   if (const int result = ::pcap_activate(handle.get()); result < 0) {
@@ -126,8 +126,8 @@ Expected<LivePcapSource::Handle> LivePcapSource::activate(const LivePcapConfig& 
   if (Status filtered = set_filter(handle.get(), config); !filtered) {
     return tl::unexpected(filtered.error());
   }
-  // What this machine sends itself does not come from a sensor; where the direction is not known,
-  // the port and the sender decide alone.
+  // This machine's own packets do not come from a sensor. If the direction is unknown, only the
+  // port and the sender decide.
   static_cast<void>(::pcap_setdirection(handle.get(), PCAP_D_IN));
   if (const int result = ::pcap_setnonblock(handle.get(), 1, message.data()); result != 0) {
     return tl::unexpected(refused(config.interface, result, handle.get()));
@@ -153,7 +153,7 @@ std::span<const packet::Datagram> LivePcapSource::receive(std::int64_t timeout_n
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      link_ = LinkState::kUp;  // it was empty when the link was found down
+      link_ = LinkState::kUp;  // the socket was empty when the link was found down
       return datagrams_.first(count);
     }
     const std::int64_t now_ns = measure::monotonic_ns();
@@ -164,7 +164,7 @@ std::span<const packet::Datagram> LivePcapSource::receive(std::int64_t timeout_n
   }
 }
 
-/// libpcap shows frames one by one and takes each back: their payloads are copied.
+/// Copies payloads, because libpcap shows frames one by one and takes each back.
 std::size_t LivePcapSource::read_batch() noexcept {
   if (!handle_) return 0;
   kept_ = 0;
@@ -174,7 +174,7 @@ std::size_t LivePcapSource::read_batch() noexcept {
     source.take({data, header->caplen}, std::int64_t{header->ts.tv_sec} * 1'000'000'000 +
                                             header->ts.tv_usec * source.stamp_unit_ns_);
   };
-  // pcap_setnonblock() has told it not to wait; its buffers are those of pcap_activate().
+  // pcap_setnonblock() makes it return at once; its buffers are those of pcap_activate().
   const int result = threads::trusted_call([&]() noexcept {
     return ::pcap_dispatch(handle_.get(), static_cast<int>(config_.batch), on_frame,
                            reinterpret_cast<unsigned char*>(this));
@@ -183,7 +183,7 @@ std::size_t LivePcapSource::read_batch() noexcept {
   if (result < 0) {
     ++counters_.receive_errors;
     refresh_drops();
-    // Nothing comes by it any more; look_after() opens it again.
+    // Nothing comes from this handle any more; look_after() opens it again.
     threads::trusted_call([this]() noexcept { handle_.reset(); });
   }
   counters_.delivered += kept_;
@@ -211,7 +211,7 @@ void LivePcapSource::take(std::span<const std::uint8_t> frame, std::int64_t stam
 
 void LivePcapSource::refresh_drops() noexcept {
   pcap_stat stats{};
-  const bool known = threads::trusted_call([&]() noexcept {  // copies counters
+  const bool known = threads::trusted_call([&]() noexcept {  // only copies counters
     return handle_ && ::pcap_stats(handle_.get(), &stats) == 0;
   });
   if (known) {
@@ -228,7 +228,7 @@ void LivePcapSource::look_after(std::int64_t now_ns) noexcept {
   link_ = now.state;
   if (now.state == LinkState::kGone) return;
   if (handle_ && now.index == interface_index_) return;
-  // libpcap allocates what it opens. Nothing comes meanwhile, so there is nothing to be late for.
+  // libpcap allocates what it opens; nothing can come meanwhile, so no time is lost.
   threads::trusted_call([this]() noexcept {
     handle_.reset();
     if (auto handle = activate(config_)) {

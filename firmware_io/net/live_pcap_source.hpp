@@ -26,18 +26,18 @@ namespace terracut::net {
 struct LivePcapConfig {
   std::string interface{};
   std::optional<std::uint16_t> port{};  ///< UDP destination port.
-  std::optional<Sender> sender{};       ///< Only this one; others count as foreign.
+  std::optional<Sender> sender{};       ///< The only sender; others count as foreign.
 
-  std::size_t batch = kBatchDatagrams;  ///< Datagrams a receive() returns at most, > 0.
+  std::size_t batch = kBatchDatagrams;  ///< The most datagrams a receive() returns, > 0.
   std::size_t slot_bytes = 1536;        ///< The longest payload taken, > 0.
 };
 
-/// UDP datagrams listened to on an interface with libpcap, where a socket does not hear them: the
-/// sensor sends to another machine's address, a firewall is in the way, or another program holds
-/// the port. A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
+/// Receives UDP datagrams on an interface with libpcap where a socket does not get them: the sensor
+/// sends to another machine's address, a firewall is in the way, or another program holds the port.
+/// A DatagramSource (receive_counters.hpp); needs CAP_NET_RAW.
 ///
-/// All memory is taken in open(). When the interface goes away, receive() goes on returning empty
-/// and tries twice a second to open it again, which is the only time it allocates.
+/// All memory is taken in open(). If the interface goes away, receive() returns empty and tries
+/// twice a second to open it again; only then it allocates.
 class LivePcapSource {
  public:
   /// kNotFound: no such interface. kUnreadable: not permitted, or the interface is down.
@@ -49,11 +49,12 @@ class LivePcapSource {
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
-  /// From now on only this sender; others count as foreign. From the thread that receives.
+  /// Accepts only this sender from now on; others count as foreign. To be called from the receiving
+  /// thread.
   void accept_only(const Sender& sender) noexcept { config_.sender = sender; }
 
-  /// kernel_drops is as of the last refresh_drops(), which receive() calls after every full batch
-  /// and when nothing came for a while.
+  /// Returns the counters. kernel_drops is as of the last refresh_drops(), which receive() calls
+  /// after every full batch and when nothing came for a while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }
@@ -77,9 +78,9 @@ class LivePcapSource {
 
   LivePcapConfig config_;
   threads::WakeEvent wake_;
-  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
+  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces.
   Handle handle_;
-  int descriptor_ = -1;  ///< The handle's, to wait for.
+  int descriptor_ = -1;  ///< The handle's descriptor, to wait for.
   int link_type_ = 0;
   int interface_index_ = 0;
   std::int64_t stamp_unit_ns_ = 1;

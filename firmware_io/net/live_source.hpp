@@ -16,21 +16,21 @@
 
 namespace terracut::net {
 
-/// Where packets come in.
+/// Where to listen for packets.
 struct ListenConfig {
   Ipv4Endpoint at{.port = 2368};
-  bool by_libpcap = false;                       ///< Instead of a socket.
+  bool by_libpcap = false;                       ///< Listens with libpcap instead of a socket.
   std::string interface;                         ///< Empty: any; libpcap needs one.
-  std::optional<std::uint32_t> multicast_group;  ///< To join.
+  std::optional<std::uint32_t> multicast_group;  ///< The group to join.
   bool share_port = false;
-  std::optional<Sender> sender;  ///< The only one heard; others count as foreign.
+  std::optional<Sender> sender;  ///< The only sender; others count as foreign.
 };
 
-/// Where live datagrams come from: a socket, or libpcap. A DatagramSource
+/// A source of live datagrams: a socket or libpcap. A DatagramSource
 /// (firmware_io/net/receive_counters.hpp).
 class LiveSource {
  public:
-  /// kInvalidArgument for libpcap without an interface. The errors of UdpSource::open() and
+  /// kInvalidArgument for libpcap without an interface; otherwise errors of UdpSource::open() and
   /// LivePcapSource::open().
   [[nodiscard]] static Expected<LiveSource> open(const ListenConfig& config,
                                                  memory::FixedMemory& memory);
@@ -38,7 +38,7 @@ class LiveSource {
   [[nodiscard]] std::span<const packet::Datagram> receive(std::int64_t timeout_ns) noexcept
       TERRACUT_NONBLOCKING {
     if (udp_) return udp_->receive(timeout_ns);
-    // libpcap is not marked nonblocking; this call may wait, because the thread waits for packets.
+    // libpcap is not marked nonblocking; it may wait here, as the thread waits for packets.
     return threads::trusted_call([&]() noexcept { return pcap_->receive(timeout_ns); });
   }
   void wake() const noexcept { udp_ ? udp_->wake() : pcap_->wake(); }
@@ -48,24 +48,24 @@ class LiveSource {
   void refresh_drops() noexcept TERRACUT_NONBLOCKING {
     if (udp_) return udp_->refresh_drops();
     threads::trusted_call(
-        [&]() noexcept { pcap_->refresh_drops(); });  // asks the kernel for a count
+        [&]() noexcept { pcap_->refresh_drops(); });  // only asks the kernel for a count
   }
   [[nodiscard]] LinkState link() const noexcept TERRACUT_NONBLOCKING {
     return udp_ ? udp_->link() : pcap_->link();
   }
-  /// How many packets the system keeps until they are fetched, roughly.
+  /// Returns roughly how many packets the system keeps until they are fetched.
   [[nodiscard]] std::size_t room_packets() const noexcept {
-    constexpr std::size_t kOfLibpcap = 4096;  // its ring is of 8 MiB
+    constexpr std::size_t kOfLibpcap = 4096;  // its ring has 8 MiB
     return udp_ ? udp_->room_packets() : kOfLibpcap;
   }
-  /// From now on only this sender; others count as foreign.
+  /// Accepts only this sender from now on; others count as foreign.
   void accept_only(const Sender& sender) noexcept {
     udp_ ? udp_->accept_only(sender) : pcap_->accept_only(sender);
   }
 
-  /// For people: "0.0.0.0:2368", "port 2368 on eth0 by libpcap".
+  /// Names the source for people: "0.0.0.0:2368", "port 2368 on eth0 by libpcap".
   [[nodiscard]] const std::string& name() const noexcept { return name_; }
-  /// What was asked for but could only be had in part.
+  /// Lists what was granted only in part.
   [[nodiscard]] const std::vector<std::string>& warnings() const noexcept { return warnings_; }
 
  private:
@@ -76,8 +76,8 @@ class LiveSource {
   [[nodiscard]] static Expected<LiveSource> open_pcap(LivePcapConfig config,
                                                       memory::FixedMemory& memory);
 
-  std::optional<UdpSource> udp_;        ///< This,
-  std::optional<LivePcapSource> pcap_;  ///< or this.
+  std::optional<UdpSource> udp_;  ///< Exactly one of the two is set.
+  std::optional<LivePcapSource> pcap_;
   std::string name_;
   std::vector<std::string> warnings_;
 };

@@ -16,7 +16,7 @@ struct FreeNames {
   void operator()(struct if_nameindex* names) const noexcept { ::if_freenameindex(names); }
 };
 
-/// "lo, eth0"
+/// Returns "lo, eth0".
 std::string interface_names() {
   const std::unique_ptr<struct if_nameindex, FreeNames> names(::if_nameindex());
   std::string text;
@@ -33,8 +33,7 @@ InterfaceStatus interface_status(int socket, const std::string& name) noexcept {
   static_assert(kInterfaceNameLength == IFNAMSIZ - 1);
   ifreq request{};
   std::copy_n(name.data(), std::min(name.size(), kInterfaceNameLength), request.ifr_name);
-  // The kernel answers from its table, and is asked when nothing came: there is nothing to be late
-  // for.
+  // The kernel answers from its table, and is asked only when nothing came, so no time is lost.
   const auto ask = [&](unsigned long what) noexcept {
     return threads::trusted_call([&]() noexcept { return ::ioctl(socket, what, &request); }) == 0;
   };

@@ -11,21 +11,22 @@
 
 namespace terracut::net {
 
-/// What the kernel calls an interface now. A cable adapter that is pulled and put back keeps its
-/// name but gets another index.
+/// The kernel's state of an interface. An adapter that is pulled and put back keeps its name but
+/// gets another index.
 struct InterfaceStatus {
   LinkState state = LinkState::kGone;
   int index = 0;  ///< 0 when gone.
 };
 
-/// `socket`: any socket. Allocates nothing, does not block.
+/// Asks the kernel. `socket` is any socket. Allocates nothing, does not block.
 [[nodiscard]] InterfaceStatus interface_status(int socket, const std::string& name) noexcept
     TERRACUT_NONBLOCKING;
 
-/// kNotFound, with those that there are: "no such interface 'eth1'; there are: lo, eth0".
+/// Returns kNotFound with the interfaces there are: "no such interface 'eth1'; there are: lo,
+/// eth0".
 [[nodiscard]] Error no_such_interface(const std::string& name);
 
-/// The most characters a name of an interface has.
+/// The longest name of an interface.
 inline constexpr std::size_t kInterfaceNameLength = 15;
 
 }  // namespace terracut::net

@@ -13,37 +13,38 @@
 
 namespace terracut::net {
 
-/// Room for so much of the newest traffic.
+/// How much of the newest traffic to keep.
 struct PacketRingSize {
   std::size_t datagrams = 0;
-  std::size_t payload_bytes = 0;  ///< Of all of them together; each is rounded up to 8 bytes.
+  std::size_t payload_bytes = 0;  ///< For all datagrams together; each is rounded up to 8 bytes.
 };
 
-/// What a sensor sends in `seconds` at `packets_per_second` packets of `packet_bytes`, and an
-/// eighth more for its other packets and for clocks that run apart. std::invalid_argument unless
-/// all are greater than 0 and the whole stays below 64 GiB.
+/// Returns the room for `seconds` at `packets_per_second` packets of `packet_bytes`, plus an eighth
+/// for the sensor's other packets and for clocks that run apart. std::invalid_argument unless all
+/// are greater than 0 and the whole stays below 64 GiB.
 [[nodiscard]] PacketRingSize packet_ring_size(double seconds, double packets_per_second,
                                               std::size_t packet_bytes);
 
-/// A copy of what a PacketRing held at one moment, oldest datagram first, in memory of its own.
-/// Without gaps: where one was overwritten before it was copied, those before it are left out too.
+/// A copy of a PacketRing's content at one moment, oldest datagram first, in its own memory. It has
+/// no gaps: if a datagram was overwritten before it was copied, those before it are left out as
+/// well.
 class PacketWindow {
  public:
-  /// Fits every window of a ring of this size. Takes its memory under "flight recorder window".
+  /// Takes room for any window of a ring of this size, under "flight recorder window".
   PacketWindow(const PacketRingSize& size, memory::FixedMemory& memory);
 
   [[nodiscard]] std::size_t datagrams() const noexcept { return datagrams_; }
-  /// The n-th, counted from the oldest; its payload points into the window.
+  /// Returns the n-th datagram from the oldest; its payload points into the window.
   [[nodiscard]] packet::Datagram datagram(std::size_t n) const noexcept;
   [[nodiscard]] std::uint64_t payload_bytes() const noexcept { return payload_bytes_; }
-  /// Datagrams the ring held when the copy began that are not here, because the ring overwrote
-  /// them, or one after them, before they were copied.
+  /// Returns how many datagrams of the ring are missing here, because they, or a later one, were
+  /// overwritten before they were copied.
   [[nodiscard]] std::uint64_t overwritten() const noexcept { return overwritten_; }
 
  private:
   friend class PacketRing;
   struct Header {
-    packet::Datagram datagram;  ///< Payload not set.
+    packet::Datagram datagram;  ///< Without its payload.
     std::size_t first_word = 0;
     std::size_t bytes = 0;
   };
@@ -55,36 +56,38 @@ class PacketWindow {
   std::uint64_t overwritten_ = 0;
 };
 
-/// The newest datagrams of a stream in fixed memory: one thread adds, another may copy them all at
-/// any time. Neither ever waits for the other; what is added while the copy runs wins.
+/// Keeps the newest datagrams of a stream in fixed memory: one thread adds, another may copy them
+/// all at any time. Neither ever waits for the other; a datagram added while the copy runs wins.
 ///
 ///     words    [ .. | payload 7   | payload 8     | payload 9 |   (payload 3, being overwritten)
 ///     headers  [ 8 | 9 |   | 3 | 4 | 5 | 6 | 7 ]
 ///
 /// Datagram n has header n modulo the ring and words [first, last) modulo the ring; both numbers
-/// only grow. The writer (1) announces the numbers it is about to overwrite up to, (2) stores words
-/// and header, (3) publishes n + 1.
+/// only grow. The writer (1) announces how far it is about to overwrite, (2) stores words and
+/// header, (3) publishes n + 1.
 ///
-/// Why no torn datagram is ever taken for a good one, and why there is no data race: every shared
-/// word is read and written as an atomic; the stores of (2) release, the reader's loads acquire. A
-/// reader that loaded even one word of a newer datagram thereby sees its announcement (1), which
-/// came before in the writer's program. So it loads the announcement after its copy, and throws the
-/// copy away when it reaches into what it copied; a header is judged so before it is believed.
-/// Without an announcement over it, a word still holds what (3) published. On x86-64 these loads
-/// and stores are plain moves.
+/// Why no torn datagram is taken for a good one, and why there is no data race: every shared word
+/// is read and written as an atomic; the stores of (2) release, the reader's loads acquire. A
+/// reader that loaded even one word of a newer datagram therefore sees its announcement (1), which
+/// the writer made before. So the reader loads the announcement after its copy and drops the copy
+/// if the announcement reaches into it; a header is checked in the same way before it is used. A
+/// word that no announcement reaches still holds what (3) published. On x86-64 these loads and
+/// stores are plain moves.
 class PacketRing {
  public:
   /// Takes all memory, under "flight recorder ring". std::invalid_argument for a size of 0.
   PacketRing(const PacketRingSize& size, memory::FixedMemory& memory);
 
-  /// Writer thread only. Wait-free, bounded by the payload's length; allocates nothing. A payload
-  /// longer than the whole ring is left out.
+  /// To be called from the writer thread only. Wait-free, bounded by the payload's length;
+  /// allocates nothing. Leaves out a payload longer than the whole ring.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING;
 
-  /// One reader thread, while the writer goes on. Allocates nothing. `window` must be of this size.
+  /// Copies the ring while the writer goes on; one reader thread. Allocates nothing. `window` must
+  /// be of this size.
   void copy_to(PacketWindow& window) const noexcept;
 
-  /// Since construction, those overwritten meanwhile included. Any thread.
+  /// Returns how many datagrams were added since construction, overwritten ones included. Any
+  /// thread.
   [[nodiscard]] std::uint64_t added() const noexcept {
     return published_.load(std::memory_order_acquire);
   }
@@ -100,7 +103,7 @@ class PacketRing {
   std::span<Header> headers_;
   std::span<std::uint64_t> words_;
 
-  // The writer's alone.
+  // Used by the writer alone.
   std::uint64_t next_ = 0;                             ///< Number of the next datagram.
   std::uint64_t next_word_ = 0;                        ///< Where its payload begins.
   std::size_t next_header_at_ = 0, next_word_at_ = 0;  ///< The same, modulo the ring.

@@ -7,23 +7,22 @@
 
 namespace terracut::net {
 
-/// The kernel's buffer of one socket, by the number setsockopt(SO_RCVBUF) takes. The kernel sets
-/// twice that aside and charges a datagram of 1.2 kB with about 2.3 kB, its own bookkeeping
-/// included.
+/// The kernel's buffer of one socket, in the unit of setsockopt(SO_RCVBUF). The kernel reserves
+/// twice that, and charges a datagram of 1.2 kB with about 2.3 kB, its bookkeeping included.
 struct ReceiveBuffer {
   std::size_t asked_bytes = 0;
   std::size_t granted_bytes = 0;
 
   [[nodiscard]] bool capped() const noexcept { return granted_bytes < asked_bytes; }
-  /// Data packets of either sensor it holds, roughly.
+  /// Returns roughly how many data packets of a sensor it holds.
   [[nodiscard]] std::size_t packets() const noexcept { return 2 * granted_bytes / 2304; }
 };
 
-/// Asks for `bytes`: beyond the system's limit when the process may (CAP_NET_ADMIN), else up to it.
-/// Errors show as less granted. Allocates nothing.
+/// Asks for `bytes`: beyond the system's limit if the process may (CAP_NET_ADMIN), else up to it.
+/// On an error less is granted. Allocates nothing.
 [[nodiscard]] ReceiveBuffer request_receive_buffer(int socket, std::size_t bytes) noexcept;
 
-/// What a capped buffer means and the setting that mends it; empty when it is not capped.
+/// Explains a capped buffer and the setting that mends it; empty if it is not capped.
 [[nodiscard]] std::string describe_shortfall(const ReceiveBuffer& buffer);
 
 }  // namespace terracut::net

@@ -12,25 +12,23 @@
 
 namespace terracut::net {
 
-/// What a live source took in and what became of it.
-/// received == delivered + foreign + other_interface + truncated + no_datagram.
+/// Counts what a live source received. received == delivered + foreign + other_interface +
+/// truncated + no_datagram.
 struct ReceiveCounters {
-  std::uint64_t received = 0;         ///< Datagrams (frames, for libpcap) the kernel handed over.
+  std::uint64_t received = 0;         ///< Datagrams (frames, for libpcap) from the kernel.
   std::uint64_t delivered = 0;        ///< Returned by receive().
   std::uint64_t foreign = 0;          ///< From another sender than the configured one.
-  std::uint64_t other_interface = 0;  ///< Came in by another interface than the configured one.
-  std::uint64_t truncated = 0;        ///< Longer than a slot, so no packet of any sensor we know.
-  std::uint64_t no_datagram = 0;      ///< Captured frames that hold no whole IPv4 UDP datagram.
+  std::uint64_t other_interface = 0;  ///< From another interface than the configured one.
+  std::uint64_t truncated = 0;        ///< Longer than a slot, so of no known sensor.
+  std::uint64_t no_datagram = 0;      ///< Captured frames without a whole IPv4 UDP datagram.
 
-  std::uint64_t kernel_drops = 0;    ///< Never handed over: the kernel's buffer was full, or the
-                                     ///< UDP checksum was wrong.
+  std::uint64_t kernel_drops = 0;    ///< Dropped by the kernel: buffer full or wrong UDP checksum.
   std::uint64_t unstamped = 0;       ///< Without a kernel stamp; the time of reading was taken.
-  std::uint64_t receive_errors = 0;  ///< Reads the system refused.
+  std::uint64_t receive_errors = 0;  ///< Without a kernel stamp; stamped when read.
   std::uint64_t link_losses = 0;     ///< Times the configured interface was found down or gone.
-  std::uint64_t reopened = 0;        ///< Times the socket was made anew for an interface that is
-                                     ///< another one under the same name.
+  std::uint64_t reopened = 0;        ///< Times the interface was replaced by one of the same name.
 
-  /// What was counted since `before`.
+  /// Subtracts the counters of an earlier moment.
   ReceiveCounters& operator-=(const ReceiveCounters& before) noexcept TERRACUT_NONBLOCKING {
     received -= before.received;
     delivered -= before.delivered;
@@ -47,14 +45,14 @@ struct ReceiveCounters {
   }
 };
 
-/// How the interface that was asked for stands; kUnknown without one.
+/// The state of the configured interface; kUnknown without one.
 enum class LinkState : std::uint8_t { kUnknown, kUp, kDown, kGone };
 
-/// Datagrams that a source takes in at once by default: an HDL-64E sends 70 in 20 ms. Where fewer
-/// were received, those left out included, none was left waiting.
+/// The most datagrams that a source takes at once by default: an HDL-64E sends 70 in 20 ms. If
+/// fewer came, counting those left out, none was left waiting.
 inline constexpr std::size_t kBatchDatagrams = 64;
 
-/// What UdpSource and LivePcapSource have in common, for code that takes either:
+/// The interface of UdpSource and LivePcapSource, for code that takes either:
 ///
 /// counters()           kernel_drops as of the last batch that was full, or better after
 ///                      refresh_drops(), which asks the kernel.

@@ -114,14 +114,14 @@ tl::expected<UdpSource::Socket, UdpSource::Failure> UdpSource::open_socket(
   const int descriptor = socket.descriptor.get();
   const int on = 1, off = 0;
 
-  // Everything that decides what the socket hears comes before bind(), which opens it.
+  // All settings of what the socket receives come before bind(), which starts it.
   socket.buffer = request_receive_buffer(descriptor, config.receive_buffer_bytes);
   if (!set_option(descriptor, SOL_SOCKET, SO_TIMESTAMPNS, on) ||
       !set_option(descriptor, SOL_SOCKET, SO_RXQ_OVFL, on) ||
       !set_option(descriptor, IPPROTO_IP, IP_PKTINFO, on)) {
     return failed(Step::kSocket);
   }
-  // Else it would hear every group that any program of this machine has joined.
+  // Otherwise the socket gets every group that any program of this machine has joined.
   set_option(descriptor, IPPROTO_IP, IP_MULTICAST_ALL, off);
   if (config.share_port) set_option(descriptor, SOL_SOCKET, SO_REUSEADDR, on);
 
@@ -130,8 +130,8 @@ tl::expected<UdpSource::Socket, UdpSource::Failure> UdpSource::open_socket(
     socket.bound_to_interface =
         ::setsockopt(descriptor, SOL_SOCKET, SO_BINDTODEVICE, config.interface.c_str(),
                      static_cast<socklen_t>(config.interface.size() + 1)) == 0;
-    // Where a process may not do that, in_pktinfo says of each datagram where it came in. Binding
-    // to the interface's address instead would shut out broadcasts.
+    // If the process may not do that, in_pktinfo tells each datagram's interface. Binding to the
+    // interface's address instead would shut out broadcasts.
     if (!socket.bound_to_interface && errno != EPERM) return failed(Step::kInterface);
   }
   const sockaddr_in address = socket_address(config.bind);
@@ -202,7 +202,7 @@ std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
       begun_ns + std::clamp<std::int64_t>(timeout_ns, 0, INT64_MAX - begun_ns);
   for (;;) {
     if (const std::size_t count = read_batch(); count > 0) {
-      // It was empty when the link was found down, so this came since.
+      // The socket was empty when the link was found down, so this datagram came since.
       if (link_ != LinkState::kUnknown) link_ = LinkState::kUp;
       return datagrams_.first(count);
     }
@@ -214,11 +214,12 @@ std::span<const packet::Datagram> UdpSource::receive(std::int64_t timeout_ns) no
   }
 }
 
-/// Takes what lies ready, up to a batch; the datagrams wanted end up at the front of datagrams_.
+/// Reads the datagrams that are ready, up to a batch; wanted ones end up at the front of
+/// datagrams_.
 std::size_t UdpSource::read_batch() noexcept {
   if (!socket_.descriptor) return 0;
   int error_number = 0;
-  const int taken = threads::trusted_call([&]() noexcept {  // told not to wait
+  const int taken = threads::trusted_call([&]() noexcept {  // MSG_DONTWAIT
     const int result = ::recvmmsg(socket_.descriptor.get(), messages_.data(),
                                   static_cast<unsigned>(messages_.size()), MSG_DONTWAIT, nullptr);
     error_number = errno;
@@ -236,12 +237,12 @@ std::size_t UdpSource::read_batch() noexcept {
   prepare(count);
   counters_.received += count;
   counters_.delivered += kept;
-  // More may wait, before which others were dropped: what these say of drops is as old as they are.
+  // More may wait, and others may have been dropped since these: their drop counts are out of date.
   if (count == messages_.size()) refresh_drops();
   return kept;
 }
 
-/// False for a datagram that is not to be delivered, which is then counted.
+/// Returns false for a datagram that is not delivered; it is then counted.
 bool UdpSource::take(std::size_t slot, packet::Datagram& datagram) noexcept {
   ::msghdr& header = messages_[slot].msg_hdr;
   const Ipv4Endpoint sender = endpoint_of(senders_[slot]);
@@ -289,7 +290,7 @@ bool UdpSource::take(std::size_t slot, packet::Datagram& datagram) noexcept {
   return true;
 }
 
-/// The kernel writes the lengths it used over those it was offered.
+/// Restores the lengths offered to the kernel, which it overwrites with those used.
 void UdpSource::prepare(std::size_t slots) noexcept {
   for (::mmsghdr& message : messages_.first(slots)) {
     message.msg_hdr.msg_namelen = sizeof(sockaddr_in);
@@ -302,7 +303,7 @@ void UdpSource::refresh_drops() noexcept {
   if (!socket_.descriptor) return;
   std::array<std::uint32_t, SK_MEMINFO_VARS> facts{};
   socklen_t size = sizeof facts;
-  const bool known = threads::trusted_call([&]() noexcept {  // copies counters
+  const bool known = threads::trusted_call([&]() noexcept {  // only copies counters
     return ::getsockopt(socket_.descriptor.get(), SOL_SOCKET, SO_MEMINFO, facts.data(), &size) == 0;
   });
   if (known && size > SK_MEMINFO_DROPS * sizeof facts[0]) {
@@ -310,22 +311,22 @@ void UdpSource::refresh_drops() noexcept {
   }
 }
 
-/// What only needs a look when nothing came, and then not often.
+/// Checks group and interface, but only when nothing came, and not often.
 void UdpSource::look_after(std::int64_t now_ns) noexcept {
   if (now_ns < next_look_ns_) return;
   next_look_ns_ = now_ns + kLookEvery_ns;
   refresh_drops();
   if (!config_.interface.empty()) look_after_interface();
-  // A membership goes away with its interface; joining again where it still stands does nothing.
+  // A membership goes away with its interface; joining again where it still holds does nothing.
   if (config_.multicast_group && socket_.descriptor) {
-    threads::trusted_call([this]() noexcept {  // nothing came, so there is nothing to be late for
+    threads::trusted_call([this]() noexcept {  // may take its time: no datagram is waiting
       join(socket_.descriptor.get(), config_, socket_.interface_index);
     });
   }
 }
 
-/// A socket stays tied to an interface that went away, so a new one by the same name needs a new
-/// socket. The old one must go first: it holds the port.
+/// Opens a new socket for an interface that came back: the old socket stays tied to the old
+/// interface, whatever its name. The old one must be closed first, as it holds the port.
 void UdpSource::look_after_interface() noexcept {
   const InterfaceStatus now = interface_status(probe_.get(), config_.interface);
   if (now.state != LinkState::kUp && link_ == LinkState::kUp) ++counters_.link_losses;
@@ -333,13 +334,13 @@ void UdpSource::look_after_interface() noexcept {
   if (now.state == LinkState::kGone) return;
   if (socket_.descriptor && now.index == socket_.interface_index) return;
   refresh_drops();
-  const bool opened = threads::trusted_call([&]() noexcept {  // as above: nothing came
+  const bool opened = threads::trusted_call([&]() noexcept {  // may take its time as well
     socket_.descriptor.close();
     auto socket = open_socket(config_, now);
     if (socket) socket_ = *std::move(socket);
     return socket.has_value();
   });
-  if (!opened) return;  // its address or route is not back yet: the next look tries again
+  if (!opened) return;  // its address or route is not back yet; the next look tries again
   drops_.restart();
   ++counters_.reopened;
 }

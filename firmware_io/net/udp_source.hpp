@@ -30,34 +30,33 @@
 namespace terracut::net {
 
 struct UdpSourceConfig {
-  /// Where the sensor sends to. Leave the address 0 unless one of the machine's own is wanted and
-  /// nothing else: a socket bound to an address hears no broadcasts, and an HDL-64E broadcasts
-  /// until told otherwise. Port 0 lets the system choose, see UdpSource::local().
+  /// The address and port that the sensor sends to. Leave the address 0 unless only one of the
+  /// machine's own is wanted: a socket bound to an address gets no broadcasts, and an HDL-64E
+  /// broadcasts until told otherwise. Port 0 lets the system choose, see UdpSource::local().
   Ipv4Endpoint bind{};
   std::optional<std::uint32_t> multicast_group{};  ///< Joined on `interface`, else by the routes.
-  std::string interface{};                         ///< Only what comes in here; empty: anywhere.
-  std::optional<Sender> sender{};                  ///< Only this one; others count as foreign.
-  /// Lets other sockets with the same option bind the port too. Of broadcasts and multicasts each
-  /// then gets a copy; of datagrams to one address only one socket gets any.
+  std::string interface{};                         ///< The only interface; empty: any.
+  std::optional<Sender> sender{};                  ///< The only sender; others count as foreign.
+  /// Lets other sockets with the same option bind the port as well. Each then gets a copy of
+  /// broadcasts and multicasts; a datagram to one address goes to only one of them.
   bool share_port = false;
 
   std::size_t receive_buffer_bytes = 8U << 20;  ///< About 7000 packets: 1.2 s of a Ruby128.
-  std::size_t batch = kBatchDatagrams;          ///< Datagrams a receive() returns at most, > 0.
-  std::size_t slot_bytes = 1536;  ///< The longest payload taken, > 0; by default all of one
-                                  ///< Ethernet frame.
+  std::size_t batch = kBatchDatagrams;          ///< The most datagrams a receive() returns, > 0.
+  std::size_t slot_bytes = 1536;  ///< The longest payload taken, > 0; one Ethernet frame.
 };
 
-/// UDP datagrams over IPv4 as they arrive, many for one system call, with the kernel's time stamps
-/// and its count of those it had to drop. A DatagramSource (receive_counters.hpp).
+/// Receives UDP datagrams over IPv4, many for one system call, with the kernel's time stamps and
+/// its count of drops. A DatagramSource (receive_counters.hpp).
 ///
-/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. When
-/// an interface goes down, or goes away and comes back under its name, receive() goes on returning
-/// empty, looks twice a second, takes the socket up again when it can, and counts.
+/// All memory is taken in open(); receive() never allocates, throws or waits longer than told. If
+/// an interface goes down, or goes away and comes back under its name, receive() returns empty,
+/// looks for it twice a second, opens the socket again when it can, and counts.
 class UdpSource {
  public:
-  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, or the address is
-  /// none of this machine's. kUnreadable: the port is taken or not allowed, or another refusal of
-  /// the system; the message says what mends it.
+  /// kInvalidArgument: a setting out of its range. kNotFound: no such interface, or an address that
+  /// is not this machine's. kUnreadable: the port is taken or not allowed, or another refusal of
+  /// the system; the message says how to mend it.
   [[nodiscard]] static Expected<UdpSource> open(UdpSourceConfig config,
                                                 memory::FixedMemory& memory);
 
@@ -65,21 +64,22 @@ class UdpSource {
       TERRACUT_NONBLOCKING;
   void wake() const noexcept { wake_.wake(); }
 
-  /// From now on only this sender; others count as foreign. From the thread that receives.
+  /// Accepts only this sender from now on; others count as foreign. To be called from the receiving
+  /// thread.
   void accept_only(const Sender& sender) noexcept { config_.sender = sender; }
 
-  /// kernel_drops is what the newest datagram knew of, or better after refresh_drops(), which asks
-  /// the kernel; receive() does it by itself after every full batch and when nothing comes for a
+  /// Returns the counters. kernel_drops is as of the newest datagram or the last refresh_drops(),
+  /// which asks the kernel; receive() calls it after every full batch and when nothing comes for a
   /// while.
   [[nodiscard]] const ReceiveCounters& counters() const noexcept { return counters_; }
   void refresh_drops() noexcept TERRACUT_NONBLOCKING;
   [[nodiscard]] LinkState link() const noexcept { return link_; }
-  /// How many the kernel keeps until they are fetched, roughly.
+  /// Returns roughly how many packets the kernel keeps until they are fetched.
   [[nodiscard]] std::size_t room_packets() const noexcept { return socket_.buffer.packets(); }
 
-  /// Where the socket is bound, with the port the system chose.
+  /// Returns where the socket is bound, with the port the system chose.
   [[nodiscard]] const Ipv4Endpoint& local() const noexcept { return config_.bind; }
-  /// What was asked for but could only be had in part, one sentence each, for the log at start.
+  /// Lists what was granted only in part, one sentence each, for the log at start.
   [[nodiscard]] std::span<const std::string> warnings() const noexcept { return warnings_; }
 
  private:
@@ -87,18 +87,17 @@ class UdpSource {
     files::OwnedDescriptor descriptor;
     ReceiveBuffer buffer;
     int interface_index = 0;
-    bool bound_to_interface = false;  ///< Else each datagram is asked where it came in.
+    bool bound_to_interface = false;  ///< If false, the interface of each datagram is checked.
   };
 
-  /// The call of open_socket() that failed, and its errno.
+  /// The system call in open_socket() that failed, and its errno.
   enum class Step : std::uint8_t { kSocket, kInterface, kBind, kJoin };
   struct Failure {
     Step step;
     int error_number;
   };
 
-  /// Room for what the kernel says beside a datagram: its stamp, the count of drops, and where it
-  /// came in.
+  /// Room for the control messages of a datagram: its stamp, the count of drops, and its interface.
   struct Control {
     static constexpr std::size_t kBytes = CMSG_SPACE(sizeof(timespec)) +
                                           CMSG_SPACE(sizeof(std::uint32_t)) +
@@ -109,7 +108,7 @@ class UdpSource {
   UdpSource(UdpSourceConfig config, threads::WakeEvent wake, files::OwnedDescriptor probe,
             memory::FixedMemory& memory);
 
-  /// Without strings and memory, so that receive() may call it again.
+  /// Opens a socket without using strings or memory, so that receive() may call it again.
   [[nodiscard]] static tl::expected<Socket, Failure> open_socket(
       const UdpSourceConfig& config, const InterfaceStatus& interface) noexcept;
   [[nodiscard]] static Error explain(const UdpSourceConfig& config, const Failure& failure);
@@ -123,7 +122,7 @@ class UdpSource {
 
   UdpSourceConfig config_;
   threads::WakeEvent wake_;
-  files::OwnedDescriptor probe_;  ///< An idle socket to ask for interfaces with.
+  files::OwnedDescriptor probe_;  ///< An idle socket for asking about interfaces.
   Socket socket_;
   std::vector<std::string> warnings_;
 

@@ -9,15 +9,15 @@
 
 namespace terracut::send {
 
-/// Makes the packets of one sensor look as if its clock had jumped. One stream, one thread.
+/// Changes the packets of one sensor as if its clock had jumped. One stream, one thread.
 class DeviceStampShift {
  public:
-  /// Adds `shift_ns`, rounded to the device's unit, to the device stamp of a data packet; the hour
-  /// of a Velodyne wraps. False, and the packet untouched, for payloads that are no data packet of
-  /// a sensor whose stamp is known.
+  /// Adds `shift_ns`, rounded to the device's unit, to the device stamp of a data packet; a
+  /// Velodyne's hour wraps. False, and the packet untouched, for payloads other than data packets
+  /// of a sensor whose stamp is known.
   ///
-  /// Wants to see the stream from its beginning, with shift 0 before the jump: that is how the
-  /// encoding of a RoboSense stamp is found out.
+  /// Must see the stream from its beginning, with shift 0 before the jump, to find the encoding of
+  /// a RoboSense stamp.
   bool operator()(std::span<std::uint8_t> payload, std::int64_t shift_ns) noexcept;
 
  private:

@@ -24,7 +24,7 @@ inline constexpr std::array<std::uint8_t, 8> kDifopMagic{0xA5, 0xFF, 0x00, 0x5A,
                                                          0x11, 0x11, 0x55, 0x55};
 inline constexpr std::array<std::uint8_t, 2> kDifopTail{0x0F, 0xF0};
 
-/// Signs of an angle. Units whose calibration was never written send kUnset.
+/// Signs of an angle. Units without a stored calibration send kUnset.
 inline constexpr std::uint8_t kDifopPlus = 0, kDifopMinus = 1, kDifopUnset = 0xFF;
 
 namespace ruby128_wire {
@@ -34,8 +34,8 @@ struct Angle {
   packet::Be16 magnitude_cdeg;
 };
 
-/// Fields that sources describe differently are reserved here; of those that terracut does not
-/// read, units and meanings are partly open, too.
+/// The fields. Those that sources describe differently are reserved here; of those that terracut
+/// does not read, units and meanings are partly unknown.
 struct Difop {
   std::array<std::uint8_t, 8> magic;
   packet::Be16 rpm_set;
@@ -51,10 +51,10 @@ struct Difop {
   std::array<std::uint8_t, 229> reserved4;
   std::array<std::uint8_t, 6> serial;
   packet::Be16 zero_angle;
-  std::uint8_t return_mode;  ///< 3 is dual; sources disagree which of the others is which single.
+  std::uint8_t return_mode;  ///< 3 is dual; sources disagree about the single modes.
   std::uint8_t sync_mode;    ///< See sync_mode_name().
   std::uint8_t sync_status;
-  std::array<std::uint8_t, 10> stamp;  ///< As in the data packet (timestamp.hpp).
+  std::array<std::uint8_t, 10> stamp;  ///< Encoded as in the data packet (timestamp.hpp).
   std::array<std::uint8_t, 24> currents_and_voltages;
   std::array<std::uint8_t, 20> reserved5;
   std::uint8_t gps_status;
@@ -90,23 +90,23 @@ static_assert(std::is_trivially_copyable_v<Difop> && std::is_standard_layout_v<D
 
 }  // namespace ruby128_wire
 
-/// It has the length and the first eight bytes of a DIFOP. Those of the Ruby Lite and the Ruby Plus
-/// have them too. The tail is not looked at: nobody relies on it.
+/// True if the payload has the length and the first eight bytes of a DIFOP. Those of the Ruby Lite
+/// and the Ruby Plus have them too. The tail is not checked: nobody relies on it.
 [[nodiscard]] bool is_difop(std::span<const std::uint8_t> payload) noexcept TERRACUT_NONBLOCKING;
 
-/// A copy of the packet by its fields; nothing unless is_difop().
+/// Returns a copy of the packet by its fields; nothing unless is_difop().
 [[nodiscard]] std::optional<ruby128_wire::Difop> read_difop(
     std::span<const std::uint8_t> payload) noexcept;
 
-/// A packet to fill in: magic, tail, angles unset, the rest zero.
+/// Returns a packet to fill in: magic, tail, angles unset, the rest zero.
 [[nodiscard]] ruby128_wire::Difop blank_difop() noexcept;
 
-/// The payload to send; valid, and following later changes, as long as `difop` lives.
+/// Returns the payload to send. It shows later changes and is valid as long as `difop` lives.
 [[nodiscard]] std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Difop& difop) noexcept;
 std::span<const std::uint8_t, kRubyPacketBytes> payload_of(ruby128_wire::Difop&&) = delete;
 
-/// "GPS", "PTP E2E", "PTP P2P", "gPTP", or "unknown".
+/// Returns "GPS", "PTP E2E", "PTP P2P", "gPTP", or "unknown".
 [[nodiscard]] std::string_view sync_mode_name(std::uint8_t sync_mode) noexcept;
 
 }  // namespace terracut::ruby128

@@ -20,7 +20,7 @@ using Angles = std::array<Angle, kRuby128Lasers>;
 
 constexpr std::string_view kWhatToDo = "give the unit's angle.csv with --calibration FILE";
 
-/// The first channel, from 0, of which `is` is true.
+/// Returns the first channel, from 0, for which `is` is true.
 template <class Predicate>
 std::optional<std::size_t> first_channel(const Angles& angles, const Predicate& is) noexcept {
   const auto* const found = std::find_if(angles.begin(), angles.end(), is);
@@ -39,10 +39,10 @@ bool all_zero(const Angles& angles) noexcept {
   return !first_channel(angles, [](const Angle& a) { return a.magnitude_cdeg.value() != 0; });
 }
 
-/// Given a proper sign.
+/// Converts an angle with a valid sign to radians.
 double radians(const Angle& angle) noexcept {
   const int magnitude_cdeg = angle.magnitude_cdeg.value();
-  // Never a negative zero.
+  // An integer has no negative zero.
   const int cdeg = angle.sign == kDifopMinus ? -magnitude_cdeg : magnitude_cdeg;
   return beams::deg_to_rad(cdeg / 100.0);
 }
@@ -62,7 +62,7 @@ Angle angle_of(double rad) noexcept {
           packet::Be16::of(static_cast<std::uint16_t>(cdeg < 0 ? -cdeg : cdeg))};
 }
 
-/// kNoCalibration for angles that were never written, then kMalformed for other odd signs.
+/// Fails with kNoCalibration for angles that were never written, kMalformed for other odd signs.
 Status check_signs(const ruby128_wire::Difop& difop) {
   struct Table {
     const Angles& angles;

@@ -14,7 +14,7 @@
 #include "firmware_io/packet/packet_azimuths.hpp"
 #include "firmware_io/packet/ruby128_wire.hpp"
 
-/// Where a beam of the RS-Ruby128 points when its channel fires, in whole numbers (see
+/// Beam azimuths of the RS-Ruby128 when its channels fire, in whole numbers (see
 /// firmware_io/decode/beam_azimuth.hpp).
 ///
 /// A block carries one azimuth for 128 channels, that of the head at the block's first firing.
@@ -31,16 +31,16 @@ namespace terracut::ruby128 {
 // --- Times (docs/reference/sensors.md; a public decoder of the maker) ---
 
 inline constexpr std::int32_t kRubyBlock_ns =
-    55'550;  ///< From a firing of all channels to the next.
-inline constexpr std::int32_t kRubyGroup_ns = 3'236;  ///< From a group of channels to the next.
+    55'550;  ///< From one firing of all channels to the next.
+inline constexpr std::int32_t kRubyGroup_ns = 3'236;  ///< From one group of channels to the next.
 inline constexpr int kRubyGroups = 16;
-inline constexpr int kRubyChannelsPerGroup = 4;  ///< In each half of the channels.
+inline constexpr int kRubyChannelsPerGroup = 4;  ///< For each half of the channels.
 
-/// The group in which a channel, [0, 128), fires.
+/// Returns the group in which a channel, [0, 128), fires.
 [[nodiscard]] constexpr int ruby_group(int channel) noexcept {
   return channel / kRubyChannelsPerGroup % kRubyGroups;
 }
-/// From the first firing of a block to that of `channel`.
+/// Returns the time from the first firing of a block to that of `channel`.
 [[nodiscard]] constexpr std::int32_t ruby_channel_ns(int channel) noexcept {
   return kRubyGroup_ns * ruby_group(channel);
 }
@@ -48,19 +48,20 @@ static_assert(ruby_channel_ns(63) == 48'540 && ruby_channel_ns(64) == 0);
 
 // --- Blocks of a packet ---
 
-/// How the three blocks of a packet belong together. In dual return both returns of a firing are
-/// blocks of their own, side by side, so that pairs straddle packets: A A B, then B C C.
+/// How the three blocks of a packet belong to firings. In dual return the two returns of a firing
+/// are adjacent blocks, so that pairs straddle packets: A A B, then B C C.
 enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
 
-/// By the azimuths of a rotating head. All three equal: kPairFirst, but such a head stands still.
+/// Tells it by the azimuths of a rotating head. All three equal gives kPairFirst, but such a head
+/// stands still.
 [[nodiscard]] constexpr RubyBlocks ruby_blocks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   if (azimuth_cdeg[0] == azimuth_cdeg[1]) return RubyBlocks::kPairFirst;
   return azimuth_cdeg[1] == azimuth_cdeg[2] ? RubyBlocks::kPairLast : RubyBlocks::kSingle;
 }
 
-/// Firings from a packet's first block to the next packet's. A firing whose second return is in the
-/// next packet belongs to that one.
+/// Returns the firings from a packet's first block to the next packet's. A firing whose second
+/// return is in the next packet belongs to that one.
 [[nodiscard]] constexpr int ruby_firings(RubyBlocks blocks) noexcept {
   switch (blocks) {
     case RubyBlocks::kPairFirst:
@@ -73,7 +74,8 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
   return 3;
 }
 
-/// How far the head rotates from firing to firing, ticks, given the packet's azimuths. Exact.
+/// Returns how far the head rotates from firing to firing, ticks, from the packet's azimuths.
+/// Exact.
 [[nodiscard]] constexpr std::int32_t ruby_step_ticks(
     const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg) noexcept {
   const std::int32_t firings_apart = ruby_blocks(azimuth_cdeg) == RubyBlocks::kSingle ? 2 : 1;
@@ -81,13 +83,14 @@ enum class RubyBlocks : std::uint8_t { kSingle, kPairFirst, kPairLast };
          (packet::kTicksPerCdeg / firings_apart);
 }
 
-/// The firing whose second return was not in its packet, until the next packet brings it: both
-/// returns of one pulse must point the same way, so the second takes the step of the first.
+/// Holds the firing whose second return is in the next packet. Both returns of one pulse must point
+/// the same way, so the second takes the step of the first.
 class HeldFiring {
  public:
-  /// The step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is the
-  /// packet's device stamp; `has_sector`: a blind sector lies in it (PacketAzimuths), so that the
-  /// next packet's stamp is later by that. To be called once for every packet, in order of arrival.
+  /// Returns the step for the first block of a packet whose own step is `step_ticks`. `stamp_us` is
+  /// the packet's device stamp. `has_sector` says that a blind sector lies in the packet
+  /// (PacketAzimuths), which delays the next stamp. To be called once for every packet, in order of
+  /// arrival.
   [[nodiscard]] constexpr std::int32_t join(
       const std::array<std::int32_t, kRubyBlocksPerPacket>& azimuth_cdeg, std::int32_t step_ticks,
       std::int64_t stamp_us, bool has_sector) noexcept {
@@ -107,7 +110,7 @@ class HeldFiring {
   constexpr void reset() noexcept { held_ = false; }
 
  private:
-  /// Two firings, plus what a stamp in whole microseconds and a jitter may add.
+  /// Two firings, plus the rounding of stamps to microseconds and jitter.
   static constexpr std::int64_t kLongest_us = 2 * kRubyBlock_ns / 1000 + 10;
 
   bool held_ = false, had_sector_ = false;
@@ -120,7 +123,7 @@ class HeldFiring {
 /// The share of the firing period after which a channel fires, in 1 / 2^20.
 inline constexpr int kRubyShareBits = 20;
 
-/// How far the head has rotated since its block's azimuth when `channel` fires, ticks.
+/// Returns how far the head has rotated from its block's azimuth when `channel` fires, ticks.
 [[nodiscard]] constexpr std::int32_t ruby_advance_ticks(std::int32_t step_ticks,
                                                         int channel) noexcept {
   const std::int64_t share =
@@ -128,12 +131,12 @@ inline constexpr int kRubyShareBits = 20;
   return static_cast<std::int32_t>((step_ticks * share) >> kRubyShareBits);
 }
 
-/// A channel's azimuth offset in ticks, as all whole-number azimuths take it.
+/// Returns a channel's azimuth offset in ticks, as all whole-number azimuths use it.
 [[nodiscard]] inline std::int32_t azimuth_offset_ticks(const Ruby128Channel& channel) noexcept {
   return static_cast<std::int32_t>(std::lround(channel.azimuth_offset_rad / packet::kRadPerTick));
 }
 
-/// Offsets of all 128 beams from their block's azimuth, for one unit.
+/// The offsets of all 128 beams of one unit from their block's azimuth.
 class Ruby128BeamOffsets {
  public:
   explicit Ruby128BeamOffsets(const Ruby128Calibration& calibration) noexcept {
@@ -148,7 +151,7 @@ class Ruby128BeamOffsets {
   [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int channel) const noexcept {
     return ruby_advance_ticks(step_ticks, channel) + ticks_[static_cast<std::size_t>(channel)];
   }
-  /// No beam's offset is below hindmost_ticks(), nor above foremost_ticks() for that step.
+  /// The offsets of all beams lie in [hindmost_ticks(), foremost_ticks()] for that step.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return least_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks + most_ticks_;

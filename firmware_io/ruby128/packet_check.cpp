@@ -20,7 +20,7 @@ std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload)
     case sensor::SensorModel::kRoboSenseDeviceInfo:
       return frame::Reject::kDeviceInfo;
     case sensor::SensorModel::kUnknown:
-    case sensor::SensorModel::kOtherRoboSense:  // the right leader, but no known order of blocks
+    case sensor::SensorModel::kOtherRoboSense:  // right leader, but unknown order of blocks
       return payload.size() == kRubyPacketBytes ? frame::Reject::kWrongMagic
                                                 : frame::Reject::kWrongSize;
     default:
@@ -28,7 +28,7 @@ std::optional<frame::Reject> reject_model(std::span<const std::uint8_t> payload)
   }
 }
 
-/// What follows from the azimuths of a rotating head and the step from firing to firing.
+/// Completes the fields that follow from the azimuths and the step from firing to firing.
 void complete(packet::PacketAzimuths& azimuths) noexcept {
   const auto& cdeg = azimuths.azimuth_cdeg;
   azimuths.dual_return = cdeg[0] == cdeg[1] || cdeg[1] == cdeg[2];
@@ -86,7 +86,7 @@ bool read_across_sector(packet::PacketAzimuths& azimuths, std::int32_t step_tick
     azimuths.behind_sector = block;
   }
   azimuths.step_ticks = step_ticks;
-  // The firing of a pair whose second return is yet to come belongs to the next packet.
+  // A firing whose second return is yet to come belongs to the next packet.
   const bool ends_with_half_a_pair = azimuths.azimuth_cdeg[0] == azimuths.azimuth_cdeg[1];
   azimuths.sweep_ticks = azimuths.advance_cdeg(kRubyBlocksPerPacket - 1) * packet::kTicksPerCdeg +
                          (ends_with_half_a_pair ? 0 : step_ticks);

@@ -13,7 +13,7 @@
 
 namespace terracut::ruby128 {
 
-/// Measured distances of one channel to points of the vehicle frame: the formulas of
+/// Converts measured distances of one channel to points of the vehicle frame: the formulas of
 /// Ruby128Geometry and mount::Mount in float, for the firings of a tile in one loop that compilers
 /// vectorise. Agrees with those double functions to within 1 mm + 1e-6 of the range; the same bits
 /// on every machine, as the HDL-64E's PointKernel.
@@ -25,7 +25,7 @@ class Ruby128PointKernel {
 
   Ruby128PointKernel(const Ruby128Calibration& calibration, const mount::Mount& mount) noexcept;
 
-  /// `heads`: of the channel's group. `measured_m`: wire distances, NaN: no return.
+  /// `heads` are of the channel's group. `measured_m` are wire distances, NaN for no return.
   void compute(std::size_t channel, const packet::LaserHeads& heads,
                const frame::TileRow<float>& measured_m,
                const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
@@ -35,8 +35,8 @@ class Ruby128PointKernel {
     float sin_offset, cos_offset, sin_elevation, cos_elevation;
   };
 
-  /// What it reads and writes is passed for __restrict: without it the loop is not vectorised in
-  /// clones.
+  /// All it reads and writes is passed as a parameter, for __restrict: without it the loop is not
+  /// vectorised in clones.
   void compute(const Channel& __restrict channel, const float* __restrict sin_rotor,
                const float* __restrict cos_rotor, const float* __restrict sin_advance,
                const float* __restrict cos_advance, const float* __restrict measured_m,

@@ -23,7 +23,7 @@
 
 namespace terracut::ruby128 {
 
-/// What Decoder needs to know of the RS-Ruby128 (see there).
+/// The Decoder's trait of the RS-Ruby128.
 ///
 /// Single and dual return packets are told apart by their azimuths: in dual return each comes
 /// twice. A pair that straddles two packets is joined (HeldFiring), unless one of them is lost.
@@ -31,17 +31,17 @@ class Ruby128Sensor {
  public:
   using Calibration = Ruby128Calibration;
   struct Config {
-    /// How stamps are to be read; nothing: found out from the packets.
+    /// The encoding of stamps; nothing: found out from the packets.
     std::optional<RubyTimestamp> timestamp;
   };
   static constexpr int kRows = kRuby128Lasers, kChannels = kRows;
   static constexpr std::size_t kPacketBytes = kRubyPacketBytes;
   static constexpr std::size_t kGroups = kRubyGroups;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kRows)>;
-  /// Device stamps count up from 1970; this is farther than they can get.
+  /// Beyond all device stamps, which count from 1970.
   static constexpr std::int64_t kClockWrap_us = std::int64_t{1} << 56;
   static constexpr int kDefaultColumns = 1800;  ///< 1800.18 firings a frame at 10 Hz.
-  /// Dual return and the columns that two firings share: more than two for some cells.
+  /// Enough for dual return, where two firings may share a column: more than two for some cells.
   static constexpr int kDefaultReturnsPerCell = 3;
 
   Ruby128Sensor(const Calibration& calibration, const mount::Mount& mount, const Config& config);
@@ -90,8 +90,8 @@ class Ruby128Sensor {
   Ruby128BeamOffsets offsets_;
   Ruby128PointKernel kernel_;
   HeldFiring held_;
-  std::int32_t step_ticks_ = 0;        ///< Of the last packet that had one; 0: none yet.
-  std::int32_t first_step_ticks_ = 0;  ///< Of the packet's first block, which may be a held one's.
+  std::int32_t step_ticks_ = 0;        ///< The last packet's that had one; 0: none yet.
+  std::int32_t first_step_ticks_ = 0;  ///< For the packet's first block, perhaps a held firing's.
   std::array<std::int32_t, kRuby128Lasers> rows_;
 };
 

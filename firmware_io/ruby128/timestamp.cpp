@@ -19,7 +19,7 @@ std::uint32_t sub_second(std::span<const std::uint8_t, 10> bytes) noexcept {
          std::uint32_t{bytes[8]} << 8 | std::uint32_t{bytes[9]};
 }
 
-/// Of the six bytes of seconds the lower 33 bits, so that nanoseconds fit into 63.
+/// Returns the lower 33 bits of the six bytes of seconds, so that nanoseconds fit into 63.
 std::int64_t seconds(std::span<const std::uint8_t, 10> bytes) noexcept {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < 6; ++i) value = value << 8 | bytes[i];

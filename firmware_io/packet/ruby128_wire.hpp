@@ -18,15 +18,15 @@ namespace terracut::ruby128 {
 // --- Numbers of the format ---
 
 inline constexpr std::uint16_t kRubyDataPort = 6699;    ///< UDP destination; factory setting.
-inline constexpr std::uint16_t kRubyDevicePort = 7788;  ///< Of DIFOP; factory setting.
+inline constexpr std::uint16_t kRubyDevicePort = 7788;  ///< UDP destination of DIFOP; factory.
 
-inline constexpr std::size_t kRubyPacketBytes = 1248;  ///< Of MSOP and of DIFOP.
+inline constexpr std::size_t kRubyPacketBytes = 1248;  ///< Size of both MSOP and DIFOP packets.
 inline constexpr std::array<std::uint8_t, 4> kRubyMagic{0x55, 0xAA, 0x05, 0x5A};
 inline constexpr std::uint8_t kRubyBlockId = 0xFE;
 inline constexpr int kRubyBlocksPerPacket = 3;
 inline constexpr int kRubyChannelsPerBlock = 128;
 
-/// Bits of the wave mode: which returns the packet carries.
+/// Bits of the wave mode: the returns that the packet carries.
 inline constexpr std::uint8_t kRubyFirstReturnBit = 1, kRubySecondReturnBit = 2;
 
 // --- The bytes ---
@@ -41,7 +41,7 @@ struct Return {
 struct Block {
   std::uint8_t id;            ///< kRubyBlockId
   std::uint8_t return_id;     ///< 1 or 2 in dual return, by the manual; not relied on.
-  packet::Be16 azimuth_cdeg;  ///< 0..35999, clockwise seen from above, of the block's first firing.
+  packet::Be16 azimuth_cdeg;  ///< Of the block's first firing; 0..35999, clockwise seen from above.
   std::array<Return, kRubyChannelsPerBlock> returns;
 };
 
@@ -69,8 +69,8 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 
 }  // namespace ruby128_wire
 
-/// Degrees Celsius of a temperature field: bit 15 the sign, then eleven bits of 1/16 degree
-/// (RS-Ruby user manual).
+/// Decodes a temperature field to degrees Celsius: bit 15 is the sign, then eleven bits of 1/16
+/// degree (RS-Ruby user manual).
 [[nodiscard]] constexpr double ruby_temperature_deg_c(std::uint16_t field) noexcept {
   const int sixteenths = (field & 0x7FFF) >> 4;
   return ((field & 0x8000) != 0 ? -sixteenths : sixteenths) / 16.0;
@@ -78,7 +78,7 @@ static_assert(std::is_trivially_copyable_v<Packet> && std::is_standard_layout_v<
 static_assert(ruby_temperature_deg_c(0x12C0) == 18.75);
 static_assert(ruby_temperature_deg_c(0x92C0) == -18.75);
 
-/// The inverse, rounded towards zero; |temperature_deg_c| < 128.
+/// Encodes a temperature, rounded towards zero; |temperature_deg_c| < 128.
 [[nodiscard]] constexpr std::uint16_t ruby_temperature_field(double temperature_deg_c) noexcept {
   const int sixteenths = static_cast<int>(temperature_deg_c * 16.0);
   const int magnitude = sixteenths < 0 ? -sixteenths : sixteenths;
@@ -89,11 +89,11 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
 
 // --- Reading ---
 
-/// The packet that a payload is, read where it lies; null where it is not exactly 1248 bytes long.
-/// Magic, block ids and azimuths are whatever the sender wrote. Valid as long as the payload is.
+/// Returns the packet in a payload, read in place; null unless it is exactly 1248 bytes long.
+/// Magic, block ids and azimuths are not checked. Valid as long as the payload is.
 [[nodiscard]] inline const ruby128_wire::Packet* packet_in(
     std::span<const std::uint8_t> payload) noexcept {
-  // Bytes are all it has, so any address will do.
+  // The packet consists of bytes, so any address will do.
   return payload.size() == sizeof(ruby128_wire::Packet)
              ? reinterpret_cast<const ruby128_wire::Packet*>(payload.data())
              : nullptr;
@@ -101,8 +101,8 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
 
 // --- Writing ---
 
-/// A packet to fill in: three blocks without any return, at azimuth 0, with magic and block ids in
-/// place.
+/// Returns a packet to fill in: three blocks at azimuth 0 without returns, with magic and block
+/// ids.
 [[nodiscard]] constexpr ruby128_wire::Packet blank_packet() noexcept {
   ruby128_wire::Packet packet{};
   packet.magic = kRubyMagic;
@@ -111,7 +111,7 @@ static_assert(ruby_temperature_field(-18.75) == 0x92C0);
   return packet;
 }
 
-/// The payload to send; valid, and following later changes, as long as `packet` lives.
+/// Returns the payload to send. It shows later changes and is valid as long as `packet` lives.
 [[nodiscard]] inline std::span<const std::uint8_t, kRubyPacketBytes> payload_of(
     const ruby128_wire::Packet& packet) noexcept {
   return std::span<const std::uint8_t, kRubyPacketBytes>(

@@ -36,7 +36,7 @@ std::int64_t calendar_ns(std::span<const std::uint8_t, 10> bytes) noexcept {
                             hours{bytes[3]} + minutes{bytes[4]} + std::chrono::seconds{bytes[5]} +
                             milliseconds{bytes[6] << 8 | bytes[7]} +
                             microseconds{bytes[8] << 8 | bytes[9]};
-  // 64 bits of nanoseconds end in 2262.
+  // The limit: 64 bits of nanoseconds end in 2262.
   constexpr std::int64_t kLatest_us = std::numeric_limits<std::int64_t>::max() / 1000;
   return std::clamp<std::int64_t>(time.count(), 0, kLatest_us) * 1000;
 }
@@ -116,8 +116,8 @@ RubyTimestamp RubyTimestampDetector::add(std::span<const std::uint8_t, 10> stamp
   has_last_ = true;
   if (!has_before || fraction <= before) return encoding_;
   // Packets are 55 to 167 microseconds apart, or a thousand times as many nanoseconds. A step below
-  // the shortest in nanoseconds proves microseconds; a longer one is either nanoseconds, which show
-  // a value of a million before long, or microseconds with a gap of hundreds of packets.
+  // the shortest in nanoseconds proves microseconds. A longer one means nanoseconds, which soon
+  // show a value of a million, or microseconds with a gap of hundreds of packets.
   constexpr std::uint32_t kShortestPacket_ns = 50'000;
   if (fraction - before < kShortestPacket_ns) return finalize(RubyTimestamp::kUtcMicroseconds);
   return encoding_ = RubyTimestamp::kUtcNanoseconds;

@@ -13,14 +13,14 @@
 
 namespace terracut::scan {
 
-/// More points than any HDL-64E frame can hold (64 lasers x 4167 firings at 5 Hz, two returns).
+/// More than any HDL-64E frame can hold (64 lasers x 4167 firings at 5 Hz, two returns).
 inline constexpr std::size_t kMaxScanPoints = std::size_t{1} << 20;
 
 /// One point of a KITTI `.bin` file.
 using ScanPoint = CloudPoint;
 
-/// False for points that are no place: NaN, infinite, farther than any return can be (10 km), or
-/// the null point (0, 0, 0), which many programs write where a beam had no return.
+/// True unless the point is NaN, infinite, farther than any return can be (10 km), or the null
+/// point (0, 0, 0), which many programs write where a beam had no return.
 [[nodiscard]] inline bool is_place(const ScanPoint& point) noexcept {
   constexpr float kFarthest_m = 1e4F;
   if (point.x_m == 0 && point.y_m == 0 && point.z_m == 0) return false;
@@ -28,25 +28,25 @@ using ScanPoint = CloudPoint;
          std::abs(point.z_m) <= kFarthest_m;
 }
 
-/// Azimuth of a point in [0, 2 pi) radians, clockwise from straight ahead seen from above, as the
-/// sensor rotates and as the range image counts its columns. -0.0 counts as 0.
+/// Returns the azimuth of a point in [0, 2 pi) radians, clockwise from straight ahead seen from
+/// above, as the sensor rotates and as the range image counts its columns. -0.0 counts as 0.
 [[nodiscard]] inline double azimuth_rad(double x_m, double y_m) noexcept {
   constexpr double kRevolution_rad = 6.283185307179586476925286766559;
-  const double azimuth = std::atan2(0.0 - y_m, x_m);  // 0 - y has no negative zero
+  const double azimuth = std::atan2(0.0 - y_m, x_m);  // 0 - y avoids a negative zero
   if (azimuth >= 0) return azimuth;
   const double wrapped = azimuth + kRevolution_rad;
-  return wrapped < kRevolution_rad ? wrapped : 0.0;  // the sum may round up to a whole frame
+  return wrapped < kRevolution_rad ? wrapped : 0.0;  // the sum may round up to 2 pi
 }
 
-/// Intensity as the sensor sends it, 0..255, from a remission of 0..1; anything else is clamped.
+/// Converts a remission of 0..1 to the sensor's intensity 0..255; other values are clamped.
 [[nodiscard]] inline std::uint8_t intensity_of(float remission) noexcept {
-  const float dark_or_more = remission > 0.0F ? remission : 0.0F;  // NaN is dark
+  const float dark_or_more = remission > 0.0F ? remission : 0.0F;  // NaN becomes 0
   const float share = dark_or_more < 1.0F ? dark_or_more : 1.0F;
   return static_cast<std::uint8_t>(double{share * 255.0F} + 0.5);
 }
 
-/// What a file's intensities are to be multiplied by to be remissions: programs write 0..1, the
-/// sensor's 0..255, or 16 bits. The file's brightest point tells.
+/// Finds the factor that turns a file's intensities into remissions. Programs write 0..1, the
+/// sensor's 0..255, or 16 bits; the file's brightest point tells which.
 class RemissionScale {
  public:
   void add(float intensity) noexcept {
@@ -62,24 +62,24 @@ class RemissionScale {
   float brightest_ = 0;
 };
 
-/// The points of a KITTI `.bin`, their remission 0..1. kNotFound, kUnreadable, kMalformed (cut
-/// off, too large, of five floats a point), naming the file; it may be empty.
+/// Reads the points of a KITTI `.bin`, with remissions 0..1; it may be empty. kNotFound,
+/// kUnreadable, kMalformed (cut off, too large, of five floats a point), naming the file.
 [[nodiscard]] Status read_kitti_points(const std::filesystem::path& bin_file,
                                        std::vector<ScanPoint>& points);
 
-/// One recorded frame. Buffers are kept from scan to scan.
+/// One recorded frame. Its buffers are reused from scan to scan.
 struct KittiScan {
   std::vector<ScanPoint> points;      ///< In the file's order: ring after ring from the top.
-  std::vector<std::uint32_t> labels;  ///< SemanticKITTI labels of the points; empty without a file.
+  std::vector<std::uint32_t> labels;  ///< SemanticKITTI labels of the points; empty without file.
   std::size_t no_place = 0;           ///< Points with is_place() false; they stay in the list.
 };
 
-/// Reads a KITTI `.bin` (little-endian float32 x y z remission a point, no header) into `scan`; its
-/// labels are emptied. Errors: kNotFound, kUnreadable, kMalformed (empty, truncated, too large, no
+/// Reads a KITTI `.bin` (little-endian float32 x y z remission a point, no header) into `scan` and
+/// empties its labels. Errors: kNotFound, kUnreadable, kMalformed (empty, truncated, too large, no
 /// point that is a place), naming the file.
 [[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file, KittiScan& scan);
 
-/// The same with the labels of `label_file`, one for every point; a differing count is kMalformed.
+/// Reads the labels of `label_file` as well, one for every point; a differing count is kMalformed.
 [[nodiscard]] Status read_kitti_scan(const std::filesystem::path& bin_file,
                                      const std::filesystem::path& label_file, KittiScan& scan);
 

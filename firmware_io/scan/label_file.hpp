@@ -11,18 +11,19 @@
 
 namespace terracut::scan {
 
-/// The class of a SemanticKITTI label: its low 16 bits; the high 16 bits number the instance.
+/// Returns the class of a SemanticKITTI label, its low 16 bits; the high 16 bits number the
+/// instance.
 [[nodiscard]] constexpr std::uint16_t semantic_class(std::uint32_t label) noexcept {
   return static_cast<std::uint16_t>(label & 0xFFFFU);
 }
 
 /// Reads a SemanticKITTI `.label` file: one little-endian uint32 a point, no header. Reuses the
-/// memory of `labels`. `points`: how many labels the scan beside it needs; 0 accepts any number.
+/// memory of `labels`. `points` is the number of labels that the scan needs; 0 accepts any number.
 /// Errors: kNotFound, kUnreadable, kMalformed (truncated, empty, count differs from `points`).
 [[nodiscard]] Status read_label_file(const std::filesystem::path& path, std::size_t points,
                                      std::vector<std::uint32_t>& labels);
 
-/// Writes such a file, whole or not at all. Error: kWriteFailed.
+/// Writes a `.label` file, whole or not at all. Error: kWriteFailed.
 [[nodiscard]] Status write_label_ids(const std::filesystem::path& path,
                                      std::span<const std::uint32_t> labels);
 

@@ -10,7 +10,7 @@ namespace terracut::scan {
 namespace {
 
 constexpr int kIterations = 12;
-constexpr double kMinScale = 1e-4;  // residuals below this are all as good as exact
+constexpr double kMinScale = 1e-4;  // smaller residuals count as exact
 
 /// Weighted sums of the points about their weighted mean.
 struct Moments {
@@ -36,7 +36,8 @@ Moments moments(std::span<const LinePoint> points, std::span<const double> weigh
   return m;
 }
 
-/// Deming's slope for an error variance ratio `d` (y over x), in the form that does not cancel.
+/// Returns Deming's slope for an error variance ratio `d` (y over x), in the form without
+/// cancellation.
 double deming_slope(const Moments& m, double d) {
   const double difference = d * m.xx - m.yy;
   const double root = std::sqrt(difference * difference + 4 * d * m.xy * m.xy);

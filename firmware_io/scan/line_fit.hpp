@@ -17,9 +17,9 @@ struct LinePoint {
   double x, y;
 };
 
-/// The line through points with errors in both coordinates, by Deming's method with Cauchy weights
-/// (iterated, deterministic): outliers lose their influence, and errors in x do not flatten the
-/// line as a plain regression of y on x would. `y_over_x_error`: ratio of the two standard
+/// Fits the line through points with errors in both coordinates, by Deming's method with Cauchy
+/// weights (iterated, deterministic): outliers lose their influence, and errors in x do not flatten
+/// the line as in a plain regression of y on x. `y_over_x_error` is the ratio of the two standard
 /// deviations. At least two points with different x are needed.
 [[nodiscard]] FittedLine fit_line(std::span<const LinePoint> points, double y_over_x_error);
 

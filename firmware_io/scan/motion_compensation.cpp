@@ -15,7 +15,7 @@ Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// exp(-seconds * twist) applied to p, to second order in the angle (under 0.1 rad in half a
+/// Applies exp(-seconds * twist) to p, to second order in the angle (under 0.1 rad in half a
 /// revolution).
 Vector moved_back(const SensorTwist& twist, double seconds, const Vector& p) {
   Vector w = twist.angular_velocity_rad_s, v = twist.velocity_m_s;
@@ -29,7 +29,8 @@ Vector moved_back(const SensorTwist& twist, double seconds, const Vector& p) {
   return q;
 }
 
-/// Azimuth as a share of the frame, clockwise, on the same side of the seam behind as `near`.
+/// Returns the azimuth as a share of a revolution, clockwise, on the same side of the rear seam as
+/// `near`.
 double share_of_frame(const Vector& p, double near) {
   const double share = std::atan2(-p[1], p[0]) / (2 * std::numbers::pi);
   return share - std::floor(share - near + 0.5);

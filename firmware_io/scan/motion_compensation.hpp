@@ -9,17 +9,16 @@
 
 namespace terracut::scan {
 
-/// Puts the sensor's motion back into a compensated scan: points as the sensor itself measured
+/// Puts the sensor's motion back into a compensated scan: gives the points as the sensor measured
 /// them.
 ///
-/// KITTI's scans are given as if all points had been measured at the instant when the head looked
-/// straight ahead. Which way the head rotates, and where a frame begins, was found from the scans
-/// in shared/data: of clockwise or counter-clockwise, seam in front or behind, only "clockwise seen
-/// from above, seam behind" makes the points of each laser fall onto a line, the other three are
-/// worse than leaving the scans as they are (seven scans of five sequences tried). Shifting the
-/// phase by 0.02 of a frame or the speed by 5 % gains nothing that holds from scan to scan. So a
-/// point at azimuth a (clockwise, -180..180 degrees) was measured a / 360 of a frame after that
-/// instant, and
+/// KITTI's scans look as if all points had been measured at the instant when the head looked
+/// straight ahead. The direction of rotation and the start of a frame were found from the scans in
+/// shared/data: of clockwise or counter-clockwise, seam in front or behind, only "clockwise seen
+/// from above, seam behind" makes the points of each laser fall onto a line; the other three are
+/// worse than unchanged scans (seven scans of five sequences). Shifting the phase by 0.02 of a
+/// frame or the speed by 5 % does not help consistently. So a point at azimuth a (clockwise,
+/// -180..180 degrees) was measured a / 360 of a frame after that instant, and
 ///
 ///   p_sensor = exp(-time(a) * twist) * p_file,   a = azimuth of p_sensor, found by iteration.
 ///
@@ -28,8 +27,8 @@ namespace terracut::scan {
 /// points behind the car. Without the poses' roll and pitch these two fall to 1.4 and 1.7 cm, but
 /// the mean of all rises (1.5 to 1.7 cm), so the whole twist is used.
 ///
-/// What is not in the files, and so remains: the lasers' rotational corrections (up to 10 degrees,
-/// 3 ms) and changes of speed within two frames. Points that are no place stay as they are.
+/// Two errors remain, as the files do not tell them: the lasers' rotational corrections (up to 10
+/// degrees, 3 ms) and changes of speed within two frames. Points without a place are not changed.
 /// Allocates nothing.
 void undo_motion_compensation(const SensorTwist& twist, std::span<ScanPoint> points) noexcept;
 

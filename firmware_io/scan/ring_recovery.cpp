@@ -18,19 +18,19 @@ namespace {
 
 constexpr double kHalfRevolution_rad = std::numbers::pi;
 constexpr double kJitter_rad = std::numbers::pi / 18;  // steps back over the seam, see the header
-/// A fall of the azimuth that no jitter makes: recorded rings fall by 10 degrees at most. A ring of
-/// a cropped view ends with one, which need not lead past straight ahead.
+/// A fall of the azimuth too large for jitter: recorded rings fall by 10 degrees at most. It ends a
+/// ring of a cropped view, which need not reach past straight ahead.
 constexpr double kCroppedFall_rad = std::numbers::pi / 9;
 constexpr int kMaxSegments = 4 * kScanRings;
 constexpr std::size_t kMinFirstRingPoints = 8;  // fewer before the first crossing are its jitter
 
-/// Follows the azimuth of a file and counts how often it fell by more than `fall_rad`: by half a
-/// frame, past straight ahead.
+/// Counts the rings of a file: how often the azimuth falls by more than `fall_rad`. With half a
+/// revolution it counts the passes of straight ahead.
 class FallCounter {
  public:
   explicit FallCounter(double fall_rad) : fall_rad_(fall_rad) {}
 
-  /// `azimuth_rad`: of the next point.
+  /// Takes the next point's azimuth and returns its ring.
   int ring_at(float azimuth_rad) {
     const double azimuth = 2 * kHalfRevolution_rad - double{azimuth_rad};
     const double counter_clockwise = azimuth < 2 * kHalfRevolution_rad ? azimuth : 0.0;
@@ -53,7 +53,7 @@ class FallCounter {
   int ring_ = 0;
 };
 
-/// The directions a segment has points in.
+/// The directions in which a segment has points.
 class Directions {
  public:
   void add(const ScanPoint& point) {
@@ -61,8 +61,8 @@ class Directions {
     const auto bin = static_cast<std::size_t>(azimuth_rad(point.x_m, point.y_m) * kPerRad);
     seen_.set(std::min(bin, kBins - 1));
   }
-  /// A laser looks in each direction once a frame: the halves of a torn ring overlap a little at
-  /// most, where jitter tore it.
+  /// A laser sees each direction once a revolution: the halves of a ring torn by jitter overlap
+  /// little.
   [[nodiscard]] bool may_be_of_one_laser(const Directions& other) const {
     return 4 * (seen_ & other.seen_).count() < std::min(seen_.count(), other.seen_.count());
   }
@@ -72,15 +72,15 @@ class Directions {
   std::bitset<kBins> seen_;
 };
 
-/// Cost of calling a segment a ring: how far the middle one of its points is off the ring's line,
-/// as an angle. Motion compensation moves near points off by degrees, but to both sides alike.
+/// The cost of taking a segment for a ring: the angle between the ring's line and the median of the
+/// segment's points. Motion compensation moves near points by degrees, but to both sides alike.
 class AlignmentCost {
  public:
   static constexpr double kCap_rad = 0.02;
-  static constexpr double kTorn_rad = 0.001;  // two segments of one laser: possible, but rare
-  /// Two lasers in one row: dearer than moving all others by a row.
+  static constexpr double kTorn_rad = 0.001;  // two segments from one laser are possible, but rare
+  /// Makes two lasers in one row cost more than moving all others by a row.
   static constexpr double kSameDirections_rad = kScanRings * kCap_rad;
-  /// At the slowest spin rate, two returns; more are of several lasers.
+  /// Two returns at the slowest spin rate; more points are of several lasers.
   static constexpr std::size_t kMostPoints = std::size_t{2} * 4167;
 
   AlignmentCost(std::span<const ScanPoint> points, const RingRecovery& split)
@@ -128,7 +128,7 @@ class AlignmentCost {
   [[nodiscard]] double points(std::size_t segment) const {
     return static_cast<double>(points_[segment]);
   }
-  /// Of giving a segment the ring of the one before it.
+  /// Returns the cost of giving a segment the ring of the segment before it.
   [[nodiscard]] double sharing(std::size_t segment) const {
     const bool torn = directions_[segment].may_be_of_one_laser(directions_[segment - 1]);
     return (torn ? kTorn_rad : kSameDirections_rad) * points(segment);
@@ -144,7 +144,8 @@ class AlignmentCost {
   std::vector<std::vector<ScanPoint>> samples_;
 };
 
-/// The non-decreasing assignment of segments to rings with the least sum of angles over all points.
+/// Returns the non-decreasing assignment of segments to rings with the least sum of angles over all
+/// points.
 std::vector<int> cheapest_order(const AlignmentCost& cost) {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   using Row = std::array<double, kScanRings>;
@@ -154,7 +155,7 @@ std::vector<int> cheapest_order(const AlignmentCost& cost) {
   for (std::size_t segment = 0; segment < cost.segments(); ++segment) {
     Row next{};
     const double sharing = segment == 0 ? kNever : cost.sharing(segment);
-    double lowest = segment == 0 ? 0.0 : kNever;  // the best that ends on an earlier ring
+    double lowest = segment == 0 ? 0.0 : kNever;  // the best cost that ends on an earlier ring
     std::int16_t lowest_ring = 0;
     for (std::size_t ring = 0; ring < next.size(); ++ring) {
       const double shared = best[ring] + sharing;
@@ -177,7 +178,7 @@ std::vector<int> cheapest_order(const AlignmentCost& cost) {
   return ring_of_segment;
 }
 
-/// Splits where the azimuth falls by more than `fall_rad`.
+/// Splits the points where the azimuth falls by more than `fall_rad`.
 Status split_at_falls(std::span<const ScanPoint> points, double fall_rad, RingRecovery& recovery) {
   recovery.ring_of_point.resize(points.size());
   recovery.no_ring = 0;
@@ -186,7 +187,7 @@ Status split_at_falls(std::span<const ScanPoint> points, double fall_rad, RingRe
   FallCounter counter(fall_rad);
   std::size_t in_first = 0;
   int last = -1;
-  std::array<float, 512> azimuths_rad;  // of as many points at once
+  std::array<float, 512> azimuths_rad;  // computed in blocks of so many points
   for (std::size_t i = 0; i < points.size(); ++i) {
     const std::size_t in_block = i % azimuths_rad.size();
     if (in_block == 0) {

@@ -13,35 +13,35 @@
 
 namespace terracut::scan {
 
-/// The ring of every point of a scan, from the order of the file. Buffers are kept from scan to
-/// scan.
+/// The ring of every point of a scan, found from the order of the file. Buffers are reused from
+/// scan to scan.
 struct RingRecovery {
   std::vector<std::int16_t> ring_of_point;  ///< 0 (top) .. rings - 1; kNoRing for points without.
   int rings = 0;                            ///< Rings found in the file's order.
-  std::size_t no_ring = 0;                  ///< Points with kNoRing, those that are no place too.
-  bool aligned = false;                     ///< Renumbered by align_rings().
+  std::size_t no_ring = 0;  ///< Points with kNoRing, including those without a place.
+  bool aligned = false;     ///< Renumbered by align_rings().
 };
 
-/// What the paper calls backtracking: KITTI files hold ring after ring from the top, each counter-
-/// clockwise from straight ahead, so a new ring starts where the azimuth falls back past straight
-/// ahead (with x > 0, y goes from negative to >= 0; -0.0 is 0). Steps back over that line by less
-/// than ten degrees, as motion compensation makes them, stay in their ring. Where that does not
-/// give 64 rings, the view may be cropped, with nothing straight ahead: then every fall by more
-/// than 20 degrees starts one. Points that are no place (is_place()) get kNoRing. Errors:
-/// kMalformed when no point is one or when there are many more crossings than any scan in ring
-/// order has (a shuffled or otherwise sorted file).
+/// Splits a scan into rings (the paper's backtracking). KITTI files hold ring after ring from the
+/// top, each counter-clockwise from straight ahead, so a new ring starts where the azimuth falls
+/// back past straight ahead (with x > 0, y goes from negative to >= 0; -0.0 is 0). Steps back over
+/// that line by less than ten degrees, from motion compensation, stay in their ring. If this does
+/// not give 64 rings, the view may be cropped, with nothing straight ahead: then every fall by more
+/// than 20 degrees starts a ring. Points without a place (is_place()) get kNoRing. Errors:
+/// kMalformed when no point has a place, or when there are many more crossings than in any scan in
+/// ring order (a shuffled or otherwise sorted file).
 [[nodiscard]] Status split_into_rings(std::span<const ScanPoint> points, RingRecovery& recovery);
 
-/// Renumbers the rings of a split whose count is not 64 (a laser without any return, a ring torn in
-/// two, a cropped view) by the known elevations: the assignment that keeps the order and has the
-/// least angular error. Rings that look in the same directions are not of one laser; rings that fit
-/// no laser get kNoRing. After it, rings is 64. Error: kMalformed where less than half of the
-/// points fit one, as in a file that is in another order.
+/// Renumbers the rings of a split whose count is not 64 (a laser without returns, a torn ring, a
+/// cropped view) by the known elevations: takes the assignment in order with the least angular
+/// error. Rings that look in the same directions are not of one laser; rings that fit no laser get
+/// kNoRing. Afterwards rings is 64. Error: kMalformed if less than half of the points fit a laser,
+/// as in a file in another order.
 [[nodiscard]] Status align_rings(std::span<const ScanPoint> points, const RingTable& table,
                                  RingRecovery& recovery);
 
-/// split_into_rings(), then align_rings() where the count is not 64. Without a table (nullptr) such
-/// a scan is an error (kUnsupported).
+/// Does split_into_rings(), then align_rings() if the count is not 64. Without a table (nullptr)
+/// such a scan is an error (kUnsupported).
 [[nodiscard]] Status recover_rings(std::span<const ScanPoint> points, const RingTable* table,
                                    RingRecovery& recovery);
 

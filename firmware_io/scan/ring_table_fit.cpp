@@ -15,9 +15,9 @@
 namespace terracut::scan {
 namespace {
 
-// Spread of a compensated point's horizontal distance and of its height about the true line,
-// metres: what half a revolution does at some 10 m/s, and a laser's own noise. Only the ratio
-// matters, and only for rings steeper than a few degrees; it was set from these, not tuned.
+// The spread of a compensated point about the true line, in horizontal distance (half a revolution
+// at some 10 m/s) and in height (a laser's noise), metres. Only the ratio matters, and only for
+// rings steeper than a few degrees; it was not tuned.
 constexpr double kDistanceError_m = 0.2;
 constexpr double kHeightError_m = 0.01;
 
@@ -39,10 +39,11 @@ HeightResidual summarise(std::vector<double>& sizes) {
   return residual;
 }
 
-/// Of a ring that was put beyond those with a fit; a whole table of the least steps ends below 90.
+/// The steepest ring that is extrapolated; a whole table of the smallest steps ends below 90
+/// degrees.
 constexpr double kSteepest_rad = beams::deg_to_rad(80.0);
 
-/// Puts rings without a fit between, or beyond, those that have one.
+/// Interpolates rings without a fit between those that have one, or extrapolates them.
 void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
   const int rings = static_cast<int>(lines.size());
   for (int ring = 0; ring < rings; ++ring) {
@@ -51,7 +52,7 @@ void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
     while (above >= 0 && !lines[static_cast<std::size_t>(above)]) --above;
     while (below < rings && !lines[static_cast<std::size_t>(below)]) ++below;
     const bool is_beyond = above < 0 || below >= rings;
-    if (is_beyond) {  // the last fitted ring: go on at its pitch
+    if (is_beyond) {  // beyond the last fitted ring: continue at its pitch
       const int step = above < 0 ? 1 : -1;
       int near = ring, far;
       while (!lines[static_cast<std::size_t>(near)]) near += step;
@@ -63,7 +64,7 @@ void fill_gaps(std::vector<std::optional<RingLine>>& lines) {
     const RingLine a = *lines[static_cast<std::size_t>(above)];
     const RingLine b = *lines[static_cast<std::size_t>(below)];
     const double share = static_cast<double>(ring - above) / (below - above);
-    // Noise may have put the last two into each other's place.
+    // Noise may have exchanged the last two.
     const double fall_rad = (a.elevation_rad - b.elevation_rad) * (below > above ? 1 : -1);
     const double apart_rad = std::max(fall_rad, kMinStep_rad) * (below > above ? -1 : 1);
     double elevation_rad = a.elevation_rad + share * apart_rad;
@@ -82,7 +83,7 @@ void RingTableFit::add(std::span<const ScanPoint> points,
       continue;
     Ring& ring = rings_[static_cast<std::size_t>(ring_of_point[i])];
     if (ring.seen++ % ring.stride != 0) continue;
-    if (ring.samples.size() == kPointsPerRing) {  // thin out: keep every other one from here on
+    if (ring.samples.size() == kPointsPerRing) {  // thin out: keep every other one from now on
       std::size_t kept = 0;
       for (std::size_t from = 0; from < ring.samples.size(); from += 2) {
         ring.samples[kept++] = ring.samples[from];

@@ -19,7 +19,7 @@ struct HeightResidual {
   std::size_t points = 0;
   double rms_m = 0;
   double median_m = 0;
-  double p95_m = 0;  ///< 95 % of the points lie nearer to the line than this.
+  double p95_m = 0;  ///< 95 % of the points are nearer to the line.
 };
 
 /// A unit's ring table found in its recordings, and how well it explains them.
@@ -27,18 +27,18 @@ struct FittedRings {
   RingTable table;
   HeightResidual residual;  ///< Over all rings.
   std::vector<HeightResidual> by_ring;
-  bool from_nominal_table = false;  ///< No scan had all rings (ScanReader::fit_rings()).
-  /// Of the rings with a line of their own: whose points look no lower than the ring's above them.
+  bool from_nominal_table = false;  ///< True if no scan had all rings (ScanReader::fit_rings()).
+  /// The number of rings with a line of their own whose points look no lower than the ring's above.
   std::size_t coinciding = 0;
-  std::size_t with_line = 0;  ///< Rings with a line of their own; the others' is put between them.
+  std::size_t with_line = 0;  ///< Rings with a fitted line; the others are interpolated.
 };
 
 /// Finds elevation and vertical offset of every ring of a unit from scans whose rings are known.
 ///
 /// The points of one laser lie on a line over horizontal distance. Ranging noise moves them along
 /// it; motion compensation moves them beside it, horizontally by up to decimetres. So the line is
-/// fitted with an error in both coordinates (Deming), far more of it in the distance, and robustly
-/// (Cauchy weights, iterated): without this the steep rings come out too flat by degrees.
+/// fitted with an error in both coordinates (Deming), mostly in the distance, and robustly (Cauchy
+/// weights, iterated); otherwise the steep rings come out too flat by degrees.
 ///
 /// Memory: at most kPointsPerRing points a ring are kept, evenly spaced over everything added.
 /// Start-up code: allocates, not thread-safe. Deterministic.
@@ -47,24 +47,24 @@ class RingTableFit {
   static constexpr std::size_t kPointsPerRing = 60000;
   static constexpr std::size_t kMinPointsPerRing = 100;
   static constexpr std::size_t kMinPointsPerSeenRing = 10;
-  /// Returns beyond the sensor's reach are no returns; one of them would outweigh a whole ring.
+  /// Points beyond the sensor's reach are no returns; one of them would outweigh a whole ring.
   static constexpr float kReach_m = 150;
 
   explicit RingTableFit(int rings = kScanRings) : rings_(static_cast<std::size_t>(rings)) {}
 
-  /// Adds a scan. `ring_of_point`: a ring from 0 or kNoRing for each point. Points beyond
-  /// kReach_m, the not finite ones among them, are left out.
+  /// Adds a scan. `ring_of_point` has a ring from 0, or kNoRing, for each point. Points beyond
+  /// kReach_m and points that are not finite are left out.
   void add(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point);
 
-  /// The table of everything added so far. Where rings may have seen little but near ground, as in
-  /// a cropped view, elevation and vertical offset cannot be told apart: with `offsets` these are
-  /// taken, and only the elevations are found (medians). Error kMalformed when fewer than half the
-  /// rings have enough points.
+  /// Returns the table of everything added so far. Rings that saw only near ground, as in a cropped
+  /// view, cannot tell elevation from vertical offset: with `offsets` these are taken as given, and
+  /// only elevations are found (medians). Error kMalformed when fewer than half the rings have
+  /// enough points.
   [[nodiscard]] Expected<FittedRings> fit(const RingTable* offsets = nullptr) const;
 
-  /// The same where rings may have seen nothing or little, as those above the horizon of an open
-  /// field, or all of a narrow view: a ring's elevation takes ten points. Error kMalformed when
-  /// these rings are fewer than four or do not hold half of the points.
+  /// Returns the table when rings may have seen little or nothing, as those above the horizon of an
+  /// open field, or all of a narrow view: a ring's elevation takes ten points. Error kMalformed
+  /// when these rings are fewer than four or do not hold half of the points.
   [[nodiscard]] Expected<FittedRings> fit_seen(const RingTable& offsets) const;
 
  private:

@@ -24,7 +24,7 @@ std::optional<fs::path> if_file(const fs::path& path) {
 
 ScanFile scan_file(const fs::path& path, const fs::path& labels) {
   fs::path stem = path.stem();
-  if (files::ending_of(stem) == ".pcd") stem = stem.stem();  // of .pcd.bin
+  if (files::ending_of(stem) == ".pcd") stem = stem.stem();  // for .pcd.bin
   const std::string name = stem.string();
   return {path, if_file(labels / (name + ".label")), name, rt::number_of<std::uint32_t>(name)};
 }
@@ -60,7 +60,7 @@ Expected<ScanFolder> list_scan_folder(const fs::path& folder, const ScanKind& ki
     const fs::path& path = entry->path();
     std::error_code ignored;
     if (!kind.is_scan(path) || path.filename().native().starts_with('.')) continue;
-    // A link that leads nowhere is a scan all the same: reading it says what is wrong.
+    // A broken link counts as a scan: reading it reports the fault.
     if (!entry->is_regular_file(ignored) && !entry->is_symlink(ignored)) continue;
     found.scans.push_back(scan_file(path, labels));
   }

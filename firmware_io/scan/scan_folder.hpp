@@ -17,9 +17,9 @@ namespace terracut::scan {
 struct ScanFile {
   std::filesystem::path points;  ///< The scan itself.
   std::optional<std::filesystem::path>
-      labels;        ///< The `.label` of the same name, where there is one.
+      labels;        ///< The `.label` file of the same name, if there is one.
   std::string name;  ///< "000009" of 000009.bin and of 000009.pcd.bin.
-  /// The frame number the name spells, for poses and times; none when the name is not a number.
+  /// The frame number in the name, for poses and times; empty if the name is not a number.
   std::optional<std::uint32_t> frame;
 };
 
@@ -31,21 +31,21 @@ struct ScanFolder {
   std::optional<std::filesystem::path> calib;  ///< calib.txt
 };
 
-/// Which files of a folder are scans, by their names.
+/// Tells by name which files of a folder are scans.
 struct ScanKind {
   bool (*is_scan)(const std::filesystem::path&);
   std::string_view formats;  ///< For messages: "KITTI's .bin (float32 x y z remission)".
 };
-/// `.bin`
+/// True for a name that ends in `.bin`.
 [[nodiscard]] bool is_kitti_bin(const std::filesystem::path& path);
 inline constexpr ScanKind kKittiScans{is_kitti_bin, "KITTI's .bin (float32 x y z remission)"};
 
 /// Lists a SemanticKITTI sequence folder (velodyne/ with scans, labels/ with .label, poses.txt,
 /// times.txt, calib.txt; all but velodyne/ optional) or a plain folder of scans with .label files
-/// beside them; or takes a scan alone. Labels are taken for the scans that have them. Hidden files
-/// are no scans: macOS puts a `._000000.bin` beside a 000000.bin.
-/// Errors: kNotFound (no such folder, no scan in it), kUnreadable, kUnsupported (a file that is no
-/// scan by its name), kMalformed (two scans of one name, whose outputs would be one file).
+/// beside them, or a single scan. Scans may lack labels. Hidden files are ignored: macOS puts a
+/// `._000000.bin` beside a 000000.bin. Errors: kNotFound (no such folder, no scan in it),
+/// kUnreadable, kUnsupported (a file whose name is not a scan's), kMalformed (two scans of one
+/// name, whose outputs would be one file).
 [[nodiscard]] Expected<ScanFolder> list_scan_folder(const std::filesystem::path& folder,
                                                     const ScanKind& kind = kKittiScans);
 

@@ -18,7 +18,7 @@ Error in_file(const std::filesystem::path& path, Error error) {
   return error;
 }
 
-/// What is missing beside the scans to tell their motion; empty where nothing is.
+/// Returns what the folder lacks to know the scans' motion; empty if nothing.
 std::string missing_for_motion(const ScanFolder& folder) {
   if (!folder.poses) return "poses.txt is missing beside velodyne/";
   if (!folder.times) return "times.txt is missing beside velodyne/";
@@ -70,7 +70,7 @@ Status ScanReader::read(std::size_t index, const RingTable* table, KittiScan& sc
   const Status status = file.labels ? read_kitti_scan(file.points, *file.labels, scan)
                                     : read_kitti_scan(file.points, scan);
   if (!status) return status;
-  // Rings first: putting the motion back moves points over the line that separates them.
+  // Rings come first: putting the motion back moves points over the line that separates rings.
   Status recovered = recover_rings(scan.points, table, rings);
   if (!recovered) return tl::unexpected(in_file(file.points, std::move(recovered.error())));
   const auto twist = this->twist(index);

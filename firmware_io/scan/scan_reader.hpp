@@ -16,34 +16,34 @@
 
 namespace terracut::scan {
 
-/// Whether the sensor's motion, which recorded scans are compensated for, is put back into them
-/// (motion_compensation.hpp). It takes poses.txt and times.txt beside velodyne/, with poses of all
-/// scans, and scans named by their frame number.
+/// Whether to put back the sensor's motion, for which recorded scans are compensated
+/// (motion_compensation.hpp). This needs poses.txt and times.txt beside velodyne/, with poses of
+/// all scans, and scans named by their frame number.
 enum class PutMotionBack {
   kNever,
-  kWhereKnown,  ///< Where that is there.
-  kAlways,      ///< An error where it is not.
+  kWhereKnown,  ///< If these are there.
+  kAlways,      ///< It is an error if they are not.
 };
 
 /// Reads the scans of a folder one by one, with the ring of every point.
 class ScanReader {
  public:
-  /// Lists the folder (scan_folder.hpp). Errors: its own; those of SensorMotion::read() where the
-  /// motion is to be put back; with kAlways kNotFound where what that takes is not there.
+  /// Lists the folder (scan_folder.hpp). Errors: of the listing; of SensorMotion::read() if motion
+  /// is put back; kNotFound with kAlways if a needed file is missing.
   [[nodiscard]] static Expected<ScanReader> open(const std::filesystem::path& folder,
                                                  PutMotionBack motion = PutMotionBack::kNever);
 
-  /// Why the scans are read as they are recorded; empty where their motion is put back.
+  /// Returns why the scans are read as recorded; empty if their motion is put back.
   [[nodiscard]] const std::string& why_as_recorded() const noexcept { return why_as_recorded_; }
 
   [[nodiscard]] std::size_t size() const noexcept { return folder_.scans.size(); }
   [[nodiscard]] const ScanFile& file(std::size_t index) const { return folder_.scans[index]; }
 
-  /// Reads scan `index` into `scan`, labels included where it has them, and the rings of its
-  /// points. Scans with other than 64 rings need a table: fit_rings() or use_rings() first.
+  /// Reads scan `index` into `scan`, with labels if it has them, and the rings of its points. A
+  /// scan without exactly 64 rings needs a table: call fit_rings() or use_rings() first.
   [[nodiscard]] Status read(std::size_t index, KittiScan& scan, RingRecovery& rings) const;
 
-  /// The motion that was put back into scan `index`; nothing where none was.
+  /// Returns the motion put back into scan `index`; nothing if none was.
   [[nodiscard]] Expected<std::optional<SensorTwist>> twist(std::size_t index) const;
 
   /// Fits the unit's ring table (ring_fit_of_scans.hpp) and uses it from then on.
@@ -55,7 +55,7 @@ class ScanReader {
                             RingRecovery& rings) const;
 
   ScanFolder folder_;
-  std::optional<SensorMotion> motion_;  ///< Only where it is to be put back.
+  std::optional<SensorMotion> motion_;  ///< Empty unless it is put back.
   std::string why_as_recorded_;
   std::optional<RingTable> table_;
 };

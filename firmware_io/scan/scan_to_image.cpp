@@ -15,11 +15,11 @@
 namespace terracut::scan {
 namespace {
 
-/// So many points at once, which stay in the cache next to the core.
+/// Points are processed in blocks that stay in the cache next to the core.
 constexpr std::size_t kBlock = 512;
 
-/// Where a block's points lie in the vehicle frame and in the image; anything for points that are
-/// no place.
+/// A block's points in the vehicle frame and their cells in the image; any value for points without
+/// a place.
 struct Block {
   std::array<float, kBlock> x_m, y_m, z_m, ground_range_m, azimuth_rad;
   std::array<std::int32_t, kBlock> column;

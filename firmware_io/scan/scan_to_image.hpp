@@ -18,38 +18,38 @@ namespace terracut::scan {
 /// Puts clouds into range images without packets (`terracut segment`), and brings the labels of the
 /// returns back into the cloud's order.
 ///
-/// Row = rows - 1 - ring (row 0 is the lowest), column = azimuth / pitch clockwise from straight
-/// ahead, the decoder's rule, of a sensor that hangs upside down as if it stood: row = ring, and
-/// clockwise seen from above the vehicle; coordinates are the cloud's own, moved into the vehicle
-/// frame by the mount. Of several points in a cell the nearest owns it, so that their order does
-/// not matter. Returns are numbered in the cloud's order. Points without a ring and points beyond
-/// the overflow list's end are counted and not placed.
+/// By the decoder's rule row = rows - 1 - ring (row 0 is the lowest) and column = azimuth / pitch
+/// clockwise from straight ahead. For a sensor upside down row = ring, and clockwise is seen from
+/// above the vehicle. The mount moves the coordinates into the vehicle frame. Of several points in
+/// a cell the nearest owns it, so that their order does not matter. Returns are numbered in the
+/// cloud's order. Points without a ring and points beyond the overflow list's end are counted and
+/// not placed.
 ///
 /// Allocates nothing for clouds no larger than the largest before, or than `points_expected`.
 class ScanToImage {
  public:
   struct Summary {
     std::size_t placed = 0;
-    std::size_t no_place = 0;       ///< is_place() is false; labelled frame::Label::kNone.
-    std::size_t no_ring = 0;        ///< A place, but of no ring; labelled kObstacle, the safe side.
-    std::size_t overflow_full = 0;  ///< Their cell and the overflow list were taken; kObstacle.
+    std::size_t no_place = 0;  ///< Without a place (is_place()); labelled frame::Label::kNone.
+    std::size_t no_ring = 0;   ///< With a place but no ring; labelled kObstacle, the safe side.
+    std::size_t overflow_full = 0;  ///< Cell and overflow list were full; labelled kObstacle.
   };
 
   explicit ScanToImage(const mount::Mount& mount, std::size_t points_expected = 0);
 
   /// Clears `image`, which must have a row for every ring, and fills it with a cloud.
-  /// `ring_of_point`: the ring, 0 is the highest, or kNoRing for each point; kNoRing for what is no
-  /// place.
+  /// `ring_of_point` has for each point its ring, 0 the highest, or kNoRing (always for points
+  /// without a place).
   Summary place(std::span<const ScanPoint> points, std::span<const std::int16_t> ring_of_point,
                 frame::RangeImage& image);
 
-  /// The point, as its index in the cloud, of every return of the last place().
+  /// Returns by return of the last place() the index of its point in the cloud.
   [[nodiscard]] std::span<const std::uint32_t> point_of_return() const noexcept {
     return point_of_return_;
   }
 
-  /// Labels of all points of the last cloud in its order from the labels of its returns, by the
-  /// rules of Summary. `of_returns` has one label for every placed point.
+  /// Gives all points of the last cloud, in its order, the labels of their returns; points without
+  /// a return get those of Summary. `of_returns` has one label for every placed point.
   void labels_of_points(std::span<const frame::Label> of_returns,
                         std::vector<frame::Label>& of_points) const;
 
@@ -57,7 +57,7 @@ class ScanToImage {
   mount::RigidTransform T_vehicle_lidar_;
   bool is_upside_down_;
   std::vector<std::uint32_t> point_of_return_;
-  std::vector<frame::Label> label_without_return_;  ///< Of every point, for when it has no return.
+  std::vector<frame::Label> label_without_return_;  ///< The label of each point that has no return.
 };
 
 }  // namespace terracut::scan

@@ -43,7 +43,7 @@ Pose inverse(const Pose& a) {
   return b;
 }
 
-/// Rotation vector and, to second order in it, the translation of the logarithm of a small motion.
+/// Takes the logarithm of a small motion: its rotation vector, and its translation to second order.
 void logarithm(const Pose& T, std::array<double, 3>& rotating, std::array<double, 3>& moving) {
   const double cosine = std::clamp((T[0] + T[5] + T[10] - 1) / 2, -1.0, 1.0);
   const double angle = std::acos(cosine);
@@ -58,7 +58,7 @@ void logarithm(const Pose& T, std::array<double, 3>& rotating, std::array<double
   for (std::size_t i = 0; i < 3; ++i) moving[i] = t[i] - wt[i] / 2 + wwt[i] / 12;
 }
 
-/// Numbers of one line; false when something else stands in it.
+/// Reads the numbers of one line; false if it has anything else.
 bool parse_numbers(const char* text, std::vector<double>& numbers) {
   numbers.clear();
   for (;;) {
@@ -72,7 +72,7 @@ bool parse_numbers(const char* text, std::vector<double>& numbers) {
   }
 }
 
-/// Reads `per_line` numbers from every line that is not empty.
+/// Reads `per_line` numbers from every non-empty line.
 Expected<std::vector<double>> read_table(const std::filesystem::path& path, std::size_t per_line) {
   std::ifstream file(path);
   if (!file) {
@@ -93,7 +93,8 @@ Expected<std::vector<double>> read_table(const std::filesystem::path& path, std:
   return table;
 }
 
-/// The 12 numbers after "Tr:" (or KITTI raw's "Tr_velo_to_cam:"); nothing without such a line.
+/// Returns the 12 numbers after "Tr:" (or KITTI raw's "Tr_velo_to_cam:"); nothing without such a
+/// line.
 Expected<std::optional<Pose>> read_extrinsics(const std::filesystem::path& path) {
   std::ifstream file(path);
   std::string line;

@@ -16,7 +16,7 @@ namespace terracut::scan {
 struct SensorTwist {
   std::array<double, 3> angular_velocity_rad_s{};
   std::array<double, 3> velocity_m_s{};
-  double frame_duration_s = 0.1;  ///< Of one frame of the head.
+  double frame_duration_s = 0.1;  ///< Duration of one revolution.
 };
 
 /// A rigid motion, row-major 3x4: p_to = rotation * p_from + translation.
@@ -26,23 +26,23 @@ using RigidMotion = std::array<double, 12>;
 class SensorMotion {
  public:
   /// Reads poses.txt (a line a frame: 3x4 row-major pose of the left camera in that of frame 0),
-  /// times.txt (a line a frame: seconds) and the sensor's place from the line "Tr:" of calib.txt
-  /// (3x4, sensor to camera). Without calib.txt or that line the place of the KITTI car's drawing
-  /// is taken: axes parallel, camera 0.27 m in front of the sensor and 0.08 m below. Line n is
-  /// frame n. Errors: kNotFound, kUnreadable, kMalformed with file and line (wrong count of
-  /// numbers, not finite, times that do not rise, unequal lengths, faster than any car).
+  /// times.txt (a line a frame: seconds) and the sensor's pose from the line "Tr:" of calib.txt
+  /// (3x4, sensor to camera). Without that line the pose is the KITTI car drawing's: axes parallel,
+  /// camera 0.27 m in front of the sensor and 0.08 m below. Line n is frame n. Errors: kNotFound,
+  /// kUnreadable, kMalformed with file and line (wrong count of numbers, not finite, times that do
+  /// not rise, unequal lengths, faster than any car).
   [[nodiscard]] static Expected<SensorMotion> read(
       const std::filesystem::path& poses, const std::filesystem::path& times,
       const std::optional<std::filesystem::path>& calib);
 
   [[nodiscard]] std::size_t frames() const noexcept { return times_s_.size(); }
 
-  /// Mean motion from the frame before to the frame after (at the ends: to the one neighbour).
-  /// Error kInvalidArgument for a frame that the files do not have.
+  /// Returns the mean motion from the frame before to the frame after (at the ends, to the one
+  /// neighbour). Error kInvalidArgument for a frame that the files do not have.
   [[nodiscard]] Expected<SensorTwist> twist(std::uint32_t frame) const;
 
-  /// Takes what the sensor sees in frame `from` to where it is seen in frame `to`. Nothing for a
-  /// frame that the files do not have.
+  /// Returns the motion that takes a static point from the sensor frame at frame `from` to that at
+  /// frame `to`. Nothing for a frame that the files do not have.
   [[nodiscard]] std::optional<RigidMotion> between(std::uint32_t from, std::uint32_t to) const;
 
  private:

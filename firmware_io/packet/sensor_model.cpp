@@ -18,7 +18,8 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr std::size_t kPositionBytes = 512;
-// The Ruby Lite has the Ruby128's header and blocks of 4 + 3 bytes a channel, but four of 80.
+// The Ruby Lite has the Ruby128's header and blocks of 4 + 3 bytes a channel, but four blocks of 80
+// channels.
 constexpr std::size_t kFirstRubyBlockAt = offsetof(ruby128::ruby128_wire::Packet, blocks);
 constexpr std::size_t kRuby128BlockBytes = sizeof(ruby128::ruby128_wire::Block);
 constexpr std::size_t kRubyLiteBlockBytes = 4 + 3 * 80;
@@ -52,7 +53,7 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
     return block.id.value() == hdl64e::kUpperBlockId;
   });
   if (are_upper) return product(packet.status_value);
-  // In dual return both returns of a block are side by side.
+  // In dual return the two returns of a block are adjacent.
   const bool is_single = packet.blocks[1].id.value() == hdl64e::kLowerBlockId &&
                          packet.blocks[2].id.value() == hdl64e::kVls128ThirdId;
   const bool is_dual = packet.blocks[2].id.value() == hdl64e::kLowerBlockId &&
@@ -61,7 +62,7 @@ SensorModel velodyne_model(const hdl64e::wire::Packet& packet) noexcept {
   return SensorModel::kUnknown;
 }
 
-/// By the Ruby Plus manual byte 31 is 5 for the Ruby family, byte 32 the model.
+/// Ruby Plus manual: byte 31 is 5 for the Ruby family, byte 32 is the model.
 bool is_ruby_plus(Bytes payload) noexcept {
   return payload[31] == 5 && payload[32] == 1;
 }
@@ -70,7 +71,7 @@ SensorModel robosense_model(Bytes payload) noexcept {
   if (starts_with(payload, kDifopStart)) return SensorModel::kRoboSenseDeviceInfo;
   if (starts_with(payload, kOlderMsopStart)) return SensorModel::kOtherRoboSense;
   if (!starts_with(payload, ruby128::kRubyMagic)) return SensorModel::kUnknown;
-  // Only the first byte of a block is its id; the second is the number of the return.
+  // Only a block's first byte is its id; the second is the number of the return.
   const auto block_at = [&](std::size_t at) { return payload[at] == ruby128::kRubyBlockId; };
   if (!block_at(kFirstRubyBlockAt)) return SensorModel::kOtherRoboSense;
   const bool by_128 = block_at(kFirstRubyBlockAt + kRuby128BlockBytes) &&
@@ -162,7 +163,7 @@ SensorModel recognise_sensor(Bytes payload) noexcept {
   if (const auto* packet = hdl64e::packet_in(payload)) return velodyne_model(*packet);
   if (payload.size() == ruby128::kRubyPacketBytes) return robosense_model(payload);
   if (payload.size() == kPositionBytes) {
-    // NMEA text at offset 206 where a GPS is connected, else zeros.
+    // There is NMEA text at offset 206 if a GPS is connected, else zeros.
     constexpr std::size_t kSentenceAt = 206;
     const std::uint8_t first = payload[kSentenceAt];
     if (first == '$' || first == 0) return SensorModel::kVelodynePosition;
@@ -172,7 +173,7 @@ SensorModel recognise_sensor(Bytes payload) noexcept {
 
 SensorModel recognise_sensor_as(std::optional<SensorModel> named, Bytes payload) noexcept {
   const SensorModel model = recognise_sensor(payload);
-  // The VLS-128's blocks have ids of their own and tell it without.
+  // The VLS-128 is excluded: its blocks' ids identify it anyway.
   const bool may_be_named = model == SensorModel::kOtherVelodyne && named &&
                             velodyne_model_of(*named) && *named != SensorModel::kVls128;
   return may_be_named ? *named : model;

@@ -14,13 +14,13 @@
 namespace terracut::sensor {
 namespace {
 
-/// Distinct payload sizes told apart in a stream; the rest is told under the size 0.
+/// The number of payload sizes counted one by one in a stream; others count as size 0.
 constexpr std::size_t kMostSizes = 64;
 
 using StreamKey =
     std::tuple<std::uint32_t, std::uint32_t, std::uint16_t, std::uint16_t, std::uint32_t>;
 
-/// What the data packets of a model tell that send nothing else.
+/// Surveys a model whose data packets tell nothing beyond head and clock.
 class HeadSurvey {
  public:
   void add(SensorModel model, const packet::Datagram& datagram) {
@@ -29,7 +29,7 @@ class HeadSurvey {
     if (!reject && azimuths.behind_sector > 0 && !stream_.blind().is_inside(azimuths)) {
       reject = frame::Reject::kAzimuthJump;
     }
-    if (reject && azimuths.columns == 0) return;  // not its block ids after all
+    if (reject && azimuths.columns == 0) return;  // its block ids do not fit after all
     if (reject == frame::Reject::kAzimuthOutOfRange) {
       stream_.add_out_of_range();
     } else {
@@ -47,7 +47,7 @@ struct StreamUnderSurvey {
   UdpStream stream;
   std::map<SensorModel, std::uint64_t> votes;
   std::map<SensorModel, std::string> hints;
-  // Some kilobytes each; only made where one is seen.
+  // Surveys are some kilobytes each, so they are made on demand.
   std::unique_ptr<Hdl64eSurvey> hdl64e;
   std::unique_ptr<Ruby128Survey> ruby128;
   std::unique_ptr<Ruby128DeviceReader> device;
@@ -85,7 +85,7 @@ struct StreamUnderSurvey {
   }
 
   [[nodiscard]] UdpStream finished() {
-    // Unknown packets do not outvote a sensor that was recognised.
+    // Unknown packets do not outvote a recognised sensor.
     std::uint64_t most = 0;
     for (const auto& [model, count] : votes) {
       if (model == SensorModel::kUnknown || count <= most) continue;

@@ -25,40 +25,40 @@ struct UdpStream {
   std::uint32_t destination_address = 0;
   std::uint16_t source_port = 0;
   std::uint16_t destination_port = 0;
-  std::uint32_t vlan = 0;  ///< As in Datagram.
+  std::uint32_t vlan = 0;  ///< See Datagram.
   std::uint64_t packets = 0;
   std::uint64_t payload_bytes = 0;
   std::map<std::size_t, std::uint64_t> payload_sizes;  ///< Packets by payload size.
   std::int64_t first_stamp_ns = 0;                     ///< Capture stamps: earliest and latest.
   std::int64_t last_stamp_ns = 0;
 
-  SensorModel sensor = SensorModel::kUnknown;  ///< What most of its packets are.
+  SensorModel sensor = SensorModel::kUnknown;  ///< The model of most of its packets.
   std::string sensor_hints;             ///< As describe_sensor_hints() of its first such packet, or
-                                        ///< sensor::guess_of_unknown().
-  std::optional<Hdl64eFacts> hdl64e;    ///< Where any packet is an HDL-64E's.
-  std::optional<Ruby128Facts> ruby128;  ///< Where any is an RS-Ruby128's data packet.
-  std::optional<StreamFacts> head;      ///< Where most are of a decoded model that tells no more.
-  std::optional<Ruby128DeviceReader> device;  ///< Where any is a DIFOP.
+                                        ///< streams::guess_of_unknown().
+  std::optional<Hdl64eFacts> hdl64e;    ///< Set if any packet is an HDL-64E's.
+  std::optional<Ruby128Facts> ruby128;  ///< Set if any is an RS-Ruby128's data packet.
+  std::optional<StreamFacts> head;      ///< Set if most are of another decoded model.
+  std::optional<Ruby128DeviceReader> device;  ///< Set if any is a DIFOP.
 
-  /// Packets a second by the capture stamps; 0 for one packet or none.
+  /// Returns packets a second by the capture stamps; 0 for fewer than two packets.
   [[nodiscard]] double rate_hz() const noexcept;
 };
 
-/// Everything `terracut info` says of a capture.
+/// Everything that `terracut info` shows of a capture.
 struct CaptureSurvey {
   std::string name;
   int link_type = 0;           ///< libpcap's DLT_ number.
   std::string link_type_name;  ///< "EN10MB"
   capture::PcapCounters counters;
   std::vector<UdpStream> streams;                ///< Most packets first.
-  std::uint64_t packets_of_further_streams = 0;  ///< Beyond kMostStreams.
-  std::optional<Error> broke_off;                ///< Why reading ended before the file did, if so.
+  std::uint64_t packets_of_further_streams = 0;  ///< Packets of streams beyond kMostStreams.
+  std::optional<Error> broke_off;  ///< Why reading ended before the file's end, if it did.
 
   static constexpr std::size_t kMostStreams = 1024;
 };
 
-/// Reads the capture from where it stands, until `stop_wanted`, if any. One that breaks off is no
-/// error here, see CaptureSurvey::broke_off. For inspection: allocates, takes about a second a
+/// Reads the capture from its present position, until `stop_wanted` if given. A capture that breaks
+/// off is no error, see CaptureSurvey::broke_off. For inspection: allocates, takes about a second a
 /// gigabyte.
 [[nodiscard]] CaptureSurvey survey_capture(capture::PcapSource& source,
                                            const std::function<bool()>& stop_wanted = {});

@@ -13,32 +13,32 @@ namespace terracut::sensor {
 
 struct Ruby128DeviceCounters {
   std::uint64_t packets = 0;  ///< DIFOP packets read.
-  /// Packets whose serial number, or angles, differ from those of the packet before. Units send the
-  /// same all their life: any change means that two sensors share a port, or that one was replaced.
+  /// Packets whose serial number, or angles, differ from those of the packet before. A unit always
+  /// sends the same: any change means that two sensors share a port, or that one was replaced.
   std::uint64_t serial_changes = 0;
   std::uint64_t angle_changes = 0;
 };
 
-/// Follows the DIFOP packets of one stream: keeps the newest packet, and the first whose angles are
-/// plausible. Later angles are counted, never taken: a calibration must not change under a running
-/// decoder.
+/// Follows the DIFOP packets of one stream: keeps the newest packet, and the first one with
+/// plausible angles. Later angles are counted but not used: a calibration must not change under a
+/// running decoder.
 ///
 /// One thread at a time. For start and reports: add() may allocate.
 class Ruby128DeviceReader {
  public:
-  /// False for what is no DIFOP.
+  /// False if the payload is no DIFOP.
   bool add(std::span<const std::uint8_t> payload);
 
   [[nodiscard]] const Ruby128DeviceCounters& counters() const noexcept { return counters_; }
 
-  /// The newest packet; nothing before the first.
+  /// Returns the newest packet; nothing before the first.
   [[nodiscard]] const std::optional<ruby128::ruby128_wire::Difop>& newest() const noexcept {
     return newest_;
   }
 
   [[nodiscard]] bool has_calibration() const noexcept { return calibration_.has_value(); }
-  /// The first plausible angles. While there are none: kNoCalibration when no packet has come, else
-  /// what calibration_of() says of the newest.
+  /// Returns the first plausible angles. Without any: kNoCalibration if no packet has come, else
+  /// calibration_of()'s error for the newest.
   [[nodiscard]] const Expected<ruby128::Ruby128Calibration>& calibration() const noexcept {
     return calibration_;
   }

@@ -13,7 +13,7 @@
 
 namespace terracut::sensor {
 
-/// What the packets of one HDL-64E tell about it.
+/// Facts about one HDL-64E from its packets.
 struct Hdl64eFacts : StreamFacts {
   hdl64e::StatusSnapshot status;
   std::size_t status_holes = 0;  ///< Bytes of the table that never came.
@@ -23,7 +23,7 @@ struct Hdl64eFacts : StreamFacts {
 /// Gathers Hdl64eFacts packet by packet. For inspection, not for the receive thread: allocates.
 class Hdl64eSurvey {
  public:
-  /// A payload that is an HDL-64E's (recognise_sensor()).
+  /// Takes a payload of an HDL-64E (recognise_sensor()).
   void add(std::span<const std::uint8_t> payload);
   [[nodiscard]] Hdl64eFacts facts() const;
 

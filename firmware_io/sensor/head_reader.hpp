@@ -19,17 +19,17 @@
 
 namespace terracut::sensor {
 
-/// By VelodyneModel.
+/// Layouts by VelodyneModel.
 inline constexpr std::array<velodyne::PacketLayout, velodyne::kVelodyneModels> kVelodyneLayouts{
     velodyne::Vlp16::kLayout, velodyne::Hdl32e::kLayout, velodyne::Vlp32c::kLayout,
     velodyne::Vls128::kLayout};
 
-/// Reads from the data packets of any decoded model where the head stood and when, without a
-/// decoder. One stream, one thread.
+/// Reads head azimuths and stamps from the data packets of any decoded model, without a decoder.
+/// One stream, one thread.
 class HeadReader {
  public:
-  /// As the check() of the model's trait, the model being a named one (VelodyneConfig). An
-  /// RS-Ruby128's packets with a blind sector inside are rejected.
+  /// Does the check() of the model's trait, for a named model (VelodyneConfig). An RS-Ruby128's
+  /// packets with a blind sector inside are rejected.
   [[nodiscard]] std::optional<frame::Reject> read(SensorModel model,
                                                   const packet::Datagram& datagram,
                                                   packet::PacketAzimuths& azimuths) noexcept;

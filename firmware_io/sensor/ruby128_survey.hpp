@@ -11,26 +11,27 @@
 
 namespace terracut::sensor {
 
-/// What the data packets of one RS-Ruby128 tell about it.
+/// Facts about one RS-Ruby128 from its data packets.
 struct Ruby128Facts : StreamFacts {
   std::uint16_t protocol_version = 0;
   ruby128::RubyTimestamp timestamp = ruby128::RubyTimestamp::kUtcMicroseconds;
   bool timestamp_proven = false;
   double ahead_of_capture_s = 0;  ///< Device clock minus capture stamp, of the last packet.
-  double temperature_deg_c = 0;   ///< Of the last packet.
+  double temperature_deg_c = 0;   ///< In the last packet.
 };
 
 /// Gathers Ruby128Facts packet by packet. For inspection, not for the receive thread: allocates.
 class Ruby128Survey {
  public:
-  /// A payload that is an RS-Ruby128's data packet (recognise_sensor()) and its capture stamp.
+  /// Takes a payload that is an RS-Ruby128's data packet (recognise_sensor()) and its capture
+  /// stamp.
   void add(std::span<const std::uint8_t> payload, std::int64_t stamp_ns);
   [[nodiscard]] Ruby128Facts facts() const;
 
  private:
   StreamSurvey stream_{ruby128::Ruby128Sensor::kClockWrap_us};
   ruby128::RubyTimestampDetector timestamp_;
-  std::int32_t step_ticks_ = 0;  ///< Of the last packet of a rotating head; 0: none yet.
+  std::int32_t step_ticks_ = 0;  ///< Of the last packet with a rotating head; 0: none yet.
   Ruby128Facts last_;
 };
 

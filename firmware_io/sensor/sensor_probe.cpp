@@ -15,12 +15,13 @@ namespace terracut::sensor {
 namespace {
 
 constexpr std::uint64_t kEnoughPackets = 50;
-/// A step between packets beyond this is a gap, across which the head's way is not known.
+/// A longer step between packets is a gap, across which the head's rotation is unknown.
 constexpr std::int64_t kLongestStep_us = 5'000;
-/// Sensors keep their set spin rate to a percent or two; not all, KITTI's runs at 9.65 Hz.
+/// Sensors keep their set spin rate to a percent or two, but KITTI's runs at 9.65 Hz.
 constexpr double kNominalTolerance = 0.03;
 
-/// Of the HDL-64E, which fires every 48 us or, in dual return and as some S3 do always, 57.6.
+/// Returns the firing period. An HDL-64E fires every 48 us or, in dual return and always on some
+/// S3, every 57.6 us.
 double firing_s(SensorModel model, bool fires_slowly) {
   if (model == SensorModel::kRuby128) return ruby128::kRubyBlock_ns * 1e-9;
   if (const auto family = velodyne_model_of(model)) {
@@ -30,7 +31,7 @@ double firing_s(SensorModel model, bool fires_slowly) {
   return (fires_slowly ? hdl64e::kFiringTimesDual : hdl64e::kFiringTimesSingle48).column_ns * 1e-9;
 }
 
-/// A step between two packets next to each other, of whichever cycle is nearer.
+/// True if a step between adjacent packets is nearer to the 57.6 us cycle.
 bool is_slow_step(std::int64_t step_us) {
   constexpr std::int64_t kBetween_ns =
       (hdl64e::kFiringTimesSingle48.packet_ns() + hdl64e::kFiringTimesSingle57.packet_ns()) / 2;
@@ -38,7 +39,7 @@ bool is_slow_step(std::int64_t step_us) {
   return step_us * 1000 > kBetween_ns && step_us * 1000 < kLongest_ns;
 }
 
-/// Of the head that is seen to rotate at this rate; none of these sensors rotates slower than 5 Hz
+/// Returns the spin rate of a head seen to rotate at this rate; no sensor rotates slower than 5 Hz
 /// or faster than 20.
 std::optional<double> head_spin_hz(double seen_hz) {
   for (const double nominal_hz : {5.0, 10.0, 15.0, 20.0}) {

@@ -14,43 +14,45 @@
 
 namespace terracut::sensor {
 
-/// Finds out from the first packets of a stream which sensor sends them, and how it rotates, so
-/// that a decoder can be made for it. Not for the receive thread: allocates.
+/// Finds out from the first packets of a stream which sensor sends them and how it rotates, so that
+/// a decoder can be made. Not for the receive thread: allocates.
 class SensorProbe {
  public:
-  /// `named`: the model that the sensor is said to be of (recognise_sensor_as()).
+  /// `named` is the model that the sensor is said to be (recognise_sensor_as()).
   explicit SensorProbe(std::optional<SensorModel> named = {}) : named_(named) {}
 
   void add(const packet::Datagram& datagram);
 
-  /// Datagrams by what they are; device information and unknown ones included.
+  /// Returns the number of datagrams by model, device information and unknown ones included.
   [[nodiscard]] const std::map<SensorModel, std::uint64_t>& votes() const noexcept {
     return votes_;
   }
   [[nodiscard]] std::uint64_t packets_of(SensorModel model) const;
-  /// Enough data packets of a rotating head of that model for the answers below.
+  /// True if enough data packets of a rotating head of that model came for the answers below.
   [[nodiscard]] bool knows(SensorModel model) const;
 
-  /// Frames per second of a decoded model, by its own stamps and azimuths; 0 while unknown.
+  /// Returns the frames per second of a decoded model, by its own stamps and azimuths; 0 while
+  /// unknown.
   [[nodiscard]] double spin_hz(SensorModel model) const;
   [[nodiscard]] bool dual_return(SensorModel model) const;
-  /// The columns its range image should have: firings a frame at 5, 10, 15 or 20 Hz, where it
-  /// rotates at about one of those, at its own rate where it rotates at another one between them;
-  /// else, and while unknown, the model's default.
+  /// Returns the columns of its range image: firings a frame at the nominal 5, 10, 15 or 20 Hz if
+  /// it rotates at about that, else at its own rate between 5 and 20 Hz. Otherwise, and while
+  /// unknown, returns the model's default.
   [[nodiscard]] int columns(SensorModel model) const;
 
-  /// Data packets in which the head of that model turns backwards, which no sensor's does.
+  /// Returns the number of data packets in which that model's head rotates backwards, which none
+  /// does.
   [[nodiscard]] std::uint64_t backward_packets(SensorModel model) const;
 
-  /// The models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLP-16 Hi-Res".
-  /// Empty when there are none.
+  /// Returns the models seen that cannot be decoded, as a phrase: "12 packets of a Velodyne VLP-16
+  /// Hi-Res". Empty if there are none.
   [[nodiscard]] std::string foreign_models() const;
 
  private:
-  /// What one model's packets say together.
+  /// The sum of one model's packets.
   struct Head {
     std::uint64_t packets = 0, dual_packets = 0;
-    std::uint64_t slow_steps = 0;  ///< From packet to packet, as of the HDL-64E's 57.6 us cycle.
+    std::uint64_t slow_steps = 0;  ///< Steps from packet to packet of the HDL-64E's 57.6 us cycle.
     std::int64_t rotated_cdeg = 0, time_us = 0;
     std::optional<packet::PacketAzimuths> last;
 
@@ -60,9 +62,9 @@ class SensorProbe {
 
   std::optional<SensorModel> named_;
   std::map<SensorModel, std::uint64_t> votes_;
-  std::map<SensorModel, Head> azimuths_;  ///< Of decoded models.
+  std::map<SensorModel, Head> azimuths_;  ///< Decoded models only.
   std::map<SensorModel, std::uint64_t> backward_packets_;
-  std::uint8_t other_product_ = 0;  ///< Of the newest Velodyne that is not known here.
+  std::uint8_t other_product_ = 0;  ///< Product number of the newest unknown Velodyne.
   HeadReader reader_;
 };
 

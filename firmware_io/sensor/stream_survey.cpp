@@ -12,12 +12,11 @@ namespace terracut::sensor {
 namespace {
 
 constexpr std::int64_t kJump_us = 10'000'000;
-/// Less than half a revolution at the fastest spin (20 Hz), so that the short way round is the true
-/// one.
+/// Less than half a revolution at the fastest spin (20 Hz): the short way round is the true one.
 constexpr std::int64_t kSurelyUnderHalfARevolution_us = 20'000;
 constexpr std::int64_t kShortestPeriod_us = 50;
-constexpr std::int64_t kLongestPeriod_us = 1'500;  ///< A VLP-16's are 1327 in single return.
-/// Bounds the memory a senseless capture can take.
+constexpr std::int64_t kLongestPeriod_us = 1'500;  ///< A VLP-16's are 1327 us in single return.
+/// Bounds the memory that a senseless capture can take.
 constexpr std::size_t kMostDistinctSteps = 100'000;
 
 }  // namespace
@@ -106,7 +105,7 @@ bool StreamSurvey::follow(const packet::PacketAzimuths& azimuths, std::int64_t s
   const bool is_wide = gap.ticks() >= blind_.least_ticks();
   if (is_wide || seen_->has_sector) {
     std::int64_t missing = std::max(0LL, std::llround(static_cast<double>(step_us) / one_us) - 1);
-    if (seen_->has_sector) {  // its time is in the step; what is missing behind it is in the gap
+    if (seen_->has_sector) {  // its time is in the step; the loss behind it is in the gap
       missing = std::min(missing, (gap.ticks() + azimuths.pace_ticks / 2) / azimuths.pace_ticks);
     }
     lost_in_gaps_ += is_wide ? blind_.judge(gap, missing, not_rotating_, stride).packets : missing;
@@ -124,7 +123,7 @@ bool StreamSurvey::follow(const packet::PacketAzimuths& azimuths, std::int64_t s
   return is_told;
 }
 
-/// Mean of the steps near the median of those that can be one period.
+/// Returns the mean of the steps near the median, out of those that can be one period.
 double StreamSurvey::period_us() const {
   const auto first = steps_us_.lower_bound(kShortestPeriod_us);
   const auto last = steps_us_.upper_bound(kLongestPeriod_us);
@@ -156,7 +155,7 @@ StreamFacts StreamSurvey::facts() const {
   decode::BlindSector to_the_end = blind_;
   to_the_end.end();
   facts.packets_lost += static_cast<std::uint64_t>(lost_in_gaps_ + to_the_end.take_due().packets);
-  // A packet put back in order fills a gap that was counted when the later one overtook it.
+  // A reordered packet fills a gap that was counted when a later one overtook it.
   facts.packets_lost -= std::min(facts.packets_lost, facts.packets_reordered);
   facts.blind = decode::blind_azimuths(blind_.sector());
   if (rotating_packets_ > 0) {

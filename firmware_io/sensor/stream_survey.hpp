@@ -17,18 +17,18 @@ namespace terracut::sensor {
 enum class ReturnMode : std::uint8_t { kUnknown, kSingle, kDual };
 [[nodiscard]] std::string_view to_string(ReturnMode mode) noexcept;
 
-/// How a sensor's head turned and what was lost of its packets, by the device's own stamps and
+/// How a sensor's head rotated and which packets were lost, by the device's own stamps and
 /// azimuths.
 struct StreamFacts {
   std::uint64_t packets = 0;
   ReturnMode return_mode = ReturnMode::kUnknown;
-  double packet_period_us = 0;         ///< Mean; 0 while unknown.
-  double spin_rpm = 0;                 ///< 0 for a head that stands still.
-  double step_deg = 0;                 ///< Azimuth from one firing to the next, mean.
-  double frames = 0;                   ///< Turned from the first packet to the last, gaps included.
-  std::uint64_t packets_lost = 0;      ///< Missing by the device stamps; in no blind sector.
-  frame::BlindAzimuths blind;          ///< At the end; as BlindSector finds it.
-  std::uint64_t packets_repeated = 0;  ///< With the stamp of the packet before.
+  double packet_period_us = 0;  ///< Mean; 0 while unknown.
+  double spin_rpm = 0;          ///< 0 for a head that stands still.
+  double step_deg = 0;          ///< Azimuth from one firing to the next, mean.
+  double frames = 0;            ///< Revolutions from the first packet to the last, gaps included.
+  std::uint64_t packets_lost = 0;      ///< Missing by the device stamps, outside a blind sector.
+  frame::BlindAzimuths blind;          ///< As BlindSector knows it at the end.
+  std::uint64_t packets_repeated = 0;  ///< With the same stamp as the packet before.
   std::uint64_t packets_reordered = 0;
   std::uint64_t clock_jumps = 0;  ///< Stamp steps beyond 10 s either way: a loop, a restart.
   std::uint64_t azimuths_out_of_range = 0;  ///< Packets with an azimuth of 360 degrees or more.
@@ -40,15 +40,15 @@ class StreamSurvey {
   /// `clock_wrap_us`: the device clock counts [0, clock_wrap_us).
   explicit StreamSurvey(std::int64_t clock_wrap_us) : clock_wrap_us_(clock_wrap_us) {}
 
-  /// A packet; `rotating` when its head rotates and all of `azimuths` is valid, else only its stamp
-  /// and azimuths are.
+  /// Adds a packet. `rotating` says that its head rotates and all of `azimuths` is valid; else only
+  /// its stamp and azimuths are.
   void add(const packet::PacketAzimuths& azimuths, bool rotating);
-  /// A packet of which no azimuth can be believed.
+  /// Adds a packet whose azimuths are all invalid.
   void add_out_of_range() {
     ++facts_.packets;
     ++facts_.azimuths_out_of_range;
   }
-  /// Where the sensor is blind, as far as the packets so far tell.
+  /// Returns where the sensor is blind, as far as learnt.
   [[nodiscard]] const decode::BlindSector& blind() const noexcept { return blind_; }
   [[nodiscard]] StreamFacts facts() const;
 
@@ -56,13 +56,13 @@ class StreamSurvey {
   /// The newest packet of a rotating head, by unwrapped azimuth.
   struct Seen {
     std::int64_t stamp_us = 0, rotor_cdeg = 0;
-    bool has_sector = false;  ///< In it (PacketAzimuths).
+    bool has_sector = false;  ///< A blind sector lies in it (PacketAzimuths).
   };
 
-  /// Device time and azimuth between two packets next to each other in the capture.
+  /// Adds the device time and azimuth between two adjacent packets of the capture.
   void add_step(const packet::PacketAzimuths& azimuths, bool rotating);
-  /// A packet of a rotating head comes `step_us` after the one before. True where it tells by the
-  /// azimuths what was lost between them.
+  /// Follows a rotating head across `step_us` to this packet. True if the azimuths tell what was
+  /// lost in between.
   [[nodiscard]] bool follow(const packet::PacketAzimuths& azimuths, std::int64_t step_us);
   void begin_rotating(const packet::PacketAzimuths& azimuths);
   [[nodiscard]] double period_us() const;
@@ -70,15 +70,15 @@ class StreamSurvey {
   std::int64_t clock_wrap_us_;
   StreamFacts facts_;
   std::optional<packet::PacketAzimuths> newest_;
-  std::map<std::int64_t, std::uint64_t> steps_us_;  ///< How often stamps advanced by how much.
-  std::int64_t short_time_us_ = 0;  ///< Over steps short enough to know the azimuth advance.
+  std::map<std::int64_t, std::uint64_t> steps_us_;  ///< Stamp steps, with how often each occurred.
+  std::int64_t short_time_us_ = 0;  ///< Over steps short enough to tell the azimuth's advance.
   std::int64_t short_advance_cdeg_ = 0;
-  std::int64_t long_time_us_ = 0;  ///< Over the others.
+  std::int64_t long_time_us_ = 0;  ///< Over all other steps.
   decode::BlindSector blind_{packet::kRevolution_ticks};
   std::optional<Seen> seen_;
   std::int64_t frontier_ticks_ = 0;  ///< The head was seen up to here.
-  std::int64_t not_rotating_ = 0;    ///< Packets since then.
-  std::int64_t lost_in_gaps_ = 0;    ///< Gaps wide enough for a blind sector.
+  std::int64_t not_rotating_ = 0;    ///< Packets since then without rotation.
+  std::int64_t lost_in_gaps_ = 0;    ///< Packets lost in gaps wide enough for a blind sector.
   std::int64_t steps_ticks_ = 0;     ///< Sum of the packets' own steps.
   std::uint64_t dual_packets_ = 0;
   std::uint64_t rotating_packets_ = 0;

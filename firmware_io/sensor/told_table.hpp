@@ -17,19 +17,19 @@
 
 namespace terracut::sensor {
 
-/// Where the packets told a table that is not the one in use: both fingerprints and what to do.
-/// Empty where they told none, or this one.
+/// Returns a warning if the packets contained another table than the one in use: both fingerprints
+/// and what to do. Empty if they contained none, or the same.
 [[nodiscard]] std::string other_table_warning(const hdl64e::StatusStreamReader& told,
                                               const calib::SensorCalibration& in_use);
 
-/// Reads along what an HDL-64E's packets tell of its table while another source of it is in use, to
-/// say when the two differ. Two threads: one adds, another one asks, now and then; what it is too
-/// slow for comes by again with the next round of the table.
+/// Reads the table in an HDL-64E's packets while another one is in use, to warn when the two
+/// differ. One thread adds packets, another asks now and then; data it misses come again with the
+/// next round of the table.
 class ToldTable {
  public:
   explicit ToldTable(memory::FixedMemory& memory) : heard_("table bytes", kHeard, memory) {}
 
-  /// Receiving thread. Nothing more is passed on once a table was told.
+  /// To be called on the receiving thread. After a whole table packets are no longer passed on.
   void add(const packet::Datagram& datagram) noexcept TERRACUT_NONBLOCKING {
     if (told_.load(std::memory_order_relaxed)) return;
     const auto* packet = hdl64e::packet_in(datagram.payload);
@@ -37,12 +37,12 @@ class ToldTable {
     (void)heard_.try_push({packet->stamp_us.value(), packet->status_type, packet->status_value});
   }
 
-  /// What there is to be said, once; empty before and after, and where nothing differs. Any one
-  /// thread without a deadline.
+  /// Returns the warning once; empty before and after, and if nothing differs. Any one thread
+  /// without a deadline.
   [[nodiscard]] std::string take_warning(const calib::SensorCalibration& in_use);
 
  private:
-  static constexpr std::size_t kHeard = 2048;  ///< Packets: 0.3 s of dual return.
+  static constexpr std::size_t kHeard = 2048;  ///< Packets of 0.3 s of dual return.
 
   struct StatusByte {
     std::uint32_t stamp_us;
@@ -50,7 +50,7 @@ class ToldTable {
   };
 
   queues::SpscQueue<StatusByte> heard_;
-  hdl64e::StatusStreamReader reader_;  ///< Of the thread that asks.
+  hdl64e::StatusStreamReader reader_;  ///< Used by the asking thread.
   std::atomic<bool> told_{false};
 };
 

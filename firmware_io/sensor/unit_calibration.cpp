@@ -23,13 +23,13 @@ using capture::PcapSource;
 
 // --- HDL-64E: the table in the status stream ---
 
-/// A table goes round in 4160 packets, and S2 units need two equal rounds; the rest is for losses.
+/// A table takes 4160 packets, and S2 units need two equal rounds; the rest is for losses.
 constexpr std::uint64_t kPacketsToSearch = 30'000;
 
-/// What the search for a table in the stream met on its way.
+/// What the search for a table in the stream met.
 struct StreamSearch {
   std::optional<hdl64e::Hdl64eCalibration> found;
-  std::string table_error;  ///< Of a whole table that does not hold a plausible calibration.
+  std::string table_error;  ///< Set for a whole table without a plausible calibration.
   std::string broke_off;    ///< Why the capture could not be read further.
   std::uint64_t data_packets = 0;
   std::size_t holes = 0;
@@ -84,7 +84,7 @@ Expected<calib::SensorCalibration> from_packets_of_hdl64e(PcapSource& source) {
 
 // --- RS-Ruby128: the angles in DIFOP ---
 
-/// DIFOP comes about once a second, among 6000 or, in dual return, 12000 data packets.
+/// DIFOP comes about once a second, among 6000 data packets (12000 in dual return).
 constexpr std::uint64_t kDatagramsToSearch = 60'000;
 
 Expected<ruby128::Ruby128Calibration> search_difop(PcapSource& source) {

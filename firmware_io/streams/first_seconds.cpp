@@ -17,9 +17,9 @@
 namespace terracut::streams {
 namespace {
 
-/// Another sensor at the same port shows within this time, after the first.
+/// Any other sensor at the same port shows within this time after the first.
 constexpr std::int64_t kAnotherShows_ns = 300'000'000;
-/// A sensor that rotates sends its calibration within this, if at all: an HDL-64E takes 1.2 s.
+/// A rotating sensor sends its calibration within this time, if at all; an HDL-64E takes 1.2 s.
 constexpr std::int64_t kCalibrationComes_ns = 6'000'000'000;
 
 std::string name_of(const HeardSenders::Sensor& sensor) {
@@ -35,7 +35,7 @@ std::string names_of(const std::vector<HeardSenders::Sensor>& sensors) {
   return all;
 }
 
-/// What chooses one of several.
+/// Says how to choose one of several.
 std::string_view choice_among(const std::vector<HeardSenders::Sensor>& sensors) {
   const auto is_elsewhere = [&](const auto& one) {
     return std::ranges::count(sensors, one.address, &HeardSenders::Sensor::address) == 1;

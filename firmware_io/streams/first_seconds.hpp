@@ -17,61 +17,60 @@
 
 namespace terracut::streams {
 
-/// Who sends, and what is needed to decode it.
+/// A sensor that sends, with what is needed to decode it.
 struct SensorOnAir {
   net::Sender sender;
   sensor::SensorModel model{};
-  int columns = 0;  ///< For the range image: firings a frame.
+  int columns = 0;  ///< Firings a frame, for the range image.
   double spin_hz = 0;
   bool dual_return = false;
   calib::SensorCalibration calibration;
 };
 
-/// Finds out who sends in the first seconds of a live run, and with which calibration: the file's,
-/// or what the sensor itself says, an HDL-64E in its data packets, an RS-Ruby128 at its device
-/// port.
+/// Finds out who sends in the first seconds of a live run, and its calibration: the file's, or the
+/// sensor's own, which an HDL-64E sends in its data packets and an RS-Ruby128 at its device port.
 ///
 /// Time is that of the datagrams' stamps. Allocates; one thread.
 class FirstSeconds {
  public:
   struct Config {
-    std::optional<sensor::SensorModel>
-        model;                   ///< The only one wanted; none: each that can be decoded.
-    std::optional<int> columns;  ///< None: as the sensor's spin rate suggests.
-    sensor::CalibrationChoice calibration;
-    std::string place;              ///< For people: where packets come in, "0.0.0.0:2368".
-    std::uint16_t device_port = 0;  ///< Where an RS-Ruby128 was heard as well; 0: nowhere.
-    /// The sensor that was in use before: of several it is the one.
+    std::optional<SensorModel> model;  ///< The only model wanted; none: any that can be decoded.
+    std::optional<int> columns;        ///< None: from the sensor's spin rate.
+    CalibrationChoice calibration;
+    std::string place;              ///< For messages: where packets come in, "0.0.0.0:2368".
+    std::uint16_t device_port = 0;  ///< The port where DIFOP was listened for as well; 0: none.
+    /// The sensor used before; it is chosen among several.
     std::optional<net::Sender> known{};
   };
   explicit FirstSeconds(Config config) : config_(std::move(config)), senders_(config_.model) {}
 
-  /// Of the data port or of the device port. `foreign`: datagrams that were left out so far because
-  /// they came from other senders than the one wanted.
+  /// add() takes datagrams of the data port and of the device port. note_foreign() takes how many
+  /// datagrams were left out so far because they came from senders that are not wanted.
   void add(const packet::Datagram& datagram) { senders_.add(datagram); }
   void note_foreign(std::uint64_t datagrams) noexcept { foreign_ = datagrams; }
 
-  /// It pays to listen at the device port.
+  /// True if the device port should be listened at.
   [[nodiscard]] bool wants_device_port() const;
-  /// A sensor's head rotates, nobody else sends, or it is the one that was in use before, and its
-  /// calibration is known or will not come: within 0.3 s another sensor would have shown, within 6
-  /// s a calibration. Where the one that was in use before sends and stands, it is waited for.
+  /// True if the search can end: a sensor's head rotates, it is the only sender or the one used
+  /// before, and its calibration is known or will not come. Another sensor would show within 0.3 s,
+  /// a calibration within 6 s. If the sensor used before sends but stands still, the search waits
+  /// for it.
   [[nodiscard]] bool is_enough() const;
-  /// For people: what is missing.
+  /// Says what is missing, for people.
   [[nodiscard]] std::string waits_for() const;
 
-  /// For people, of the sensors that are not concluded: "HDL-64E at 192.168.1.7". Empty: none.
+  /// Names the sensors not chosen, for people: "HDL-64E at 192.168.1.7". Empty if there are none.
   [[nodiscard]] std::string other_sensors() const;
 
-  /// The sensor, turning or not. kUnsupported: nobody sends what can be decoded; the message says
-  /// what came instead, within `patience_s` where that is given. kInvalidArgument: several sensors
-  /// do, of which none was in use before. kNoCalibration: none was given nor sent. The errors of
-  /// the calibration file.
+  /// Returns the sensor, whether it rotates or not. kUnsupported: nobody sends anything that can be
+  /// decoded; the message says what came instead, within `patience_s` if given. kInvalidArgument:
+  /// several sensors send, and none of them was used before. kNoCalibration: none was given or
+  /// sent. Also the errors of the calibration file.
   [[nodiscard]] Expected<SensorOnAir> conclude(std::optional<double> patience_s = {}) const;
 
  private:
   using Sensors = std::vector<HeardSenders::Sensor>;
-  /// Of several the one that was in use before, where it is among them.
+  /// Picks the sensor used before if it is among several.
   [[nodiscard]] Sensors chosen_of(Sensors heard) const;
   [[nodiscard]] std::string wanted_name() const;
   [[nodiscard]] std::string heard_instead() const;

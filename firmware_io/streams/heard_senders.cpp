@@ -92,11 +92,10 @@ std::vector<HeardSenders::Sensor> HeardSenders::sensors_that(const Predicate& ar
 }
 
 std::vector<HeardSenders::Sensor> HeardSenders::rotating() const {
-  return sensors_that(
-      [](const sensor::SensorProbe& probe, sensor::SensorModel model, const auto& its_own) {
-        // Packets of several heads by turns show no rotation, but that they are of several.
-        return its_own.size() > 1 ? probe.packets_of(model) >= kSteady_packets : probe.knows(model);
-      });
+  return sensors_that([](const SensorProbe& probe, SensorModel model, const auto& its_own) {
+    // Alternating packets of several heads show no rotation, but they do show several sensors.
+    return its_own.size() > 1 ? probe.packets_of(model) >= kSteady_packets : probe.knows(model);
+  });
 }
 
 bool HeardSenders::is_steady_but_stands(std::uint32_t address) const {
@@ -112,7 +111,7 @@ std::vector<HeardSenders::Sensor> HeardSenders::steady() const {
 }
 
 bool HeardSenders::has_told(const Sensor& sensor) const {
-  if (sensor::velodyne_model_of(sensor.model)) return true;  // it is known without
+  if (sensor::velodyne_model_of(sensor.model)) return true;  // its table is built in
   const Sender& sender = senders_.at(sensor.address);
   return sensor.model == sensor::SensorModel::kRuby128 ? sender.ruby128_device.has_calibration()
                                                        : sender.hdl64e_status.has_table();
@@ -137,7 +136,7 @@ std::string HeardSenders::others() const {
   std::string text;
   std::size_t named = 0;
   std::uint64_t unnamed = 0;
-  // Who sends data packets says more.
+  // Senders of data packets are named first.
   for (const bool sends_data : {true, false}) {
     for (const auto& [address, sender] : senders_) {
       const auto is_rotating = [&, &probe = sender.probe](sensor::SensorModel model) {

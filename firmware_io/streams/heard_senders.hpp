@@ -17,19 +17,18 @@
 
 namespace terracut::streams {
 
-/// Who sends to the ports that are listened at, and on what evidence: a sensor is who sends a
-/// steady stream of data packets of a rotating head, not who sent one packet. Whatever else is sent
-/// and by how many, a sensor is heard: of those that are remembered, who sent the fewest data
-/// packets makes room for a newcomer, the one that was silent longest among equals, and who sends
-/// no data packets makes room for nobody. Time is that of the datagrams' stamps. Allocates; one
-/// thread.
+/// Collects the senders to the ports listened at, with evidence. A sensor is a sender of a steady
+/// stream of data packets of a rotating head; one packet is not enough. No flood of other senders
+/// can hide a sensor. When the memory is full, a newcomer replaces the sender with the fewest data
+/// packets, among equals the one silent longest; a sender without data packets replaces nobody.
+/// Time is that of the datagrams' stamps. Allocates; one thread.
 class HeardSenders {
  public:
   struct Sensor {
-    std::uint32_t address = 0;  ///< IPv4, as in Datagram.
+    std::uint32_t address = 0;  ///< IPv4, see Datagram.
     sensor::SensorModel model{};
-    /// Where others of its address send as well (streams::SenderStreams): the port it sends from,
-    /// if it is told from them by that, and where it sends to.
+    /// Set if several sensors send from its address (streams::SenderStreams): the port it sends
+    /// from, if that tells it apart, and the address it sends to.
     std::optional<std::uint16_t> port{};
     std::uint32_t to{};
 
@@ -38,25 +37,24 @@ class HeardSenders {
     }
   };
 
-  /// `wanted`: the only model that counts; none: every one that can be decoded.
+  /// `wanted` is the only model that counts; none: any that can be decoded.
   explicit HeardSenders(std::optional<sensor::SensorModel> wanted) : wanted_(wanted) {}
 
   void add(const packet::Datagram& datagram);
 
-  [[nodiscard]] bool wants(sensor::SensorModel model) const {
-    return sensor::is_wanted(wanted_, model);
-  }
-  /// Those whose head is known to rotate.
+  [[nodiscard]] bool wants(SensorModel model) const { return is_wanted(wanted_, model); }
+  /// Returns the sensors whose head is known to rotate.
   [[nodiscard]] std::vector<Sensor> rotating() const;
-  /// Those that send data packets steadily, whether their head rotates or not.
+  /// Returns those that send data packets steadily, whether their head rotates or not.
   [[nodiscard]] std::vector<Sensor> steady() const;
-  /// It is one of steady(), and not of rotating().
+  /// True if the sensor is one of steady() but not of rotating().
   [[nodiscard]] bool is_steady_but_stands(std::uint32_t address) const;
-  /// Since the first of rotating() was known, by the newest datagram; 0 without one.
+  /// Returns the time since the first sensor of rotating() was known, by the newest datagram; 0
+  /// without one.
   [[nodiscard]] std::int64_t known_for_ns() const {
     return first_known_ns_ == 0 ? 0 : newest_ns_ - first_known_ns_;
   }
-  /// The sensor has told its own calibration, or needs none.
+  /// True if the sensor has sent its own calibration, or needs none.
   [[nodiscard]] bool has_told(const Sensor& sensor) const;
 
   [[nodiscard]] const sensor::SensorProbe& probe(std::uint32_t address) const {
@@ -68,17 +66,18 @@ class HeardSenders {
   [[nodiscard]] const sensor::Ruby128DeviceReader& ruby128_device(std::uint32_t address) const {
     return senders_.at(address).ruby128_device;
   }
-  /// For people, what came instead of a rotating sensor: "12 datagrams of no sensor known here from
-  /// 192.168.1.7; HDL-64E, whose head does not rotate, from 192.168.1.201". Empty: nothing did.
+  /// Describes for people what came instead of a rotating sensor: "12 datagrams of no sensor known
+  /// here from 192.168.1.7; HDL-64E, whose head does not rotate, from 192.168.1.201". Empty if
+  /// nothing did.
   [[nodiscard]] std::string others() const;
 
  private:
-  /// More senders than these are somebody's port scan.
+  /// More senders are probably a port scan.
   static constexpr std::size_t kMostSenders = 64;
   static constexpr std::uint64_t kSteady_packets = 50;
-  static constexpr std::size_t kMostNamed = 4;  ///< By others(); the rest is counted.
+  static constexpr std::size_t kMostNamed = 4;  ///< Most that others() names; it counts the rest.
 
-  /// What came from one address.
+  /// The datagrams of one address.
   struct Sender {
     explicit Sender(std::optional<sensor::SensorModel> wanted) : probe(wanted) {}
 
@@ -92,7 +91,8 @@ class HeardSenders {
     [[nodiscard]] std::uint64_t data_packets() const;
     [[nodiscard]] std::vector<Sensor> sensors_of(sensor::SensorModel model) const;
   };
-  /// Its sender's entry, which may be a new one; null where there is no room for it.
+  /// Returns the entry of the datagram's sender, a new one if need be; null if there is no room for
+  /// it.
   [[nodiscard]] Sender* sender_of(const packet::Datagram& datagram);
 
   template <class Predicate>
@@ -101,7 +101,7 @@ class HeardSenders {
 
   std::optional<sensor::SensorModel> wanted_;
   std::map<std::uint32_t, Sender> senders_;
-  std::uint64_t forgotten_datagrams_ = 0;  ///< Of senders that made room, or found none.
+  std::uint64_t forgotten_datagrams_ = 0;  ///< From senders that were replaced or found no room.
   std::int64_t newest_ns_ = 0, first_known_ns_ = 0;
 };
 

@@ -22,7 +22,7 @@ struct Known {
   std::size_t number;
   std::string_view of;
 };
-/// By the makers' factory settings and manuals.
+/// From the makers' factory settings and manuals.
 constexpr Known kPorts[] = {{7502, "Ouster"},
                             {7503, "Ouster (its IMU)"},
                             {6699, "RoboSense"},
@@ -41,7 +41,7 @@ std::string_view one_of(const Known* begin, const Known* end, std::size_t number
   return found == end ? std::string_view() : found->of;
 }
 
-/// A packet that is known, with bytes before or behind.
+/// Describes a known packet inside the payload, with bytes before or after it.
 std::string packet_inside(std::span<const std::uint8_t> payload) {
   constexpr std::size_t kMostAround = 64;
   for (const std::size_t size : {hdl64e::kHdl64ePacketBytes, ruby128::kRubyPacketBytes}) {

@@ -8,9 +8,9 @@
 
 namespace terracut::sensor {
 
-/// What a datagram that sensor::recognise_sensor() does not know may be, for people: a packet that
-/// is known with more bytes around it, or whose sensor sends to such a port or packets of such a
-/// size. Empty: nobody known here does.
+/// Guesses for people what a datagram is that sensor::recognise_sensor() does not know: a known
+/// packet with more bytes around it, or one of a sensor that uses such a port or size. Empty if
+/// there is no guess.
 [[nodiscard]] std::string guess_of_unknown(const packet::Datagram& datagram);
 
 }  // namespace terracut::sensor

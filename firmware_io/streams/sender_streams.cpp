@@ -14,11 +14,11 @@
 namespace terracut::streams {
 namespace {
 
-constexpr std::uint64_t kNoChance = 5;  ///< So many contradictions are no packets out of order.
+constexpr std::uint64_t kNoChance = 5;  ///< So many contradictions cannot be reordered packets.
 constexpr std::size_t kMostSources = 16;
 constexpr std::int64_t kLongestStep_us = 10'000'000;
 
-/// To sort by: what has more packets stands first.
+/// A sort key that puts larger numbers first.
 constexpr std::uint64_t most_first(std::uint64_t packets) noexcept {
   return ~packets;
 }
@@ -28,7 +28,7 @@ std::uint64_t hash_of(std::span<const std::uint8_t> payload) {
       {reinterpret_cast<const char*>(payload.data()), payload.size()});
 }
 
-/// Whether no one head sent a packet so long after another one.
+/// True if no single head can send a packet so long after another one.
 bool is_contradiction(std::int64_t step_us, const packet::PacketAzimuths& azimuths) {
   const std::int64_t least_ns = std::int64_t{azimuths.nominal_period_ns} * 3 / 4;
   return step_us * 1000 < least_ns || step_us > kLongestStep_us;
@@ -52,7 +52,7 @@ void SenderStreams::Sources::add(std::uint64_t mark, std::optional<bool> contrad
 }
 
 bool SenderStreams::Sources::tell_apart() const {
-  // Where each packet has a port of its own, none can be chosen by it.
+  // If each packet has a port of its own, a port cannot identify a sensor.
   return packets.size() < kMostSources && turns.are_of_several();
 }
 

@@ -16,32 +16,32 @@
 
 namespace terracut::streams {
 
-/// How many sensors of one model send from one address, and which packets are whose.
+/// Finds out how many sensors of one model send from one address, and which packets are whose.
 ///
 /// Packets that go to different places (address, port, VLAN) are of different sensors, unless one
-/// place gets copies of what another gets (a bridge, a mirror), or one stream is spread over them.
-/// Packets of different source ports or link-layer addresses are of one sensor, whose sender may
-/// open a new socket for each, unless they contradict each other: one head is not at two places
-/// within a packet's time. That takes a clock of the sensor's own, so an HDL-64E S1's always are of
-/// one.
+/// place gets copies of another's packets (a bridge, a mirror), or one stream is spread over them.
+/// Packets of different source ports or link-layer addresses are of one sensor, which may open a
+/// new socket for each, unless they contradict each other: one head is not at two places within a
+/// packet's time. This needs the sensor's clock; an HDL-64E S1 has none, so its packets count as
+/// one sensor's.
 ///
 /// For starts and reports: allocates, within bounds. One thread.
 class SenderStreams {
  public:
   explicit SenderStreams(sensor::SensorModel model) : model_(model) {}
 
-  /// A data packet of the model, from the one address.
+  /// Adds a data packet of the model from the address.
   void add(const packet::Datagram& datagram);
 
-  /// Most packets first.
+  /// Returns the sensors, those with most packets first.
   [[nodiscard]] std::vector<SensorStream> sensors() const;
 
  private:
-  /// What is beyond is somebody's port scan.
+  /// More destinations are probably a port scan.
   static constexpr std::size_t kMostDestinations = 64;
   static constexpr std::size_t kMostPayloads = 64;  ///< A copy comes within so many packets.
 
-  /// What packets that followed one from elsewhere say together.
+  /// Counts the packets that followed one from elsewhere, and those that contradict it.
   struct Turns {
     std::uint64_t all = 0, contradicting = 0;
 
@@ -49,7 +49,8 @@ class SenderStreams {
     [[nodiscard]] bool are_of_one_head() const { return contradicting * 4 < all; }
     [[nodiscard]] bool are_of_several() const;
   };
-  /// The senders of one destination's packets, by a mark that may tell them apart.
+  /// The senders of one destination's packets, by a mark (port, link-layer address) that may tell
+  /// them apart.
   struct Sources {
     std::map<std::uint64_t, std::uint64_t> packets;  ///< By mark.
     std::uint64_t newest = 0;
@@ -61,7 +62,7 @@ class SenderStreams {
   struct Place {
     std::uint64_t packets = 0;
     Sources ports, macs;
-    Turns steps;                            ///< From packet to packet, whoever sent them.
+    Turns steps;                            ///< Over all its packets, whoever sent them.
     std::optional<std::int64_t> newest_us;  ///< By the sensor's clock.
   };
   using Group = std::vector<Destination>;
@@ -78,11 +79,11 @@ class SenderStreams {
   std::map<Destination, Place> places_;
   Destination newest_;
   std::optional<std::int64_t> newest_us_;
-  bool has_clock_ = false;     ///< Of simulators all stamps may be the same.
+  bool has_clock_ = false;     ///< False for simulators whose stamps are all the same.
   Turns turns_;                ///< From one destination to another.
-  std::uint64_t packets_ = 0;  ///< Copies are none.
+  std::uint64_t packets_ = 0;  ///< Without copies.
   std::unordered_map<std::uint64_t, Destination> first_at_;  ///< By the payload's hash.
-  std::deque<std::uint64_t> payloads_;                       ///< These, oldest first.
+  std::deque<std::uint64_t> payloads_;  ///< The hashes in `first_at_`, oldest first.
   std::map<std::pair<Destination, Destination>, std::uint64_t> copies_;
 };
 

@@ -13,11 +13,11 @@
 
 namespace terracut::streams {
 
-/// Where datagrams of one sender go to.
+/// Where the datagrams of one sender go.
 struct Destination {
-  std::uint32_t address = 0;  ///< IPv4, as in Datagram.
+  std::uint32_t address = 0;  ///< IPv4, see Datagram.
   std::uint16_t port = 0;
-  std::uint32_t vlan = 0;  ///< As in Datagram.
+  std::uint32_t vlan = 0;  ///< See Datagram.
 
   friend auto operator<=>(const Destination&, const Destination&) = default;
 };
@@ -26,22 +26,22 @@ struct Destination {
   return {datagram.destination_address, datagram.destination_port, datagram.vlan};
 }
 
-/// The data packets of one sensor among those that came from its address.
+/// Identifies the data packets of one sensor among those from its address.
 struct SensorStream {
-  std::uint32_t source_address = 0;  ///< IPv4, as in Datagram.
+  std::uint32_t source_address = 0;  ///< IPv4, see Datagram.
   sensor::SensorModel model{};
-  /// One, or several that get the same packets, or of which each gets a part of them; the one of
-  /// most packets first.
+  /// One destination, or several that get the same packets or a part each; the one with most
+  /// packets first.
   std::vector<Destination> destinations{};
-  /// Where it is by these alone that it is told from another sensor; as in Datagram.
+  /// Set if these alone tell it from another sensor; see Datagram.
   std::optional<std::uint16_t> source_port{};
   std::optional<std::uint64_t> source_mac{};
   std::uint64_t packets = 0;
-  /// As the packets of several sensors do, which nothing else tells apart.
+  /// True if its packets contradict each other: several sensors that nothing tells apart.
   bool contradicts_itself = false;
 
-  /// Whether a datagram of its address may be its own: not where it is a data packet of such a
-  /// sensor that went elsewhere, or came from elsewhere.
+  /// True if a datagram from its address may be its own. False for a data packet that went
+  /// elsewhere, or came from elsewhere, than this sensor's.
   [[nodiscard]] bool may_hold(const packet::Datagram& datagram) const noexcept {
     const bool is_its_way =
         std::ranges::find(destinations, destination_of(datagram)) != destinations.end() &&
@@ -51,7 +51,7 @@ struct SensorStream {
   }
 };
 
-/// Leaves out who sent but stray packets: less than a hundredth of what the one heard most did.
+/// Removes senders of stray packets: fewer than a hundredth of those from the sender with most.
 inline void drop_strays(std::vector<SensorStream>& sensors) {
   constexpr std::uint64_t kStrayShare = 100;
   std::uint64_t most = 0;

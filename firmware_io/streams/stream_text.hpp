@@ -8,17 +8,17 @@
 
 #include "rt/error.hpp"
 
-/// VLANs and link-layer addresses as people write them; numbers as in Datagram.
+/// VLANs and link-layer addresses as people write them; their numbers are those of Datagram.
 namespace terracut::streams {
 
-/// "10"; of tags within tags "100.10", the outermost first; "0" for none.
+/// Returns "10"; for stacked tags "100.10", the outermost first; "0" for none.
 [[nodiscard]] std::string vlan_text(std::uint32_t vlan);
-/// kInvalidArgument for anything else.
+/// Parses vlan_text(). kInvalidArgument for anything else.
 [[nodiscard]] Expected<std::uint32_t> parse_vlan(std::string_view text);
 
-/// "60:76:88:10:23:a1"
+/// Returns "60:76:88:10:23:a1".
 [[nodiscard]] std::string mac_text(std::uint64_t mac);
-/// kInvalidArgument for anything else; digits of either case.
+/// Parses mac_text() with digits of either case. kInvalidArgument for anything else.
 [[nodiscard]] Expected<std::uint64_t> parse_mac(std::string_view text);
 
 }  // namespace terracut::streams

@@ -23,7 +23,7 @@ Capture::~Capture() = default;
 
 namespace {
 
-/// Who sends shows in the first packets; a second and more of any sensor.
+/// The sender shows in the first packets; these are more than a second of any sensor.
 constexpr int kPacketsToSearch = 20'000;
 
 Expected<streams::HeardSenders::Sensor> sender_in(capture::PcapSource& source) {

@@ -20,7 +20,7 @@ struct Packet {
   std::int64_t stamp_ns = 0;  ///< When it was received, nanoseconds since 1970 (UTC).
 };
 
-/// Packets in, frames of points out, without labels. Fixed memory: push() and next() allocate
+/// Turns packets into frames of points, without labels. Fixed memory: push() and next() allocate
 /// nothing, lock nothing and throw nothing. One thread.
 ///
 ///   decoder.push(packet);
@@ -28,10 +28,10 @@ struct Packet {
 class Decoder {
  public:
   struct Config {
-    int reorder_packets = 2;  ///< So many packets late still find their frame; latency of as many.
+    int reorder_packets = 2;  ///< Packets up to so many late still find their frame; adds latency.
   };
 
-  /// kInvalidArgument on a setting or mount out of range, kCapacityExceeded without memory.
+  /// kInvalidArgument on a setting or mount out of range, kCapacityExceeded if memory is short.
   [[nodiscard]] static Expected<Decoder> make(const Calibration& calibration, const Mount& mount,
                                               const Config& config);
   [[nodiscard]] static Expected<Decoder> make(const Calibration& calibration,
@@ -42,15 +42,16 @@ class Decoder {
   Decoder& operator=(Decoder&&) noexcept;
   ~Decoder();
 
-  /// The payload must stay until next() has returned null. What is no data packet of the sensor is
-  /// counted and left out.
+  /// Takes a packet; its payload must stay until next() has returned null. Anything but the
+  /// sensor's data packets is counted and left out.
   void push(const Packet& packet) noexcept;
-  /// The stream ends: what is open is handed out.
+  /// Ends the stream: open frames are handed out.
   void end_stream() noexcept;
-  /// The next frame that is complete, or null. Call it until then; valid until the next call.
+  /// Returns the next complete frame, or null. Call it until it returns null; a frame is valid
+  /// until the next call.
   [[nodiscard]] const Frame* next() noexcept;
 
-  /// Packets taken as data, and left out, so far.
+  /// Return the packets decoded and left out so far.
   [[nodiscard]] std::uint64_t packets_decoded() const noexcept;
   [[nodiscard]] std::uint64_t packets_rejected() const noexcept;
 
@@ -60,10 +61,10 @@ class Decoder {
   std::unique_ptr<Engine> engine_;
 };
 
-/// The datagrams of a capture file (pcap, pcapng) that one sensor sent, in file order.
+/// Reads the datagrams that one sensor sent from a capture file (pcap, pcapng), in file order.
 class Capture {
  public:
-  /// Finds the sensor and, where its packets tell it, its calibration. kNotFound, kUnreadable,
+  /// Finds the sensor and, if its packets contain it, its calibration. kNotFound, kUnreadable,
   /// kMalformed, kUnsupported (no sensor that can be decoded), kInvalidArgument (several sensors).
   [[nodiscard]] static Expected<Capture> open(const std::filesystem::path& file);
   Capture(Capture&&) noexcept;
@@ -71,11 +72,11 @@ class Capture {
   ~Capture();
 
   [[nodiscard]] Sensor sensor() const noexcept;
-  /// kNoCalibration where the packets do not hold it whole.
+  /// kNoCalibration if the packets do not hold all of it.
   [[nodiscard]] const Expected<Calibration>& calibration() const noexcept;
 
-  /// The next packet, whose payload is valid until the next call; nothing at the end. An error
-  /// where the file breaks off.
+  /// Returns the next packet, whose payload is valid until the next call; nothing at the end. An
+  /// error means that the file breaks off.
   [[nodiscard]] Expected<std::optional<Packet>> next();
 
  private:

@@ -8,15 +8,15 @@
 
 namespace terracut {
 
-/// What is said of a return.
+/// The label of a return.
 enum class Label : std::uint8_t {
-  kNone = 0,         ///< A point that is no return (clouds only), or a frame that was not labelled.
-  kGround = 1,       ///< Physical ground; road surface, where that is asked for.
+  kNone = 0,         ///< Not a return (clouds only), or the frame was not labelled.
+  kGround = 1,       ///< Physical ground; only road surface, if that was asked for.
   kObstacle = 2,     ///< Everything else.
-  kOtherGround = 3,  ///< Physical ground that is no road surface.
+  kOtherGround = 3,  ///< Physical ground that is not road surface.
 };
 
-/// Physical ground of either kind.
+/// True for physical ground of either kind.
 [[nodiscard]] constexpr bool is_ground(Label label) noexcept {
   return label == Label::kGround || label == Label::kOtherGround;
 }
@@ -25,8 +25,8 @@ enum class Label : std::uint8_t {
 /// the sensor.
 struct Point {
   float x_m = 0, y_m = 0, z_m = 0;
-  std::uint16_t ring = 0;      ///< 0 is the lowest laser.
-  std::uint8_t intensity = 0;  ///< As the sensor sends it.
+  std::uint16_t ring = 0;      ///< Row of the laser; 0 is the lowest.
+  std::uint8_t intensity = 0;  ///< Raw, as the sensor sends it.
 };
 
 /// A point of a cloud in the sensor frame: x ahead, y left, z up.
@@ -35,18 +35,18 @@ struct CloudPoint {
   float remission = 0;  ///< 0..1
 };
 
-/// One revolution of the sensor. points and labels have one entry a return, in order of arrival,
-/// and are valid as long as whoever handed the frame out says.
+/// One revolution of the sensor. points and labels have one entry a return, in order of arrival.
+/// Whoever hands the frame out says how long they are valid.
 struct Frame {
-  std::uint32_t number = 0;          ///< 0.. in order.
+  std::uint32_t number = 0;          ///< From 0, in order.
   std::int64_t first_packet_ns = 0;  ///< Receive stamp, nanoseconds since 1970 (UTC).
   std::int64_t last_packet_ns = 0;
-  bool complete = false;  ///< Every firing was seen; where the sensor is blind, none is missing.
-  bool deskewed = false;  ///< The vehicle's motion was removed.
-  std::uint64_t packets_lost = 0;  ///< On the network, since the frame before.
+  bool complete = false;  ///< True if every firing was seen, except where the sensor is blind.
+  bool deskewed = false;  ///< True if the vehicle's motion was removed.
+  std::uint64_t packets_lost = 0;  ///< Lost on the network since the last frame.
   std::span<const Point> points;
-  std::span<const Label> labels;       ///< Empty where the frame was not labelled.
-  std::span<const float> time_s = {};  ///< After the first packet; empty but of a LiveRun.
+  std::span<const Label> labels;       ///< Empty if the frame was not labelled.
+  std::span<const float> time_s = {};  ///< Since the first packet; empty except from a LiveRun.
 };
 
 }  // namespace terracut

@@ -10,11 +10,11 @@
 #include "firmware_io/frame/frame_info.hpp"
 #include "terracut/frame.hpp"
 
-/// From the frames within to those that users see; not installed.
+/// Converts internal frames to those that users see; not installed.
 namespace terracut {
 
-/// Writes the image's returns to the beginning of `points`, in order of arrival. There must be
-/// room.
+/// Writes the image's returns to the beginning of `points`, in order of arrival. There must be room
+/// for them.
 inline void copy_points(const frame::RangeImage& image, std::span<Point> points) noexcept {
   frame::for_each_return(image, [&](const frame::PlacedReturn& placed) noexcept {
     points[placed.return_index] = {placed.point.x_m, placed.point.y_m, placed.point.z_m,
@@ -22,7 +22,7 @@ inline void copy_points(const frame::RangeImage& image, std::span<Point> points)
   });
 }
 
-/// `room`: for as many points as a frame may have. The frame's points lie in it.
+/// Converts a frame. Its points are stored in `room`, which must hold as many as a frame may have.
 [[nodiscard]] inline Frame public_frame(const frame::Frame& frame, std::span<Point> room) noexcept {
   copy_points(*frame.image, room);
   return {.number = frame.info.number,
@@ -35,8 +35,8 @@ inline void copy_points(const frame::RangeImage& image, std::span<Point> points)
           .labels = {}};
 }
 
-/// Runs `make`, which constructs what takes all memory at once, and frames what it throws into an
-/// error.
+/// Runs `make`, which constructs an object that takes all its memory at once, and turns an
+/// exception into an error.
 template <class Make>
 [[nodiscard]] auto made(Make&& make) -> Expected<decltype(make())> {
   try {

@@ -5,10 +5,10 @@
 #include "firmware_io/packet/sensor_model.hpp"
 #include "terracut/calibration.hpp"
 
-/// A sensor as programs that embed terracut name it, and as packets tell it; not installed.
+/// Converts between the public names of sensors and the models of packets; not installed.
 namespace terracut {
 
-/// A decoded model.
+/// Converts a decoded model.
 [[nodiscard]] constexpr Sensor public_sensor(sensor::SensorModel model) noexcept {
   switch (model) {
     case sensor::SensorModel::kRuby128:
@@ -26,7 +26,8 @@ namespace terracut {
   }
 }
 
-/// Of an HDL-64E that of the S2 and S3, which stands for all (sensor::is_wanted()).
+/// Returns the model of a sensor; an HDL-64E gives the S2 and S3, which stands for all
+/// (sensor::is_wanted()).
 [[nodiscard]] constexpr sensor::SensorModel model_of(Sensor sensor) noexcept {
   switch (sensor) {
     case Sensor::kRuby128:

@@ -18,14 +18,14 @@ namespace terracut::vehicle {
 namespace {
 
 constexpr std::uint32_t kExtendedMark = 0x80000000;
-/// Holds signals that are in no message.
+/// The id of the pseudo-message that holds signals of no message.
 constexpr std::uint32_t kIndependentSignals = 0xC0000000;
 constexpr std::string_view kSpace = " \t\r";
 constexpr std::string_view kNameCharacters =
     "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 constexpr std::string_view kNumberCharacters = "0123456789+-.eEinfaN";
 
-/// Takes a line apart, from left to right. Every step returns whether what was asked for was there.
+/// Parses a line from left to right. Every step returns whether it found what was asked for.
 class LineReader {
  public:
   explicit LineReader(std::string_view text) : rest_(text) {}
@@ -46,7 +46,7 @@ class LineReader {
     const auto text = run_of(kNumberCharacters);
     return text ? rt::number_of<Whole>(*text) : std::nullopt;
   }
-  /// What stands between quotation marks.
+  /// Reads a text between quotation marks.
   std::optional<std::string_view> quoted() {
     if (!symbol('"')) return std::nullopt;
     const std::size_t end = rest_.find('"');
@@ -72,7 +72,7 @@ class LineReader {
   std::string_view rest_;
 };
 
-/// "M", "m3" or "m3M", behind a signal's name.
+/// Parses "M", "m3" or "m3M" after a signal's name.
 std::optional<DbcMultiplex> multiplex_from(std::string_view mark) {
   if (mark == "M") return DbcMultiplex::kSelector;
   if (!mark.starts_with('m')) return std::nullopt;
@@ -129,7 +129,7 @@ std::optional<DbcSignal> signal_from(LineReader line) {
   signal.bit_count = *count;
   signal.factor = *factor;
   signal.offset = *offset;
-  // Least and most are what the makers of the file thought of, not what comes; they are not needed.
+  // The least and most value are only what the file's makers expected; they are not used.
   if (!line.symbol('[') || !line.number() || !line.symbol('|') || !line.number() ||
       !line.symbol(']')) {
     return std::nullopt;
@@ -144,14 +144,14 @@ class Parser {
  public:
   explicit Parser(std::string name) { file_.name = std::move(name); }
 
-  /// One logical line: it may hold ends of line inside quotation marks.
+  /// Reads one logical line, which may hold line ends inside quotation marks.
   Status read(std::string_view text, int line) {
     LineReader reader(text);
     const auto keyword = reader.name();
     if (!keyword) return {};
     if (*keyword == "BO_") return read_message(reader, line);
     if (*keyword == "SG_") return read_signal(reader, line);
-    // The list of symbols at the head of a file has these words too, with nothing behind them.
+    // The list of symbols at the head of a file has these keywords too, with nothing after them.
     if (*keyword == "SIG_VALTYPE_" && text.find_first_of("0123456789") != text.npos) {
       return read_value_type(reader, line);
     }
@@ -203,11 +203,11 @@ class Parser {
     return {};
   }
 
-  /// SIG_VALTYPE_ 291 NAME : 1;
+  /// Reads "SIG_VALTYPE_ 291 NAME : 1;".
   Status read_value_type(LineReader reader, int line) {
     const auto id = reader.whole<std::uint32_t>();
     const auto name = reader.name();
-    reader.symbol(':');  // some writers leave it out
+    reader.symbol(':');  // which some writers leave out
     const auto type = reader.whole<int>();
     if (!id || !name || !type || *type < 0 || *type > 2) {
       return malformed(line, "a value type has to read SIG_VALTYPE_ number NAME : 0, 1 or 2;");
@@ -226,8 +226,8 @@ class Parser {
   std::map<std::pair<std::uint32_t, std::string>, DbcNumber> value_types_;
 };
 
-/// Where the line that begins at `begin` ends: not inside quotation marks, before which a backslash
-/// may stand to say that they are part of the text.
+/// Returns the end of the line that begins at `begin`. It is not inside quotation marks; a
+/// backslash before a mark makes that part of the text.
 std::size_t end_of_line(std::string_view text, std::size_t begin) {
   bool inside = false;
   for (std::size_t at = begin; at < text.size(); ++at) {

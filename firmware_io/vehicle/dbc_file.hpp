@@ -15,17 +15,17 @@
 
 namespace terracut::vehicle {
 
-/// How the bits of a signal are a number.
+/// How the bits of a signal encode a number.
 enum class DbcNumber : std::uint8_t { kUnsigned, kSigned, kFloat, kDouble };
 
-/// Where a signal of a multiplexed message is valid.
+/// In which frames of a multiplexed message a signal is valid.
 enum class DbcMultiplex : std::uint8_t {
   kAlways,
-  kSelector,  ///< Always there; its value says which of the others are.
-  kSelected,  ///< Only in those frames whose selector has a certain value.
+  kSelector,  ///< In all; its value selects the others.
+  kSelected,  ///< In those whose selector has a certain value.
 };
 
-/// A signal as its SG_ line says; not checked beyond what the line itself needs.
+/// A signal as stated in its SG_ line; checked only as far as the line itself needs.
 struct DbcSignal {
   std::string name;
   int start_bit = 0;  ///< Bit n % 8 of byte n / 8: the lowest of an Intel, the highest of a
@@ -37,43 +37,43 @@ struct DbcSignal {
   double offset = 0;
   DbcMultiplex multiplex = DbcMultiplex::kAlways;
   std::string unit;
-  int line = 0;  ///< Of the file, from 1.
+  int line = 0;  ///< In the file, from 1.
 };
 
-/// A message as its BO_ line says.
+/// A message as stated in its BO_ line.
 struct DbcMessage {
   std::string name;
-  std::uint32_t written_id = 0;  ///< Bit 31 stands for a 29-bit id.
-  int length = 0;                ///< Bytes.
+  std::uint32_t written_id = 0;  ///< As written; bit 31 marks a 29-bit id.
+  int length = 0;                ///< In bytes.
   int line = 0;
   std::vector<DbcSignal> signals;
 
-  /// Nothing when the number fits neither format.
+  /// Returns nothing if the number fits neither format.
   [[nodiscard]] std::optional<can::CanId> id() const noexcept;
 };
 
-/// What terracut needs of a DBC file: messages (BO_), their signals (SG_) and which of those are
-/// floating-point numbers (SIG_VALTYPE_). All else is stepped over.
+/// The parts of a DBC file that are used: messages (BO_), their signals (SG_) and which of those
+/// are floating-point numbers (SIG_VALTYPE_). The rest is skipped.
 struct DbcFile {
   std::string name;  ///< For messages.
   std::vector<DbcMessage> messages;
 };
 
-/// A signal and the message it is in.
+/// A signal and its message.
 struct DbcReference {
   const DbcMessage* message = nullptr;
   const DbcSignal* signal = nullptr;
 };
 
-/// Any bytes. kMalformed, with the line, for a BO_, SG_ or SIG_VALTYPE_ line that is not one, and
-/// for a text without any message. `name` stands for the path in messages.
+/// Parses any bytes. kMalformed, with the line, for a broken BO_, SG_ or SIG_VALTYPE_ line, and for
+/// a text without any message. `name` stands for the path in messages.
 [[nodiscard]] Expected<DbcFile> parse_dbc(std::string_view text, std::string name);
 
-/// A file of at most 4 MiB. kNotFound, kUnreadable, kUnsupported (larger), or as parse_dbc().
+/// Reads a file of at most 4 MiB. kNotFound, kUnreadable, kUnsupported (larger), or as parse_dbc().
 [[nodiscard]] Expected<DbcFile> read_dbc(const std::filesystem::path& path);
 
-/// The signal called "MESSAGE.SIGNAL", or "SIGNAL" where only one message has one of that name. The
-/// result points into `file`. kInvalidArgument: there is none, or there are several.
+/// Returns the signal called "MESSAGE.SIGNAL", or "SIGNAL" if only one message has one of that
+/// name. Points into `file`. kInvalidArgument: there is none, or there are several.
 [[nodiscard]] Expected<DbcReference> find_signal(const DbcFile& file, std::string_view name);
 
 }  // namespace terracut::vehicle

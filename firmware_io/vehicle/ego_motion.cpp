@@ -10,11 +10,11 @@ namespace terracut::vehicle {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
-/// Bounds what one stretch between samples may rotate, too.
+/// Plausible limits; they also bound the rotation between two samples.
 constexpr double kFastest_mps = 150, kFastest_radps = 10;
 
 bool is_plausible(const MotionSample& sample) noexcept {
-  // Comparisons with NaN are false.
+  // False for NaN as well.
   return std::abs(sample.speed_mps) <= kFastest_mps &&
          std::abs(sample.yaw_rate_radps) <= kFastest_radps;
 }
@@ -38,12 +38,12 @@ EgoMotion::Config checked(const EgoMotion::Config& config) {
 
 }  // namespace
 
-/// The vehicle's way since one of its samples, walked in the order of time.
+/// Walks the vehicle's path from one of its samples, in the order of time.
 class EgoMotion::Path {
  public:
   Path(const EgoMotion& motion, std::size_t from) noexcept : motion_(motion), at_(from) {}
 
-  /// Instants must not fall from call to call.
+  /// Instants must not decrease from call to call.
   [[nodiscard]] PlanarPose sensor_at(std::int64_t instant_ns) noexcept {
     while (at_ + 1 < motion_.count_ && motion_.kept(at_ + 1).stamp_ns <= instant_ns) {
       at_pose_ = at_pose_ * since_sample(motion_.kept(at_ + 1).stamp_ns);
@@ -102,7 +102,7 @@ EgoMotionCounters EgoMotion::counters() const noexcept {
 
 void EgoMotion::take_new() noexcept {
   MotionSample sample;
-  // No more than wait now: a writer that never rests must not keep the reader here.
+  // Takes only what waits now: a writer that never rests must not keep the reader here.
   for (std::size_t left = waiting_.size_approx(); left > 0 && waiting_.try_pop(sample); --left) {
     if (const auto newest = newest_ns(); newest && sample.stamp_ns <= *newest) count_ = 0;
     if (count_ == ring_.size()) {
@@ -128,7 +128,7 @@ const MotionSample& EgoMotion::kept(std::size_t number) const noexcept {
 }
 
 std::size_t EgoMotion::last_before(std::int64_t instant_ns) const noexcept {
-  std::size_t low = 0, high = count_;  // kept(low) is not after, or the first; kept(high) is after
+  std::size_t low = 0, high = count_;  // kept(low) is at or before it, kept(high) after
   while (high - low > 1) {
     const std::size_t middle = low + (high - low) / 2;
     (kept(middle).stamp_ns <= instant_ns ? low : high) = middle;
@@ -139,7 +139,7 @@ std::size_t EgoMotion::last_before(std::int64_t instant_ns) const noexcept {
 std::optional<std::size_t> EgoMotion::beginning_of(std::int64_t first_ns,
                                                    std::int64_t last_ns) const noexcept {
   if (count_ == 0) return std::nullopt;
-  const auto apart = [this](std::size_t number) {  // from the sample before
+  const auto apart = [this](std::size_t number) {  // too far from the sample before
     return kept(number).stamp_ns - kept(number - 1).stamp_ns > max_age_ns_;
   };
   std::size_t at = last_before(last_ns);

@@ -6,15 +6,15 @@
 
 namespace terracut::vehicle {
 
-/// How the vehicle moves at one instant, as its own sensors say.
+/// The vehicle's motion at one instant, from its own sensors.
 struct MotionSample {
   std::int64_t stamp_ns = 0;  ///< On the clock of the LiDAR's datagram stamps.
-  double speed_mps = 0;       ///< Along the vehicle, of its rear axle; backwards is negative.
-  double yaw_rate_radps = 0;  ///< To the left is positive.
+  double speed_mps = 0;       ///< Of the rear axle, along the vehicle; negative backwards.
+  double yaw_rate_radps = 0;  ///< Positive to the left.
 };
 
-/// A stamp that is farther than this before the one that came before it is of a clock that was set
-/// back; nearer, it is disorder on the way.
+/// A stamp farther than this before the last one means that the clock was set back; nearer, that
+/// samples came out of order.
 inline constexpr std::int64_t kMotionDisorder_ns = 20'000'000;
 
 }  // namespace terracut::vehicle

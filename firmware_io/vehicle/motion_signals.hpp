@@ -19,43 +19,43 @@
 
 namespace terracut::vehicle {
 
-/// Which signals of a DBC file make up one figure of the vehicle's motion, and how.
+/// How to compute one figure of the vehicle's motion from signals of a DBC file.
 ///
 ///     figure = mean(signals) * unit * scale, negated when `sign` is not 0; valid when `valid` is
 struct MotionFigure {
-  std::vector<std::string> signals;  ///< "MESSAGE.SIGNAL" or "SIGNAL"; of several, the mean.
-  std::string unit;                  ///< Instead of the file's; empty: the file's.
-  double scale = 1;                  ///< On top; -1 turns the sign round. Not 0, finite.
-  std::string sign;                  ///< Signal: negative when not 0. Empty: there is none.
-  std::string valid;                 ///< Signal that says whether it is valid; empty: always.
-  double valid_value = 1;            ///< What that signal has to be.
+  std::vector<std::string> signals;  ///< "MESSAGE.SIGNAL" or "SIGNAL"; several are averaged.
+  std::string unit;                  ///< In place of the file's; empty: the file's.
+  double scale = 1;                  ///< An extra factor; -1 inverts the sign. Finite, not 0.
+  std::string sign;        ///< Signal; the figure is negative if it is not 0. Empty: none.
+  std::string valid;       ///< Signal that tells whether the figure is valid; empty: always.
+  double valid_value = 1;  ///< The value of that signal if valid.
 };
 
 struct MotionSignalsConfig {
   MotionFigure speed;     ///< "m/s", "km/h", "mph"
-  MotionFigure yaw_rate;  ///< "rad/s", "deg/s"; positive has to be to the left
-  /// A sample is made only of signals none of which is older, [1e-3, 10] s.
+  MotionFigure yaw_rate;  ///< "rad/s", "deg/s"; positive must be to the left
+  /// The greatest age of the signals in a sample, [1e-3, 10] s.
   double max_age_s = 0.1;
-  /// Without a sample for longer, the vehicle's motion is not known any more, [max_age_s, 60] s.
+  /// The vehicle's motion is unknown after so long without a sample, [max_age_s, 60] s.
   double timeout_s = 0.5;
 };
 
-/// What became of the data frames that had one of the signals in them.
-/// samples + yaw_rate_invalid + speed_invalid + stale == frames with a new yaw rate.
+/// Counts the data frames with one of the signals. samples + yaw_rate_invalid + speed_invalid +
+/// stale == frames with a new yaw rate.
 struct MotionCounters {
-  std::uint64_t frames = 0;        ///< With one or more of the signals.
-  std::uint64_t too_short = 0;     ///< Signals that their frame had no room for.
-  std::uint64_t out_of_order = 0;  ///< Stamped before one that came earlier; left out.
-  /// By more than kMotionDisorder_ns, so that the clock was set; all was reset.
+  std::uint64_t frames = 0;        ///< Frames with at least one of the signals.
+  std::uint64_t too_short = 0;     ///< Signals beyond the end of their frame.
+  std::uint64_t out_of_order = 0;  ///< Stamped before an earlier frame; left out.
+  /// Stamped more than kMotionDisorder_ns earlier: the clock was set back, and all was reset.
   std::uint64_t clock_set_back = 0;
   std::uint64_t samples = 0;           ///< Made.
-  std::uint64_t yaw_rate_invalid = 0;  ///< The validity signal said no, or it was no number.
-  std::uint64_t speed_invalid = 0;     ///< The same of the speed.
+  std::uint64_t yaw_rate_invalid = 0;  ///< The validity signal denied it, or it was NaN.
+  std::uint64_t speed_invalid = 0;     ///< Likewise for the speed.
   std::uint64_t stale = 0;             ///< A signal was older than max_age_s, or never came.
   std::uint64_t timeouts = 0;          ///< Times the motion was lost for longer than timeout_s.
 };
 
-/// A signal and what it was last.
+/// A signal and its last value.
 struct TrackedSignal {
   SignalPlan plan;
   double value = 0;
@@ -63,33 +63,33 @@ struct TrackedSignal {
   bool heard = false;
 };
 
-/// Reads the vehicle's motion from CAN frames: a MotionSample each time a new yaw rate came, with
-/// the newest speed. (Speed changes little between two frames: braking hard, 0.1 m/s in 10 ms,
-/// which moves a frame's points by less than a centimetre. Yaw rate turns them about a hundred
-/// metres.)
+/// Reads the vehicle's motion from CAN frames: makes a MotionSample of each new yaw rate with the
+/// newest speed. The speed may be older, as it changes little between two frames: 0.1 m/s in 10 ms
+/// of hard braking, which moves a frame's points by less than a centimetre. A wrong yaw rate moves
+/// far points much more.
 ///
 /// Fixed size after make(); one thread.
 class MotionSignals {
  public:
-  /// Signals one figure may be the mean of.
+  /// The most signals that one figure may average.
   static constexpr std::size_t kMostSignals = 8;
 
-  /// kInvalidArgument: a signal that is not in the file or not known by that name alone, a unit
-  /// that is not known and not given, a setting out of its range. Else as SignalPlan::make().
+  /// kInvalidArgument: a signal that is missing or ambiguous, a unit that is unknown and not given,
+  /// a setting out of its range. Otherwise the errors of SignalPlan::make().
   [[nodiscard]] static Expected<MotionSignals> make(const DbcFile& file,
                                                     const MotionSignalsConfig& config);
 
-  /// The messages the signals are in, each once: what a socket has to let pass.
+  /// Returns the messages of the signals, each once, for the socket's filter.
   [[nodiscard]] std::span<const can::CanId> ids() const noexcept { return ids_; }
 
-  /// Takes a frame; returns a sample if it completes one. Frames of other messages, remote frames
-  /// and error frames change nothing.
+  /// Takes a frame and returns a sample if it completes one. Frames of other messages, remote
+  /// frames and error frames change nothing.
   [[nodiscard]] std::optional<MotionSample> take(const can::CanFrame& frame) noexcept
       TERRACUT_NONBLOCKING;
 
-  /// Whether the vehicle's motion is known at `now_ns` (time of the frames' stamps): the newest
-  /// sample is not older than the timeout. To be asked now and then: a timeout is counted once,
-  /// when it is seen here, or when the next sample comes.
+  /// True if the vehicle's motion is known at `now_ns` (time of the frames' stamps): the newest
+  /// sample is not older than the timeout. Call it regularly: a timeout is counted once, by this
+  /// call or when the next sample comes.
   [[nodiscard]] bool alive(std::int64_t now_ns) noexcept TERRACUT_NONBLOCKING;
 
   [[nodiscard]] const MotionCounters& counters() const noexcept { return counters_; }
@@ -97,7 +97,7 @@ class MotionSignals {
  private:
   struct Figure {
     std::array<TrackedSignal, kMostSignals> signals{};
-    std::array<double, kMostSignals> units{};  ///< Of each signal, in SI.
+    std::array<double, kMostSignals> units{};  ///< SI units per unit, by signal.
     std::size_t count = 0;
     double scale = 1;
     std::optional<TrackedSignal> sign, valid;
@@ -110,7 +110,7 @@ class MotionSignals {
       const DbcFile& file, const MotionFigure& config, std::string_view name,
       Expected<double> (*unit_factor)(std::string_view));
   void add_ids(const Figure& figure);
-  /// True when the frame had one of the signals that the figure is the mean of.
+  /// Updates a figure from a frame. True if the frame had one of the signals that it averages.
   bool update(Figure& figure, const can::CanFrame& frame) noexcept;
   bool update(TrackedSignal& signal, const can::CanFrame& frame) noexcept;
   void note_sample(std::int64_t stamp_ns) noexcept;
@@ -124,7 +124,7 @@ class MotionSignals {
   std::vector<can::CanId> ids_;
   std::optional<std::int64_t> newest_frame_ns_;
   std::optional<std::int64_t> newest_sample_ns_;
-  bool lost_ = false;  ///< The current silence was counted as a timeout.
+  bool lost_ = false;  ///< True once the current silence was counted as a timeout.
   MotionCounters counters_;
 };
 

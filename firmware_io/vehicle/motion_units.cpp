@@ -14,7 +14,7 @@ namespace terracut::vehicle {
 namespace {
 
 struct Unit {
-  std::string_view name;  ///< In lower case.
+  std::string_view name;  ///< Lower case.
   double factor;
 };
 
@@ -25,7 +25,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr std::array kSpeeds{Unit{"m/s", 1},          Unit{"mps", 1},        Unit{"meters/s", 1},
                              Unit{"km/h", kPerHour},  Unit{"kmh", kPerHour}, Unit{"kph", kPerHour},
                              Unit{"km/hr", kPerHour}, Unit{"mph", kMile},    Unit{"mi/h", kMile}};
-// The degree sign as UTF-8 has it, and as the Windows pages have it that DBC files are written in.
+// The degree sign is given in UTF-8 and in the Windows code pages in which DBC files are written.
 constexpr std::array kYawRates{Unit{"rad/s", 1},
                                Unit{"rad/sec", 1},
                                Unit{"deg/s", kDegree},

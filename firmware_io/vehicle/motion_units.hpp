@@ -8,11 +8,12 @@
 
 namespace terracut::vehicle {
 
-/// Metres a second in one `unit`: "m/s", "km/h" or "mph", and the other spellings that DBC files
-/// have of them ("kph", "KPH", "mi/h" and so on). kInvalidArgument, naming the unit, for others.
+/// Returns the metres a second of one `unit`: "m/s", "km/h" or "mph", and their other spellings in
+/// DBC files ("kph", "KPH", "mi/h" and so on). kInvalidArgument, naming the unit, for others.
 [[nodiscard]] Expected<double> metres_per_second_in(std::string_view unit);
 
-/// Radians a second in one `unit`: "rad/s" or "deg/s", and their other spellings ("°/s").
+/// Returns the radians a second of one `unit`: "rad/s" or "deg/s", and their other spellings
+/// ("°/s").
 [[nodiscard]] Expected<double> radians_per_second_in(std::string_view unit);
 
 }  // namespace terracut::vehicle

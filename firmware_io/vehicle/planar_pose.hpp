@@ -7,7 +7,7 @@ namespace terracut::vehicle {
 /// A pose in the ground plane: p_outer = R p_inner + t, x forward, y left, metres.
 struct PlanarPose {
   double x_m = 0, y_m = 0;
-  double cosine = 1, sine = 0;  ///< Of the heading.
+  double cosine = 1, sine = 0;  ///< The heading.
 };
 
 [[nodiscard]] constexpr PlanarPose operator*(const PlanarPose& a, const PlanarPose& b) noexcept {
@@ -19,15 +19,15 @@ struct PlanarPose {
   return {-a.cosine * a.x_m - a.sine * a.y_m, a.sine * a.x_m - a.cosine * a.y_m, a.cosine, -a.sine};
 }
 
-/// Where a vehicle is after `seconds` (or was before, when negative) of constant speed and yaw
-/// rate, seen from where it started: an arc, in a straight drive a line. State equations of the
-/// CTRV model as in R. Schubert, E. Richter, G. Wanielik, "Comparison and evaluation of advanced
-/// motion models for vehicle tracking" (FUSION 2008), with sine and cosine as series:
+/// Returns where a vehicle is after `seconds` (before, if negative) of constant speed and yaw rate,
+/// relative to its start: an arc, or a line if it drives straight. State equations of the CTRV
+/// model as in R. Schubert, E. Richter, G. Wanielik, "Comparison and evaluation of advanced motion
+/// models for vehicle tracking" (FUSION 2008), with sine and cosine as series:
 ///
 ///   x = v t sin(a) / a,   y = v t (1 - cos(a)) / a,   a = yaw rate * t
 ///
-/// so that a = 0 is nothing special and every machine gets the same bits. Error below 1e-11 of the
-/// way for rotations up to kLongestArc_rad a series; longer ones are put together of such.
+/// so that a = 0 is no special case and every machine gets the same bits. Error below 1e-11 of
+/// the path for rotations up to kLongestArc_rad a series; longer ones are composed of several.
 [[nodiscard]] constexpr PlanarPose after_constant_motion(double speed_mps, double yaw_rate_radps,
                                                          double seconds) noexcept {
   constexpr double kLongestArc_rad = 0.25;

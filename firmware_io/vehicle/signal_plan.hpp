@@ -14,21 +14,20 @@
 
 namespace terracut::vehicle {
 
-/// How to get one signal out of a frame: load up to eight bytes, shift, mask, scale. Made once from
-/// a DBC file; a plain value.
+/// Extracts one signal from a frame: load up to eight bytes, shift, mask, scale. Made once from a
+/// DBC file; a plain value.
 class SignalPlan {
  public:
-  /// The plan of a signal named as for find_signal(). kInvalidArgument: there is none, or several.
-  /// kUnsupported: it is there only in some frames of its message (multiplexed). kMalformed, with
-  /// the line: it does not fit into its message, has no bits or more than 64, or its message's id
-  /// fits no format.
+  /// Makes the plan of a signal, named as for find_signal(). kInvalidArgument: there is none, or
+  /// several. kUnsupported: it is only in some frames of its message (multiplexed). kMalformed,
+  /// with the line: it does not fit into its message, has no bits or more than 64, or its message's
+  /// id fits no format.
   [[nodiscard]] static Expected<SignalPlan> make(const DbcFile& file, std::string_view name);
 
   [[nodiscard]] const can::CanId& id() const noexcept { return id_; }
 
-  /// The signal's value in the unit of its file; nothing when the frame is too short for it. May be
-  /// infinite or no number where the signal is floating-point. `frame` has to be a data frame of
-  /// id().
+  /// Returns the signal's value in the unit of its file; nothing if the frame is too short for it.
+  /// A floating-point signal may be infinite or NaN. `frame` must be a data frame of id().
   [[nodiscard]] std::optional<double> value(const can::CanFrame& frame) const noexcept
       TERRACUT_NONBLOCKING;
 
@@ -36,7 +35,7 @@ class SignalPlan {
   can::CanId id_;
   std::uint8_t first_byte_ = 0;
   std::uint8_t byte_count_ = 0;  ///< [1, 9]
-  std::uint8_t shift_ = 0;       ///< Bits below the signal in the last (Motorola) or first byte.
+  std::uint8_t shift_ = 0;       ///< Bits below the signal in its last (Motorola) or first byte.
   std::uint8_t bit_count_ = 0;   ///< [1, 64]
   bool motorola_ = false;
   DbcNumber number_ = DbcNumber::kUnsigned;

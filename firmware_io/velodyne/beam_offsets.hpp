@@ -14,8 +14,8 @@
 
 namespace terracut::velodyne {
 
-/// Offsets of a model's beams from their column's azimuth, by channel, in whole numbers
-/// (firmware_io/decode/beam_azimuth.hpp): decoder and encoder have them from here. Allocation-free.
+/// The offsets of a model's beams from their column's azimuth, by channel, in whole numbers
+/// (firmware_io/decode/beam_azimuth.hpp), for decoder and encoder. Allocation-free.
 template <class Model>
 class BeamOffsets {
  public:
@@ -29,16 +29,16 @@ class BeamOffsets {
     most_ticks_ = most;
   }
 
-  /// Of the beam from the head when its channel fires.
+  /// Returns the beam's offset from the head when its channel fires.
   [[nodiscard]] std::int32_t beam_ticks(int channel) const noexcept {
     return ticks_[static_cast<std::size_t>(channel)];
   }
-  /// Of the beam from its column's azimuth.
+  /// Returns the beam's offset from its column's azimuth.
   [[nodiscard]] std::int32_t offset_ticks(std::int32_t step_ticks, int channel) const noexcept {
     const std::size_t group = Model::group(static_cast<std::size_t>(channel));
     return advance_ticks<Model>(step_ticks, group) + beam_ticks(channel);
   }
-  /// No beam's offset is below hindmost_ticks(), nor above foremost_ticks() for that step.
+  /// The offsets of all beams lie in [hindmost_ticks(), foremost_ticks()] for that step.
   [[nodiscard]] std::int32_t hindmost_ticks() const noexcept { return least_ticks_; }
   [[nodiscard]] std::int32_t foremost_ticks(std::int32_t step_ticks) const noexcept {
     return step_ticks + most_ticks_;

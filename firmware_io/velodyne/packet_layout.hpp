@@ -10,8 +10,8 @@
 #include "firmware_io/packet/hdl64e_wire.hpp"
 #include "firmware_io/packet/sensor_model.hpp"
 
-/// The data packet of Velodyne's models after the HDL-64E: the same twelve blocks, the stamp at the
-/// first firing, and behind it the return mode and the product's number instead of a status stream
+/// The data packet of Velodyne's models after the HDL-64E: the same twelve blocks, the stamp of the
+/// first firing, then return mode and product number instead of a status stream
 /// (docs/reference/sensors.md).
 namespace terracut::velodyne {
 
@@ -20,18 +20,18 @@ inline constexpr int kBlocks = hdl64e::kBlocksPerPacket;
 inline constexpr int kBlockReturns = hdl64e::kLasersPerBlock;
 inline constexpr std::int64_t kClockWrap_us = hdl64e::kDeviceHour_us;
 
-/// The byte behind the stamp.
+/// Values of the return mode, the byte after the stamp.
 inline constexpr std::uint8_t kStrongest = 0x37, kLast = 0x38, kDual = 0x39;
 
-/// What a model's packets differ in. A column is what one reading of the head's azimuth is for: one
-/// block or, where a firing fills more than one, all of these.
+/// The differences between the models' packets. A column has one head azimuth: it is one block or,
+/// if a firing fills several, all of these.
 struct PacketLayout {
   sensor::SensorModel model{};
-  std::array<std::uint16_t, 4> block_ids{};  ///< Of a column's blocks, so many as it has.
+  std::array<std::uint16_t, 4> block_ids{};  ///< Ids of a column's blocks, as many as it has.
   int blocks_per_column = 1;
-  int columns_dual = kBlocks;  ///< In dual return, where both of a pair are counted.
-  std::int32_t column_ns = 0;  ///< From a column's first firing to the next column's.
-  std::int32_t firing_ns = 0;  ///< From a firing of all lasers to the next.
+  int columns_dual = kBlocks;  ///< In dual return, counting both returns of a pair.
+  std::int32_t column_ns = 0;  ///< From one column's first firing to the next column's.
+  std::int32_t firing_ns = 0;  ///< From one firing of all lasers to the next.
 
   [[nodiscard]] constexpr int columns(bool dual_return) const noexcept {
     return dual_return ? columns_dual : kBlocks / blocks_per_column;
@@ -39,32 +39,33 @@ struct PacketLayout {
   [[nodiscard]] constexpr int firings(bool dual_return) const noexcept {
     return dual_return ? columns_dual / 2 : columns(false);
   }
-  /// The block of a column that holds its part number `part`. In dual return the two returns of a
-  /// part are side by side.
+  /// Returns the block with part number `part` of a column. In dual return the two returns of a
+  /// part are adjacent.
   [[nodiscard]] constexpr std::size_t block(int column, int part, bool dual_return) const noexcept {
     const int pairs_before = column / 2 * blocks_per_column + part;
     return static_cast<std::size_t>(dual_return ? 2 * pairs_before + column % 2
                                                 : column * blocks_per_column + part);
   }
-  /// How far the head may rotate in a column: at 30 turns a second. They spin at 5 to 20.
+  /// Returns the most that the head may rotate in a column, at 30 Hz; the sensors spin at 5 to 20.
   [[nodiscard]] constexpr int most_step_cdeg() const noexcept {
     return static_cast<int>(std::int64_t{36'000} * 30 * column_ns / 1'000'000'000) + 1;
   }
 };
 
-/// How far the head rotates from firing to firing, ticks, given its way from a packet's first
-/// firing to its last, of `firings` > 1.
+/// Returns how far the head rotates from firing to firing, ticks, from its advance between a
+/// packet's first and last firing, of `firings` > 1.
 [[nodiscard]] constexpr std::int32_t mean_step_ticks(std::int32_t advance_cdeg,
                                                      int firings) noexcept {
   return advance_cdeg * packet::kTicksPerCdeg / (firings - 1);
 }
-/// The same where there is one firing a packet, and none before it: that of 10 turns a second.
+/// Returns that step at 10 Hz, for packets of one firing before the rate is known.
 [[nodiscard]] constexpr std::int32_t assumed_step_ticks(const PacketLayout& layout) noexcept {
   return static_cast<std::int32_t>(std::int64_t{packet::kRevolution_ticks} * 10 * layout.column_ns /
                                    1'000'000'000);
 }
 
-/// How far the head has rotated since its column's azimuth when a group of channels fires, ticks.
+/// Returns how far the head has rotated from its column's azimuth when a group of channels fires,
+/// ticks.
 template <class Model>
 [[nodiscard]] constexpr std::int32_t advance_ticks(std::int32_t step_ticks,
                                                    std::size_t group) noexcept {
@@ -72,9 +73,9 @@ template <class Model>
                                    Model::kLayout.column_ns);
 }
 
-/// Backwards, from column to column.
+/// Largest step back from column to column.
 inline constexpr int kMaxJitter_cdeg = 5;
-/// From the first column to the last, a column; below, the head stands still.
+/// Smallest mean step from column to column; with less the head stands still.
 inline constexpr int kMinStep_cdeg = 2;
 
 }  // namespace terracut::velodyne

@@ -98,14 +98,14 @@ std::optional<frame::Reject> PacketReader::judge_steps(packet::PacketAzimuths& a
   return std::nullopt;
 }
 
-/// From firing to firing.
+/// Returns the step from firing to firing.
 std::int32_t PacketReader::step_of(const packet::PacketAzimuths& azimuths,
                                    std::int32_t advance_cdeg) noexcept {
   const int firings = layout_.firings(azimuths.dual_return);
   is_step_guessed_ = false;
   if (firings > 1) return mean_step_ticks(advance_cdeg, firings);
-  // One firing a packet tells no step: it is the way from the packet before, if that is the one
-  // before; at 10 turns a second until there was one.
+  // A packet of one firing tells no step. The step is then the advance from the packet before, if
+  // that came just before; until there was one, that at 10 Hz.
   const std::int64_t since_us =
       packet::clock_step_us(last_.stamp_us, azimuths.device_stamp_us, kClockWrap_us);
   const bool follows =
@@ -126,7 +126,7 @@ void PacketReader::complete(packet::PacketAzimuths& azimuths) const noexcept {
                              ? azimuths.advance_cdeg(azimuths.columns - 1) * packet::kTicksPerCdeg +
                                    azimuths.step_ticks
                              : azimuths.pace_ticks;
-  // The next packet is no gap away from it, however fast the head rotates.
+  // The gap to the next packet must not count as a loss, however fast the head rotates.
   if (is_step_guessed_) azimuths.sweep_ticks = layout_.most_step_cdeg() * packet::kTicksPerCdeg;
   azimuths.nominal_period_ns = layout_.column_ns * firings;
   azimuths.shortest_period_ns =

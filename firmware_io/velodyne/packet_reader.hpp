@@ -13,7 +13,7 @@
 
 namespace terracut::velodyne {
 
-/// Checks the packets of one sensor, and reads where its head stood. The checks, in this order:
+/// Checks the packets of one sensor and reads its head's azimuths. The checks, in this order:
 ///
 ///   kDeviceInfo         a position packet, 512 bytes
 ///   kWrongModel         another sensor's data packet
@@ -31,9 +31,8 @@ namespace terracut::velodyne {
 /// one thread; real-time safe.
 class PacketReader {
  public:
-  /// `is_named`: the model was stated, so a product number that is not known here is one of it
-  /// (sensor::recognise_sensor_as()), whose return mode may be any, too: by its azimuths it is dual
-  /// or not.
+  /// `is_named`: the model was stated. Then a packet with an unknown product number is the model's
+  /// (sensor::recognise_sensor_as()), and its return mode is told by its azimuths.
   explicit PacketReader(const PacketLayout& layout, bool is_named = false) noexcept
       : layout_(layout), is_named_(is_named) {}
 
@@ -44,7 +43,7 @@ class PacketReader {
  private:
   [[nodiscard]] std::optional<frame::Reject> read_blocks(
       const hdl64e::wire::Packet& packet, packet::PacketAzimuths& azimuths) const noexcept;
-  /// None: not one that is known.
+  /// Returns nothing for an unknown return mode.
   [[nodiscard]] std::optional<bool> dual_return_of(
       const hdl64e::wire::Packet& packet) const noexcept;
   [[nodiscard]] std::optional<frame::Reject> judge_steps(packet::PacketAzimuths& azimuths) noexcept;

@@ -12,9 +12,10 @@
 
 namespace terracut::velodyne {
 
-/// Measured distances of one laser to points of the vehicle frame, in float, for the firings of a
-/// tile in one loop that compilers vectorise. With t = the head's azimuth when the laser fires,
-/// h = its azimuth offset, v = its elevation, o = its vertical offset (docs/reference/sensors.md):
+/// Converts measured distances of one laser to points of the vehicle frame, in float, for the
+/// firings of a tile in one loop that compilers vectorise. With t = the head's azimuth when the
+/// laser fires, h = its azimuth offset, v = its elevation, o = its vertical offset
+/// (docs/reference/sensors.md):
 ///
 ///   x = d cos v cos(t + h),  y = -d cos v sin(t + h),  z = d sin v + o
 ///
@@ -26,7 +27,7 @@ class PointKernel {
 
   PointKernel(const VelodyneCalibration& calibration, const mount::Mount& mount) noexcept;
 
-  /// `heads`: of the laser's group. `measured_m`: wire distances, NaN: no return.
+  /// `heads` are of the laser's group. `measured_m` are wire distances, NaN for no return.
   void compute(std::size_t laser, const packet::LaserHeads& heads,
                const frame::TileRow<float>& measured_m,
                const frame::PointsOut& out) const noexcept TERRACUT_NONBLOCKING;
@@ -36,8 +37,8 @@ class PointKernel {
     float sin_offset, cos_offset, sin_elevation, cos_elevation, vert_offset_m;
   };
 
-  /// What it reads and writes is passed for __restrict: without it the loop is not vectorised in
-  /// clones.
+  /// All it reads and writes is passed as a parameter, for __restrict: without it the loop is not
+  /// vectorised in clones.
   void compute(const Laser& __restrict laser, const float* __restrict sin_rotor,
                const float* __restrict cos_rotor, const float* __restrict sin_advance,
                const float* __restrict cos_advance, const float* __restrict measured_m,

@@ -24,16 +24,15 @@
 namespace terracut::velodyne {
 
 struct VelodyneConfig {
-  bool is_named = false;  ///< As in PacketReader.
+  bool is_named = false;  ///< See PacketReader.
 };
 
-/// What Decoder needs to know of a Velodyne sensor (see there), but for the numbers of `Model`:
+/// The Decoder's trait of a Velodyne sensor. `Model` has its constants:
 /// - `kModel`, `kLayout`, `kMetresPerCount`, `kDefaultColumns`;
-/// - `kLasers`, and `kChannels`, the readings of a column: a multiple of kLasers where these fire
-///   more than once for one reading of the head's azimuth;
+/// - `kLasers`, and `kChannels`, the readings of a column: a multiple of kLasers if these fire more
+///   than once for one head azimuth;
 /// - `kGroups`, `group(channel)` and `group_ns(group)`: which channels fire together, and when
-/// after
-///   the column's first firing, [0, kLayout.column_ns).
+///   after the column's first firing, [0, kLayout.column_ns).
 template <class Model>
 class VelodyneSensor {
  public:
@@ -46,7 +45,7 @@ class VelodyneSensor {
   static constexpr std::size_t kGroups = Model::kGroups;
   static constexpr std::int64_t kClockWrap_us = velodyne::kClockWrap_us;
   static constexpr int kDefaultColumns = Model::kDefaultColumns;
-  /// Dual return and the columns that two firings share: more than two for some cells.
+  /// Enough for dual return, where two firings may share a column: more than two for some cells.
   static constexpr int kDefaultReturnsPerCell = 3;
   using Returns = packet::FiringReturns<static_cast<std::size_t>(kChannels)>;
 
@@ -88,7 +87,7 @@ class VelodyneSensor {
   void read_column(std::span<const std::uint8_t> payload, std::size_t column,
                    const Returns& found) const noexcept TERRACUT_NONBLOCKING {
     const auto* packet = hdl64e::packet_in(payload);
-    if (packet == nullptr) return;  // check() has seen to it
+    if (packet == nullptr) return;  // never after check()
     for (int part = 0; part < Model::kLayout.blocks_per_column; ++part) {
       const std::size_t block =
           Model::kLayout.block(static_cast<int>(column), part, is_dual_packet_);

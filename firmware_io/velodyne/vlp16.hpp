@@ -15,7 +15,8 @@ struct Vlp16 {
   static constexpr auto kModel = VelodyneModel::kVlp16;
   static constexpr double kMetresPerCount = 0.002;
 
-  /// From a firing of all lasers to the next, and from a laser to the next. They fire one by one.
+  /// From one firing of all lasers to the next, and from one laser to the next. They fire one by
+  /// one.
   static constexpr std::int32_t kFiring_ns = 55'296, kLaser_ns = 2'304;
   /// Each block holds two firings of all lasers, and the azimuth of the first.
   static constexpr int kLasers = 16, kChannels = 2 * kLasers;

@@ -15,7 +15,7 @@ struct Vlp32c {
   static constexpr auto kModel = VelodyneModel::kVlp32c;
   static constexpr double kMetresPerCount = 0.004;
 
-  /// From a pair of lasers to the next. Both of a pair fire together.
+  /// From one pair of lasers to the next. Both of a pair fire together.
   static constexpr std::int32_t kPair_ns = 2'304;
   static constexpr int kLasers = 32, kChannels = kLasers;
   static constexpr PacketLayout kLayout{.model = sensor::SensorModel::kVlp32c,

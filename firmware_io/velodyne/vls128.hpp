@@ -17,7 +17,7 @@ struct Vls128 {
 
   /// A firing takes twenty steps: eight lasers fire in each of eight, two steps later in each of
   /// eight more, and two are left. Steps are 2.67 us with firmware 5.1, 2.89 with 5.2, 2.76 in the
-  /// capture at hand: where beams point depends on their shares alone.
+  /// capture measured; the beams' directions depend only on their shares.
   static constexpr std::int32_t kStep_ns = 2'763;
   static constexpr int kSteps = 20;
   static constexpr int kLasers = 128, kChannels = kLasers;
